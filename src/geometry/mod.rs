@@ -1,0 +1,7 @@
+//! Numbers about shapes: views, sub-pixel grid, clipping, outlines, triangulation.
+//!
+//! Knows no XML, file, clock or window. User space and screen space are both y down.
+
+mod view;
+
+pub use view::{View, ViewTransform};

@@ -1,0 +1,29 @@
+//! The rules of the picture: ours, or the course's.
+//!
+//! One setting, so that a student sees what each rule does by comparing two pictures. The type lies at the bottom
+//! of the house because four rooms obey it: edges (`raster`), bytes (`color`), texels (`texture`) and screen
+//! positions (`render`).
+
+/// Which conventions decide a pixel where renderers differ.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Rules {
+    /// Edges by the top-left rule, bytes rounded to nearest, the texel that contains the point, positions as computed.
+    #[default]
+    Standard,
+    /// As UC Berkeley's CS184 assignment: a sample on an edge belongs to every triangle that touches it, bytes are
+    /// truncated, texels are addressed by `round(u (w - 1))`, screen positions are rounded to 32-bit floats.
+    Course,
+}
+
+impl Rules {
+    /// Every value, in the order of menus.
+    pub const ALL: [Self; 2] = [Self::Standard, Self::Course];
+
+    /// The name used in the command line and the interface.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Standard => "standard",
+            Self::Course => "course",
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! What a document means: the types that drawing code receives.
+
+use std::sync::Arc;
+
+use glam::{DVec2, Vec2};
+
+use crate::color::Rgba;
+use crate::texture::Texture;
+
+/// Which reading of a document is in force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Dialect {
+    /// As the course's reader: no `viewBox`, strokes are hairlines, zero-size rects are points.
+    Course,
+    /// As SVG 1.1 / 2.
+    Svg,
+}
+
+/// A resolved document: what to paint, in painter's order, in user space.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Width and height of the canvas in user units, finite and above zero.
+    pub canvas: DVec2,
+    /// The dialect the document was read in.
+    pub dialect: Dialect,
+    /// The document's shapes, in document order; [`Primitive::shape`] points here.
+    pub shapes: Vec<Shape>,
+    /// What to paint, first to last.
+    pub primitives: Vec<Primitive>,
+    /// What [`Paint::Texture`] points to.
+    pub textures: Vec<Arc<Texture>>,
+}
+
+/// Index into [`Scene::shapes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ShapeId(pub u32);
+
+/// Index into [`Scene::textures`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct TextureId(pub u32);
+
+/// Where a shape came from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// The element's name, such as `polygon`.
+    pub element: Box<str>,
+    /// Its `id`, where it has one.
+    pub id: Option<Box<str>>,
+    /// Where its start tag begins.
+    pub location: SourceLocation,
+}
+
+/// A place in a document, both counted from 1; the column counts characters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SourceLocation {
+    /// Line, from 1.
+    pub line: u32,
+    /// Column in characters, from 1.
+    pub column: u32,
+}
+
+/// The smallest thing that is painted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Primitive {
+    /// The shape it belongs to.
+    pub shape: ShapeId,
+    /// What it is.
+    pub kind: PrimitiveKind,
+}
+
+/// A primitive's geometry and paint. All coordinates are finite.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PrimitiveKind {
+    /// A filled triangle of either winding.
+    Triangle {
+        /// Its corners.
+        points: [DVec2; 3],
+        /// What fills it.
+        paint: Paint,
+    },
+    /// A line as wide as one pixel at every zoom (course dialect).
+    Hairline {
+        /// From, to.
+        ends: [DVec2; 2],
+        /// Its colour.
+        color: Rgba,
+    },
+    /// One pixel at every zoom (course dialect).
+    Point {
+        /// Where.
+        at: DVec2,
+        /// Its colour.
+        color: Rgba,
+    },
+    /// What follows, up to the matching [`PrimitiveKind::EndLayer`], is painted on a transparent layer of its own.
+    BeginLayer,
+    /// The layer is painted over what lies below it with this opacity (SVG's `opacity` of a group or shape).
+    EndLayer {
+        /// `0.0..=1.0`.
+        opacity: f32,
+    },
+}
+
+/// What fills a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Paint {
+    /// One colour.
+    Solid(Rgba),
+    /// A colour per corner, mixed with barycentric weights.
+    Vertex([Rgba; 3]),
+    /// A texture; its coordinates at the corners are mixed with barycentric weights.
+    Texture {
+        /// Which.
+        texture: TextureId,
+        /// `(u, v)` at the corners; any finite values, clamped to the texture when read.
+        uv: [Vec2; 3],
+        /// Multiplies the texture's own opacity, `0.0..=1.0`.
+        opacity: f32,
+    },
+}

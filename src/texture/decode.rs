@@ -1,0 +1,46 @@
+//! PNG and JPEG bytes to premultiplied texels, within limits that a hostile file cannot break.
+
+use std::io::Cursor;
+
+use image::{ImageReader, Limits};
+
+use super::MipLevel;
+
+/// Longest side of an image, in texels.
+const MAX_SIDE: u32 = 16_384;
+/// Memory that decoding may use, in bytes.
+const MAX_BYTES: u64 = 1 << 30;
+
+/// Why an image could not be used as a texture.
+#[derive(Debug, thiserror::Error)]
+pub enum DecodeError {
+    /// Neither PNG nor JPEG, or damaged, or larger than the limits.
+    #[error("{0}")]
+    Image(#[from] image::ImageError),
+    /// The bytes could not be probed for a format.
+    #[error("{0}")]
+    Io(#[from] std::io::Error),
+}
+
+/// Decodes to 8-bit premultiplied RGBA.
+pub(super) fn decode(bytes: &[u8]) -> Result<MipLevel, DecodeError> {
+    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
+    let mut limits = Limits::no_limits();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    limits.max_alloc = Some(MAX_BYTES);
+    reader.limits(limits);
+    let image = reader.decode()?.into_rgba8();
+    let (width, height) = image.dimensions();
+    let texels = image.pixels().map(|pixel| premultiply(pixel.0)).collect();
+    Ok(MipLevel::new(width, height, texels))
+}
+
+/// Straight bytes to premultiplied ones, rounded to nearest.
+fn premultiply([r, g, b, a]: [u8; 4]) -> [u8; 4] {
+    let scale = |channel: u8| {
+        let product = u16::from(channel) * u16::from(a) + 127;
+        u8::try_from(product / 255).unwrap_or(u8::MAX)
+    };
+    [scale(r), scale(g), scale(b), a]
+}

@@ -1,0 +1,95 @@
+//! Images to colours: decoding, pyramid, level of detail, sampling.
+
+mod decode;
+mod pyramid;
+
+pub use decode::DecodeError;
+pub use pyramid::{MipLevel, MipPyramid};
+
+/// How a colour is found inside one mip level.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum PixelSampling {
+    /// The texel that contains the point.
+    #[default]
+    Nearest,
+    /// The four texels whose centres surround the point, weighted by distance.
+    Bilinear,
+}
+
+/// Which mip level, or levels, are read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum LevelSampling {
+    /// Level 0, however small the picture.
+    #[default]
+    Zero,
+    /// The level nearest to the level of detail.
+    Nearest,
+    /// The two neighbouring levels, mixed by the fraction of the level of detail.
+    Linear,
+}
+
+/// An image that primitives are painted with.
+#[derive(Clone, Debug)]
+pub struct Texture {
+    /// Its name in the document, or the file it came from: for messages and tool tips.
+    pub name: String,
+    /// The image at every resolution.
+    pub pyramid: MipPyramid,
+}
+
+impl PixelSampling {
+    /// Every value, in the order of menus and of the key that steps through them.
+    pub const ALL: [Self; 2] = [Self::Nearest, Self::Bilinear];
+
+    /// The name used in the command line and the interface.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Nearest => "nearest",
+            Self::Bilinear => "bilinear",
+        }
+    }
+}
+
+impl LevelSampling {
+    /// Every value, in the order of menus and of the key that steps through them.
+    pub const ALL: [Self; 3] = [Self::Zero, Self::Nearest, Self::Linear];
+
+    /// The name used in the command line and the interface.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Zero => "zero",
+            Self::Nearest => "nearest",
+            Self::Linear => "linear",
+        }
+    }
+}
+
+impl Texture {
+    /// Decodes a PNG or JPEG and builds its pyramid.
+    ///
+    /// # Errors
+    /// When the bytes are no such image, are damaged, or are larger than the limits of [`decode`].
+    pub fn decode(name: &str, bytes: &[u8]) -> Result<Self, DecodeError> {
+        let base = decode::decode(bytes)?;
+        Ok(Self {
+            name: name.to_owned(),
+            pyramid: MipPyramid::build(base),
+        })
+    }
+
+    /// The magenta checker that stands for a texture that could not be read.
+    pub fn missing(name: &str) -> Self {
+        const SIDE: u32 = 64;
+        const CELL: u32 = 8;
+        let texels = (0..SIDE * SIDE)
+            .map(|i| {
+                let odd = (i % SIDE / CELL + i / SIDE / CELL) % 2 == 1;
+                if odd { [255, 0, 255, 255] } else { [40, 0, 40, 255] }
+            })
+            .collect();
+        Self {
+            name: name.to_owned(),
+            pyramid: MipPyramid::build(MipLevel::new(SIDE, SIDE, texels)),
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! End to end: the real program in a real window, real keys, real pixels.

@@ -72,3 +72,217 @@ pub fn unit_to_byte(channel: f32, rules: Rules) -> u8 {
         Rules::Course => scaled as u8,
     }
 }
+
+/// A premultiplied sRGB-encoded colour as samples store it: 16 bits per channel, red green blue alpha.
+///
+/// A byte `c` is stored as `257 c`, exactly, so that opaque flat colours come out of a frame as they went in; the
+/// extra bits keep interpolated, filtered and blended colours exact to far less than a byte.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Premultiplied16(pub [u16; 4]);
+
+impl Premultiplied16 {
+    /// Nothing at all.
+    pub const TRANSPARENT: Self = Self([0; 4]);
+    /// The largest value of a channel.
+    pub const ONE: u16 = u16::MAX;
+    /// What one level of a byte is worth.
+    pub const PER_BYTE: u16 = 257;
+
+    /// From a straight colour. The course's rules first truncate the channels to bytes.
+    pub fn from_straight(color: Rgba, rules: Rules) -> Self {
+        let alpha = color.a.clamp(0.0, 1.0);
+        let channel = |value: f32| match rules {
+            Rules::Course if alpha >= 1.0 => unit_to_byte(value, rules).into_16(),
+            Rules::Standard | Rules::Course => unit_to_16(value.clamp(0.0, 1.0) * alpha),
+        };
+        Self([channel(color.r), channel(color.g), channel(color.b), unit_to_16(alpha)])
+    }
+
+    /// From premultiplied channels in `0.0..=255.0`, such as filtered texels.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "`as` saturates at both ends of u16"
+    )]
+    pub fn from_byte_range(channels: [f32; 4], rules: Rules) -> Self {
+        Self(channels.map(|channel| match rules {
+            Rules::Standard => (channel * f32::from(Self::PER_BYTE) + 0.5) as u16,
+            Rules::Course => (channel as u8).into_16(),
+        }))
+    }
+
+    /// Whether it hides what is below it.
+    #[inline]
+    pub fn is_opaque(self) -> bool {
+        self.0[3] == Self::ONE
+    }
+
+    /// Source-over: this colour painted over `below` (Porter and Duff, "Compositing digital images", 1984). Under the
+    /// course's rules the result is truncated to bytes, as its 8-bit store does after every write.
+    #[inline]
+    #[must_use]
+    pub fn over(self, below: Self, rules: Rules) -> Self {
+        let rest = u32::from(Self::ONE - self.0[3]);
+        let mixed = std::array::from_fn(|i| {
+            let sum = u32::from(self.0[i]) + div_65535(u32::from(below.0[i]) * rest);
+            u16::try_from(sum).unwrap_or(u16::MAX)
+        });
+        match rules {
+            Rules::Standard => Self(mixed),
+            Rules::Course => Self(mixed.map(|channel| channel / Self::PER_BYTE * Self::PER_BYTE)),
+        }
+    }
+
+    /// The same colour at a fraction of its opacity.
+    #[inline]
+    #[must_use]
+    pub fn faded(self, opacity: u16) -> Self {
+        Self(self.0.map(|channel| {
+            let scaled = div_65535(u32::from(channel) * u32::from(opacity));
+            u16::try_from(scaled).unwrap_or(u16::MAX)
+        }))
+    }
+
+    /// The straight 8-bit pixel `0xAARRGGBB` that is the mean of `count` samples with these channel sums, rounded to
+    /// nearest or truncated as `rules` say.
+    #[inline]
+    pub fn resolve(sums: [u32; 4], count: u32, rules: Rules) -> u32 {
+        let full = u32::from(Self::PER_BYTE) * count;
+        let alpha = divide(sums[3], full, rules);
+        let [r, g, b] = if sums[3] == u32::from(Self::ONE) * count {
+            [sums[0], sums[1], sums[2]].map(|sum| divide(sum, full, rules))
+        } else if sums[3] == 0 {
+            [0; 3]
+        } else {
+            [sums[0], sums[1], sums[2]].map(|sum| divide_wide(u64::from(sum) * 255, u64::from(sums[3]), rules))
+        };
+        alpha << 24 | r << 16 | g << 8 | b
+    }
+}
+
+/// Bytes as 16-bit channels.
+trait Into16 {
+    /// `0..=255` onto `0..=65535`, exactly.
+    fn into_16(self) -> u16;
+}
+
+impl Into16 for u8 {
+    #[inline]
+    fn into_16(self) -> u16 {
+        u16::from(self) * Premultiplied16::PER_BYTE
+    }
+}
+
+/// A channel in `0.0..=1.0` (clamped) as 16 bits, rounded to nearest.
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "`as` saturates at both ends of u16"
+)]
+pub fn unit_to_16(channel: f32) -> u16 {
+    (channel * f32::from(u16::MAX) + 0.5) as u16
+}
+
+/// `product / 65535` rounded to nearest, for products of two 16-bit channels; exact, without a division.
+#[inline]
+fn div_65535(product: u32) -> u32 {
+    let biased = product.saturating_add(0x8000);
+    let sum = u64::from(biased) + u64::from(biased >> 16);
+    u32::try_from(sum >> 16).unwrap_or(u32::MAX)
+}
+
+/// `sum / full` as `rules` round it, at most 255.
+#[inline]
+fn divide(sum: u32, full: u32, rules: Rules) -> u32 {
+    match rules {
+        Rules::Standard => ((sum + full / 2) / full).min(255),
+        Rules::Course => (sum / full).min(255),
+    }
+}
+
+fn divide_wide(sum: u64, full: u64, rules: Rules) -> u32 {
+    let rounded = match rules {
+        Rules::Standard => (sum + full / 2) / full,
+        Rules::Course => sum / full,
+    };
+    u32::try_from(rounded).unwrap_or(255).min(255)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_survive_both_rules() {
+        for byte in 0..=255 {
+            let color = Rgba::from_bytes([byte, 0, 255, 255]);
+            for rules in Rules::ALL {
+                assert_eq!(color.to_bytes(rules), [byte, 0, 255, 255], "{rules:?} as bytes");
+                let stored = Premultiplied16::from_straight(color, rules);
+                let sums = stored.0.map(u32::from);
+                let pixel = Premultiplied16::resolve(sums, 1, rules);
+                assert_eq!(pixel, 0xFF00_00FF | u32::from(byte) << 16, "{rules:?} through a sample");
+            }
+        }
+    }
+
+    #[test]
+    fn division_by_65535_rounds_to_nearest() {
+        for a in (0..=65_535_u32).step_by(257).chain([1, 2, 32_767, 32_768, 65_534]) {
+            for b in (0..=65_535_u32).step_by(1021).chain([1, 65_535]) {
+                let exact = (u64::from(a) * u64::from(b) * 2 + 65_535) / (2 * 65_535);
+                assert_eq!(u64::from(div_65535(a * b)), exact, "{a} * {b} / 65535");
+            }
+        }
+    }
+
+    #[test]
+    fn over_keeps_opaque_and_transparent_exact() {
+        let red = Premultiplied16::from_straight(Rgba::opaque(1.0, 0.25, 0.0), Rules::Standard);
+        let blue = Premultiplied16::from_straight(Rgba::opaque(0.0, 0.0, 1.0), Rules::Standard);
+        assert_eq!(red.over(blue, Rules::Standard), red, "opaque hides");
+        assert_eq!(
+            Premultiplied16::TRANSPARENT.over(blue, Rules::Standard),
+            blue,
+            "transparent leaves alone"
+        );
+        let half = Premultiplied16::from_straight(Rgba { a: 0.5, ..Rgba::WHITE }, Rules::Standard);
+        let mixed = half.over(
+            Premultiplied16::from_straight(Rgba::BLACK, Rules::Standard),
+            Rules::Standard,
+        );
+        assert_eq!(mixed.0, [32_768, 32_768, 32_768, 65_535], "half white over black");
+    }
+
+    #[test]
+    fn resolve_rounds_halves_up_or_truncates() {
+        let sums = [257, 257 * 3, 0, 65_535 * 2];
+        assert_eq!(
+            Premultiplied16::resolve(sums, 2, Rules::Standard),
+            0xFF01_0200,
+            "0.5 and 1.5 go up"
+        );
+        assert_eq!(
+            Premultiplied16::resolve(sums, 2, Rules::Course),
+            0xFF00_0100,
+            "and down"
+        );
+    }
+
+    #[test]
+    fn resolve_gives_straight_colour() {
+        let half = Premultiplied16::from_straight(
+            Rgba {
+                r: 1.0,
+                g: 0.5,
+                b: 0.0,
+                a: 0.5,
+            },
+            Rules::Standard,
+        );
+        let pixel = Premultiplied16::resolve(half.0.map(u32::from), 1, Rules::Standard);
+        assert_eq!(pixel, 0x80FF_8000, "red stays full under half opacity");
+    }
+}

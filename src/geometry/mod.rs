@@ -2,6 +2,9 @@
 //!
 //! Knows no XML, file, clock or window. User space and screen space are both y down.
 
+pub mod clip;
+pub mod edge;
+pub mod subpixel;
 mod view;
 
 pub use view::{View, ViewTransform};

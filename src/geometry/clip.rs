@@ -1,0 +1,188 @@
+//! Clipping triangles to the guard band, so that finite geometry of any size becomes grid coordinates.
+//!
+//! Sutherland and Hodgman, "Reentrant polygon clipping" (CACM 17, 1974). A cut point depends only on the edge it cuts,
+//! never on its direction, so two triangles that share an edge still share it after clipping.
+
+use glam::DVec2;
+
+use super::subpixel::GUARD;
+
+/// A corner of a clipped triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClipVertex {
+    /// Screen position.
+    pub point: DVec2,
+    /// Barycentric weights with respect to the unclipped triangle.
+    pub weights: [f64; 3],
+}
+
+/// A convex polygon of at most seven corners: a triangle cut by four lines.
+#[derive(Clone, Debug, Default)]
+pub struct ClippedTriangle {
+    corners: Vec<ClipVertex>,
+}
+
+/// A line that bounds the guard band: points with `sign * (coordinate - bound) >= 0` are kept.
+#[derive(Clone, Copy)]
+struct Bound {
+    vertical: bool,
+    sign: f64,
+    at: f64,
+}
+
+const BOUNDS: [Bound; 4] = [
+    Bound {
+        vertical: true,
+        sign: 1.0,
+        at: GUARD.0,
+    },
+    Bound {
+        vertical: true,
+        sign: -1.0,
+        at: GUARD.1,
+    },
+    Bound {
+        vertical: false,
+        sign: 1.0,
+        at: GUARD.0,
+    },
+    Bound {
+        vertical: false,
+        sign: -1.0,
+        at: GUARD.1,
+    },
+];
+
+/// Whether a point lies in the guard band.
+pub fn in_guard(point: DVec2) -> bool {
+    point.cmpge(DVec2::splat(GUARD.0)).all() && point.cmple(DVec2::splat(GUARD.1)).all()
+}
+
+impl ClippedTriangle {
+    /// The part of a triangle inside the guard band; empty where there is none.
+    pub fn new(points: [DVec2; 3]) -> Self {
+        let mut corners: Vec<ClipVertex> = (0..3)
+            .map(|i| {
+                let mut weights = [0.0; 3];
+                weights[i] = 1.0;
+                ClipVertex {
+                    point: points[i],
+                    weights,
+                }
+            })
+            .collect();
+        for bound in BOUNDS {
+            corners = bound.clip(&corners);
+        }
+        Self { corners }
+    }
+
+    /// The triangles of a fan around the first corner.
+    pub fn triangles(&self) -> impl Iterator<Item = [ClipVertex; 3]> + '_ {
+        let corners = &self.corners;
+        (2..corners.len()).map(move |i| [corners[0], corners[i - 1], corners[i]])
+    }
+}
+
+impl Bound {
+    fn coordinate(self, point: DVec2) -> f64 {
+        if self.vertical { point.x } else { point.y }
+    }
+
+    fn keeps(self, vertex: &ClipVertex) -> bool {
+        self.sign * (self.coordinate(vertex.point) - self.at) >= 0.0
+    }
+
+    fn clip(self, polygon: &[ClipVertex]) -> Vec<ClipVertex> {
+        let mut kept = Vec::with_capacity(polygon.len() + 1);
+        for (i, vertex) in polygon.iter().enumerate() {
+            let next = &polygon[(i + 1) % polygon.len()];
+            if self.keeps(vertex) {
+                kept.push(*vertex);
+            }
+            if self.keeps(vertex) != self.keeps(next) {
+                kept.push(self.cut(vertex, next));
+            }
+        }
+        kept
+    }
+
+    /// Where the edge crosses the bound; the same for both directions of the edge.
+    fn cut(self, a: &ClipVertex, b: &ClipVertex) -> ClipVertex {
+        let swap = (b.point.x, b.point.y) < (a.point.x, a.point.y);
+        let (a, b) = if swap { (b, a) } else { (a, b) };
+        let (from, to) = (self.coordinate(a.point), self.coordinate(b.point));
+        // Halved, so that the difference of two huge coordinates stays finite.
+        let t = ((self.at / 2.0 - from / 2.0) / (to / 2.0 - from / 2.0)).clamp(0.0, 1.0);
+        let mix = |p: f64, q: f64| p * (1.0 - t) + q * t;
+        let mut point = DVec2::new(mix(a.point.x, b.point.x), mix(a.point.y, b.point.y));
+        if self.vertical {
+            point.x = self.at;
+        } else {
+            point.y = self.at;
+        }
+        ClipVertex {
+            point,
+            weights: std::array::from_fn(|i| mix(a.weights[i], b.weights[i])),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clip_leaves_inner_triangles_alone() {
+        let points = [DVec2::ZERO, DVec2::new(10.0, 0.0), DVec2::new(0.0, 10.0)];
+        let clipped = ClippedTriangle::new(points);
+        let triangles: Vec<_> = clipped.triangles().collect();
+        assert_eq!(triangles.len(), 1, "nothing to cut");
+        assert_eq!(triangles[0].map(|corner| corner.point), points, "corners untouched");
+    }
+
+    #[test]
+    fn clip_keeps_huge_triangles_inside_the_guard() {
+        for size in [1e5, 1e30, 1e300, f64::MAX / 4.0] {
+            let clipped =
+                ClippedTriangle::new([DVec2::new(-size, -size), DVec2::new(size, -size), DVec2::new(0.0, size)]);
+            let mut seen = 0;
+            for corner in clipped.triangles().flatten() {
+                assert!(in_guard(corner.point), "{corner:?} of size {size}");
+                let sum: f64 = corner.weights.iter().sum();
+                assert!((sum - 1.0).abs() < 1e-9, "weights sum to one: {corner:?}");
+                seen += 1;
+            }
+            assert!(seen >= 3, "something of size {size} is left");
+        }
+    }
+
+    #[test]
+    fn clip_drops_what_lies_outside() {
+        let far = DVec2::splat(1e6);
+        let clipped = ClippedTriangle::new([far, far + DVec2::X, far + DVec2::Y]);
+        assert_eq!(clipped.triangles().count(), 0, "nothing inside");
+    }
+
+    #[test]
+    fn clip_cuts_a_shared_edge_alike_from_both_sides() {
+        let (a, b) = (DVec2::new(-3e5, 17.0), DVec2::new(7e5, 911.0));
+        let points = |c: DVec2| -> Vec<DVec2> {
+            ClippedTriangle::new([a, b, c])
+                .triangles()
+                .flatten()
+                .map(|corner| corner.point)
+                .collect()
+        };
+        let mirrored: Vec<DVec2> = ClippedTriangle::new([b, a, DVec2::new(0.0, -2e5)])
+            .triangles()
+            .flatten()
+            .map(|corner| corner.point)
+            .collect();
+        let on_edge = points(DVec2::new(0.0, 2e5))
+            .iter()
+            .filter(|point| mirrored.contains(point))
+            .count();
+        assert!(on_edge >= 2, "both triangles keep the same two ends of the cut edge");
+    }
+}

@@ -141,7 +141,7 @@ fn shares(fine: u32, coarse: u32) -> Vec<Share> {
         .map(|i| {
             let (start, end) = (f64::from(i) * ratio, f64::from(i + 1) * ratio);
             // An odd side of 2k + 1 texels gives k intervals of 2 + 1/k: each touches three texels at most.
-            let first = (u64::from(i) * u64::from(fine) / u64::from(coarse)) as usize;
+            let first = i as usize * fine as usize / coarse as usize;
             let overlap = |j: usize| {
                 let left = (first + j) as f64;
                 ((end.min(left + 1.0) - start.max(left)) / ratio).max(0.0)

@@ -3,6 +3,4 @@
 //! Where a test goes: a pure function with exact numbers is tested beside its code in `src`; what several rooms do
 //! together, properties, pictures and goldens go here; what needs a window goes to `tests/window`.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
-
 mod starting;

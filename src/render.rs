@@ -1,14 +1,19 @@
 //! The only place where scene meets raster: transforms a scene's primitives and draws them into a frame.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
+
+use glam::DVec2;
+use rayon::prelude::*;
 
 use crate::color::Rgba;
 use crate::geometry::ViewTransform;
-use crate::raster::{Framebuffer, SampleRate};
+use crate::raster::{
+    Chunk, ChunkBuilder, DisplayList, Fill, Framebuffer, ListContext, RasterSettings, SampleHit, SampleRate,
+};
 use crate::rules::Rules;
-use crate::scene::Scene;
-use crate::texture::{LevelSampling, PixelSampling};
+use crate::scene::{Paint, PrimitiveKind, Scene};
+use crate::texture::{LevelSampling, PixelSampling, SamplingSettings};
 
 /// Everything about a picture that is neither scene nor view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +45,7 @@ impl Default for RenderSettings {
     }
 }
 
-/// Where the time of one frame went. `raster` is summed over nothing: it is wall time, tiles in parallel.
+/// Where the time of one frame went, as wall time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameStats {
     /// User space to screen space, clipping and snapping.
@@ -89,6 +94,134 @@ pub fn draw_cancellable(
     frame: &mut Framebuffer,
     cancel: &CancelToken,
 ) -> Option<FrameStats> {
-    let _ = (scene, view, settings, frame);
-    (!cancel.is_cancelled()).then(FrameStats::default)
+    let start = Instant::now();
+    let list = display_list(scene, view, settings, [frame.width(), frame.height()]);
+    let transform = start.elapsed();
+    let times = list.rasterize(frame, &cancel.0)?;
+    Some(FrameStats {
+        transform,
+        bin: times.bin,
+        raster: times.raster,
+        triangles: list.triangles(),
+    })
+}
+
+/// What each sample of pixel `(x, y)` of a frame of `size` pixels holds, painted by the same code as the frame; the
+/// source of a sample is an index into [`Scene::primitives`], or the number of primitives for the canvas outline.
+/// `None` outside the frame.
+pub fn probe(
+    scene: &Scene,
+    view: &ViewTransform,
+    settings: &RenderSettings,
+    size: [u32; 2],
+    [x, y]: [u32; 2],
+) -> Option<Vec<SampleHit>> {
+    display_list(scene, view, settings, size).probe(x, y)
+}
+
+/// Fewest and most primitives that one thread transforms at a time.
+const CHUNK: (usize, usize) = (1024, 65_536);
+
+/// Transforms a scene's primitives to screen space, in parallel.
+fn display_list<'a>(
+    scene: &'a Scene,
+    view: &ViewTransform,
+    settings: &RenderSettings,
+    size: [u32; 2],
+) -> DisplayList<'a> {
+    let raster = RasterSettings {
+        rate: settings.sample_rate,
+        sampling: SamplingSettings {
+            pixel: settings.pixel_sampling,
+            level: settings.level_sampling,
+            rules: settings.rules,
+        },
+        background: settings.background,
+    };
+    let context = ListContext::new(size, &raster);
+    let screen = Screen {
+        view,
+        rules: settings.rules,
+    };
+    let length = (scene.primitives.len() / 64).clamp(CHUNK.0, CHUNK.1);
+    let mut chunks: Vec<Chunk> = scene
+        .primitives
+        .par_chunks(length)
+        .enumerate()
+        .map(|(i, primitives)| {
+            let mut builder = ChunkBuilder::new(&context);
+            for (source, primitive) in (i * length..).zip(primitives) {
+                builder.set_source(number(source));
+                add(&mut builder, &screen, &primitive.kind);
+            }
+            builder.finish()
+        })
+        .collect();
+    if settings.outline {
+        let mut builder = ChunkBuilder::new(&context);
+        builder.set_source(number(scene.primitives.len()));
+        for ends in screen.outline(scene.canvas) {
+            builder.hairline(ends, Rgba::BLACK);
+        }
+        chunks.push(builder.finish());
+    }
+    DisplayList::new(
+        context,
+        raster,
+        chunks,
+        scene.textures.iter().map(AsRef::as_ref).collect(),
+    )
+}
+
+/// The number of a primitive; the reader refuses scenes of more than `2^32`.
+fn number(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(u32::MAX)
+}
+
+fn add(builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, kind: &PrimitiveKind) {
+    match kind {
+        PrimitiveKind::Triangle { points, paint } => builder.triangle(points.map(|p| screen.place(p)), &fill(paint)),
+        PrimitiveKind::Hairline { ends, color } => builder.hairline(ends.map(|p| screen.place(p)), *color),
+        PrimitiveKind::Point { at, color } => builder.point(screen.place(*at), *color),
+        PrimitiveKind::BeginLayer => builder.begin_layer(),
+        PrimitiveKind::EndLayer { opacity } => builder.end_layer(*opacity),
+    }
+}
+
+fn fill(paint: &Paint) -> Fill {
+    match *paint {
+        Paint::Solid(color) => Fill::Solid(color),
+        Paint::Vertex(colors) => Fill::Vertex(colors),
+        Paint::Texture { texture, uv, opacity } => Fill::Texture {
+            texture: texture.0,
+            uv: uv.map(|uv| uv.to_array()),
+            opacity,
+        },
+    }
+}
+
+/// User space to screen space, by whose rules.
+struct Screen<'a> {
+    view: &'a ViewTransform,
+    rules: Rules,
+}
+
+impl Screen<'_> {
+    fn place(&self, point: DVec2) -> DVec2 {
+        let exact = self.view.to_pixels(point);
+        match self.rules {
+            Rules::Standard => exact,
+            Rules::Course => exact.as_vec2().as_dvec2(),
+        }
+    }
+
+    /// The four hairlines just outside the canvas, as the course draws them.
+    fn outline(&self, canvas: DVec2) -> [[DVec2; 2]; 4] {
+        let corner = |x: f64, y: f64, dx: f64, dy: f64| self.place(DVec2::new(x, y)) + DVec2::new(dx, dy);
+        let a = corner(0.0, 0.0, -1.0, 1.0);
+        let b = corner(canvas.x, 0.0, 1.0, 1.0);
+        let c = corner(0.0, canvas.y, -1.0, -1.0);
+        let d = corner(canvas.x, canvas.y, 1.0, -1.0);
+        [[a, b], [a, c], [d, b], [d, c]]
+    }
 }

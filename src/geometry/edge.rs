@@ -23,7 +23,7 @@ impl EdgeWalker {
     ///
     /// Column `i` lies at `(i + 1/2) << bits`, so the crossing `x = x0 + (y - y0) dx / dy` is column
     /// `((x0 - half) dy + (y - y0) dx) / (dy << bits)`.
-    pub fn new(grid: &SubpixelGrid, top: GridPoint, bottom: GridPoint, row: i32) -> Self {
+    pub fn new(grid: SubpixelGrid, top: GridPoint, bottom: GridPoint, row: i32) -> Self {
         let bits = grid.bits();
         let half = 1_i64 << (bits - 1);
         let dx = i64::from(bottom.x) - i64::from(top.x);
@@ -104,7 +104,7 @@ mod tests {
             }
             let (top, bottom) = if a.y < b.y { (a, b) } else { (b, a) };
             let first = grid.sample_at_or_after(top.y);
-            let mut walker = EdgeWalker::new(&grid, top, bottom, first);
+            let mut walker = EdgeWalker::new(grid, top, bottom, first);
             for row in first..grid.sample_at_or_after(bottom.y) {
                 let y = grid.sample_coordinate(row);
                 let value = |column: i64| {

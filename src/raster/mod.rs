@@ -1,7 +1,22 @@
 //! Primitives to pixels: exact edges, sample patterns, tiles, shading, resolve.
+//!
+//! The way of a picture: a [`ChunkBuilder`] snaps and clips screen-space primitives into [`Chunk`]s; a [`DisplayList`]
+//! sorts them into tiles; each tile paints its samples in painter's order in memory that stays in the cache, is
+//! resolved at once and written to the [`Framebuffer`]. Tiles are independent, so they run on all threads, and every
+//! sample depends on its own position only, so neither threads nor tiles show in the result.
 
+mod bins;
+mod display_list;
 mod framebuffer;
+mod hairline;
+mod paint;
+mod rasterize;
+mod rows;
 mod sample_rate;
+mod shade;
+mod tile;
 
+pub use display_list::{Chunk, ChunkBuilder, Fill, ListContext};
 pub use framebuffer::Framebuffer;
+pub use rasterize::{DisplayList, RasterSettings, RasterTimes, SampleHit};
 pub use sample_rate::SampleRate;

@@ -1,10 +1,14 @@
 //! Images to colours: decoding, pyramid, level of detail, sampling.
 
 mod decode;
+mod footprint;
 mod pyramid;
+mod sampler;
 
 pub use decode::DecodeError;
+pub use footprint::Footprint;
 pub use pyramid::{MipLevel, MipPyramid};
+pub use sampler::{LevelChoice, Sampler, SamplingSettings};
 
 /// How a colour is found inside one mip level.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -14,6 +14,7 @@ pub struct MipLevel {
 #[derive(Clone, Debug)]
 pub struct MipPyramid {
     levels: Vec<MipLevel>,
+    opaque: bool,
 }
 
 /// A level before its texels are rounded to bytes, so that rounding does not pile up from level to level.
@@ -72,6 +73,7 @@ impl MipPyramid {
     /// Builds every level from the base, rows in parallel. Each level is the area-weighted mean of the one above it,
     /// also where a side is odd; texels are rounded to bytes only once.
     pub fn build(base: MipLevel) -> Self {
+        let opaque = base.texels.par_iter().all(|texel| texel[3] == u8::MAX);
         let mut levels = vec![base];
         if levels[0].width > 1 || levels[0].height > 1 {
             let mut exact = levels[0].to_exact().halved();
@@ -81,7 +83,12 @@ impl MipPyramid {
                 levels.push(exact.to_level());
             }
         }
-        Self { levels }
+        Self { levels, opaque }
+    }
+
+    /// Whether every texel is opaque.
+    pub fn is_opaque(&self) -> bool {
+        self.opaque
     }
 
     /// The levels, finest first; never empty.

@@ -1,0 +1,318 @@
+//! Painting one tile: every op of the display list that touches it, in painter's order.
+
+use super::SampleHit;
+use super::bins::Entry;
+use super::display_list::{Chunk, Op, Paint, ScreenTriangle};
+use super::rows::{SortedTriangle, Span};
+use super::shade::{ShadeContext, Shader};
+use super::tile::{PixelRect, Tile};
+use crate::color::Premultiplied16;
+
+/// Most samples along one side of a pixel.
+const MAX_SIDE: usize = 16;
+
+/// Paints tiles, one after the other, reusing its memory.
+#[derive(Debug)]
+pub(crate) struct TilePainter<'a> {
+    context: ShadeContext<'a>,
+    /// The base and above it the open layers.
+    layers: Vec<Tile>,
+    /// How many of `layers` are in use.
+    depth: usize,
+    colors: Vec<Premultiplied16>,
+    /// When a pixel is probed: which source painted each sample last.
+    probe: Option<Probe>,
+}
+
+/// Follows the samples of a single-pixel tile.
+#[derive(Debug)]
+struct Probe {
+    source: u32,
+    hits: Vec<Option<u32>>,
+}
+
+/// The samples that one row of pixels owns.
+struct PixelRow {
+    /// Sample columns per sample row.
+    spans: [Span; MAX_SIDE],
+    /// Sample rows in use.
+    side: usize,
+    /// Pixels of which all samples are covered.
+    full: Span,
+}
+
+impl<'a> TilePainter<'a> {
+    /// A painter for one drawing.
+    pub(crate) fn new(context: ShadeContext<'a>) -> Self {
+        Self {
+            context,
+            layers: Vec::new(),
+            depth: 0,
+            colors: Vec::new(),
+            probe: None,
+        }
+    }
+
+    /// Starts a tile.
+    pub(crate) fn begin(&mut self, rect: PixelRect, background: Premultiplied16) {
+        self.depth = 0;
+        self.push_layer(rect, background);
+    }
+
+    /// Paints the ops of one chunk that touch the tile.
+    pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[Entry]) {
+        for entry in entries {
+            let index = entry.op();
+            if let Some(probe) = &mut self.probe {
+                probe.source = chunk.sources[index];
+            }
+            match chunk.ops[index] {
+                Op::Triangle(triangle) => {
+                    let triangle = &chunk.triangles[triangle as usize];
+                    let paint = &chunk.paints[triangle.paint as usize];
+                    if entry.covers_tile() {
+                        self.whole_tile(triangle, paint);
+                    } else {
+                        self.triangle(triangle, paint);
+                    }
+                }
+                Op::Pixels { start, count, paint } => {
+                    if let Paint::Solid(color) = chunk.paints[paint as usize] {
+                        self.pixels(&chunk.pixels[start as usize..][..count as usize], color);
+                    }
+                }
+                Op::BeginLayer { .. } => self.push_layer(self.layers[0].rect, Premultiplied16::TRANSPARENT),
+                Op::EndLayer { opacity, .. } => self.pop_layer(opacity),
+            }
+        }
+    }
+
+    /// Resolves one row of the finished tile.
+    pub(crate) fn resolve(&self, y: i32, pixels: &mut [u32]) {
+        self.layers[0].resolve(y, pixels);
+    }
+
+    /// Paints a tile of a single pixel and says what each of its samples holds.
+    pub(crate) fn probe(
+        &mut self,
+        chunks: &[(&Chunk, &[Entry])],
+        pixel: [i32; 2],
+        background: Premultiplied16,
+    ) -> Vec<SampleHit> {
+        let one = |start: i32| Span { start, end: start + 1 };
+        let side = self.context.grid.side().cast_unsigned() as usize;
+        self.probe = Some(Probe {
+            source: 0,
+            hits: vec![None; side * side],
+        });
+        self.begin(
+            PixelRect {
+                x: one(pixel[0]),
+                y: one(pixel[1]),
+            },
+            background,
+        );
+        for (chunk, entries) in chunks {
+            self.paint(chunk, entries);
+        }
+        let hits = self.probe.take().map(|probe| probe.hits).unwrap_or_default();
+        let place = |index: usize| (index as f64 + 0.5) / side as f64;
+        hits.into_iter()
+            .enumerate()
+            .map(|(i, source)| SampleHit {
+                position: [place(i % side), place(i / side)],
+                color: self.layers[0].sample(pixel[0], pixel[1], i),
+                source,
+            })
+            .collect()
+    }
+
+    fn push_layer(&mut self, rect: PixelRect, color: Premultiplied16) {
+        if self.layers.len() == self.depth {
+            self.layers
+                .push(Tile::new(self.context.grid.side(), self.context.sampling.rules));
+        }
+        self.layers[self.depth].reset(rect, color);
+        self.depth += 1;
+    }
+
+    fn pop_layer(&mut self, opacity: u16) {
+        if self.depth < 2 {
+            return;
+        }
+        self.depth -= 1;
+        let (below, above) = self.layers.split_at_mut(self.depth);
+        below[self.depth - 1].composite(&above[0], opacity);
+    }
+
+    fn pixels(&mut self, pixels: &[[u16; 2]], color: Premultiplied16) {
+        for [x, y] in pixels {
+            let (x, y) = (i32::from(*x), i32::from(*y));
+            let xs = Span { start: x, end: x + 1 };
+            let rect = self.layers[0].rect;
+            if !xs.intersection(rect.x).is_empty() && (rect.y.start..rect.y.end).contains(&y) {
+                self.fill(xs, y, color);
+            }
+        }
+    }
+
+    /// A triangle that the edge functions at the tile's corners have found to cover all of it.
+    fn whole_tile(&mut self, triangle: &ScreenTriangle, paint: &Paint) {
+        let PixelRect { x, y } = self.layers[0].rect;
+        let shader = Shader::new(&self.context, triangle, paint);
+        let side = self.context.grid.side();
+        let columns = Span {
+            start: x.start * side,
+            end: x.end * side,
+        };
+        for row in y.start..y.end {
+            if let Shader::Solid(color) = shader {
+                self.fill(x, row, color);
+            } else {
+                for line in row * side..(row + 1) * side {
+                    self.shaded(&shader, columns, line);
+                }
+            }
+        }
+    }
+
+    fn triangle(&mut self, triangle: &ScreenTriangle, paint: &Paint) {
+        let grid = self.context.grid;
+        let PixelRect { x, y } = self.layers[0].rect;
+        let Some(sorted) = SortedTriangle::new(triangle.corners, self.context.sampling.rules) else {
+            return;
+        };
+        let side = grid.side();
+        let columns = Span {
+            start: x.start * side,
+            end: x.end * side,
+        };
+        let rows = sorted.rows(grid).intersection(Span {
+            start: y.start * side,
+            end: y.end * side,
+        });
+        if rows.is_empty() {
+            return;
+        }
+        let shader = Shader::new(&self.context, triangle, paint);
+        let mut walker = sorted.walk_from(grid, rows.start);
+        let mut line = rows.start;
+        while line < rows.end {
+            let row = line.div_euclid(side);
+            let end = rows.end.min((row + 1) * side);
+            let mut spans = [Span::default(); MAX_SIDE];
+            for line in line..end {
+                spans[line.rem_euclid(side).cast_unsigned() as usize] = walker.next_span(columns);
+            }
+            self.pixel_row(&shader, &PixelRow::new(spans, side), row);
+            line = end;
+        }
+    }
+
+    /// Paints one row of pixels: solid colours pixel by pixel where all samples are covered, the rest by sample rows.
+    fn pixel_row(&mut self, shader: &Shader<'_>, pixels: &PixelRow, row: i32) {
+        let side = self.context.grid.side();
+        let lines = pixels.spans[..pixels.side].iter().zip(row * side..);
+        match shader {
+            Shader::Solid(color) => {
+                if pixels.full.is_empty() {
+                    for (span, line) in lines {
+                        self.solid(*span, line, *color);
+                    }
+                } else {
+                    self.fill(pixels.full, row, *color);
+                    let inner = Span {
+                        start: pixels.full.start * side,
+                        end: pixels.full.end * side,
+                    };
+                    for (span, line) in lines {
+                        self.solid(
+                            Span {
+                                start: span.start,
+                                end: inner.start,
+                            },
+                            line,
+                            *color,
+                        );
+                        self.solid(
+                            Span {
+                                start: inner.end,
+                                end: span.end,
+                            },
+                            line,
+                            *color,
+                        );
+                    }
+                }
+            }
+            _ => {
+                for (span, line) in lines {
+                    self.shaded(shader, *span, line);
+                }
+            }
+        }
+    }
+
+    fn fill(&mut self, xs: Span, y: i32, color: Premultiplied16) {
+        self.layers[self.depth - 1].fill(xs, y, color);
+        if let Some(probe) = &mut self.probe
+            && !xs.is_empty()
+        {
+            probe.hits.fill(Some(probe.source));
+        }
+    }
+
+    fn solid(&mut self, columns: Span, line: i32, color: Premultiplied16) {
+        self.layers[self.depth - 1].fill_samples(columns, line, color);
+        self.note(columns, line);
+    }
+
+    fn shaded(&mut self, shader: &Shader<'_>, columns: Span, line: i32) {
+        if columns.is_empty() {
+            return;
+        }
+        self.colors.clear();
+        shader.shade(&self.context, columns, line, &mut self.colors);
+        self.layers[self.depth - 1].write_samples(columns, line, &self.colors);
+        self.note(columns, line);
+    }
+
+    /// Tells the probe that samples were painted.
+    fn note(&mut self, columns: Span, line: i32) {
+        let side = self.context.grid.side();
+        if let Some(probe) = &mut self.probe {
+            for column in columns.start..columns.end {
+                let sample = line.rem_euclid(side) * side + column.rem_euclid(side);
+                probe.hits[sample.cast_unsigned() as usize] = Some(probe.source);
+            }
+        }
+    }
+}
+
+impl PixelRow {
+    fn new(spans: [Span; MAX_SIDE], side: i32) -> Self {
+        let count = side.cast_unsigned() as usize;
+        let used = &spans[..count];
+        // A sample row without samples leaves no pixel full.
+        let inner = used.iter().fold(
+            Span {
+                start: i32::MIN,
+                end: i32::MAX,
+            },
+            |inner, span| inner.intersection(*span),
+        );
+        let full = if inner.is_empty() {
+            Span::default()
+        } else {
+            Span {
+                start: (inner.start + side - 1).div_euclid(side),
+                end: inner.end.div_euclid(side),
+            }
+        };
+        Self {
+            spans,
+            side: count,
+            full,
+        }
+    }
+}

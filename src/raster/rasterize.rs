@@ -1,0 +1,224 @@
+//! The whole way from chunks to pixels: bins, tiles in parallel, resolve.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use rayon::prelude::*;
+
+use super::bins::{Bins, Entry, groups};
+use super::display_list::{Chunk, ListContext, measure_layers};
+use super::paint::TilePainter;
+use super::rows::Span;
+use super::shade::ShadeContext;
+use super::tile::{PixelRect, TileLayout};
+use super::{Framebuffer, SampleRate};
+use crate::color::{Premultiplied16, Rgba};
+use crate::geometry::subpixel::SubpixelGrid;
+use crate::texture::{SamplingSettings, Texture};
+
+/// Everything that decides how primitives become pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct RasterSettings {
+    /// Samples per pixel.
+    pub rate: SampleRate,
+    /// How textures are read, and by whose rules.
+    pub sampling: SamplingSettings,
+    /// What lies below the first primitive.
+    pub background: Rgba,
+}
+
+/// A display list ready to be drawn.
+#[derive(Debug)]
+pub struct DisplayList<'a> {
+    context: ListContext,
+    settings: RasterSettings,
+    chunks: Vec<Chunk>,
+    textures: Vec<&'a Texture>,
+}
+
+/// Where the time went.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RasterTimes {
+    /// Ops to tiles.
+    pub bin: Duration,
+    /// Coverage, shading and resolve.
+    pub raster: Duration,
+}
+
+/// What one sample of a pixel holds when everything is painted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SampleHit {
+    /// Its place in the pixel, `(0, 0)` the top left corner, `(1, 1)` the bottom right.
+    pub position: [f64; 2],
+    /// Its colour.
+    pub color: Premultiplied16,
+    /// The source of what painted it last; `None` for the background.
+    pub source: Option<u32>,
+}
+
+/// One group of tile rows on its way to the frame.
+struct Pass<'a> {
+    /// The entries of each chunk.
+    bins: Vec<Bins>,
+    first_row: u32,
+    cancelled: &'a AtomicBool,
+}
+
+impl ListContext {
+    /// For a frame of `size` pixels.
+    pub fn new(size: [u32; 2], settings: &RasterSettings) -> Self {
+        Self::with_tiles(size, settings, TileLayout::for_rate(settings.rate, size))
+    }
+
+    pub(crate) fn with_tiles(size: [u32; 2], settings: &RasterSettings, tiles: TileLayout) -> Self {
+        Self {
+            grid: SubpixelGrid::new(settings.rate.side()),
+            rules: settings.sampling.rules,
+            size,
+            tiles,
+        }
+    }
+}
+
+impl<'a> DisplayList<'a> {
+    /// Chunks in painter's order, built with `context`; [`super::Fill::Texture`] points into `textures`.
+    pub fn new(
+        context: ListContext,
+        settings: RasterSettings,
+        mut chunks: Vec<Chunk>,
+        textures: Vec<&'a Texture>,
+    ) -> Self {
+        measure_layers(&mut chunks, &context);
+        Self {
+            context,
+            settings,
+            chunks,
+            textures,
+        }
+    }
+
+    /// Triangles in the list.
+    pub fn triangles(&self) -> u64 {
+        self.chunks.iter().map(|chunk| chunk.triangles.len() as u64).sum()
+    }
+
+    /// Draws everything into `frame`, which must have the size of the list's context; `None` when `cancelled` was set
+    /// meanwhile and the frame is unfinished.
+    ///
+    /// # Panics
+    /// When the frame has another size.
+    pub fn rasterize(&self, frame: &mut Framebuffer, cancelled: &AtomicBool) -> Option<RasterTimes> {
+        assert_eq!(
+            [frame.width(), frame.height()],
+            self.context.size,
+            "the list is made for a frame of one size"
+        );
+        let mut times = RasterTimes::default();
+        let [width, height] = self.context.size;
+        if width == 0 || height == 0 {
+            return Some(times);
+        }
+        let row_pixels = (width * self.context.tiles.tile_height()) as usize;
+        for group in groups(&self.chunks, &self.context) {
+            let start = Instant::now();
+            let bins: Vec<Bins> = self
+                .chunks
+                .par_iter()
+                .map(|chunk| Bins::new(chunk, &self.context, &self.textures, group))
+                .collect();
+            times.bin += start.elapsed();
+            let start = Instant::now();
+            let pass = Pass {
+                bins,
+                first_row: group.start.cast_unsigned(),
+                cancelled,
+            };
+            frame
+                .pixels_mut()
+                .par_chunks_mut(row_pixels)
+                .zip(0..self.context.tiles.rows)
+                .skip(group.start.cast_unsigned() as usize)
+                .take((group.end - group.start).cast_unsigned() as usize)
+                .with_max_len(1)
+                .for_each_init(
+                    || self.painter(),
+                    |painter, (pixels, row)| self.tile_row(&pass, painter, row, pixels),
+                );
+            times.raster += start.elapsed();
+            if cancelled.load(Ordering::Relaxed) {
+                return None;
+            }
+        }
+        Some(times)
+    }
+
+    /// What each sample of one pixel holds: painted by the same code as a frame. `None` outside the frame.
+    pub fn probe(&self, x: u32, y: u32) -> Option<Vec<SampleHit>> {
+        if x >= self.context.size[0] || y >= self.context.size[1] {
+            return None;
+        }
+        let pixel = [x.cast_signed(), y.cast_signed()];
+        let inside = |span: Span, at: i32| (span.start..span.end).contains(&at);
+        let touching: Vec<Vec<Entry>> = self
+            .chunks
+            .par_iter()
+            .map(|chunk| {
+                let touches = |op| {
+                    let area: Option<PixelRect> = chunk.area(op, &self.context);
+                    area.is_some_and(|area| inside(area.x, pixel[0]) && inside(area.y, pixel[1]))
+                };
+                (0..)
+                    .zip(&chunk.ops)
+                    .filter(|(_, op)| touches(op))
+                    .map(|(i, _)| Entry::crossing(i))
+                    .collect()
+            })
+            .collect();
+        let chunks: Vec<(&Chunk, &[Entry])> = self.chunks.iter().zip(touching.iter().map(Vec::as_slice)).collect();
+        Some(self.painter().probe(&chunks, pixel, self.background()))
+    }
+
+    fn background(&self) -> Premultiplied16 {
+        Premultiplied16::from_straight(self.settings.background, self.settings.sampling.rules)
+    }
+
+    fn painter(&self) -> TilePainter<'_> {
+        TilePainter::new(ShadeContext {
+            grid: self.context.grid,
+            sampling: self.settings.sampling,
+            textures: &self.textures,
+        })
+    }
+
+    /// Paints and resolves the tiles of one row.
+    fn tile_row(&self, pass: &Pass<'_>, painter: &mut TilePainter<'_>, row: u32, pixels: &mut [u32]) {
+        let first = ((row - pass.first_row) * self.context.tiles.columns) as usize;
+        for column in 0..self.context.tiles.columns {
+            if pass.cancelled.load(Ordering::Relaxed) {
+                return;
+            }
+            let tile = first + column as usize;
+            let rect = self.context.tiles.pixels(column, row, self.context.size);
+            painter.begin(rect, self.background());
+            let (chunk, entry) = first_visible(&pass.bins, tile);
+            for (i, bins) in pass.bins.iter().enumerate().skip(chunk) {
+                let skip = if i == chunk { entry } else { 0 };
+                painter.paint(&self.chunks[i], &bins.of_tile(tile)[skip..]);
+            }
+            for (line, y) in (rect.y.start..rect.y.end).enumerate() {
+                let start = line * self.context.size[0] as usize + rect.x.start.cast_unsigned() as usize;
+                painter.resolve(y, &mut pixels[start..]);
+            }
+        }
+    }
+}
+
+/// The chunk and the entry in it that painting a tile may start with: the last opaque triangle that covers it wholly.
+fn first_visible(bins: &[Bins], tile: usize) -> (usize, usize) {
+    for (chunk, bins) in bins.iter().enumerate().rev() {
+        if let Some(entry) = bins.of_tile(tile).iter().rposition(|entry| entry.hides_tile()) {
+            return (chunk, entry);
+        }
+    }
+    (0, 0)
+}

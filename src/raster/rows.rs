@@ -1,0 +1,220 @@
+//! A triangle as one span of sample columns per sample row: its exact coverage.
+//!
+//! The top-left rule in this form: a row belongs to the triangle from the first sample at or below its top up to, but
+//! not including, its bottom; a column from the first sample at or right of its left edge up to, but not including,
+//! its right edge. Under the course's rules both ends are included.
+
+use crate::geometry::edge::{EdgeWalker, doubled_area};
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::rules::Rules;
+
+/// A half-open range of sample columns, or of sample rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Span {
+    /// The first.
+    pub(crate) start: i32,
+    /// One beyond the last; at or before `start` when empty.
+    pub(crate) end: i32,
+}
+
+/// A triangle whose corners are sorted from top to bottom.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SortedTriangle {
+    corners: [GridPoint; 3],
+    /// The edge from top to bottom corner is the right one.
+    long_is_right: bool,
+    rules: Rules,
+}
+
+/// Walks a triangle's sample rows from top to bottom.
+#[derive(Debug)]
+pub(crate) struct RowWalker {
+    long: EdgeWalker,
+    short: EdgeWalker,
+    /// The short edge that takes over at `switch`, and that row.
+    lower: [GridPoint; 2],
+    switch: i32,
+    row: i32,
+    grid: SubpixelGrid,
+    long_is_right: bool,
+    rules: Rules,
+}
+
+impl Span {
+    /// Whether nothing is in it.
+    pub(crate) fn is_empty(self) -> bool {
+        self.start >= self.end
+    }
+
+    /// What lies in both.
+    pub(crate) fn intersection(self, other: Self) -> Self {
+        Self {
+            start: self.start.max(other.start),
+            end: self.end.min(other.end),
+        }
+    }
+}
+
+impl SortedTriangle {
+    /// `None` when the triangle has no area: then it draws nothing.
+    pub(crate) fn new(mut corners: [GridPoint; 3], rules: Rules) -> Option<Self> {
+        if corners[0].y > corners[1].y {
+            corners.swap(0, 1);
+        }
+        if corners[1].y > corners[2].y {
+            corners.swap(1, 2);
+        }
+        if corners[0].y > corners[1].y {
+            corners.swap(0, 1);
+        }
+        let area = doubled_area(corners);
+        // Clockwise on the screen from the top corner: the middle corner lies left of the long edge when negative.
+        (area != 0).then_some(Self {
+            corners,
+            long_is_right: area < 0,
+            rules,
+        })
+    }
+
+    /// The sample rows it may cover.
+    pub(crate) fn rows(&self, grid: SubpixelGrid) -> Span {
+        let [top, _, bottom] = self.corners;
+        Span {
+            start: grid.sample_at_or_after(top.y),
+            end: end_of(grid, bottom.y, self.rules),
+        }
+    }
+
+    /// A walker that stands at sample row `row`, which must be one of [`SortedTriangle::rows`].
+    pub(crate) fn walk_from(&self, grid: SubpixelGrid, row: i32) -> RowWalker {
+        let [top, middle, bottom] = self.corners;
+        let switch = if middle.y == bottom.y {
+            i32::MAX
+        } else {
+            grid.sample_at_or_after(middle.y)
+        };
+        let upper = if row >= switch || top.y == middle.y {
+            [middle, bottom]
+        } else {
+            [top, middle]
+        };
+        RowWalker {
+            long: EdgeWalker::new(grid, top, bottom, row),
+            short: EdgeWalker::new(grid, upper[0], upper[1], row),
+            lower: [middle, bottom],
+            switch: if row >= switch { i32::MAX } else { switch },
+            row,
+            grid,
+            long_is_right: self.long_is_right,
+            rules: self.rules,
+        }
+    }
+}
+
+impl RowWalker {
+    /// The covered columns of the current row, clipped to `columns`; then goes down one row.
+    #[inline]
+    pub(crate) fn next_span(&mut self, columns: Span) -> Span {
+        if self.row == self.switch {
+            self.short = EdgeWalker::new(self.grid, self.lower[0], self.lower[1], self.row);
+        }
+        let (left, right) = if self.long_is_right {
+            (&self.short, &self.long)
+        } else {
+            (&self.long, &self.short)
+        };
+        let end = match self.rules {
+            Rules::Standard => right.at_or_after(),
+            Rules::Course => right.after(),
+        };
+        let clip = |column: i64| {
+            let clipped = column.clamp(i64::from(columns.start), i64::from(columns.end));
+            i32::try_from(clipped).unwrap_or(columns.end)
+        };
+        let span = Span {
+            start: clip(left.at_or_after()),
+            end: clip(end),
+        };
+        self.long.step();
+        self.short.step();
+        self.row += 1;
+        span
+    }
+}
+
+/// One beyond the last sample that belongs to what ends at `coordinate`.
+pub(crate) fn end_of(grid: SubpixelGrid, coordinate: i32, rules: Rules) -> i32 {
+    match rules {
+        Rules::Standard => grid.sample_at_or_after(coordinate),
+        Rules::Course => grid.sample_after(coordinate),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary;
+
+    use super::*;
+    use crate::geometry::edge::edge_value;
+
+    /// Coverage by definition: Pineda's edge functions, ties by the kind of edge.
+    fn covers([a, b, c]: [GridPoint; 3], sample: GridPoint, rules: Rules) -> bool {
+        let corners = if doubled_area([a, b, c]) < 0 {
+            [a, c, b]
+        } else {
+            [a, b, c]
+        };
+        if doubled_area(corners) == 0 {
+            return false;
+        }
+        (0..3).all(|i| {
+            let (from, to) = (corners[i], corners[(i + 1) % 3]);
+            let value = edge_value(from, to, sample);
+            // Clockwise on the screen: a top edge runs right, a left edge runs up.
+            let top_left = to.y < from.y || (to.y == from.y && to.x > from.x);
+            value > 0 || (value == 0 && (rules == Rules::Course || top_left))
+        })
+    }
+
+    #[test]
+    fn rows_agree_with_edge_functions_on_a_lattice_full_of_ties() {
+        arbtest::arbtest(|u| {
+            let grid = SubpixelGrid::new(u.int_in_range(1..=5)?);
+            let mut point = || -> arbitrary::Result<GridPoint> {
+                let mut half_samples = || Ok(u.int_in_range(-2..=18)? << (grid.bits() - 1));
+                Ok(GridPoint {
+                    x: half_samples()?,
+                    y: half_samples()?,
+                })
+            };
+            let corners = [point()?, point()?, point()?];
+            for rules in Rules::ALL {
+                let triangle = SortedTriangle::new(corners, rules);
+                let rows = triangle.map_or(Span::default(), |triangle| triangle.rows(grid));
+                let all = Span { start: -2, end: 12 };
+                for start in [rows.start, (rows.start + 2).min(rows.end)] {
+                    let mut walker = triangle.filter(|_| !rows.is_empty()).map(|t| t.walk_from(grid, start));
+                    for row in start.max(-2)..12 {
+                        let inside = row < rows.end && row >= start;
+                        let span = walker
+                            .as_mut()
+                            .filter(|_| inside)
+                            .map(|w| w.next_span(all))
+                            .unwrap_or_default();
+                        for column in all.start..all.end {
+                            let sample = GridPoint {
+                                x: grid.sample_coordinate(column),
+                                y: grid.sample_coordinate(row),
+                            };
+                            let expected = covers(corners, sample, rules);
+                            let found = (span.start..span.end).contains(&column);
+                            assert_eq!(found, expected, "{corners:?} {rules:?} column {column} row {row}");
+                        }
+                    }
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(600);
+    }
+}

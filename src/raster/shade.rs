@@ -1,0 +1,181 @@
+//! Fragments to colours: attributes interpolated over a triangle, textures read at them.
+//!
+//! # Where the numbers come from
+//!
+//! An attribute is an affine function of the pixel position. It is evaluated in 64 bits at anchors every
+//! [`ANCHOR_PIXELS`] pixels of a row, at absolute positions, and in 32 bits from there on. So a fragment's value depends
+//! on its own position only, never on the tile or the run of fragments it is shaded with.
+
+use glam::DVec2;
+
+use super::display_list::{Paint, ScreenTriangle};
+use super::rows::Span;
+use crate::color::Premultiplied16;
+use crate::geometry::edge::doubled_area;
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::rules::Rules;
+use crate::texture::{Footprint, Sampler, SamplingSettings, Texture};
+
+/// Distance between two anchors, in pixels.
+const ANCHOR_PIXELS: i32 = 8;
+
+/// `K` attributes as affine functions of the pixel position.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Planes<const K: usize> {
+    origin: DVec2,
+    at_origin: [f64; K],
+    /// Change per pixel to the right, and down.
+    pub(crate) dx: [f64; K],
+    pub(crate) dy: [f64; K],
+}
+
+/// Turns the fragments of one triangle into colours.
+#[derive(Debug)]
+pub(crate) enum Shader<'a> {
+    /// One colour.
+    Solid(Premultiplied16),
+    /// Straight red, green, blue, alpha in `0.0..=1.0`.
+    Vertex(Planes<4>),
+    /// `(u, v)`, read through a sampler and multiplied by an opacity.
+    Texture {
+        uv: Planes<2>,
+        sampler: Sampler<'a>,
+        opacity: f32,
+    },
+}
+
+/// What shading needs to know besides the triangle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShadeContext<'a> {
+    pub(crate) grid: SubpixelGrid,
+    pub(crate) sampling: SamplingSettings,
+    pub(crate) textures: &'a [&'a Texture],
+}
+
+impl<const K: usize> Planes<K> {
+    /// The planes through a triangle's corners. `doubled_area` must not be zero.
+    fn new(grid: SubpixelGrid, corners: &[GridPoint; 3], values: [[f32; K]; 3]) -> Self {
+        let units = grid.units_per_pixel();
+        let side = |from: usize, to: usize| {
+            let dx = i64::from(corners[to].x) - i64::from(corners[from].x);
+            let dy = i64::from(corners[to].y) - i64::from(corners[from].y);
+            DVec2::new(dx as f64, dy as f64) / units
+        };
+        let (b, c) = (side(0, 1), side(0, 2));
+        let area = doubled_area(*corners) as f64 / (units * units);
+        let mut planes = Self {
+            origin: DVec2::new(f64::from(corners[0].x), f64::from(corners[0].y)) / units,
+            at_origin: [0.0; K],
+            dx: [0.0; K],
+            dy: [0.0; K],
+        };
+        for (i, first) in values[0].into_iter().enumerate() {
+            let first = f64::from(first);
+            let (to_b, to_c) = (f64::from(values[1][i]) - first, f64::from(values[2][i]) - first);
+            planes.at_origin[i] = first;
+            planes.dx[i] = (to_b * c.y - to_c * b.y) / area;
+            planes.dy[i] = (to_c * b.x - to_b * c.x) / area;
+        }
+        planes
+    }
+
+    /// Hands the attributes of each sample `columns` of sample row `row` to `shade`, from left to right.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "fragments are interpolated in 32 bits from an anchor on"
+    )]
+    fn each(&self, grid: SubpixelGrid, columns: Span, row: i32, mut shade: impl FnMut([f32; K])) {
+        let side = grid.side();
+        let anchor_columns = ANCHOR_PIXELS * side;
+        let step = 1.0 / side as f32;
+        let slope = self.dx.map(|slope| slope as f32);
+        let down = grid.sample_position(row) - self.origin.y;
+        let mut column = columns.start;
+        while column < columns.end {
+            let group = column.div_euclid(anchor_columns);
+            let first = group * anchor_columns;
+            let right = f64::from(group * ANCHOR_PIXELS) - self.origin.x;
+            let at_anchor: [f32; K] =
+                std::array::from_fn(|i| (self.at_origin[i] + right * self.dx[i] + down * self.dy[i]) as f32);
+            let end = columns.end.min(first + anchor_columns);
+            for i in column - first..end - first {
+                let distance = (i as f32 + 0.5) * step;
+                shade(std::array::from_fn(|k| at_anchor[k] + distance * slope[k]));
+            }
+            column = end;
+        }
+    }
+}
+
+impl Planes<2> {
+    /// The change of `(u, v)` per pixel.
+    pub(crate) fn footprint(&self) -> Footprint {
+        Footprint {
+            dx: DVec2::from_array(self.dx),
+            dy: DVec2::from_array(self.dy),
+        }
+    }
+}
+
+impl<'a> Shader<'a> {
+    /// Prepares the shading of one triangle.
+    pub(crate) fn new(context: &ShadeContext<'a>, triangle: &ScreenTriangle, paint: &Paint) -> Self {
+        match *paint {
+            Paint::Solid(color) => Self::Solid(color),
+            Paint::Vertex(colors) => Self::Vertex(Planes::new(context.grid, &triangle.corners, colors)),
+            Paint::Texture { texture, uv, opacity } => {
+                let uv = Planes::new(context.grid, &triangle.corners, uv);
+                let pyramid = &context.textures[texture as usize].pyramid;
+                let sampler = Sampler::new(pyramid, &uv.footprint(), context.sampling);
+                Self::Texture { uv, sampler, opacity }
+            }
+        }
+    }
+
+    /// Appends the colours of the samples `columns` of sample row `row`.
+    pub(crate) fn shade(&self, context: &ShadeContext<'_>, columns: Span, row: i32, colors: &mut Vec<Premultiplied16>) {
+        let rules = context.sampling.rules;
+        match self {
+            Self::Solid(color) => {
+                let count = usize::try_from(columns.end - columns.start).unwrap_or(0);
+                colors.resize(colors.len() + count, *color);
+            }
+            Self::Vertex(planes) => planes.each(context.grid, columns, row, |rgba| {
+                colors.push(vertex_color(rgba, rules));
+            }),
+            Self::Texture {
+                uv, sampler, opacity, ..
+            } if *opacity >= 1.0 => {
+                uv.each(context.grid, columns, row, |[u, v]| {
+                    colors.push(Premultiplied16::from_byte_range(sampler.sample(u, v), rules));
+                });
+            }
+            Self::Texture {
+                uv, sampler, opacity, ..
+            } => uv.each(context.grid, columns, row, |[u, v]| {
+                let faded = sampler.sample(u, v).map(|channel| channel * opacity);
+                // Truncation comes after blending: half of a texel is no byte.
+                colors.push(Premultiplied16::from_byte_range(faded, Rules::Standard));
+            }),
+        }
+    }
+
+    /// Whether every fragment hides what is below it.
+    pub(crate) fn is_opaque(paint: &Paint, textures: &[&Texture]) -> bool {
+        match *paint {
+            Paint::Solid(color) => color.is_opaque(),
+            Paint::Vertex(colors) => colors.iter().all(|color| color[3] >= 1.0),
+            Paint::Texture { texture, opacity, .. } => opacity >= 1.0 && textures[texture as usize].pyramid.is_opaque(),
+        }
+    }
+}
+
+/// An interpolated straight colour as samples store it.
+#[inline]
+fn vertex_color([r, g, b, a]: [f32; 4], rules: Rules) -> Premultiplied16 {
+    // Rounding may carry an attribute a little beyond the colours at the corners.
+    let alpha = a.clamp(0.0, 1.0);
+    let channel = |value: f32| value.clamp(0.0, 1.0) * alpha * 255.0;
+    Premultiplied16::from_byte_range([channel(r), channel(g), channel(b), alpha * 255.0], rules)
+}

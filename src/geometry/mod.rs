@@ -5,6 +5,8 @@
 pub mod clip;
 pub mod edge;
 pub mod subpixel;
+mod triangulate;
 mod view;
 
+pub use triangulate::{FillRule, estimate_crossings, triangulate};
 pub use view::{View, ViewTransform};

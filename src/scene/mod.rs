@@ -3,6 +3,83 @@
 //! What leaves this room holds no string that is still to be interpreted: user-space geometry in painter's order,
 //! colours as numbers, textures decoded. Every shape remembers where in the document it stands.
 
+mod attributes;
+mod build;
+mod course;
+mod course_values;
+mod dialect;
+mod document;
+mod entities;
+mod error;
 mod model;
+mod numbers;
+mod report;
+mod resources;
+mod textures;
 
+use std::path::Path;
+
+use build::Builder;
+use course::CourseReader;
+use document::{LineIndex, Source};
+use error::Fault;
+use textures::Alpha;
+
+pub use dialect::{DialectChoice, ReadOptions};
+pub use error::{Problem, SceneError};
 pub use model::{Dialect, Paint, Primitive, PrimitiveKind, Scene, Shape, ShapeId, SourceLocation, TextureId};
+pub use report::{Report, Skipped, SkippedKind, Warning};
+pub use resources::{FolderResources, NoResources, ResourceError, Resources};
+
+/// Largest scene file, in bytes.
+const MAX_DOCUMENT_BYTES: u64 = 256 << 20;
+
+/// Reads the scene in the file `path`; textures are looked for relative to its folder.
+///
+/// # Errors
+/// When the file cannot be read or is no drawing; a missing texture is only a warning in [`Scene::report`].
+pub fn load(path: &Path, dialect: DialectChoice) -> Result<Scene, SceneError> {
+    let name = path.display().to_string();
+    let document = resources::read_file(path, MAX_DOCUMENT_BYTES).map_err(|error| SceneError {
+        file: name.clone(),
+        location: None,
+        problem: error.into(),
+    })?;
+    read(
+        &document,
+        &name,
+        ReadOptions { dialect },
+        &FolderResources::beside(path),
+    )
+}
+
+/// Reads the scene in `document`, called `name` in messages; textures come from `resources`.
+///
+/// # Errors
+/// As [`load`].
+pub fn read(document: &[u8], name: &str, options: ReadOptions, resources: &dyn Resources) -> Result<Scene, SceneError> {
+    read_bytes(document, options, resources).map_err(|fault| fault.in_file(name))
+}
+
+fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> Result<Scene, Fault> {
+    let text = document::decode(bytes)?;
+    let source = Source::new(&text)?;
+    let tree = source.parse()?;
+    let root = tree.root_element();
+    let lines = LineIndex::new(&text);
+    let mut builder = Builder::new(&source, &lines);
+    if root.tag_name().name() != "svg" {
+        let name = root.tag_name().name().to_owned();
+        return Err(Problem::NotSvg(name).at(builder.locate(root)));
+    }
+    let dialect = options.dialect.resolve(root);
+    let canvas = match dialect {
+        Dialect::Course => CourseReader::new(&mut builder, Alpha::Drop).read(root)?,
+        Dialect::Svg => CourseReader::new(&mut builder, Alpha::Keep).read(root)?,
+    };
+    if canvas.min_element() <= 0.0 {
+        let (width, height) = (canvas.x, canvas.y);
+        return Err(Problem::Canvas { width, height }.at(builder.locate(root)));
+    }
+    Ok(builder.finish(dialect, canvas, resources))
+}

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
 
+use super::Report;
 use crate::color::Rgba;
 use crate::texture::Texture;
 
@@ -29,6 +30,8 @@ pub struct Scene {
     pub primitives: Vec<Primitive>,
     /// What [`Paint::Texture`] points to.
     pub textures: Vec<Arc<Texture>>,
+    /// What the document asks for and the picture lacks.
+    pub report: Report,
 }
 
 /// Index into [`Scene::shapes`].
@@ -117,4 +120,20 @@ pub enum Paint {
         /// Multiplies the texture's own opacity, `0.0..=1.0`.
         opacity: f32,
     },
+}
+
+impl std::fmt::Display for SourceLocation {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}:{}", self.line, self.column)
+    }
+}
+
+impl Dialect {
+    /// The name used in the command line and the interface.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Course => "course",
+            Self::Svg => "svg",
+        }
+    }
 }

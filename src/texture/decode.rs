@@ -24,16 +24,34 @@ pub enum DecodeError {
 
 /// Decodes to 8-bit premultiplied RGBA.
 pub(super) fn decode(bytes: &[u8]) -> Result<MipLevel, DecodeError> {
+    decode_with(bytes, premultiply)
+}
+
+/// Decodes to 8-bit RGBA of which every texel is opaque.
+pub(super) fn decode_opaque(bytes: &[u8]) -> Result<MipLevel, DecodeError> {
+    decode_with(bytes, |[r, g, b, _]| [r, g, b, 255])
+}
+
+/// Width and height, from the header.
+pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
+    Ok(reader(bytes)?.into_dimensions()?)
+}
+
+fn decode_with(bytes: &[u8], texel: impl Fn([u8; 4]) -> [u8; 4]) -> Result<MipLevel, DecodeError> {
+    let image = reader(bytes)?.decode()?.into_rgba8();
+    let (width, height) = image.dimensions();
+    let texels = image.pixels().map(|pixel| texel(pixel.0)).collect();
+    Ok(MipLevel::new(width, height, texels))
+}
+
+fn reader(bytes: &[u8]) -> Result<ImageReader<Cursor<&[u8]>>, DecodeError> {
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     let mut limits = Limits::no_limits();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
     limits.max_alloc = Some(MAX_BYTES);
     reader.limits(limits);
-    let image = reader.decode()?.into_rgba8();
-    let (width, height) = image.dimensions();
-    let texels = image.pixels().map(|pixel| premultiply(pixel.0)).collect();
-    Ok(MipLevel::new(width, height, texels))
+    Ok(reader)
 }
 
 /// Straight bytes to premultiplied ones, rounded to nearest.

@@ -81,6 +81,26 @@ impl Texture {
         })
     }
 
+    /// As [`Texture::decode`], but every texel counts as opaque: the image's own alpha is dropped.
+    ///
+    /// # Errors
+    /// As [`Texture::decode`].
+    pub fn decode_opaque(name: &str, bytes: &[u8]) -> Result<Self, DecodeError> {
+        let base = decode::decode_opaque(bytes)?;
+        Ok(Self {
+            name: name.to_owned(),
+            pyramid: MipPyramid::build(base),
+        })
+    }
+
+    /// Width and height of an image in texels, from its header alone.
+    ///
+    /// # Errors
+    /// When the bytes are neither PNG nor JPEG, or the size is above the limits.
+    pub fn size_of_encoded(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
+        decode::size(bytes)
+    }
+
     /// The magenta checker that stands for a texture that could not be read.
     pub fn missing(name: &str) -> Self {
         const SIDE: u32 = 64;

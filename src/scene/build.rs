@@ -1,0 +1,184 @@
+//! The scene while it grows: shapes, primitives, textures and report, with their ceilings.
+
+use glam::{DAffine2, DVec2, Vec2};
+use roxmltree::Node;
+
+use super::document::{LineIndex, Source};
+use super::error::Fault;
+use super::textures::TextureTable;
+use super::{
+    Dialect, Paint, Primitive, PrimitiveKind, Problem, Report, Resources, Scene, Shape, ShapeId, SkippedKind,
+    SourceLocation,
+};
+use crate::color::Rgba;
+use crate::geometry::{self, FillRule};
+
+/// Most primitives of a scene, about 400 MB.
+const MAX_PRIMITIVES: usize = 4_000_000;
+/// Most crossings that the edges of all polygons together may have, as estimated before each is triangulated.
+const MAX_CROSSINGS: usize = 4_000_000;
+
+/// A growing scene and the document it comes from.
+#[derive(Debug)]
+pub(super) struct Builder<'doc> {
+    source: &'doc Source<'doc>,
+    lines: &'doc LineIndex<'doc>,
+    pub(super) shapes: Vec<Shape>,
+    pub(super) primitives: Vec<Primitive>,
+    pub(super) textures: TextureTable<'doc>,
+    pub(super) report: Report,
+    crossings_left: usize,
+}
+
+impl<'doc> Builder<'doc> {
+    pub(super) fn new(source: &'doc Source<'doc>, lines: &'doc LineIndex<'doc>) -> Self {
+        Self {
+            source,
+            lines,
+            shapes: Vec::new(),
+            primitives: Vec::new(),
+            textures: TextureTable::default(),
+            report: Report::default(),
+            crossings_left: MAX_CROSSINGS,
+        }
+    }
+
+    /// Where an element's start tag begins.
+    pub(super) fn locate(&self, node: Node<'_, '_>) -> SourceLocation {
+        self.lines.locate(self.source.original_offset(node.range().start))
+    }
+
+    /// Where an attribute begins.
+    pub(super) fn locate_attribute(&self, node: Node<'_, '_>, name: &str) -> SourceLocation {
+        match node.attribute_node(name) {
+            Some(attribute) => self.lines.locate(self.source.original_offset(attribute.range().start)),
+            None => self.locate(node),
+        }
+    }
+
+    /// Reports something that is not drawn.
+    pub(super) fn skip(&mut self, kind: SkippedKind, name: &str, node: Node<'_, '_>) {
+        let location = self.locate(node);
+        self.report.skip(kind, name, location);
+    }
+
+    /// Reports something that was read differently from what the document says.
+    pub(super) fn warn(&mut self, node: Node<'_, '_>, message: String) {
+        let location = self.locate(node);
+        self.report.warn(location, message);
+    }
+
+    /// The shape of an element; what is pushed with it belongs to it.
+    pub(super) fn shape(&mut self, node: Node<'_, '_>) -> ShapeId {
+        let shape = Shape {
+            element: node.tag_name().name().into(),
+            id: node.attribute("id").map(Into::into),
+            location: self.locate(node),
+        };
+        self.shapes.push(shape);
+        // Shapes are fewer than nodes, and nodes are fewer than 2^32.
+        ShapeId(u32::try_from(self.shapes.len() - 1).unwrap_or(u32::MAX))
+    }
+
+    /// Adds a primitive whose coordinates lie in user space.
+    pub(super) fn push(&mut self, shape: ShapeId, kind: PrimitiveKind) -> Result<(), Fault> {
+        if self.primitives.len() >= MAX_PRIMITIVES {
+            return Err(self.fault(
+                shape,
+                Problem::TooMany {
+                    what: "primitives",
+                    limit: MAX_PRIMITIVES,
+                },
+            ));
+        }
+        let points = match &kind {
+            PrimitiveKind::Triangle { points, .. } => points.as_slice(),
+            PrimitiveKind::Hairline { ends, .. } => ends.as_slice(),
+            PrimitiveKind::Point { at, .. } => std::slice::from_ref(at),
+            PrimitiveKind::BeginLayer | PrimitiveKind::EndLayer { .. } => &[],
+        };
+        if !points.iter().all(|point| within_reach(*point)) {
+            return Err(self.fault(shape, Problem::TooFar));
+        }
+        self.primitives.push(Primitive { shape, kind });
+        Ok(())
+    }
+
+    /// Adds a triangle.
+    pub(super) fn triangle(&mut self, shape: ShapeId, points: [DVec2; 3], paint: Paint) -> Result<(), Fault> {
+        self.push(shape, PrimitiveKind::Triangle { points, paint })
+    }
+
+    /// Adds a hairline, unless it cannot be seen.
+    pub(super) fn hairline(&mut self, shape: ShapeId, ends: [DVec2; 2], color: Rgba) -> Result<(), Fault> {
+        if color.a <= 0.0 {
+            return Ok(());
+        }
+        self.push(shape, PrimitiveKind::Hairline { ends, color })
+    }
+
+    /// Fills closed contours of user-space points, unless the fill cannot be seen.
+    pub(super) fn fill(
+        &mut self,
+        shape: ShapeId,
+        contours: &[Vec<DVec2>],
+        rule: FillRule,
+        color: Rgba,
+    ) -> Result<(), Fault> {
+        if color.a <= 0.0 {
+            return Ok(());
+        }
+        if !contours.iter().flatten().all(|point| within_reach(*point)) {
+            return Err(self.fault(shape, Problem::TooFar));
+        }
+        let crossings = geometry::estimate_crossings(contours);
+        let Some(left) = self.crossings_left.checked_sub(crossings) else {
+            let location = self.shapes[shape.0 as usize].location;
+            let message = format!("not filled: its edges cross about {crossings} times; split it");
+            self.report.warn(location, message);
+            return Ok(());
+        };
+        self.crossings_left = left;
+        for points in geometry::triangulate(contours, rule) {
+            self.triangle(shape, points, Paint::Solid(color))?;
+        }
+        Ok(())
+    }
+
+    /// The scene, once its textures are loaded.
+    pub(super) fn finish(mut self, dialect: Dialect, canvas: DVec2, resources: &dyn Resources) -> Scene {
+        let textures = self.textures.load(resources, &mut self.report);
+        Scene {
+            canvas,
+            dialect,
+            shapes: self.shapes,
+            primitives: self.primitives,
+            textures,
+            report: self.report,
+        }
+    }
+
+    fn fault(&self, shape: ShapeId, problem: Problem) -> Fault {
+        match self.shapes.get(shape.0 as usize) {
+            Some(shape) => problem.at(shape.location),
+            None => problem.nowhere(),
+        }
+    }
+}
+
+/// Whether both coordinates are within the range of 32-bit floats, which also says that they are finite.
+fn within_reach(point: DVec2) -> bool {
+    point.abs().max_element() <= f64::from(f32::MAX) && point.is_finite()
+}
+
+/// Two triangles that cover the parallelogram of the unit square under `unit_to_user`, with the square's coordinates
+/// as texture coordinates.
+pub(super) fn unit_square(unit_to_user: DAffine2) -> [([DVec2; 3], [Vec2; 3]); 2] {
+    let corners = [[DVec2::ZERO, DVec2::X, DVec2::Y], [DVec2::Y, DVec2::X, DVec2::ONE]];
+    corners.map(|uv| {
+        (
+            uv.map(|corner| unit_to_user.transform_point2(corner)),
+            uv.map(DVec2::as_vec2),
+        )
+    })
+}

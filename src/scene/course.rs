@@ -1,0 +1,316 @@
+//! The dialect `course`: what the reader of UC Berkeley's CS184 rasterizer assignment makes of a document.
+//!
+//! Width and height are the canvas and `viewBox` means nothing; strokes are hairlines; a rect without size is a
+//! point; nothing but the transform is inherited; numbers are 32-bit floats, read as C reads them.
+
+use std::collections::HashMap;
+
+use glam::{DAffine2, DVec2};
+use roxmltree::{Children, Node};
+
+use super::build::{Builder, unit_square};
+use super::error::Fault;
+use super::report::quote;
+use super::textures::Alpha;
+use super::{Paint, PrimitiveKind, ShapeId, SkippedKind, TextureId, attributes, course_values, numbers};
+use crate::color::Rgba;
+use crate::geometry::FillRule;
+
+/// Elements that the course's reader draws or obeys.
+pub(super) const ELEMENTS: [&str; 9] = [
+    "g", "line", "polyline", "polygon", "rect", "image", "colortri", "textri", "texture",
+];
+
+/// Attributes that would change the picture in SVG and have no effect here.
+const IGNORED: [&str; 8] = [
+    "style",
+    "class",
+    "opacity",
+    "clip-path",
+    "mask",
+    "filter",
+    "display",
+    "visibility",
+];
+
+/// Attributes that SVG hands down from a group and this dialect does not.
+const NOT_INHERITED: [&str; 4] = ["fill", "stroke", "fill-opacity", "stroke-opacity"];
+
+/// Reads one document.
+#[derive(Debug)]
+pub(super) struct CourseReader<'a, 'doc> {
+    builder: &'a mut Builder<'doc>,
+    alpha: Alpha,
+    /// File names of the textures by their `texid`.
+    texture_files: HashMap<&'doc str, &'doc str>,
+}
+
+/// An element on its way to primitives.
+#[derive(Clone, Copy, Debug)]
+struct Element<'doc> {
+    node: Node<'doc, 'doc>,
+    shape: ShapeId,
+    to_user: DAffine2,
+}
+
+impl<'a, 'doc> CourseReader<'a, 'doc> {
+    pub(super) fn new(builder: &'a mut Builder<'doc>, alpha: Alpha) -> Self {
+        Self {
+            builder,
+            alpha,
+            texture_files: HashMap::new(),
+        }
+    }
+
+    /// Reads everything below `root` and answers with the canvas.
+    pub(super) fn read(mut self, root: Node<'doc, 'doc>) -> Result<DVec2, Fault> {
+        for texture in root.descendants().filter(|node| node.tag_name().name() == "texture") {
+            let name = texture.attribute("texid").unwrap_or("");
+            self.texture_files
+                .insert(name, texture.attribute("filename").unwrap_or(""));
+        }
+        self.groups(root)?;
+        Ok(DVec2::new(self.number(root, "width")?, self.number(root, "height")?))
+    }
+
+    /// Walks the tree without recursion, so that no nesting is too deep.
+    fn groups(&mut self, root: Node<'doc, 'doc>) -> Result<(), Fault> {
+        let mut open: Vec<(Children<'doc, 'doc>, DAffine2)> = vec![(root.children(), DAffine2::IDENTITY)];
+        while let Some((children, to_user)) = open.last_mut() {
+            let to_user = *to_user;
+            let Some(node) = children.next() else {
+                open.pop();
+                continue;
+            };
+            if !node.is_element() || attributes::is_silent(node) {
+                continue;
+            }
+            let name = node.tag_name().name();
+            if !ELEMENTS.contains(&name) {
+                self.builder.skip(SkippedKind::Element, name, node);
+                continue;
+            }
+            self.report_ignored(node);
+            let to_user = to_user * self.transform(node)?;
+            match name {
+                "g" => open.push((node.children(), to_user)),
+                "texture" => {}
+                _ => self.element(node, to_user)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn report_ignored(&mut self, node: Node<'doc, 'doc>) {
+        for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
+            let name = attribute.name();
+            if IGNORED.contains(&name) {
+                self.builder.skip(SkippedKind::Attribute, name, node);
+            } else if node.tag_name().name() == "g" && NOT_INHERITED.contains(&name) {
+                self.builder
+                    .skip(SkippedKind::Attribute, &format!("{name} on <g>"), node);
+            }
+        }
+    }
+
+    fn element(&mut self, node: Node<'doc, 'doc>, to_user: DAffine2) -> Result<(), Fault> {
+        let shape = self.builder.shape(node);
+        let element = Element { node, shape, to_user };
+        match node.tag_name().name() {
+            "line" => self.line(element),
+            "polyline" => self.polyline(element),
+            "polygon" => self.polygon(element),
+            "rect" => self.rect(element),
+            "image" => self.image(element),
+            "colortri" => self.colortri(element),
+            _ => self.textri(element),
+        }
+    }
+
+    fn line(&mut self, element: Element<'doc>) -> Result<(), Fault> {
+        let stroke = self.stroke(element.node)?.unwrap_or(Rgba::TRANSPARENT);
+        let from = self.point(element.node, ["x1", "y1"])?;
+        let to = self.point(element.node, ["x2", "y2"])?;
+        self.outline(element, &[from, to], stroke)
+    }
+
+    fn polyline(&mut self, element: Element<'doc>) -> Result<(), Fault> {
+        let stroke = self.stroke(element.node)?.unwrap_or(Rgba::BLACK);
+        let points = self.points(element.node)?;
+        self.outline(element, &points, stroke)
+    }
+
+    fn polygon(&mut self, element: Element<'doc>) -> Result<(), Fault> {
+        let Element { node, shape, to_user } = element;
+        let fill = self.fill(node)?;
+        let stroke = self.stroke(node)?.unwrap_or(Rgba::TRANSPARENT);
+        let mut points = self.points(node)?;
+        let contour = points.iter().map(|point| to_user.transform_point2(*point)).collect();
+        self.builder.fill(shape, &[contour], FillRule::NonZero, fill)?;
+        points.extend(points.first().copied());
+        self.outline(element, &points, stroke)
+    }
+
+    fn rect(&mut self, element: Element<'doc>) -> Result<(), Fault> {
+        let Element { node, shape, to_user } = element;
+        let fill = self.fill(node)?;
+        let stroke = self.stroke(node)?.unwrap_or(Rgba::TRANSPARENT);
+        let corner = self.point(node, ["x", "y"])?;
+        let size = self.point(node, ["width", "height"])?;
+        if size == DVec2::ZERO {
+            if fill.a > 0.0 {
+                let at = to_user.transform_point2(corner);
+                self.builder.push(shape, PrimitiveKind::Point { at, color: fill })?;
+            }
+            return Ok(());
+        }
+        // The far corner is a sum of 32-bit floats there.
+        let far = (corner.as_vec2() + size.as_vec2()).as_dvec2();
+        let [p00, p11] = [corner, far];
+        let [p10, p01] = [DVec2::new(far.x, corner.y), DVec2::new(corner.x, far.y)];
+        if fill.a > 0.0 {
+            for corners in [[p00, p10, p01], [p01, p10, p11]] {
+                let points = corners.map(|point| to_user.transform_point2(point));
+                self.builder.triangle(shape, points, Paint::Solid(fill))?;
+            }
+        }
+        self.outline(element, &[p00, p10, p11, p01, p00], stroke)
+    }
+
+    fn image(&mut self, element: Element<'doc>) -> Result<(), Fault> {
+        let Element { node, shape, to_user } = element;
+        let corner = self.point(node, ["x", "y"])?;
+        let size = self.point(node, ["width", "height"])?;
+        let Some(texture) = self.texture(node, attributes::href(node).unwrap_or("")) else {
+            return Ok(());
+        };
+        let square = to_user * DAffine2::from_scale_angle_translation(size, 0.0, corner);
+        for (points, uv) in unit_square(square) {
+            let paint = Paint::Texture {
+                texture,
+                uv,
+                opacity: 1.0,
+            };
+            self.builder.triangle(shape, points, paint)?;
+        }
+        Ok(())
+    }
+
+    fn colortri(&mut self, element: Element<'doc>) -> Result<(), Fault> {
+        let colors = attributes::corner_colors(self.builder, element.node)?;
+        let points = attributes::corners(self.builder, element.node)?;
+        let (Some(points), Some(colors)) = (points, colors) else {
+            return Ok(());
+        };
+        let points = points.map(|point| element.to_user.transform_point2(point));
+        self.builder.triangle(element.shape, points, Paint::Vertex(colors))
+    }
+
+    fn textri(&mut self, element: Element<'doc>) -> Result<(), Fault> {
+        let uv = attributes::corner_uvs(self.builder, element.node)?;
+        let points = attributes::corners(self.builder, element.node)?;
+        let (Some(points), Some(uv)) = (points, uv) else {
+            return Ok(());
+        };
+        let name = element.node.attribute("texid").unwrap_or("");
+        let file = self.texture_files.get(name).copied().unwrap_or("");
+        let Some(texture) = self.texture(element.node, file) else {
+            return Ok(());
+        };
+        let points = points.map(|point| element.to_user.transform_point2(point));
+        let paint = Paint::Texture {
+            texture,
+            uv,
+            opacity: 1.0,
+        };
+        self.builder.triangle(element.shape, points, paint)
+    }
+
+    /// Hairlines from point to point.
+    fn outline(&mut self, element: Element<'doc>, points: &[DVec2], color: Rgba) -> Result<(), Fault> {
+        for ends in points.windows(2) {
+            let ends = [ends[0], ends[1]].map(|point| element.to_user.transform_point2(point));
+            self.builder.hairline(element.shape, ends, color)?;
+        }
+        Ok(())
+    }
+
+    fn texture(&mut self, node: Node<'doc, 'doc>, address: &'doc str) -> Option<TextureId> {
+        attributes::texture(self.builder, node, address, self.alpha)
+    }
+
+    /// `fill`: black when missing.
+    fn fill(&mut self, node: Node<'doc, 'doc>) -> Result<Rgba, Fault> {
+        Ok(self.color(node, "fill", "fill-opacity")?.unwrap_or(Rgba::BLACK))
+    }
+
+    /// `stroke`, if there is one.
+    fn stroke(&mut self, node: Node<'doc, 'doc>) -> Result<Option<Rgba>, Fault> {
+        self.color(node, "stroke", "stroke-opacity")
+    }
+
+    fn color(&mut self, node: Node<'doc, 'doc>, name: &str, opacity: &str) -> Result<Option<Rgba>, Fault> {
+        let Some(text) = node.attribute(name) else {
+            return Ok(None);
+        };
+        let color = course_values::color(text);
+        if !color.as_svg {
+            let message = format!(
+                "{name}=\"{}\" is read as #{:06x}; --dialect svg reads it as SVG",
+                quote(text),
+                color.rgb
+            );
+            self.builder.warn(node, message);
+        }
+        let alpha = if color.none { 0.0 } else { self.opacity(node, opacity)? };
+        Ok(Some(color.to_rgba().faded(alpha)))
+    }
+
+    fn opacity(&mut self, node: Node<'doc, 'doc>, name: &str) -> Result<f32, Fault> {
+        let Some(text) = node.attribute(name) else {
+            return Ok(1.0);
+        };
+        let number =
+            numbers::leading(name, text).map_err(|problem| problem.at(self.builder.locate_attribute(node, name)));
+        Ok(number?.unwrap_or(0.0).clamp(0.0, 1.0))
+    }
+
+    fn transform(&mut self, node: Node<'doc, 'doc>) -> Result<DAffine2, Fault> {
+        let Some(text) = node.attribute("transform") else {
+            return Ok(DAffine2::IDENTITY);
+        };
+        let (transform, unknown) = course_values::transform(text)
+            .map_err(|problem| problem.at(self.builder.locate_attribute(node, "transform")))?;
+        if let Some(unknown) = unknown {
+            self.builder.warn(
+                node,
+                format!("the transform \"{}\" is unknown and has no effect", quote(unknown)),
+            );
+        }
+        Ok(transform)
+    }
+
+    fn points(&mut self, node: Node<'doc, 'doc>) -> Result<Vec<DVec2>, Fault> {
+        let numbers = attributes::numbers(self.builder, node, "points")?;
+        let (pairs, _) = numbers.as_chunks::<2>();
+        Ok(pairs.iter().map(|&[x, y]| DVec2::new(x.into(), y.into())).collect())
+    }
+
+    fn point(&mut self, node: Node<'doc, 'doc>, names: [&str; 2]) -> Result<DVec2, Fault> {
+        Ok(DVec2::new(self.number(node, names[0])?, self.number(node, names[1])?))
+    }
+
+    /// The number at the start of an attribute; 0 when there is none.
+    fn number(&mut self, node: Node<'doc, 'doc>, name: &str) -> Result<f64, Fault> {
+        let Some(text) = node.attribute(name) else {
+            return Ok(0.0);
+        };
+        let number =
+            numbers::leading(name, text).map_err(|problem| problem.at(self.builder.locate_attribute(node, name)))?;
+        if number.is_none() {
+            self.builder
+                .warn(node, format!("{name}=\"{}\" is no number; 0 is taken", quote(text)));
+        }
+        Ok(number.unwrap_or(0.0).into())
+    }
+}

@@ -1,0 +1,69 @@
+//! Which reading of a document the user asks for.
+
+use roxmltree::Node;
+
+use super::{Dialect, attributes, course, numbers};
+
+/// The dialect as a setting.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum DialectChoice {
+    /// [`Dialect::Course`] if the document uses the course's own elements, or only elements that the course knows.
+    #[default]
+    Auto,
+    /// Always [`Dialect::Course`].
+    Course,
+    /// Always [`Dialect::Svg`].
+    Svg,
+}
+
+/// How to read a document.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct ReadOptions {
+    /// In which dialect.
+    pub dialect: DialectChoice,
+}
+
+impl DialectChoice {
+    /// Every value, in the order of menus.
+    pub const ALL: [Self; 3] = [Self::Auto, Self::Course, Self::Svg];
+
+    /// The name used in the command line and the interface.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Course => Dialect::Course.name(),
+            Self::Svg => Dialect::Svg.name(),
+        }
+    }
+
+    /// The dialect in which to read the document with this root.
+    pub(super) fn resolve(self, root: Node<'_, '_>) -> Dialect {
+        match self {
+            Self::Course => Dialect::Course,
+            Self::Svg => Dialect::Svg,
+            Self::Auto => recognise(root),
+        }
+    }
+}
+
+/// The course's dialect if the document uses what only the course has, or nothing that the course does not have.
+fn recognise(root: Node<'_, '_>) -> Dialect {
+    let mut foreign = false;
+    for node in root.descendants().filter(|node| node.is_element() && *node != root) {
+        let name = node.tag_name().name();
+        if matches!(name, "colortri" | "textri" | "texture") || is_point(node) {
+            return Dialect::Course;
+        }
+        foreign |= !course::ELEMENTS.contains(&name) && !attributes::is_silent(node);
+    }
+    if foreign { Dialect::Svg } else { Dialect::Course }
+}
+
+/// Whether this is a rect without size, which the course draws as a point.
+fn is_point(node: Node<'_, '_>) -> bool {
+    let zero = |name| {
+        node.attribute(name)
+            .is_none_or(|text| matches!(numbers::leading(name, text), Ok(Some(0.0) | None)))
+    };
+    node.tag_name().name() == "rect" && zero("width") && zero("height")
+}

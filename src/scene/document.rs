@@ -1,0 +1,363 @@
+//! Bytes to an XML tree, with the guards that keep hostile documents small, and places as line and column.
+//!
+//! The XML library itself neither recurses nor runs away, but it reserves memory by counting brackets, compares the
+//! attributes of an element pairwise and expands entities; so a quick look at the text comes first.
+
+use std::borrow::Cow;
+
+use roxmltree::{Document, Error, ParsingOptions};
+
+use super::error::Fault;
+use super::report::shorten;
+use super::{Problem, SourceLocation, entities};
+
+/// Most elements, texts and comments in a document.
+const MAX_NODES: u32 = 4_000_000;
+/// Most tags, opening and closing, and comments.
+const MAX_TAGS: usize = 8_000_000;
+/// Most attributes in a document.
+const MAX_ATTRIBUTES: usize = 8_000_000;
+/// Most attributes of one element, which the XML library compares pairwise.
+const MAX_ATTRIBUTES_OF_ONE: usize = 1_000;
+/// Most namespace declarations, which the XML library hands on to every element below.
+const MAX_NAMESPACES: usize = 256;
+/// Most characters of the XML library's own message.
+const MAX_MESSAGE: usize = 200;
+/// Text between two marks of a [`LineIndex`], in bytes.
+const MARK_SPACING: usize = 1024;
+
+/// Finds line and column of a byte: O(log n), however long the lines are.
+#[derive(Debug)]
+pub(super) struct LineIndex<'text> {
+    text: &'text str,
+    /// Known places: every line start, and some in between where lines are long.
+    marks: Vec<(usize, SourceLocation)>,
+}
+
+impl<'text> LineIndex<'text> {
+    pub(super) fn new(text: &'text str) -> Self {
+        let mut here = SourceLocation { line: 1, column: 1 };
+        let mut marks = vec![(0, here)];
+        let mut next_mark = MARK_SPACING;
+        for (offset, c) in text.char_indices() {
+            if offset >= next_mark {
+                marks.push((offset, here));
+                next_mark = offset + MARK_SPACING;
+            }
+            here.column = here.column.saturating_add(1);
+            if c == '\n' {
+                here = SourceLocation {
+                    line: here.line.saturating_add(1),
+                    column: 1,
+                };
+                marks.push((offset + 1, here));
+                next_mark = offset + 1 + MARK_SPACING;
+            }
+        }
+        Self { text, marks }
+    }
+
+    /// The place of the character that starts at byte `offset`.
+    pub(super) fn locate(&self, offset: usize) -> SourceLocation {
+        let after = self.marks.partition_point(|&(start, _)| start <= offset);
+        let Some(&(start, place)) = self.marks.get(after.saturating_sub(1)) else {
+            return SourceLocation { line: 1, column: 1 };
+        };
+        let between = self.text.get(start..offset.min(self.text.len())).unwrap_or("");
+        let columns = u32::try_from(between.chars().count()).unwrap_or(u32::MAX);
+        SourceLocation {
+            column: place.column.saturating_add(columns),
+            ..place
+        }
+    }
+}
+
+/// The document as text, whatever its encoding; a byte order mark is gone.
+pub(super) fn decode(document: &[u8]) -> Result<Cow<'_, str>, Fault> {
+    let text = match document {
+        [0xef, 0xbb, 0xbf, rest @ ..] => from_utf8(rest)?,
+        [0xff, 0xfe, rest @ ..] | rest @ [b'<', 0, ..] => from_utf16(rest, u16::from_le_bytes)?,
+        [0xfe, 0xff, rest @ ..] | rest @ [0, b'<', ..] => from_utf16(rest, u16::from_be_bytes)?,
+        bytes => from_utf8(bytes)?,
+    };
+    if text.trim().is_empty() {
+        return Err(Problem::Empty.nowhere());
+    }
+    Ok(text)
+}
+
+/// UTF-8, or Latin-1 where the XML declaration says so.
+fn from_utf8(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
+    const DECLARATION: usize = 200;
+    let error = match std::str::from_utf8(bytes) {
+        Ok(text) => return Ok(Cow::Borrowed(text)),
+        Err(error) => error,
+    };
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(DECLARATION)]).to_ascii_lowercase();
+    let declaration = head.split("?>").next().unwrap_or("");
+    if declaration.contains("iso-8859-1") || declaration.contains("windows-1252") {
+        return Ok(Cow::Owned(bytes.iter().map(|&byte| char::from(byte)).collect()));
+    }
+    let valid = String::from_utf8_lossy(&bytes[..error.valid_up_to()]);
+    Err(Problem::Encoding.at(LineIndex::new(&valid).locate(valid.len())))
+}
+
+fn from_utf16(bytes: &[u8], unit: impl Fn([u8; 2]) -> u16) -> Result<Cow<'static, str>, Fault> {
+    let (pairs, rest) = bytes.as_chunks::<2>();
+    if !rest.is_empty() {
+        return Err(Problem::Encoding.nowhere());
+    }
+    let text: Result<String, _> = char::decode_utf16(pairs.iter().map(|&pair| unit(pair))).collect();
+    text.map(Cow::Owned).map_err(|_| Problem::Encoding.nowhere())
+}
+
+/// A document's text, ready for the XML library.
+#[derive(Debug)]
+pub(super) struct Source<'doc> {
+    original: &'doc str,
+    /// The text to parse: the original, or one with [`XLINK`] put in.
+    text: Cow<'doc, str>,
+    /// Where something was put in, and how many bytes.
+    inserted: (usize, usize),
+}
+
+/// Put into the root element of documents that use `xlink:` and forget to say what it means, as many do.
+const XLINK: &str = " xmlns:xlink=\"http://www.w3.org/1999/xlink\"";
+
+impl<'doc> Source<'doc> {
+    /// Looks at the text before the XML library does.
+    pub(super) fn new(original: &'doc str) -> Result<Self, Fault> {
+        let survey = Survey::new(original);
+        let limits = [
+            (survey.tags, MAX_TAGS, "tags"),
+            (survey.attributes, MAX_ATTRIBUTES, "attributes"),
+            (
+                survey.most_attributes,
+                MAX_ATTRIBUTES_OF_ONE,
+                "attributes of one element",
+            ),
+            (survey.namespaces, MAX_NAMESPACES, "namespace declarations"),
+        ];
+        for (count, limit, what) in limits {
+            if count > limit {
+                return Err(Problem::TooMany { what, limit }.nowhere());
+            }
+        }
+        entities::check(original)?;
+        let (text, inserted) = match survey.root_name_end {
+            Some(at) if original.contains(" xlink:") && !original.contains("xmlns:xlink") => {
+                let text = format!("{}{XLINK}{}", &original[..at], &original[at..]);
+                (Cow::Owned(text), (at, XLINK.len()))
+            }
+            _ => (Cow::Borrowed(original), (0, 0)),
+        };
+        Ok(Self {
+            original,
+            text,
+            inserted,
+        })
+    }
+
+    /// The byte of the original document that byte `offset` of the parsed text stands for.
+    pub(super) fn original_offset(&self, offset: usize) -> usize {
+        let (at, length) = self.inserted;
+        if offset <= at {
+            offset
+        } else {
+            offset - length.min(offset - at)
+        }
+    }
+
+    /// Parses the text.
+    pub(super) fn parse(&self) -> Result<Document<'_>, Fault> {
+        let options = ParsingOptions {
+            allow_dtd: true,
+            nodes_limit: MAX_NODES,
+            ..ParsingOptions::default()
+        };
+        Document::parse_with_options(&self.text, options).map_err(|error| self.explain(&error))
+    }
+
+    /// The XML library's error, with its place in the original document.
+    fn explain(&self, error: &Error) -> Fault {
+        let lines = LineIndex::new(self.original);
+        let place = error.pos();
+        let location = match error {
+            Error::UnclosedRootNode | Error::UnexpectedEndOfStream | Error::NoRootNode => {
+                lines.locate(self.original.trim_end().len())
+            }
+            _ => SourceLocation {
+                line: place.row,
+                column: place.col,
+            },
+        };
+        let message = error.to_string().replace(&format!(" at {place}"), "");
+        Problem::Xml(shorten(&message, MAX_MESSAGE)).at(location)
+    }
+}
+
+/// What a quick look at the markup finds. It counts too much in odd places, never too little.
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Survey {
+    tags: usize,
+    attributes: usize,
+    most_attributes: usize,
+    namespaces: usize,
+    /// Where the name of the first element ends.
+    root_name_end: Option<usize>,
+}
+
+impl Survey {
+    fn new(text: &str) -> Self {
+        let mut survey = Self {
+            namespaces: text.matches("xmlns").count(),
+            ..Self::default()
+        };
+        let mut rest = text;
+        while let Some(start) = rest.find('<') {
+            survey.tags += 1;
+            let markup = &rest[start..];
+            let offset = text.len() - markup.len();
+            let length = match markup.as_bytes() {
+                [b'<', b'!', b'-', b'-', ..] => markup.find("-->"),
+                [b'<', b'!', b'[', ..] => markup.find("]]>"),
+                [b'<', b'?' | b'!', ..] => Some(1),
+                tag => Some(survey.tag(tag, offset)),
+            };
+            rest = &markup[length.unwrap_or(markup.len()).clamp(1, markup.len())..];
+        }
+        survey
+    }
+
+    /// Counts the attributes of the tag at the start of `markup` and answers with its length.
+    fn tag(&mut self, markup: &[u8], offset: usize) -> usize {
+        let mut quote = None;
+        let mut attributes = 0;
+        let mut length = markup.len();
+        for (i, &byte) in markup.iter().enumerate() {
+            match (quote, byte) {
+                (None, b'"' | b'\'') => quote = Some(byte),
+                (None, b'=') => attributes += 1,
+                (None, b'>') => {
+                    length = i;
+                    break;
+                }
+                (Some(open), close) if open == close => quote = None,
+                _ => {}
+            }
+        }
+        self.attributes += attributes;
+        self.most_attributes = self.most_attributes.max(attributes);
+        let name = markup.iter().skip(1).take_while(|b| !b" \t\r\n/>".contains(b)).count();
+        self.root_name_end.get_or_insert(offset + 1 + name);
+        length
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place(line: u32, column: u32) -> SourceLocation {
+        SourceLocation { line, column }
+    }
+
+    #[test]
+    fn line_index_counts_characters() {
+        let text = "ab\n\u{e9}\u{4e2d}x\n";
+        let lines = LineIndex::new(text);
+        assert_eq!(lines.locate(0), place(1, 1), "start");
+        assert_eq!(lines.locate(2), place(1, 3), "the line break belongs to its line");
+        assert_eq!(lines.locate(3), place(2, 1), "second line");
+        assert_eq!(
+            lines.locate(text.find('x').expect("x")),
+            place(2, 3),
+            "characters, not bytes"
+        );
+        assert_eq!(lines.locate(text.len()), place(3, 1), "end");
+    }
+
+    #[test]
+    fn line_index_agrees_with_counting_on_long_lines() {
+        let text = format!("{}\n{}", "\u{e9}".repeat(5000), "x".repeat(5000));
+        let lines = LineIndex::new(&text);
+        for (count, (offset, _)) in text.char_indices().enumerate().step_by(97) {
+            let count = u32::try_from(count).expect("short");
+            let expected = if count <= 5000 {
+                place(1, count + 1)
+            } else {
+                place(2, count - 5000)
+            };
+            assert_eq!(lines.locate(offset), expected, "at {offset}");
+        }
+    }
+
+    #[test]
+    fn decode_every_encoding() {
+        let text = "<svg>\u{e9}</svg>";
+        let utf16: Vec<u16> = text.encode_utf16().collect();
+        let little: Vec<u8> = utf16.iter().flat_map(|u| u.to_le_bytes()).collect();
+        let big: Vec<u8> = utf16.iter().flat_map(|u| u.to_be_bytes()).collect();
+        let with_mark = |mark: &[u8], body: &[u8]| [mark, body].concat();
+        for bytes in [
+            text.as_bytes().to_vec(),
+            with_mark(&[0xef, 0xbb, 0xbf], text.as_bytes()),
+            with_mark(&[0xff, 0xfe], &little),
+            with_mark(&[0xfe, 0xff], &big),
+            little,
+            big,
+        ] {
+            assert_eq!(decode(&bytes).expect("text"), text, "{bytes:?}");
+        }
+        let latin = b"<?xml version='1.0' encoding='ISO-8859-1'?><svg>\xe9</svg>";
+        assert!(decode(latin).expect("latin").ends_with(text), "declared Latin-1");
+    }
+
+    #[test]
+    fn decode_names_the_first_bad_byte() {
+        let fault = decode(b"<svg>\n  \xff</svg>").expect_err("no UTF-8");
+        assert_eq!(fault.location, Some(place(2, 3)), "second line");
+        assert!(decode(b" \n").is_err(), "blank");
+        assert!(decode(b"").is_err(), "empty");
+        assert!(decode(b"<\0s").is_err(), "half a UTF-16 unit");
+    }
+
+    #[test]
+    fn survey_counts_outside_quotes_and_comments() {
+        let survey = Survey::new("<?xml a='1'?><!-- <x a='' b=''> --><svg a='=>' b=\"'\"><g c=''/></svg>");
+        let expected = Survey {
+            tags: 5,
+            attributes: 3,
+            most_attributes: 2,
+            namespaces: 0,
+            root_name_end: Some(39),
+        };
+        assert_eq!(survey, expected, "the comment holds no tags");
+    }
+
+    #[test]
+    fn source_forgives_a_missing_xlink() {
+        let text = "<svg>\n<image xlink:href='a'/></svg>";
+        let source = Source::new(text).expect("small");
+        let tree = source.parse().expect("repaired");
+        let image = tree.root_element().first_element_child().expect("image");
+        assert_eq!(
+            source.original_offset(image.range().start),
+            6,
+            "places are the original's"
+        );
+    }
+
+    #[test]
+    fn source_refuses_what_runs_away() {
+        let attributes = " a=''".repeat(MAX_ATTRIBUTES_OF_ONE + 1);
+        assert!(
+            Source::new(&format!("<svg{attributes}/>")).is_err(),
+            "attributes of one element"
+        );
+        assert!(
+            Source::new(&"<svg xmlns=''>".repeat(MAX_NAMESPACES + 1)).is_err(),
+            "namespaces"
+        );
+    }
+}

@@ -1,0 +1,108 @@
+//! The guard against entity bombs: how far a document's own entities would expand.
+//!
+//! Drawing programs declare a dozen short entities for namespaces, nothing more. So values that hold markup are
+//! refused outright, and the expansion of all references together has a ceiling.
+
+use std::collections::HashMap;
+
+use super::Problem;
+use super::error::Fault;
+
+/// Most bytes that all references of a document may expand to.
+const MAX_EXPANSION: usize = 4 << 20;
+/// Most declarations.
+const MAX_DECLARATIONS: usize = 256;
+/// Nesting that the XML library allows.
+const MAX_NESTING: usize = 10;
+
+/// Refuses documents whose entities hold markup or expand too far.
+pub(super) fn check(text: &str) -> Result<(), Fault> {
+    let declared = declarations(text)?;
+    if declared.is_empty() {
+        return Ok(());
+    }
+    let mut sizes: HashMap<&str, usize> = declared.iter().map(|(name, value)| (*name, value.len())).collect();
+    for _ in 0..MAX_NESTING {
+        let larger = declared
+            .iter()
+            .map(|(name, value)| (*name, expansion(value, &sizes).saturating_add(value.len())));
+        sizes = larger.collect();
+    }
+    if expansion(text, &sizes) > MAX_EXPANSION {
+        return Err(Problem::TooMany {
+            what: "bytes of expanded entities",
+            limit: MAX_EXPANSION,
+        }
+        .nowhere());
+    }
+    Ok(())
+}
+
+/// What all references in `text` expand to, in bytes.
+fn expansion(text: &str, sizes: &HashMap<&str, usize>) -> usize {
+    let names = text
+        .split('&')
+        .skip(1)
+        .filter_map(|after| Some(after.split_once(';')?.0));
+    names
+        .filter_map(|name| sizes.get(name))
+        .fold(0, |sum, size| sum.saturating_add(*size))
+}
+
+/// Names and values of the general entities that the document declares.
+fn declarations(text: &str) -> Result<Vec<(&str, &str)>, Fault> {
+    let mut found = Vec::new();
+    for after in text.split("<!ENTITY").skip(1) {
+        let Some((name, value)) = declaration(after) else {
+            continue;
+        };
+        if value.contains('<') {
+            return Err(Problem::Xml("an entity holds markup".to_owned()).nowhere());
+        }
+        found.push((name, value));
+        if found.len() > MAX_DECLARATIONS {
+            return Err(Problem::TooMany {
+                what: "entity declarations",
+                limit: MAX_DECLARATIONS,
+            }
+            .nowhere());
+        }
+    }
+    Ok(found)
+}
+
+/// Name and value of one declaration, of which `text` is what follows `<!ENTITY`.
+fn declaration(text: &str) -> Option<(&str, &str)> {
+    let (name, rest) = text.trim_start().split_once(|c: char| c.is_ascii_whitespace())?;
+    let rest = rest.trim_start();
+    let quote = rest.chars().next().filter(|c| matches!(c, '"' | '\''))?;
+    let value = rest[1..].split(quote).next()?;
+    Some((name, value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn check_lets_namespaces_pass() {
+        let text = "<!DOCTYPE svg [ <!ENTITY ns \"http://www.w3.org/2000/svg\"> ]><svg xmlns=\"&ns;\"/>";
+        assert!(check(text).is_ok(), "an Illustrator file");
+        assert!(check("<svg>&amp;</svg>").is_ok(), "no declarations");
+    }
+
+    #[test]
+    fn check_refuses_bombs() {
+        let level = |i: u32| format!("<!ENTITY a{} '{}'>", i + 1, format!("&a{i};").repeat(10));
+        let mut nested = String::from("<!ENTITY a0 'aaaaaaaaaaaaaaaa'>");
+        nested.extend((0..9).map(level));
+        assert!(check(&format!("{nested}&a9;")).is_err(), "billion laughs");
+        let flat = format!("<!ENTITY a '{}'>{}", "x".repeat(10_000), "&a;".repeat(10_000));
+        assert!(check(&flat).is_err(), "quadratic blow-up");
+        assert!(check("<!ENTITY a '<svg/>'>").is_err(), "markup");
+        assert!(
+            check(&"<!ENTITY a ''>".repeat(MAX_DECLARATIONS + 1)).is_err(),
+            "declarations"
+        );
+    }
+}

@@ -1,0 +1,117 @@
+//! Why a document gave no scene: one line that names file, place, cause and cure.
+
+use std::fmt;
+
+use super::report::quote;
+use super::{ResourceError, SourceLocation};
+
+/// A document that cannot be drawn. Displays as one line: `FILE:LINE:COLUMN: what is wrong; what to do`.
+#[derive(Debug)]
+pub struct SceneError {
+    /// The document's name, as given to the reader.
+    pub file: String,
+    /// Where in the document, if there is such a place.
+    pub location: Option<SourceLocation>,
+    /// What is wrong with it.
+    pub problem: Problem,
+}
+
+/// What is wrong with a document.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Problem {
+    /// The file itself could not be read.
+    #[error("cannot read: {0}; give the path of an SVG file")]
+    Unreadable(#[from] ResourceError),
+    /// No bytes, or only blanks.
+    #[error("the document is empty; save the drawing again")]
+    Empty,
+    /// Neither UTF-8 nor UTF-16.
+    #[error("this is not text in UTF-8 or UTF-16; is it an SVG file? Save it as UTF-8")]
+    Encoding,
+    /// Not well-formed.
+    #[error("{0}; repair the XML here")]
+    Xml(String),
+    /// Well-formed, but something else.
+    #[error("the root element is <{}>; a scene starts with <svg>", quote(.0))]
+    NotSvg(String),
+    /// The canvas has no area, or is larger than numbers go.
+    #[error("the canvas is {width} x {height}; give <svg> a width and height above zero")]
+    Canvas {
+        /// Its width in user units.
+        width: f64,
+        /// Its height in user units.
+        height: f64,
+    },
+    /// A number that is not one, or beyond the range of 32-bit floats.
+    #[error("{attribute}=\"{}\" holds a number that is not finite; use numbers up to 3.4e38", quote(.value))]
+    NotFinite {
+        /// The attribute's name.
+        attribute: String,
+        /// All of its value.
+        value: String,
+    },
+    /// Transforms carry a coordinate beyond the range of 32-bit floats.
+    #[error("transforms move this shape further than 3.4e38; use smaller numbers")]
+    TooFar,
+    /// A ceiling that protects memory and time.
+    #[error("more than {limit} {what}; split the document")]
+    TooMany {
+        /// What there is too much of.
+        what: &'static str,
+        /// How much is allowed.
+        limit: usize,
+    },
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let file: String = self
+            .file
+            .chars()
+            .map(|c| if c.is_control() { '?' } else { c })
+            .collect();
+        match self.location {
+            Some(location) => write!(f, "{file}:{location}: {}", self.problem),
+            None => write!(f, "{file}: {}", self.problem),
+        }
+    }
+}
+
+impl std::error::Error for SceneError {}
+
+/// A problem on its way to the top, where it learns the document's name.
+#[derive(Debug)]
+pub(super) struct Fault {
+    pub(super) location: Option<SourceLocation>,
+    pub(super) problem: Problem,
+}
+
+impl Problem {
+    /// This problem at a place of the document.
+    pub(super) fn at(self, location: SourceLocation) -> Fault {
+        Fault {
+            location: Some(location),
+            problem: self,
+        }
+    }
+
+    /// This problem of the document as a whole.
+    pub(super) fn nowhere(self) -> Fault {
+        Fault {
+            location: None,
+            problem: self,
+        }
+    }
+}
+
+impl Fault {
+    /// The error that the user sees.
+    pub(super) fn in_file(self, file: &str) -> SceneError {
+        SceneError {
+            file: file.to_owned(),
+            location: self.location,
+            problem: self.problem,
+        }
+    }
+}

@@ -222,3 +222,111 @@ fn first_visible(bins: &[Bins], tile: usize) -> (usize, usize) {
     }
     (0, 0)
 }
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+    use glam::DVec2;
+
+    use super::super::display_list::{ChunkBuilder, Fill};
+    use super::*;
+    use crate::texture::{LevelSampling, MipLevel, MipPyramid, PixelSampling};
+
+    const SIZE: [u32; 2] = [70, 50];
+
+    fn fill(builder: &mut ChunkBuilder<'_>, u: &mut Unstructured<'_>) -> Result<()> {
+        fn unit(u: &mut Unstructured<'_>) -> Result<f32> {
+            Ok(f32::from(u.arbitrary::<u8>()?) / 255.0)
+        }
+        fn color(u: &mut Unstructured<'_>) -> Result<Rgba> {
+            let alpha = if u.arbitrary()? { 1.0 } else { unit(u)? };
+            Ok(Rgba {
+                r: unit(u)?,
+                g: unit(u)?,
+                b: unit(u)?,
+                a: alpha,
+            })
+        }
+        for _ in 0..u.int_in_range(1..=12)? {
+            let mut point = || -> Result<DVec2> {
+                let mut at = |side: i32| Ok(f64::from(u.int_in_range(-side..=3 * side)?) / 2.0);
+                Ok(DVec2::new(at(70)?, at(50)?))
+            };
+            let points = [point()?, point()?, point()?];
+            match u.int_in_range(0..=4)? {
+                0 => builder.hairline([points[0], points[1]], color(u)?),
+                1 => builder.triangle(points, &Fill::Vertex([color(u)?, color(u)?, color(u)?])),
+                2 => {
+                    let uv = [[0.0, 0.1], [unit(u)?, 1.0], [unit(u)?, unit(u)?]];
+                    builder.triangle(
+                        points,
+                        &Fill::Texture {
+                            texture: 0,
+                            uv,
+                            opacity: unit(u)?,
+                        },
+                    );
+                }
+                3 => {
+                    builder.begin_layer();
+                    builder.triangle(points, &Fill::Solid(color(u)?));
+                    builder.end_layer(unit(u)?);
+                }
+                _ => builder.triangle(points, &Fill::Solid(color(u)?)),
+            }
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn tiles_of_any_size_make_the_same_bytes() {
+        let texels = (0..32 * 32_u32)
+            .map(|i| {
+                [
+                    (i * 7).to_le_bytes()[0],
+                    (i * 13).to_le_bytes()[0],
+                    (i / 4).to_le_bytes()[0],
+                    255,
+                ]
+            })
+            .collect();
+        let pyramid = MipPyramid::build(MipLevel::new(32, 32, texels));
+        let texture = Texture {
+            name: "noise".to_owned(),
+            pyramid,
+        };
+        let sampling = SamplingSettings {
+            pixel: PixelSampling::Bilinear,
+            level: LevelSampling::Linear,
+            rules: crate::rules::Rules::Standard,
+        };
+        arbtest::arbtest(|u| {
+            let rate = SampleRate::new(*u.choose(&[1, 4, 9, 64])?).expect("a square number");
+            let settings = RasterSettings {
+                rate,
+                sampling,
+                background: Rgba::WHITE,
+            };
+            let seed: Vec<u8> = (0..400).map(|_| u.arbitrary()).collect::<Result<_>>()?;
+            let draw = |tiles: TileLayout| -> Result<Framebuffer> {
+                let context = ListContext::with_tiles(SIZE, &settings, tiles);
+                let mut builder = ChunkBuilder::new(&context);
+                fill(&mut builder, &mut Unstructured::new(&seed))?;
+                let list = DisplayList::new(context, settings, vec![builder.finish()], vec![&texture]);
+                let mut frame = Framebuffer::new(SIZE[0], SIZE[1]);
+                list.rasterize(&mut frame, &AtomicBool::new(false))
+                    .expect("not cancelled");
+                Ok(frame)
+            };
+            let expected = draw(TileLayout::for_rate(rate, SIZE))?;
+            for sides in [(0, 0), (3, 3), (2, 4), (5, 1), (7, 7)] {
+                assert!(
+                    draw(TileLayout::new(sides, SIZE))? == expected,
+                    "tiles of 2^{sides:?} pixels, {rate:?}"
+                );
+            }
+            Ok(())
+        })
+        .budget_ms(1000);
+    }
+}

@@ -34,6 +34,19 @@ pub struct Scene {
     pub report: Report,
 }
 
+impl Scene {
+    /// A canvas with nothing on it; the start of scenes that are made in code.
+    pub fn empty(canvas: DVec2, dialect: Dialect) -> Self {
+        Self {
+            canvas,
+            dialect,
+            shapes: Vec::new(),
+            primitives: Vec::new(),
+            textures: Vec::new(),
+        }
+    }
+}
+
 /// Index into [`Scene::shapes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ShapeId(pub u32);

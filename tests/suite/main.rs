@@ -3,4 +3,8 @@
 //! Where a test goes: a pure function with exact numbers is tested beside its code in `src`; what several rooms do
 //! together, properties, pictures and goldens go here; what needs a window goes to `tests/window`.
 
-mod starting;
+mod architecture;
+mod coverage;
+mod oracle;
+mod render;
+mod support;

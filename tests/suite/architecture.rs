@@ -1,0 +1,225 @@
+//! The walls of the house: which room may name which room and which crate.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A room, the rooms it may import, and the guarded crates it may name.
+struct Room {
+    name: &'static str,
+    rooms: &'static [&'static str],
+    crates: &'static [&'static str],
+}
+
+const BOTTOM: &[&str] = &["color", "geometry", "rules"];
+
+/// The table of permitted imports. Every room may name itself, `std` and crates that are not guarded.
+const ROOMS: &[Room] = &[
+    Room {
+        name: "main",
+        rooms: &["cli"],
+        crates: &[],
+    },
+    Room {
+        name: "cli",
+        rooms: &[
+            "app", "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color",
+            "geometry", "rules",
+        ],
+        crates: &["clap", "serde", "serde_json", "indicatif"],
+    },
+    Room {
+        name: "app",
+        rooms: &[
+            "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry",
+            "rules",
+        ],
+        crates: &["winit", "softbuffer", "egui", "egui_winit"],
+    },
+    Room {
+        name: "viewer",
+        rooms: &[
+            "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules",
+        ],
+        crates: &["image", "jiff"],
+    },
+    Room {
+        name: "figure",
+        rooms: &[
+            "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules",
+        ],
+        crates: &["image"],
+    },
+    Room {
+        name: "compare",
+        rooms: &["render", "scene", "raster", "texture", "color", "geometry", "rules"],
+        crates: &[],
+    },
+    Room {
+        name: "inspect",
+        rooms: &["render", "scene", "raster", "texture", "color", "geometry", "rules"],
+        crates: &[],
+    },
+    Room {
+        name: "render",
+        rooms: &["scene", "raster", "texture", "color", "geometry", "rules"],
+        crates: &[],
+    },
+    Room {
+        name: "scene",
+        rooms: &["texture", "color", "geometry", "rules"],
+        crates: &["roxmltree", "svgtypes", "simplecss", "data_url"],
+    },
+    Room {
+        name: "raster",
+        rooms: &["texture", "color", "geometry", "rules"],
+        crates: &[],
+    },
+    Room {
+        name: "texture",
+        rooms: BOTTOM,
+        crates: &["image"],
+    },
+    Room {
+        name: "geometry",
+        rooms: BOTTOM,
+        crates: &["kurbo", "i_triangle"],
+    },
+    Room {
+        name: "color",
+        rooms: BOTTOM,
+        crates: &[],
+    },
+    Room {
+        name: "rules",
+        rooms: &[],
+        crates: &[],
+    },
+];
+
+/// Crates that only the rooms of the table may name.
+const GUARDED: &[&str] = &[
+    "winit",
+    "softbuffer",
+    "egui",
+    "egui_winit",
+    "roxmltree",
+    "svgtypes",
+    "simplecss",
+    "data_url",
+    "image",
+    "kurbo",
+    "i_triangle",
+    "clap",
+    "serde",
+    "serde_json",
+    "indicatif",
+    "jiff",
+];
+
+/// What is wrong with one line of a room's code.
+fn violation(room: &Room, line: &str) -> Option<String> {
+    let code = line.split("//").next().unwrap_or("");
+    let names = paths(code);
+    for name in &names {
+        if let Some(other) = name.strip_prefix("crate::").or(name.strip_prefix("rasterscope::")) {
+            let other = other.split("::").next().unwrap_or("");
+            let known = ROOMS.iter().any(|room| room.name == other);
+            if known && other != room.name && !room.rooms.contains(&other) {
+                return Some(format!("{} uses the room `{other}`", room.name));
+            }
+        } else if let Some(guarded) = GUARDED.iter().find(|guarded| name.split("::").next() == Some(guarded))
+            && !room.crates.contains(guarded)
+        {
+            return Some(format!("{} uses the crate `{guarded}`", room.name));
+        }
+    }
+    None
+}
+
+/// The paths in a line of code, such as `crate::raster::Framebuffer`; braces after `crate::` are opened.
+fn paths(code: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    let letters = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
+    for word in code.split(|c: char| !letters(c)) {
+        if word.contains("::") && !word.starts_with(':') {
+            found.push(word.to_owned());
+        }
+    }
+    for prefix in ["crate::{", "rasterscope::{"] {
+        if let Some((_, list)) = code.split_once(prefix) {
+            found.extend(
+                list.split(',')
+                    .map(|item| format!("crate::{}", item.trim().trim_matches(['{', '}', ';']))),
+            );
+        }
+    }
+    found
+}
+
+fn files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("the folder is there") {
+        let path = entry.expect("a readable entry").path();
+        if path.is_dir() {
+            files(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn architecture_doors_open_downwards_only() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut all = Vec::new();
+    files(&source, &mut all);
+    let mut wrong = Vec::new();
+    let mut seen = BTreeSet::new();
+    for path in all {
+        let inner = path.strip_prefix(&source).expect("below src");
+        let first = inner
+            .components()
+            .next()
+            .expect("a name")
+            .as_os_str()
+            .to_string_lossy()
+            .into_owned();
+        let name = first.trim_end_matches(".rs");
+        if name == "lib" {
+            continue;
+        }
+        let Some(room) = ROOMS.iter().find(|room| room.name == name) else {
+            wrong.push(format!("{}: `{name}` is no room of the house", inner.display()));
+            continue;
+        };
+        seen.insert(room.name);
+        let text = fs::read_to_string(&path).expect("readable source");
+        for (number, line) in (1..).zip(text.lines()) {
+            wrong.extend(violation(room, line).map(|what| format!("{}:{number}: {what}", inner.display())));
+        }
+    }
+    assert!(wrong.is_empty(), "walls broken:\n{}", wrong.join("\n"));
+    assert!(seen.len() >= 8, "the rooms were looked at: {seen:?}");
+}
+
+#[test]
+fn architecture_checker_bites() {
+    let room = |name: &str| ROOMS.iter().find(|room| room.name == name).expect("a room");
+    let cases = [
+        ("raster", "use crate::scene::Scene;", true),
+        ("raster", "use crate::texture::Texture;", false),
+        ("scene", "    let frame = crate::raster::Framebuffer::new(1, 1);", true),
+        ("raster", "use crate::{color::Rgba, scene};", true),
+        ("viewer", "use winit::window::Window;", true),
+        ("app", "use winit::window::Window;", false),
+        ("viewer", "use egui_winit::State;", true),
+        ("geometry", "let doc = roxmltree::Document::parse(text);", true),
+        ("scene", "let doc = roxmltree::Document::parse(text);", false),
+        ("texture", "use crate::render::draw;", true),
+        ("main", "use rasterscope::raster::Framebuffer;", true),
+        ("raster", "// crate::scene::Scene is what this must not see", false),
+    ];
+    for (name, line, bites) in cases {
+        assert_eq!(violation(room(name), line).is_some(), bites, "{name}: {line}");
+    }
+}

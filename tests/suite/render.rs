@@ -1,0 +1,229 @@
+//! Whole pictures: threads, resolve, backgrounds, layers, points and hairlines, views.
+
+use glam::DVec2;
+use rasterscope::color::Rgba;
+use rasterscope::geometry::View;
+use rasterscope::raster::Framebuffer;
+use rasterscope::render::{CancelToken, RenderSettings, draw_cancellable, probe};
+use rasterscope::scene::PrimitiveKind;
+
+use crate::support::scenes::{Fills, at_rate, drawn, one_to_one, random, scene, triangle};
+
+#[test]
+fn render_does_not_depend_on_the_number_of_threads() {
+    let fills = Fills::Everything;
+    let pools = [1, 2, 5].map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("a pool"));
+    arbtest::arbtest(|u| {
+        let (scene, settings) = (random(u, 150, fills)?, at_rate(*u.choose(&[1, 4, 16])?));
+        let view = one_to_one([150, 150]);
+        let [one, two, five] = pools
+            .each_ref()
+            .map(|pool| pool.install(|| drawn(&scene, &view, &settings, [150, 150])));
+        assert!(one == two && one == five, "threads show in the picture of {settings:?}");
+        Ok(())
+    })
+    .budget_ms(1000);
+}
+
+#[test]
+fn render_of_a_pixel_aligned_square_is_the_same_at_every_rate() {
+    let square = vec![
+        triangle([(2.0, 2.0), (7.0, 2.0), (2.0, 7.0)], Rgba::opaque(0.2, 0.4, 0.6)),
+        triangle([(7.0, 2.0), (7.0, 7.0), (2.0, 7.0)], Rgba::opaque(0.2, 0.4, 0.6)),
+    ];
+    let scene = scene(9.0, square);
+    let one = drawn(&scene, &one_to_one([9, 9]), &at_rate(1), [9, 9]);
+    for side in 2..=16 {
+        let many = drawn(&scene, &one_to_one([9, 9]), &at_rate(side * side), [9, 9]);
+        assert!(many == one, "rate {}", side * side);
+    }
+}
+
+#[test]
+fn render_resolves_coverage_to_the_fraction_of_samples() {
+    // The left half of pixel (1, 0): 8 of 16 samples.
+    let half = vec![
+        triangle([(1.0, -9.0), (1.5, -9.0), (1.0, 9.0)], Rgba::BLACK),
+        triangle([(1.5, -9.0), (1.5, 9.0), (1.0, 9.0)], Rgba::BLACK),
+    ];
+    let frame = drawn(&scene(3.0, half), &one_to_one([3, 1]), &at_rate(16), [3, 1]);
+    assert_eq!(
+        frame.pixels(),
+        [0xFFFF_FFFF, 0xFF80_8080, 0xFFFF_FFFF],
+        "127.5 is rounded up"
+    );
+}
+
+#[test]
+fn render_points_and_hairlines_look_alike_at_every_rate() {
+    let kinds = vec![
+        PrimitiveKind::Hairline {
+            ends: [DVec2::new(0.5, 4.2), DVec2::new(7.3, 1.1)],
+            color: Rgba::BLACK,
+        },
+        PrimitiveKind::Point {
+            at: DVec2::new(6.01, 6.99),
+            color: Rgba::opaque(1.0, 0.0, 0.0),
+        },
+    ];
+    let scene = scene(8.0, kinds);
+    let one = drawn(&scene, &one_to_one([8, 8]), &at_rate(1), [8, 8]);
+    assert_eq!(
+        one.rgba(6, 6),
+        Some([255, 0, 0, 255]),
+        "the pixel that the point falls in"
+    );
+    for rate in [4, 9, 64] {
+        assert!(
+            drawn(&scene, &one_to_one([8, 8]), &at_rate(rate), [8, 8]) == one,
+            "rate {rate}"
+        );
+    }
+}
+
+#[test]
+fn render_layer_fades_what_overlaps_inside_it_once() {
+    let square = |x: f64| triangle([(x, -20.0), (x + 40.0, 10.0), (x, 40.0)], Rgba::BLACK);
+    let kinds = vec![
+        PrimitiveKind::BeginLayer,
+        square(0.0),
+        square(-2.0),
+        PrimitiveKind::EndLayer { opacity: 0.5 },
+    ];
+    let frame = drawn(&scene(8.0, kinds), &one_to_one([8, 8]), &at_rate(4), [8, 8]);
+    assert!(
+        frame.pixels().iter().all(|pixel| *pixel == 0xFF80_8080),
+        "no darker where both are: {:X?}",
+        frame.rgba(4, 4)
+    );
+}
+
+#[test]
+fn render_on_transparent_keeps_straight_colour() {
+    let kinds = vec![triangle(
+        [(-9.0, -9.0), (30.0, -9.0), (-9.0, 30.0)],
+        Rgba {
+            r: 1.0,
+            g: 0.5,
+            b: 0.0,
+            a: 0.25,
+        },
+    )];
+    let settings = RenderSettings {
+        background: Rgba::TRANSPARENT,
+        ..at_rate(4)
+    };
+    let frame = drawn(&scene(4.0, kinds), &one_to_one([4, 4]), &settings, [4, 4]);
+    assert_eq!(
+        frame.rgba(1, 1),
+        Some([255, 128, 0, 64]),
+        "colour is not darkened by its opacity"
+    );
+    let nothing = drawn(&scene(4.0, vec![]), &one_to_one([4, 4]), &settings, [4, 4]);
+    assert_eq!(nothing.rgba(1, 1), Some([0, 0, 0, 0]), "nothing at all");
+}
+
+#[test]
+fn render_default_view_outlines_the_canvas() {
+    let settings = RenderSettings {
+        outline: true,
+        ..at_rate(1)
+    };
+    let view = View::Default.transform(DVec2::splat(100.0), [120, 120]);
+    let frame = drawn(&scene(100.0, vec![]), &view, &settings, [120, 120]);
+    assert_eq!(frame.rgba(60, 60), Some([255; 4]), "white inside");
+    let black = frame.pixels().iter().filter(|pixel| **pixel == 0xFF00_0000).count();
+    assert!((400..=410).contains(&black), "one pixel around 100 x 100: {black}");
+    assert_eq!(
+        frame.rgba(9, 60),
+        Some([0, 0, 0, 255]),
+        "just left of the canvas, which begins at pixel 10"
+    );
+    assert_eq!(frame.rgba(10, 60), Some([255; 4]), "the canvas itself is free");
+}
+
+#[test]
+fn render_canvas_view_fills_the_frame() {
+    let kinds = vec![
+        triangle([(0.0, 0.0), (50.0, 0.0), (0.0, 80.0)], Rgba::BLACK),
+        triangle([(50.0, 0.0), (50.0, 80.0), (0.0, 80.0)], Rgba::BLACK),
+    ];
+    let mut scene = scene(50.0, kinds);
+    scene.canvas = DVec2::new(50.0, 80.0);
+    let view = View::Canvas.transform(scene.canvas, [25, 40]);
+    let frame = drawn(&scene, &view, &at_rate(4), [25, 40]);
+    assert!(
+        frame.pixels().iter().all(|pixel| *pixel == 0xFF00_0000),
+        "the canvas is the frame"
+    );
+}
+
+#[test]
+fn render_gives_up_when_cancelled() {
+    let cancel = CancelToken::default();
+    cancel.cancel();
+    let mut frame = Framebuffer::new(10, 10);
+    let scene = scene(10.0, vec![triangle([(0.0, 0.0), (9.0, 0.0), (0.0, 9.0)], Rgba::BLACK)]);
+    assert!(
+        draw_cancellable(&scene, &one_to_one([10, 10]), &at_rate(1), &mut frame, &cancel).is_none(),
+        "unfinished"
+    );
+}
+
+#[test]
+fn render_of_nothing_is_no_crash() {
+    for size in [[0, 0], [0, 7], [7, 0], [1, 1]] {
+        let scene = scene(10.0, vec![triangle([(0.0, 0.0), (9.0, 0.0), (0.0, 9.0)], Rgba::BLACK)]);
+        let settings = RenderSettings {
+            outline: true,
+            ..at_rate(16)
+        };
+        let view = View::Default.transform(scene.canvas, size);
+        assert_eq!(
+            drawn(&scene, &view, &settings, size).pixels().len(),
+            (size[0] * size[1]) as usize,
+            "{size:?}"
+        );
+    }
+}
+
+#[test]
+fn probe_tells_the_samples_that_make_the_pixel() {
+    let fills = Fills::Everything;
+    arbtest::arbtest(|u| {
+        let (scene, settings) = (random(u, 12, fills)?, at_rate(*u.choose(&[1, 4, 9])?));
+        let view = one_to_one([12, 12]);
+        let frame = drawn(&scene, &view, &settings, [12, 12]);
+        let (x, y) = (u.int_in_range(0..=11)?, u.int_in_range(0..=11)?);
+        let samples = probe(&scene, &view, &settings, [12, 12], [x, y]).expect("inside the frame");
+        assert_eq!(
+            samples.len(),
+            settings.sample_rate.samples() as usize,
+            "one hit per sample"
+        );
+        let sum = samples.iter().map(|sample| u32::from(sample.color.0[0])).sum::<u32>();
+        let mean = f64::from(sum) / (256.0 * samples.len() as f64);
+        let red = f64::from(frame.rgba(x, y).expect("inside the frame")[0]);
+        assert!(
+            (mean - red).abs() <= 0.5 + 1e-9,
+            "mean {mean} of the samples, pixel {red}"
+        );
+        let known = |source: u32| (source as usize) < scene.primitives.len();
+        assert!(
+            samples.iter().all(|sample| sample.source.is_none_or(known)),
+            "sources are primitives"
+        );
+        Ok(())
+    })
+    .budget_ms(500);
+    let scene = scene(4.0, vec![triangle([(0.0, 0.0), (2.0, 0.0), (0.0, 4.0)], Rgba::BLACK)]);
+    let view = one_to_one([4, 4]);
+    let hits = probe(&scene, &view, &at_rate(4), [4, 4], [1, 0]).expect("inside the frame");
+    let sources: Vec<_> = hits.iter().map(|hit| hit.source).collect();
+    assert_eq!(
+        sources,
+        [Some(0), Some(0), Some(0), None],
+        "the slanted edge leaves the lower right sample white"
+    );
+    assert!(probe(&scene, &view, &at_rate(4), [4, 4], [4, 0]).is_none(), "outside");
+}

@@ -1,0 +1,238 @@
+//! The brute-force renderer: every sample against every primitive, in 64-bit floats, without tiles, spans, bins or
+//! compressed samples. It shares no arithmetic with the engine, only the rules: it is the oracle of everything fast.
+
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::float_cmp,
+    reason = "the oracle states the rules in plain arithmetic on small numbers"
+)]
+
+use glam::DVec2;
+use rasterscope::color::Rgba;
+use rasterscope::geometry::ViewTransform;
+use rasterscope::raster::Framebuffer;
+use rasterscope::render::RenderSettings;
+use rasterscope::scene::{Paint, PrimitiveKind, Scene};
+use rasterscope::texture::{LevelSampling, MipLevel, PixelSampling, Texture};
+
+/// Premultiplied, `0.0..=1.0`.
+type Color = [f64; 4];
+
+struct Triangle<'a> {
+    corners: [(i128, i128); 3],
+    paint: &'a Paint,
+}
+
+enum Step<'a> {
+    Triangle(Triangle<'a>),
+    Pixels(Vec<(i64, i64)>, Rgba),
+    BeginLayer,
+    EndLayer(f64),
+}
+
+/// Draws a scene under the standard rules. Coordinates must stay small.
+pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSettings, size: [u32; 2]) -> Framebuffer {
+    let side = settings.sample_rate.side();
+    let bits = 14 - side.next_power_of_two().trailing_zeros();
+    let units = f64::from(side << bits);
+    let steps: Vec<Step<'_>> = scene
+        .primitives
+        .iter()
+        .map(|primitive| step(&primitive.kind, view, units))
+        .collect();
+    let mut frame = Framebuffer::new(size[0], size[1]);
+    for y in 0..size[1] {
+        for x in 0..size[0] {
+            let mut sum = [0.0; 4];
+            for sample in 0..side * side {
+                let (i, j) = (x * side + sample % side, y * side + sample / side);
+                let color = sample_color(&steps, scene, settings, [i, j], (side, bits));
+                for (sum, channel) in sum.iter_mut().zip(color) {
+                    *sum += channel / f64::from(side * side);
+                }
+            }
+            frame.pixels_mut()[(y * size[0] + x) as usize] = to_pixel(sum);
+        }
+    }
+    frame
+}
+
+fn step<'a>(kind: &'a PrimitiveKind, view: &ViewTransform, units: f64) -> Step<'a> {
+    match kind {
+        PrimitiveKind::Triangle { points, paint } => {
+            let corners = points.map(|point| {
+                let scaled = (view.to_pixels(point) * units + 0.5).floor();
+                (scaled.x as i128, scaled.y as i128)
+            });
+            Step::Triangle(Triangle { corners, paint })
+        }
+        PrimitiveKind::Point { at, color } => {
+            let at = view.to_pixels(*at).floor();
+            Step::Pixels(vec![(at.x as i64, at.y as i64)], *color)
+        }
+        PrimitiveKind::Hairline { ends, color } => Step::Pixels(hairline(ends.map(|end| view.to_pixels(end))), *color),
+        PrimitiveKind::BeginLayer => Step::BeginLayer,
+        PrimitiveKind::EndLayer { opacity } => Step::EndLayer(f64::from(*opacity)),
+    }
+}
+
+/// The course's digital differential analyser.
+fn hairline(ends: [DVec2; 2]) -> Vec<(i64, i64)> {
+    let mut ends = ends.map(|end| (end.x as f32, end.y as f32));
+    if ends[0].0 > ends[1].0 {
+        ends.swap(0, 1);
+    }
+    let [(x0, y0), (x1, y1)] = ends;
+    let slope = (y1 - y0) / (x1 - x0);
+    let (mut x, mut y) = (x0, y0);
+    let mut pixels = Vec::new();
+    while x.floor() <= x1.floor() && (y - y0).abs() <= (y1 - y0).abs() {
+        pixels.push((x.floor() as i64, y.floor() as i64));
+        if slope.abs() <= 1.0 {
+            x += 1.0;
+            y += slope;
+        } else if x0 == x1 {
+            y += if y1 < y0 { -1.0 } else { 1.0 };
+        } else {
+            x += 1.0 / slope.abs();
+            y += slope.signum();
+        }
+    }
+    pixels
+}
+
+fn sample_color(
+    steps: &[Step<'_>],
+    scene: &Scene,
+    settings: &RenderSettings,
+    [i, j]: [u32; 2],
+    (side, bits): (u32, u32),
+) -> Color {
+    let mut layers = vec![premultiply(settings.background)];
+    for step in steps {
+        let painted = match step {
+            Step::BeginLayer => {
+                layers.push([0.0; 4]);
+                continue;
+            }
+            Step::EndLayer(opacity) => {
+                let layer = layers.pop().expect("layers are balanced");
+                Some(layer.map(|channel| channel * opacity))
+            }
+            Step::Pixels(pixels, color) => {
+                let here = (i64::from(i / side), i64::from(j / side));
+                pixels.contains(&here).then(|| premultiply(*color))
+            }
+            Step::Triangle(triangle) => triangle.color(scene, settings, [i, j], (side, bits)),
+        };
+        if let (Some(above), Some(below)) = (painted, layers.last_mut()) {
+            *below = std::array::from_fn(|k| above[k] + below[k] * (1.0 - above[3]));
+        }
+    }
+    layers[0]
+}
+
+impl Triangle<'_> {
+    fn color(
+        &self,
+        scene: &Scene,
+        settings: &RenderSettings,
+        [i, j]: [u32; 2],
+        (side, bits): (u32, u32),
+    ) -> Option<Color> {
+        let at = |index: u32| (i128::from(index) << bits) + (1 << (bits - 1));
+        let sample = (at(i), at(j));
+        let cross =
+            |a: (i128, i128), b: (i128, i128), p: (i128, i128)| (b.0 - a.0) * (p.1 - a.1) - (b.1 - a.1) * (p.0 - a.0);
+        let [a, b, c] = self.corners;
+        let area = cross(a, b, c);
+        let mut weights = [0.0; 3];
+        for (k, (from, to)) in [(b, c), (c, a), (a, b)].into_iter().enumerate() {
+            let value = cross(from, to, sample) * area.signum();
+            let (dx, dy) = ((to.0 - from.0) * area.signum(), (to.1 - from.1) * area.signum());
+            let top_left = dy < 0 || (dy == 0 && dx > 0);
+            if value < 0 || (value == 0 && !top_left) || area == 0 {
+                return None;
+            }
+            weights[k] = value as f64 / area.abs() as f64;
+        }
+        Some(match self.paint {
+            Paint::Solid(color) => premultiply(*color),
+            Paint::Vertex(colors) => {
+                let mix = |channel: fn(&Rgba) -> f32| {
+                    (0..3).map(|k| weights[k] * f64::from(channel(&colors[k]))).sum::<f64>()
+                };
+                let alpha = mix(|c| c.a);
+                [mix(|c| c.r) * alpha, mix(|c| c.g) * alpha, mix(|c| c.b) * alpha, alpha]
+            }
+            Paint::Texture { texture, uv, opacity } => {
+                let uv = uv.map(|uv| DVec2::new(f64::from(uv.x), f64::from(uv.y)));
+                let here = uv[0] * weights[0] + uv[1] * weights[1] + uv[2] * weights[2];
+                let texture = &scene.textures[texture.0 as usize];
+                let lod = self.level_of_detail(texture, uv, f64::from(side << bits));
+                filtered(texture, here, lod, settings).map(|channel| channel * f64::from(*opacity))
+            }
+        })
+    }
+
+    /// From the change of barycentric weights per pixel.
+    fn level_of_detail(&self, texture: &Texture, uv: [DVec2; 3], units: f64) -> f64 {
+        let [a, b, c] = self.corners.map(|(x, y)| DVec2::new(x as f64, y as f64) / units);
+        let area = (b - a).perp_dot(c - a);
+        let base = &texture.pyramid.levels()[0];
+        let size = DVec2::new(f64::from(base.width()), f64::from(base.height()));
+        let per = |gradient: fn(DVec2) -> f64| {
+            (uv[0] * gradient(c - b) + uv[1] * gradient(a - c) + uv[2] * gradient(b - a)) / area * size
+        };
+        per(|edge| -edge.y).length().max(per(|edge| edge.x).length()).log2()
+    }
+}
+
+fn filtered(texture: &Texture, uv: DVec2, lod: f64, settings: &RenderSettings) -> Color {
+    let levels = texture.pyramid.levels();
+    let last = levels.len() - 1;
+    let lod = lod.clamp(0.0, last as f64);
+    let read = |level: usize| read_level(&levels[level.min(last)], uv, settings.pixel_sampling);
+    match settings.level_sampling {
+        LevelSampling::Zero => read(0),
+        LevelSampling::Nearest => read((lod + 0.5).floor() as usize),
+        LevelSampling::Linear => {
+            let (fine, coarse) = (read(lod.floor() as usize), read(lod.floor() as usize + 1));
+            std::array::from_fn(|k| fine[k] * (1.0 - lod.fract()) + coarse[k] * lod.fract())
+        }
+    }
+}
+
+fn read_level(level: &MipLevel, uv: DVec2, sampling: PixelSampling) -> Color {
+    let texel = |x: f64, y: f64| level.texel(x as i32, y as i32).map(|byte| f64::from(byte) / 255.0);
+    let at = uv * DVec2::new(f64::from(level.width()), f64::from(level.height()));
+    match sampling {
+        PixelSampling::Nearest => texel(at.x.floor(), at.y.floor()),
+        PixelSampling::Bilinear => {
+            let corner = (at - 0.5).floor();
+            let weight = at - 0.5 - corner;
+            let mut sum = [0.0; 4];
+            for (dx, dy) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+                let wx = if dx > 0.0 { weight.x } else { 1.0 - weight.x };
+                let wy = if dy > 0.0 { weight.y } else { 1.0 - weight.y };
+                for (sum, channel) in sum.iter_mut().zip(texel(corner.x + dx, corner.y + dy)) {
+                    *sum += channel * wx * wy;
+                }
+            }
+            sum
+        }
+    }
+}
+
+fn premultiply(color: Rgba) -> Color {
+    let [r, g, b, a] = [color.r, color.g, color.b, color.a].map(f64::from);
+    [r * a, g * a, b * a, a]
+}
+
+/// Straight bytes, rounded to nearest.
+fn to_pixel([r, g, b, a]: Color) -> u32 {
+    let byte = |channel: f64| (channel.clamp(0.0, 1.0) * 255.0 + 0.5 + 1e-9).floor() as u32;
+    let straight = |channel: f64| if a > 0.0 { byte(channel / a) } else { 0 };
+    byte(a) << 24 | straight(r) << 16 | straight(g) << 8 | straight(b)
+}

@@ -1,0 +1,4 @@
+//! What many tests need: small scenes, and the brute-force renderer that knows no tiles.
+
+pub(crate) mod brute_force;
+pub(crate) mod scenes;

@@ -1,0 +1,190 @@
+//! Small scenes made in code.
+
+use std::sync::Arc;
+
+use arbtest::arbitrary::{Result, Unstructured};
+use glam::{DVec2, Vec2};
+use rasterscope::color::Rgba;
+use rasterscope::geometry::{View, ViewTransform};
+use rasterscope::raster::{Framebuffer, SampleRate};
+use rasterscope::render::{RenderSettings, draw};
+use rasterscope::scene::{Dialect, Paint, Primitive, PrimitiveKind, Scene, Shape, ShapeId, SourceLocation, TextureId};
+use rasterscope::texture::{MipLevel, MipPyramid, Texture};
+
+/// A scene of `kinds` on a canvas of `side x side`.
+pub(crate) fn scene(side: f64, kinds: Vec<PrimitiveKind>) -> Scene {
+    let mut scene = Scene::empty(DVec2::splat(side), Dialect::Svg);
+    scene.shapes = vec![Shape {
+        element: "polygon".into(),
+        id: None,
+        location: SourceLocation { line: 1, column: 1 },
+    }];
+    scene.primitives = kinds
+        .into_iter()
+        .map(|kind| Primitive {
+            shape: ShapeId(0),
+            kind,
+        })
+        .collect();
+    scene
+}
+
+/// A triangle in one colour.
+pub(crate) fn triangle(points: [(f64, f64); 3], color: Rgba) -> PrimitiveKind {
+    PrimitiveKind::Triangle {
+        points: points.map(DVec2::from),
+        paint: Paint::Solid(color),
+    }
+}
+
+/// A view in which one user unit is one pixel and the frame shows the canvas from its corner on.
+pub(crate) fn one_to_one(size: [u32; 2]) -> ViewTransform {
+    let center = DVec2::new(f64::from(size[0]), f64::from(size[1])) / 2.0;
+    View::At {
+        center,
+        scale: 1.0,
+        rotation: 0.0,
+    }
+    .transform(DVec2::ONE, size)
+}
+
+/// Settings at a sample rate, without an outline.
+pub(crate) fn at_rate(samples: u32) -> RenderSettings {
+    let sample_rate = SampleRate::new(samples).expect("a square number");
+    RenderSettings {
+        sample_rate,
+        outline: false,
+        ..RenderSettings::default()
+    }
+}
+
+/// A drawn frame.
+pub(crate) fn drawn(scene: &Scene, view: &ViewTransform, settings: &RenderSettings, size: [u32; 2]) -> Framebuffer {
+    let mut frame = Framebuffer::new(size[0], size[1]);
+    draw(scene, view, settings, &mut frame);
+    frame
+}
+
+/// A texture in which every texel differs from its neighbours; translucent ones among them if asked for.
+pub(crate) fn busy_texture(width: u32, height: u32, translucent: bool) -> Texture {
+    let byte = |value: u32| u8::try_from(value % 256).expect("below 256");
+    let texels = (0..width * height)
+        .map(|i| {
+            let (x, y) = (i % width, i / width);
+            let alpha = if translucent {
+                byte(255 - (x * 31 + y * 7) % 200)
+            } else {
+                255
+            };
+            [byte(x * 37 + y * 11), byte(y * 53 + x * 5), byte((x ^ y) * 29), 255].map(|channel| channel.min(alpha))
+        })
+        .collect();
+    Texture {
+        name: "busy".to_owned(),
+        pyramid: MipPyramid::build(MipLevel::new(width, height, texels)),
+    }
+}
+
+/// A number on a lattice of half pixels, so that ties are common, or anywhere.
+pub(crate) fn coordinate(u: &mut Unstructured<'_>, side: i32) -> Result<f64> {
+    if u.ratio(2, 3)? {
+        Ok(f64::from(u.int_in_range(-4..=2 * side + 4)?) / 2.0)
+    } else {
+        Ok(f64::from(u.int_in_range(-2000..=1000 * side + 2000)?) / 1000.0)
+    }
+}
+
+pub(crate) fn point(u: &mut Unstructured<'_>, side: i32) -> Result<DVec2> {
+    Ok(DVec2::new(coordinate(u, side)?, coordinate(u, side)?))
+}
+
+pub(crate) fn color(u: &mut Unstructured<'_>, translucent: bool) -> Result<Rgba> {
+    let [r, g, b, a] = u.arbitrary::<[u8; 4]>()?;
+    Ok(Rgba::from_bytes([r, g, b, if translucent { a } else { 255 }]))
+}
+
+/// What a random scene may be made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fills {
+    /// Opaque flat colours.
+    Flat,
+    /// Flat colours of any opacity, and layers.
+    Translucent,
+    /// Those, vertex colours and textures.
+    Everything,
+}
+
+/// Random triangles, hairlines, points and layers on a canvas of `side` pixels.
+pub(crate) fn random(u: &mut Unstructured<'_>, side: i32, fills: Fills) -> Result<Scene> {
+    let mut kinds = Vec::new();
+    let mut open = 0;
+    for _ in 0..u.int_in_range(1..=14)? {
+        kinds.push(match u.int_in_range(0..=9)? {
+            0 => PrimitiveKind::Point {
+                at: point(u, side)?,
+                color: color(u, fills != Fills::Flat)?,
+            },
+            1 => PrimitiveKind::Hairline {
+                ends: [point(u, side)?, point(u, side)?],
+                color: color(u, fills != Fills::Flat)?,
+            },
+            2 if fills != Fills::Flat && open < 3 => {
+                open += 1;
+                PrimitiveKind::BeginLayer
+            }
+            3 if open > 0 => {
+                open -= 1;
+                PrimitiveKind::EndLayer {
+                    opacity: f32::from(u.arbitrary::<u8>()?) / 255.0,
+                }
+            }
+            _ => {
+                let points = [point(u, side)?, point(u, side)?, point(u, side)?];
+                PrimitiveKind::Triangle {
+                    points,
+                    paint: paint(u, fills)?,
+                }
+            }
+        });
+    }
+    kinds.extend((0..open).map(|_| PrimitiveKind::EndLayer { opacity: 0.5 }));
+    let mut scene = scene(f64::from(side), kinds);
+    scene.textures = vec![
+        Arc::new(busy_texture(16, 16, fills != Fills::Flat)),
+        Arc::new(busy_texture(9, 5, false)),
+    ];
+    Ok(scene)
+}
+
+fn paint(u: &mut Unstructured<'_>, fills: Fills) -> Result<Paint> {
+    let choice = if fills == Fills::Everything {
+        u.int_in_range(0..=2)?
+    } else {
+        0
+    };
+    Ok(match choice {
+        0 => Paint::Solid(color(u, fills != Fills::Flat)?),
+        1 => Paint::Vertex([
+            color(u, fills != Fills::Flat)?,
+            color(u, fills != Fills::Flat)?,
+            color(u, fills != Fills::Flat)?,
+        ]),
+        _ => {
+            let mut uv = || -> Result<Vec2> {
+                let mut unit = || Ok((u.int_in_range(-100..=1100)? as f32) / 1000.0);
+                Ok(Vec2::new(unit()?, unit()?))
+            };
+            let uv = [uv()?, uv()?, uv()?];
+            let opacity = if fills == Fills::Flat {
+                1.0
+            } else {
+                f32::from(u.arbitrary::<u8>()?) / 255.0
+            };
+            Paint::Texture {
+                texture: TextureId(u.int_in_range(0..=1)?),
+                uv,
+                opacity,
+            }
+        }
+    })
+}

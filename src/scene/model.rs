@@ -43,6 +43,7 @@ impl Scene {
             shapes: Vec::new(),
             primitives: Vec::new(),
             textures: Vec::new(),
+            report: Report::default(),
         }
     }
 }

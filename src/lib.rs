@@ -28,9 +28,11 @@
 //! * Frames are in device pixels, always.
 
 pub mod color;
+pub mod figure;
 pub mod geometry;
 pub mod raster;
 pub mod render;
 pub mod rules;
 pub mod scene;
 pub mod texture;
+pub mod viewer;

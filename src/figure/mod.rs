@@ -1,0 +1,9 @@
+//! Pictures made of frames: insets for now. Knows no window and no text; whoever shows a picture adds its words.
+
+mod inset;
+mod placement;
+mod rect;
+
+pub use inset::{Inset, SampleMark};
+pub use placement::{Corner, place};
+pub use rect::PixelRect;

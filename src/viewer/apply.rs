@@ -1,0 +1,296 @@
+//! Commands to changes of state; and the turns of the wheel that keep the state, the frame and the inset together.
+
+use glam::DVec2;
+
+use super::settings::next_of;
+use super::state::Finished;
+use super::{Camera, Command, Effect, PixelZoom, Sight, Theme, Viewer, library};
+use crate::rules::Rules;
+use crate::scene::DialectChoice;
+use crate::texture::{LevelSampling, PixelSampling};
+
+/// What one click of the wheel zooms by.
+const WHEEL_FACTOR: f64 = 1.25;
+/// Clicks of the wheel that count at once.
+const MAX_CLICKS: f64 = 100.0;
+
+impl Viewer {
+    /// Does what `command` says, without waiting for anything, and returns what the program around has to do.
+    ///
+    /// Any command is fine at any time: one that makes no sense now changes nothing.
+    #[must_use = "the program around the viewer has to carry out the effects"]
+    pub fn apply(&mut self, command: Command) -> Vec<Effect> {
+        let effects = self.dispatch(command);
+        self.update();
+        effects
+    }
+
+    /// Takes in what the threads finished; true if something that is to be seen changed. Never waits.
+    pub fn poll(&mut self) -> bool {
+        let mut any = false;
+        while let Ok(finished) = self.results.try_recv() {
+            self.take_in(finished);
+            any = true;
+        }
+        if any {
+            self.update();
+        }
+        any
+    }
+
+    /// Whether the frame of the current state is there and everything that was asked for is saved.
+    pub fn is_settled(&self) -> bool {
+        let reading = self.current().is_some_and(super::SceneEntry::is_reading);
+        !reading && self.drawing.is_current() && self.saver.is_idle()
+    }
+
+    /// Waits until [`Viewer::is_settled`]: for scripts, tests and pictures without a window.
+    pub fn finish(&mut self) {
+        self.finish_until(Self::is_settled);
+    }
+
+    /// As [`Viewer::finish`], and waits for the thumbnails that were asked for.
+    pub fn finish_thumbnails(&mut self) {
+        self.finish_until(|viewer| viewer.is_settled() && !viewer.readers.has_thumbnails_pending());
+    }
+
+    fn finish_until(&mut self, done: fn(&Self) -> bool) {
+        self.poll();
+        while !done(self) {
+            // Every pending piece of work sends its result, even when it fails; without threads there is none left.
+            let Ok(finished) = self.results.recv() else { return };
+            self.take_in(finished);
+            self.update();
+        }
+    }
+
+    fn take_in(&mut self, finished: Finished) {
+        match finished {
+            Finished::Read(read) => self.scene_read(read),
+            Finished::Drawn(drawn) => {
+                if self.drawing.finished(drawn) && self.drawing.has_failed() {
+                    let name = self.current().map_or(String::new(), |entry| entry.label.clone());
+                    self.messages.error(format!(
+                        "{name}: drawing this view failed inside the program; please report it with the file"
+                    ));
+                }
+            }
+            Finished::Thumbnail(thumbnail) => self.thumbnail_drawn(thumbnail),
+            Finished::Saved(saved) => self.picture_saved(saved),
+        }
+    }
+
+    /// After any change: reads what must be read, wants the right frame, places the inset, saves what waits for it.
+    pub(super) fn update(&mut self) {
+        self.revision += 1;
+        self.want_scene();
+        self.want_frame();
+        self.place_inset();
+        self.save_when_ready();
+    }
+
+    /// Whether everything but the picture is hidden.
+    pub fn everything_hidden(&self) -> bool {
+        self.screen.hidden
+    }
+
+    fn dispatch(&mut self, command: Command) -> Vec<Effect> {
+        match command {
+            Command::CopyPixel => return self.copy_pixel(),
+            Command::CopyCommandLine => return self.copy_command_line(),
+            Command::WindowScreenshot => return vec![Effect::PictureOfWindow],
+            Command::Escape => return self.escape(),
+            Command::Quit => return vec![Effect::Quit],
+            command => self.change(command),
+        }
+        Vec::new()
+    }
+
+    /// Commands that only change the state.
+    fn change(&mut self, command: Command) {
+        match command {
+            Command::PointerMoved { at } => self.pointer_moved(at),
+            Command::PointerLeft => self.pointer.at = None,
+            Command::PointerPressed(button) => self.pointer_pressed(button),
+            Command::PointerReleased(super::PointerButton::Primary) => self.pointer.dragging = false,
+            Command::Wheel { clicks } => self.wheel(clicks),
+            Command::Pinch { factor } => self.zoom(self.pointer.at, factor),
+            Command::PanBy { by } => self.pan(by),
+            Command::ZoomAt { at, factor } => self.zoom(at, factor),
+            Command::RotateBy { degrees } => self.look(|camera, sight| camera.rotate(degrees, sight)),
+            Command::ResetView => self.reset_view(),
+            Command::FitView => self.look(Camera::fit),
+            Command::ActualSize => self.look(Camera::actual_size),
+            Command::SetView(numbers) => self.look(|camera, sight| camera.set(numbers, sight)),
+            Command::SetPixelZoom(zoom) => self.set_pixel_zoom(zoom),
+            Command::NextPixelZoom => self.set_pixel_zoom(next_of(&PixelZoom::ALL, self.settings.pixel_zoom)),
+            Command::NextScene => self.step_scene(1),
+            Command::PreviousScene => self.step_scene(self.scenes.len().saturating_sub(1)),
+            Command::Scene(index) => self.show_scene(index),
+            Command::Open(paths) => self.open(&paths),
+            Command::OpenGallery => self.replace_scenes(library::gallery_entries()),
+            Command::Reload => self.read_current(),
+            Command::Screenshot => self.ask_for_screenshot(),
+            command => self.change_sampling(command),
+        }
+    }
+
+    fn change_sampling(&mut self, command: Command) {
+        let render = &mut self.settings.render;
+        match command {
+            Command::SampleRateUp => render.sample_rate = render.sample_rate.higher(),
+            Command::SampleRateDown => render.sample_rate = render.sample_rate.lower(),
+            Command::SetSampleRate(rate) => render.sample_rate = rate,
+            Command::NextPixelSampling => render.pixel_sampling = next_of(&PixelSampling::ALL, render.pixel_sampling),
+            Command::SetPixelSampling(sampling) => render.pixel_sampling = sampling,
+            Command::NextLevelSampling => render.level_sampling = next_of(&LevelSampling::ALL, render.level_sampling),
+            Command::SetLevelSampling(sampling) => render.level_sampling = sampling,
+            Command::NextRules => render.rules = next_of(&Rules::ALL, render.rules),
+            Command::SetRules(rules) => render.rules = rules,
+            Command::SetBackground(color) => render.background = color,
+            Command::NextDialect => self.settings.dialect = next_of(&DialectChoice::ALL, self.settings.dialect),
+            Command::SetDialect(dialect) => self.settings.dialect = dialect,
+            command => self.change_inspector(command),
+        }
+    }
+
+    fn change_inspector(&mut self, command: Command) {
+        match command {
+            Command::Inspector(toggle) => {
+                self.inspector.open = toggle.of(self.inspector.open);
+                if !self.inspector.open {
+                    self.inspector.pin = None;
+                }
+            }
+            Command::SetInspectorRegion(region) => self.inspector.set_region(region),
+            Command::SetMagnification(magnification) => self.inspector.set_magnification(magnification),
+            Command::StepMagnification(steps) => self.inspector.step(steps),
+            Command::PinUnderPointer => self.pin_under_pointer(),
+            Command::Pin(pixel) => self.pin(pixel),
+            Command::Nudge(by) => self.nudge(by),
+            Command::Unpin => self.inspector.pin = None,
+            command => self.change_screen(&command),
+        }
+    }
+
+    fn change_screen(&mut self, command: &Command) {
+        let screen = &mut self.screen;
+        match command {
+            Command::Resize(size) => screen.window = *size,
+            Command::SetFreeArea(area) => screen.free_area = *area,
+            Command::OverlayText(toggle) => screen.shown.text = toggle.of(screen.shown.text),
+            Command::Panel(toggle) => screen.shown.panel = toggle.of(screen.shown.panel),
+            Command::HideEverything(toggle) => screen.hidden = toggle.of(screen.hidden),
+            Command::ToggleDialog(dialog) => {
+                screen.dialog = Some(*dialog).filter(|dialog| screen.dialog != Some(*dialog));
+            }
+            Command::CloseDialog => screen.dialog = None,
+            Command::SetTheme(theme) => screen.theme = *theme,
+            Command::NextTheme => screen.theme = next_of(&Theme::ALL, screen.theme),
+            Command::DismissMessage(id) => self.messages.dismiss(*id),
+            // What has effects was handled in `dispatch`; letting go of another button does nothing.
+            _ => {}
+        }
+    }
+
+    /// Closes or unpins what is open, the latest first; quits when nothing is.
+    fn escape(&mut self) -> Vec<Effect> {
+        if self.screen.dialog.take().is_some() || self.inspector.pin.take().is_some() {
+            return Vec::new();
+        }
+        if self.inspector.open {
+            self.inspector.open = false;
+        } else if self.screen.hidden {
+            self.screen.hidden = false;
+        } else {
+            return vec![Effect::Quit];
+        }
+        Vec::new()
+    }
+
+    fn wheel(&mut self, clicks: f64) {
+        if self.pointer_over_inset() {
+            self.inspector.wheel(clicks);
+        } else if clicks.is_finite() {
+            let factor = WHEEL_FACTOR.powf(clicks.clamp(-MAX_CLICKS, MAX_CLICKS));
+            self.zoom(self.pointer.at, factor);
+        }
+    }
+
+    /// Changes the current scene's camera; nothing happens before the scene was read.
+    fn look(&mut self, change: impl FnOnce(&mut Camera, &Sight)) {
+        if let Some((sight, entry)) = self.sight().zip(self.scenes.get_mut(self.current)) {
+            change(&mut entry.camera, &sight);
+        }
+    }
+
+    fn reset_view(&mut self) {
+        if let Some(entry) = self.scenes.get_mut(self.current) {
+            entry.camera = Camera::default();
+        }
+    }
+
+    /// By window pixels.
+    pub(super) fn pan(&mut self, by: DVec2) {
+        let zoom = f64::from(self.settings.pixel_zoom.factor());
+        if by.is_finite() {
+            self.look(|camera, sight| camera.pan(by / zoom, sight));
+        }
+    }
+
+    /// About a window pixel.
+    fn zoom(&mut self, at: Option<DVec2>, factor: f64) {
+        let zoom = f64::from(self.settings.pixel_zoom.factor());
+        let at = at.map_or(self.middle(), |at| at / zoom);
+        self.look(|camera, sight| camera.zoom(at, factor, sight));
+    }
+
+    /// Frame pixels become larger or smaller: the views are adapted so that the window shows the same part.
+    fn set_pixel_zoom(&mut self, zoom: PixelZoom) {
+        let factor = f64::from(self.settings.pixel_zoom.factor()) / f64::from(zoom.factor());
+        self.settings.pixel_zoom = zoom;
+        let frame = self.frame_size();
+        for entry in &mut self.scenes {
+            if let Some(canvas) = entry.scene().map(|scene| scene.canvas) {
+                entry.camera.rescale(factor, &Sight { canvas, frame });
+            }
+        }
+        self.follow_pointer();
+    }
+
+    fn step_scene(&mut self, by: usize) {
+        if !self.scenes.is_empty() {
+            self.show_scene((self.current + by) % self.scenes.len());
+        }
+    }
+
+    fn show_scene(&mut self, index: usize) {
+        if index < self.scenes.len() {
+            self.current = index;
+        }
+    }
+
+    /// Asks for the frame of the current state. A minimised window keeps the one it has.
+    fn want_frame(&mut self) {
+        let size = self.frame_size();
+        let Some(entry) = self.scenes.get(self.current) else {
+            return self.drawing.clear();
+        };
+        if entry.failure().is_some() {
+            return self.drawing.clear();
+        }
+        let Some((scene, sight)) = entry.scene().cloned().zip(self.sight()) else {
+            // Being read for the first time: the old picture stays until the new one is there.
+            return;
+        };
+        if size.contains(&0) {
+            return;
+        }
+        self.drawing.want(super::Picture {
+            scene,
+            view: entry.camera.transform(&sight),
+            settings: self.settings.render,
+            size,
+        });
+    }
+}

@@ -1,0 +1,200 @@
+//! Everything a user can do, as data: what a key, a menu, a script or a test asks for is one of these.
+//!
+//! Positions are in window pixels: device pixels from the window's upper left corner. Pixels that a user names are
+//! frame pixels; the two differ only where a pixel zoom is in force.
+
+use std::path::PathBuf;
+
+use glam::DVec2;
+
+use super::{PixelZoom, Theme, Toggle, ViewNumbers};
+use crate::color::Rgba;
+use crate::figure::PixelRect;
+use crate::raster::SampleRate;
+use crate::rules::Rules;
+use crate::scene::DialectChoice;
+use crate::texture::{LevelSampling, PixelSampling};
+
+/// One thing that a user can do.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    // Pointer.
+    /// The pointer is at `at`, in window pixels; with the primary button down this drags the picture.
+    PointerMoved {
+        /// Window pixels.
+        at: DVec2,
+    },
+    /// The pointer left the window, or is over a panel.
+    PointerLeft,
+    /// A button went down where the pointer is.
+    PointerPressed(PointerButton),
+    /// A button went up.
+    PointerReleased(PointerButton),
+    /// The wheel turned by `clicks` (up, away from the user, is above zero): zooms about the pointer, or changes
+    /// the magnification where the pointer is over the inspector's inset.
+    Wheel {
+        /// Notches; fractions come from touch pads.
+        clicks: f64,
+    },
+    /// Two fingers spread by `factor` (above 1) or closed: zooms about the pointer.
+    Pinch {
+        /// Ratio of the fingers' distances.
+        factor: f64,
+    },
+
+    // View.
+    /// Moves the picture by window pixels: what was at `p` is then at `p + by`.
+    PanBy {
+        /// Window pixels.
+        by: DVec2,
+    },
+    /// Scales the picture by `factor`; what is at `at` stays there.
+    ZoomAt {
+        /// Window pixels; `None` is the middle of the window.
+        at: Option<DVec2>,
+        /// Above zero; above 1 enlarges.
+        factor: f64,
+    },
+    /// Turns the picture clockwise about the middle of the window.
+    RotateBy {
+        /// Degrees.
+        degrees: f64,
+    },
+    /// Back to the default view.
+    ResetView,
+    /// The largest view that shows the whole canvas; the rotation stays.
+    FitView,
+    /// One user unit is one pixel; the middle of the window stays.
+    ActualSize,
+    /// The view with exactly these numbers.
+    SetView(ViewNumbers),
+    /// Shows each frame pixel as a square of window pixels.
+    SetPixelZoom(PixelZoom),
+    /// The next pixel zoom, round and round.
+    NextPixelZoom,
+
+    // Sampling.
+    /// The next higher sample rate that keys reach.
+    SampleRateUp,
+    /// The next lower sample rate.
+    SampleRateDown,
+    /// This sample rate.
+    SetSampleRate(SampleRate),
+    /// The next pixel sampling, round and round.
+    NextPixelSampling,
+    /// This pixel sampling.
+    SetPixelSampling(PixelSampling),
+    /// The next level sampling, round and round.
+    NextLevelSampling,
+    /// This level sampling.
+    SetLevelSampling(LevelSampling),
+    /// The next rules, round and round.
+    NextRules,
+    /// These rules.
+    SetRules(Rules),
+    /// The next dialect, round and round; the scene is read again.
+    NextDialect,
+    /// This dialect; the scene is read again.
+    SetDialect(DialectChoice),
+    /// What lies below the first primitive.
+    SetBackground(Rgba),
+
+    // Scenes.
+    /// The scene after the current one, round and round.
+    NextScene,
+    /// The scene before the current one, round and round.
+    PreviousScene,
+    /// The scene with this index, counted from 0. Nothing happens where there is none.
+    Scene(usize),
+    /// Replaces the scenes by those in these files and folders. Where they hold none, nothing changes.
+    Open(Vec<PathBuf>),
+    /// Replaces the scenes by the built-in gallery.
+    OpenGallery,
+    /// Reads the current scene again from where it came from.
+    Reload,
+
+    // Inspector.
+    /// Opens or closes the pixel inspector.
+    Inspector(Toggle),
+    /// This many pixels along each side of the inspector's region, kept within 8 to 64.
+    SetInspectorRegion(u32),
+    /// This many window pixels along each side of a magnified pixel, kept within the inspector's limits.
+    SetMagnification(u32),
+    /// A higher (above zero) or lower magnification by so many steps; the inset's size stays about the same.
+    StepMagnification(i32),
+    /// Pins the pixel under the pointer and opens the inspector; unpins if that pixel is pinned already.
+    PinUnderPointer,
+    /// Pins this frame pixel, moved into the frame, and opens the inspector.
+    Pin([i64; 2]),
+    /// Moves the pin by so many frame pixels within the frame; pins first what the open inspector shows.
+    Nudge([i64; 2]),
+    /// The inspector follows the pointer again.
+    Unpin,
+    /// Copies place and colour of the inspected pixel.
+    CopyPixel,
+
+    // Out.
+    /// Copies the command line that makes this picture.
+    CopyCommandLine,
+    /// Saves the frame, with the inspector's inset where it is open.
+    Screenshot,
+    /// Saves the whole window with overlay and panels.
+    WindowScreenshot,
+
+    // Window.
+    /// The window's size in device pixels; zero when it is minimised.
+    Resize([u32; 2]),
+    /// The part of the window that no panel covers; the inset is placed inside. `None` is the whole window.
+    SetFreeArea(Option<PixelRect>),
+    /// Shows or hides the text over the picture.
+    OverlayText(Toggle),
+    /// Hides or shows everything but the picture.
+    HideEverything(Toggle),
+    /// Shows or hides the side panel.
+    Panel(Toggle),
+    /// Opens this dialog, or closes it if it is the one that is open.
+    ToggleDialog(Dialog),
+    /// Closes the dialog that is open.
+    CloseDialog,
+    /// This theme.
+    SetTheme(Theme),
+    /// The other theme.
+    NextTheme,
+    /// Removes a message from the screen.
+    DismissMessage(u64),
+    /// Closes or unpins what is open, the latest first; quits when nothing is.
+    Escape,
+    /// Ends the program.
+    Quit,
+}
+
+/// A button of the mouse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PointerButton {
+    /// Left: drags.
+    Primary,
+    /// Right: pins.
+    Secondary,
+}
+
+/// Something that covers the picture and takes the keyboard until it is closed. One at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Dialog {
+    /// All keys and commands.
+    Help,
+    /// The command palette.
+    Palette,
+    /// Asks for a pixel.
+    GoToPixel,
+}
+
+/// What a command asks of the program around the viewer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// Put this text on the clipboard.
+    CopyText(String),
+    /// Give the picture of the whole window to [`super::Viewer::save_window_picture`].
+    PictureOfWindow,
+    /// End the program.
+    Quit,
+}

@@ -1,0 +1,451 @@
+//! The lines of the command table, in the order of help and menus.
+
+use super::commands::{Action, CommandSpec, Group};
+use super::key::{Chord, Key, Modifiers};
+use super::typed::{self, Argument};
+use super::{Command, Dialog, Toggle};
+
+/// Degrees that one press of a key turns the picture.
+const TURN: f64 = 5.0;
+/// What one press of a key zooms by.
+const ZOOM_STEP: f64 = 1.25;
+/// Pixels that an arrow moves the pin by with Shift.
+const FAR: i64 = 10;
+
+/// Every command that a key, the palette or a script can name.
+pub(super) static TABLE: &[CommandSpec] = &[
+    // View.
+    spec(
+        "reset-view",
+        "Reset view",
+        "Shows the whole canvas, upright, with a margin",
+        Group::View,
+    )
+    .keys(&[Chord::named(Key::Space)])
+    .run(&Command::ResetView),
+    spec(
+        "fit",
+        "Fit",
+        "Makes the canvas as large as the window allows",
+        Group::View,
+    )
+    .keys(&[Chord::char('f')])
+    .run(&Command::FitView),
+    spec(
+        "actual-size",
+        "Actual size",
+        "Makes one user unit one pixel",
+        Group::View,
+    )
+    .keys(&[Chord::ctrl('0')])
+    .run(&Command::ActualSize),
+    spec(
+        "rotate-left",
+        "Rotate left",
+        "Turns the picture left by 5 degrees",
+        Group::View,
+    )
+    .keys(&[Chord::char('[')])
+    .run(&Command::RotateBy { degrees: -TURN }),
+    spec(
+        "rotate-right",
+        "Rotate right",
+        "Turns the picture right by 5 degrees",
+        Group::View,
+    )
+    .keys(&[Chord::char(']')])
+    .run(&Command::RotateBy { degrees: TURN }),
+    spec(
+        "rotate",
+        "Rotate by",
+        "Turns the picture clockwise by so many degrees",
+        Group::View,
+    )
+    .argument(typed::ROTATE),
+    spec(
+        "zoom-in",
+        "Zoom in",
+        "Enlarges the picture about the middle of the window",
+        Group::View,
+    )
+    .run(&Command::ZoomAt {
+        at: None,
+        factor: ZOOM_STEP,
+    }),
+    spec(
+        "zoom-out",
+        "Zoom out",
+        "Shrinks the picture about the middle of the window",
+        Group::View,
+    )
+    .run(&Command::ZoomAt {
+        at: None,
+        factor: 1.0 / ZOOM_STEP,
+    }),
+    spec(
+        "zoom",
+        "Zoom by",
+        "Scales the picture by a factor, about the middle or a window pixel",
+        Group::View,
+    )
+    .argument(typed::ZOOM),
+    spec("pan", "Pan by", "Moves the picture by window pixels", Group::View).argument(typed::PAN),
+    spec(
+        "view",
+        "Set view",
+        "Sets centre, pixels per unit and rotation",
+        Group::View,
+    )
+    .argument(typed::VIEW),
+    spec(
+        "pixel-zoom",
+        "Pixel zoom",
+        "Shows every frame pixel as a square of 1, 2, 3 ... window pixels",
+        Group::View,
+    )
+    .run(&Command::NextPixelZoom)
+    .argument(typed::PIXEL_ZOOM),
+    // Sampling.
+    spec(
+        "rate-down",
+        "Lower sample rate",
+        "Takes fewer samples per pixel",
+        Group::Sampling,
+    )
+    .keys(&[Chord::char('-')])
+    .run(&Command::SampleRateDown),
+    spec(
+        "rate-up",
+        "Higher sample rate",
+        "Takes more samples per pixel",
+        Group::Sampling,
+    )
+    .keys(&[Chord::char('='), Chord::anywhere('+')])
+    .run(&Command::SampleRateUp),
+    spec(
+        "rate",
+        "Sample rate",
+        "Sets the samples per pixel: 1, 4, 9, 16 ... 256",
+        Group::Sampling,
+    )
+    .argument(typed::SAMPLE_RATE),
+    spec(
+        "pixel-sampling",
+        "Pixel sampling",
+        "Switches between nearest and bilinear texels",
+        Group::Sampling,
+    )
+    .keys(&[Chord::char('p')])
+    .run(&Command::NextPixelSampling)
+    .argument(typed::PIXEL_SAMPLING),
+    spec(
+        "level-sampling",
+        "Level sampling",
+        "Switches between mip level zero, nearest and linear",
+        Group::Sampling,
+    )
+    .keys(&[Chord::char('l')])
+    .run(&Command::NextLevelSampling)
+    .argument(typed::LEVEL_SAMPLING),
+    spec(
+        "rules",
+        "Rules",
+        "Switches between the standard rules of the picture and the course's",
+        Group::Sampling,
+    )
+    .run(&Command::NextRules)
+    .argument(typed::RULES),
+    spec(
+        "background",
+        "Background",
+        "Sets what lies below the scene: white, transparent or a colour",
+        Group::Sampling,
+    )
+    .argument(typed::BACKGROUND),
+    // Scenes.
+    spec("scene", "Scene", "Shows the scene with this number", Group::Scenes)
+        .keys(&DIGITS)
+        .per_key(&[
+            Command::Scene(0),
+            Command::Scene(1),
+            Command::Scene(2),
+            Command::Scene(3),
+            Command::Scene(4),
+            Command::Scene(5),
+            Command::Scene(6),
+            Command::Scene(7),
+            Command::Scene(8),
+        ])
+        .argument(typed::SCENE),
+    spec(
+        "previous-scene",
+        "Previous scene",
+        "Shows the scene before this one",
+        Group::Scenes,
+    )
+    .keys(&[Chord::named(Key::PageUp)])
+    .run(&Command::PreviousScene),
+    spec(
+        "next-scene",
+        "Next scene",
+        "Shows the scene after this one",
+        Group::Scenes,
+    )
+    .keys(&[Chord::named(Key::PageDown)])
+    .run(&Command::NextScene),
+    spec(
+        "open",
+        "Open",
+        "Opens a file, or every scene in a folder",
+        Group::Scenes,
+    )
+    .argument(typed::OPEN),
+    spec(
+        "gallery",
+        "Built-in gallery",
+        "Opens the scenes that come with the program",
+        Group::Scenes,
+    )
+    .run(&Command::OpenGallery),
+    spec("reload", "Reload", "Reads the scene again", Group::Scenes)
+        .keys(&[Chord::ctrl('r'), Chord::named(Key::F(5))])
+        .run(&Command::Reload),
+    spec(
+        "dialect",
+        "Dialect",
+        "Switches how documents are read: auto, course or svg",
+        Group::Scenes,
+    )
+    .run(&Command::NextDialect)
+    .argument(typed::DIALECT),
+    // Inspector.
+    spec(
+        "inspector",
+        "Pixel inspector",
+        "Opens or closes the pixel inspector",
+        Group::Inspector,
+    )
+    .keys(&[Chord::char('z')])
+    .run(&Command::Inspector(Toggle::Flip))
+    .argument(typed::INSPECTOR),
+    spec(
+        "pin",
+        "Pin pixel",
+        "Pins the pixel under the pointer, or unpins it",
+        Group::Inspector,
+    )
+    .keys(&[Chord::named(Key::Enter)])
+    .run(&Command::PinUnderPointer)
+    .argument(typed::PIN),
+    spec(
+        "unpin",
+        "Unpin",
+        "Lets the inspector follow the pointer again",
+        Group::Inspector,
+    )
+    .run(&Command::Unpin),
+    spec("nudge", "Nudge pin", "Moves the pin by one pixel", Group::Inspector)
+        .keys(&[
+            Chord::named(Key::Left),
+            Chord::named(Key::Right),
+            Chord::named(Key::Up),
+            Chord::named(Key::Down),
+        ])
+        .per_key(&[
+            Command::Nudge([-1, 0]),
+            Command::Nudge([1, 0]),
+            Command::Nudge([0, -1]),
+            Command::Nudge([0, 1]),
+        ])
+        .argument(typed::NUDGE),
+    spec(
+        "nudge-far",
+        "Nudge pin far",
+        "Moves the pin by ten pixels",
+        Group::Inspector,
+    )
+    .keys(&[shift(Key::Left), shift(Key::Right), shift(Key::Up), shift(Key::Down)])
+    .per_key(&[
+        Command::Nudge([-FAR, 0]),
+        Command::Nudge([FAR, 0]),
+        Command::Nudge([0, -FAR]),
+        Command::Nudge([0, FAR]),
+    ]),
+    spec(
+        "go-to-pixel",
+        "Go to pixel",
+        "Asks for a pixel and pins it",
+        Group::Inspector,
+    )
+    .keys(&[Chord::ctrl('g')])
+    .run(&Command::ToggleDialog(Dialog::GoToPixel)),
+    spec(
+        "magnify-more",
+        "Magnify more",
+        "Shows fewer pixels larger in the inspector",
+        Group::Inspector,
+    )
+    .run(&Command::StepMagnification(1)),
+    spec(
+        "magnify-less",
+        "Magnify less",
+        "Shows more pixels smaller in the inspector",
+        Group::Inspector,
+    )
+    .run(&Command::StepMagnification(-1)),
+    spec(
+        "magnification",
+        "Magnification",
+        "Sets how large the inspector shows a pixel",
+        Group::Inspector,
+    )
+    .argument(typed::MAGNIFICATION),
+    spec(
+        "region",
+        "Inspected region",
+        "Sets how many pixels the inspector shows across: 8 to 64",
+        Group::Inspector,
+    )
+    .argument(typed::REGION),
+    // Save and copy.
+    spec(
+        "screenshot",
+        "Save picture",
+        "Saves the frame as PNG, with the inspector where it is open",
+        Group::Save,
+    )
+    .keys(&[Chord::char('s')])
+    .run(&Command::Screenshot),
+    spec(
+        "window-screenshot",
+        "Save window",
+        "Saves the whole window as PNG, panels included",
+        Group::Save,
+    )
+    .keys(&[Chord::ctrl_shift('s')])
+    .run(&Command::WindowScreenshot),
+    spec(
+        "copy-pixel",
+        "Copy pixel",
+        "Copies place and colour of the inspected pixel",
+        Group::Save,
+    )
+    .keys(&[Chord::ctrl('c')])
+    .run(&Command::CopyPixel),
+    spec(
+        "copy-command-line",
+        "Copy command line",
+        "Copies the command line that makes this picture",
+        Group::Save,
+    )
+    .keys(&[Chord::ctrl_shift('c')])
+    .run(&Command::CopyCommandLine),
+    // Window.
+    spec(
+        "overlay",
+        "Overlay text",
+        "Shows or hides the text over the picture",
+        Group::Window,
+    )
+    .keys(&[Chord::char('`')])
+    .run(&Command::OverlayText(Toggle::Flip))
+    .argument(typed::OVERLAY),
+    spec(
+        "hide",
+        "Only the picture",
+        "Hides everything but the picture",
+        Group::Window,
+    )
+    .keys(&[Chord::named(Key::Tab)])
+    .run(&Command::HideEverything(Toggle::Flip))
+    .argument(typed::HIDE),
+    spec("panel", "Side panel", "Shows or hides the side panel", Group::Window)
+        .run(&Command::Panel(Toggle::Flip))
+        .argument(typed::PANEL),
+    spec(
+        "theme",
+        "Theme",
+        "Switches between the dark and the light theme",
+        Group::Window,
+    )
+    .run(&Command::NextTheme)
+    .argument(typed::THEME),
+    spec("help", "Help", "Shows all keys", Group::Window)
+        .keys(&[Chord::shifted('?', '/'), Chord::named(Key::F(1))])
+        .run(&Command::ToggleDialog(Dialog::Help)),
+    spec(
+        "palette",
+        "Command palette",
+        "Finds a command by its name",
+        Group::Window,
+    )
+    .keys(&[Chord::ctrl_shift('p')])
+    .run(&Command::ToggleDialog(Dialog::Palette)),
+    spec(
+        "escape",
+        "Close",
+        "Closes or unpins what is open, then quits",
+        Group::Window,
+    )
+    .keys(&[Chord::named(Key::Escape)])
+    .run(&Command::Escape),
+    spec("quit", "Quit", "Ends the program", Group::Window)
+        .keys(&[Chord::ctrl('q')])
+        .run(&Command::Quit),
+];
+
+/// `1` to `9`.
+static DIGITS: [Chord; 9] = [
+    Chord::char('1'),
+    Chord::char('2'),
+    Chord::char('3'),
+    Chord::char('4'),
+    Chord::char('5'),
+    Chord::char('6'),
+    Chord::char('7'),
+    Chord::char('8'),
+    Chord::char('9'),
+];
+
+const fn shift(key: Key) -> Chord {
+    Chord::new(key, Modifiers::SHIFT)
+}
+
+const fn spec(id: &'static str, name: &'static str, help: &'static str, group: Group) -> CommandSpec {
+    CommandSpec {
+        id,
+        name,
+        help,
+        group,
+        keys: &[],
+        action: Action::NeedsArgument,
+        argument: None,
+    }
+}
+
+impl CommandSpec {
+    const fn keys(self, keys: &'static [Chord]) -> Self {
+        Self { keys, ..self }
+    }
+
+    const fn run(self, command: &'static Command) -> Self {
+        Self {
+            action: Action::Run(command),
+            ..self
+        }
+    }
+
+    const fn per_key(self, commands: &'static [Command]) -> Self {
+        Self {
+            action: Action::PerKey(commands),
+            ..self
+        }
+    }
+
+    const fn argument(self, argument: Argument) -> Self {
+        Self {
+            argument: Some(argument),
+            ..self
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! The pixel inspector: which pixel it shows, how large, and where its inset lies in the window.
+//!
+//! It reads the frame, never the screen. Unpinned it follows the pointer and gives way to it; pinned it stays, so
+//! that the pointer can go into the inset and read the magnified pixels.
+
+use crate::figure::{Corner, Inset, PixelRect, place};
+
+/// The magnifications that the wheel steps through.
+const STEPS: [u32; 17] = [2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 28, 32, 40, 48, 64, 96];
+/// As many steps as there can be.
+const MAX_STEPS: u32 = 20;
+/// Lines of a magnified pixel's label: red, green, blue.
+const LABEL_LINES: f32 = 3.0;
+/// Characters of a label's longest line.
+const LABEL_CHARACTERS: f32 = 3.0;
+/// Free pixels around a label.
+const LABEL_MARGIN: f32 = 2.0;
+
+/// State of the pixel inspector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inspector {
+    /// Whether it is to be seen.
+    pub open: bool,
+    /// Source pixels along each side, 8 to 64.
+    pub region: u32,
+    /// Window pixels along each side of a magnified pixel.
+    pub magnification: u32,
+    /// The pinned frame pixel as the user chose it; a smaller frame may not reach it.
+    pub(super) pin: Option<[u32; 2]>,
+    /// The pixel last under the pointer: shown while the pointer is elsewhere.
+    pub(super) last: Option<[u32; 2]>,
+    /// Region times pitch that the user chose; the wheel keeps it.
+    extent: u32,
+    /// Where the inset was last.
+    corner: Corner,
+    /// Turns of the wheel that did not make a whole step yet.
+    rest: f64,
+}
+
+/// The inset in the window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlacedInset {
+    /// What it shows. In a small window less than the user chose.
+    pub inset: Inset,
+    /// Where it lies, in window pixels.
+    pub rect: PixelRect,
+}
+
+/// The numbers of a magnified pixel, and where to write them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelLabel {
+    /// The frame pixel.
+    pub pixel: [u32; 2],
+    /// Its block, in window pixels.
+    pub block: PixelRect,
+    /// Straight `[r, g, b, a]`; red, green and blue are to be written in decimal below each other.
+    pub rgba: [u8; 4],
+    /// Whether the colour is dark, so that the text must be light.
+    pub dark: bool,
+}
+
+impl Default for Inspector {
+    fn default() -> Self {
+        let (region, magnification) = (17, 16);
+        Self {
+            open: false,
+            region,
+            magnification,
+            pin: None,
+            last: None,
+            extent: region * (magnification + 1),
+            corner: Corner::default(),
+            rest: 0.0,
+        }
+    }
+}
+
+impl Inspector {
+    pub(super) fn set_region(&mut self, region: u32) {
+        self.apply(Inset::new([0, 0], region, self.magnification));
+        self.extent = self.region * (self.magnification + 1);
+    }
+
+    pub(super) fn set_magnification(&mut self, magnification: u32) {
+        self.apply(Inset::new([0, 0], self.region, magnification));
+        self.extent = self.region * (self.magnification + 1);
+    }
+
+    /// So many steps through [`STEPS`]; the inset's size stays about the same.
+    pub(super) fn step(&mut self, steps: i32) {
+        let now = self.magnification;
+        for _ in 0..steps.unsigned_abs().min(MAX_STEPS) {
+            let next = if steps > 0 {
+                STEPS.into_iter().find(|m| *m > self.magnification)
+            } else {
+                STEPS.into_iter().rfind(|m| *m < self.magnification)
+            };
+            self.magnification = next.unwrap_or(self.magnification);
+        }
+        if self.magnification != now {
+            let region = (self.extent + self.magnification.div_ceil(2)) / (self.magnification + 1);
+            self.apply(Inset::new([0, 0], region, self.magnification));
+        }
+    }
+
+    /// Turns of the wheel over the inset: every whole one is a step.
+    pub(super) fn wheel(&mut self, clicks: f64) {
+        let turned = (self.rest + clicks).clamp(-100.0, 100.0);
+        let whole = turned.trunc();
+        self.rest = turned - whole;
+        #[expect(clippy::cast_possible_truncation, reason = "clamped to 100 steps")]
+        self.step(whole as i32);
+    }
+
+    fn apply(&mut self, limits: Inset) {
+        self.region = limits.region;
+        self.magnification = limits.magnification;
+    }
+
+    /// Where the inset for the frame pixel `center` goes: inside `area`, never over that pixel as the window shows it
+    /// with `zoom` window pixels per side. In a tight window the region shrinks, then the magnification. Remembers
+    /// the corner, so that the inset only moves when it must.
+    pub(super) fn place(&mut self, center: [u32; 2], zoom: u32, area: &PixelRect) -> Option<PlacedInset> {
+        let center = center.map(i64::from);
+        let shown = PixelRect {
+            x: center[0] * i64::from(zoom),
+            y: center[1] * i64::from(zoom),
+            width: zoom,
+            height: zoom,
+        };
+        let smallest = *Inset::REGION.start();
+        let regions = (smallest..=self.region)
+            .rev()
+            .map(|region| (region, self.magnification));
+        let magnifications = (*Inset::MAGNIFICATION.start()..self.magnification)
+            .rev()
+            .map(|m| (smallest, m));
+        for (region, magnification) in regions.chain(magnifications) {
+            let inset = Inset::new(center, region, magnification);
+            let size = [inset.side(); 2];
+            if let Some((corner, rect)) = place(area, size, &shown, self.corner) {
+                self.corner = corner;
+                return Some(PlacedInset { inset, rect });
+            }
+        }
+        None
+    }
+}
+
+impl PlacedInset {
+    /// The frame pixel magnified at a window pixel; it may lie outside the frame. `None` beside the grid.
+    pub fn pixel_at(&self, [x, y]: [i64; 2]) -> Option<[i64; 2]> {
+        if !self.rect.contains([x, y]) {
+            return None;
+        }
+        self.inset.pixel_at([x - self.rect.x, y - self.rect.y])
+    }
+
+    /// The block of a frame pixel, in window pixels.
+    pub fn block(&self, pixel: [i64; 2]) -> Option<PixelRect> {
+        let block = self.inset.block(pixel)?;
+        Some(PixelRect {
+            x: block.x + self.rect.x,
+            y: block.y + self.rect.y,
+            ..block
+        })
+    }
+
+    /// Whether the numbers of a pixel fit its block when a character is `[width, height]` window pixels.
+    pub fn labels_fit(&self, character: [f32; 2]) -> bool {
+        let room = self.inset.magnification as f32 - LABEL_MARGIN;
+        character[0] * LABEL_CHARACTERS <= room && character[1] * LABEL_LINES <= room
+    }
+}
+
+/// Whether white text reads better than black on this colour (over white).
+pub(super) fn is_dark([r, g, b, a]: [u8; 4]) -> bool {
+    let luma = 0.299 * f32::from(r) + 0.587 * f32::from(g) + 0.114 * f32::from(b);
+    let opacity = f32::from(a) / 255.0;
+    luma * opacity + 255.0 * (1.0 - opacity) < 140.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wheel_keeps_the_size() {
+        let mut inspector = Inspector::default();
+        let side = |inspector: &Inspector| inspector.region * (inspector.magnification + 1);
+        let before = side(&inspector);
+        inspector.wheel(0.5);
+        assert_eq!(inspector.magnification, 16, "half a click is no step");
+        inspector.wheel(0.5);
+        assert_eq!(inspector.magnification, 20, "two halves are one");
+        assert!(side(&inspector).abs_diff(before) <= 20, "{inspector:?}");
+        inspector.wheel(-1.0);
+        assert_eq!((inspector.magnification, inspector.region), (16, 17), "and back");
+        inspector.wheel(1e300);
+        inspector.wheel(f64::NAN);
+        assert_eq!((inspector.magnification, inspector.region), (96, 8), "the end");
+    }
+
+    #[test]
+    fn place_gives_way_and_shrinks() {
+        let mut inspector = Inspector::default();
+        let area = PixelRect::of_size([800, 600]);
+        let far = inspector.place([10, 500], 1, &area).expect("there is room");
+        assert_eq!(far.inset.region, 17, "as chosen");
+        let near = inspector.place([700, 100], 1, &area).expect("there is room");
+        assert_ne!(near.rect, far.rect, "it moved away");
+        let back = inspector.place([10, 300], 1, &area).expect("there is room");
+        assert_eq!(back.rect, near.rect, "it only moves when it must");
+        let tight = inspector
+            .place([60, 60], 1, &PixelRect::of_size([120, 120]))
+            .expect("a small one fits");
+        assert!(tight.inset.magnification < 16, "{tight:?}");
+        assert_eq!(
+            inspector.place([0, 0], 1, &PixelRect::of_size([20, 20])),
+            None,
+            "no room at all"
+        );
+        assert_eq!(inspector.place([0, 0], 1, &PixelRect::default()), None, "nor here");
+    }
+}

@@ -1,0 +1,80 @@
+//! Short messages to the user: what was saved, what went wrong and how to cure it.
+
+/// Messages kept; older ones go.
+const MOST: usize = 6;
+
+/// One message.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// Grows with every message; names it in [`super::Command::DismissMessage`].
+    pub id: u64,
+    /// How bad it is.
+    pub kind: MessageKind,
+    /// One line.
+    pub text: String,
+}
+
+/// How bad a message is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum MessageKind {
+    /// Something was done.
+    Done,
+    /// Something could not be done.
+    Error,
+}
+
+/// The messages on the screen, oldest first.
+#[derive(Debug, Default)]
+pub(super) struct Messages {
+    list: Vec<Message>,
+    next_id: u64,
+}
+
+impl Messages {
+    pub(super) fn all(&self) -> &[Message] {
+        &self.list
+    }
+
+    /// Adds a message; one with the same text moves to the end instead of standing there twice.
+    pub(super) fn add(&mut self, kind: MessageKind, text: String) {
+        self.list.retain(|message| message.text != text);
+        if self.list.len() == MOST {
+            self.list.remove(0);
+        }
+        let id = self.next_id;
+        self.next_id += 1;
+        self.list.push(Message { id, kind, text });
+    }
+
+    pub(super) fn done(&mut self, text: String) {
+        self.add(MessageKind::Done, text);
+    }
+
+    pub(super) fn error(&mut self, text: String) {
+        self.add(MessageKind::Error, text);
+    }
+
+    pub(super) fn dismiss(&mut self, id: u64) {
+        self.list.retain(|message| message.id != id);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_are_few_and_different() {
+        let mut messages = Messages::default();
+        for i in 0..20 {
+            messages.done(format!("saved {i}"));
+        }
+        messages.error("saved 19".into());
+        let texts: Vec<&str> = messages.all().iter().map(|m| m.text.as_str()).collect();
+        let expected = ["saved 14", "saved 15", "saved 16", "saved 17", "saved 18", "saved 19"];
+        assert_eq!(texts, expected, "the last ones, each once");
+        let last = messages.all()[MOST - 1].id;
+        messages.dismiss(last);
+        assert_eq!(messages.all().len(), MOST - 1, "dismissed");
+    }
+}

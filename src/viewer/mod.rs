@@ -1,0 +1,47 @@
+//! The program without a window: a [`Viewer`] takes [`Command`]s and keeps scenes, views, settings, a finished frame
+//! and what is open on the screen.
+//!
+//! Whatever a user can do is a [`Command`], so whatever a user can do is testable here. Reading and drawing run in
+//! threads of their own: [`Viewer::apply`] never waits, [`Viewer::poll`] takes in what they finished, and
+//! [`Viewer::finish`] waits until the frame of the current state is there, for scripts and tests.
+//!
+//! Window pixels are device pixels from the window's upper left corner; frame pixels are `pixel zoom` times larger.
+
+mod apply;
+mod background;
+mod camera;
+mod command;
+mod command_line;
+mod command_table;
+pub mod commands;
+mod drawing;
+mod frame;
+pub mod gallery;
+mod inspector;
+mod key;
+mod library;
+mod messages;
+mod pointer;
+mod present;
+mod reading;
+mod screenshot;
+mod settings;
+mod state;
+mod status;
+mod typed;
+
+pub use camera::{Camera, Sight, ViewNumbers};
+pub use command::{Command, Dialog, Effect, PointerButton};
+pub use commands::{Action, CommandSpec, Gesture, Group};
+pub use frame::{Frame, Picture};
+pub use inspector::{Inspector, PixelLabel, PlacedInset};
+pub use key::{Chord, Key, KeyPress, Modifiers};
+pub use library::{SceneEntry, SceneSource, SceneState};
+pub use messages::{Message, MessageKind};
+pub use present::show;
+pub use settings::{PixelZoom, Settings, Theme, Toggle};
+pub use state::{Viewer, ViewerOptions, Waker};
+pub use status::Status;
+pub use typed::Argument;
+
+pub use crate::figure::PixelRect;

@@ -1,0 +1,203 @@
+//! The pointer, the pixels under it, the pin, and what they say.
+
+use glam::DVec2;
+
+use super::inspector::is_dark;
+use super::{PixelLabel, PixelRect, PointerButton, Status, Viewer};
+use crate::figure::SampleMark;
+
+/// Where the pointer is and what it does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Pointer {
+    /// Window pixels; `None` outside the window or over a panel.
+    pub(super) at: Option<DVec2>,
+    /// Whether a drag moves the picture.
+    pub(super) dragging: bool,
+}
+
+impl Viewer {
+    /// The pointer in window pixels; `None` outside the window or over a panel.
+    pub fn pointer(&self) -> Option<DVec2> {
+        self.pointer.at
+    }
+
+    /// Whether the pointer is over the inspector's inset.
+    pub fn pointer_over_inset(&self) -> bool {
+        let inside = |at| self.inset.is_some_and(|inset| inset.rect.contains(window_pixel(at)));
+        self.pointer.at.is_some_and(inside)
+    }
+
+    /// Whether a drag is moving the picture.
+    pub fn is_dragging(&self) -> bool {
+        self.pointer.dragging
+    }
+
+    /// The frame pixel under the pointer: over the inset the magnified one.
+    pub fn hovered_pixel(&self) -> Option<[u32; 2]> {
+        let at = window_pixel(self.pointer.at?);
+        let pixel = match self.inset.filter(|inset| inset.rect.contains(at)) {
+            Some(inset) => inset.pixel_at(at)?,
+            None => at.map(|side| side.div_euclid(i64::from(self.settings.pixel_zoom.factor()))),
+        };
+        self.in_frame(pixel)
+    }
+
+    /// The pinned pixel; `None` too while the frame has no pixels.
+    pub fn pinned_pixel(&self) -> Option<[u32; 2]> {
+        let pin = self.inspector.pin?;
+        self.nearest_in_frame(pin.map(i64::from))
+    }
+
+    /// The pixel in the middle of the inspector: the pinned one, else the one last under the pointer, else the one in
+    /// the middle of the frame.
+    pub fn inspected_pixel(&self) -> Option<[u32; 2]> {
+        let middle = self.frame_size().map(|side| i64::from(side / 2));
+        let free = self.inspector.last.map_or(middle, |pixel| pixel.map(i64::from));
+        self.pinned_pixel().or_else(|| self.nearest_in_frame(free))
+    }
+
+    /// The pixel that the status line tells about: under the pointer, else pinned.
+    pub fn status(&self) -> Option<Status> {
+        self.status_of(self.hovered_pixel().or(self.pinned_pixel())?)
+    }
+
+    /// A frame pixel in numbers; `None` before the scene was read.
+    pub fn status_of(&self, pixel: [u32; 2]) -> Option<Status> {
+        let sight = self.sight()?;
+        let camera = &self.current()?.camera;
+        let centre = DVec2::from(pixel.map(f64::from)) + 0.5;
+        Some(Status {
+            pixel,
+            user: camera.transform(&sight).to_scene(centre),
+            rgba: self.frame().and_then(|frame| frame.pixels.rgba(pixel[0], pixel[1])),
+            scale: camera.numbers(&sight).scale,
+        })
+    }
+
+    /// The numbers to write on the inset's pixels when a character is `[width, height]` window pixels; none where
+    /// they do not fit.
+    pub fn pixel_labels(&self, character: [f32; 2]) -> Vec<PixelLabel> {
+        let Some((placed, frame)) = self.inset.zip(self.frame()) else {
+            return Vec::new();
+        };
+        if !placed.labels_fit(character) {
+            return Vec::new();
+        }
+        let source = placed.inset.source();
+        let all = (source.y..source.bottom()).flat_map(|y| (source.x..source.right()).map(move |x| [x, y]));
+        let label = |pixel: [i64; 2]| {
+            let block = placed.block(pixel)?;
+            let pixel = self.in_frame(pixel)?;
+            let rgba = frame.pixels.rgba(pixel[0], pixel[1])?;
+            Some(PixelLabel {
+                pixel,
+                block,
+                rgba,
+                dark: is_dark(rgba),
+            })
+        };
+        all.filter_map(label).collect()
+    }
+
+    /// The samples of the pixel in the middle of the inspector.
+    pub fn sample_marks(&self) -> Vec<SampleMark> {
+        Vec::new()
+    }
+
+    pub(super) fn pointer_moved(&mut self, to: DVec2) {
+        if !to.is_finite() {
+            return;
+        }
+        let from = self.pointer.at.replace(to);
+        if let Some(from) = from.filter(|_| self.pointer.dragging) {
+            self.pan(to - from);
+        }
+        self.follow_pointer();
+    }
+
+    /// Remembers the pixel under the pointer for the inspector. Unpinned, the inset gives way to the pointer, so what
+    /// lies below the inset counts.
+    pub(super) fn follow_pointer(&mut self) {
+        if self.inspector.pin.is_some() && self.pointer_over_inset() {
+            return;
+        }
+        let Some(at) = self.pointer.at else { return };
+        let zoom = i64::from(self.settings.pixel_zoom.factor());
+        let pixel = window_pixel(at).map(|side| side.div_euclid(zoom));
+        self.inspector.last = self.in_frame(pixel).or(self.inspector.last);
+    }
+
+    pub(super) fn pointer_pressed(&mut self, button: PointerButton) {
+        match button {
+            PointerButton::Primary => {
+                self.pointer.dragging = self.pointer.at.is_some() && !self.pointer_over_inset();
+            }
+            PointerButton::Secondary => self.pin_under_pointer(),
+        }
+    }
+
+    /// Pins the hovered pixel, or unpins it; without one the pixel that the inspector shows.
+    pub(super) fn pin_under_pointer(&mut self) {
+        let Some(pixel) = self.hovered_pixel().or_else(|| self.inspected_pixel()) else {
+            return;
+        };
+        if self.pinned_pixel() == Some(pixel) {
+            self.inspector.pin = None;
+        } else {
+            self.inspector.pin = Some(pixel);
+            self.inspector.open = true;
+        }
+    }
+
+    pub(super) fn pin(&mut self, pixel: [i64; 2]) {
+        if let Some(pixel) = self.nearest_in_frame(pixel) {
+            self.inspector.pin = Some(pixel);
+            self.inspector.open = true;
+        }
+    }
+
+    pub(super) fn nudge(&mut self, by: [i64; 2]) {
+        if self.inspector.pin.is_none() && !self.inspector.open {
+            return;
+        }
+        if let Some([x, y]) = self.inspected_pixel() {
+            self.pin([i64::from(x).saturating_add(by[0]), i64::from(y).saturating_add(by[1])]);
+        }
+    }
+
+    /// Where the inset goes now.
+    pub(super) fn place_inset(&mut self) {
+        let center = self.inspected_pixel().filter(|_| self.inspector.open);
+        let window = PixelRect::of_size(self.screen.window);
+        let area = match self.screen.free_area {
+            Some(free) if !self.everything_hidden() => free.intersection(&window),
+            _ => window,
+        };
+        let zoom = self.settings.pixel_zoom.factor();
+        self.inset = center.and_then(|center| self.inspector.place(center, zoom, &area));
+    }
+
+    /// The pixel, if the frame has it.
+    fn in_frame(&self, pixel: [i64; 2]) -> Option<[u32; 2]> {
+        let [width, height] = self.frame_size();
+        let inside = |value: i64, side: u32| u32::try_from(value).ok().filter(|value| *value < side);
+        Some([inside(pixel[0], width)?, inside(pixel[1], height)?])
+    }
+
+    /// The frame's nearest pixel; `None` if it has no pixels.
+    fn nearest_in_frame(&self, pixel: [i64; 2]) -> Option<[u32; 2]> {
+        let [width, height] = self.frame_size();
+        let last = [i64::from(width) - 1, i64::from(height) - 1];
+        self.in_frame([pixel[0].min(last[0]).max(0), pixel[1].min(last[1]).max(0)])
+    }
+}
+
+/// The window pixel that contains a position.
+fn window_pixel(at: DVec2) -> [i64; 2] {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "far positions saturate, which is as far outside"
+    )]
+    let floor = |value: f64| value.floor().clamp(-1e9, 1e9) as i64;
+    [floor(at.x), floor(at.y)]
+}

@@ -1,0 +1,262 @@
+//! Reading scenes and drawing their thumbnails, in threads beside the user interface.
+
+use std::io;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::background::{AtEnd, Crew, Mailbox, guarded};
+use super::state::Finished;
+use super::{SceneSource, SceneState, Viewer};
+use crate::geometry::{View, ViewTransform};
+use crate::raster::{Framebuffer, SampleRate};
+use crate::render::{RenderSettings, draw};
+use crate::scene::{DialectChoice, Scene};
+use crate::texture::{LevelSampling, PixelSampling};
+
+/// Threads that read: a second one, so that a slow scene does not hold up the next.
+const READERS: usize = 2;
+/// Scenes kept in memory besides the current one.
+const KEPT: usize = 3;
+/// Longer side of a thumbnail, in pixels.
+const THUMBNAIL_SIDE: f64 = 160.0;
+
+/// The threads that read.
+#[derive(Debug)]
+pub(super) struct Readers {
+    scenes: Crew<Order>,
+    thumbnails: Crew<Order>,
+    pending_thumbnails: usize,
+}
+
+/// Which scene, and for which list.
+#[derive(Clone, Debug)]
+struct Order {
+    generation: u64,
+    index: usize,
+    source: SceneSource,
+    dialect: DialectChoice,
+    /// Set where it was read already.
+    scene: Option<Arc<Scene>>,
+}
+
+/// A scene that was read, or not.
+#[derive(Debug)]
+pub(super) struct ReadScene {
+    generation: u64,
+    index: usize,
+    dialect: DialectChoice,
+    result: Result<Arc<Scene>, String>,
+}
+
+/// A thumbnail that was drawn, or not.
+#[derive(Debug)]
+pub(super) struct Thumbnail {
+    generation: u64,
+    index: usize,
+    picture: Option<Arc<Framebuffer>>,
+}
+
+impl Readers {
+    pub(super) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Self> {
+        let mail = mailbox.clone();
+        let read = move |order: Order| {
+            let Order {
+                generation,
+                index,
+                dialect,
+                ..
+            } = order;
+            let result = order.read();
+            mail.post(Finished::Read(ReadScene {
+                generation,
+                index,
+                dialect,
+                result,
+            }));
+        };
+        let mail = mailbox.clone();
+        let draw = move |order: Order| {
+            let (generation, index) = (order.generation, order.index);
+            let picture = order.thumbnail();
+            mail.post(Finished::Thumbnail(Thumbnail {
+                generation,
+                index,
+                picture,
+            }));
+        };
+        Ok(Self {
+            scenes: Crew::start("read", READERS, AtEnd::Detach, read)?,
+            thumbnails: Crew::start("thumbnails", 1, AtEnd::Detach, draw)?,
+            pending_thumbnails: 0,
+        })
+    }
+
+    pub(super) fn has_thumbnails_pending(&self) -> bool {
+        self.pending_thumbnails > 0
+    }
+}
+
+impl Order {
+    fn read(&self) -> Result<Arc<Scene>, String> {
+        let read = guarded(|| self.source.read(self.dialect));
+        match read {
+            Some(Ok(scene)) => Ok(Arc::new(scene)),
+            Some(Err(error)) => Err(error.to_string()),
+            None => Err(format!(
+                "{}: reading this document failed inside the program; please report it with the file",
+                self.source.address()
+            )),
+        }
+    }
+
+    /// The scene in small. It uses one thread, to leave the others to the frames of the window.
+    fn thumbnail(self) -> Option<Arc<Framebuffer>> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().ok()?;
+        let picture = pool.install(|| {
+            let scene = match &self.scene {
+                Some(scene) => Arc::clone(scene),
+                None => self.read().ok()?,
+            };
+            guarded(|| draw_thumbnail(&scene))
+        })?;
+        Some(Arc::new(picture))
+    }
+}
+
+/// The whole canvas, as large as a thumbnail may be.
+fn draw_thumbnail(scene: &Scene) -> Framebuffer {
+    let size = scene.canvas * (THUMBNAIL_SIDE / scene.canvas.max_element());
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 1 and the longer side"
+    )]
+    let side = |length: f64| length.round().clamp(1.0, THUMBNAIL_SIDE) as u32;
+    let mut frame = Framebuffer::new(side(size.x), side(size.y));
+    let view: ViewTransform = View::Canvas.transform(scene.canvas, [frame.width(), frame.height()]);
+    let settings = RenderSettings {
+        sample_rate: SampleRate::new(4).unwrap_or_default(),
+        pixel_sampling: PixelSampling::Bilinear,
+        level_sampling: LevelSampling::Linear,
+        outline: false,
+        ..RenderSettings::default()
+    };
+    draw(scene, &view, &settings, &mut frame);
+    frame
+}
+
+impl Viewer {
+    /// Sees to it that the current scene is read in the dialect that is set.
+    pub(super) fn want_scene(&mut self) {
+        let dialect = self.settings.dialect;
+        let Some(entry) = self.scenes.get_mut(self.current) else {
+            return;
+        };
+        let there = match &entry.state {
+            SceneState::Unread => false,
+            SceneState::Reading { dialect: read, .. }
+            | SceneState::Ready { dialect: read, .. }
+            | SceneState::Failed { dialect: read, .. } => *read == dialect,
+        };
+        if !there {
+            self.read_current();
+        }
+        self.let_go_of_old_scenes();
+    }
+
+    /// Reads the current scene again.
+    pub(super) fn read_current(&mut self) {
+        let (generation, index, dialect) = (self.generation, self.current, self.settings.dialect);
+        let Some(entry) = self.scenes.get_mut(index) else {
+            return;
+        };
+        let before = entry.scene().cloned();
+        entry.state = SceneState::Reading { dialect, before };
+        let dropped = self.readers.scenes.replace(Order {
+            generation,
+            index,
+            source: entry.source.clone(),
+            dialect,
+            scene: None,
+        });
+        for order in dropped {
+            let forgotten = self
+                .scenes
+                .get_mut(order.index)
+                .filter(|_| order.generation == generation);
+            if let Some(entry) = forgotten.filter(|_| order.index != index) {
+                entry.state = SceneState::Unread;
+            }
+        }
+    }
+
+    /// Takes in a scene that was read. One that is no longer shown is kept, if it was read as the settings say.
+    pub(super) fn scene_read(&mut self, read: ReadScene) {
+        let is_current = read.index == self.current;
+        let Some(entry) = self.scenes.get_mut(read.index) else {
+            return;
+        };
+        let expected = matches!(&entry.state, SceneState::Reading { dialect, .. } if *dialect == read.dialect);
+        if read.generation != self.generation || !expected {
+            return;
+        }
+        let dialect = read.dialect;
+        entry.state = match read.result {
+            Ok(scene) => SceneState::Ready { scene, dialect },
+            Err(message) => {
+                if is_current {
+                    self.messages.error(message.clone());
+                }
+                SceneState::Failed { message, dialect }
+            }
+        };
+    }
+
+    /// Keeps the current scene and the ones shown last; the others are read again when they are asked for.
+    fn let_go_of_old_scenes(&mut self) {
+        let current = self.current;
+        if self.recent.last() == Some(&current) {
+            return;
+        }
+        self.recent.retain(|index| *index != current);
+        self.recent.push(current);
+        while self.recent.len() > KEPT + 1 {
+            let oldest = self.recent.remove(0);
+            if let Some(entry) = self.scenes.get_mut(oldest) {
+                entry.state = SceneState::Unread;
+            }
+        }
+    }
+
+    /// Asks for the thumbnail of a scene in the list: it is read and drawn when nothing else is to be done, and stands
+    /// in [`super::SceneEntry::thumbnail`] then. To be called for the scenes that a panel shows.
+    pub fn request_thumbnail(&mut self, index: usize) {
+        let (generation, dialect) = (self.generation, self.settings.dialect);
+        let Some(entry) = self.scenes.get_mut(index).filter(|entry| !entry.thumbnail_asked) else {
+            return;
+        };
+        entry.thumbnail_asked = true;
+        self.readers.pending_thumbnails += 1;
+        self.readers.thumbnails.push(Order {
+            generation,
+            index,
+            source: entry.source.clone(),
+            dialect,
+            scene: entry.scene().cloned(),
+        });
+    }
+
+    pub(super) fn thumbnail_drawn(&mut self, thumbnail: Thumbnail) {
+        self.readers.pending_thumbnails = self.readers.pending_thumbnails.saturating_sub(1);
+        let in_list = thumbnail.generation == self.generation;
+        if let Some(entry) = self.scenes.get_mut(thumbnail.index).filter(|_| in_list) {
+            entry.thumbnail = thumbnail.picture;
+        }
+    }
+
+    /// The point in the middle of the window, in frame pixels.
+    pub(super) fn middle(&self) -> DVec2 {
+        DVec2::from(self.frame_size().map(f64::from)) / 2.0
+    }
+}

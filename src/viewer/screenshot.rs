@@ -1,0 +1,267 @@
+//! Screenshots: PNG files named by the time to the millisecond, that never replace another file.
+
+use std::fs::OpenOptions;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder as _};
+
+use super::background::{AtEnd, Crew, Mailbox, guarded};
+use super::state::Finished;
+use super::{Frame, PixelZoom, PlacedInset, Viewer, show};
+use crate::figure::SampleMark;
+use crate::raster::Framebuffer;
+
+/// Names that are tried for one picture: others may have been saved in the same millisecond.
+const ATTEMPTS: u32 = 1000;
+
+/// The state of saving.
+#[derive(Debug)]
+pub(super) struct Saver {
+    crew: Crew<Job>,
+    /// Where pictures go; `None` is the current folder.
+    folder: Option<PathBuf>,
+    /// Screenshots that wait for the frame of the current state.
+    waiting: u32,
+    /// Pictures at work.
+    running: u32,
+}
+
+/// A picture to be saved.
+struct Job {
+    folder: PathBuf,
+    picture: Shot,
+}
+
+enum Shot {
+    /// A frame, and the inset that lies over it.
+    Frame {
+        frame: Arc<Frame>,
+        inset: Option<(PlacedInset, PixelZoom, Vec<SampleMark>)>,
+    },
+    /// The whole window.
+    Window(Framebuffer),
+}
+
+/// What became of a picture.
+#[derive(Debug)]
+pub(super) struct Saved(Result<(PathBuf, [u32; 2]), String>);
+
+impl Saver {
+    pub(super) fn start(mailbox: &Mailbox<Finished>, folder: Option<PathBuf>) -> io::Result<Self> {
+        let mailbox = mailbox.clone();
+        let work = move |job: Job| {
+            let saved = guarded(|| job.save()).unwrap_or_else(|| Err("saving failed inside the program".to_owned()));
+            mailbox.post(Finished::Saved(Saved(saved)));
+        };
+        Ok(Self {
+            crew: Crew::start("save", 1, AtEnd::Complete, work)?,
+            folder,
+            waiting: 0,
+            running: 0,
+        })
+    }
+
+    pub(super) fn is_idle(&self) -> bool {
+        self.waiting == 0 && self.running == 0
+    }
+
+    fn push(&mut self, picture: Shot) {
+        let folder = self.folder.clone().unwrap_or_else(|| PathBuf::from("."));
+        self.running += 1;
+        self.crew.push(Job { folder, picture });
+    }
+}
+
+impl Viewer {
+    /// Saves the picture of the whole window, as [`super::Effect::PictureOfWindow`] asks for it.
+    pub fn save_window_picture(&mut self, window: Framebuffer) {
+        if window.pixels().is_empty() {
+            self.messages
+                .error("nothing to save: the window has no pixels; make it larger".to_owned());
+        } else {
+            self.saver.push(Shot::Window(window));
+        }
+        self.update();
+    }
+
+    pub(super) fn ask_for_screenshot(&mut self) {
+        self.saver.waiting = self.saver.waiting.saturating_add(1);
+    }
+
+    /// Saves the screenshots that wait, as soon as the frame shows the current state.
+    pub(super) fn save_when_ready(&mut self) {
+        let reading = self.current().is_some_and(super::SceneEntry::is_reading);
+        if self.saver.waiting == 0 || reading || !self.drawing.is_current() {
+            return;
+        }
+        let Some(frame) = self.drawing.shared_frame().cloned() else {
+            self.saver.waiting = 0;
+            self.messages
+                .error("nothing to save: there is no picture; open a scene first".to_owned());
+            return;
+        };
+        for _ in 0..std::mem::take(&mut self.saver.waiting) {
+            let inset = self
+                .inset
+                .map(|inset| (inset, self.settings.pixel_zoom, self.sample_marks()));
+            self.saver.push(Shot::Frame {
+                frame: Arc::clone(&frame),
+                inset,
+            });
+        }
+    }
+
+    pub(super) fn picture_saved(&mut self, Saved(saved): Saved) {
+        self.saver.running = self.saver.running.saturating_sub(1);
+        match saved {
+            Ok((path, [width, height])) => {
+                self.messages
+                    .done(format!("saved {}, {width} x {height} pixels", path.display()));
+            }
+            Err(problem) => self.messages.error(problem),
+        }
+    }
+}
+
+impl Job {
+    fn save(self) -> Result<(PathBuf, [u32; 2]), String> {
+        let picture = match self.picture {
+            Shot::Frame { frame, inset: None } => return save_new(&self.folder, &frame.pixels),
+            Shot::Frame {
+                frame,
+                inset: Some((placed, zoom, marks)),
+            } => with_inset(&frame.pixels, &placed, zoom, &marks),
+            Shot::Window(picture) => picture,
+        };
+        save_new(&self.folder, &picture)
+    }
+}
+
+/// The frame as the window shows it, with the inset over it.
+fn with_inset(frame: &Framebuffer, placed: &PlacedInset, zoom: PixelZoom, marks: &[SampleMark]) -> Framebuffer {
+    // One frame pixel stays one pixel of the file unless the inset, which is in window pixels, lies over it.
+    let side = |length: u32| length.saturating_mul(zoom.factor()).min(Framebuffer::MAX_SIDE);
+    let mut picture = Framebuffer::new(side(frame.width()), side(frame.height()));
+    if zoom == PixelZoom::ONE {
+        picture.pixels_mut().copy_from_slice(frame.pixels());
+    } else {
+        show(frame, zoom, &mut picture);
+    }
+    paste(
+        &placed.inset.draw(frame, marks),
+        [placed.rect.x, placed.rect.y],
+        &mut picture,
+    );
+    picture
+}
+
+/// Copies `source` to `at` in `target`; what does not fit is cut off.
+fn paste(source: &Framebuffer, at: [i64; 2], target: &mut Framebuffer) {
+    let width = target.width();
+    for y in 0..source.height() {
+        for x in 0..source.width() {
+            let place = [at[0] + i64::from(x), at[1] + i64::from(y)].map(|n| u32::try_from(n).unwrap_or(u32::MAX));
+            if place[0] < width && place[1] < target.height() {
+                let from = y as usize * source.width() as usize + x as usize;
+                target.pixels_mut()[place[1] as usize * width as usize + place[0] as usize] = source.pixels()[from];
+            }
+        }
+    }
+}
+
+/// Saves `picture` in `folder` under a name that did not exist.
+fn save_new(folder: &Path, picture: &Framebuffer) -> Result<(PathBuf, [u32; 2]), String> {
+    let cure = "choose another folder with --screenshot-dir";
+    let bytes = png(picture).map_err(|error| format!("cannot make a PNG of this picture: {error}"))?;
+    let now = jiff::Zoned::now().strftime("%Y-%m-%d_%H-%M-%S_%3f").to_string();
+    for attempt in 1..=ATTEMPTS {
+        let name = match attempt {
+            1 => format!("rasterscope-{now}.png"),
+            _ => format!("rasterscope-{now}-{attempt}.png"),
+        };
+        let path = folder.join(name);
+        match write_new(&path, &bytes) {
+            Ok(()) => return Ok((path, [picture.width(), picture.height()])),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(format!("{}: cannot save here: {error}; {cure}", folder.display())),
+        }
+    }
+    Err(format!(
+        "{}: every name for this picture is taken; {cure}",
+        folder.display()
+    ))
+}
+
+/// Writes a file that did not exist before; a file that could not be written whole is removed.
+fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
+    let written = file.write_all(bytes).and_then(|()| file.sync_all());
+    if written.is_err() {
+        drop(file);
+        // The first error is the one to tell.
+        let _ = std::fs::remove_file(path);
+    }
+    written
+}
+
+/// The picture as PNG, straight alpha.
+fn png(picture: &Framebuffer) -> Result<Vec<u8>, image::ImageError> {
+    let rgba = |pixel: &u32| {
+        let [a, r, g, b] = pixel.to_be_bytes();
+        [r, g, b, a]
+    };
+    let data: Vec<u8> = picture.pixels().iter().flat_map(rgba).collect();
+    let mut bytes = Vec::new();
+    let encoder = PngEncoder::new(&mut bytes);
+    encoder.write_image(&data, picture.width(), picture.height(), ExtendedColorType::Rgba8)?;
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn screenshots_never_replace() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let mut picture = Framebuffer::new(3, 2);
+        picture.pixels_mut()[4] = 0x80ff_8000;
+        let paths: Vec<PathBuf> = (0..20)
+            .map(|_| save_new(folder.path(), &picture).expect("a writable folder").0)
+            .collect();
+        let files = std::fs::read_dir(folder.path()).expect("the folder").count();
+        assert_eq!(files, paths.len(), "each picture has a file of its own");
+        let back = image::open(&paths[0]).expect("a PNG").into_rgba8();
+        assert_eq!(back.get_pixel(1, 1).0, [255, 128, 0, 128], "straight alpha");
+        assert!(write_new(&paths[0], b"x").is_err(), "an existing file is left alone");
+        assert_eq!(
+            image::open(&paths[0]).expect("still whole").into_rgba8(),
+            back,
+            "unchanged"
+        );
+    }
+
+    #[test]
+    fn screenshot_folder_missing() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let nowhere = folder.path().join("no/such");
+        let problem = save_new(&nowhere, &Framebuffer::new(1, 1)).expect_err("no folder");
+        assert!(
+            problem.contains("no/such") && problem.contains("--screenshot-dir"),
+            "{problem}"
+        );
+    }
+
+    #[test]
+    fn paste_cuts_off() {
+        let mut target = Framebuffer::new(4, 4);
+        let mut source = Framebuffer::new(3, 3);
+        source.pixels_mut().fill(7);
+        paste(&source, [-1, 3], &mut target);
+        let set: Vec<usize> = (0..16).filter(|i| target.pixels()[*i] == 7).collect();
+        assert_eq!(set, [12, 13], "the part inside");
+    }
+}

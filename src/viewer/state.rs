@@ -1,0 +1,285 @@
+//! The viewer itself: what it keeps, how it starts, what can be asked of it.
+
+use std::io;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+use super::background::Mailbox;
+use super::drawing::{Drawing, Drawn};
+use super::messages::Messages;
+use super::pointer::Pointer;
+use super::reading::{ReadScene, Readers, Thumbnail};
+use super::screenshot::{Saved, Saver};
+use super::{
+    Camera, Dialog, Frame, Inspector, Message, PixelRect, PlacedInset, SceneEntry, Settings, Sight, Theme, ViewNumbers,
+    library,
+};
+use crate::geometry::View;
+
+/// Called from other threads when [`Viewer::poll`] has something to take in.
+pub type Waker = Arc<dyn Fn() + Send + Sync>;
+
+/// How a viewer starts.
+#[derive(Clone)]
+pub struct ViewerOptions {
+    /// Files and folders to open; none means the built-in gallery.
+    pub paths: Vec<PathBuf>,
+    /// Sampling, rules, dialect, pixel zoom.
+    pub settings: Settings,
+    /// The view of every scene.
+    pub view: View,
+    /// The window in device pixels.
+    pub window: [u32; 2],
+    /// Where screenshots go; `None` is the current folder.
+    pub screenshot_dir: Option<PathBuf>,
+    /// Light or dark panels.
+    pub theme: Theme,
+    /// Wakes the event loop; may do nothing.
+    pub waker: Waker,
+}
+
+/// The program without a window.
+#[derive(Debug)]
+pub struct Viewer {
+    pub(super) scenes: Vec<SceneEntry>,
+    /// Below `scenes.len()`, unless there are none.
+    pub(super) current: usize,
+    /// Grows when the list is replaced: results for an older list are dropped.
+    pub(super) generation: u64,
+    /// The scenes shown last, latest last: the others are let go to save memory.
+    pub(super) recent: Vec<usize>,
+    pub(super) start_view: View,
+    pub(super) settings: Settings,
+    pub(super) screen: Screen,
+    pub(super) pointer: Pointer,
+    pub(super) inspector: Inspector,
+    pub(super) inset: Option<PlacedInset>,
+    pub(super) messages: Messages,
+    pub(super) drawing: Drawing,
+    pub(super) readers: Readers,
+    pub(super) saver: Saver,
+    pub(super) results: Receiver<Finished>,
+    pub(super) revision: u64,
+}
+
+/// What is to be seen in the window besides the picture.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Screen {
+    pub(super) window: [u32; 2],
+    pub(super) free_area: Option<PixelRect>,
+    pub(super) theme: Theme,
+    pub(super) dialog: Option<Dialog>,
+    /// Only the picture is to be seen; what is shown besides comes back as it was.
+    pub(super) hidden: bool,
+    pub(super) shown: Shown,
+}
+
+/// What of the overlay is shown.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shown {
+    pub(super) text: bool,
+    pub(super) panel: bool,
+}
+
+/// What a thread finished.
+#[derive(Debug)]
+pub(super) enum Finished {
+    Read(ReadScene),
+    Drawn(Drawn),
+    Thumbnail(Thumbnail),
+    Saved(Saved),
+}
+
+impl std::fmt::Debug for ViewerOptions {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ViewerOptions")
+            .field("paths", &self.paths)
+            .field("settings", &self.settings)
+            .field("view", &self.view)
+            .field("window", &self.window)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Default for ViewerOptions {
+    fn default() -> Self {
+        Self {
+            paths: Vec::new(),
+            settings: Settings::default(),
+            view: View::Default,
+            window: [1280, 800],
+            screenshot_dir: None,
+            theme: Theme::default(),
+            waker: Arc::new(|| {}),
+        }
+    }
+}
+
+impl Viewer {
+    /// Opens the scenes and starts to read the first.
+    ///
+    /// # Errors
+    /// When the system gives no threads.
+    pub fn new(options: ViewerOptions) -> io::Result<Self> {
+        let (sender, results): (Sender<Finished>, _) = channel();
+        let mailbox = Mailbox::new(sender, Arc::clone(&options.waker));
+        let mut viewer = Self {
+            scenes: Vec::new(),
+            current: 0,
+            generation: 0,
+            recent: Vec::new(),
+            start_view: options.view,
+            settings: options.settings,
+            screen: Screen {
+                window: options.window,
+                free_area: None,
+                theme: options.theme,
+                dialog: None,
+                hidden: false,
+                shown: Shown {
+                    text: true,
+                    panel: true,
+                },
+            },
+            pointer: Pointer::default(),
+            inspector: Inspector::default(),
+            inset: None,
+            messages: Messages::default(),
+            drawing: Drawing::start(&mailbox)?,
+            readers: Readers::start(&mailbox)?,
+            saver: Saver::start(&mailbox, options.screenshot_dir)?,
+            results,
+            revision: 0,
+        };
+        viewer.open(&options.paths);
+        viewer.update();
+        Ok(viewer)
+    }
+
+    /// Replaces the scenes by those in `paths`. Where they hold none, what is open is worth more than the gallery.
+    pub(super) fn open(&mut self, paths: &[PathBuf]) {
+        let (mut scenes, problems) = library::open(paths);
+        for problem in problems {
+            self.messages.error(problem);
+        }
+        if scenes.is_empty() && self.scenes.is_empty() {
+            scenes = library::gallery_entries();
+        }
+        if !scenes.is_empty() {
+            self.replace_scenes(scenes);
+        }
+    }
+
+    pub(super) fn replace_scenes(&mut self, mut scenes: Vec<SceneEntry>) {
+        for scene in &mut scenes {
+            scene.camera = Camera::new(self.start_view);
+        }
+        self.scenes = scenes;
+        self.generation += 1;
+        self.recent.clear();
+        self.current = 0;
+    }
+
+    /// Grows whenever something that is to be seen changed.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// All scenes, in the order of the list.
+    pub fn scenes(&self) -> &[SceneEntry] {
+        &self.scenes
+    }
+
+    /// The place of the current scene in the list.
+    pub fn current_index(&self) -> usize {
+        self.current
+    }
+
+    /// The current scene; `None` only while the list is empty.
+    pub fn current(&self) -> Option<&SceneEntry> {
+        self.scenes.get(self.current)
+    }
+
+    /// Sampling, rules, dialect, pixel zoom.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The latest finished frame. It may show an older state; see [`Viewer::is_settled`].
+    pub fn frame(&self) -> Option<&Frame> {
+        self.drawing.frame()
+    }
+
+    /// The numbers of the current view; `None` before the scene was read.
+    pub fn view_numbers(&self) -> Option<ViewNumbers> {
+        let entry = self.current()?;
+        Some(entry.camera.numbers(&self.sight()?))
+    }
+
+    /// The window in device pixels.
+    pub fn window_size(&self) -> [u32; 2] {
+        self.screen.window
+    }
+
+    /// The frame that belongs to the window's size and the pixel zoom.
+    pub fn frame_size(&self) -> [u32; 2] {
+        self.settings.pixel_zoom.frame_size(self.screen.window)
+    }
+
+    /// The dialog that is open.
+    pub fn dialog(&self) -> Option<Dialog> {
+        self.screen.dialog
+    }
+
+    /// Whether text lies over the picture.
+    pub fn overlay_text(&self) -> bool {
+        self.screen.shown.text
+    }
+
+    /// Whether the side panel is to be seen, unless everything is hidden.
+    pub fn panel(&self) -> bool {
+        self.screen.shown.panel
+    }
+
+    /// Light or dark panels.
+    pub fn theme(&self) -> Theme {
+        self.screen.theme
+    }
+
+    /// What the user is to be told, oldest first. Whoever shows a message dismisses it after a while.
+    pub fn messages(&self) -> &[Message] {
+        self.messages.all()
+    }
+
+    /// The pixel inspector.
+    pub fn inspector(&self) -> &Inspector {
+        &self.inspector
+    }
+
+    /// The inspector's inset in the window, where it is open and has room.
+    pub fn inset(&self) -> Option<PlacedInset> {
+        self.inset
+    }
+
+    /// The window's title: scene, settings, program.
+    pub fn title(&self) -> String {
+        let name = self.current().map_or("no scene", |entry| entry.label.as_str());
+        let render = &self.settings.render;
+        format!(
+            "{name} - sample rate {}, pixel sampling {}, level sampling {} - Rasterscope",
+            render.sample_rate.samples(),
+            render.pixel_sampling.name(),
+            render.level_sampling.name(),
+        )
+    }
+
+    /// What the current camera looks at; `None` before the scene was read.
+    pub(super) fn sight(&self) -> Option<Sight> {
+        let scene = self.current()?.scene()?;
+        Some(Sight {
+            canvas: scene.canvas,
+            frame: self.frame_size(),
+        })
+    }
+}

@@ -1,0 +1,209 @@
+//! Arguments that a person types after a command's word, in scripts and in the palette: text to [`Command`].
+
+use glam::DVec2;
+
+use super::{Command, PixelZoom, Theme, Toggle, ViewNumbers};
+use crate::color::Rgba;
+use crate::raster::SampleRate;
+use crate::rules::Rules;
+use crate::scene::DialectChoice;
+use crate::texture::{LevelSampling, PixelSampling};
+
+/// What may follow a command's word.
+#[derive(Clone, Copy)]
+pub struct Argument {
+    /// Its form, such as `X,Y` or `nearest|bilinear`.
+    pub usage: &'static str,
+    /// The command that the text asks for; `None` when the text does not have the form.
+    parse: fn(&str) -> Option<Command>,
+}
+
+impl Argument {
+    /// The command that `text` asks for.
+    ///
+    /// # Errors
+    /// One line that quotes the text and gives the form.
+    pub fn parse(&self, text: &str) -> Result<Command, String> {
+        (self.parse)(text.trim()).ok_or_else(|| format!("\"{}\" is not {}", text.trim(), self.usage))
+    }
+}
+
+impl std::fmt::Debug for Argument {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Argument").field(&self.usage).finish()
+    }
+}
+
+const fn argument(usage: &'static str, parse: fn(&str) -> Option<Command>) -> Argument {
+    Argument { usage, parse }
+}
+
+pub(super) const ROTATE: Argument = argument("DEGREES", |text| {
+    number(text).map(|degrees| Command::RotateBy { degrees })
+});
+pub(super) const ZOOM: Argument = argument("FACTOR [X,Y]", |text| {
+    let (factor, at) = match text.split_once(char::is_whitespace) {
+        Some((factor, at)) => (factor, Some(point(at)?)),
+        None => (text, None),
+    };
+    let factor = number(factor).filter(|factor| *factor > 0.0)?;
+    Some(Command::ZoomAt { at, factor })
+});
+pub(super) const PAN: Argument = argument("X,Y", |text| point(text).map(|by| Command::PanBy { by }));
+pub(super) const VIEW: Argument = argument("default, or X,Y,SCALE[,DEGREES]", |text| {
+    if text == "default" {
+        return Some(Command::ResetView);
+    }
+    let values = numbers(text)?;
+    let (x, y, scale, rotation) = match *values.as_slice() {
+        [x, y, scale] => (x, y, scale, 0.0),
+        [x, y, scale, rotation] => (x, y, scale, rotation),
+        _ => return None,
+    };
+    let center = DVec2::new(x, y);
+    let numbers = ViewNumbers {
+        center,
+        scale,
+        rotation,
+    };
+    (scale > 0.0).then_some(Command::SetView(numbers))
+});
+pub(super) const PIXEL_ZOOM: Argument = argument("1, 2, 3, 4, 6 or 8", |text| {
+    whole(text).and_then(PixelZoom::new).map(Command::SetPixelZoom)
+});
+pub(super) const SAMPLE_RATE: Argument = argument("a square number from 1 to 256", |text| {
+    whole(text).and_then(SampleRate::new).map(Command::SetSampleRate)
+});
+pub(super) const PIXEL_SAMPLING: Argument = argument("nearest|bilinear", |text| {
+    named(&PixelSampling::ALL, PixelSampling::name, text).map(Command::SetPixelSampling)
+});
+pub(super) const LEVEL_SAMPLING: Argument = argument("zero|nearest|linear", |text| {
+    named(&LevelSampling::ALL, LevelSampling::name, text).map(Command::SetLevelSampling)
+});
+pub(super) const RULES: Argument = argument("standard|course", |text| {
+    named(&Rules::ALL, Rules::name, text).map(Command::SetRules)
+});
+pub(super) const BACKGROUND: Argument = argument("white|transparent|#RRGGBB", |text| {
+    background(text).map(Command::SetBackground)
+});
+pub(super) const SCENE: Argument = argument("a scene's number, from 1", |text| {
+    let index = usize::try_from(whole(text)?).ok()?.checked_sub(1)?;
+    Some(Command::Scene(index))
+});
+pub(super) const OPEN: Argument = argument("a path", |text| {
+    (!text.is_empty()).then(|| Command::Open(vec![text.into()]))
+});
+pub(super) const DIALECT: Argument = argument("auto|course|svg", |text| {
+    named(&DialectChoice::ALL, DialectChoice::name, text).map(Command::SetDialect)
+});
+pub(super) const INSPECTOR: Argument = argument("on|off|flip", |text| toggle(text).map(Command::Inspector));
+pub(super) const PIN: Argument = argument("X,Y in whole pixels", |text| pixels(text).map(Command::Pin));
+pub(super) const NUDGE: Argument = argument("X,Y in whole pixels", |text| pixels(text).map(Command::Nudge));
+pub(super) const MAGNIFICATION: Argument = argument("a whole number of window pixels", |text| {
+    whole(text).map(Command::SetMagnification)
+});
+pub(super) const REGION: Argument = argument("a whole number from 8 to 64", |text| {
+    whole(text).map(Command::SetInspectorRegion)
+});
+pub(super) const OVERLAY: Argument = argument("on|off|flip", |text| toggle(text).map(Command::OverlayText));
+pub(super) const HIDE: Argument = argument("on|off|flip", |text| toggle(text).map(Command::HideEverything));
+pub(super) const PANEL: Argument = argument("on|off|flip", |text| toggle(text).map(Command::Panel));
+pub(super) const THEME: Argument = argument("dark|light", |text| {
+    named(&Theme::ALL, Theme::name, text).map(Command::SetTheme)
+});
+
+/// The value of `all` that is called `text`.
+fn named<T: Copy>(all: &[T], name: impl Fn(T) -> &'static str, text: &str) -> Option<T> {
+    all.iter().copied().find(|value| name(*value) == text)
+}
+
+fn toggle(text: &str) -> Option<Toggle> {
+    named(&Toggle::ALL, Toggle::name, text)
+}
+
+/// A finite number.
+fn number(text: &str) -> Option<f64> {
+    text.trim().parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+/// Finite numbers with commas between them.
+fn numbers(text: &str) -> Option<Vec<f64>> {
+    text.split(',').map(number).collect()
+}
+
+fn whole(text: &str) -> Option<u32> {
+    text.trim().parse().ok()
+}
+
+/// `X,Y`.
+pub(super) fn point(text: &str) -> Option<DVec2> {
+    match *numbers(text)?.as_slice() {
+        [x, y] => Some(DVec2::new(x, y)),
+        _ => None,
+    }
+}
+
+/// `X,Y` in whole pixels.
+fn pixels(text: &str) -> Option<[i64; 2]> {
+    let (x, y) = text.split_once(',')?;
+    let whole = |part: &str| part.trim().parse::<i32>().ok().map(i64::from);
+    Some([whole(x)?, whole(y)?])
+}
+
+/// `white`, `transparent` or `#RRGGBB`.
+pub(super) fn background(text: &str) -> Option<Rgba> {
+    match text {
+        "white" => Some(Rgba::WHITE),
+        "transparent" => Some(Rgba::TRANSPARENT),
+        _ => {
+            let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6)?;
+            // `from_str_radix` would take a sign.
+            if !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
+                return None;
+            }
+            let [_, r, g, b] = u32::from_str_radix(digits, 16).ok()?.to_be_bytes();
+            Some(Rgba::from_bytes([r, g, b, 255]))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn argument_forms() {
+        let zoomed = ZOOM.parse("2 10,20");
+        let expected = Command::ZoomAt {
+            at: Some(DVec2::new(10.0, 20.0)),
+            factor: 2.0,
+        };
+        assert_eq!(zoomed, Ok(expected), "factor and place");
+        assert_eq!(
+            PIN.parse(" 512, 300 "),
+            Ok(Command::Pin([512, 300])),
+            "blanks do not matter"
+        );
+        assert_eq!(SCENE.parse("1"), Ok(Command::Scene(0)), "people count from 1");
+        assert_eq!(
+            BACKGROUND.parse("#ff8000"),
+            Ok(Command::SetBackground(Rgba::from_bytes([255, 128, 0, 255]))),
+            "a colour"
+        );
+        for (argument, wrong) in [
+            (ZOOM, "-1"),
+            (ZOOM, "inf"),
+            (PAN, "1"),
+            (VIEW, "0,0,0"),
+            (SAMPLE_RATE, "5"),
+            (SCENE, "0"),
+            (PIN, "1.5,2"),
+            (BACKGROUND, "#+12345"),
+            (BACKGROUND, "#12345é"),
+            (OPEN, ""),
+        ] {
+            let message = argument.parse(wrong).expect_err(wrong);
+            assert!(message.contains(argument.usage), "{message} gives the form");
+        }
+    }
+}

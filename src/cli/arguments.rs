@@ -1,0 +1,258 @@
+//! The arguments as written: commands, options, their help.
+
+use std::ffi::{OsStr, OsString};
+use std::path::PathBuf;
+
+use clap::builder::PossibleValue;
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
+
+use super::failure::Failure;
+use super::size::FrameSize;
+use super::view_option;
+use crate::color::Rgba;
+use crate::geometry::View;
+use crate::raster::SampleRate;
+use crate::render::RenderSettings;
+use crate::rules::Rules;
+use crate::scene::DialectChoice;
+use crate::texture::{LevelSampling, PixelSampling};
+
+/// See how a picture is sampled.
+#[derive(Debug, Parser)]
+#[command(name = "rasterscope", version, about = "See how a picture is sampled: a rasterizer with a pixel microscope.")]
+#[command(after_help = "Without a command, `rasterscope [PATH...]` opens the window: see `rasterscope view --help`.")]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Verb {
+    /// Draw a scene, or every scene in a folder, into PNG files, without a window
+    Render(RenderOptions),
+    /// Time redraws of a scene: median, minimum, milliseconds per stage
+    Bench(BenchOptions),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct RenderOptions {
+    /// An SVG file, or a folder whose scenes are all drawn
+    pub(super) scene: PathBuf,
+    /// The PNG file to write; for a folder, the folder to write into
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: PathBuf,
+    #[command(flatten)]
+    pub(super) picture: PictureOptions,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct BenchOptions {
+    /// An SVG file
+    pub(super) scene: PathBuf,
+    /// How often the scene is drawn
+    #[arg(long, default_value_t = 30, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(super) frames: u32,
+    /// Print one JSON object instead of text
+    #[arg(long)]
+    pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) picture: PictureOptions,
+}
+
+/// What every command that draws understands.
+#[derive(Debug, Args)]
+pub(super) struct PictureOptions {
+    /// Pixels of the picture
+    #[arg(long, default_value = "1024x1024", value_name = "WxH")]
+    pub(super) size: FrameSize,
+    #[command(flatten)]
+    pub(super) sampling: SamplingOptions,
+    /// default, canvas, or CX,CY,SCALE[,ROTATION]: centre, pixels per user unit, degrees
+    #[arg(long, default_value = "default", value_name = "VIEW", value_parser = view_option::parse, allow_hyphen_values = true)]
+    pub(super) view: View,
+    /// Threads that draw [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(super) threads: Option<u16>,
+}
+
+/// How a scene is read and sampled.
+#[derive(Debug, Args)]
+pub(super) struct SamplingOptions {
+    /// Samples per pixel: a square number up to 256
+    #[arg(long, default_value = "1", value_name = "N", value_parser = sample_rate)]
+    pub(super) sample_rate: SampleRate,
+    /// Where the samples of a pixel lie
+    #[arg(long, default_value = "grid", value_parser = ["grid"])]
+    pub(super) pattern: String,
+    /// How a texture is read inside a mip level
+    #[arg(long, default_value = PixelSampling::default().name(), value_enum)]
+    pub(super) pixel_sampling: PixelSampling,
+    /// Which mip levels of a texture are read
+    #[arg(long, default_value = LevelSampling::default().name(), value_enum)]
+    pub(super) level_sampling: LevelSampling,
+    /// white, transparent or #RRGGBB
+    #[arg(long, default_value = "white", value_name = "COLOUR", value_parser = background)]
+    pub(super) background: Rgba,
+    /// How documents are read
+    #[arg(long, default_value = DialectChoice::default().name(), value_enum)]
+    pub(super) dialect: DialectChoice,
+    /// Whose conventions decide edges, texels and bytes
+    #[arg(long, default_value = Rules::default().name(), value_enum)]
+    pub(super) rules: Rules,
+}
+
+impl SamplingOptions {
+    /// The same as settings of the engine; the outline belongs to every view but the canvas view.
+    pub(super) fn settings(&self, view: View) -> RenderSettings {
+        RenderSettings {
+            sample_rate: self.sample_rate,
+            pixel_sampling: self.pixel_sampling,
+            level_sampling: self.level_sampling,
+            rules: self.rules,
+            background: self.background,
+            outline: view != View::Canvas,
+        }
+    }
+}
+
+/// Gives a settings enum its names on the command line, which are its names everywhere.
+macro_rules! named_values {
+    ($($kind:ty),*) => {$(
+        impl ValueEnum for $kind {
+            fn value_variants<'a>() -> &'a [Self] {
+                &Self::ALL
+            }
+
+            fn to_possible_value(&self) -> Option<PossibleValue> {
+                Some(PossibleValue::new(self.name()))
+            }
+        }
+    )*};
+}
+
+named_values!(PixelSampling, LevelSampling, Rules, DialectChoice);
+
+fn sample_rate(text: &str) -> Result<SampleRate, String> {
+    let rate = text.parse().ok().and_then(SampleRate::new);
+    rate.ok_or_else(|| "the sample rate is a square number: 1, 4, 9, 16, 25, 36, 49, 64 ... 256".to_owned())
+}
+
+fn background(text: &str) -> Result<Rgba, String> {
+    let hex = |digits: &str| {
+        let value = u32::from_str_radix(digits, 16).ok().filter(|_| digits.len() == 6 && digits.is_ascii())?;
+        let [_, r, g, b] = value.to_be_bytes();
+        digits.bytes().all(|digit| digit.is_ascii_hexdigit()).then(|| Rgba::from_bytes([r, g, b, 255]))
+    };
+    match text {
+        "white" => Ok(Rgba::WHITE),
+        "transparent" => Ok(Rgba::TRANSPARENT),
+        _ => text
+            .strip_prefix('#')
+            .and_then(hex)
+            .ok_or_else(|| "a background is white, transparent or #RRGGBB in hexadecimal".to_owned()),
+    }
+}
+
+/// Reads the arguments, the program's name first.
+pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments, Failure> {
+    let arguments = with_default_command(arguments.into_iter().collect());
+    Arguments::try_parse_from(arguments).map_err(|error| match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            Failure::Text(error.to_string())
+        }
+        _ => Failure::Input(one_line(&error.to_string())),
+    })
+}
+
+/// `rasterscope PATH` means `rasterscope view PATH`.
+fn with_default_command(mut arguments: Vec<OsString>) -> Vec<OsString> {
+    let named = |word: &OsStr| {
+        let general = ["help", "-h", "--help", "-V", "--version"].iter().any(|other| word == *other);
+        general || Arguments::command().get_subcommands().any(|verb| word == verb.get_name())
+    };
+    if !arguments.get(1).is_some_and(|word| named(word)) {
+        arguments.insert(1.min(arguments.len()), "view".into());
+    }
+    arguments
+}
+
+/// What is wrong and how to find the cure, out of a message of several paragraphs.
+fn one_line(message: &str) -> String {
+    let message = message.strip_prefix("error: ").unwrap_or(message);
+    let usage = message.find("\n\nUsage:").unwrap_or(message.len());
+    let hint = message.find("\n\nFor more information").unwrap_or(message.len());
+    let words: Vec<&str> = message[..usage.min(hint)].split_whitespace().collect();
+    format!("{}; see `rasterscope --help`", words.join(" "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(line: &str) -> Result<Arguments, Failure> {
+        parse(line.split(' ').map(OsString::from))
+    }
+
+    #[test]
+    fn arguments_are_well_formed() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn arguments_of_render_become_settings() {
+        let line = "rasterscope render a.svg -o b.png --size 300x200 --sample-rate 16 --pixel-sampling bilinear \
+                    --level-sampling linear --view=-5,10,2.5,-90 --background #ff8000 --dialect course --rules course \
+                    --threads 2";
+        let Ok(Arguments { verb: Verb::Render(options) }) = parsed(&line.split_whitespace().collect::<Vec<_>>().join(" "))
+        else {
+            panic!("a good line");
+        };
+        let settings = options.picture.sampling.settings(options.picture.view);
+        assert_eq!(options.picture.size, FrameSize([300, 200]), "size");
+        assert_eq!(settings.sample_rate.samples(), 16, "rate");
+        assert_eq!(settings.pixel_sampling, PixelSampling::Bilinear, "pixel sampling");
+        assert_eq!(settings.level_sampling, LevelSampling::Linear, "level sampling");
+        assert_eq!(settings.background.to_bytes(Rules::Standard), [255, 128, 0, 255], "background");
+        assert_eq!(settings.rules, Rules::Course, "rules");
+        assert!(settings.outline, "a free view has the outline");
+        assert_eq!(options.picture.threads, Some(2), "threads");
+    }
+
+    #[test]
+    fn arguments_at_fault_get_one_line() {
+        for line in [
+            "rasterscope render a.svg",
+            "rasterscope render",
+            "rasterscope render a.svg -o b.png --sample-rate 5",
+            "rasterscope render a.svg -o b.png --sample-rate 289",
+            "rasterscope render a.svg -o b.png --size 0x5",
+            "rasterscope render a.svg -o b.png --background red",
+            "rasterscope render a.svg -o b.png --background #ff80é",
+            "rasterscope render a.svg -o b.png --pixel-sampling cubic",
+            "rasterscope render a.svg -o b.png --unknown",
+            "rasterscope bench a.svg --frames 0",
+            "rasterscope bench a.svg --threads 0",
+        ] {
+            match parsed(line) {
+                Err(Failure::Input(message)) => {
+                    assert!(!message.contains('\n') && message.ends_with("--help`"), "{line}: {message}");
+                }
+                other => panic!("{line}: {other:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn arguments_default_to_the_window() {
+        let words = |line: &str| {
+            let arguments = with_default_command(line.split_whitespace().map(OsString::from).collect());
+            arguments.iter().map(|word| word.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(words("rasterscope"), "rasterscope view", "nothing at all");
+        assert_eq!(words("rasterscope a.svg"), "rasterscope view a.svg", "a path");
+        assert_eq!(words("rasterscope --headless"), "rasterscope view --headless", "an option of view");
+        assert_eq!(words("rasterscope render a.svg"), "rasterscope render a.svg", "a command");
+        assert_eq!(words("rasterscope --help"), "rasterscope --help", "the help");
+    }
+}

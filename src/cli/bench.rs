@@ -1,0 +1,120 @@
+//! `rasterscope bench`: how long redraws take, as median and minimum, in total and per stage.
+
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::arguments::BenchOptions;
+use super::failure::{Failure, print};
+use super::picture::{Picture, on_threads};
+use crate::render::FrameStats;
+
+/// The answer of `bench --json`. Times are milliseconds of wall time.
+#[derive(Debug, Serialize)]
+struct Report {
+    scene: String,
+    width: u32,
+    height: u32,
+    sample_rate: u32,
+    threads: usize,
+    frames: u32,
+    median_ms: f64,
+    min_ms: f64,
+    /// Median of each stage.
+    stages: Stages,
+    /// Triangles that reached the tiles in one frame.
+    triangles: u64,
+}
+
+#[derive(Debug, Serialize)]
+struct Stages {
+    transform_ms: f64,
+    bin_ms: f64,
+    raster_ms: f64,
+}
+
+/// Draws the scene as often as asked and prints what it took.
+pub(super) fn run(options: &BenchOptions) -> Result<(), Failure> {
+    let report = on_threads(&options.picture, || measure(options))??;
+    if options.json {
+        let json = serde_json::to_string(&report).map_err(Failure::other)?;
+        print(&json);
+    } else {
+        print(&report.text());
+    }
+    Ok(())
+}
+
+fn measure(options: &BenchOptions) -> Result<Report, Failure> {
+    let mut picture = Picture::read(&options.scene, &options.picture)?;
+    // The first frame pays for memory that later ones find in place.
+    picture.draw();
+    let frames: Vec<FrameStats> = (0..options.frames).map(|_| picture.draw()).collect();
+    let stage = |time: fn(&FrameStats) -> Duration| median(frames.iter().map(time).collect());
+    let min = frames.iter().map(FrameStats::total).min().unwrap_or_default();
+    Ok(Report {
+        scene: options.scene.display().to_string(),
+        width: picture.frame().width(),
+        height: picture.frame().height(),
+        sample_rate: options.picture.sampling.sample_rate.samples(),
+        threads: rayon::current_num_threads(),
+        frames: options.frames,
+        median_ms: milliseconds(stage(FrameStats::total)),
+        min_ms: milliseconds(min),
+        stages: Stages {
+            transform_ms: milliseconds(stage(|frame| frame.transform)),
+            bin_ms: milliseconds(stage(|frame| frame.bin)),
+            raster_ms: milliseconds(stage(|frame| frame.raster)),
+        },
+        triangles: frames.first().map_or(0, |frame| frame.triangles),
+    })
+}
+
+impl Report {
+    fn text(&self) -> String {
+        format!(
+            "{}\n{} x {} pixels, {} samples per pixel, {} threads, {} frames, {} triangles\n\
+             median     {:9.3} ms\nminimum    {:9.3} ms\ntransform  {:9.3} ms\nbin        {:9.3} ms\nraster     {:9.3} ms",
+            self.scene,
+            self.width,
+            self.height,
+            self.sample_rate,
+            self.threads,
+            self.frames,
+            self.triangles,
+            self.median_ms,
+            self.min_ms,
+            self.stages.transform_ms,
+            self.stages.bin_ms,
+            self.stages.raster_ms,
+        )
+    }
+}
+
+fn milliseconds(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
+}
+
+/// The middle one, or the mean of the two in the middle.
+fn median(mut times: Vec<Duration>) -> Duration {
+    times.sort_unstable();
+    let half = times.len() / 2;
+    match times.len() {
+        0 => Duration::ZERO,
+        length if length % 2 == 1 => times[half],
+        _ => (times[half - 1] + times[half]) / 2,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn median_is_the_middle() {
+        let times = |numbers: &[u64]| numbers.iter().map(|n| Duration::from_millis(*n)).collect();
+        assert_eq!(median(times(&[5, 1, 100])), Duration::from_millis(5), "odd");
+        assert_eq!(median(times(&[4, 1, 100, 6])), Duration::from_millis(5), "even");
+        assert_eq!(median(times(&[])), Duration::ZERO, "none");
+    }
+}

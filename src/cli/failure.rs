@@ -1,0 +1,58 @@
+//! What went wrong, as one line and an exit status.
+
+use std::fmt::Display;
+use std::process::ExitCode;
+
+/// An end of the program other than success.
+#[derive(Debug)]
+pub(super) enum Failure {
+    /// The input or the arguments are at fault.
+    Input(String),
+    /// Everything else.
+    Other(String),
+    /// Not a failure: a text that was asked for, such as the help.
+    Text(String),
+}
+
+impl Failure {
+    /// The user's file or argument is at fault: `what` names it, the place, the cause and the cure.
+    pub(super) fn input(what: impl Display) -> Self {
+        Self::Input(what.to_string())
+    }
+
+    /// Something else went wrong.
+    pub(super) fn other(what: impl Display) -> Self {
+        Self::Other(what.to_string())
+    }
+
+    /// Prints it and gives the exit status.
+    pub(super) fn report(&self) -> ExitCode {
+        match self {
+            Self::Input(line) => {
+                print_error(line);
+                ExitCode::from(2)
+            }
+            Self::Other(line) => {
+                print_error(line);
+                ExitCode::from(1)
+            }
+            Self::Text(text) => {
+                print(text.trim_end());
+                ExitCode::SUCCESS
+            }
+        }
+    }
+}
+
+/// Prints a line, or lines, on stdout. A reader that has gone away is no reason to fail.
+pub(super) fn print(text: &str) {
+    use std::io::Write as _;
+    let _ = writeln!(std::io::stdout().lock(), "{text}");
+}
+
+/// Prints one line on stderr.
+pub(super) fn print_error(line: &str) {
+    use std::io::Write as _;
+    let one = line.split(['\n', '\r']).map(str::trim).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ");
+    let _ = writeln!(std::io::stderr().lock(), "rasterscope: {one}");
+}

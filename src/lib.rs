@@ -6,7 +6,7 @@
 //!
 //! | room | turns | into |
 //! |---|---|---|
-//! | `cli` | arguments | a command and its exit status |
+//! | [`cli`] | arguments | a command and its exit status |
 //! | `app` (feature `window`) | window events | `viewer::Command`s, and a frame into a presented surface |
 //! | `viewer` | commands | state, a finished frame, saved files |
 //! | `figure` | frames | insets and figures |
@@ -27,6 +27,7 @@
 //! * Colours are sRGB-encoded values unless a name says `linear`, and straight unless a name says `premultiplied`.
 //! * Frames are in device pixels, always.
 
+pub mod cli;
 pub mod color;
 pub mod figure;
 pub mod geometry;

@@ -20,7 +20,11 @@ use crate::texture::{LevelSampling, PixelSampling};
 
 /// See how a picture is sampled.
 #[derive(Debug, Parser)]
-#[command(name = "rasterscope", version, about = "See how a picture is sampled: a rasterizer with a pixel microscope.")]
+#[command(
+    name = "rasterscope",
+    version,
+    about = "See how a picture is sampled: a rasterizer with a pixel microscope."
+)]
 #[command(after_help = "Without a command, `rasterscope [PATH...]` opens the window: see `rasterscope view --help`.")]
 pub(super) struct Arguments {
     #[command(subcommand)]
@@ -140,9 +144,14 @@ fn sample_rate(text: &str) -> Result<SampleRate, String> {
 
 fn background(text: &str) -> Result<Rgba, String> {
     let hex = |digits: &str| {
-        let value = u32::from_str_radix(digits, 16).ok().filter(|_| digits.len() == 6 && digits.is_ascii())?;
+        let value = u32::from_str_radix(digits, 16)
+            .ok()
+            .filter(|_| digits.len() == 6 && digits.is_ascii())?;
         let [_, r, g, b] = value.to_be_bytes();
-        digits.bytes().all(|digit| digit.is_ascii_hexdigit()).then(|| Rgba::from_bytes([r, g, b, 255]))
+        digits
+            .bytes()
+            .all(|digit| digit.is_ascii_hexdigit())
+            .then(|| Rgba::from_bytes([r, g, b, 255]))
     };
     match text {
         "white" => Ok(Rgba::WHITE),
@@ -168,8 +177,13 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arg
 /// `rasterscope PATH` means `rasterscope view PATH`.
 fn with_default_command(mut arguments: Vec<OsString>) -> Vec<OsString> {
     let named = |word: &OsStr| {
-        let general = ["help", "-h", "--help", "-V", "--version"].iter().any(|other| word == *other);
-        general || Arguments::command().get_subcommands().any(|verb| word == verb.get_name())
+        let general = ["help", "-h", "--help", "-V", "--version"]
+            .iter()
+            .any(|other| word == *other);
+        general
+            || Arguments::command()
+                .get_subcommands()
+                .any(|verb| word == verb.get_name())
     };
     if !arguments.get(1).is_some_and(|word| named(word)) {
         arguments.insert(1.min(arguments.len()), "view".into());
@@ -204,7 +218,9 @@ mod tests {
         let line = "rasterscope render a.svg -o b.png --size 300x200 --sample-rate 16 --pixel-sampling bilinear \
                     --level-sampling linear --view=-5,10,2.5,-90 --background #ff8000 --dialect course --rules course \
                     --threads 2";
-        let Ok(Arguments { verb: Verb::Render(options) }) = parsed(&line.split_whitespace().collect::<Vec<_>>().join(" "))
+        let Ok(Arguments {
+            verb: Verb::Render(options),
+        }) = parsed(&line.split_whitespace().collect::<Vec<_>>().join(" "))
         else {
             panic!("a good line");
         };
@@ -213,7 +229,11 @@ mod tests {
         assert_eq!(settings.sample_rate.samples(), 16, "rate");
         assert_eq!(settings.pixel_sampling, PixelSampling::Bilinear, "pixel sampling");
         assert_eq!(settings.level_sampling, LevelSampling::Linear, "level sampling");
-        assert_eq!(settings.background.to_bytes(Rules::Standard), [255, 128, 0, 255], "background");
+        assert_eq!(
+            settings.background.to_bytes(Rules::Standard),
+            [255, 128, 0, 255],
+            "background"
+        );
         assert_eq!(settings.rules, Rules::Course, "rules");
         assert!(settings.outline, "a free view has the outline");
         assert_eq!(options.picture.threads, Some(2), "threads");
@@ -236,7 +256,10 @@ mod tests {
         ] {
             match parsed(line) {
                 Err(Failure::Input(message)) => {
-                    assert!(!message.contains('\n') && message.ends_with("--help`"), "{line}: {message}");
+                    assert!(
+                        !message.contains('\n') && message.ends_with("--help`"),
+                        "{line}: {message}"
+                    );
                 }
                 other => panic!("{line}: {other:?}"),
             }
@@ -247,12 +270,24 @@ mod tests {
     fn arguments_default_to_the_window() {
         let words = |line: &str| {
             let arguments = with_default_command(line.split_whitespace().map(OsString::from).collect());
-            arguments.iter().map(|word| word.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" ")
+            arguments
+                .iter()
+                .map(|word| word.to_string_lossy().into_owned())
+                .collect::<Vec<_>>()
+                .join(" ")
         };
         assert_eq!(words("rasterscope"), "rasterscope view", "nothing at all");
         assert_eq!(words("rasterscope a.svg"), "rasterscope view a.svg", "a path");
-        assert_eq!(words("rasterscope --headless"), "rasterscope view --headless", "an option of view");
-        assert_eq!(words("rasterscope render a.svg"), "rasterscope render a.svg", "a command");
+        assert_eq!(
+            words("rasterscope --headless"),
+            "rasterscope view --headless",
+            "an option of view"
+        );
+        assert_eq!(
+            words("rasterscope render a.svg"),
+            "rasterscope render a.svg",
+            "a command"
+        );
         assert_eq!(words("rasterscope --help"), "rasterscope --help", "the help");
     }
 }

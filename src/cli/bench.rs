@@ -8,6 +8,7 @@ use super::arguments::BenchOptions;
 use super::failure::{Failure, print};
 use super::picture::{Picture, on_threads};
 use crate::render::FrameStats;
+use crate::viewer::SceneSource;
 
 /// The answer of `bench --json`. Times are milliseconds of wall time.
 #[derive(Debug, Serialize)]
@@ -21,16 +22,16 @@ struct Report {
     median_ms: f64,
     min_ms: f64,
     /// Median of each stage.
-    stages: Stages,
+    stages_ms: Stages,
     /// Triangles that reached the tiles in one frame.
     triangles: u64,
 }
 
 #[derive(Debug, Serialize)]
 struct Stages {
-    transform_ms: f64,
-    bin_ms: f64,
-    raster_ms: f64,
+    transform: f64,
+    bin: f64,
+    raster: f64,
 }
 
 /// Draws the scene as often as asked and prints what it took.
@@ -46,7 +47,7 @@ pub(super) fn run(options: &BenchOptions) -> Result<(), Failure> {
 }
 
 fn measure(options: &BenchOptions) -> Result<Report, Failure> {
-    let mut picture = Picture::read(&options.scene, &options.picture)?;
+    let mut picture = Picture::read(&SceneSource::from_address(&options.scene), &options.picture)?;
     // The first frame pays for memory that later ones find in place.
     picture.draw();
     let frames: Vec<FrameStats> = (0..options.frames).map(|_| picture.draw()).collect();
@@ -61,10 +62,10 @@ fn measure(options: &BenchOptions) -> Result<Report, Failure> {
         frames: options.frames,
         median_ms: milliseconds(stage(FrameStats::total)),
         min_ms: milliseconds(min),
-        stages: Stages {
-            transform_ms: milliseconds(stage(|frame| frame.transform)),
-            bin_ms: milliseconds(stage(|frame| frame.bin)),
-            raster_ms: milliseconds(stage(|frame| frame.raster)),
+        stages_ms: Stages {
+            transform: milliseconds(stage(|frame| frame.transform)),
+            bin: milliseconds(stage(|frame| frame.bin)),
+            raster: milliseconds(stage(|frame| frame.raster)),
         },
         triangles: frames.first().map_or(0, |frame| frame.triangles),
     })
@@ -84,9 +85,9 @@ impl Report {
             self.triangles,
             self.median_ms,
             self.min_ms,
-            self.stages.transform_ms,
-            self.stages.bin_ms,
-            self.stages.raster_ms,
+            self.stages_ms.transform,
+            self.stages_ms.bin,
+            self.stages_ms.raster,
         )
     }
 }

@@ -53,6 +53,11 @@ pub(super) fn print(text: &str) {
 /// Prints one line on stderr.
 pub(super) fn print_error(line: &str) {
     use std::io::Write as _;
-    let one = line.split(['\n', '\r']).map(str::trim).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ");
+    let one = line
+        .split(['\n', '\r'])
+        .map(str::trim)
+        .filter(|part| !part.is_empty())
+        .collect::<Vec<_>>()
+        .join(" ");
     let _ = writeln!(std::io::stderr().lock(), "rasterscope: {one}");
 }

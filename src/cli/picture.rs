@@ -1,13 +1,12 @@
 //! From options to a picture: reading a scene, drawing it on as many threads as were asked for.
 
-use std::path::Path;
-
 use super::arguments::PictureOptions;
 use super::failure::{Failure, print_error};
 use crate::geometry::ViewTransform;
 use crate::raster::Framebuffer;
 use crate::render::{self, FrameStats, RenderSettings};
-use crate::scene::{self, Scene};
+use crate::scene::Scene;
+use crate::viewer::SceneSource;
 
 /// A scene and everything that its picture depends on.
 pub(super) struct Picture {
@@ -19,10 +18,10 @@ pub(super) struct Picture {
 
 impl Picture {
     /// Reads the scene; what the reader skipped is said on stderr, line by line.
-    pub(super) fn read(path: &Path, options: &PictureOptions) -> Result<Self, Failure> {
-        let scene = scene::load(path, options.sampling.dialect).map_err(Failure::input)?;
+    pub(super) fn read(source: &SceneSource, options: &PictureOptions) -> Result<Self, Failure> {
+        let scene = source.read(options.sampling.dialect).map_err(Failure::input)?;
         for line in scene.report.lines() {
-            print_error(&format!("{}:{line}", path.display()));
+            print_error(&format!("{}:{line}", source.address()));
         }
         let [width, height] = options.size.0;
         Ok(Self {

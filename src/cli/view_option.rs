@@ -37,10 +37,25 @@ mod tests {
     fn view_reads_names_and_numbers() {
         assert_eq!(parse("default"), Ok(View::Default), "by name");
         assert_eq!(parse("canvas"), Ok(View::Canvas), "by name");
-        let at = |rotation| View::At { center: DVec2::new(10.0, -2.5), scale: 0.5, rotation };
+        let at = |rotation| View::At {
+            center: DVec2::new(10.0, -2.5),
+            scale: 0.5,
+            rotation,
+        };
         assert_eq!(parse("10,-2.5,0.5"), Ok(at(0.0)), "three numbers");
         assert_eq!(parse("10, -2.5, 0.5, 90"), Ok(at(90.0)), "four numbers, blanks");
-        for text in ["", "fit", "1,2", "1,2,0", "1,2,-3", "1,2,nan", "1,inf,3", "1,2,3,4,5", "1,2,3,", "1,,2,3"] {
+        for text in [
+            "",
+            "fit",
+            "1,2",
+            "1,2,0",
+            "1,2,-3",
+            "1,2,nan",
+            "1,inf,3",
+            "1,2,3,4,5",
+            "1,2,3,",
+            "1,,2,3",
+        ] {
             assert!(parse(text).is_err(), "{text:?} is no view");
         }
     }

@@ -2,8 +2,10 @@
 
 mod inset;
 mod placement;
+mod png;
 mod rect;
 
 pub use inset::{Inset, SampleMark};
 pub use placement::{Corner, place};
+pub use png::{encode_png, save_png};
 pub use rect::PixelRect;

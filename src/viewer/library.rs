@@ -159,7 +159,7 @@ pub(super) fn gallery_entries() -> Vec<SceneEntry> {
 }
 
 /// The scenes in `paths`, in their order, those of a folder by name; and one line for each path that gave none.
-pub(super) fn open(paths: &[PathBuf]) -> (Vec<SceneEntry>, Vec<String>) {
+pub fn list_scenes(paths: &[PathBuf]) -> (Vec<SceneEntry>, Vec<String>) {
     let mut entries = Vec::new();
     let mut problems = Vec::new();
     for path in paths {
@@ -281,7 +281,7 @@ mod tests {
         for name in ["test10.svg", "test9.SVG", "notes.txt"] {
             fs::write(inner.join(name), "").expect("a small file");
         }
-        let (entries, problems) = open(&[folder.path().to_owned(), "nowhere.svg".into()]);
+        let (entries, problems) = list_scenes(&[folder.path().to_owned(), "nowhere.svg".into()]);
         let labels: Vec<&str> = entries.iter().map(|entry| entry.label.as_str()).collect();
         assert_eq!(labels.len(), 3, "{labels:?}");
         assert!(
@@ -293,6 +293,10 @@ mod tests {
         fs::remove_file(inner.join("test10.svg"))
             .and(fs::remove_file(inner.join("test9.SVG")))
             .expect("removed");
-        assert_eq!(open(&[folder.path().to_owned()]).1.len(), 1, "an empty folder is told");
+        assert_eq!(
+            list_scenes(&[folder.path().to_owned()]).1.len(),
+            1,
+            "an empty folder is told"
+        );
     }
 }

@@ -36,7 +36,7 @@ pub use commands::{Action, CommandSpec, Gesture, Group};
 pub use frame::{Frame, Picture};
 pub use inspector::{Inspector, PixelLabel, PlacedInset};
 pub use key::{Chord, Key, KeyPress, Modifiers};
-pub use library::{SceneEntry, SceneSource, SceneState};
+pub use library::{SceneEntry, SceneSource, SceneState, list_scenes};
 pub use messages::{Message, MessageKind};
 pub use present::show;
 pub use settings::{PixelZoom, Settings, Theme, Toggle};

@@ -5,13 +5,10 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder as _};
-
 use super::background::{AtEnd, Crew, Mailbox, guarded};
 use super::state::Finished;
 use super::{Frame, PixelZoom, PlacedInset, Viewer, show};
-use crate::figure::SampleMark;
+use crate::figure::{SampleMark, encode_png};
 use crate::raster::Framebuffer;
 
 /// Names that are tried for one picture: others may have been saved in the same millisecond.
@@ -175,7 +172,7 @@ fn paste(source: &Framebuffer, at: [i64; 2], target: &mut Framebuffer) {
 /// Saves `picture` in `folder` under a name that did not exist.
 fn save_new(folder: &Path, picture: &Framebuffer) -> Result<(PathBuf, [u32; 2]), String> {
     let cure = "choose another folder with --screenshot-dir";
-    let bytes = png(picture).map_err(|error| format!("cannot make a PNG of this picture: {error}"))?;
+    let bytes = encode_png(picture).map_err(|error| format!("cannot make a PNG of this picture: {error}"))?;
     let now = jiff::Zoned::now().strftime("%Y-%m-%d_%H-%M-%S_%3f").to_string();
     for attempt in 1..=ATTEMPTS {
         let name = match attempt {
@@ -205,19 +202,6 @@ fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
         let _ = std::fs::remove_file(path);
     }
     written
-}
-
-/// The picture as PNG, straight alpha.
-fn png(picture: &Framebuffer) -> Result<Vec<u8>, image::ImageError> {
-    let rgba = |pixel: &u32| {
-        let [a, r, g, b] = pixel.to_be_bytes();
-        [r, g, b, a]
-    };
-    let data: Vec<u8> = picture.pixels().iter().flat_map(rgba).collect();
-    let mut bytes = Vec::new();
-    let encoder = PngEncoder::new(&mut bytes);
-    encoder.write_image(&data, picture.width(), picture.height(), ExtendedColorType::Rgba8)?;
-    Ok(bytes)
 }
 
 #[cfg(test)]

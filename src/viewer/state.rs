@@ -159,7 +159,7 @@ impl Viewer {
 
     /// Replaces the scenes by those in `paths`. Where they hold none, what is open is worth more than the gallery.
     pub(super) fn open(&mut self, paths: &[PathBuf]) {
-        let (mut scenes, problems) = library::open(paths);
+        let (mut scenes, problems) = library::list_scenes(paths);
         for problem in problems {
             self.messages.error(problem);
         }

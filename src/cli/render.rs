@@ -1,0 +1,90 @@
+//! `rasterscope render`: a scene, or every scene in a folder, into PNG files.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::arguments::RenderOptions;
+use super::failure::{Failure, print_error};
+use super::picture::{Picture, on_threads};
+use crate::figure::save_png;
+use crate::viewer::{SceneSource, list_scenes};
+
+/// Draws what the options ask for.
+pub(super) fn run(options: &RenderOptions) -> Result<(), Failure> {
+    on_threads(&options.picture, || {
+        if options.scene.is_dir() {
+            folder(options)
+        } else {
+            let output = &options.output;
+            if !output
+                .extension()
+                .is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
+            {
+                let output = output.display();
+                return Err(Failure::input(format!(
+                    "{output}: pictures are written as PNG; give a name that ends in .png"
+                )));
+            }
+            one(&SceneSource::from_address(&options.scene), output, options)
+        }
+    })?
+}
+
+/// Every scene below a folder, into a folder of the same shape.
+fn folder(options: &RenderOptions) -> Result<(), Failure> {
+    let (entries, problems) = list_scenes(std::slice::from_ref(&options.scene));
+    if let Some(problem) = problems.into_iter().next() {
+        return Err(Failure::Input(problem));
+    }
+    let bar = ProgressBar::new(entries.len() as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
+        bar.set_style(style);
+    }
+    let mut failed = 0;
+    for entry in &entries {
+        bar.set_message(entry.label.clone());
+        let output = options.output.join(Path::new(&entry.label)).with_extension("png");
+        match one(&entry.source, &output, options) {
+            Ok(()) => {}
+            Err(Failure::Input(problem)) => {
+                failed += 1;
+                bar.suspend(|| print_error(&problem));
+            }
+            Err(other) => return Err(other),
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    if failed > 0 {
+        let all = entries.len();
+        return Err(Failure::input(format!(
+            "{failed} of {all} scenes could not be drawn: each has its line above"
+        )));
+    }
+    Ok(())
+}
+
+fn one(source: &SceneSource, output: &Path, options: &RenderOptions) -> Result<(), Failure> {
+    let mut picture = Picture::read(source, &options.picture)?;
+    picture.draw();
+    if let Some(folder) = folder_to_make(output, options) {
+        std::fs::create_dir_all(&folder).map_err(|error| unwritable(&folder, &error))?;
+    }
+    save_png(picture.frame(), output).map_err(|error| unwritable(output, &error))
+}
+
+/// The folder of an output among many; a single picture goes only where its user has made room.
+fn folder_to_make(output: &Path, options: &RenderOptions) -> Option<PathBuf> {
+    (output != options.output)
+        .then(|| output.parent().map(Path::to_owned))
+        .flatten()
+}
+
+fn unwritable(path: &Path, error: &io::Error) -> Failure {
+    Failure::input(format!(
+        "{}: cannot write here: {error}; choose another place with -o",
+        path.display()
+    ))
+}

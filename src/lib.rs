@@ -10,7 +10,7 @@
 //! | `app` (feature `window`) | window events | `viewer::Command`s, and a frame into a presented surface |
 //! | `viewer` | commands | state, a finished frame, saved files |
 //! | `figure` | frames | insets and figures |
-//! | `inspect` | one pixel | the samples that made it |
+//! | [`inspect`] | one pixel | the samples that made it |
 //! | [`render`] | scene + view + settings | a [`raster::Framebuffer`] |
 //! | [`scene`] | documents | a [`scene::Scene`] with nothing left to interpret |
 //! | [`raster`] | screen-space primitives | resolved pixels |
@@ -31,6 +31,7 @@ pub mod cli;
 pub mod color;
 pub mod figure;
 pub mod geometry;
+pub mod inspect;
 pub mod raster;
 pub mod render;
 pub mod rules;

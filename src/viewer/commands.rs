@@ -183,3 +183,84 @@ pub const GESTURES: &[Gesture] = &[
         help: "Opens their scenes",
     },
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::viewer::Modifiers;
+
+    #[test]
+    fn table_is_consistent() {
+        let mut ids: Vec<&str> = TABLE.iter().map(|spec| spec.id).collect();
+        ids.sort_unstable();
+        let count = ids.len();
+        ids.dedup();
+        assert_eq!(ids.len(), count, "every id stands once");
+        for spec in TABLE {
+            if let Action::PerKey(commands) = spec.action {
+                assert_eq!(commands.len(), spec.keys.len(), "{}: a command for each key", spec.id);
+            }
+            let reachable = !matches!(spec.action, Action::NeedsArgument) || spec.argument.is_some();
+            assert!(reachable, "{} can be run", spec.id);
+            assert!(
+                !spec.help.is_empty() && !spec.help.ends_with('.'),
+                "{}: {}",
+                spec.id,
+                spec.help
+            );
+        }
+    }
+
+    #[test]
+    fn table_has_no_key_twice() {
+        let chords: Vec<&Chord> = TABLE.iter().flat_map(|spec| spec.keys).collect();
+        for (i, chord) in chords.iter().enumerate() {
+            let twice = chords[..i]
+                .iter()
+                .any(|other| (other.key, other.modifiers) == (chord.key, chord.modifiers));
+            assert!(!twice, "{chord} stands twice");
+        }
+    }
+
+    #[test]
+    fn keys_find_their_commands() {
+        for spec in TABLE {
+            for (at, chord) in spec.keys.iter().enumerate() {
+                let expected = match spec.action {
+                    Action::Run(command) => command,
+                    Action::PerKey(commands) => &commands[at],
+                    Action::NeedsArgument => panic!("{} has a key and nothing to do", spec.id),
+                };
+                let by_character = KeyPress::logical(chord.key, chord.modifiers);
+                assert_eq!(for_key(&by_character), Some(expected), "{chord} by its character");
+                if let Some((physical, modifiers)) = chord.place {
+                    let by_place = KeyPress {
+                        logical: None,
+                        physical: Some(physical),
+                        modifiers,
+                    };
+                    assert_eq!(for_key(&by_place), Some(expected), "{chord} by its place");
+                }
+            }
+        }
+        let none = KeyPress::logical(Key::Char('z'), Modifiers::ALT);
+        assert_eq!(for_key(&none), None, "Alt+Z is nothing");
+    }
+
+    #[test]
+    fn the_courses_keys_stay() {
+        for key in ["Space", "-", "=", "z", "p", "l", "s", "1", "9", "`", "Esc"] {
+            let press = KeyPress::from_name(key).expect(key);
+            assert!(for_key(&press).is_some(), "{key} does something");
+        }
+    }
+
+    #[test]
+    fn markdown_holds_every_key() {
+        let text = markdown();
+        for spec in TABLE.iter().filter(|spec| !spec.keys.is_empty()) {
+            assert!(text.contains(spec.help), "{}", spec.id);
+        }
+        assert!(text.contains("| `1-9` |") && text.contains("| `` ` `` |"), "{text}");
+    }
+}

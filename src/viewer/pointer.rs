@@ -3,8 +3,9 @@
 use glam::DVec2;
 
 use super::inspector::is_dark;
-use super::{PixelLabel, PixelRect, PointerButton, Status, Viewer};
+use super::{PixelLabel, PixelRect, PointerButton, Status, Viewer, paste, show};
 use crate::figure::SampleMark;
+use crate::raster::Framebuffer;
 
 /// Where the pointer is and what it does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -97,6 +98,25 @@ impl Viewer {
             })
         };
         all.filter_map(label).collect()
+    }
+
+    /// The window's pixels below the panels: the frame as the pixel zoom shows it, and the inspector's inset.
+    pub fn window_picture(&self) -> Framebuffer {
+        let [width, height] = self.screen.window.map(|side| side.min(Framebuffer::MAX_SIDE));
+        let mut window = Framebuffer::new(width, height);
+        self.draw_window(&mut window);
+        window
+    }
+
+    /// As [`Viewer::window_picture`], into pixels that are there already.
+    pub fn draw_window(&self, window: &mut Framebuffer) {
+        let empty = Framebuffer::default();
+        let frame = self.frame().map_or(&empty, |frame| &frame.pixels);
+        show(frame, self.settings.pixel_zoom, window);
+        if let Some(placed) = self.inset.filter(|_| self.frame().is_some()) {
+            let inset = placed.inset.draw(frame, &self.sample_marks());
+            paste(&inset, [placed.rect.x, placed.rect.y], window);
+        }
     }
 
     /// The samples of the pixel in the middle of the inspector.

@@ -1,6 +1,7 @@
 //! A frame on the window's pixels: magnified by the pixel zoom, transparency over a checker.
 
 use super::PixelZoom;
+use crate::figure::PixelRect;
 use crate::raster::Framebuffer;
 
 /// Side of the checker's squares, in window pixels.
@@ -46,6 +47,34 @@ fn show_row(source: &[u32], factor: usize, y: usize, row: &mut [u32]) {
     }
 }
 
+/// Copies `source` to `at` in `target`; what does not fit is cut off.
+pub fn paste(source: &Framebuffer, at: [i64; 2], target: &mut Framebuffer) {
+    let place = PixelRect {
+        x: at[0],
+        y: at[1],
+        width: source.width(),
+        height: source.height(),
+    };
+    let target_width = target.width() as usize;
+    let shown = place.intersection(&PixelRect::of_size([target.width(), target.height()]));
+    if shown.width == 0 || shown.height == 0 {
+        return;
+    }
+    let offset = |from: i64, to: i64| usize::try_from(to - from).unwrap_or(0);
+    let (left, top) = (offset(at[0], shown.x), offset(at[1], shown.y));
+    let width = shown.width as usize;
+    let rows = source.pixels().chunks_exact((source.width() as usize).max(1)).skip(top);
+    let start = offset(0, shown.y) * target_width;
+    let target_rows = target.pixels_mut().get_mut(start..).unwrap_or_default();
+    for (row, target_row) in rows
+        .zip(target_rows.chunks_exact_mut(target_width.max(1)))
+        .take(shown.height as usize)
+    {
+        let x = offset(0, shown.x);
+        target_row[x..x + width].copy_from_slice(&row[left..left + width]);
+    }
+}
+
 /// A straight `0xAARRGGBB` over an opaque `0xRRGGBB`.
 fn over(pixel: u32, below: u32) -> u32 {
     let [alpha, r, g, b] = pixel.to_be_bytes().map(u32::from);
@@ -84,5 +113,27 @@ mod tests {
             show(&Framebuffer::new(fw, fh), PixelZoom::ONE, &mut window);
             assert!(window.pixels().iter().all(|p| p >> 24 == 0xff), "opaque everywhere");
         }
+    }
+
+    #[test]
+    fn paste_cuts_off() {
+        for (at, expected) in [
+            ([-1, 3], vec![12, 13]),
+            ([2, 2], vec![10, 11, 14, 15]),
+            ([-3, 0], vec![]),
+            ([9, 0], vec![]),
+            ([0, -9], vec![]),
+            ([0, 9], vec![]),
+            ([-2, -2], vec![0]),
+        ] {
+            let mut target = Framebuffer::new(4, 4);
+            let mut source = Framebuffer::new(3, 3);
+            source.pixels_mut().fill(7);
+            paste(&source, at, &mut target);
+            let set: Vec<usize> = (0..16).filter(|i| target.pixels()[*i] == 7).collect();
+            assert_eq!(set, expected, "the part inside for {at:?}");
+        }
+        paste(&Framebuffer::new(0, 3), [0, 0], &mut Framebuffer::new(3, 3));
+        paste(&Framebuffer::new(3, 3), [0, 0], &mut Framebuffer::new(0, 3));
     }
 }

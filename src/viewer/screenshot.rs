@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::background::{AtEnd, Crew, Mailbox, guarded};
 use super::state::Finished;
-use super::{Frame, PixelZoom, PlacedInset, Viewer, show};
+use super::{Frame, PixelZoom, PlacedInset, Viewer, paste, show};
 use crate::figure::{SampleMark, encode_png};
 use crate::raster::Framebuffer;
 
@@ -155,20 +155,6 @@ fn with_inset(frame: &Framebuffer, placed: &PlacedInset, zoom: PixelZoom, marks:
     picture
 }
 
-/// Copies `source` to `at` in `target`; what does not fit is cut off.
-fn paste(source: &Framebuffer, at: [i64; 2], target: &mut Framebuffer) {
-    let width = target.width();
-    for y in 0..source.height() {
-        for x in 0..source.width() {
-            let place = [at[0] + i64::from(x), at[1] + i64::from(y)].map(|n| u32::try_from(n).unwrap_or(u32::MAX));
-            if place[0] < width && place[1] < target.height() {
-                let from = y as usize * source.width() as usize + x as usize;
-                target.pixels_mut()[place[1] as usize * width as usize + place[0] as usize] = source.pixels()[from];
-            }
-        }
-    }
-}
-
 /// Saves `picture` in `folder` under a name that did not exist.
 fn save_new(folder: &Path, picture: &Framebuffer) -> Result<(PathBuf, [u32; 2]), String> {
     let cure = "choose another folder with --screenshot-dir";
@@ -237,15 +223,5 @@ mod tests {
             problem.contains("no/such") && problem.contains("--screenshot-dir"),
             "{problem}"
         );
-    }
-
-    #[test]
-    fn paste_cuts_off() {
-        let mut target = Framebuffer::new(4, 4);
-        let mut source = Framebuffer::new(3, 3);
-        source.pixels_mut().fill(7);
-        paste(&source, [-1, 3], &mut target);
-        let set: Vec<usize> = (0..16).filter(|i| target.pixels()[*i] == 7).collect();
-        assert_eq!(set, [12, 13], "the part inside");
     }
 }

@@ -1,0 +1,186 @@
+//! Plays a script on a stage: the viewer alone, or a whole window.
+
+use std::path::Path;
+use std::time::Duration;
+
+use glam::DVec2;
+
+use super::parse::{Script, ScriptError, ScriptStep, Step};
+use crate::figure::save_png;
+use crate::viewer::{Command, Effect, KeyPress, PointerButton, Viewer, commands};
+
+/// Moves of the pointer in one drag.
+const DRAG_MOVES: u32 = 4;
+
+/// Where a script is played. A window routes keys and pointer through its panels first.
+pub trait Stage {
+    /// Runs a command and carries out its effects.
+    fn command(&mut self, command: Command);
+
+    /// Waits until the picture of everything so far is finished.
+    fn settle(&mut self);
+
+    /// Saves a picture of the whole window in `path`, replacing the file.
+    ///
+    /// # Errors
+    /// One line: what went wrong and the cure.
+    fn shot(&mut self, path: &Path) -> Result<(), String>;
+
+    /// Whether the program was told to end: later steps are not played.
+    fn has_quit(&self) -> bool;
+
+    /// Presses and releases a key.
+    fn key(&mut self, press: KeyPress) {
+        if let Some(command) = commands::for_key(&press) {
+            self.command(command.clone());
+        }
+    }
+
+    /// Types into what has the keyboard. Without panels nothing has.
+    fn type_text(&mut self, _text: &str) {}
+
+    /// Moves the pointer to a window pixel, or out of the window.
+    fn pointer(&mut self, at: Option<DVec2>) {
+        self.command(match at {
+            Some(at) => Command::PointerMoved { at },
+            None => Command::PointerLeft,
+        });
+    }
+
+    /// Presses (`down`) or releases a button of the mouse.
+    fn button(&mut self, button: PointerButton, down: bool) {
+        self.command(if down {
+            Command::PointerPressed(button)
+        } else {
+            Command::PointerReleased(button)
+        });
+    }
+
+    /// Turns the wheel.
+    fn wheel(&mut self, clicks: f64) {
+        self.command(Command::Wheel { clicks });
+    }
+
+    /// Gives the window another size, in device pixels.
+    fn resize(&mut self, size: [u32; 2]) {
+        self.command(Command::Resize(size));
+    }
+
+    /// Lets time pass.
+    fn wait(&mut self, time: Duration) {
+        std::thread::sleep(time);
+    }
+}
+
+/// Plays all steps, each after the picture of the one before is finished.
+///
+/// # Errors
+/// At the first step that fails.
+pub fn play(script: &Script, name: &str, stage: &mut dyn Stage) -> Result<(), ScriptError> {
+    for ScriptStep { line, column, step } in &script.steps {
+        if stage.has_quit() {
+            return Ok(());
+        }
+        stage.settle();
+        perform(step, stage).map_err(|message| ScriptError {
+            name: name.to_owned(),
+            line: *line,
+            column: *column,
+            message,
+        })?;
+    }
+    stage.settle();
+    Ok(())
+}
+
+/// Performs one step. A window that cannot wait calls this for one step after the other, each time the picture is
+/// finished.
+///
+/// # Errors
+/// One line: what went wrong and the cure.
+pub fn perform(step: &Step, stage: &mut dyn Stage) -> Result<(), String> {
+    match step {
+        Step::Key(press) => stage.key(*press),
+        Step::Type(text) => stage.type_text(text),
+        Step::Move(at) => stage.pointer(Some(*at)),
+        Step::Leave => stage.pointer(None),
+        Step::Click { at, button } => {
+            stage.pointer(Some(*at));
+            stage.button(*button, true);
+            stage.button(*button, false);
+        }
+        Step::Drag { from, to } => {
+            stage.pointer(Some(*from));
+            stage.button(PointerButton::Primary, true);
+            for i in 1..=DRAG_MOVES {
+                stage.pointer(Some(from.lerp(*to, f64::from(i) / f64::from(DRAG_MOVES))));
+            }
+            stage.button(PointerButton::Primary, false);
+        }
+        Step::Wheel { clicks, at } => {
+            if at.is_some() {
+                stage.pointer(*at);
+            }
+            stage.wheel(*clicks);
+        }
+        Step::Resize(size) => stage.resize(*size),
+        Step::Wait(Some(time)) => stage.wait(*time),
+        Step::Wait(None) => stage.settle(),
+        Step::Shot(path) => return stage.shot(path),
+        Step::Run(command) => stage.command(command.clone()),
+    }
+    Ok(())
+}
+
+/// A viewer without window and panels: pictures show frame and inset.
+#[derive(Debug)]
+pub struct ViewerStage<'a> {
+    viewer: &'a mut Viewer,
+    has_quit: bool,
+    /// The last text that was copied.
+    pub clipboard: Option<String>,
+}
+
+impl<'a> ViewerStage<'a> {
+    /// Plays on `viewer`.
+    pub fn new(viewer: &'a mut Viewer) -> Self {
+        Self {
+            viewer,
+            has_quit: false,
+            clipboard: None,
+        }
+    }
+}
+
+impl Stage for ViewerStage<'_> {
+    fn command(&mut self, command: Command) {
+        for effect in self.viewer.apply(command) {
+            match effect {
+                Effect::CopyText(text) => self.clipboard = Some(text),
+                Effect::PictureOfWindow => {
+                    self.viewer.finish();
+                    let picture = self.viewer.window_picture();
+                    self.viewer.save_window_picture(picture);
+                }
+                Effect::Quit => self.has_quit = true,
+            }
+        }
+    }
+
+    fn settle(&mut self) {
+        self.viewer.finish();
+    }
+
+    fn shot(&mut self, path: &Path) -> Result<(), String> {
+        save_png(&self.viewer.window_picture(), path).map_err(|error| {
+            format!(
+                "{}: cannot write this file: {error}; choose another place",
+                path.display()
+            )
+        })
+    }
+
+    fn has_quit(&self) -> bool {
+        self.has_quit
+    }
+}

@@ -27,6 +27,8 @@
 //! * Colours are sRGB-encoded values unless a name says `linear`, and straight unless a name says `premultiplied`.
 //! * Frames are in device pixels, always.
 
+#[cfg(feature = "window")]
+pub mod app;
 pub mod cli;
 pub mod color;
 pub mod figure;

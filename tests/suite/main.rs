@@ -6,5 +6,7 @@
 mod architecture;
 mod coverage;
 mod oracle;
+#[cfg(feature = "window")]
+mod overlay_painter;
 mod render;
 mod support;

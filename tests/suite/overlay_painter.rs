@@ -1,6 +1,13 @@
 //! The overlay's painter against a slow reference that follows the GPU renderer's shader: every pixel, every triangle,
 //! real numbers, and a target of 8 bits that each triangle rounds to.
 
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::unwrap_used,
+    reason = "numbers of a small picture; a test that cannot unwrap has failed"
+)]
+
 use arbtest::arbitrary::{Result, Unstructured};
 use egui::epaint::textures::{TextureOptions, TexturesDelta};
 use egui::epaint::{ClippedPrimitive, ImageDelta, Mesh, Primitive, Vertex};

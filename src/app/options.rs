@@ -1,0 +1,38 @@
+//! What the command line asks of the window.
+
+use std::path::PathBuf;
+
+use crate::geometry::View;
+use crate::viewer::{Settings, Theme};
+
+/// How a session starts.
+#[derive(Clone, Debug, Default)]
+pub struct ViewOptions {
+    /// Files and folders to open; none means the built-in gallery.
+    pub paths: Vec<PathBuf>,
+    /// Sampling, rules, dialect, pixel zoom.
+    pub settings: Settings,
+    /// The view of every scene.
+    pub view: View,
+    /// The window's inner size in device pixels; `None` is 1280x800 points.
+    pub size: Option<[u32; 2]>,
+    /// Device pixels per point of the panels, without a window only; `None` is 1.
+    pub scale: Option<f32>,
+    /// Light or dark panels; `None` follows the desktop, or is dark where that is unknown.
+    pub theme: Option<Theme>,
+    /// Where screenshots go; `None` is the current folder.
+    pub screenshot_dir: Option<PathBuf>,
+    /// Commands to play at the start.
+    pub script: Option<ScriptSource>,
+    /// Never opens a window: plays the script, or saves one picture of the window, and ends.
+    pub headless: bool,
+}
+
+/// Where a script comes from.
+#[derive(Clone, Debug)]
+pub enum ScriptSource {
+    /// A file.
+    File(PathBuf),
+    /// The text itself, as `--do` gives it.
+    Text(String),
+}

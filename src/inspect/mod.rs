@@ -89,14 +89,18 @@ mod tests {
         }];
         let settings = RenderSettings {
             sample_rate: SampleRate::new(4).expect("a square number"),
+            outline: false,
             ..RenderSettings::default()
         };
-        let view = View::At {
-            center: DVec2::splat(2.0),
-            scale: 1.0,
-            rotation: 0.0,
-        }
-        .transform(scene.canvas, [4, 4]);
+        let around = |center| {
+            View::At {
+                center,
+                scale: 1.0,
+                rotation: 0.0,
+            }
+            .transform(scene.canvas, [4, 4])
+        };
+        let view = around(DVec2::splat(2.0));
         let samples = pixel_samples(&scene, &view, &settings, [4, 4], [1, 1]).expect("inside");
         let red: Vec<bool> = samples
             .iter()

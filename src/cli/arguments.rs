@@ -17,6 +17,7 @@ use crate::render::RenderSettings;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{LevelSampling, PixelSampling};
+use crate::viewer::Theme;
 
 /// See how a picture is sampled.
 #[derive(Debug, Parser)]
@@ -33,10 +34,43 @@ pub(super) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Verb {
+    /// Open scenes in the window; without a path the built-in gallery
+    View(ViewerOptions),
     /// Draw a scene, or every scene in a folder, into PNG files, without a window
     Render(RenderOptions),
     /// Time redraws of a scene: median, minimum, milliseconds per stage
     Bench(BenchOptions),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ViewerOptions {
+    /// SVG files and folders of them
+    pub(super) paths: Vec<PathBuf>,
+    /// The window's size in device pixels [default: 1280x800]
+    #[arg(long, value_name = "WxH")]
+    pub(super) size: Option<FrameSize>,
+    #[command(flatten)]
+    pub(super) sampling: SamplingOptions,
+    #[command(flatten)]
+    pub(super) framing: FramingOptions,
+    /// Panels light or dark [default: as the desktop]
+    #[arg(long, value_enum)]
+    pub(super) theme: Option<Theme>,
+    /// The folder that screenshots go to [default: the current one]
+    #[arg(long, value_name = "DIR")]
+    pub(super) screenshot_dir: Option<PathBuf>,
+    /// Play a script from a file
+    #[arg(long, value_name = "FILE", conflicts_with = "commands")]
+    pub(super) script: Option<PathBuf>,
+    /// Play a script, such as "key =; pin 512,300; key z; shot out.png"
+    #[arg(long = "do", id = "commands", value_name = "SCRIPT")]
+    pub(super) commands: Option<String>,
+    /// Play the script, or save one picture of the window, without a window
+    #[arg(long)]
+    pub(super) headless: bool,
+    /// Device pixels per point of the panels, with --headless only
+    #[arg(long, value_name = "FACTOR", value_parser = scale, requires = "headless")]
+    pub(super) scale: Option<f32>,
 }
 
 #[derive(Debug, Args)]
@@ -72,6 +106,13 @@ pub(super) struct PictureOptions {
     pub(super) size: FrameSize,
     #[command(flatten)]
     pub(super) sampling: SamplingOptions,
+    #[command(flatten)]
+    pub(super) framing: FramingOptions,
+}
+
+/// What part of a scene is drawn, and on how many threads.
+#[derive(Debug, Args)]
+pub(super) struct FramingOptions {
     /// default, canvas, or CX,CY,SCALE[,ROTATION]: centre, pixels per user unit, degrees
     #[arg(long, default_value = "default", value_name = "VIEW", value_parser = view_option::parse, allow_hyphen_values = true)]
     pub(super) view: View,
@@ -135,11 +176,16 @@ macro_rules! named_values {
     )*};
 }
 
-named_values!(PixelSampling, LevelSampling, Rules, DialectChoice);
+named_values!(PixelSampling, LevelSampling, Rules, DialectChoice, Theme);
 
 fn sample_rate(text: &str) -> Result<SampleRate, String> {
     let rate = text.parse().ok().and_then(SampleRate::new);
     rate.ok_or_else(|| "the sample rate is a square number: 1, 4, 9, 16, 25, 36, 49, 64 ... 256".to_owned())
+}
+
+fn scale(text: &str) -> Result<f32, String> {
+    let factor = text.parse().ok().filter(|factor| (0.5..=8.0).contains(factor));
+    factor.ok_or_else(|| "the scale of the panels is a factor from 0.5 to 8".to_owned())
 }
 
 fn background(text: &str) -> Result<Rgba, String> {
@@ -224,7 +270,7 @@ mod tests {
         else {
             panic!("a good line");
         };
-        let settings = options.picture.sampling.settings(options.picture.view);
+        let settings = options.picture.sampling.settings(options.picture.framing.view);
         assert_eq!(options.picture.size, FrameSize([300, 200]), "size");
         assert_eq!(settings.sample_rate.samples(), 16, "rate");
         assert_eq!(settings.pixel_sampling, PixelSampling::Bilinear, "pixel sampling");
@@ -236,7 +282,7 @@ mod tests {
         );
         assert_eq!(settings.rules, Rules::Course, "rules");
         assert!(settings.outline, "a free view has the outline");
-        assert_eq!(options.picture.threads, Some(2), "threads");
+        assert_eq!(options.picture.framing.threads, Some(2), "threads");
     }
 
     #[test]

@@ -8,6 +8,7 @@ mod failure;
 mod picture;
 mod render;
 mod size;
+mod view;
 mod view_option;
 
 use std::ffi::OsString;
@@ -26,6 +27,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 fn execute(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.verb {
+        Verb::View(options) => view::run(options),
         Verb::Render(options) => render::run(options),
         Verb::Bench(options) => bench::run(options),
     }

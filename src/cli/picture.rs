@@ -25,8 +25,8 @@ impl Picture {
         }
         let [width, height] = options.size.0;
         Ok(Self {
-            view: options.view.transform(scene.canvas, options.size.0),
-            settings: options.sampling.settings(options.view),
+            view: options.framing.view.transform(scene.canvas, options.size.0),
+            settings: options.sampling.settings(options.framing.view),
             frame: Framebuffer::new(width, height),
             scene,
         })
@@ -45,7 +45,7 @@ impl Picture {
 
 /// Runs `work` on a pool of as many threads as the options say.
 pub(super) fn on_threads<T: Send>(options: &PictureOptions, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
-    let threads = options.threads.map_or(0, usize::from);
+    let threads = options.framing.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()

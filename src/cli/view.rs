@@ -1,0 +1,55 @@
+//! `rasterscope view`: the window.
+
+use super::arguments::ViewerOptions;
+use super::failure::Failure;
+
+/// Opens the window, or plays a session without one.
+#[cfg(feature = "window")]
+pub(super) fn run(options: &ViewerOptions) -> Result<(), Failure> {
+    use crate::app::{self, ScriptSource, ViewOptions};
+
+    if let Some(threads) = options.framing.threads {
+        // Fails only if the pool runs already, and nothing has used it before this line.
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.into())
+            .build_global()
+            .map_err(Failure::other)?;
+    }
+    let file = options.script.clone().map(ScriptSource::File);
+    let view_options = ViewOptions {
+        paths: options.paths.clone(),
+        settings: settings(options),
+        view: options.framing.view,
+        size: options.size.map(|size| size.0),
+        scale: options.scale,
+        theme: options.theme,
+        screenshot_dir: options.screenshot_dir.clone(),
+        script: file.or(options.commands.clone().map(ScriptSource::Text)),
+        headless: options.headless,
+    };
+    app::run(view_options).map_err(|error| {
+        if error.is_input() {
+            Failure::input(error)
+        } else {
+            Failure::other(error)
+        }
+    })
+}
+
+#[cfg(feature = "window")]
+fn settings(options: &ViewerOptions) -> crate::viewer::Settings {
+    crate::viewer::Settings {
+        render: options.sampling.settings(options.framing.view),
+        dialect: options.sampling.dialect,
+        ..Default::default()
+    }
+}
+
+/// Says that there is no window in this build.
+#[cfg(not(feature = "window"))]
+pub(super) fn run(_: &ViewerOptions) -> Result<(), Failure> {
+    let cure = "build it with the feature `window`, or use `rasterscope render`";
+    Err(Failure::other(format!(
+        "this program was built without its window; {cure}"
+    )))
+}

@@ -4,9 +4,11 @@
 
 pub mod clip;
 pub mod edge;
+mod stroke;
 pub mod subpixel;
 mod triangulate;
 mod view;
 
+pub use stroke::{LineCap, LineJoin, StrokeStyle, stroke_outline};
 pub use triangulate::{FillRule, estimate_crossings, triangulate};
 pub use view::{View, ViewTransform};

@@ -7,8 +7,7 @@ use super::document::{LineIndex, Source};
 use super::error::Fault;
 use super::textures::TextureTable;
 use super::{
-    Dialect, Paint, Primitive, PrimitiveKind, Problem, Report, Resources, Scene, Shape, ShapeId, SkippedKind,
-    SourceLocation,
+    Dialect, Paint, Primitive, PrimitiveKind, Problem, Report, Scene, Shape, ShapeId, SkippedKind, SourceLocation,
 };
 use crate::color::Rgba;
 use crate::geometry::{self, FillRule};
@@ -17,6 +16,9 @@ use crate::geometry::{self, FillRule};
 const MAX_PRIMITIVES: usize = 4_000_000;
 /// Most crossings that the edges of all polygons together may have, as estimated before each is triangulated.
 const MAX_CROSSINGS: usize = 4_000_000;
+
+/// Most layers inside each other: each takes memory in every tile.
+const MAX_LAYERS: usize = 32;
 
 /// A growing scene and the document it comes from.
 #[derive(Debug)]
@@ -28,18 +30,20 @@ pub(super) struct Builder<'doc> {
     pub(super) textures: TextureTable<'doc>,
     pub(super) report: Report,
     crossings_left: usize,
+    open_layers: usize,
 }
 
 impl<'doc> Builder<'doc> {
-    pub(super) fn new(source: &'doc Source<'doc>, lines: &'doc LineIndex<'doc>) -> Self {
+    pub(super) fn new(source: &'doc Source<'doc>, lines: &'doc LineIndex<'doc>, textures: TextureTable<'doc>) -> Self {
         Self {
             source,
             lines,
             shapes: Vec::new(),
             primitives: Vec::new(),
-            textures: TextureTable::default(),
+            textures,
             report: Report::default(),
             crossings_left: MAX_CROSSINGS,
+            open_layers: 0,
         }
     }
 
@@ -104,6 +108,32 @@ impl<'doc> Builder<'doc> {
         Ok(())
     }
 
+    /// What follows is painted on a layer of its own, until [`Builder::end_layer`].
+    pub(super) fn begin_layer(&mut self, shape: ShapeId) -> Result<(), Fault> {
+        self.open_layers += 1;
+        if self.open_layers > MAX_LAYERS {
+            let what = "layers of opacity inside each other";
+            return Err(self.fault(
+                shape,
+                Problem::TooMany {
+                    what,
+                    limit: MAX_LAYERS,
+                },
+            ));
+        }
+        self.push(shape, PrimitiveKind::BeginLayer)
+    }
+
+    /// Ends the layer that was begun last; one with nothing on it vanishes.
+    pub(super) fn end_layer(&mut self, shape: ShapeId, opacity: f32) -> Result<(), Fault> {
+        self.open_layers = self.open_layers.saturating_sub(1);
+        if matches!(self.primitives.last(), Some(last) if last.kind == PrimitiveKind::BeginLayer) {
+            self.primitives.pop();
+            return Ok(());
+        }
+        self.push(shape, PrimitiveKind::EndLayer { opacity })
+    }
+
     /// Adds a triangle.
     pub(super) fn triangle(&mut self, shape: ShapeId, points: [DVec2; 3], paint: Paint) -> Result<(), Fault> {
         self.push(shape, PrimitiveKind::Triangle { points, paint })
@@ -146,8 +176,8 @@ impl<'doc> Builder<'doc> {
     }
 
     /// The scene, once its textures are loaded.
-    pub(super) fn finish(mut self, dialect: Dialect, canvas: DVec2, resources: &dyn Resources) -> Scene {
-        let textures = self.textures.load(resources, &mut self.report);
+    pub(super) fn finish(mut self, dialect: Dialect, canvas: DVec2) -> Scene {
+        let textures = self.textures.load(&mut self.report);
         Scene {
             canvas,
             dialect,

@@ -3,16 +3,14 @@
 //! Width and height are the canvas and `viewBox` means nothing; strokes are hairlines; a rect without size is a
 //! point; nothing but the transform is inherited; numbers are 32-bit floats, read as C reads them.
 
-use std::collections::HashMap;
-
 use glam::{DAffine2, DVec2};
 use roxmltree::{Children, Node};
 
 use super::build::{Builder, unit_square};
 use super::error::Fault;
 use super::report::quote;
-use super::textures::Alpha;
-use super::{Paint, PrimitiveKind, ShapeId, SkippedKind, TextureId, attributes, course_values, numbers};
+use super::triangles::{self, Element, TextureFiles};
+use super::{Paint, PrimitiveKind, SkippedKind, attributes, course_values, numbers};
 use crate::color::Rgba;
 use crate::geometry::FillRule;
 
@@ -40,37 +38,21 @@ const NOT_INHERITED: [&str; 4] = ["fill", "stroke", "fill-opacity", "stroke-opac
 #[derive(Debug)]
 pub(super) struct CourseReader<'a, 'doc> {
     builder: &'a mut Builder<'doc>,
-    alpha: Alpha,
-    /// File names of the textures by their `texid`.
-    texture_files: HashMap<&'doc str, &'doc str>,
-}
-
-/// An element on its way to primitives.
-#[derive(Clone, Copy, Debug)]
-struct Element<'doc> {
-    node: Node<'doc, 'doc>,
-    shape: ShapeId,
-    to_user: DAffine2,
+    texture_files: TextureFiles<'doc>,
 }
 
 impl<'a, 'doc> CourseReader<'a, 'doc> {
-    pub(super) fn new(builder: &'a mut Builder<'doc>, alpha: Alpha) -> Self {
-        Self {
-            builder,
-            alpha,
-            texture_files: HashMap::new(),
-        }
-    }
-
     /// Reads everything below `root` and answers with the canvas.
-    pub(super) fn read(mut self, root: Node<'doc, 'doc>) -> Result<DVec2, Fault> {
-        for texture in root.descendants().filter(|node| node.tag_name().name() == "texture") {
-            let name = texture.attribute("texid").unwrap_or("");
-            self.texture_files
-                .insert(name, texture.attribute("filename").unwrap_or(""));
-        }
-        self.groups(root)?;
-        Ok(DVec2::new(self.number(root, "width")?, self.number(root, "height")?))
+    pub(super) fn read(builder: &'a mut Builder<'doc>, root: Node<'doc, 'doc>) -> Result<DVec2, Fault> {
+        let mut reader = Self {
+            builder,
+            texture_files: TextureFiles::below(root),
+        };
+        reader.groups(root)?;
+        Ok(DVec2::new(
+            reader.number(root, "width")?,
+            reader.number(root, "height")?,
+        ))
     }
 
     /// Walks the tree without recursion, so that no nesting is too deep.
@@ -122,8 +104,8 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
             "polygon" => self.polygon(element),
             "rect" => self.rect(element),
             "image" => self.image(element),
-            "colortri" => self.colortri(element),
-            _ => self.textri(element),
+            "colortri" => triangles::colortri(self.builder, element, 1.0),
+            _ => triangles::textri(self.builder, element, &self.texture_files, 1.0),
         }
     }
 
@@ -181,7 +163,7 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
         let Element { node, shape, to_user } = element;
         let corner = self.point(node, ["x", "y"])?;
         let size = self.point(node, ["width", "height"])?;
-        let Some(texture) = self.texture(node, attributes::href(node).unwrap_or("")) else {
+        let Some(texture) = triangles::texture(self.builder, node, attributes::href(node).unwrap_or("")) else {
             return Ok(());
         };
         let square = to_user * DAffine2::from_scale_angle_translation(size, 0.0, corner);
@@ -196,36 +178,6 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
         Ok(())
     }
 
-    fn colortri(&mut self, element: Element<'doc>) -> Result<(), Fault> {
-        let colors = attributes::corner_colors(self.builder, element.node)?;
-        let points = attributes::corners(self.builder, element.node)?;
-        let (Some(points), Some(colors)) = (points, colors) else {
-            return Ok(());
-        };
-        let points = points.map(|point| element.to_user.transform_point2(point));
-        self.builder.triangle(element.shape, points, Paint::Vertex(colors))
-    }
-
-    fn textri(&mut self, element: Element<'doc>) -> Result<(), Fault> {
-        let uv = attributes::corner_uvs(self.builder, element.node)?;
-        let points = attributes::corners(self.builder, element.node)?;
-        let (Some(points), Some(uv)) = (points, uv) else {
-            return Ok(());
-        };
-        let name = element.node.attribute("texid").unwrap_or("");
-        let file = self.texture_files.get(name).copied().unwrap_or("");
-        let Some(texture) = self.texture(element.node, file) else {
-            return Ok(());
-        };
-        let points = points.map(|point| element.to_user.transform_point2(point));
-        let paint = Paint::Texture {
-            texture,
-            uv,
-            opacity: 1.0,
-        };
-        self.builder.triangle(element.shape, points, paint)
-    }
-
     /// Hairlines from point to point.
     fn outline(&mut self, element: Element<'doc>, points: &[DVec2], color: Rgba) -> Result<(), Fault> {
         for ends in points.windows(2) {
@@ -233,10 +185,6 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
             self.builder.hairline(element.shape, ends, color)?;
         }
         Ok(())
-    }
-
-    fn texture(&mut self, node: Node<'doc, 'doc>, address: &'doc str) -> Option<TextureId> {
-        attributes::texture(self.builder, node, address, self.alpha)
     }
 
     /// `fill`: black when missing.
@@ -291,7 +239,7 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
     }
 
     fn points(&mut self, node: Node<'doc, 'doc>) -> Result<Vec<DVec2>, Fault> {
-        let numbers = attributes::numbers(self.builder, node, "points")?;
+        let numbers = triangles::numbers(self.builder, node, "points")?;
         let (pairs, _) = numbers.as_chunks::<2>();
         Ok(pairs.iter().map(|&[x, y]| DVec2::new(x.into(), y.into())).collect())
     }

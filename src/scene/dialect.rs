@@ -46,7 +46,8 @@ impl DialectChoice {
     }
 }
 
-/// The course's dialect if the document uses what only the course has, or nothing that the course does not have.
+/// The course's dialect if the document uses what only the course has, or nothing that the course does not have
+/// and a size in plain numbers, without which the course's reader has no canvas.
 fn recognise(root: Node<'_, '_>) -> Dialect {
     let mut foreign = false;
     for node in root.descendants().filter(|node| node.is_element() && *node != root) {
@@ -56,7 +57,18 @@ fn recognise(root: Node<'_, '_>) -> Dialect {
         }
         foreign |= !course::ELEMENTS.contains(&name) && !attributes::is_silent(node);
     }
-    if foreign { Dialect::Svg } else { Dialect::Course }
+    let sized = has_number(root, "width") && has_number(root, "height");
+    if foreign || !sized {
+        Dialect::Svg
+    } else {
+        Dialect::Course
+    }
+}
+
+/// Whether the attribute is a number, perhaps of pixels: what the course's reader takes for one.
+fn has_number(node: Node<'_, '_>, name: &str) -> bool {
+    let text = node.attribute(name).unwrap_or("").trim();
+    text.strip_suffix("px").unwrap_or(text).parse::<f32>().is_ok()
 }
 
 /// Whether this is a rect without size, which the course draws as a point.

@@ -15,7 +15,9 @@ mod model;
 mod numbers;
 mod report;
 mod resources;
+mod svg;
 mod textures;
+mod triangles;
 
 use std::path::Path;
 
@@ -23,7 +25,8 @@ use build::Builder;
 use course::CourseReader;
 use document::{LineIndex, Source};
 use error::Fault;
-use textures::Alpha;
+use svg::SvgReader;
+use textures::{Alpha, TextureTable};
 
 pub use dialect::{DialectChoice, ReadOptions};
 pub use error::{Problem, SceneError};
@@ -67,19 +70,23 @@ fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> 
     let tree = source.parse()?;
     let root = tree.root_element();
     let lines = LineIndex::new(&text);
-    let mut builder = Builder::new(&source, &lines);
     if root.tag_name().name() != "svg" {
         let name = root.tag_name().name().to_owned();
-        return Err(Problem::NotSvg(name).at(builder.locate(root)));
+        return Err(Problem::NotSvg(name).at(lines.locate(source.original_offset(root.range().start))));
     }
     let dialect = options.dialect.resolve(root);
+    let alpha = match dialect {
+        Dialect::Course => Alpha::Drop,
+        Dialect::Svg => Alpha::Keep,
+    };
+    let mut builder = Builder::new(&source, &lines, TextureTable::new(resources, alpha));
     let canvas = match dialect {
-        Dialect::Course => CourseReader::new(&mut builder, Alpha::Drop).read(root)?,
-        Dialect::Svg => CourseReader::new(&mut builder, Alpha::Keep).read(root)?,
+        Dialect::Course => CourseReader::read(&mut builder, root)?,
+        Dialect::Svg => SvgReader::read(&mut builder, root)?,
     };
     if canvas.min_element() <= 0.0 {
         let (width, height) = (canvas.x, canvas.y);
         return Err(Problem::Canvas { width, height }.at(builder.locate(root)));
     }
-    Ok(builder.finish(dialect, canvas, resources))
+    Ok(builder.finish(dialect, canvas))
 }

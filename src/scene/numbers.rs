@@ -32,7 +32,8 @@ pub(super) fn all(attribute: &str, text: &str) -> Result<Vec<f32>, Problem> {
         } else if says_not_finite(&bytes[at..]) {
             return Err(not_finite(attribute, text));
         } else {
-            at += 1;
+            // A word at once, so that a long one is looked at once.
+            at += letters(&bytes[at..]).max(1);
         }
     }
     Ok(numbers)
@@ -52,8 +53,15 @@ fn finite(number: &str) -> Option<f32> {
 /// Whether the text begins with a word for what is no finite number.
 fn says_not_finite(bytes: &[u8]) -> bool {
     let unsigned = bytes.strip_prefix(b"-").or(bytes.strip_prefix(b"+")).unwrap_or(bytes);
-    let word = unsigned.get(..3).unwrap_or_default();
-    word.eq_ignore_ascii_case(b"nan") || word.eq_ignore_ascii_case(b"inf")
+    let word = &unsigned[..letters(unsigned)];
+    [b"nan".as_slice(), b"inf", b"infinity"]
+        .iter()
+        .any(|name| word.eq_ignore_ascii_case(name))
+}
+
+/// How many letters the text begins with.
+fn letters(bytes: &[u8]) -> usize {
+    bytes.iter().take_while(|b| b.is_ascii_alphabetic()).count()
 }
 
 /// How many bytes at the start form a decimal number: sign, digits with at most one point, exponent.

@@ -1,6 +1,7 @@
 //! The textures a document refers to: each address once, read and decoded in parallel, within a budget of texels.
 
 use std::collections::HashMap;
+use std::fmt;
 use std::sync::Arc;
 
 use data_url::DataUrl;
@@ -8,7 +9,7 @@ use rayon::prelude::*;
 
 use super::report::{quote, shorten};
 use super::{Report, ResourceError, Resources, SourceLocation, TextureId};
-use crate::texture::Texture;
+use crate::texture::{DecodeError, Texture};
 
 /// Most texels of all textures of a scene: with pyramids 1.4 GB.
 const MAX_TEXELS: u64 = 1 << 28;
@@ -21,15 +22,18 @@ const MAX_TEXTURES: usize = 4_096;
 /// Schemes of addresses elsewhere, which are never fetched.
 const REMOTE: [&str; 4] = ["http:", "https:", "ftp:", "//"];
 
-/// What the document refers to so far.
-#[derive(Debug, Default)]
+/// The textures that the document refers to so far: read as they are asked for, decoded all together in the end.
 pub(super) struct TextureTable<'doc> {
-    ids: HashMap<(&'doc str, Alpha), TextureId>,
-    requests: Vec<Request<'doc>>,
+    resources: &'doc dyn Resources,
+    alpha: Alpha,
+    ids: HashMap<&'doc str, TextureId>,
+    entries: Vec<Entry<'doc>>,
+    bytes_left: u64,
+    texels_left: u64,
 }
 
 /// Whether a texture's transparency counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Alpha {
     /// As SVG has it.
     Keep,
@@ -37,124 +41,140 @@ pub(super) enum Alpha {
     Drop,
 }
 
-/// One texture to be read.
+/// One texture.
 #[derive(Debug)]
-struct Request<'doc> {
+struct Entry<'doc> {
     address: &'doc str,
-    alpha: Alpha,
     /// Where it is first asked for.
     location: SourceLocation,
+    /// Its file, or why there is none.
+    file: Result<EncodedImage, String>,
+}
+
+/// A PNG or JPEG.
+#[derive(Debug)]
+struct EncodedImage {
+    bytes: Vec<u8>,
+    /// Width and height in texels.
+    size: [u32; 2],
 }
 
 impl<'doc> TextureTable<'doc> {
+    pub(super) fn new(resources: &'doc dyn Resources, alpha: Alpha) -> Self {
+        Self {
+            resources,
+            alpha,
+            ids: HashMap::new(),
+            entries: Vec::new(),
+            bytes_left: MAX_BYTES,
+            texels_left: MAX_TEXELS,
+        }
+    }
+
     /// The texture at `address`, asked for at `location`. `None` when there are too many.
-    pub(super) fn request(&mut self, address: &'doc str, alpha: Alpha, location: SourceLocation) -> Option<TextureId> {
-        if let Some(&id) = self.ids.get(&(address, alpha)) {
+    pub(super) fn request(&mut self, address: &'doc str, location: SourceLocation) -> Option<TextureId> {
+        if let Some(&id) = self.ids.get(address) {
             return Some(id);
         }
-        if self.requests.len() >= MAX_TEXTURES {
+        if self.entries.len() >= MAX_TEXTURES {
             return None;
         }
-        let id = TextureId(u32::try_from(self.requests.len()).ok()?);
-        self.ids.insert((address, alpha), id);
-        self.requests.push(Request {
+        let id = TextureId(u32::try_from(self.entries.len()).ok()?);
+        let file = self.read(address);
+        self.ids.insert(address, id);
+        self.entries.push(Entry {
             address,
-            alpha,
             location,
+            file,
         });
         Some(id)
     }
 
-    /// Reads and decodes everything. What fails becomes the checker of [`Texture::missing`] and a warning.
-    ///
-    /// Files are read in document order, so that the budget falls on the same textures in every run; decoding, which
-    /// takes the time, is parallel.
-    pub(super) fn load(self, resources: &dyn Resources, report: &mut Report) -> Vec<Arc<Texture>> {
-        let mut budget = Budget {
-            bytes: MAX_BYTES,
-            texels: MAX_TEXELS,
-        };
-        let files: Vec<_> = self
-            .requests
-            .iter()
-            .map(|request| request.read(resources, &mut budget))
-            .collect();
+    /// Width and height in texels, unless the texture is missing.
+    pub(super) fn size(&self, id: TextureId) -> Option<[u32; 2]> {
+        let entry = self.entries.get(id.0 as usize)?;
+        entry.file.as_ref().ok().map(|file| file.size)
+    }
+
+    /// Decodes everything. What fails becomes the checker of [`Texture::missing`] and a warning.
+    pub(super) fn load(self, report: &mut Report) -> Vec<Arc<Texture>> {
+        let alpha = self.alpha;
+        let (places, files): (Vec<_>, Vec<_>) = self
+            .entries
+            .into_iter()
+            .map(|entry| ((name_of(entry.address), entry.location), entry.file))
+            .unzip();
         let results: Vec<Result<Texture, String>> = files
             .into_par_iter()
-            .zip(&self.requests)
-            .map(|(file, request)| request.decode(&file?))
+            .zip(&places)
+            .map(|(file, (name, _))| decode(name, &file?.bytes, alpha))
             .collect();
-        let mut textures = Vec::with_capacity(results.len());
-        for (result, request) in results.into_iter().zip(&self.requests) {
-            let texture = result.unwrap_or_else(|trouble| {
-                let name = request.name();
-                report.warn(
-                    request.location,
-                    format!("texture {name}: {trouble}; a checker is drawn"),
-                );
+        let named = results.into_iter().zip(places);
+        let texture = |(result, (name, location)): (Result<Texture, String>, (String, _))| {
+            Arc::new(result.unwrap_or_else(|trouble| {
+                report.warn(location, format!("texture {name}: {trouble}; a checker is drawn"));
                 Texture::missing(&name)
-            });
-            textures.push(Arc::new(texture));
-        }
-        textures
-    }
-}
-
-/// What the textures not yet read may still take.
-#[derive(Debug)]
-struct Budget {
-    bytes: u64,
-    texels: u64,
-}
-
-impl Request<'_> {
-    /// For messages and tool tips.
-    fn name(&self) -> String {
-        match self.address {
-            "" => "without a name".to_owned(),
-            data if is_data(data) => "in the document".to_owned(),
-            address => quote(address),
-        }
+            }))
+        };
+        named.map(texture).collect()
     }
 
-    /// The bytes of the image, if they fit the budget.
-    fn read(&self, resources: &dyn Resources, budget: &mut Budget) -> Result<Vec<u8>, String> {
-        let address = self.address.trim();
-        let lower = address.get(..8.min(address.len())).unwrap_or("").to_ascii_lowercase();
-        if REMOTE.iter().any(|scheme| lower.starts_with(scheme)) {
+    /// The bytes of the image, if they fit what is left of the ceilings.
+    fn read(&mut self, address: &str) -> Result<EncodedImage, String> {
+        let address = address.trim();
+        let scheme = address.get(..8.min(address.len())).unwrap_or("").to_ascii_lowercase();
+        if REMOTE.iter().any(|remote| scheme.starts_with(remote)) {
             return Err("addresses in the net are not fetched".to_owned());
         }
         let bytes = if is_data(address) {
             embedded(address)?
         } else if address.is_empty() {
-            return Err("nothing defines it".to_owned());
+            return Err("nothing says which file it is".to_owned());
         } else {
-            linked(address, resources)?
+            linked(address, self.resources)?
         };
-        let (width, height) =
-            Texture::size_of_encoded(&bytes).map_err(|error| shorten(&error.to_string(), MAX_MESSAGE))?;
+        let (width, height) = Texture::size_of_encoded(&bytes).map_err(explain)?;
         let texels = u64::from(width) * u64::from(height);
-        let left = (
-            budget.bytes.checked_sub(bytes.len() as u64),
-            budget.texels.checked_sub(texels),
-        );
-        let (Some(bytes_left), Some(texels_left)) = left else {
+        let bytes_left = self.bytes_left.checked_sub(bytes.len() as u64);
+        let (Some(bytes_left), Some(texels_left)) = (bytes_left, self.texels_left.checked_sub(texels)) else {
             return Err(format!(
-                "with {width} x {height} texels the scene's textures are too large together"
+                "with its {width} x {height} texels the scene's textures are too large"
             ));
         };
-        (budget.bytes, budget.texels) = (bytes_left, texels_left);
-        Ok(bytes)
+        (self.bytes_left, self.texels_left) = (bytes_left, texels_left);
+        let size = [width, height];
+        Ok(EncodedImage { bytes, size })
     }
+}
 
-    fn decode(&self, bytes: &[u8]) -> Result<Texture, String> {
-        let name = self.name();
-        let texture = match self.alpha {
-            Alpha::Keep => Texture::decode(&name, bytes),
-            Alpha::Drop => Texture::decode_opaque(&name, bytes),
-        };
-        texture.map_err(|error| shorten(&error.to_string(), MAX_MESSAGE))
+impl fmt::Debug for TextureTable<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list()
+            .entries(self.entries.iter().map(|entry| name_of(entry.address)))
+            .finish()
     }
+}
+
+/// A texture's name in messages and tool tips.
+fn name_of(address: &str) -> String {
+    match address.trim() {
+        "" => "without a name".to_owned(),
+        data if is_data(data) => "in the document".to_owned(),
+        address => quote(address),
+    }
+}
+
+fn decode(name: &str, bytes: &[u8], alpha: Alpha) -> Result<Texture, String> {
+    let texture = match alpha {
+        Alpha::Keep => Texture::decode(name, bytes),
+        Alpha::Drop => Texture::decode_opaque(name, bytes),
+    };
+    texture.map_err(explain)
+}
+
+#[expect(clippy::needless_pass_by_value, reason = "shaped for map_err")]
+fn explain(error: DecodeError) -> String {
+    shorten(&error.to_string(), MAX_MESSAGE)
 }
 
 fn is_data(address: &str) -> bool {
@@ -215,23 +235,25 @@ mod tests {
 
     /// Warnings of a table with these addresses.
     fn warnings(addresses: &[&'static str]) -> Vec<String> {
-        let mut table = TextureTable::default();
+        let mut table = TextureTable::new(&NoResources, Alpha::Keep);
         for address in addresses {
-            table.request(address, Alpha::Keep, HERE).expect("few");
+            table.request(address, HERE).expect("few");
         }
         let mut report = Report::default();
-        let textures = table.load(&NoResources, &mut report);
-        assert!(textures.len() <= addresses.len(), "one texture per address");
+        assert_eq!(
+            table.load(&mut report).len(),
+            addresses.len(),
+            "one texture per address"
+        );
         report.lines().collect()
     }
 
     #[test]
     fn texture_table_asks_once_per_address() {
-        let mut table = TextureTable::default();
-        let first = table.request("a.png", Alpha::Keep, HERE);
-        assert_eq!(table.request("a.png", Alpha::Keep, HERE), first, "the same");
-        assert_ne!(table.request("a.png", Alpha::Drop, HERE), first, "other texels");
-        assert_ne!(table.request("b.png", Alpha::Keep, HERE), first, "another file");
+        let mut table = TextureTable::new(&NoResources, Alpha::Keep);
+        let first = table.request("a.png", HERE);
+        assert_eq!(table.request("a.png", HERE), first, "the same");
+        assert_ne!(table.request("b.png", HERE), first, "another file");
     }
 
     #[test]

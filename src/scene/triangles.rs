@@ -1,0 +1,121 @@
+//! The course's own triangles, which both dialects draw: `colortri`, `textri`, and the `texture`s that name files.
+
+use std::collections::HashMap;
+
+use glam::{DAffine2, DVec2, Vec2};
+use roxmltree::Node;
+
+use super::build::Builder;
+use super::error::Fault;
+use super::{Paint, ShapeId, TextureId, numbers};
+use crate::color::Rgba;
+
+/// An element on its way to primitives.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Element<'doc> {
+    pub(super) node: Node<'doc, 'doc>,
+    pub(super) shape: ShapeId,
+    pub(super) to_user: DAffine2,
+}
+
+/// File names of the textures by their `texid`.
+#[derive(Debug)]
+pub(super) struct TextureFiles<'doc>(HashMap<&'doc str, &'doc str>);
+
+impl<'doc> TextureFiles<'doc> {
+    /// All definitions below `root`, wherever they stand; of two with one name the later counts.
+    pub(super) fn below(root: Node<'doc, 'doc>) -> Self {
+        let textures = root.descendants().filter(|node| node.tag_name().name() == "texture");
+        let entry = |node: Node<'doc, 'doc>| {
+            let attribute = |name| node.attribute(name).unwrap_or("");
+            (attribute("texid"), attribute("filename"))
+        };
+        Self(textures.map(entry).collect())
+    }
+}
+
+/// A triangle with a colour at each corner.
+pub(super) fn colortri(builder: &mut Builder<'_>, element: Element<'_>, opacity: f32) -> Result<(), Fault> {
+    let colors = corner_colors(builder, element.node)?;
+    let points = corners(builder, element)?;
+    let (Some(points), Some(colors)) = (points, colors) else {
+        return Ok(());
+    };
+    let paint = Paint::Vertex(colors.map(|color| color.faded(opacity)));
+    builder.triangle(element.shape, points, paint)
+}
+
+/// A triangle with a texture coordinate at each corner.
+pub(super) fn textri<'doc>(
+    builder: &mut Builder<'doc>,
+    element: Element<'doc>,
+    files: &TextureFiles<'doc>,
+    opacity: f32,
+) -> Result<(), Fault> {
+    let uv = corner_uvs(builder, element.node)?;
+    let points = corners(builder, element)?;
+    let (Some(points), Some(uv)) = (points, uv) else {
+        return Ok(());
+    };
+    let name = element.node.attribute("texid").unwrap_or("");
+    let file = files.0.get(name).copied().unwrap_or("");
+    let Some(texture) = texture(builder, element.node, file) else {
+        return Ok(());
+    };
+    builder.triangle(element.shape, points, Paint::Texture { texture, uv, opacity })
+}
+
+/// The texture at `address`, or a warning that there are too many.
+pub(super) fn texture<'doc>(
+    builder: &mut Builder<'doc>,
+    node: Node<'doc, 'doc>,
+    address: &'doc str,
+) -> Option<TextureId> {
+    let location = builder.locate(node);
+    let id = builder.textures.request(address, location);
+    if id.is_none() {
+        builder.warn(node, "not drawn: the scene has too many textures".to_owned());
+    }
+    id
+}
+
+/// All numbers of an attribute; none if it is missing.
+pub(super) fn numbers(builder: &Builder<'_>, node: Node<'_, '_>, name: &str) -> Result<Vec<f32>, Fault> {
+    let text = node.attribute(name).unwrap_or("");
+    numbers::all(name, text).map_err(|problem| problem.at(builder.locate_attribute(node, name)))
+}
+
+/// The first `N` numbers of an attribute, or a warning that there are fewer.
+fn first<const N: usize>(builder: &mut Builder<'_>, node: Node<'_, '_>, name: &str) -> Result<Option<[f32; N]>, Fault> {
+    let numbers = numbers(builder, node, name)?;
+    let first = numbers.first_chunk::<N>().copied();
+    if first.is_none() {
+        let message = format!("not drawn: {name} holds {} numbers, not {N}", numbers.len());
+        builder.warn(node, message);
+    }
+    Ok(first)
+}
+
+/// Three `x y` in `points`, in user space.
+fn corners(builder: &mut Builder<'_>, element: Element<'_>) -> Result<Option<[DVec2; 3]>, Fault> {
+    let numbers = first::<6>(builder, element.node, "points")?;
+    let corner = |n: [f32; 6], i: usize| {
+        element
+            .to_user
+            .transform_point2(DVec2::new(n[i].into(), n[i + 1].into()))
+    };
+    Ok(numbers.map(|n| [0, 2, 4].map(|i| corner(n, i))))
+}
+
+/// Three `r g b a` in `colors`; the opacity means nothing, and the last one may be missing.
+fn corner_colors(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Result<Option<[Rgba; 3]>, Fault> {
+    let numbers = first::<11>(builder, node, "colors")?;
+    let unit = |channel: f32| channel.clamp(0.0, 1.0);
+    Ok(numbers.map(|n| [0, 4, 8].map(|i| Rgba::opaque(unit(n[i]), unit(n[i + 1]), unit(n[i + 2])))))
+}
+
+/// Three `u v` in `uvs`.
+fn corner_uvs(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Result<Option<[Vec2; 3]>, Fault> {
+    let numbers = first::<6>(builder, node, "uvs")?;
+    Ok(numbers.map(|n| [0, 2, 4].map(|i| Vec2::new(n[i], n[i + 1]))))
+}

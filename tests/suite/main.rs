@@ -3,6 +3,8 @@
 //! Where a test goes: a pure function with exact numbers is tested beside its code in `src`; what several rooms do
 //! together, properties, pictures and goldens go here; what needs a window goes to `tests/window`.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
+
 mod architecture;
 mod coverage;
 mod oracle;
@@ -10,3 +12,7 @@ mod oracle;
 mod overlay_painter;
 mod render;
 mod support;
+mod viewer_random;
+mod viewer_replay;
+mod viewer_screenshots;
+mod viewer_scripts;

@@ -1,0 +1,147 @@
+//! Any commands in any order: no panic, no hang, and the frame shows the state.
+
+use std::path::PathBuf;
+
+use arbtest::arbitrary::{Result, Unstructured};
+use glam::{DVec2, dvec2};
+use rasterscope::viewer::{Action, Command, PixelRect, PointerButton, ViewNumbers, Viewer, ViewerOptions, commands};
+
+use crate::support::session::{SQUARE, Session, TRIANGLES};
+
+/// A number, often one that breaks things.
+fn number(u: &mut Unstructured<'_>) -> Result<f64> {
+    let odd = [
+        0.0,
+        -1.0,
+        1e-300,
+        1e300,
+        f64::MAX,
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        -0.0,
+    ];
+    if u.ratio(1, 4)? {
+        return Ok(*u.choose(&odd)?);
+    }
+    Ok(f64::from(u.int_in_range(-4000..=4000)?) / 16.0)
+}
+
+fn point(u: &mut Unstructured<'_>) -> Result<DVec2> {
+    Ok(dvec2(number(u)?, number(u)?))
+}
+
+fn whole(u: &mut Unstructured<'_>) -> Result<i64> {
+    let odd = [0, 1, -1, i64::MAX, i64::MIN, 10];
+    if u.ratio(1, 2)? {
+        Ok(*u.choose(&odd)?)
+    } else {
+        u.int_in_range(-100..=100)
+    }
+}
+
+/// Commands that hands make, and some with numbers that no hand makes.
+fn command(u: &mut Unstructured<'_>) -> Result<Command> {
+    let buttons = [PointerButton::Primary, PointerButton::Secondary];
+    Ok(match u.int_in_range(0..=18)? {
+        0 => Command::PointerMoved { at: point(u)? },
+        1 => Command::PointerPressed(*u.choose(&buttons)?),
+        2 => Command::PointerReleased(*u.choose(&buttons)?),
+        3 => Command::Wheel { clicks: number(u)? },
+        4 => Command::Pinch { factor: number(u)? },
+        5 => Command::PanBy { by: point(u)? },
+        6 => Command::ZoomAt {
+            at: Some(point(u)?),
+            factor: number(u)?,
+        },
+        7 => Command::RotateBy { degrees: number(u)? },
+        8 => Command::SetView(ViewNumbers {
+            center: point(u)?,
+            scale: number(u)?,
+            rotation: number(u)?,
+        }),
+        9 => Command::Resize([u.int_in_range(0..=40)?, u.int_in_range(0..=40)?]),
+        10 => Command::Pin([whole(u)?, whole(u)?]),
+        11 => Command::Nudge([whole(u)?, whole(u)?]),
+        12 => Command::SetMagnification(u.arbitrary()?),
+        13 => Command::SetInspectorRegion(u.arbitrary()?),
+        14 => Command::StepMagnification(u.arbitrary()?),
+        15 => Command::SetFreeArea(Some(PixelRect {
+            x: whole(u)?,
+            y: whole(u)?,
+            width: u.arbitrary()?,
+            height: u.int_in_range(0..=50)?,
+        })),
+        16 => Command::PointerLeft,
+        17 => Command::Scene(u.int_in_range(0..=4)?),
+        _ => match u.choose(commands::all())?.action {
+            // Whoever saves pictures in a loop fills the disk; screenshots have tests of their own.
+            Action::Run(Command::Screenshot) | Action::NeedsArgument => Command::SampleRateDown,
+            Action::Run(command) => command.clone(),
+            Action::PerKey(commands) => u.choose(commands)?.clone(),
+        },
+    })
+}
+
+#[test]
+fn random_commands_never_break_the_viewer() {
+    let session = Session::open(&[TRIANGLES, "<svg", SQUARE], [40, 30]);
+    let paths: Vec<PathBuf> = (1..=3)
+        .map(|n| session.folder.path().join(format!("{n}.svg")))
+        .collect();
+    arbtest::arbtest(|u| {
+        let options = ViewerOptions {
+            paths: paths.clone(),
+            window: [40, 30],
+            ..ViewerOptions::default()
+        };
+        let mut viewer = Viewer::new(options).unwrap();
+        for _ in 0..u.int_in_range(1..=40)? {
+            let _ = viewer.apply(command(u)?);
+            let _ = (viewer.status(), viewer.title(), viewer.command_line());
+            let _ = viewer.pixel_labels([1.0, 1.0]);
+            match u.int_in_range(0..=3)? {
+                0 => viewer.finish(),
+                1 => _ = viewer.poll(),
+                2 => _ = viewer.window_picture(),
+                _ => {}
+            }
+        }
+        viewer.finish();
+        assert!(viewer.is_settled(), "finished is finished");
+        let size = viewer.frame_size();
+        if viewer.current().is_some_and(|entry| entry.scene().is_some()) && !size.contains(&0) {
+            let frame = viewer.frame().expect("a frame for a scene");
+            assert_eq!(
+                [frame.pixels.width(), frame.pixels.height()],
+                size,
+                "the frame fits the window"
+            );
+            assert_eq!(
+                frame.picture.settings,
+                viewer.settings().render,
+                "the frame shows the settings"
+            );
+        }
+        Ok(())
+    })
+    .budget_ms(2000);
+}
+
+#[test]
+fn random_keys_alone() {
+    arbtest::arbtest(|u| {
+        let mut session = Session::open(&[TRIANGLES, SQUARE], [30, 20]);
+        for _ in 0..u.int_in_range(1..=30)? {
+            let spec = u.choose(commands::all())?;
+            if spec.id != "screenshot"
+                && let Some(command) = spec.command()
+            {
+                let _ = session.viewer.apply(command.clone());
+            }
+        }
+        session.viewer.finish();
+        Ok(())
+    })
+    .budget_ms(500);
+}

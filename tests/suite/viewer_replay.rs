@@ -1,0 +1,423 @@
+//! Commands replayed without a window: state and pixels.
+
+use glam::dvec2;
+use rasterscope::raster::SampleRate;
+use rasterscope::rules::Rules;
+use rasterscope::scene::DialectChoice;
+use rasterscope::texture::{LevelSampling, PixelSampling};
+use rasterscope::viewer::{
+    Command, Dialog, Effect, MessageKind, PixelRect, PixelZoom, PointerButton, Toggle, ViewNumbers,
+};
+
+use crate::support::session::{SQUARE, Session, TRIANGLES};
+
+#[test]
+fn replay_every_change_reaches_the_frame() {
+    let mut session = Session::open(&[TRIANGLES, SQUARE], [160, 120]);
+    session.assert_frame_is_current();
+    let mut before = session.pixels().clone();
+    let steps = [
+        Command::SampleRateUp,
+        Command::PanBy { by: dvec2(7.0, -3.0) },
+        Command::ZoomAt {
+            at: Some(dvec2(30.0, 40.0)),
+            factor: 2.5,
+        },
+        Command::RotateBy { degrees: 30.0 },
+        Command::FitView,
+        Command::ActualSize,
+        Command::NextScene,
+        Command::SetRules(Rules::Course),
+        Command::Resize([90, 70]),
+        Command::SetPixelZoom(PixelZoom::new(3).unwrap()),
+        Command::PreviousScene,
+        Command::ResetView,
+    ];
+    for step in steps {
+        session.run(step.clone());
+        session.assert_frame_is_current();
+        assert!(*session.pixels() != before, "{step:?} changes the picture");
+        before = session.pixels().clone();
+    }
+}
+
+#[test]
+fn replay_the_courses_keys() {
+    let mut session = Session::open(&[TRIANGLES], [64, 64]);
+    session.keys(&["=", "=", "-", "p", "l", "l"]);
+    let render = session.viewer.settings().render;
+    assert_eq!(render.sample_rate.samples(), 4, "1 4 9 4");
+    assert_eq!(render.pixel_sampling, PixelSampling::Bilinear, "P");
+    assert_eq!(render.level_sampling, LevelSampling::Linear, "zero, nearest, linear");
+    session.keys(&["p", "l", "-", "-"]);
+    let render = session.viewer.settings().render;
+    assert_eq!(render.pixel_sampling, PixelSampling::Nearest, "round");
+    assert_eq!(render.level_sampling, LevelSampling::Zero, "round");
+    assert_eq!(render.sample_rate, SampleRate::ONE, "not below one");
+    assert!(
+        session.viewer.title().starts_with("1.svg - sample rate 1,"),
+        "{}",
+        session.viewer.title()
+    );
+}
+
+#[test]
+fn replay_drag_moves_pixels_with_the_pointer() {
+    let mut session = Session::open(&[TRIANGLES], [160, 120]);
+    session.run(Command::ActualSize);
+    let before = session.pixels().clone();
+    for command in [
+        Command::PointerMoved { at: dvec2(50.0, 60.0) },
+        Command::PointerPressed(PointerButton::Primary),
+        Command::PointerMoved { at: dvec2(53.0, 61.0) },
+        Command::PointerMoved { at: dvec2(62.0, 55.0) },
+        Command::PointerReleased(PointerButton::Primary),
+        Command::PointerMoved { at: dvec2(90.0, 90.0) },
+    ] {
+        session.run(command);
+    }
+    // Moved by (12, -5) in all, and no further after the button went up.
+    for y in 0..115 {
+        for x in 12..160 {
+            let (now, then) = (session.pixels().rgba(x, y), before.rgba(x - 12, y + 5));
+            assert_eq!(now, then, "pixel {x}, {y}");
+        }
+    }
+}
+
+#[test]
+fn replay_wheel_zooms_about_the_pointer() {
+    let mut session = Session::open(&[TRIANGLES], [160, 120]);
+    session.run(Command::PointerMoved { at: dvec2(40.5, 30.5) });
+    let before = session.viewer.status().unwrap();
+    session.run(Command::Wheel { clicks: 3.0 });
+    let after = session.viewer.status().unwrap();
+    assert!(
+        after.scale > before.scale * 1.9,
+        "up is in: {} to {}",
+        before.scale,
+        after.scale
+    );
+    assert!(
+        after.user.abs_diff_eq(before.user, 1e-9),
+        "{} moved to {}",
+        before.user,
+        after.user
+    );
+    assert_eq!(before.pixel, [40, 30], "the pixel under the pointer");
+}
+
+#[test]
+fn replay_each_scene_keeps_its_view() {
+    let mut session = Session::open(&[TRIANGLES, SQUARE], [160, 120]);
+    session.run(Command::PanBy { by: dvec2(5.0, 9.0) });
+    let first = session.viewer.view_numbers().unwrap();
+    session.keys(&["2"]);
+    assert_eq!(session.viewer.current_index(), 1, "2 shows the second scene");
+    assert!(session.viewer.current().unwrap().camera.is_default(), "its own view");
+    session.run(Command::RotateBy { degrees: 10.0 });
+    session.keys(&["PageDown"]);
+    assert_eq!(
+        session.viewer.view_numbers(),
+        Some(first),
+        "round to the first, as it was"
+    );
+    session.keys(&["9"]);
+    assert_eq!(session.viewer.current_index(), 0, "there is no ninth");
+    session.keys(&["Space"]);
+    assert!(session.viewer.current().unwrap().camera.is_default(), "Space resets");
+}
+
+#[test]
+fn replay_pixel_zoom_shows_the_same_part() {
+    let mut session = Session::open(&[TRIANGLES], [160, 120]);
+    session.run(Command::SetView(ViewNumbers {
+        center: dvec2(60.0, 50.0),
+        scale: 4.0,
+        rotation: 0.0,
+    }));
+    session.run(Command::SetPixelZoom(PixelZoom::new(2).unwrap()));
+    let numbers = session.viewer.view_numbers().unwrap();
+    assert_eq!(
+        (session.pixels().width(), session.pixels().height()),
+        (80, 60),
+        "half the pixels"
+    );
+    assert!((numbers.scale - 2.0).abs() < 1e-12, "half the scale: {numbers:?}");
+    let window = session.viewer.window_picture();
+    for (x, y) in [(0, 0), (81, 7), (159, 119)] {
+        assert_eq!(
+            window.rgba(x, y),
+            session.pixels().rgba(x / 2, y / 2),
+            "{x}, {y} magnified"
+        );
+    }
+    session.run(Command::PointerMoved { at: dvec2(81.0, 7.0) });
+    assert_eq!(session.viewer.hovered_pixel(), Some([40, 3]), "frame pixels");
+}
+
+#[test]
+fn replay_escape_closes_one_thing_at_a_time() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    session.keys(&["Tab", "z"]);
+    session.run(Command::Pin([10, 20]));
+    session.keys(&["?"]);
+    assert_eq!(session.viewer.dialog(), Some(Dialog::Help), "help is open");
+    session.keys(&["Ctrl+G"]);
+    assert_eq!(session.viewer.dialog(), Some(Dialog::GoToPixel), "one dialog at a time");
+    let state = |session: &Session| {
+        let viewer = &session.viewer;
+        let inspector = viewer.inspector();
+        (
+            viewer.dialog().is_some(),
+            viewer.pinned_pixel().is_some(),
+            inspector.open,
+            viewer.everything_hidden(),
+        )
+    };
+    for expected in [
+        (false, true, true, true),
+        (false, false, true, true),
+        (false, false, false, true),
+        (false, false, false, false),
+    ] {
+        assert_eq!(session.run(Command::Escape), [], "not yet");
+        assert_eq!(state(&session), expected, "dialog, pin, inspector, hidden");
+    }
+    assert_eq!(session.run(Command::Escape), [Effect::Quit], "nothing is open any more");
+}
+
+#[test]
+fn replay_pin_and_nudge() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    session.keys(&["Left"]);
+    assert_eq!(
+        session.viewer.pinned_pixel(),
+        None,
+        "arrows do nothing before the inspector is open"
+    );
+    session.run(Command::PointerMoved { at: dvec2(100.2, 50.9) });
+    session.keys(&["Enter"]);
+    assert_eq!(session.viewer.pinned_pixel(), Some([100, 50]), "pinned");
+    assert!(session.viewer.inspector().open, "and to be seen");
+    session.run(Command::PointerMoved { at: dvec2(3.0, 4.0) });
+    session.keys(&["Left", "Up", "Shift+Right", "Shift+Down"]);
+    assert_eq!(session.viewer.pinned_pixel(), Some([109, 59]), "nudged");
+    session.run(Command::Nudge([100_000, -100_000]));
+    assert_eq!(session.viewer.pinned_pixel(), Some([399, 0]), "within the frame");
+    session.run(Command::Resize([200, 300]));
+    assert_eq!(session.viewer.pinned_pixel(), Some([199, 0]), "in a smaller frame too");
+    session.run(Command::Resize([0, 0]));
+    assert_eq!(session.viewer.pinned_pixel(), None, "a minimised window has no pixels");
+    session.run(Command::Resize([400, 300]));
+    assert_eq!(session.viewer.pinned_pixel(), Some([399, 0]), "as the user chose it");
+}
+
+#[test]
+fn replay_inset_reads_the_frame() {
+    let mut session = Session::open(&[TRIANGLES], [640, 480]);
+    session.run(Command::Pin([320, 240]));
+    let placed = session.viewer.inset().unwrap();
+    let block = placed.block([322, 239]).unwrap();
+    session.run(Command::PointerMoved {
+        at: dvec2(block.x as f64 + 1.5, block.y as f64 + 2.5),
+    });
+    assert!(session.viewer.pointer_over_inset(), "over the inset");
+    assert_eq!(session.viewer.hovered_pixel(), Some([322, 239]), "the magnified pixel");
+    assert_eq!(
+        session.viewer.status().unwrap().rgba,
+        session.pixels().rgba(322, 239),
+        "its colour"
+    );
+    let window = session.viewer.window_picture();
+    let corner = [block.x, block.y].map(|n| u32::try_from(n).unwrap());
+    assert_eq!(
+        window.rgba(corner[0], corner[1]),
+        session.pixels().rgba(322, 239),
+        "shown as it is"
+    );
+    let magnification = session.viewer.inspector().magnification;
+    let numbers = session.viewer.view_numbers();
+    session.run(Command::Wheel { clicks: 1.0 });
+    assert!(
+        session.viewer.inspector().magnification > magnification,
+        "the wheel magnifies here"
+    );
+    assert_eq!(session.viewer.view_numbers(), numbers, "and does not zoom the picture");
+}
+
+#[test]
+fn replay_inset_never_hides_its_pixel() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    session.run(Command::Inspector(Toggle::On));
+    session.run(Command::SetFreeArea(Some(PixelRect {
+        x: 60,
+        y: 0,
+        width: 340,
+        height: 290,
+    })));
+    for zoom in PixelZoom::ALL {
+        session.run(Command::SetPixelZoom(zoom));
+        for y in (0..300).step_by(7) {
+            for x in (0..400).step_by(13) {
+                let _ = session.viewer.apply(Command::PointerMoved {
+                    at: dvec2(f64::from(x), f64::from(y)),
+                });
+                let [px, py] = session.viewer.inspected_pixel().unwrap();
+                let k = zoom.factor();
+                assert_eq!([px, py], [x / k, y / k], "follows the pointer, below the inset too");
+                let shown = PixelRect {
+                    x: i64::from(px * k),
+                    y: i64::from(py * k),
+                    width: k,
+                    height: k,
+                };
+                let placed = session.viewer.inset().unwrap();
+                assert!(!placed.rect.overlaps(&shown), "{placed:?} hides {shown:?}");
+                assert!(
+                    placed.rect.x >= 60 && placed.rect.bottom() <= 290,
+                    "below a panel: {placed:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn replay_labels_only_where_they_fit() {
+    let mut session = Session::open(&[TRIANGLES], [640, 480]);
+    session.run(Command::Pin([0, 0]));
+    assert!(
+        session.viewer.pixel_labels([7.0, 12.0]).is_empty(),
+        "16 pixels are too few for 3 lines of 12"
+    );
+    session.run(Command::SetMagnification(40));
+    let labels = session.viewer.pixel_labels([7.0, 12.0]);
+    let inset = session.viewer.inset().unwrap().inset;
+    let visible = usize::try_from(inset.region - inset.region / 2).unwrap();
+    assert_eq!(labels.len(), visible * visible, "only pixels of the frame have numbers");
+    for label in labels {
+        let [x, y] = label.pixel;
+        assert_eq!(Some(label.rgba), session.pixels().rgba(x, y), "{label:?}");
+    }
+}
+
+#[test]
+fn replay_broken_scene_leaves_the_others_usable() {
+    let mut session = Session::open(&[TRIANGLES, "<svg", SQUARE], [64, 64]);
+    session.keys(&["2"]);
+    let entry = session.viewer.current().unwrap();
+    let problem = entry.failure().expect("no scene").to_owned();
+    assert!(problem.contains("2.svg"), "{problem} names the file");
+    assert!(!problem.contains('\n'), "{problem} is one line");
+    let message = session.viewer.messages().last().unwrap();
+    assert_eq!(
+        (message.kind, &message.text),
+        (MessageKind::Error, &problem),
+        "the user is told"
+    );
+    assert!(
+        session.viewer.frame().is_none(),
+        "no picture of another scene under this name"
+    );
+    for command in [
+        Command::PanBy { by: dvec2(1.0, 1.0) },
+        Command::FitView,
+        Command::CopyCommandLine,
+    ] {
+        session.run(command);
+    }
+    session.keys(&["3"]);
+    session.assert_frame_is_current();
+    session.keys(&["2"]);
+    std::fs::write(session.folder.path().join("2.svg"), TRIANGLES).unwrap();
+    session.keys(&["F5"]);
+    session.assert_frame_is_current();
+}
+
+#[test]
+fn replay_reload_and_dialect_read_again() {
+    let mut session = Session::open(&[TRIANGLES], [64, 64]);
+    session.run(Command::PanBy { by: dvec2(3.0, 0.0) });
+    let numbers = session.viewer.view_numbers();
+    std::fs::write(
+        session.folder.path().join("1.svg"),
+        TRIANGLES.replace("#1f6feb", "#00ff00"),
+    )
+    .unwrap();
+    let before = session.pixels().clone();
+    session.keys(&["Ctrl+R"]);
+    assert!(*session.pixels() != before, "the new colours");
+    session.assert_frame_is_current();
+    assert_eq!(session.viewer.view_numbers(), numbers, "the view stays");
+    session.run(Command::SetDialect(DialectChoice::Course));
+    let scene = session.viewer.current().unwrap().scene().unwrap();
+    assert_eq!(scene.dialect.name(), "course", "read as asked");
+}
+
+#[test]
+fn replay_thumbnails_come_when_asked_for() {
+    let mut session = Session::open(&[TRIANGLES, "<svg", SQUARE], [64, 64]);
+    for index in 0..4 {
+        session.viewer.request_thumbnail(index);
+    }
+    session.viewer.finish_thumbnails();
+    let sizes: Vec<Option<[u32; 2]>> = session
+        .viewer
+        .scenes()
+        .iter()
+        .map(|entry| {
+            entry
+                .thumbnail
+                .as_ref()
+                .map(|picture| [picture.width(), picture.height()])
+        })
+        .collect();
+    assert_eq!(
+        sizes,
+        [Some([160, 80]), None, Some([160, 160])],
+        "as the canvas, none for a broken scene"
+    );
+}
+
+#[test]
+fn replay_copies() {
+    let mut session = Session::open(&[TRIANGLES], [64, 48]);
+    session.run(Command::Pin([32, 24]));
+    let effects = session.run(Command::CopyPixel);
+    let status = session.viewer.status().unwrap();
+    assert_eq!(
+        effects,
+        [Effect::CopyText(status.to_string())],
+        "what the status line says"
+    );
+    assert!(status.to_string().starts_with("pixel 32, 24  user 10"), "{status}");
+    let line = session.viewer.command_line().unwrap();
+    let path = session.folder.path().join("1.svg");
+    let expected = format!(
+        "rasterscope render {} -o 1.png --size 64x48 --view default",
+        path.display()
+    );
+    assert_eq!(line, expected, "all defaults");
+    session.keys(&["=", "p", "l"]);
+    session.run(Command::SetRules(Rules::Course));
+    session.run(Command::SetView(ViewNumbers {
+        center: dvec2(-1.5, 2.25),
+        scale: 0.1,
+        rotation: -30.0,
+    }));
+    let line = session.viewer.command_line().unwrap();
+    let options = "--size 64x48 --view=-1.5,2.25,0.1,-30 --sample-rate 4 --pixel-sampling bilinear \
+                   --level-sampling nearest --rules course";
+    assert!(line.ends_with(options), "{line}");
+}
+
+#[test]
+fn replay_gallery_without_paths() {
+    let mut session = Session::open(&[], [64, 64]);
+    assert!(!session.viewer.scenes().is_empty(), "the built-in gallery");
+    session.assert_frame_is_current();
+    session.run(Command::Open(vec![session.folder.path().to_owned()]));
+    assert_eq!(session.viewer.messages().len(), 1, "an empty folder is told");
+    session.assert_frame_is_current();
+}

@@ -1,0 +1,136 @@
+//! Screenshots: which pixels, which names, what happens where none can be written.
+
+use rasterscope::raster::Framebuffer;
+use rasterscope::viewer::{Command, Effect, MessageKind, PixelZoom, Viewer, ViewerOptions};
+
+use crate::support::session::{Session, TRIANGLES};
+
+fn read(path: &std::path::Path) -> Vec<[u8; 4]> {
+    let picture = image::open(path).unwrap().into_rgba8();
+    picture.pixels().map(|pixel| pixel.0).collect()
+}
+
+fn rgba(picture: &Framebuffer) -> Vec<[u8; 4]> {
+    let all = (0..picture.height()).flat_map(|y| (0..picture.width()).map(move |x| (x, y)));
+    all.map(|(x, y)| picture.rgba(x, y).unwrap()).collect()
+}
+
+#[test]
+fn screenshot_is_the_frame() {
+    let mut session = Session::open(&[TRIANGLES], [80, 60]);
+    session.run(Command::SampleRateUp);
+    session.keys(&["s"]);
+    let pictures = session.pictures();
+    assert_eq!(pictures.len(), 1, "{pictures:?}");
+    assert!(read(&pictures[0]) == rgba(session.pixels()), "every pixel");
+    let message = session.viewer.messages().last().unwrap();
+    let name = pictures[0].file_name().unwrap().to_str().unwrap();
+    assert!(
+        message.text.contains(name) && message.text.contains("80 x 60"),
+        "{}",
+        message.text
+    );
+    let digits = name.bytes().filter(u8::is_ascii_digit).count();
+    assert!(
+        name.starts_with("rasterscope-") && digits >= 17,
+        "{name} goes from the year to the millisecond"
+    );
+}
+
+#[test]
+fn screenshot_waits_for_the_frame_it_was_asked_for() {
+    let mut session = Session::open(&[TRIANGLES], [80, 60]);
+    let _ = session.viewer.apply(Command::RotateBy { degrees: 45.0 });
+    let _ = session.viewer.apply(Command::Screenshot);
+    session.viewer.finish();
+    assert!(read(&session.pictures()[0]) == rgba(session.pixels()), "turned");
+    session.assert_frame_is_current();
+}
+
+#[test]
+fn screenshot_holds_the_inset() {
+    let mut session = Session::open(&[TRIANGLES], [640, 480]);
+    session.run(Command::Pin([300, 200]));
+    session.keys(&["s"]);
+    assert!(
+        read(&session.pictures()[0]) == rgba(&session.viewer.window_picture()),
+        "frame and inset"
+    );
+    session.run(Command::SetPixelZoom(PixelZoom::new(2).unwrap()));
+    session.keys(&["s"]);
+    assert!(
+        read(&session.pictures()[1]) == rgba(&session.viewer.window_picture()),
+        "magnified"
+    );
+}
+
+#[test]
+fn screenshots_have_names_of_their_own() {
+    let mut session = Session::open(&[TRIANGLES], [8, 8]);
+    for _ in 0..30 {
+        let _ = session.viewer.apply(Command::Screenshot);
+    }
+    session.viewer.finish();
+    assert_eq!(session.pictures().len(), 30, "none replaced another");
+}
+
+#[test]
+fn screenshot_folder_that_is_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    std::fs::write(&file, "").unwrap();
+    for wrong in [file, folder.path().join("missing")] {
+        let options = ViewerOptions {
+            window: [8, 8],
+            screenshot_dir: Some(wrong.clone()),
+            ..ViewerOptions::default()
+        };
+        let mut viewer = Viewer::new(options).unwrap();
+        let _ = viewer.apply(Command::Screenshot);
+        viewer.finish();
+        let message = viewer.messages().last().unwrap();
+        assert_eq!(message.kind, MessageKind::Error, "{}", message.text);
+        let told = message.text.contains(&wrong.display().to_string()) && message.text.contains("--screenshot-dir");
+        assert!(told, "{} names place and cure", message.text);
+    }
+}
+
+#[test]
+fn screenshot_of_the_window_is_asked_for() {
+    let mut session = Session::open(&[TRIANGLES], [8, 8]);
+    assert_eq!(
+        session.run(Command::WindowScreenshot),
+        [Effect::PictureOfWindow],
+        "the window is elsewhere"
+    );
+    let mut window = Framebuffer::new(3, 3);
+    window.pixels_mut().fill(0xff12_3456);
+    session.viewer.save_window_picture(window.clone());
+    session.viewer.finish();
+    assert!(read(&session.pictures()[0]) == rgba(&window), "as given");
+    session.viewer.save_window_picture(Framebuffer::new(0, 0));
+    session.viewer.finish();
+    assert_eq!(session.pictures().len(), 1, "nothing to save");
+}
+
+#[test]
+fn screenshots_are_whole_when_the_program_ends() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    for _ in 0..5 {
+        let _ = session.viewer.apply(Command::Screenshot);
+    }
+    let Session { viewer, folder } = session;
+    drop(viewer);
+    let files: Vec<_> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|item| item.unwrap().path())
+        .collect();
+    let pictures = files
+        .iter()
+        .filter(|path| path.extension().is_some_and(|ending| ending == "png"));
+    assert_eq!(
+        pictures.map(|path| read(path).len()).collect::<Vec<_>>(),
+        [120_000; 5],
+        "all five, all whole"
+    );
+}

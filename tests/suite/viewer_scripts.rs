@@ -1,0 +1,57 @@
+//! Scripted sessions without a window.
+
+use rasterscope::viewer::script::{Script, ViewerStage, play};
+
+use crate::support::session::{Session, TRIANGLES};
+
+#[test]
+fn script_plays_like_a_hand() {
+    let mut session = Session::open(&[TRIANGLES], [640, 480]);
+    let shot = session.folder.path().join("out shot.png");
+    assert!(
+        Script::parse("key =; rate 16 # is no comment", "s").is_err(),
+        "a comment starts a step"
+    );
+    let text = format!(
+        "# A session.
+        key =; key =
+        pin 300,200; key Shift+Right
+        drag 10,10 25,18
+        resize 500x400
+        shot \"{}\"
+        key ctrl+c
+        quit
+        rate 1",
+        shot.display()
+    );
+    let script = Script::parse(&text, "session").unwrap();
+    let mut stage = ViewerStage::new(&mut session.viewer);
+    play(&script, "session", &mut stage).unwrap();
+    let copied = stage.clipboard.clone().unwrap();
+    assert!(copied.starts_with("pixel 310, 200"), "{copied}");
+    let viewer = &session.viewer;
+    assert_eq!(viewer.settings().render.sample_rate.samples(), 9, "nothing after quit");
+    assert_eq!(viewer.window_size(), [500, 400], "resized");
+    assert!(!viewer.current().unwrap().camera.is_default(), "dragged");
+    let picture = image::open(&shot).unwrap().into_rgba8();
+    let window = viewer.window_picture();
+    assert_eq!(picture.dimensions(), (500, 400), "the whole window");
+    let same = picture
+        .enumerate_pixels()
+        .all(|(x, y, pixel)| window.rgba(x, y) == Some(pixel.0));
+    assert!(same, "frame and inset");
+}
+
+#[test]
+fn script_failure_names_its_place() {
+    let mut session = Session::open(&[TRIANGLES], [64, 48]);
+    let script = Script::parse("key =\n  shot no/such/folder/x.png", "do").unwrap();
+    let mut stage = ViewerStage::new(&mut session.viewer);
+    let error = play(&script, "do", &mut stage).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .starts_with("do:2:3: no/such/folder/x.png: cannot write"),
+        "{error}"
+    );
+}

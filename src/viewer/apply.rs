@@ -41,7 +41,7 @@ impl Viewer {
     /// Whether the frame of the current state is there and everything that was asked for is saved.
     pub fn is_settled(&self) -> bool {
         let reading = self.current().is_some_and(super::SceneEntry::is_reading);
-        !reading && self.drawing.is_current() && self.saver.is_idle()
+        !reading && self.drawing.is_current() && self.probing.is_current() && self.saver.is_idle()
     }
 
     /// Waits until [`Viewer::is_settled`]: for scripts, tests and pictures without a window.
@@ -75,6 +75,7 @@ impl Viewer {
                     ));
                 }
             }
+            Finished::Probed(probed) => self.probing.finished(probed),
             Finished::Thumbnail(thumbnail) => self.thumbnail_drawn(thumbnail),
             Finished::Saved(saved) => self.picture_saved(saved),
         }
@@ -86,6 +87,7 @@ impl Viewer {
         self.want_scene();
         self.want_frame();
         self.place_inset();
+        self.want_samples();
         self.save_when_ready();
     }
 

@@ -119,6 +119,11 @@ impl<J: Send + 'static> Crew<J> {
         self.queue.changed.notify_one();
     }
 
+    /// Takes back the jobs that wait.
+    pub(super) fn take_back(&self) -> VecDeque<J> {
+        std::mem::take(&mut self.queue.lock().jobs)
+    }
+
     /// Adds a job in place of those that wait, which it returns.
     pub(super) fn replace(&self, job: J) -> VecDeque<J> {
         let dropped = std::mem::replace(&mut self.queue.lock().jobs, VecDeque::from([job]));

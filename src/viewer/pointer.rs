@@ -4,7 +4,6 @@ use glam::DVec2;
 
 use super::inspector::is_dark;
 use super::{PixelLabel, PixelRect, PointerButton, Status, Viewer, paste, show};
-use crate::figure::SampleMark;
 use crate::raster::Framebuffer;
 
 /// Where the pointer is and what it does.
@@ -119,11 +118,6 @@ impl Viewer {
         }
     }
 
-    /// The samples of the pixel in the middle of the inspector.
-    pub fn sample_marks(&self) -> Vec<SampleMark> {
-        Vec::new()
-    }
-
     pub(super) fn pointer_moved(&mut self, to: DVec2) {
         if !to.is_finite() {
             return;
@@ -198,7 +192,7 @@ impl Viewer {
     }
 
     /// The pixel, if the frame has it.
-    fn in_frame(&self, pixel: [i64; 2]) -> Option<[u32; 2]> {
+    pub(super) fn in_frame(&self, pixel: [i64; 2]) -> Option<[u32; 2]> {
         let [width, height] = self.frame_size();
         let inside = |value: i64, side: u32| u32::try_from(value).ok().filter(|value| *value < side);
         Some([inside(pixel[0], width)?, inside(pixel[1], height)?])

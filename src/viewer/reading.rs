@@ -92,6 +92,12 @@ impl Readers {
         })
     }
 
+    /// Forgets the thumbnails that wait: they belong to an old list.
+    pub(super) fn drop_thumbnails(&mut self) {
+        let dropped = self.thumbnails.take_back();
+        self.pending_thumbnails = self.pending_thumbnails.saturating_sub(dropped.len());
+    }
+
     pub(super) fn has_thumbnails_pending(&self) -> bool {
         self.pending_thumbnails > 0
     }

@@ -91,7 +91,7 @@ impl Viewer {
     /// Saves the screenshots that wait, as soon as the frame shows the current state.
     pub(super) fn save_when_ready(&mut self) {
         let reading = self.current().is_some_and(super::SceneEntry::is_reading);
-        if self.saver.waiting == 0 || reading || !self.drawing.is_current() {
+        if self.saver.waiting == 0 || reading || !self.drawing.is_current() || !self.probing.is_current() {
             return;
         }
         let Some(frame) = self.drawing.shared_frame().cloned() else {

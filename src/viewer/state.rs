@@ -9,6 +9,7 @@ use super::background::Mailbox;
 use super::drawing::{Drawing, Drawn};
 use super::messages::Messages;
 use super::pointer::Pointer;
+use super::probing::{Probed, Probing};
 use super::reading::{ReadScene, Readers, Thumbnail};
 use super::screenshot::{Saved, Saver};
 use super::{
@@ -57,6 +58,7 @@ pub struct Viewer {
     pub(super) inset: Option<PlacedInset>,
     pub(super) messages: Messages,
     pub(super) drawing: Drawing,
+    pub(super) probing: Probing,
     pub(super) readers: Readers,
     pub(super) saver: Saver,
     pub(super) results: Receiver<Finished>,
@@ -87,6 +89,7 @@ pub(super) struct Shown {
 pub(super) enum Finished {
     Read(ReadScene),
     Drawn(Drawn),
+    Probed(Probed),
     Thumbnail(Thumbnail),
     Saved(Saved),
 }
@@ -147,6 +150,7 @@ impl Viewer {
             inset: None,
             messages: Messages::default(),
             drawing: Drawing::start(&mailbox)?,
+            probing: Probing::start(&mailbox)?,
             readers: Readers::start(&mailbox)?,
             saver: Saver::start(&mailbox, options.screenshot_dir)?,
             results,
@@ -177,6 +181,7 @@ impl Viewer {
         }
         self.scenes = scenes;
         self.generation += 1;
+        self.readers.drop_thumbnails();
         self.recent.clear();
         self.current = 0;
     }

@@ -421,3 +421,45 @@ fn replay_gallery_without_paths() {
     assert_eq!(session.viewer.messages().len(), 1, "an empty folder is told");
     session.assert_frame_is_current();
 }
+
+#[test]
+fn replay_samples_of_the_inspected_pixel() {
+    // A left half in red; and the same below thousands of shapes, which are probed in a thread.
+    let half = |others: usize| {
+        let other = r#"<rect x="0" y="90" width="1" height="1" fill="black"/>"#.repeat(others);
+        format!(
+            r##"<svg width="100" height="100"><rect id="left" fill="#ff0000" x="0" y="0" width="50" height="100"/>{other}</svg>"##
+        )
+    };
+    let mut session = Session::open(&[&half(0), &half(5000)], [120, 120]);
+    session.run(Command::SetSampleRate(SampleRate::new(16).unwrap()));
+    for key in ["1", "2"] {
+        session.keys(&[key]);
+        // The red edge runs through the middle of the pixel.
+        session.run(Command::SetView(ViewNumbers {
+            center: dvec2(49.5, 50.0),
+            scale: 1.0,
+            rotation: 0.0,
+        }));
+        session.run(Command::Pin([60, 60]));
+        let samples = session.viewer.pixel_samples();
+        assert_eq!(samples.len(), 16, "scene {key}");
+        let hits: Vec<(String, usize)> = session
+            .viewer
+            .hits()
+            .into_iter()
+            .map(|(hit, n)| (hit.to_string(), n))
+            .collect();
+        let expected = [("rect \"left\", line 1".to_owned(), 8), ("background".to_owned(), 8)];
+        assert_eq!(hits, expected, "scene {key}");
+        let green: u32 = samples.iter().map(|sample| u32::from(sample.mark.color[1])).sum();
+        let pixel = session.pixels().rgba(60, 60).unwrap();
+        assert_eq!(
+            (green + 8) / 16,
+            u32::from(pixel[1]),
+            "the pixel is the mean of its samples"
+        );
+    }
+    session.keys(&["Esc", "Esc"]);
+    assert!(session.viewer.pixel_samples().is_empty(), "the inspector is closed");
+}

@@ -1,0 +1,29 @@
+//! Every scene and texture that is made by code, each with its place in the repository.
+//!
+//! `cargo run --release --example make-assets` writes them all; the suite compares what is committed with what this
+//! makes. Same code, same bytes, on every machine: see `steady`.
+
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    clippy::unreadable_literal,
+    reason = "texel indices of our own pictures, hash bits, and colours written as #RRGGBB is"
+)]
+
+mod chance;
+mod document;
+mod palette;
+mod scenes;
+mod steady;
+
+pub(crate) use scenes::scenes;
+
+/// A scene and the path it belongs to, from the repository's root.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SceneFile {
+    /// Such as `svg/basic/test1.svg`.
+    pub(crate) path: &'static str,
+    /// Makes the document.
+    pub(crate) make: fn() -> String,
+}

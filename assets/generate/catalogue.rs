@@ -11,13 +11,19 @@
     reason = "texel indices of our own pictures, hash bits, and colours written as #RRGGBB is"
 )]
 
+mod canvas;
 mod chance;
 mod document;
+mod lettering;
+mod names;
 mod palette;
 mod scenes;
 mod steady;
+mod textures;
 
+pub(crate) use canvas::Canvas;
 pub(crate) use scenes::scenes;
+pub(crate) use textures::textures;
 
 /// A scene and the path it belongs to, from the repository's root.
 #[derive(Clone, Copy, Debug)]
@@ -26,4 +32,13 @@ pub(crate) struct SceneFile {
     pub(crate) path: &'static str,
     /// Makes the document.
     pub(crate) make: fn() -> String,
+}
+
+/// A texture and the path it belongs to, from the repository's root.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TextureFile {
+    /// Such as `assets/textures/map.png`; the ending says how it is written.
+    pub(crate) path: &'static str,
+    /// Paints the texels.
+    pub(crate) make: fn() -> Canvas,
 }

@@ -7,6 +7,13 @@ mod catalogue;
 
 use std::{env, error::Error, fs, path::Path};
 
+use image::codecs::jpeg::JpegEncoder;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder as _, ImageError};
+
+/// High enough that no block of the codec shows at any zoom that keeps texels small.
+const JPEG_QUALITY: u8 = 88;
+
 fn main() -> Result<(), Box<dyn Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let wanted: Vec<String> = env::args().skip(1).collect();
@@ -14,7 +21,25 @@ fn main() -> Result<(), Box<dyn Error>> {
     for scene in catalogue::scenes().iter().filter(|scene| is_wanted(scene.path)) {
         write(&root.join(scene.path), (scene.make)().as_bytes())?;
     }
+    for texture in catalogue::textures().iter().filter(|texture| is_wanted(texture.path)) {
+        let canvas = (texture.make)();
+        write(&root.join(texture.path), &encode(texture.path, &canvas)?)?;
+    }
     Ok(())
+}
+
+/// The bytes of an image file, as small as lossless PNG or JPEG of high quality gets.
+fn encode(path: &str, canvas: &catalogue::Canvas) -> Result<Vec<u8>, ImageError> {
+    let mut bytes = Vec::new();
+    let texels = canvas.bytes();
+    if path.ends_with(".jpg") {
+        let encoder = JpegEncoder::new_with_quality(&mut bytes, JPEG_QUALITY);
+        encoder.write_image(&texels, canvas.width, canvas.height, ExtendedColorType::Rgb8)?;
+    } else {
+        let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
+        encoder.write_image(&texels, canvas.width, canvas.height, ExtendedColorType::Rgb8)?;
+    }
+    Ok(bytes)
 }
 
 /// Writes a file and the folders above it.

@@ -71,14 +71,14 @@ fn points() -> String {
         let glow = chance.unit();
         dot(at, NIGHT.mix(SKY, glow * glow));
     }
-    let tilt = |v: DVec2| MIDDLE + turned(v * dvec2(1.0, 0.6), -0.45);
+    let tilt = |v: DVec2| MIDDLE + turned(v * dvec2(1.0, 0.7), -0.5);
     for k in 0..5200 {
         let along = 1.0 - 1.0 / (1.0 + 1.6 * chance.unit());
         let sweep = along / 0.615 * 7.4;
-        let radius = 62.0 * exp(0.28 * sweep) * (1.0 + 0.09 * chance.normal());
+        let radius = 62.0 * exp(0.28 * sweep) * (1.0 + 0.075 * chance.normal());
         let angle = sweep + 0.13 * chance.normal() + if k % 2 == 0 { 0.0 } else { TAU / 2.0 };
         let color = gradient(&[PAPER, AMBER, CORAL, SKY, SKY], along / 0.615);
-        dot(tilt(polar(radius, angle)), color.mix(NIGHT, 0.55 * chance.unit()));
+        dot(tilt(polar(radius, angle)), color.mix(NIGHT, 0.35 * chance.unit()));
     }
     for _ in 0..1300 {
         let bulge = dvec2(chance.normal(), chance.normal()) * 44.0;
@@ -100,7 +100,7 @@ fn fan() -> String {
             "45 degrees has one pixel per column, a steeper one has one per row.",
         ],
     );
-    let pivot = dvec2(500.0, 790.0);
+    let pivot = dvec2(500.0, 735.0);
     let span = [TAU * 0.545, TAU * 0.955];
     let ribs = 140;
     let mut rim = Vec::new();
@@ -229,10 +229,6 @@ fn cube() -> String {
         (top + axes[1], axes[0], axes[2], CORAL, 1),
         (top + axes[0], axes[1], axes[2], PLUM, 2),
     ];
-    let faces = faces.map(|(corner, a, b, color, k)| match k {
-        0 => (corner, a, b, color, k),
-        _ => (corner, a, b, color, k),
-    });
     for (corner, a, b, color, face) in faces {
         for i in 0..5_i64 {
             for j in 0..5_i64 {

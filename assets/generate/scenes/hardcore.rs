@@ -224,7 +224,7 @@ fn far_away() -> String {
     for k in 0..rays {
         // A ray as wide as its gap; corners as the document would have them, in exponents.
         let corner = |k: f64| {
-            let v = polar(1.0, TAU * k / f64::from(rays));
+            let v = polar(1.0, TAU * (k + 0.5) / f64::from(rays));
             format!("{:.6}e30,{:.6}e30", v.x, v.y)
         };
         let [r, g, b] = [AMBER.mix(SAND, 0.55), CORAL.mix(AMBER, 0.45)][k as usize % 2].bytes();
@@ -276,8 +276,9 @@ fn t_junctions() -> String {
     doc.rect(DVec2::ZERO, dvec2(1000.0, 560.0), Style::fill(INK));
     for (place, turn) in [(260.0, 0.0), (740.0, 17.0)] {
         doc.open(&format!("transform=\"translate({place} 280) rotate({turn})\""));
-        doc.rect(dvec2(-170.0, -170.0), dvec2(340.0, 340.0), Style::fill(hot()));
-        // The frame hides the ground's own border.
+        for (half, color) in [(196.0, SLATE), (188.0, INK), (169.0, hot())] {
+            doc.rect(DVec2::splat(-half), DVec2::splat(2.0 * half), Style::fill(color));
+        }
         let mut y = -171.3;
         let mut row = 0;
         while y < 171.0 {
@@ -286,7 +287,9 @@ fn t_junctions() -> String {
             let mut column = 0;
             while x < 171.0 {
                 let width = 17.1 + 5.9 * f64::from((column * 7 + row * 3) % 4);
-                doc.polygon(&rectangle(dvec2(x, y), dvec2(x + width, y + height)), Style::fill(TEAL));
+                let inside = |x: f64, y: f64| dvec2(x, y).clamp(DVec2::splat(-170.0), DVec2::splat(170.0));
+                let (from, to) = (inside(x, y), inside(x + width, y + height));
+                doc.polygon(&rectangle(from, to), Style::fill(TEAL));
                 x += width;
                 column += 1;
             }

@@ -48,7 +48,7 @@ fn scenery(doc: &mut Document) {
         doc.polygon(&points, Style::fill(color));
     }
     doc.rect(dvec2(0.0, 618.0), dvec2(1000.0, 132.0), Style::fill(SAND));
-    for k in 0..26 {
+    for k in 0..25 {
         let x = 40.0 * f64::from(k);
         doc.rect(dvec2(x, 636.0), dvec2(22.0, 12.0), Style::fill(SLATE.mix(SAND, 0.3)));
     }

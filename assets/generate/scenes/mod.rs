@@ -1,15 +1,29 @@
 //! The scenes, a file per folder of `svg`.
 
 mod basic;
+mod floor;
 mod hardcore;
 mod locomotive;
+mod mesh;
 mod outline;
+mod study;
+mod study_textures;
 mod subdiv;
+mod texmap;
 mod transforms;
 
 use super::SceneFile;
 
 /// Every scene that is made by code.
 pub(crate) fn scenes() -> Vec<SceneFile> {
-    [basic::SCENES, transforms::SCENES, hardcore::SCENES, subdiv::SCENES].concat()
+    [
+        basic::SCENES,
+        texmap::SCENES,
+        transforms::SCENES,
+        hardcore::SCENES,
+        subdiv::SCENES,
+        study::SCENES,
+        study_textures::SCENES,
+    ]
+    .concat()
 }

@@ -41,7 +41,7 @@ pub(super) const SCENES: &[SceneFile] = &[
 ];
 
 /// Weight of the two points beyond an edge's ends; 1/16 gives the smoothest curve, more gives a fuller one.
-const TENSION: f64 = 0.105;
+const TENSION: f64 = 0.075;
 
 fn refined(steps: usize) -> String {
     let mut doc = Document::new(

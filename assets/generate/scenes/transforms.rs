@@ -49,7 +49,7 @@ fn robot() -> String {
         leg(&mut doc, side, color);
     }
     // The left arm hangs, the right one waves.
-    arm(&mut doc, -1.0, 14.0, -22.0);
+    arm(&mut doc, -1.0, -24.0, 18.0);
     arm(&mut doc, 1.0, -128.0, -38.0);
     torso(&mut doc);
     head(&mut doc);

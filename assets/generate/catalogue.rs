@@ -6,10 +6,11 @@
 #![expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    clippy::cast_possible_wrap,
     clippy::unreadable_literal,
     reason = "texel indices of our own pictures, hash bits, and colours written as #RRGGBB is"
 )]
+
+use std::path::Path;
 
 mod canvas;
 mod chance;
@@ -41,4 +42,11 @@ pub(crate) struct TextureFile {
     pub(crate) path: &'static str,
     /// Paints the texels.
     pub(crate) make: fn() -> Canvas,
+}
+
+impl TextureFile {
+    /// Whether it is written as JPEG, not PNG.
+    pub(crate) fn is_jpeg(&self) -> bool {
+        Path::new(self.path).extension().is_some_and(|ending| ending == "jpg")
+    }
 }

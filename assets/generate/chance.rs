@@ -32,7 +32,7 @@ impl Chance {
     }
 }
 
-/// SplitMix64's finisher (Steele, Lea, Flood 2014).
+/// The finisher of `SplitMix64` (Steele, Lea, Flood 2014).
 const fn scramble(mut z: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);

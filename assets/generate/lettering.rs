@@ -92,7 +92,6 @@ fn width(letter: char) -> f64 {
     }
 }
 
-#[expect(clippy::match_same_arms, reason = "a table of letters")]
 const fn strokes(letter: char) -> &'static str {
     match letter {
         'A' => "062046 1333",

@@ -23,16 +23,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     for texture in catalogue::textures().iter().filter(|texture| is_wanted(texture.path)) {
         let canvas = (texture.make)();
-        write(&root.join(texture.path), &encode(texture.path, &canvas)?)?;
+        write(&root.join(texture.path), &encode(&canvas, texture.is_jpeg())?)?;
     }
     Ok(())
 }
 
 /// The bytes of an image file, as small as lossless PNG or JPEG of high quality gets.
-fn encode(path: &str, canvas: &catalogue::Canvas) -> Result<Vec<u8>, ImageError> {
+fn encode(canvas: &catalogue::Canvas, jpeg: bool) -> Result<Vec<u8>, ImageError> {
     let mut bytes = Vec::new();
     let texels = canvas.bytes();
-    if path.ends_with(".jpg") {
+    if jpeg {
         let encoder = JpegEncoder::new_with_quality(&mut bytes, JPEG_QUALITY);
         encoder.write_image(&texels, canvas.width, canvas.height, ExtendedColorType::Rgb8)?;
     } else {

@@ -20,7 +20,6 @@ pub(crate) const LEAF: Color = hex(0x7FA650);
 pub(crate) const PINE: Color = hex(0x2F5D50);
 pub(crate) const SKY: Color = hex(0x8FCBE3);
 pub(crate) const WHITE: Color = hex(0xFFFFFF);
-pub(crate) const BLACK: Color = hex(0x000000);
 
 /// The colour written `#RRGGBB`.
 pub(crate) const fn hex(rgb: u32) -> Color {

@@ -1,9 +1,9 @@
-//! Sine, cosine, arc tangent and exponential from `+ - * /` and `sqrt` alone.
+//! Sine, cosine and exponential from `+ - * /` alone.
 //!
 //! The standard library's versions come from the platform and may differ in the last bit; these give the same bits
 //! everywhere, so that the scenes and textures can be compared byte for byte.
 
-use std::f64::consts::{FRAC_PI_2, LN_2, PI};
+use std::f64::consts::{FRAC_PI_2, LN_2};
 
 use glam::{DVec2, dvec2};
 
@@ -55,36 +55,6 @@ pub(crate) fn turned(v: DVec2, angle: f64) -> DVec2 {
     dvec2(v.x * cosine - v.y * sine, v.x * sine + v.y * cosine)
 }
 
-/// The angle of `v`, in `-pi..=pi`; zero for the zero vector.
-pub(crate) fn angle_of(v: DVec2) -> f64 {
-    if v.x == 0.0 && v.y == 0.0 {
-        return 0.0;
-    }
-    if v.x.abs() >= v.y.abs() {
-        let base = arc_tangent(v.y / v.x);
-        match (v.x > 0.0, v.y >= 0.0) {
-            (true, _) => base,
-            (false, true) => base + PI,
-            (false, false) => base - PI,
-        }
-    } else {
-        let base = arc_tangent(v.x / v.y);
-        if v.y > 0.0 { FRAC_PI_2 - base } else { -FRAC_PI_2 - base }
-    }
-}
-
-/// Arc tangent for arguments in `-1..=1`: two halvings of the angle, then the series.
-fn arc_tangent(x: f64) -> f64 {
-    let halve = |x: f64| x / (1.0 + (1.0 + x * x).sqrt());
-    let x = halve(halve(x));
-    let square = x * x;
-    let mut sum = 0.0;
-    for k in (0..14).rev() {
-        sum = 1.0 / f64::from(2 * k + 1) - square * sum;
-    }
-    4.0 * x * sum
-}
-
 /// `e` to the power `x`, for moderate `x`.
 pub(crate) fn exp(x: f64) -> f64 {
     let halvings = (x / LN_2).round();
@@ -100,10 +70,4 @@ pub(crate) fn exp(x: f64) -> f64 {
         steps -= 1.0;
     }
     sum
-}
-
-/// From 0 to 1 while `x` goes from `from` to `to`, flat at both ends.
-pub(crate) fn smoothstep(from: f64, to: f64, x: f64) -> f64 {
-    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }

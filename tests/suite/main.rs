@@ -7,6 +7,7 @@
 
 mod architecture;
 mod coverage;
+mod gallery;
 mod oracle;
 #[cfg(feature = "window")]
 mod overlay_painter;

@@ -60,14 +60,14 @@ fn refined(steps: usize) -> String {
     let mut points = vec![dvec2(300.0, 150.0), dvec2(830.0, 560.0), dvec2(270.0, 800.0)];
     doc.decimals(3);
     doc.polygon(&points, Style::fill(colors[0]));
-    for step in 1..=steps {
+    for color in colors.into_iter().skip(1).take(steps) {
         let count = points.len();
         let at = |k: usize| points[k % count];
         let mut finer = Vec::with_capacity(2 * count);
         for k in 0..count {
             let (before, from, to, after) = (at(k + count - 1), at(k), at(k + 1), at(k + 2));
             let middle = (from + to) * (0.5 + TENSION) - (before + after) * TENSION;
-            doc.polygon(&[from, middle, to], Style::fill(colors[step]));
+            doc.polygon(&[from, middle, to], Style::fill(color));
             finer.extend([from, middle]);
         }
         points = finer;

@@ -252,7 +252,7 @@ fn planet() -> String {
     }
     doc.polygon(&regular(middle, 401.0, 160, 0.0), Style::fill(SEA.mix(PAPER, 0.4)));
     doc.texture("plan", "plan.png");
-    bent(&mut doc, "plan", [64, 40], |uv| {
+    bent(&mut doc, "plan", [60, 38], |uv| {
         let (sin_lon, _) = sin_cos((uv.x - 0.5) * TAU / 2.0);
         let (sin_lat, cos_lat) = sin_cos((uv.y - 0.5) * TAU / 2.0);
         middle + turned(dvec2(sin_lon * cos_lat, sin_lat) * 400.0, -0.35)

@@ -77,7 +77,7 @@ pub(super) fn lanes() -> Canvas {
     Canvas::from_fn(512, 512, |x, y| {
         let lane = (x / 64.0).floor();
         let tint = tints[lane as usize];
-        let stripe = (1_u32 << lane as u32) as f64;
+        let stripe = f64::from(1_u32 << lane as u32);
         let other = Color(tint.0.map(|c| 1.0 - c));
         if (y / stripe).floor() % 2.0 == 0.0 { tint } else { other }
     })

@@ -75,7 +75,7 @@ fn hills(canvas: &mut Canvas, base: f64, layer: usize, tone: Color) {
             canvas.convex(&corners.map(|(x, y)| dvec2(x, f64::min(y, 402.0))), tone);
         }
         // Hatching on the sunny side: one line in four steps, as long as the slope is steep.
-        if right > left + 0.6 && (x / 3.0) as u32 % 3 == 0 {
+        if right > left + 0.6 && (x / 3.0) % 3.0 == 0.0 {
             canvas.stroke(
                 &[dvec2(x, left + 4.0), dvec2(x - 14.0, (left + 44.0).min(398.0))],
                 1.0,

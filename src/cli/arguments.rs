@@ -113,8 +113,8 @@ pub(super) struct PictureOptions {
 /// What part of a scene is drawn, and on how many threads.
 #[derive(Debug, Args)]
 pub(super) struct FramingOptions {
-    /// default, canvas, or CX,CY,SCALE[,ROTATION]: centre, pixels per user unit, degrees
-    #[arg(long, default_value = "default", value_name = "VIEW", value_parser = view_option::parse, allow_hyphen_values = true)]
+    /// Which part of the scene: a name, or centre, pixels per user unit and degrees
+    #[arg(long, default_value = "default", value_name = "default|canvas|CX,CY,SCALE[,ROTATION]", value_parser = view_option::parse, allow_hyphen_values = true)]
     pub(super) view: View,
     /// Threads that draw [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]

@@ -72,7 +72,7 @@ impl Texture {
     /// Decodes a PNG or JPEG and builds its pyramid.
     ///
     /// # Errors
-    /// When the bytes are no such image, are damaged, or are larger than the limits of [`decode`].
+    /// When the bytes are no such image, are damaged, or are larger than 16 384 texels a side.
     pub fn decode(name: &str, bytes: &[u8]) -> Result<Self, DecodeError> {
         let base = decode::decode(bytes)?;
         Ok(Self {

@@ -271,9 +271,13 @@ impl<'a> TilePainter<'a> {
         if columns.is_empty() {
             return;
         }
-        self.colors.clear();
-        shader.shade(&self.context, columns, line, &mut self.colors);
-        self.layers[self.depth - 1].write_samples(columns, line, &self.colors);
+        let count = (columns.end - columns.start).cast_unsigned() as usize;
+        if self.colors.len() < count {
+            self.colors.resize(count, Premultiplied16::TRANSPARENT);
+        }
+        let colors = &mut self.colors[..count];
+        shader.shade(&self.context, columns.start, line, colors);
+        self.layers[self.depth - 1].write_samples(columns, line, colors);
         self.note(columns, line);
     }
 

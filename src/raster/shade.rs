@@ -9,7 +9,6 @@
 use glam::DVec2;
 
 use super::display_list::{Paint, ScreenTriangle};
-use super::rows::Span;
 use crate::color::Premultiplied16;
 use crate::geometry::edge::doubled_area;
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
@@ -79,31 +78,39 @@ impl<const K: usize> Planes<K> {
         planes
     }
 
-    /// Hands the attributes of each sample `columns` of sample row `row` to `shade`, from left to right.
+    /// Shades the samples of sample row `row` from column `first` on, from left to right, one for each of `colors`.
     #[inline]
     #[expect(
         clippy::cast_possible_truncation,
         reason = "fragments are interpolated in 32 bits from an anchor on"
     )]
-    fn each(&self, grid: SubpixelGrid, columns: Span, row: i32, mut shade: impl FnMut([f32; K])) {
+    fn each(
+        &self,
+        grid: SubpixelGrid,
+        (first, row): (i32, i32),
+        mut colors: &mut [Premultiplied16],
+        shade: impl Fn([f32; K]) -> Premultiplied16,
+    ) {
         let side = grid.side();
         let anchor_columns = ANCHOR_PIXELS * side;
         let step = 1.0 / side as f32;
         let slope = self.dx.map(|slope| slope as f32);
         let down = grid.sample_position(row) - self.origin.y;
-        let mut column = columns.start;
-        while column < columns.end {
+        let mut column = first;
+        while !colors.is_empty() {
             let group = column.div_euclid(anchor_columns);
-            let first = group * anchor_columns;
             let right = f64::from(group * ANCHOR_PIXELS) - self.origin.x;
             let at_anchor: [f32; K] =
                 std::array::from_fn(|i| (self.at_origin[i] + right * self.dx[i] + down * self.dy[i]) as f32);
-            let end = columns.end.min(first + anchor_columns);
-            for i in column - first..end - first {
+            let inside = column - group * anchor_columns;
+            let count = (anchor_columns - inside).cast_unsigned() as usize;
+            let (run, rest) = colors.split_at_mut(count.min(colors.len()));
+            for (i, color) in (inside..).zip(run) {
                 let distance = (i as f32 + 0.5) * step;
-                shade(std::array::from_fn(|k| at_anchor[k] + distance * slope[k]));
+                *color = shade(std::array::from_fn(|k| at_anchor[k] + distance * slope[k]));
             }
-            column = end;
+            column += anchor_columns - inside;
+            colors = rest;
         }
     }
 }
@@ -133,30 +140,22 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// Appends the colours of the samples `columns` of sample row `row`.
-    pub(crate) fn shade(&self, context: &ShadeContext<'_>, columns: Span, row: i32, colors: &mut Vec<Premultiplied16>) {
+    /// Shades the samples of sample row `row` from `first` column on, one for each of `colors`.
+    pub(crate) fn shade(&self, context: &ShadeContext<'_>, first: i32, row: i32, colors: &mut [Premultiplied16]) {
         let rules = context.sampling.rules;
+        let at = (first, row);
         match self {
-            Self::Solid(color) => {
-                let count = usize::try_from(columns.end - columns.start).unwrap_or(0);
-                colors.resize(colors.len() + count, *color);
-            }
-            Self::Vertex(planes) => planes.each(context.grid, columns, row, |rgba| {
-                colors.push(vertex_color(rgba, rules));
-            }),
-            Self::Texture {
-                uv, sampler, opacity, ..
-            } if *opacity >= 1.0 => {
-                uv.each(context.grid, columns, row, |[u, v]| {
-                    colors.push(Premultiplied16::from_byte_range(sampler.sample(u, v), rules));
+            Self::Solid(color) => colors.fill(*color),
+            Self::Vertex(planes) => planes.each(context.grid, at, colors, |rgba| vertex_color(rgba, rules)),
+            Self::Texture { uv, sampler, opacity } if *opacity >= 1.0 => {
+                uv.each(context.grid, at, colors, |[u, v]| {
+                    Premultiplied16::from_byte_range(sampler.sample(u, v), rules)
                 });
             }
-            Self::Texture {
-                uv, sampler, opacity, ..
-            } => uv.each(context.grid, columns, row, |[u, v]| {
+            Self::Texture { uv, sampler, opacity } => uv.each(context.grid, at, colors, |[u, v]| {
                 let faded = sampler.sample(u, v).map(|channel| channel * opacity);
                 // Truncation comes after blending: half of a texel is no byte.
-                colors.push(Premultiplied16::from_byte_range(faded, Rules::Standard));
+                Premultiplied16::from_byte_range(faded, Rules::Standard)
             }),
         }
     }

@@ -326,7 +326,7 @@ impl Tile {
                 }
                 Premultiplied16::resolve(sums, count, self.rules)
             } else {
-                Premultiplied16::resolve(self.whole[index].0.map(u32::from), 1, self.rules)
+                self.whole[index].to_pixel(self.rules)
             };
         }
     }

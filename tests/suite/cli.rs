@@ -1,0 +1,242 @@
+//! The program from outside: what it prints, writes and answers as exit status.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use crate::support::scenes::{at_rate, drawn};
+use rasterscope::geometry::View;
+use rasterscope::render::RenderSettings;
+use rasterscope::scene::{DialectChoice, load};
+
+const SCENE: &str = r##"<svg width="40" height="30"><polygon points="2,3 37,9 11,28" fill="#123456"/></svg>"##;
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterscope"));
+    command
+        .current_dir(folder)
+        .args(arguments)
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY");
+    command.output().expect("the program starts")
+}
+
+/// The answer to a mistake: exit status 2, nothing on stdout, one line on stderr that holds all of `words`.
+fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
+    let output = run(folder, arguments);
+    let stderr = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {stderr}");
+    assert!(output.stdout.is_empty(), "{arguments:?} prints nothing else");
+    assert_eq!(
+        stderr.trim_end().lines().count(),
+        1,
+        "{arguments:?}: one line: {stderr}"
+    );
+    for word in words {
+        assert!(stderr.contains(word), "{arguments:?} says {word}: {stderr}");
+    }
+}
+
+fn folder_with(files: &[(&str, &str)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (name, text) in files {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a writable folder");
+        fs::write(path, text).expect("a writable folder");
+    }
+    folder
+}
+
+#[test]
+fn cli_renders_what_the_library_draws() {
+    let folder = folder_with(&[("a.svg", SCENE)]);
+    let view = "--view=20,15,3.5,30";
+    let output = run(
+        folder.path(),
+        &[
+            "render",
+            "a.svg",
+            "-o",
+            "b.png",
+            "--size",
+            "90x70",
+            "--sample-rate",
+            "9",
+            view,
+        ],
+    );
+    assert!(output.status.success(), "{output:?}");
+    assert!(
+        output.stdout.is_empty() && output.stderr.is_empty(),
+        "no news is good news: {output:?}"
+    );
+    let scene = load(&folder.path().join("a.svg"), DialectChoice::Auto).expect("a scene");
+    let view = View::At {
+        center: glam::DVec2::new(20.0, 15.0),
+        scale: 3.5,
+        rotation: 30.0,
+    };
+    let settings = RenderSettings {
+        outline: true,
+        ..at_rate(9)
+    };
+    let frame = drawn(&scene, &view.transform(scene.canvas, [90, 70]), &settings, [90, 70]);
+    let picture = image::open(folder.path().join("b.png")).expect("a PNG").into_rgba8();
+    assert_eq!(picture.dimensions(), (90, 70), "as asked");
+    for (x, y, pixel) in picture.enumerate_pixels() {
+        assert_eq!(Some(pixel.0), frame.rgba(x, y), "pixel {x}, {y}");
+    }
+}
+
+#[test]
+fn cli_renders_transparent_canvas() {
+    let folder = folder_with(&[("a.svg", SCENE)]);
+    let options = [
+        "render",
+        "a.svg",
+        "-o",
+        "b.png",
+        "--size",
+        "40x30",
+        "--view",
+        "canvas",
+        "--background",
+        "transparent",
+    ];
+    assert!(run(folder.path(), &options).status.success(), "done");
+    let picture = image::open(folder.path().join("b.png")).expect("a PNG").into_rgba8();
+    assert_eq!(picture.get_pixel(0, 0).0[3], 0, "no outline, no paper");
+    assert_eq!(picture.get_pixel(15, 12).0, [0x12, 0x34, 0x56, 255], "the triangle");
+}
+
+#[test]
+fn cli_renders_every_scene_of_a_folder() {
+    let folder = folder_with(&[("in/a.svg", SCENE), ("in/deep/b.svg", SCENE), ("in/c.txt", "no scene")]);
+    let output = run(folder.path(), &["render", "in", "-o", "out", "--size", "20x20"]);
+    assert!(output.status.success(), "{output:?}");
+    assert!(
+        folder.path().join("out/a.png").is_file() && folder.path().join("out/deep/b.png").is_file(),
+        "both"
+    );
+    fs::write(folder.path().join("in/broken.svg"), "<svg").expect("a writable folder");
+    fs::remove_dir_all(folder.path().join("out")).expect("the folder is there");
+    let output = run(folder.path(), &["render", "in", "-o", "out", "--size", "20x20"]);
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "one is broken: {stderr}");
+    assert!(
+        stderr.contains("broken.svg") && stderr.contains("1 of 3"),
+        "it is named: {stderr}"
+    );
+    assert!(
+        folder.path().join("out/a.png").is_file() && folder.path().join("out/deep/b.png").is_file(),
+        "others too"
+    );
+}
+
+#[test]
+fn cli_reports_what_it_skips() {
+    let text = SCENE.replace("<polygon", "\n  <circle r='3'/><polygon");
+    let folder = folder_with(&[("a.svg", &text)]);
+    let output = run(folder.path(), &["render", "a.svg", "-o", "b.png", "--size", "20x20"]);
+    assert!(output.status.success(), "a picture all the same: {output:?}");
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        stderr.contains("a.svg:2:3: <circle>"),
+        "file, line, column, name: {stderr}"
+    );
+}
+
+#[test]
+fn cli_answers_mistakes_in_one_line_with_status_two() {
+    let folder = folder_with(&[
+        ("a.svg", SCENE),
+        ("broken.svg", "<svg>\n<g></svg>"),
+        ("empty.svg", ""),
+        ("list/x", ""),
+    ]);
+    let to = |scene: &'static str| ["render", scene, "-o", "b.png"];
+    refused(folder.path(), &to("nowhere.svg"), &["nowhere.svg"]);
+    refused(folder.path(), &to("broken.svg"), &["broken.svg:2:"]);
+    refused(folder.path(), &to("empty.svg"), &["empty.svg", "empty"]);
+    refused(folder.path(), &["render", "list", "-o", "out"], &["list", "no scene"]);
+    refused(folder.path(), &["render", "a.svg", "-o", "b.gif"], &["b.gif", ".png"]);
+    refused(
+        folder.path(),
+        &["render", "a.svg", "-o", "no/such/b.png"],
+        &["no/such/b.png"],
+    );
+    refused(
+        folder.path(),
+        &["render", "a.svg", "-o", "b.png", "--sample-rate", "7"],
+        &["7", "square"],
+    );
+    refused(
+        folder.path(),
+        &["render", "a.svg", "-o", "b.png", "--size", "big"],
+        &["big", "WIDTHxHEIGHT"],
+    );
+    refused(
+        folder.path(),
+        &["render", "a.svg", "-o", "b.png", "--colour"],
+        &["--colour"],
+    );
+    refused(folder.path(), &["bench", "nowhere.svg"], &["nowhere.svg"]);
+    assert!(!folder.path().join("b.png").exists(), "nothing was written");
+}
+
+#[test]
+fn cli_bench_prints_json() {
+    let folder = folder_with(&[("a.svg", SCENE)]);
+    let options = [
+        "bench",
+        "a.svg",
+        "--size",
+        "64x48",
+        "--sample-rate",
+        "4",
+        "--frames",
+        "3",
+        "--json",
+        "--threads",
+        "2",
+    ];
+    let output = run(folder.path(), &options);
+    assert!(output.status.success(), "{output:?}");
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("one JSON object");
+    for (name, value) in [
+        ("width", 64),
+        ("height", 48),
+        ("sample_rate", 4),
+        ("frames", 3),
+        ("threads", 2),
+    ] {
+        assert_eq!(report[name], value, "{name} of {report}");
+    }
+    let (median, min) = (report["median_ms"].as_f64(), report["min_ms"].as_f64());
+    assert!(min > Some(0.0) && min <= median, "times: {report}");
+    let text = run(folder.path(), &["bench", "a.svg", "--size", "64x48", "--frames", "1"]);
+    assert!(
+        String::from_utf8_lossy(&text.stdout).contains("median"),
+        "text for people"
+    );
+}
+
+#[test]
+fn cli_helps() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (arguments, word) in [
+        (&["--help"][..], "render"),
+        (&["render", "--help"], "--sample-rate"),
+        (&["--version"], "0."),
+    ] {
+        let output = run(folder.path(), arguments);
+        assert!(
+            output.status.success() && output.stderr.is_empty(),
+            "{arguments:?}: {output:?}"
+        );
+        assert!(
+            String::from_utf8_lossy(&output.stdout).contains(word),
+            "{arguments:?} says {word}"
+        );
+    }
+}

@@ -50,12 +50,21 @@ impl DialectChoice {
 /// and a size in plain numbers, without which the course's reader has no canvas.
 fn recognise(root: Node<'_, '_>) -> Dialect {
     let mut foreign = false;
-    for node in root.descendants().filter(|node| node.is_element() && *node != root) {
+    let mut open = vec![root.children()];
+    while let Some(children) = open.last_mut() {
+        let Some(node) = children.next() else {
+            open.pop();
+            continue;
+        };
+        if !node.is_element() || attributes::is_silent(node) {
+            continue;
+        }
         let name = node.tag_name().name();
         if matches!(name, "colortri" | "textri" | "texture") || is_point(node) {
             return Dialect::Course;
         }
-        foreign |= !course::ELEMENTS.contains(&name) && !attributes::is_silent(node);
+        foreign |= !course::ELEMENTS.contains(&name);
+        open.push(node.children());
     }
     let sized = has_number(root, "width") && has_number(root, "height");
     if foreign || !sized {

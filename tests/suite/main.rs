@@ -13,6 +13,9 @@ mod oracle;
 #[cfg(feature = "window")]
 mod overlay_painter;
 mod render;
+mod robustness;
+mod scene_course;
+mod scene_svg;
 mod support;
 mod viewer_random;
 mod viewer_replay;

@@ -11,6 +11,7 @@ mod viewport;
 
 use glam::{DAffine2, DVec2};
 use roxmltree::{Children, Node};
+use svgtypes::AspectRatio;
 
 use self::style::{OwnStyle, Style};
 use self::values::{Along, Units};
@@ -80,6 +81,17 @@ impl Surroundings {
             font_size: self.style.font_size,
         }
     }
+
+    /// What is inside an `svg` element that fills `port` is measured by its `viewBox`.
+    fn establish_viewport(&mut self, port: Frame, view_box: Option<Frame>, aspect: AspectRatio) {
+        if let Some(content) = view_box {
+            self.to_user *= port.fit(content, aspect);
+            self.viewport = content.size;
+        } else {
+            self.to_user *= DAffine2::from_translation(port.corner);
+            self.viewport = port.size;
+        }
+    }
 }
 
 impl<'a, 'doc> SvgReader<'a, 'doc> {
@@ -110,21 +122,28 @@ impl<'a, 'doc> SvgReader<'a, 'doc> {
             );
             reader.builder.warn(root, message);
         }
-        reader.tree(root, outside, canvas)?;
-        Ok(canvas)
-    }
-
-    /// Walks the tree without recursion, so that no nesting is too deep.
-    fn tree(&mut self, root: Node<'doc, 'doc>, outside: Surroundings, canvas: DVec2) -> Result<(), Fault> {
-        let (mut surroundings, own) = self.enter(root, outside)?;
-        if !own.displayed || own.opacity <= 0.0 {
-            return Ok(());
-        }
         let port = Frame {
             corner: DVec2::ZERO,
             size: canvas,
         };
-        self.establish_viewport(root, &mut surroundings, port)?;
+        reader.tree(root, outside, port, view_box)?;
+        Ok(canvas)
+    }
+
+    /// Walks the tree without recursion, so that no nesting is too deep.
+    fn tree(
+        &mut self,
+        root: Node<'doc, 'doc>,
+        outside: Surroundings,
+        port: Frame,
+        view_box: Option<Frame>,
+    ) -> Result<(), Fault> {
+        let (mut surroundings, own) = self.enter(root, outside)?;
+        if !own.displayed || own.opacity <= 0.0 {
+            return Ok(());
+        }
+        let aspect = self.aspect(root)?;
+        surroundings.establish_viewport(port, view_box, aspect);
         let mut open = vec![self.open(root, surroundings, own)?];
         while let Some(container) = open.last_mut() {
             let surroundings = container.surroundings;
@@ -160,7 +179,8 @@ impl<'a, 'doc> SvgReader<'a, 'doc> {
                 let Some(port) = self.nested_port(node, &surroundings)? else {
                     return Ok(None);
                 };
-                self.establish_viewport(node, &mut surroundings, port)?;
+                let (view_box, aspect) = (self.view_box(node)?, self.aspect(node)?);
+                surroundings.establish_viewport(port, view_box, aspect);
             }
             "line" | "polyline" | "polygon" | "rect" | "image" | "colortri" | "textri" => {
                 if surroundings.style.visible {
@@ -261,7 +281,7 @@ impl<'a, 'doc> SvgReader<'a, 'doc> {
         Ok(frame)
     }
 
-    fn aspect(&mut self, node: Node<'doc, 'doc>) -> Result<svgtypes::AspectRatio, Fault> {
+    fn aspect(&mut self, node: Node<'doc, 'doc>) -> Result<AspectRatio, Fault> {
         let Some(text) = node.attribute("preserveAspectRatio") else {
             return Ok(DEFAULT_ASPECT);
         };
@@ -291,25 +311,5 @@ impl<'a, 'doc> SvgReader<'a, 'doc> {
             size: DVec2::new(width, height),
         };
         Ok(Some(frame).filter(|frame| frame.size.min_element() > 0.0))
-    }
-
-    /// What is inside an `svg` element is measured by its `viewBox`.
-    fn establish_viewport(
-        &mut self,
-        node: Node<'doc, 'doc>,
-        surroundings: &mut Surroundings,
-        port: Frame,
-    ) -> Result<(), Fault> {
-        let aspect = self.aspect(node)?;
-        // The root's was complained about already; a second complaint does no harm.
-        let content = node.attribute("viewBox").and_then(Frame::parse);
-        if let Some(content) = content {
-            surroundings.to_user *= port.fit(content, aspect);
-            surroundings.viewport = content.size;
-        } else {
-            surroundings.to_user *= DAffine2::from_translation(port.corner);
-            surroundings.viewport = port.size;
-        }
-        Ok(())
     }
 }

@@ -1,5 +1,6 @@
 //! What many tests need: small scenes, and the brute-force renderer that knows no tiles.
 
 pub(crate) mod brute_force;
+pub(crate) mod documents;
 pub(crate) mod scenes;
 pub(crate) mod session;

@@ -1,0 +1,242 @@
+//! Documents in the dialect `course`: what becomes of every element and attribute.
+
+use glam::{DVec2, Vec2};
+use rasterscope::color::Rgba;
+use rasterscope::scene::{Dialect, DialectChoice, Paint, PrimitiveKind, Scene};
+
+use crate::support::documents::{area, kinds, lines, read, svg};
+
+fn course(body: &str) -> Scene {
+    read(
+        &svg("width='100' height='80px' viewBox='0 0 7 7'", body),
+        DialectChoice::Course,
+    )
+}
+
+fn hairline(ends: [[f64; 2]; 2], color: Rgba) -> PrimitiveKind {
+    PrimitiveKind::Hairline {
+        ends: ends.map(DVec2::from),
+        color,
+    }
+}
+
+fn solid(points: [[f64; 2]; 3], color: Rgba) -> PrimitiveKind {
+    PrimitiveKind::Triangle {
+        points: points.map(DVec2::from),
+        paint: Paint::Solid(color),
+    }
+}
+
+const RED: Rgba = Rgba::opaque(1.0, 0.0, 0.0);
+const BLUE: Rgba = Rgba::opaque(0.0, 0.0, 1.0);
+
+#[test]
+fn course_canvas_is_width_and_height() {
+    let scene = course("");
+    assert_eq!(scene.canvas, DVec2::new(100.0, 80.0), "viewBox means nothing");
+    assert_eq!(scene.dialect, Dialect::Course, "as asked");
+    assert!(scene.report.is_empty(), "{:?}", scene.report);
+}
+
+#[test]
+fn course_line_needs_a_stroke() {
+    let scene = course("<line x1='1' y1='2' x2='3' y2='4' stroke='#ff0000' stroke-width='9'/><line x1='1' x2='9'/>");
+    assert_eq!(
+        kinds(&scene),
+        [hairline([[1.0, 2.0], [3.0, 4.0]], RED)],
+        "strokes are hairlines"
+    );
+}
+
+#[test]
+fn course_polyline_is_always_stroked_and_never_filled() {
+    let scene = course("<polyline points='1,2 3,4 5,6' fill='#ff0000'/><polyline points='0,0 1,1' stroke='none'/>");
+    let expected = [
+        hairline([[1.0, 2.0], [3.0, 4.0]], Rgba::BLACK),
+        hairline([[3.0, 4.0], [5.0, 6.0]], Rgba::BLACK),
+    ];
+    assert_eq!(kinds(&scene), expected, "open and black");
+}
+
+#[test]
+fn course_polygon_fill_then_outline() {
+    let scene = course("<polygon points='0,0 4,0 4,4' fill='ff0000' stroke='#0000ff' stroke-opacity='.5'/>");
+    let blue = BLUE.faded(0.5);
+    let expected = [
+        solid([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]], RED),
+        hairline([[0.0, 0.0], [4.0, 0.0]], blue),
+        hairline([[4.0, 0.0], [4.0, 4.0]], blue),
+        hairline([[4.0, 4.0], [0.0, 0.0]], blue),
+    ];
+    assert_eq!(kinds(&scene), expected, "closed outline above the fill");
+}
+
+#[test]
+fn course_fill_defaults_to_black_and_none_is_nothing() {
+    let scene = course("<polygon points='0,0 4,0 4,4'/><polygon points='0,0 4,0 4,4' fill='none'/>");
+    assert_eq!(
+        kinds(&scene),
+        [solid([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]], Rgba::BLACK)],
+        "one black triangle"
+    );
+}
+
+#[test]
+fn course_rect_is_two_triangles_and_four_lines() {
+    let scene = course("<rect x='1' y='2' width='3' height='4' fill='#ff0000' stroke='#0000ff'/>");
+    let expected = [
+        solid([[1.0, 2.0], [4.0, 2.0], [1.0, 6.0]], RED),
+        solid([[1.0, 6.0], [4.0, 2.0], [4.0, 6.0]], RED),
+        hairline([[1.0, 2.0], [4.0, 2.0]], BLUE),
+        hairline([[4.0, 2.0], [4.0, 6.0]], BLUE),
+        hairline([[4.0, 6.0], [1.0, 6.0]], BLUE),
+        hairline([[1.0, 6.0], [1.0, 2.0]], BLUE),
+    ];
+    assert_eq!(kinds(&scene), expected, "in this order");
+}
+
+#[test]
+fn course_rect_without_size_is_a_point() {
+    let scene = course("<g transform='translate(10 20)'><rect x='.5' y='2' width='0' height='0' fill='#ff0000'/></g>");
+    let at = DVec2::new(10.5, 22.0);
+    assert_eq!(
+        kinds(&scene),
+        [PrimitiveKind::Point { at, color: RED }],
+        "in its fill colour"
+    );
+}
+
+#[test]
+fn course_numbers_are_32_bit() {
+    let scene = course("<rect x='0.1' y='1e-3px' width='0' height='0'/>");
+    let at = DVec2::new(f64::from(0.1_f32), f64::from(0.001_f32));
+    assert_eq!(
+        kinds(&scene),
+        [PrimitiveKind::Point { at, color: Rgba::BLACK }],
+        "rounded on the way in"
+    );
+}
+
+#[test]
+fn course_groups_hand_down_the_transform_only() {
+    let body = "<g transform='translate(10 0)' fill='#ff0000' style='fill:red'>\
+                <g transform='rotate(90)'><polygon points='0,0 4,0 4,4'/></g></g>";
+    let scene = course(body);
+    let [PrimitiveKind::Triangle { points, paint }] = kinds(&scene)[..] else {
+        panic!("one triangle: {:?}", scene.primitives);
+    };
+    assert_eq!(paint, Paint::Solid(Rgba::BLACK), "fill is not inherited");
+    for (found, expected) in points.iter().zip([[10.0, 0.0], [10.0, 4.0], [6.0, 4.0]]) {
+        assert!(
+            found.abs_diff_eq(DVec2::from(expected), 1e-9),
+            "{found}: parent times own"
+        );
+    }
+    assert_eq!(
+        lines(&scene),
+        ["1:85: fill on <g> has no effect", "1:85: style has no effect"],
+        "reported"
+    );
+}
+
+#[test]
+fn course_colortri_and_textri() {
+    let body = "<colortri points='0 0 1 0 0 1' colors='1 0 0 .2 0 1 0 1 0 0 1 1'/>\
+                <textri texid='t' points='0 0 1 0 0 1' uvs='0 0 1 0 0 2'/>\
+                <texture texid='t' filename='no.png'/>";
+    let scene = course(body);
+    let points = [DVec2::ZERO, DVec2::X, DVec2::Y];
+    let colors = [RED, Rgba::opaque(0.0, 1.0, 0.0), BLUE];
+    let texture = rasterscope::scene::TextureId(0);
+    let uv = [Vec2::ZERO, Vec2::X, Vec2::new(0.0, 2.0)];
+    let expected = [
+        PrimitiveKind::Triangle {
+            points,
+            paint: Paint::Vertex(colors),
+        },
+        PrimitiveKind::Triangle {
+            points,
+            paint: Paint::Texture {
+                texture,
+                uv,
+                opacity: 1.0,
+            },
+        },
+    ];
+    assert_eq!(kinds(&scene), expected, "the a of colours is ignored");
+    assert_eq!(scene.textures.len(), 1, "one texture");
+    assert_eq!(
+        lines(&scene),
+        ["1:151: texture no.png: there is no such file; a checker is drawn"],
+        "reported"
+    );
+}
+
+#[test]
+fn course_incomplete_triangles_are_reported() {
+    let scene = course("<colortri points='0 0 1 0' colors='1 0 0 1 1 0 0 1 1 0 0 1'/><textri texid='t'/>");
+    assert!(scene.primitives.is_empty(), "nothing to draw");
+    let lines = lines(&scene);
+    assert!(
+        lines[0].ends_with("not drawn: points holds 4 numbers, not 6"),
+        "{lines:?}"
+    );
+    assert_eq!(lines.len(), 3, "textri lacks points and uvs: {lines:?}");
+}
+
+#[test]
+fn course_unknown_elements_are_skipped_with_what_they_hold() {
+    let scene = course("<circle r='1'/>\n<title>a</title><circle r='2'/><symbol><rect width='1' height='1'/></symbol>");
+    assert!(scene.primitives.is_empty(), "nothing known");
+    let expected = [
+        "1:85: <circle> is not drawn (2 times in all)",
+        "2:32: <symbol> is not drawn",
+    ];
+    assert_eq!(lines(&scene), expected, "counted, at the first place");
+}
+
+#[test]
+fn course_every_shape_knows_its_place() {
+    let scene = course("\n  <line id='a' stroke='#000' x2='1'/>\n\t<g>\u{e9}<polygon points='0,0 1,0 1,1'/></g>");
+    let places: Vec<String> = scene
+        .shapes
+        .iter()
+        .map(|s| format!("{} {:?} {}", s.element, s.id, s.location))
+        .collect();
+    assert_eq!(
+        places,
+        ["line Some(\"a\") 2:3", "polygon None 3:6"],
+        "name, id, line:column in characters"
+    );
+}
+
+#[test]
+fn course_concave_polygons_are_filled_exactly() {
+    let teeth: Vec<String> = (0..2000).map(|i| format!("{i},{}", 50 * (i % 2))).collect();
+    let comb = teeth.join(" ");
+    let scene = course(&format!("<polygon points='{comb} 1999,100 0,100'/>"));
+    assert!((area(&scene) - 1999.0 * 75.0).abs() < 1e-6, "{}", area(&scene));
+}
+
+#[test]
+fn auto_finds_the_dialect() {
+    let size = "width='10' height='10'";
+    for (attributes, body, expected) in [
+        (size, "<rect width='1' height='1'/>", Dialect::Course),
+        (size, "<circle r='1'/><rect width='0' height='0'/>", Dialect::Course),
+        (size, "<circle r='1'/><colortri/>", Dialect::Course),
+        (size, "<circle r='1'/><g><textri/></g>", Dialect::Course),
+        (size, "<circle r='1'/>", Dialect::Svg),
+        (
+            size,
+            "<title>t</title><desc/><metadata><x/></metadata>",
+            Dialect::Course,
+        ),
+        ("viewBox='0 0 1 1'", "<rect width='1' height='1'/>", Dialect::Svg),
+        ("width='100%' height='10'", "<rect width='1' height='1'/>", Dialect::Svg),
+        ("width='10px' height='10.5px'", "<g/>", Dialect::Course),
+    ] {
+        let scene = read(&svg(attributes, body), DialectChoice::Auto);
+        assert_eq!(scene.dialect, expected, "<svg {attributes}>{body}");
+    }
+}

@@ -1,0 +1,359 @@
+//! Documents in the dialect `svg`.
+
+use glam::{DVec2, Vec2};
+use rasterscope::color::Rgba;
+use rasterscope::scene::{DialectChoice, Paint, PrimitiveKind, Scene};
+
+use crate::support::documents::{area, kinds, lines, read, svg, try_read};
+
+fn svg_scene(body: &str) -> Scene {
+    read(&svg("width='100' height='100'", body), DialectChoice::Svg)
+}
+
+/// Area and colour of a scene of triangles in one colour.
+fn filled(body: &str) -> (f64, Rgba) {
+    let scene = svg_scene(body);
+    let color = |kind: &PrimitiveKind| match kind {
+        PrimitiveKind::Triangle {
+            paint: Paint::Solid(color),
+            ..
+        } => *color,
+        other => panic!("{body}: {other:?}"),
+    };
+    let colors: Vec<Rgba> = scene.primitives.iter().map(|p| color(&p.kind)).collect();
+    assert!(
+        colors.windows(2).all(|pair| pair[0] == pair[1]),
+        "{body}: one colour, not {colors:?}"
+    );
+    (area(&scene), colors.first().copied().unwrap_or(Rgba::TRANSPARENT))
+}
+
+/// The smallest box around all triangles: left, top, right, bottom.
+fn bounds(scene: &Scene) -> [f64; 4] {
+    let mut low = DVec2::INFINITY;
+    let mut high = DVec2::NEG_INFINITY;
+    for kind in kinds(scene) {
+        if let PrimitiveKind::Triangle { points, .. } = kind {
+            for point in points {
+                low = low.min(point);
+                high = high.max(point);
+            }
+        }
+    }
+    [low.x, low.y, high.x, high.y]
+}
+
+fn assert_near(found: &[f64], expected: &[f64], what: &str) {
+    let near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6);
+    assert!(near, "{what}: {found:?}, not {expected:?}");
+}
+
+const RED: Rgba = Rgba::opaque(1.0, 0.0, 0.0);
+const BLUE: Rgba = Rgba::opaque(0.0, 0.0, 1.0);
+const UNIT: &str = "width='10' height='10'";
+
+#[test]
+fn svg_canvas_and_view_box() {
+    let rect = "<rect x='10' y='20' width='30' height='10'/>";
+    for (attributes, canvas, expected) in [
+        ("width='100' height='50'", [100.0, 50.0], [10.0, 20.0, 40.0, 30.0]),
+        ("viewBox='0 0 100 50'", [100.0, 50.0], [10.0, 20.0, 40.0, 30.0]),
+        ("viewBox='10 20 30 10'", [30.0, 10.0], [0.0, 0.0, 30.0, 10.0]),
+        (
+            "width='60' height='60' viewBox='10 20 30 10'",
+            [60.0, 60.0],
+            [0.0, 20.0, 60.0, 40.0],
+        ),
+        (
+            "width='1in' height='72pt' viewBox='10 20 30 10' preserveAspectRatio='none'",
+            [96.0; 2],
+            [0.0, 0.0, 96.0, 96.0],
+        ),
+        (
+            "width='60' height='60' viewBox='10 20 30 10' preserveAspectRatio='xMinYMin slice'",
+            [60.0; 2],
+            [0.0, 0.0, 180.0, 60.0],
+        ),
+        (
+            "width='50%' viewBox='0 0 100 50'",
+            [50.0, 50.0],
+            [5.0, 22.5, 20.0, 27.5],
+        ),
+    ] {
+        let scene = read(&svg(attributes, rect), DialectChoice::Svg);
+        assert_eq!(scene.canvas, DVec2::from(canvas), "{attributes}");
+        assert_near(&bounds(&scene), &expected, attributes);
+    }
+}
+
+#[test]
+fn svg_nested_viewport() {
+    let scene =
+        svg_scene("<svg x='10' y='20' width='50%' height='40' viewBox='0 0 5 4'><rect width='100%' height='1'/></svg>");
+    assert_near(&bounds(&scene), &[10.0, 20.0, 60.0, 30.0], "the inner viewBox counts");
+}
+
+#[test]
+fn svg_style_from_attribute_declaration_and_parent() {
+    for (body, color) in [
+        (format!("<rect {UNIT}/>"), Rgba::BLACK),
+        (format!("<rect {UNIT} fill='red'/>"), RED),
+        (format!("<rect {UNIT} fill='blue' style='fill: red'/>"), RED),
+        (format!("<g fill='red'><rect {UNIT}/></g>"), RED),
+        (
+            format!("<g fill='blue'><g style='fill:#f00;'><rect {UNIT}/></g></g>"),
+            RED,
+        ),
+        (format!("<g fill='red'><rect {UNIT} fill='inherit'/></g>"), RED),
+        (format!("<g color='red'><rect {UNIT} fill='currentColor'/></g>"), RED),
+        (
+            format!("<g color='blue' fill='currentColor'><rect {UNIT} color='red'/></g>"),
+            RED,
+        ),
+        (format!("<rect {UNIT} fill='red' fill-opacity='50%'/>"), RED.faded(0.5)),
+        (
+            format!("<rect {UNIT} fill='red' opacity='0.5' fill-opacity='.5'/>"),
+            RED.faded(0.25),
+        ),
+        (
+            format!("<g fill-opacity='.5'><rect {UNIT} fill='hsl(0,100%,50%)'/></g>"),
+            RED.faded(0.5),
+        ),
+    ] {
+        let (area, found) = filled(&body);
+        assert_eq!(found, color, "{body}");
+        assert_near(&[area], &[100.0], &body);
+    }
+}
+
+#[test]
+fn svg_invisible_things_are_not_drawn() {
+    for body in [
+        format!("<rect {UNIT} fill='none'/>"),
+        format!("<rect {UNIT} visibility='hidden'/>"),
+        format!("<g display='none'><rect {UNIT}/><circle r='1'/></g>"),
+        format!("<g opacity='0'><rect {UNIT}/></g>"),
+        format!("<defs><rect {UNIT}/></defs><symbol><rect {UNIT}/></symbol>"),
+        format!("<rect {UNIT} style='display:none' mask='none'/>"),
+        "<rect width='0' height='10' stroke='red'/>".to_owned(),
+        "<g opacity='.5'><g/></g>".to_owned(),
+    ] {
+        let scene = svg_scene(&body);
+        assert!(scene.primitives.is_empty(), "{body}: {:?}", scene.primitives);
+        assert!(scene.report.is_empty(), "{body}: {:?}", scene.report);
+    }
+    let (area, _) = filled(&format!(
+        "<g visibility='hidden'><rect {UNIT} visibility='visible'/></g>"
+    ));
+    assert_near(&[area], &[100.0], "a visible child of a hidden parent");
+}
+
+#[test]
+fn svg_shapes_have_their_areas() {
+    let star = "points='10,0 16,19 0,7 20,7 4,19'";
+    let round = std::f64::consts::PI;
+    for (body, expected) in [
+        ("<polygon points='0,0 10,0 10,10 0,10'/>".to_owned(), 100.0),
+        ("<polyline points='0,0 10,0 10,10 0,10'/>".to_owned(), 100.0),
+        ("<line x2='10' y2='10'/>".to_owned(), 0.0),
+        ("<line x2='10' stroke='red' stroke-width='3'/>".to_owned(), 30.0),
+        (
+            "<g stroke-width='10%'><line x2='10' stroke='red'/></g>".to_owned(),
+            100.0,
+        ),
+        (
+            "<g font-size='5'><line x2='10' stroke='red' stroke-width='2em'/></g>".to_owned(),
+            100.0,
+        ),
+        (
+            "<line x2='10' stroke='red' stroke-width='3' transform='scale(1 2)'/>".to_owned(),
+            60.0,
+        ),
+        (
+            "<line x2='10' stroke='red' stroke-width='3' transform='scale(2 1)'/>".to_owned(),
+            60.0,
+        ),
+        (
+            "<line x2='10' stroke='red' stroke-width='2' stroke-linecap='round'/>".to_owned(),
+            20.0 + round,
+        ),
+        (
+            "<rect width='10' height='10' fill='none' stroke='red' stroke-width='2'/>".to_owned(),
+            80.0,
+        ),
+        (
+            "<polyline points='0,0 10,0 10,10' fill='none' stroke='red' stroke-linejoin='bevel' stroke-width='2'/>"
+                .to_owned(),
+            39.5,
+        ),
+        ("<rect width='10' height='10' rx='5'/>".to_owned(), 25.0 * round),
+        ("<rect width='20' height='10' rx='50' ry='5'/>".to_owned(), 50.0 * round),
+    ] {
+        let (found, _) = filled(&body);
+        assert!((found - expected).abs() < 0.02, "{body}: {found}, not {expected}");
+    }
+    let whole = filled(&format!("<polygon {star}/>")).0;
+    let arms = filled(&format!("<polygon {star} style='fill-rule:evenodd'/>")).0;
+    assert!(
+        arms < whole - 10.0,
+        "the heart of the star is empty: {arms} and {whole}"
+    );
+}
+
+#[test]
+fn svg_opacity_layers_where_things_overlap() {
+    let both = svg_scene(&format!("<rect {UNIT} fill='red' stroke='blue' opacity='.5'/>"));
+    let kinds_of_both = kinds(&both);
+    assert_eq!(
+        kinds_of_both.first(),
+        Some(&PrimitiveKind::BeginLayer),
+        "fill and stroke overlap"
+    );
+    assert_eq!(
+        kinds_of_both.last(),
+        Some(&PrimitiveKind::EndLayer { opacity: 0.5 }),
+        "the shape's opacity"
+    );
+    let group = svg_scene(&format!(
+        "<g opacity='.5'><rect {UNIT} fill='red'/><rect {UNIT} fill='blue'/></g>"
+    ));
+    let solid = |kind: &PrimitiveKind| match kind {
+        PrimitiveKind::Triangle {
+            paint: Paint::Solid(color),
+            ..
+        } => Some(*color),
+        _ => None,
+    };
+    let colors: Vec<Rgba> = kinds(&group).iter().filter_map(solid).collect();
+    assert_eq!(colors, [RED, RED, BLUE, BLUE], "opaque inside the layer");
+    assert_eq!(kinds(&group).len(), 6, "one layer around both");
+}
+
+#[test]
+fn svg_reports_what_it_does_not_draw() {
+    let body = "<circle r='1'/><rect width='1' height='1' fill='url(#g) red' filter='url(#f)' clip-path='none'/>\
+                <line stroke-dasharray='1 2'/><style>a{}</style><x:y xmlns:x='urn:x'/><metadata/>";
+    let scene = svg_scene(body);
+    let what: Vec<&str> = scene.report.skipped.iter().map(|skipped| &*skipped.name).collect();
+    assert_eq!(
+        what,
+        ["circle", "filter", "fill with url()", "stroke-dasharray", "style"],
+        "in order"
+    );
+    assert_eq!(
+        filled("<rect width='1' height='1' fill='url(#g) red'/>").1,
+        RED,
+        "the fallback is drawn"
+    );
+}
+
+#[test]
+fn svg_nonsense_is_ignored_with_a_warning() {
+    for (body, warning) in [
+        (
+            "<rect width='1' height='1' fill='reddish'/>",
+            "fill=\"reddish\" is not understood and has no effect",
+        ),
+        (
+            "<rect width='1' height='1' transform='spin(2)'/>",
+            "transform=\"spin(2)\" is not understood and has no effect",
+        ),
+        (
+            "<rect width='1' height='1' x='left'/>",
+            "x=\"left\" is not understood and has no effect",
+        ),
+        (
+            "<rect width='1' height='1' stroke-linecap='pointed'/>",
+            "stroke-linecap=\"pointed\" is not understood and has no effect",
+        ),
+        (
+            "<polygon points='0,0 1,0 1,1 2'/>",
+            "points holds an odd number of coordinates; the last has no effect",
+        ),
+        (
+            "<polygon points='0,0 1,0 1,1 x,y'/>",
+            "points=\"0,0 1,0 1,1 x,y\" is not understood and has no effect",
+        ),
+        ("<image width='1' height='1'/>", "not drawn: it has no href"),
+    ] {
+        let scene = svg_scene(body);
+        let lines = lines(&scene);
+        assert_eq!(lines.len(), 1, "{body}: {lines:?}");
+        assert!(lines[0].ends_with(warning), "{body}: {lines:?}");
+    }
+}
+
+#[test]
+fn svg_numbers_without_end_are_refused() {
+    for body in [
+        "<rect width='1e400' height='1'/>",
+        "<rect width='nan' height='1'/>",
+        "<polygon points='0,0 1e39,0 1,1'/>",
+        "<polygon points='0,0 inf,0 1,1'/>",
+        "<g transform='scale(1e400)'/>",
+        "<g transform='scale(1e30)'><rect x='1e30' width='1' height='1'/></g>",
+        "<line stroke-width='infinity'/>",
+        "<svg viewBox='0 0 nan 1'/>",
+        "<colortri points='0 0 0 0 0 nan' colors='0 0 0 0 0 0 0 0 0 0 0 0'/>",
+    ] {
+        let document = svg("width='10' height='10'", &format!("\n {body}"));
+        let error = try_read(document.as_bytes(), DialectChoice::Svg).expect_err(body);
+        let line = error.to_string();
+        assert!(line.starts_with("test.svg:2:"), "{body}: {line}");
+        assert!(!line.contains('\n') && line.contains("3.4e38"), "{body}: {line}");
+    }
+    let scene = svg_scene("<rect x='-1e30' y='-1e30' width='2e30' height='2e30'/>");
+    assert_eq!(scene.primitives.len(), 2, "large numbers are legal");
+}
+
+/// A PNG of 4 x 2 texels, as a `data:` address.
+const PNG: &str = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAQAAAACCAYAAAB/qH1jAAAAEklEQVR4nGP4z8DwHxkzoAsAAA8hD/EEN8afAAAAAElFTkSuQmCC";
+
+#[test]
+fn svg_image_places_by_aspect() {
+    for (attributes, expected, uv_low, uv_high) in [
+        ("", [0.0, 0.0, 4.0, 2.0], [0.0, 0.0], [1.0, 1.0]),
+        ("width='8'", [0.0, 0.0, 8.0, 4.0], [0.0, 0.0], [1.0, 1.0]),
+        (
+            "x='1' y='1' width='8' height='8'",
+            [1.0, 3.0, 9.0, 7.0],
+            [0.0, 0.0],
+            [1.0, 1.0],
+        ),
+        (
+            "width='8' height='8' preserveAspectRatio='none'",
+            [0.0, 0.0, 8.0, 8.0],
+            [0.0, 0.0],
+            [1.0, 1.0],
+        ),
+        (
+            "width='8' height='8' preserveAspectRatio='xMidYMid slice'",
+            [0.0, 0.0, 8.0, 8.0],
+            [0.25, 0.0],
+            [0.75, 1.0],
+        ),
+    ] {
+        let scene = svg_scene(&format!("<image href='{PNG}' {attributes}/>"));
+        assert!(scene.report.is_empty(), "{attributes}: {:?}", lines(&scene));
+        assert_near(&bounds(&scene), &expected, attributes);
+        let mut low = Vec2::INFINITY;
+        let mut high = Vec2::NEG_INFINITY;
+        for kind in kinds(&scene) {
+            if let PrimitiveKind::Triangle {
+                paint: Paint::Texture { uv, .. },
+                ..
+            } = kind
+            {
+                low = uv.iter().fold(low, |low, uv| low.min(*uv));
+                high = uv.iter().fold(high, |high, uv| high.max(*uv));
+            }
+        }
+        assert_eq!(
+            [low, high],
+            [Vec2::from(uv_low), Vec2::from(uv_high)],
+            "{attributes}: texture coordinates"
+        );
+    }
+    let scene = svg_scene(&format!("<image xlink:href='{PNG}'/><image href='{PNG}'/>"));
+    assert_eq!(scene.textures.len(), 1, "one address, one texture");
+}

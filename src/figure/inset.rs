@@ -191,8 +191,8 @@ impl Inset {
         }
     }
 
-    /// A dot of the sample's colour, ringed so that it stands out: dark where a primitive covers it, hollow and light
-    /// where none does. Dots are left out where they would run into each other.
+    /// A disc of the sample's colour where a primitive covers it, a square where none does, ringed so that it stands
+    /// out. Marks are left out where they would run into each other.
     fn draw_sample(&self, block: &PixelRect, sample: &SampleMark, count: usize, picture: &mut Framebuffer) {
         let per_side = (count as f64).sqrt().ceil();
         let spacing = f64::from(self.magnification) / per_side;
@@ -202,11 +202,16 @@ impl Inset {
         }
         let [x, y] = sample.at.map(|part| part * f64::from(self.magnification));
         let width = picture.width() as usize;
-        let ring = if sample.covered { 0xff00_0000 } else { 0xffff_ffff };
+        let ring = if is_dark(sample.color) {
+            0xffff_ffff
+        } else {
+            0xff00_0000
+        };
         for_each_index(block, width, |index| {
             let column = (index % width) as f64 - block.x as f64 + 0.5;
             let row = (index / width) as f64 - block.y as f64 + 0.5;
-            let distance = (column - x).hypot(row - y);
+            let (dx, dy) = ((column - x).abs(), (row - y).abs());
+            let distance = if sample.covered { dx.hypot(dy) } else { dx.max(dy) };
             if distance <= radius - 1.0 {
                 picture.pixels_mut()[index] = over_white(sample.color);
             } else if distance <= radius {
@@ -250,6 +255,13 @@ fn for_each_index(rect: &PixelRect, width: usize, mut visit: impl FnMut(usize)) 
             }
         }
     }
+}
+
+/// Whether white reads better than black on this straight colour over white.
+pub fn is_dark([r, g, b, a]: [u8; 4]) -> bool {
+    let luma = 0.299 * f32::from(r) + 0.587 * f32::from(g) + 0.114 * f32::from(b);
+    let opacity = f32::from(a) / 255.0;
+    luma * opacity + 255.0 * (1.0 - opacity) < 140.0
 }
 
 /// A straight colour over white, as opaque `0xAARRGGBB`.

@@ -5,7 +5,7 @@ mod placement;
 mod png;
 mod rect;
 
-pub use inset::{Inset, SampleMark};
+pub use inset::{Inset, SampleMark, is_dark};
 pub use placement::{Corner, place};
 pub use png::{encode_png, save_png};
 pub use rect::PixelRect;

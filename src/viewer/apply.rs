@@ -5,6 +5,8 @@ use glam::DVec2;
 use super::settings::next_of;
 use super::state::Finished;
 use super::{Camera, Command, Effect, PixelZoom, Sight, Theme, Viewer, library};
+use crate::geometry::View;
+use crate::render::RenderSettings;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{LevelSampling, PixelSampling};
@@ -291,7 +293,10 @@ impl Viewer {
         self.drawing.want(super::Picture {
             scene,
             view: entry.camera.transform(&sight),
-            settings: self.settings.render,
+            settings: RenderSettings {
+                outline: self.settings.render.outline && entry.camera.view() != View::Canvas,
+                ..self.settings.render
+            },
             size,
         });
     }

@@ -9,6 +9,10 @@ use crate::figure::{Corner, Inset, PixelRect, place};
 const STEPS: [u32; 17] = [2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 28, 32, 40, 48, 64, 96];
 /// As many steps as there can be.
 const MAX_STEPS: u32 = 20;
+/// Part of the shorter side of its area that an inset may take.
+const SHARE: f64 = 0.75;
+/// What it may take in the smallest window, in pixels.
+const LEAST: f64 = 48.0;
 /// Lines of a magnified pixel's label: red, green, blue.
 const LABEL_LINES: f32 = 3.0;
 /// Characters of a label's longest line.
@@ -61,7 +65,7 @@ pub struct PixelLabel {
 
 impl Default for Inspector {
     fn default() -> Self {
-        let (region, magnification) = (17, 16);
+        let (region, magnification) = (15, 20);
         Self {
             open: false,
             region,
@@ -118,8 +122,8 @@ impl Inspector {
     }
 
     /// Where the inset for the frame pixel `center` goes: inside `area`, never over that pixel as the window shows it
-    /// with `zoom` window pixels per side. In a tight window the region shrinks, then the magnification. Remembers
-    /// the corner, so that the inset only moves when it must.
+    /// with `zoom` window pixels per side, and never most of the area. In a tight window the region shrinks, then the
+    /// magnification. Remembers the corner, so that the inset only moves when it must.
     pub(super) fn place(&mut self, center: [u32; 2], zoom: u32, area: &PixelRect) -> Option<PlacedInset> {
         let center = center.map(i64::from);
         let shown = PixelRect {
@@ -128,6 +132,7 @@ impl Inspector {
             width: zoom,
             height: zoom,
         };
+        let longest = (f64::from(area.width.min(area.height)) * SHARE).max(LEAST);
         let smallest = *Inset::REGION.start();
         let regions = (smallest..=self.region)
             .rev()
@@ -138,6 +143,9 @@ impl Inspector {
         for (region, magnification) in regions.chain(magnifications) {
             let inset = Inset::new(center, region, magnification);
             let size = [inset.side(); 2];
+            if f64::from(size[0]) > longest {
+                continue;
+            }
             if let Some((corner, rect)) = place(area, size, &shown, self.corner) {
                 self.corner = corner;
                 return Some(PlacedInset { inset, rect });
@@ -173,13 +181,6 @@ impl PlacedInset {
     }
 }
 
-/// Whether white text reads better than black on this colour (over white).
-pub(super) fn is_dark([r, g, b, a]: [u8; 4]) -> bool {
-    let luma = 0.299 * f32::from(r) + 0.587 * f32::from(g) + 0.114 * f32::from(b);
-    let opacity = f32::from(a) / 255.0;
-    luma * opacity + 255.0 * (1.0 - opacity) < 140.0
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -190,12 +191,12 @@ mod tests {
         let side = |inspector: &Inspector| inspector.region * (inspector.magnification + 1);
         let before = side(&inspector);
         inspector.wheel(0.5);
-        assert_eq!(inspector.magnification, 16, "half a click is no step");
+        assert_eq!(inspector.magnification, 20, "half a click is no step");
         inspector.wheel(0.5);
-        assert_eq!(inspector.magnification, 20, "two halves are one");
+        assert_eq!(inspector.magnification, 24, "two halves are one");
         assert!(side(&inspector).abs_diff(before) <= 20, "{inspector:?}");
         inspector.wheel(-1.0);
-        assert_eq!((inspector.magnification, inspector.region), (16, 17), "and back");
+        assert_eq!((inspector.magnification, inspector.region), (20, 15), "and back");
         inspector.wheel(1e300);
         inspector.wheel(f64::NAN);
         assert_eq!((inspector.magnification, inspector.region), (96, 8), "the end");
@@ -206,7 +207,7 @@ mod tests {
         let mut inspector = Inspector::default();
         let area = PixelRect::of_size([800, 600]);
         let far = inspector.place([10, 500], 1, &area).expect("there is room");
-        assert_eq!(far.inset.region, 17, "as chosen");
+        assert_eq!(far.inset.region, 15, "as chosen");
         let near = inspector.place([700, 100], 1, &area).expect("there is room");
         assert_ne!(near.rect, far.rect, "it moved away");
         let back = inspector.place([10, 300], 1, &area).expect("there is room");
@@ -214,7 +215,7 @@ mod tests {
         let tight = inspector
             .place([60, 60], 1, &PixelRect::of_size([120, 120]))
             .expect("a small one fits");
-        assert!(tight.inset.magnification < 16, "{tight:?}");
+        assert!(tight.rect.width <= 90, "{tight:?}");
         assert_eq!(
             inspector.place([0, 0], 1, &PixelRect::of_size([20, 20])),
             None,

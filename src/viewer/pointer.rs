@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use super::inspector::is_dark;
 use super::{PixelLabel, PixelRect, PointerButton, Status, Viewer, paste, show};
+use crate::figure::is_dark;
 use crate::raster::Framebuffer;
 
 /// Where the pointer is and what it does.
@@ -75,7 +75,7 @@ impl Viewer {
     }
 
     /// The numbers to write on the inset's pixels when a character is `[width, height]` window pixels; none where
-    /// they do not fit.
+    /// they do not fit, and none on the pixel in the middle while its samples are drawn there.
     pub fn pixel_labels(&self, character: [f32; 2]) -> Vec<PixelLabel> {
         let Some((placed, frame)) = self.inset.zip(self.frame()) else {
             return Vec::new();
@@ -84,6 +84,7 @@ impl Viewer {
             return Vec::new();
         }
         let source = placed.inset.source();
+        let marked = Some(placed.inset.center).filter(|_| !self.pixel_samples().is_empty());
         let all = (source.y..source.bottom()).flat_map(|y| (source.x..source.right()).map(move |x| [x, y]));
         let label = |pixel: [i64; 2]| {
             let block = placed.block(pixel)?;
@@ -96,7 +97,7 @@ impl Viewer {
                 dark: is_dark(rgba),
             })
         };
-        all.filter_map(label).collect()
+        all.filter(|pixel| marked != Some(*pixel)).filter_map(label).collect()
     }
 
     /// The window's pixels below the panels: the frame as the pixel zoom shows it, and the inspector's inset.

@@ -289,13 +289,17 @@ fn replay_labels_only_where_they_fit() {
     session.run(Command::Pin([0, 0]));
     assert!(
         session.viewer.pixel_labels([7.0, 12.0]).is_empty(),
-        "16 pixels are too few for 3 lines of 12"
+        "20 pixels are too few for 3 lines of 12"
     );
     session.run(Command::SetMagnification(40));
     let labels = session.viewer.pixel_labels([7.0, 12.0]);
     let inset = session.viewer.inset().unwrap().inset;
     let visible = usize::try_from(inset.region - inset.region / 2).unwrap();
-    assert_eq!(labels.len(), visible * visible, "only pixels of the frame have numbers");
+    assert_eq!(
+        labels.len(),
+        visible * visible - 1,
+        "only pixels of the frame have numbers, and dots are in the middle"
+    );
     for label in labels {
         let [x, y] = label.pixel;
         assert_eq!(Some(label.rgba), session.pixels().rgba(x, y), "{label:?}");
@@ -462,4 +466,37 @@ fn replay_samples_of_the_inspected_pixel() {
     }
     session.keys(&["Esc", "Esc"]);
     assert!(session.viewer.pixel_samples().is_empty(), "the inspector is closed");
+}
+
+#[test]
+#[cfg(unix)]
+fn replay_command_line_makes_the_same_picture() {
+    let mut session = Session::open(&[TRIANGLES], [90, 70]);
+    for command in [
+        Command::SampleRateUp,
+        Command::ZoomAt {
+            at: Some(dvec2(20.0, 30.0)),
+            factor: 1.7,
+        },
+        Command::RotateBy { degrees: 17.0 },
+        Command::SetBackground(rasterscope::color::Rgba::from_bytes([10, 200, 30, 255])),
+        Command::SetPixelZoom(PixelZoom::new(2).unwrap()),
+    ] {
+        session.run(command);
+    }
+    let line = session.viewer.command_line().unwrap();
+    let program = std::path::Path::new(env!("CARGO_BIN_EXE_rasterscope"));
+    let mut folders = vec![program.parent().unwrap().to_owned()];
+    folders.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));
+    let status = std::process::Command::new("sh")
+        .args(["-c", &line])
+        .env("PATH", std::env::join_paths(folders).unwrap())
+        .current_dir(session.folder.path())
+        .status()
+        .unwrap();
+    assert!(status.success(), "{line}");
+    let picture = image::open(session.folder.path().join("1.png")).unwrap().into_rgba8();
+    assert_eq!(picture.dimensions(), (45, 35), "{line}");
+    let same = |(x, y, pixel): (u32, u32, &image::Rgba<u8>)| session.pixels().rgba(x, y) == Some(pixel.0);
+    assert!(picture.enumerate_pixels().all(same), "{line} makes another picture");
 }

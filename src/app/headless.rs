@@ -1,0 +1,96 @@
+//! Sessions without a window: the same viewer and panels, time that only scripts move, pictures in files.
+
+use super::session::{Clock, Session};
+use super::{AppError, ScriptSource, ViewOptions};
+use crate::viewer::script::{Script, Stage as _, play};
+use crate::viewer::{Message, MessageKind, Theme, Viewer, ViewerOptions, Waker};
+
+/// A window's size where nobody says another, in points.
+pub(super) const DEFAULT_SIZE: [f32; 2] = [1280.0, 800.0];
+
+/// The script, read, and its name in messages.
+#[derive(Clone, Debug)]
+pub(super) struct NamedScript {
+    pub(super) script: Script,
+    pub(super) name: String,
+}
+
+/// Reads the script that `options` name.
+///
+/// # Errors
+/// When its file cannot be read or it is at fault.
+pub(super) fn read_script(options: &ViewOptions) -> Result<Option<NamedScript>, AppError> {
+    let (text, name) = match &options.script {
+        None => return Ok(None),
+        Some(ScriptSource::Text(text)) => (text.clone(), "--do".to_owned()),
+        Some(ScriptSource::File(path)) => {
+            let name = path.display().to_string();
+            let text = std::fs::read_to_string(path).map_err(|error| {
+                AppError::Script(format!("{name}: cannot read this script: {error}; give a text file"))
+            })?;
+            (text, name)
+        }
+    };
+    let script = Script::parse(&text, &name).map_err(|error| AppError::Script(error.to_string()))?;
+    Ok(Some(NamedScript { script, name }))
+}
+
+/// How the viewer of a session starts.
+pub(super) fn viewer_options(
+    options: &ViewOptions,
+    window: [u32; 2],
+    theme: Option<Theme>,
+    waker: Waker,
+) -> ViewerOptions {
+    ViewerOptions {
+        paths: options.paths.clone(),
+        settings: options.settings,
+        view: options.view,
+        window,
+        screenshot_dir: options.screenshot_dir.clone(),
+        theme: options.theme.or(theme).unwrap_or_default(),
+        waker,
+    }
+}
+
+/// The window's size in device pixels.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to the longest side of a frame"
+)]
+pub(super) fn window_size(options: &ViewOptions, scale: f32) -> [u32; 2] {
+    let longest = crate::raster::Framebuffer::MAX_SIDE;
+    let default = DEFAULT_SIZE.map(|side| (side * scale).round().clamp(1.0, longest as f32) as u32);
+    options.size.unwrap_or(default).map(|side| side.min(longest))
+}
+
+/// Plays the script; without one, saves one picture of the window. Returns what was saved without a script.
+///
+/// # Errors
+/// When a step fails or the picture cannot be saved.
+pub(super) fn run(options: &ViewOptions) -> Result<Option<String>, AppError> {
+    let script = read_script(options)?;
+    let scale = options.scale.unwrap_or(1.0).clamp(0.5, 8.0);
+    let waker: Waker = std::sync::Arc::new(|| {});
+    let viewer =
+        Viewer::new(viewer_options(options, window_size(options, scale), None, waker)).map_err(AppError::Threads)?;
+    let mut session = Session::new(viewer, scale, Clock::Simulated(0.0));
+    if let Some(NamedScript { script, name }) = script {
+        play(&script, &name, &mut session).map_err(|error| AppError::Script(error.to_string()))?;
+        session.settle();
+        return Ok(None);
+    }
+    session.settle();
+    session.run(crate::viewer::Command::WindowScreenshot);
+    session.settle();
+    match session.viewer().messages().last() {
+        Some(Message {
+            kind: MessageKind::Done,
+            text,
+            ..
+        }) => Ok(Some(text.clone())),
+        Some(message) => Err(AppError::Window(message.text.clone())),
+        None => Err(AppError::Window("no picture was saved".to_owned())),
+    }
+}

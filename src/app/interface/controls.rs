@@ -1,0 +1,82 @@
+//! The few controls that the panels are built of; each has an accessible name and says its key in its tool tip.
+
+use egui::{Align, Button, Layout, Response, RichText, Ui, vec2};
+
+use super::look::CONTROL;
+use crate::viewer::commands;
+
+/// Width of a row's label, in points.
+const LABEL_WIDTH: f32 = 78.0;
+
+/// A heading with a line above it.
+pub(super) fn heading(ui: &mut Ui, text: &str) {
+    ui.add_space(8.0);
+    ui.label(RichText::new(text).strong().size(12.0));
+    ui.add_space(1.0);
+}
+
+/// A label on the left and a control that fills the rest of the row.
+pub(super) fn row<R>(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.allocate_ui_with_layout(
+            vec2(LABEL_WIDTH, CONTROL.y),
+            Layout::left_to_right(Align::Center),
+            |ui| {
+                ui.set_min_width(LABEL_WIDTH);
+                ui.label(RichText::new(label).weak());
+            },
+        );
+        contents(ui)
+    })
+    .inner
+}
+
+/// One of several values, side by side over the whole width; what was chosen, if it was just now.
+pub(super) fn choice<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    tip: &str,
+    current: T,
+    values: &[(T, String)],
+) -> Option<T> {
+    let gap = 2.0;
+    let count = values.len().max(1) as f32;
+    let width = ((ui.available_width() - gap * (count - 1.0)) / count).floor();
+    let mut chosen = None;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = gap;
+        ui.spacing_mut().button_padding.x = 1.0;
+        for (value, text) in values {
+            let button = Button::selectable(*value == current, text.as_str())
+                .frame_when_inactive(true)
+                .min_size(vec2(width, CONTROL.y));
+            let response = ui.add_sized([width, CONTROL.y], button);
+            let response = response.on_hover_text(tip).accessible_name(format!("{name}: {text}"));
+            if response.clicked() && *value != current {
+                chosen = Some(*value);
+            }
+        }
+    });
+    chosen
+}
+
+/// The help line of the command `id` with its keys, for a tool tip.
+pub(super) fn tip(id: &str) -> String {
+    let Some(spec) = commands::find(id) else {
+        return String::new();
+    };
+    let keys = spec.keys_text();
+    if keys.is_empty() {
+        spec.help.to_owned()
+    } else {
+        format!("{} ({keys})", spec.help)
+    }
+}
+
+/// A button for the command `id`: its tool tip and accessible name come from the table.
+pub(super) fn command_button(ui: &mut Ui, id: &str, text: &str) -> Response {
+    let name = commands::find(id).map_or(id, |spec| spec.name);
+    let button = Button::new(text).min_size(CONTROL);
+    ui.add(button).on_hover_text(tip(id)).accessible_name(name)
+}

@@ -1,0 +1,287 @@
+//! What covers the picture until it is closed: help, the command palette, going to a pixel.
+
+use egui::{Align, Align2, Area, Button, Color32, Context, Id, Key, Layout, Modal, Order, RichText, ScrollArea};
+use egui::{TextEdit, Ui, vec2};
+
+use super::look::CONTROL;
+use crate::viewer::commands::{self, GESTURES};
+use crate::viewer::{Action, Command, CommandSpec, Dialog, Group, Viewer};
+
+/// What was typed into the dialogs.
+#[derive(Debug, Default)]
+pub(super) struct Dialogs {
+    open: Option<Dialog>,
+    text: String,
+    problem: Option<String>,
+    chosen: usize,
+}
+
+impl Dialogs {
+    /// Shows the dialog that is open.
+    pub(super) fn show(&mut self, ctx: &Context, viewer: &Viewer, commands: &mut Vec<Command>) {
+        let just_opened = self.open != viewer.dialog();
+        if just_opened {
+            *self = Self {
+                open: viewer.dialog(),
+                ..Self::default()
+            };
+        }
+        match viewer.dialog() {
+            Some(Dialog::Help) => help(ctx, commands),
+            Some(Dialog::Palette) => self.palette(ctx, just_opened, commands),
+            Some(Dialog::GoToPixel) => self.go_to_pixel(ctx, viewer, just_opened, commands),
+            None => {}
+        }
+    }
+
+    /// A line of text that has the keyboard. True when Enter was pressed.
+    fn line(&mut self, ui: &mut Ui, name: &str, hint: &str, just_opened: bool) -> bool {
+        let response = ui
+            .add(
+                TextEdit::singleline(&mut self.text)
+                    .hint_text(hint)
+                    .desired_width(f32::INFINITY)
+                    .margin(vec2(8.0, 6.0)),
+            )
+            .accessible_name(name);
+        let enter = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        if response.changed() {
+            self.problem = None;
+            self.chosen = 0;
+        }
+        if just_opened || !response.has_focus() {
+            response.request_focus();
+        }
+        enter
+    }
+
+    fn go_to_pixel(&mut self, ctx: &Context, viewer: &Viewer, just_opened: bool, commands: &mut Vec<Command>) {
+        let modal = modal("go to pixel").show(ctx, |ui| {
+            ui.set_width(300.0);
+            ui.heading("Go to pixel");
+            let [width, height] = viewer.frame_size();
+            let hint = format!("x, y below {width}, {height}");
+            let enter = self.line(ui, "Pixel", &hint, just_opened);
+            self.problem_line(ui);
+            let pressed = buttons(ui, "Pin");
+            if enter || pressed == Some(true) {
+                self.run(commands::find("pin"), &self.text.clone(), commands);
+            }
+            pressed == Some(false)
+        });
+        if modal.inner || modal.backdrop_response.clicked() {
+            commands.push(Command::CloseDialog);
+        }
+    }
+
+    /// Runs a command with its argument and closes the dialog, or says what is wrong.
+    fn run(&mut self, spec: Option<&'static CommandSpec>, argument: &str, commands: &mut Vec<Command>) {
+        let Some(spec) = spec else {
+            return;
+        };
+        if argument.trim().is_empty() {
+            if let Action::Run(command) = spec.action {
+                commands.extend([Command::CloseDialog, command.clone()]);
+                return;
+            }
+            // The palette goes on with the argument.
+            self.text = format!("{} ", spec.id);
+            self.problem = spec.argument.map(|argument| format!("type {}", argument.usage));
+            return;
+        }
+        match spec.argument.map(|kind| kind.parse(argument)) {
+            Some(Ok(command)) => commands.extend([Command::CloseDialog, command]),
+            Some(Err(problem)) => self.problem = Some(problem),
+            None => self.problem = Some(format!("{} takes nothing behind it", spec.id)),
+        }
+    }
+
+    fn problem_line(&self, ui: &mut Ui) {
+        if let Some(problem) = &self.problem {
+            ui.label(RichText::new(problem).color(ui.visuals().warn_fg_color).small());
+        }
+    }
+
+    fn palette(&mut self, ctx: &Context, just_opened: bool, commands: &mut Vec<Command>) {
+        // Taken before the line of text sees them.
+        let (up, down) = ctx.input_mut(|input| {
+            let mut pressed = |key| input.consume_key(egui::Modifiers::NONE, key);
+            (pressed(Key::ArrowUp), pressed(Key::ArrowDown))
+        });
+        let screen = ctx.content_rect();
+        let area = Area::new(Id::unique("palette area"))
+            .order(Order::Foreground)
+            .anchor(Align2::CENTER_TOP, vec2(0.0, (screen.height() * 0.08).round()))
+            .fade_in(false);
+        let modal = Modal::new(Id::unique("palette"))
+            .area(area)
+            .backdrop_color(BACKDROP)
+            .show(ctx, |ui| {
+                ui.set_width((screen.width() - 60.0).clamp(200.0, 480.0));
+                let enter = self.line(ui, "Command", "type a command", just_opened);
+                self.problem_line(ui);
+                let (argument, found) = self.found();
+                self.chosen = (self.chosen + usize::from(down)).saturating_sub(usize::from(up));
+                self.chosen = self.chosen.min(found.len().saturating_sub(1));
+                let mut run = found.get(self.chosen).copied().filter(|_| enter);
+                ScrollArea::vertical().max_height(screen.height() * 0.6).show(ui, |ui| {
+                    ui.spacing_mut().item_spacing.y = 1.0;
+                    for (index, spec) in found.iter().enumerate() {
+                        let chosen = index == self.chosen;
+                        let response = entry(ui, spec, chosen);
+                        if chosen && (up || down) {
+                            response.scroll_to_me(None);
+                        }
+                        if response.clicked() {
+                            run = Some(*spec);
+                        }
+                    }
+                    if found.is_empty() {
+                        ui.label(RichText::new("no such command").weak());
+                    }
+                });
+                if run.is_some() {
+                    self.run(run, &argument, commands);
+                }
+            });
+        if modal.backdrop_response.clicked() {
+            commands.push(Command::CloseDialog);
+        }
+    }
+
+    /// The commands that the text may mean, best first, and what follows the command's word.
+    fn found(&self) -> (String, Vec<&'static CommandSpec>) {
+        let text = self.text.trim_start();
+        if let Some((word, argument)) = text.split_once(char::is_whitespace)
+            && let Some(spec) = commands::find(word)
+            && spec.argument.is_some()
+        {
+            return (argument.to_owned(), vec![spec]);
+        }
+        let wanted = text.trim_end().to_lowercase();
+        let mut found: Vec<(usize, &CommandSpec)> = commands::all()
+            .iter()
+            .filter_map(|spec| Some((rank(spec, &wanted)?, spec)))
+            .collect();
+        found.sort_by_key(|(rank, _)| *rank);
+        (String::new(), found.into_iter().map(|(_, spec)| spec).collect())
+    }
+}
+
+/// How well a command fits what was typed: the lower the better, `None` not at all.
+fn rank(spec: &CommandSpec, wanted: &str) -> Option<usize> {
+    let name = spec.name.to_lowercase();
+    if name.starts_with(wanted) || spec.id.starts_with(wanted) {
+        return Some(0);
+    }
+    if name.contains(wanted) || spec.id.contains(wanted) {
+        return Some(1);
+    }
+    if spec.help.to_lowercase().contains(wanted) {
+        return Some(2);
+    }
+    // The letters in their order, with others between them.
+    let mut letters = name.chars();
+    wanted
+        .chars()
+        .all(|letter| letters.any(|other| other == letter))
+        .then_some(3)
+}
+
+/// One command in the palette.
+fn entry(ui: &mut Ui, spec: &CommandSpec, chosen: bool) -> egui::Response {
+    let keys = match spec.argument {
+        Some(argument) if spec.keys.is_empty() => argument.usage.to_owned(),
+        _ => spec.keys_text(),
+    };
+    let button = Button::selectable(chosen, spec.name).right_text(RichText::new(keys).small());
+    ui.add_sized([ui.available_width(), CONTROL.y + 2.0], button)
+        .on_hover_text(spec.help)
+        .accessible_name(spec.name)
+}
+
+/// What darkens the picture below a dialog.
+const BACKDROP: Color32 = Color32::from_black_alpha(90);
+
+fn modal(name: &'static str) -> Modal {
+    let id = Id::unique(name);
+    Modal::new(id)
+        .area(Modal::default_area(id).fade_in(false))
+        .backdrop_color(BACKDROP)
+}
+
+/// OK and cancel; which was pressed.
+fn buttons(ui: &mut Ui, ok: &str) -> Option<bool> {
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        let accept = ui.add(Button::new(ok).min_size(vec2(64.0, CONTROL.y))).clicked();
+        let cancel = ui.add(Button::new("Cancel").min_size(vec2(64.0, CONTROL.y))).clicked();
+        accept.then_some(true).or(cancel.then_some(false))
+    })
+    .inner
+}
+
+/// All keys and gestures, from the one table.
+fn help(ctx: &Context, commands: &mut Vec<Command>) {
+    let screen = ctx.content_rect();
+    let columns = if screen.width() >= 760.0 { 2 } else { 1 };
+    let modal = modal("help").show(ctx, |ui| {
+        ui.set_width((screen.width() - 48.0).min(if columns == 2 { 780.0 } else { 430.0 }));
+        ui.horizontal(|ui| {
+            ui.heading("Keys and gestures");
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.button("Close").clicked())
+                .inner
+        })
+        .inner
+            | {
+                ui.add_space(4.0);
+                ScrollArea::vertical()
+                    .max_height(screen.height() - 110.0)
+                    .show(ui, |ui| {
+                        let (left, right) = Group::ALL.split_at(if columns == 2 { 3 } else { Group::ALL.len() });
+                        ui.columns(columns, |columns| {
+                            for group in left {
+                                help_group(&mut columns[0], *group);
+                            }
+                            if let Some(column) = columns.get_mut(1) {
+                                for group in right {
+                                    help_group(column, *group);
+                                }
+                            }
+                            help_gestures(&mut columns[0]);
+                        });
+                    });
+                false
+            }
+    });
+    if modal.inner || modal.backdrop_response.clicked() {
+        commands.push(Command::CloseDialog);
+    }
+}
+
+fn help_group(ui: &mut Ui, group: Group) {
+    ui.label(RichText::new(group.name()).strong());
+    for spec in commands::all()
+        .iter()
+        .filter(|spec| spec.group == group && !spec.keys.is_empty())
+    {
+        help_line(ui, &spec.keys_text(), spec.help);
+    }
+    ui.add_space(8.0);
+}
+
+fn help_gestures(ui: &mut Ui) {
+    ui.label(RichText::new("Mouse").strong());
+    for gesture in GESTURES {
+        help_line(ui, gesture.gesture, gesture.help);
+    }
+}
+
+fn help_line(ui: &mut Ui, keys: &str, help: &str) {
+    ui.horizontal_top(|ui| {
+        ui.allocate_ui_with_layout(vec2(112.0, 16.0), Layout::top_down(Align::Min), |ui| {
+            ui.set_width(112.0);
+            ui.add(egui::Label::new(RichText::new(keys).small().strong()).wrap());
+        });
+        ui.add(egui::Label::new(RichText::new(help).small()).wrap());
+    });
+}

@@ -1,0 +1,102 @@
+//! What the reader has to say about the document, and where the time of the last redraw went.
+
+use std::time::Duration;
+
+use egui::{RichText, Sense, Ui, vec2};
+
+use super::controls::heading;
+use crate::viewer::Viewer;
+
+/// Lines of the reader's report that are shown at once.
+const MAX_LINES: usize = 200;
+
+/// The reader's report, where there is one; and why a scene could not be read.
+pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
+    let Some(entry) = viewer.current() else {
+        return;
+    };
+    if let Some(message) = entry.failure() {
+        heading(ui, "Not read");
+        ui.label(RichText::new(message).color(ui.visuals().error_fg_color));
+        return;
+    }
+    let Some(scene) = entry.scene().filter(|scene| !scene.report.is_empty()) else {
+        return;
+    };
+    let count = scene.report.lines().count();
+    heading(
+        ui,
+        &format!("Reader: {count} {}", if count == 1 { "note" } else { "notes" }),
+    );
+    for line in scene.report.lines().take(MAX_LINES) {
+        ui.label(RichText::new(line).small().color(ui.visuals().warn_fg_color));
+    }
+}
+
+/// Time of the last redraw and its stages, as numbers and as a bar. `None` where pictures must not depend on time.
+pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
+    let Some(frame) = viewer.frame() else {
+        return;
+    };
+    let stats = &frame.stats;
+    let total = if timed {
+        format!("Redraw  {}", milliseconds(stats.total()))
+    } else {
+        "Redraw".to_owned()
+    };
+    heading(ui, &total);
+    let stages = [
+        ("transform", stats.transform),
+        ("bin", stats.bin),
+        ("raster", stats.raster),
+    ];
+    if timed {
+        bar(ui, &stages.map(|(_, time)| time));
+    }
+    let [a, b, c] = stages.map(|(name, time)| {
+        if timed {
+            format!("{name} {}", milliseconds(time))
+        } else {
+            name.to_owned()
+        }
+    });
+    let triangles = grouped(stats.triangles);
+    ui.label(RichText::new(format!("{a}  ·  {b}  ·  {c}")).small().weak());
+    ui.label(RichText::new(format!("{triangles} triangles")).small().weak());
+}
+
+/// The stages as parts of a whole, the darkest first.
+fn bar(ui: &mut Ui, parts: &[Duration]) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 4.0), Sense::hover());
+    let whole: f32 = parts.iter().map(Duration::as_secs_f32).sum();
+    let accent = ui.visuals().selection.bg_fill;
+    let mut left = rect.left();
+    for (part, strength) in parts.iter().zip([1.0, 0.45, 0.75]) {
+        let width = rect.width() * part.as_secs_f32() / whole.max(f32::MIN_POSITIVE);
+        let piece = egui::Rect::from_min_size(egui::pos2(left, rect.top()), vec2(width, rect.height()));
+        ui.painter().rect_filled(piece, 0.0, accent.gamma_multiply(strength));
+        left += width;
+    }
+}
+
+fn milliseconds(time: Duration) -> String {
+    let ms = time.as_secs_f64() * 1000.0;
+    if ms < 9.995 {
+        format!("{ms:.2} ms")
+    } else {
+        format!("{ms:.1} ms")
+    }
+}
+
+/// A count with thin spaces between groups of three digits.
+fn grouped(count: u64) -> String {
+    let digits = count.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push('\u{2009}');
+        }
+        text.push(digit);
+    }
+    text
+}

@@ -1,0 +1,135 @@
+//! What floats over the picture without taking part in the layout: overlay text, pixel numbers in the inspector's
+//! inset, messages, the handle of the folded panel.
+
+use std::collections::HashMap;
+
+use egui::{Align2, Area, Color32, FontId, Frame, Id, Order, Rect, RichText, Sense, Ui, pos2, vec2};
+
+use crate::viewer::{Command, Message, MessageKind, Viewer};
+
+/// Seconds that a message stays.
+const DONE_SECONDS: f64 = 5.0;
+/// Seconds that a message about a fault stays.
+const ERROR_SECONDS: f64 = 15.0;
+
+/// The text over the picture: scene and settings.
+pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect) {
+    let Some(entry) = viewer.current() else {
+        return;
+    };
+    let render = &viewer.settings().render;
+    let count = render.sample_rate.samples();
+    let mut lines = vec![
+        entry.label.clone(),
+        format!("{count} {} per pixel", if count == 1 { "sample" } else { "samples" }),
+        format!(
+            "pixel {}, level {}",
+            render.pixel_sampling.name(),
+            render.level_sampling.name()
+        ),
+    ];
+    if render.rules != crate::rules::Rules::default() {
+        lines.push(format!("rules: {}", render.rules.name()));
+    }
+    if entry.is_reading() {
+        lines.push("reading …".to_owned());
+    }
+    let text = lines.join("\n");
+    let galley = ui.painter().layout(
+        text,
+        FontId::proportional(12.0),
+        Color32::WHITE,
+        (free.width() - 40.0).max(60.0),
+    );
+    let at = free.min + vec2(10.0, 10.0);
+    let back = Rect::from_min_size(at, galley.size() + vec2(16.0, 10.0));
+    ui.painter().rect_filled(back, 5.0, Color32::from_black_alpha(170));
+    ui.painter().galley(at + vec2(8.0, 5.0), galley, Color32::WHITE);
+}
+
+/// The numbers on the inset's pixels, where they fit.
+pub(super) fn pixel_labels(ui: &Ui, viewer: &Viewer) {
+    let scale = ui.pixels_per_point();
+    let font = FontId::monospace(9.0);
+    let sample = ui
+        .painter()
+        .layout_no_wrap("0".to_owned(), font.clone(), Color32::WHITE);
+    let character = [sample.size().x * scale, 9.5 * scale];
+    for label in viewer.pixel_labels(character) {
+        let center = pos2(
+            middle(label.block.x, label.block.width) / scale,
+            middle(label.block.y, label.block.height) / scale,
+        );
+        let color = if label.dark { Color32::WHITE } else { Color32::BLACK };
+        let [r, g, b, _] = label.rgba;
+        for (value, row) in [r, g, b].into_iter().zip([-1.0, 0.0, 1.0]) {
+            let at = pos2(center.x, center.y + row * 9.5);
+            ui.painter().text(at, Align2::CENTER_CENTER, value, font.clone(), color);
+        }
+    }
+}
+
+fn middle(start: i64, length: u32) -> f32 {
+    i32::try_from(start).unwrap_or_default() as f32 + length as f32 / 2.0
+}
+
+/// When each message vanishes, in egui's seconds.
+#[derive(Debug, Default)]
+pub(super) struct MessageClock {
+    ends: HashMap<u64, f64>,
+}
+
+impl MessageClock {
+    /// Shows the messages above the status line and dismisses the old ones.
+    pub(super) fn show(&mut self, ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Vec<Rect> {
+        let now = ui.input(|input| input.time);
+        self.ends
+            .retain(|id, _| viewer.messages().iter().any(|message| message.id == *id));
+        let mut covered = Vec::new();
+        let mut bottom = free.bottom() - 10.0;
+        for message in viewer.messages().iter().rev() {
+            let seconds = if message.kind == MessageKind::Done {
+                DONE_SECONDS
+            } else {
+                ERROR_SECONDS
+            };
+            let end = *self.ends.entry(message.id).or_insert(now + seconds);
+            let rect = toast(ui, message, pos2(free.left() + 10.0, bottom), free.width() - 20.0);
+            let (rect, clicked) = rect;
+            if now >= end || clicked {
+                commands.push(Command::DismissMessage(message.id));
+            } else {
+                let rest = std::time::Duration::from_secs_f64((end - now).clamp(0.02, 60.0));
+                ui.ctx().request_repaint_after(rest);
+            }
+            bottom = rect.top() - 6.0;
+            covered.push(rect);
+        }
+        covered
+    }
+}
+
+fn toast(ui: &Ui, message: &Message, corner: egui::Pos2, width: f32) -> (Rect, bool) {
+    let visuals = ui.visuals();
+    let color = match message.kind {
+        MessageKind::Done => visuals.strong_text_color(),
+        MessageKind::Error => visuals.error_fg_color,
+    };
+    let text = RichText::new(&message.text).color(color);
+    let response = Area::new(Id::unique(("message", message.id)))
+        .order(Order::Foreground)
+        .fixed_pos(corner)
+        .pivot(Align2::LEFT_BOTTOM)
+        .fade_in(false)
+        .accessible_name("Message")
+        .sense(Sense::click())
+        .show(ui.ctx(), |ui| {
+            Frame::popup(ui.style()).inner_margin(8.0).show(ui, |ui| {
+                ui.set_max_width(width.min(520.0) - 16.0);
+                ui.label(text);
+            });
+        })
+        .response;
+    let response = response.on_hover_text("Click to close");
+    (response.rect, response.clicked())
+}

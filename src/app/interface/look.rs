@@ -1,0 +1,145 @@
+//! How the panels look: sizes, type and colours of both themes, set once per change of theme.
+
+use egui::{Color32, Context, CornerRadius, FontFamily, FontId, Shadow, Stroke, TextStyle, Vec2, vec2};
+
+use crate::viewer::Theme;
+
+/// Width of the side panel in points, frame included.
+pub(super) const PANEL_WIDTH: f32 = 264.0;
+/// Free space inside the panels, in points.
+pub(super) const MARGIN: i8 = 12;
+
+/// The few colours that all else is made of.
+struct Palette {
+    panel: Color32,
+    field: Color32,
+    control: Color32,
+    control_hovered: Color32,
+    control_pressed: Color32,
+    line: Color32,
+    text: Color32,
+    weak: Color32,
+    strong: Color32,
+    accent: Color32,
+    on_accent: Color32,
+    warning: Color32,
+    error: Color32,
+    shadow: u8,
+}
+
+const DARK: Palette = Palette {
+    panel: Color32::from_rgb(30, 32, 36),
+    field: Color32::from_rgb(20, 21, 24),
+    control: Color32::from_rgb(46, 49, 55),
+    control_hovered: Color32::from_rgb(60, 64, 72),
+    control_pressed: Color32::from_rgb(38, 40, 45),
+    line: Color32::from_rgb(56, 59, 66),
+    text: Color32::from_rgb(208, 211, 216),
+    weak: Color32::from_rgb(152, 157, 166),
+    strong: Color32::from_rgb(240, 241, 243),
+    accent: Color32::from_rgb(44, 104, 186),
+    on_accent: Color32::from_rgb(248, 250, 253),
+    warning: Color32::from_rgb(240, 180, 70),
+    error: Color32::from_rgb(246, 120, 110),
+    shadow: 90,
+};
+
+const LIGHT: Palette = Palette {
+    panel: Color32::from_rgb(246, 246, 244),
+    field: Color32::from_rgb(255, 255, 255),
+    control: Color32::from_rgb(228, 228, 225),
+    control_hovered: Color32::from_rgb(216, 216, 213),
+    control_pressed: Color32::from_rgb(204, 204, 201),
+    line: Color32::from_rgb(208, 208, 204),
+    text: Color32::from_rgb(46, 48, 52),
+    weak: Color32::from_rgb(96, 99, 105),
+    strong: Color32::from_rgb(16, 17, 19),
+    accent: Color32::from_rgb(36, 98, 184),
+    on_accent: Color32::from_rgb(255, 255, 255),
+    warning: Color32::from_rgb(148, 92, 0),
+    error: Color32::from_rgb(178, 34, 28),
+    shadow: 40,
+};
+
+/// Sets sizes and type, and what holds for both themes. `animated` is false where pictures must not depend on time.
+pub(super) fn install(ctx: &Context, animated: bool) {
+    ctx.options_mut(|options| options.zoom_with_keyboard = false);
+    for (theme, palette) in [(egui::Theme::Dark, &DARK), (egui::Theme::Light, &LIGHT)] {
+        ctx.style_mut_of(theme, |style| {
+            let font = |size| FontId::new(size, FontFamily::Proportional);
+            style.text_styles = [
+                (TextStyle::Heading, font(15.0)),
+                (TextStyle::Body, font(13.0)),
+                (TextStyle::Button, font(13.0)),
+                (TextStyle::Small, font(11.0)),
+                (TextStyle::Monospace, FontId::new(12.0, FontFamily::Monospace)),
+            ]
+            .into();
+            style.spacing.item_spacing = vec2(6.0, 5.0);
+            style.spacing.button_padding = vec2(6.0, 3.0);
+            style.spacing.interact_size = vec2(28.0, 22.0);
+            style.spacing.tooltip_width = 300.0;
+            style.interaction.selectable_labels = false;
+            style.interaction.tooltip_delay = 0.4;
+            if !animated {
+                style.animation_time = 0.0;
+                style.visuals.text_cursor.blink = false;
+                style.scroll_animation = egui::style::ScrollAnimation::none();
+            }
+            paint(&mut style.visuals, palette);
+        });
+    }
+}
+
+/// Chooses the theme.
+pub(super) fn set_theme(ctx: &Context, theme: Theme) {
+    ctx.set_theme(match theme {
+        Theme::Dark => egui::Theme::Dark,
+        Theme::Light => egui::Theme::Light,
+    });
+}
+
+fn paint(visuals: &mut egui::Visuals, palette: &Palette) {
+    visuals.panel_fill = palette.panel;
+    visuals.window_fill = palette.panel;
+    visuals.window_stroke = Stroke::new(1.0, palette.line);
+    visuals.extreme_bg_color = palette.field;
+    visuals.faint_bg_color = palette.control;
+    visuals.weak_text_color = Some(palette.weak);
+    visuals.hyperlink_color = palette.accent;
+    visuals.warn_fg_color = palette.warning;
+    visuals.error_fg_color = palette.error;
+    visuals.selection.bg_fill = palette.accent;
+    visuals.selection.stroke = Stroke::new(1.0, palette.on_accent);
+    let shadow = Shadow {
+        offset: [0, 4],
+        blur: 16,
+        spread: 0,
+        color: Color32::from_black_alpha(palette.shadow),
+    };
+    visuals.window_shadow = shadow;
+    visuals.popup_shadow = shadow;
+    visuals.window_corner_radius = CornerRadius::same(8);
+    visuals.menu_corner_radius = CornerRadius::same(6);
+    visuals.text_cursor.stroke = Stroke::new(1.5, palette.strong);
+    let widgets = &mut visuals.widgets;
+    widgets.noninteractive.fg_stroke = Stroke::new(1.0, palette.text);
+    widgets.noninteractive.bg_stroke = Stroke::new(1.0, palette.line);
+    widgets.noninteractive.bg_fill = palette.panel;
+    for (state, fill, text) in [
+        (&mut widgets.inactive, palette.control, palette.text),
+        (&mut widgets.hovered, palette.control_hovered, palette.strong),
+        (&mut widgets.active, palette.control_pressed, palette.strong),
+        (&mut widgets.open, palette.control_hovered, palette.strong),
+    ] {
+        state.bg_fill = fill;
+        state.weak_bg_fill = fill;
+        state.bg_stroke = Stroke::NONE;
+        state.fg_stroke = Stroke::new(1.0, text);
+        state.corner_radius = CornerRadius::same(4);
+        state.expansion = 0.0;
+    }
+}
+
+/// The smallest extent that a control for a finger or a mouse has, in points.
+pub(super) const CONTROL: Vec2 = vec2(28.0, 22.0);

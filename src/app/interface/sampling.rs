@@ -1,0 +1,93 @@
+//! The settings of the picture: sample rate, samplings, rules, dialect, pixel zoom.
+
+use egui::Ui;
+
+use super::controls::{choice, heading, row, tip};
+use crate::raster::SampleRate;
+use crate::rules::Rules;
+use crate::scene::{Dialect, DialectChoice};
+use crate::texture::{LevelSampling, PixelSampling};
+use crate::viewer::{Command, PixelZoom, Viewer};
+
+/// Shows the settings and adds what was changed to `commands`.
+pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let settings = viewer.settings();
+    let render = &settings.render;
+    heading(ui, "Sampling");
+    let rates = sample_rates(render.sample_rate);
+    ui.label(egui::RichText::new("Samples per pixel").weak());
+    let keys = format!("{}; {}", tip("rate-down"), tip("rate-up"));
+    commands.extend(choice(ui, "Samples per pixel", &keys, render.sample_rate, &rates).map(Command::SetSampleRate));
+    row(ui, "Pixel", |ui| {
+        let values = PixelSampling::ALL.map(|value| (value, value.name().to_owned()));
+        let chosen = choice(
+            ui,
+            "Pixel sampling",
+            &tip("pixel-sampling"),
+            render.pixel_sampling,
+            &values,
+        );
+        commands.extend(chosen.map(Command::SetPixelSampling));
+    });
+    row(ui, "Level", |ui| {
+        let values = LevelSampling::ALL.map(|value| (value, value.name().to_owned()));
+        let chosen = choice(
+            ui,
+            "Level sampling",
+            &tip("level-sampling"),
+            render.level_sampling,
+            &values,
+        );
+        commands.extend(chosen.map(Command::SetLevelSampling));
+    });
+    row(ui, "Rules", |ui| {
+        let values = Rules::ALL.map(|value| (value, value.name().to_owned()));
+        let chosen = choice(ui, "Rules", &tip("rules"), render.rules, &values);
+        commands.extend(chosen.map(Command::SetRules));
+    });
+    row(ui, "Dialect", |ui| {
+        let values = DialectChoice::ALL.map(|value| (value, value.name().to_owned()));
+        let tip = format!("{}\n{}", tip("dialect"), dialect_in_force(viewer));
+        commands.extend(choice(ui, "Dialect", &tip, settings.dialect, &values).map(Command::SetDialect));
+    });
+    if settings.dialect == DialectChoice::Auto {
+        row(ui, "", |ui| {
+            ui.label(egui::RichText::new(dialect_in_force(viewer)).weak().small())
+        });
+    }
+    row(ui, "Pixel zoom", |ui| {
+        let values = PixelZoom::ALL.map(|value| (value, value.factor().to_string()));
+        let chosen = choice(ui, "Pixel zoom", &tip("pixel-zoom"), settings.pixel_zoom, &values);
+        commands.extend(chosen.map(Command::SetPixelZoom));
+    });
+}
+
+/// The rates that keys reach, and the current one if it lies beyond.
+fn sample_rates(current: SampleRate) -> Vec<(SampleRate, String)> {
+    let mut rates = vec![SampleRate::ONE];
+    while let Some(last) = rates.last()
+        && last.higher() != *last
+    {
+        rates.push(last.higher());
+    }
+    if !rates.contains(&current) {
+        rates.push(current);
+    }
+    rates
+        .into_iter()
+        .map(|rate| (rate, rate.samples().to_string()))
+        .collect()
+}
+
+/// In which dialect the current scene was read.
+fn dialect_in_force(viewer: &Viewer) -> &'static str {
+    match viewer
+        .current()
+        .and_then(|entry| entry.scene())
+        .map(|scene| scene.dialect)
+    {
+        Some(Dialect::Course) => "read as course",
+        Some(Dialect::Svg) => "read as svg",
+        None => "not read",
+    }
+}

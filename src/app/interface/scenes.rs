@@ -1,0 +1,276 @@
+//! The list of scenes: thumbnails under the names of their folders.
+
+use std::sync::Arc;
+
+use egui::{Align2, Color32, ColorImage, CornerRadius, FontId, Rect, RichText, Sense, StrokeKind, TextureHandle};
+use egui::{TextureOptions, Ui, Vec2, pos2, vec2};
+
+use super::controls::{command_button, heading};
+use crate::raster::Framebuffer;
+use crate::viewer::{Command, SceneEntry, Viewer};
+
+/// Thumbnails side by side.
+const COLUMNS: usize = 3;
+/// Height of a thumbnail, in points.
+const PICTURE_HEIGHT: f32 = 62.0;
+/// Height of the name below it, in points.
+const NAME_HEIGHT: f32 = 16.0;
+/// Between two thumbnails, in points.
+const GAP: f32 = 6.0;
+
+/// Thumbnails as textures of exactly the size in which they are shown.
+#[derive(Debug, Default)]
+pub(super) struct Thumbnails {
+    textures: Vec<Option<Thumbnail>>,
+}
+
+struct Thumbnail {
+    source: Arc<Framebuffer>,
+    room: [u32; 2],
+    texture: TextureHandle,
+}
+
+impl std::fmt::Debug for Thumbnail {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Thumbnail")
+            .field("room", &self.room)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Thumbnails {
+    /// The texture of a scene's thumbnail shrunk into `room` device pixels.
+    fn texture(&mut self, ui: &Ui, index: usize, source: &Arc<Framebuffer>, room: [u32; 2]) -> &TextureHandle {
+        if self.textures.len() <= index {
+            self.textures.resize_with(index + 1, || None);
+        }
+        let slot = &mut self.textures[index];
+        let stale = slot
+            .as_ref()
+            .is_none_or(|old| !Arc::ptr_eq(&old.source, source) || old.room != room);
+        if stale {
+            *slot = None;
+        }
+        let thumbnail = slot.get_or_insert_with(|| Thumbnail {
+            source: Arc::clone(source),
+            room,
+            texture: ui
+                .ctx()
+                .load_texture(format!("scene {index}"), shrunk(source, room), TextureOptions::NEAREST),
+        });
+        &thumbnail.texture
+    }
+}
+
+/// What the list asks for.
+#[derive(Debug, Default)]
+pub(super) struct Wishes {
+    /// Scenes whose thumbnails are in sight and missing.
+    pub(super) thumbnails: Vec<usize>,
+}
+
+/// The heading of the list, with buttons to step through it.
+pub(super) fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        ui.vertical(|ui| heading(ui, "Scenes"));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            for (id, text) in [("next-scene", "⏵"), ("previous-scene", "⏴")] {
+                if command_button(ui, id, text).clicked() {
+                    commands.extend(
+                        crate::viewer::commands::find(id)
+                            .and_then(crate::viewer::CommandSpec::command)
+                            .cloned(),
+                    );
+                }
+            }
+            let place = format!("{} of {}", viewer.current_index() + 1, viewer.scenes().len());
+            ui.label(RichText::new(place).weak().small());
+        });
+    });
+}
+
+/// The list itself.
+pub(super) fn list(
+    ui: &mut Ui,
+    viewer: &Viewer,
+    thumbnails: &mut Thumbnails,
+    wishes: &mut Wishes,
+    commands: &mut Vec<Command>,
+) {
+    let width = ((ui.available_width() - GAP * (COLUMNS - 1) as f32) / COLUMNS as f32).floor();
+    let cell = vec2(width, PICTURE_HEIGHT + NAME_HEIGHT);
+    ui.spacing_mut().item_spacing = vec2(GAP, GAP);
+    let scenes = viewer.scenes();
+    let mut index = 0;
+    while index < scenes.len() {
+        let folder = folder(&scenes[index]);
+        let count = scenes[index..]
+            .iter()
+            .take_while(|entry| self::folder(entry) == folder)
+            .count();
+        if !folder.is_empty() {
+            ui.label(RichText::new(folder).weak().small());
+        }
+        for first in (index..index + count).step_by(COLUMNS) {
+            ui.horizontal(|ui| {
+                for scene in first..(first + COLUMNS).min(index + count) {
+                    if picture(ui, viewer, scene, cell, (thumbnails, wishes)) {
+                        commands.push(Command::Scene(scene));
+                    }
+                }
+            });
+        }
+        index += count;
+    }
+}
+
+/// One scene: picture and name. True when it was clicked.
+fn picture(
+    ui: &mut Ui,
+    viewer: &Viewer,
+    index: usize,
+    cell: Vec2,
+    (thumbnails, wishes): (&mut Thumbnails, &mut Wishes),
+) -> bool {
+    let entry = &viewer.scenes()[index];
+    let (rect, response) = ui.allocate_exact_size(cell, Sense::click());
+    let current = index == viewer.current_index();
+    if current && !ui.memory(|memory| memory.data.get_temp::<usize>(shown_id()) == Some(index)) {
+        response.scroll_to_me(None);
+        ui.memory_mut(|memory| memory.data.insert_temp(shown_id(), index));
+    }
+    if ui.is_rect_visible(rect) {
+        let visuals = ui.visuals();
+        let frame = Rect::from_min_size(rect.min, vec2(cell.x, PICTURE_HEIGHT));
+        ui.painter().rect_filled(frame, CornerRadius::same(4), Color32::WHITE);
+        if let Some(source) = &entry.thumbnail {
+            let scale = ui.pixels_per_point();
+            let texture = thumbnails.texture(ui, index, source, room(frame.size() - Vec2::splat(6.0), scale));
+            let size = texture.size_vec2() / scale;
+            let corner = ((frame.center() - size / 2.0) * scale).round() / scale;
+            let unit = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            ui.painter()
+                .image(texture.id(), Rect::from_min_size(corner, size), unit, Color32::WHITE);
+        } else if entry.failure().is_some() {
+            ui.painter().text(
+                frame.center(),
+                Align2::CENTER_CENTER,
+                "✖",
+                FontId::proportional(20.0),
+                visuals.error_fg_color,
+            );
+        } else {
+            wishes.thumbnails.push(index);
+        }
+        let line = if current {
+            egui::Stroke::new(2.0, visuals.selection.bg_fill)
+        } else if response.hovered() {
+            egui::Stroke::new(1.0, visuals.widgets.hovered.fg_stroke.color)
+        } else {
+            visuals.widgets.noninteractive.bg_stroke
+        };
+        ui.painter()
+            .rect_stroke(frame, CornerRadius::same(4), line, StrokeKind::Inside);
+        let color = if current {
+            visuals.strong_text_color()
+        } else {
+            visuals.weak_text_color()
+        };
+        name_below(ui, rect, name(entry), color);
+    }
+    let key = if index < 9 {
+        format!(" ({})", index + 1)
+    } else {
+        String::new()
+    };
+    let tip = match entry.failure() {
+        Some(message) => message.to_owned(),
+        None => format!("{}{key}", entry.label),
+    };
+    response
+        .on_hover_text(tip)
+        .accessible_name(format!("Scene {}", entry.label))
+        .clicked()
+}
+
+fn shown_id() -> egui::Id {
+    egui::Id::unique("scene scrolled to")
+}
+
+/// The name, shortened to the width of the cell.
+fn name_below(ui: &Ui, cell: Rect, name: &str, color: Color32) {
+    let mut job = egui::text::LayoutJob::simple_singleline(name.to_owned(), FontId::proportional(11.0), color);
+    job.wrap = egui::text::TextWrapping::truncate_at_width(cell.width());
+    let galley = ui.painter().layout_job(job);
+    let at = pos2(
+        cell.center().x - galley.size().x / 2.0,
+        cell.top() + PICTURE_HEIGHT + 1.0,
+    );
+    ui.painter().galley(at, galley, color);
+}
+
+/// The folder part of a scene's label.
+fn folder(entry: &SceneEntry) -> &str {
+    entry.label.rsplit_once(['/', '\\']).map_or("", |(folder, _)| folder)
+}
+
+/// The file's name without its ending.
+fn name(entry: &SceneEntry) -> &str {
+    let file = entry.label.rsplit(['/', '\\']).next().unwrap_or(&entry.label);
+    file.strip_suffix(".svg").unwrap_or(file)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to small positive numbers first; NaN becomes 0"
+)]
+fn room(points: Vec2, scale: f32) -> [u32; 2] {
+    [points.x, points.y].map(|side| (side * scale).clamp(1.0, 4096.0) as u32)
+}
+
+/// The picture over white, shrunk to fit `room` with its aspect kept; each pixel is the mean of those that it covers.
+fn shrunk(source: &Framebuffer, room: [u32; 2]) -> ColorImage {
+    let [width, height] = [source.width().max(1), source.height().max(1)];
+    let (w, h) = (u64::from(width), u64::from(height));
+    // The side that is tighter decides.
+    let [rw, rh] = room.map(u64::from);
+    let (to_w, to_h) = if w * rh > h * rw {
+        (rw, (h * rw / w).max(1))
+    } else {
+        ((w * rh / h).max(1), rh)
+    };
+    let (to_w, to_h) = (to_w.min(w), to_h.min(h));
+    let mut pixels = Vec::new();
+    for y in 0..to_h {
+        for x in 0..to_w {
+            pixels.push(mean(
+                source,
+                [x * w / to_w, (x + 1) * w / to_w],
+                [y * h / to_h, (y + 1) * h / to_h],
+            ));
+        }
+    }
+    let size = [to_w, to_h].map(|side| usize::try_from(side).unwrap_or(1));
+    ColorImage::new(size, pixels)
+}
+
+fn mean(source: &Framebuffer, columns: [u64; 2], rows: [u64; 2]) -> Color32 {
+    let mut sum = [0_u64; 3];
+    let mut count = 0;
+    for y in rows[0]..rows[1].max(rows[0] + 1) {
+        for x in columns[0]..columns[1].max(columns[0] + 1) {
+            let place = u32::try_from(x).ok().zip(u32::try_from(y).ok());
+            let Some([r, g, b, a]) = place.and_then(|(x, y)| source.rgba(x, y)) else {
+                continue;
+            };
+            for (sum, channel) in sum.iter_mut().zip([r, g, b]) {
+                *sum += (u64::from(channel) * u64::from(a) + 255 * (255 - u64::from(a))) / 255;
+            }
+            count += 1;
+        }
+    }
+    let [r, g, b] = sum.map(|sum| u8::try_from((sum + count / 2) / count.max(1)).unwrap_or(255));
+    Color32::from_rgb(r, g, b)
+}

@@ -1,0 +1,105 @@
+//! The status line: the pixel under the pointer, where it lies, its colour; and what the window shows.
+
+use egui::{Align, Color32, CornerRadius, FontId, Layout, RichText, Sense, Stroke, StrokeKind, Ui, vec2};
+
+use super::controls::tip;
+use crate::viewer::{Command, Status, Toggle, Viewer};
+
+/// Height of the line's contents, in points.
+const HEIGHT: f32 = 18.0;
+
+/// Fills the line.
+pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    ui.set_height(HEIGHT);
+    ui.horizontal_centered(|ui| {
+        ui.spacing_mut().item_spacing.x = 6.0;
+        match viewer.status() {
+            Some(status) => pixel(ui, &status, viewer.pinned_pixel().is_some()),
+            None => {
+                ui.label(RichText::new("point at a pixel; Z magnifies it, ? shows all keys").weak());
+            }
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            panel_switch(ui, viewer, commands);
+            picture(ui, viewer);
+        });
+    });
+}
+
+/// Folds the side panel, or brings it back.
+fn panel_switch(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let button = egui::Button::selectable(viewer.panel(), "Panel")
+        .frame_when_inactive(true)
+        .small();
+    if ui
+        .add(button)
+        .on_hover_text(tip("panel"))
+        .accessible_name("Side panel")
+        .clicked()
+    {
+        commands.push(Command::Panel(Toggle::Flip));
+    }
+    ui.add_space(4.0);
+}
+
+fn pixel(ui: &mut Ui, status: &Status, pinned: bool) {
+    let [x, y] = status.pixel;
+    field(ui, if pinned { "pinned" } else { "pixel" }, &format!("{x}, {y}"));
+    field(ui, "user", &status.user_text());
+    if let Some(([r, g, b, _], (decimal, hex))) = status.rgba.zip(status.decimal_text().zip(status.hex_text())) {
+        let (swatch, response) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::hover());
+        let line = Stroke::new(1.0, ui.visuals().widgets.noninteractive.fg_stroke.color);
+        ui.painter()
+            .rect_filled(swatch, CornerRadius::same(3), Color32::from_rgb(r, g, b));
+        ui.painter()
+            .rect_stroke(swatch, CornerRadius::same(3), line, StrokeKind::Inside);
+        response.accessible_name(format!("Colour {hex}"));
+        ui.label(RichText::new(decimal).font(numbers()));
+        ui.label(RichText::new(hex).font(numbers()));
+    }
+}
+
+fn field(ui: &mut Ui, name: &str, value: &str) {
+    ui.label(RichText::new(name).weak().small());
+    ui.label(RichText::new(value).font(numbers()));
+    ui.add_space(4.0);
+}
+
+/// Size, scale and settings in few words, as far as there is room.
+fn picture(ui: &mut Ui, viewer: &Viewer) {
+    let [width, height] = viewer.frame_size();
+    let render = &viewer.settings().render;
+    let mut words = vec![format!("{width}×{height}")];
+    if let Some(numbers) = viewer.view_numbers() {
+        words.push(format!("{} px/unit", short(numbers.scale)));
+    }
+    words.push(format!("{}×", render.sample_rate.samples()));
+    words.push(format!(
+        "{} / {}",
+        render.pixel_sampling.name(),
+        render.level_sampling.name()
+    ));
+    for word in words {
+        let font = FontId::proportional(11.0);
+        let color = ui.visuals().weak_text_color();
+        let galley = ui.painter().layout_no_wrap(word, font, color);
+        if galley.size().x + 16.0 > ui.available_width() {
+            return;
+        }
+        ui.label(galley);
+        ui.add_space(4.0);
+    }
+}
+
+fn numbers() -> FontId {
+    FontId::monospace(12.0)
+}
+
+/// A number with about four digits.
+pub(super) fn short(value: f64) -> String {
+    match value {
+        v if (0.01..10.0).contains(&v) => format!("{v:.3}"),
+        v if (10.0..10_000.0).contains(&v) => format!("{v:.1}"),
+        v => format!("{v:.2e}"),
+    }
+}

@@ -1,0 +1,474 @@
+//! A viewer with its panels: routes keys and pointer to the one or the other, runs egui, and puts the picture of the
+//! whole window together. Knows no window system, so that a session runs with or without a display.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use egui::{Event, PlatformOutput, Pos2, RawInput, Rect, ViewportId, pos2, vec2};
+use glam::DVec2;
+
+use super::interface::{Asked, Interface};
+use super::overlay::Overlay;
+use crate::figure::save_png;
+use crate::raster::Framebuffer;
+use crate::viewer::script::Stage;
+use crate::viewer::{
+    Command, Dialog, Effect, Key, KeyPress, Modifiers, PixelRect, PointerButton, Toggle, Viewer, commands,
+};
+
+/// Passes of the panels for one change: a command of a panel changes what the panels show.
+const MAX_PASSES: u32 = 4;
+/// Rounds until a picture without a window counts as at rest.
+const MAX_ROUNDS: u32 = 50;
+/// Simulated seconds per round.
+const ROUND: f64 = 0.1;
+
+/// What time it is for the panels.
+#[derive(Debug)]
+pub(super) enum Clock {
+    /// Real time.
+    Real(Instant),
+    /// Seconds that pass only when a script says so: pictures do not depend on the machine.
+    Simulated(f64),
+}
+
+/// What a pass of the panels asks of the window system.
+#[derive(Default)]
+pub(super) struct Turn {
+    /// Pointer shape, text for the clipboard, text input.
+    pub(super) platform: PlatformOutput,
+    /// When the panels want the next pass.
+    pub(super) next: Duration,
+}
+
+/// A viewer with its panels.
+#[derive(Debug)]
+pub(super) struct Session {
+    viewer: Viewer,
+    interface: Interface,
+    overlay: Overlay,
+    clock: Clock,
+    /// Device pixels per point.
+    scale: f32,
+    /// The window's pixels below the panels, and the viewer's revision that they show.
+    below: Framebuffer,
+    below_revision: Option<u64>,
+    free_area: Option<PixelRect>,
+    pointer: Option<DVec2>,
+    /// A drag that began on the picture stays with it.
+    holds_picture: bool,
+    /// The side panel folds by itself until the user says what he wants.
+    panel_follows: bool,
+    modifiers: Modifiers,
+    /// For the next pass.
+    events: Vec<Event>,
+    outbox: Outbox,
+}
+
+/// What the program around has to do.
+#[derive(Debug, Default)]
+struct Outbox {
+    quit: bool,
+    copied: Option<String>,
+}
+
+impl Session {
+    /// A session with `scale` device pixels per point.
+    pub(super) fn new(viewer: Viewer, scale: f32, clock: Clock) -> Self {
+        let timed = matches!(clock, Clock::Real(_));
+        let mut session = Self {
+            viewer,
+            interface: Interface::new(timed),
+            overlay: Overlay::default(),
+            clock,
+            scale,
+            below: Framebuffer::default(),
+            below_revision: None,
+            free_area: None,
+            pointer: None,
+            holds_picture: false,
+            panel_follows: true,
+            modifiers: Modifiers::NONE,
+            events: Vec::new(),
+            outbox: Outbox::default(),
+        };
+        session.fold_panel();
+        session
+    }
+
+    pub(super) fn viewer(&self) -> &Viewer {
+        &self.viewer
+    }
+
+    pub(super) fn ctx(&self) -> &egui::Context {
+        self.interface.ctx()
+    }
+
+    /// Takes in what the viewer's threads finished; true if something is to be shown anew.
+    pub(super) fn poll(&mut self) -> bool {
+        self.viewer.poll()
+    }
+
+    /// The text that a command copied.
+    pub(super) fn take_copied(&mut self) -> Option<String> {
+        self.outbox.copied.take()
+    }
+
+    /// Another size of the window, in device pixels, or another scale of the panels.
+    pub(super) fn set_size(&mut self, size: [u32; 2], scale: f32) {
+        self.scale = scale;
+        if self.viewer.window_size() != size {
+            self.run(Command::Resize(size));
+        }
+        self.fold_panel();
+    }
+
+    /// Folds the side panel where it would reach into the default view's canvas, until the user decides.
+    fn fold_panel(&mut self) {
+        let size = self.viewer.window_size().map(|side| side as f32 / self.scale);
+        let fits = Interface::panel_fits(size);
+        if self.panel_follows && fits != self.viewer.panel() {
+            let to = if fits { Toggle::On } else { Toggle::Off };
+            self.apply(Command::Panel(to));
+        }
+    }
+
+    /// Runs a command and carries out its effects.
+    pub(super) fn run(&mut self, command: Command) {
+        self.panel_follows &= !matches!(command, Command::Panel(_));
+        self.apply(command);
+    }
+
+    fn apply(&mut self, command: Command) {
+        for effect in self.viewer.apply(command) {
+            match effect {
+                Effect::CopyText(text) => self.outbox.copied = Some(text),
+                Effect::PictureOfWindow => {
+                    let picture = self.picture();
+                    self.viewer.save_window_picture(picture);
+                }
+                Effect::Quit => self.outbox.quit = true,
+            }
+        }
+    }
+
+    /// The command that a key asks for, unless a line of text wants the key.
+    pub(super) fn command_for(&self, press: &KeyPress) -> Option<Command> {
+        let command = commands::for_key(press)?;
+        let typing = self.interface.has_keyboard();
+        let asks = matches!(self.viewer.dialog(), Some(Dialog::Palette | Dialog::GoToPixel));
+        let passes = match press.logical {
+            _ if !typing && !asks => true,
+            Some(Key::Escape) => asks,
+            Some(Key::F(_)) => true,
+            Some(Key::Char(c)) => press.modifiers.contains(Modifiers::CTRL) && !"acvxyz".contains(c),
+            _ => false,
+        };
+        passes.then(|| command.clone())
+    }
+
+    /// A pointer at `at`, in window pixels, or none in the window. True if the picture has it.
+    pub(super) fn pointer_at(&mut self, at: Option<DVec2>) -> bool {
+        self.pointer = at;
+        let on_picture = self.holds_picture || self.is_on_picture();
+        match at {
+            Some(at) if on_picture => self.run(Command::PointerMoved { at }),
+            _ if self.viewer.pointer().is_some() => self.run(Command::PointerLeft),
+            _ => {}
+        }
+        on_picture
+    }
+
+    /// A button of the mouse at the pointer's place. True if the picture took it.
+    pub(super) fn pointer_button(&mut self, button: PointerButton, down: bool) -> bool {
+        if down && self.is_on_picture() {
+            self.holds_picture = button == PointerButton::Primary;
+            self.run(Command::PointerPressed(button));
+            return true;
+        }
+        if !down && self.holds_picture {
+            self.holds_picture = false;
+            self.run(Command::PointerReleased(button));
+            self.pointer_at(self.pointer);
+            return true;
+        }
+        false
+    }
+
+    /// Turns of the wheel. True if the picture took them.
+    pub(super) fn turn_wheel(&mut self, clicks: f64) -> bool {
+        let on_picture = self.is_on_picture();
+        if on_picture {
+            self.run(Command::Wheel { clicks });
+        }
+        on_picture
+    }
+
+    /// Two fingers on a touch pad. True if the picture took them.
+    pub(super) fn pinch(&mut self, factor: f64) -> bool {
+        let on_picture = self.is_on_picture();
+        if on_picture {
+            self.run(Command::Pinch { factor });
+        }
+        on_picture
+    }
+
+    fn is_on_picture(&self) -> bool {
+        self.pointer
+            .is_some_and(|at| !self.interface.covers(self.to_points(at)))
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "window pixels are small")]
+    fn to_points(&self, at: DVec2) -> Pos2 {
+        pos2(at.x as f32, at.y as f32) / self.scale
+    }
+
+    /// Seconds on the panels' clock.
+    fn now(&self) -> f64 {
+        match self.clock {
+            Clock::Real(start) => start.elapsed().as_secs_f64(),
+            Clock::Simulated(now) => now,
+        }
+    }
+
+    /// Runs the panels on `input`, does what they ask for, and paints them.
+    pub(super) fn turn(&mut self, mut input: RawInput) -> Turn {
+        let size = self.viewer.window_size();
+        let mut turn = Turn::default();
+        if size.contains(&0) {
+            turn.next = Duration::MAX;
+            return turn;
+        }
+        input.events.append(&mut self.events);
+        for _ in 0..MAX_PASSES {
+            input.time = Some(self.now());
+            let points = vec2(size[0] as f32, size[1] as f32) / self.scale;
+            input.screen_rect = Some(Rect::from_min_size(Pos2::ZERO, points));
+            let viewport = input.viewports.entry(ViewportId::ROOT).or_default();
+            viewport.native_pixels_per_point = Some(self.scale);
+            let mut asked = Asked::default();
+            let (interface, viewer) = (&mut self.interface, &self.viewer);
+            let ctx = interface.ctx().clone();
+            let mut output = ctx.run_ui(input.take(), |ui| {
+                asked = Asked::default();
+                interface.show(ui, viewer, &mut asked);
+            });
+            let shapes = std::mem::take(&mut output.shapes);
+            let primitives = ctx.tessellate(shapes, output.pixels_per_point);
+            self.overlay
+                .paint(size, output.pixels_per_point, primitives, &mut output.textures_delta);
+            let root = output.viewport_output.get(&ViewportId::ROOT);
+            turn.next = root.map_or(Duration::MAX, |root| root.repaint_delay);
+            turn.platform.append(std::mem::take(&mut output.platform_output));
+            if !self.carry_out(asked) {
+                break;
+            }
+        }
+        turn
+    }
+
+    /// Does what the panels ask for; true if they are to be shown anew.
+    fn carry_out(&mut self, asked: Asked) -> bool {
+        for index in asked.thumbnails {
+            self.viewer.request_thumbnail(index);
+        }
+        let mut any = false;
+        for command in asked.commands {
+            if let Command::SetFreeArea(area) = command {
+                if self.free_area == area {
+                    continue;
+                }
+                self.free_area = area;
+            }
+            self.run(command);
+            any = true;
+        }
+        any
+    }
+
+    /// The window's pixels below the panels.
+    fn below(&mut self) -> &Framebuffer {
+        let [width, height] = self.viewer.window_size().map(|side| side.min(Framebuffer::MAX_SIDE));
+        let revision = self.viewer.revision();
+        let resized = [self.below.width(), self.below.height()] != [width, height];
+        if resized {
+            self.below = Framebuffer::new(width, height);
+        }
+        if resized || self.below_revision != Some(revision) {
+            self.viewer.draw_window(&mut self.below);
+            self.below_revision = Some(revision);
+        }
+        &self.below
+    }
+
+    /// Writes the whole window's pixels into a surface whose rows are `width` pixels long. What the window has no
+    /// pixel for is left as it is.
+    pub(super) fn compose(&mut self, surface: &mut [u32], width: u32) {
+        self.below();
+        if self.below.width() == width && surface.len() == self.below.pixels().len() {
+            surface.copy_from_slice(self.below.pixels());
+            self.overlay.canvas().lay_over(surface);
+        }
+    }
+
+    /// The picture of the whole window.
+    pub(super) fn picture(&mut self) -> Framebuffer {
+        let mut picture = self.below().clone();
+        let width = picture.width();
+        self.compose(picture.pixels_mut(), width);
+        for pixel in picture.pixels_mut() {
+            *pixel |= 0xff00_0000;
+        }
+        picture
+    }
+
+    /// A turn without any window system behind it.
+    fn quiet_turn(&mut self) -> Turn {
+        let input = RawInput {
+            focused: true,
+            ..RawInput::default()
+        };
+        self.turn(input)
+    }
+}
+
+/// A script is played as if a hand did it: through the panels.
+impl Stage for Session {
+    fn command(&mut self, command: Command) {
+        self.run(command);
+        self.quiet_turn();
+    }
+
+    fn settle(&mut self) {
+        for _ in 0..MAX_ROUNDS {
+            self.viewer.finish_thumbnails();
+            let revision = self.viewer.revision();
+            if let Clock::Simulated(now) = &mut self.clock {
+                *now += ROUND;
+            }
+            let turn = self.quiet_turn();
+            if turn.next > Duration::from_millis(300) && self.viewer.revision() == revision && self.viewer.is_settled()
+            {
+                return;
+            }
+        }
+    }
+
+    fn shot(&mut self, path: &Path) -> Result<(), String> {
+        self.settle();
+        save_png(&self.picture(), path).map_err(|error| {
+            format!(
+                "{}: cannot write this file: {error}; choose another place",
+                path.display()
+            )
+        })
+    }
+
+    fn has_quit(&self) -> bool {
+        self.outbox.quit
+    }
+
+    fn key(&mut self, press: KeyPress) {
+        if let Some(command) = self.command_for(&press) {
+            self.command(command);
+            return;
+        }
+        let Some(key) = press.logical.and_then(egui_key) else {
+            return;
+        };
+        let modifiers = egui_modifiers(press.modifiers);
+        for pressed in [true, false] {
+            self.events.push(Event::Key {
+                key,
+                physical_key: None,
+                pressed,
+                repeat: false,
+                modifiers,
+            });
+            if let (true, Some(Key::Char(character)), Modifiers::NONE) = (pressed, press.logical, press.modifiers) {
+                self.events.push(Event::Text(character.to_string()));
+            }
+        }
+        self.quiet_turn();
+    }
+
+    fn type_text(&mut self, text: &str) {
+        self.events.push(Event::Text(text.to_owned()));
+        self.quiet_turn();
+    }
+
+    fn pointer(&mut self, at: Option<DVec2>) {
+        self.pointer_at(at);
+        self.events.push(match at {
+            Some(at) => Event::PointerMoved(self.to_points(at)),
+            None => Event::PointerGone,
+        });
+        self.quiet_turn();
+    }
+
+    fn button(&mut self, button: PointerButton, down: bool) {
+        self.pointer_button(button, down);
+        if let Some(at) = self.pointer {
+            self.events.push(Event::PointerButton {
+                pos: self.to_points(at),
+                button: match button {
+                    PointerButton::Primary => egui::PointerButton::Primary,
+                    PointerButton::Secondary => egui::PointerButton::Secondary,
+                },
+                pressed: down,
+                modifiers: egui_modifiers(self.modifiers),
+            });
+        }
+        self.quiet_turn();
+    }
+
+    fn wheel(&mut self, clicks: f64) {
+        if !self.turn_wheel(clicks) {
+            #[expect(clippy::cast_possible_truncation, reason = "a few clicks")]
+            let delta = vec2(0.0, clicks as f32);
+            self.events.push(Event::MouseWheel {
+                unit: egui::MouseWheelUnit::Line,
+                delta,
+                phase: egui::TouchPhase::Move,
+                source: egui::MouseWheelSource::Wheel,
+                modifiers: egui_modifiers(self.modifiers),
+            });
+        }
+        self.quiet_turn();
+    }
+
+    fn resize(&mut self, size: [u32; 2]) {
+        self.set_size(size, self.scale);
+        self.quiet_turn();
+    }
+
+    fn wait(&mut self, time: Duration) {
+        if let Clock::Simulated(now) = &mut self.clock {
+            *now += time.as_secs_f64();
+        }
+        self.quiet_turn();
+    }
+}
+
+/// egui's name of a key.
+fn egui_key(key: Key) -> Option<egui::Key> {
+    match key {
+        Key::Left => Some(egui::Key::ArrowLeft),
+        Key::Right => Some(egui::Key::ArrowRight),
+        Key::Up => Some(egui::Key::ArrowUp),
+        Key::Down => Some(egui::Key::ArrowDown),
+        Key::Escape => Some(egui::Key::Escape),
+        other => egui::Key::from_name(&other.to_string()),
+    }
+}
+
+fn egui_modifiers(modifiers: Modifiers) -> egui::Modifiers {
+    let ctrl = modifiers.contains(Modifiers::CTRL);
+    egui::Modifiers {
+        alt: modifiers.contains(Modifiers::ALT),
+        ctrl,
+        shift: modifiers.contains(Modifiers::SHIFT),
+        mac_cmd: false,
+        command: ctrl,
+    }
+}

@@ -1,0 +1,181 @@
+//! An open window: its surface, its session, and when it is to be drawn next.
+//!
+//! The surface is the one source of the window's size: it is set from the last `Resized` event, and everything else
+//! follows it. Nothing is drawn unless something changed, and never more often than every 16 ms, since X11 does not
+//! wait for the screen.
+
+use std::num::NonZeroU32;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use softbuffer::{Context, SoftBufferError, Surface};
+use winit::dpi::PhysicalSize;
+use winit::event_loop::OwnedDisplayHandle;
+use winit::window::Window;
+
+use super::super::session::Session;
+
+/// Least time between two frames.
+const FLOOR: Duration = Duration::from_millis(16);
+/// Longest wait for the frame of a new size, so that a resized window shows no border.
+const RESIZE_WAIT: Duration = Duration::from_millis(24);
+
+/// An open window.
+pub(super) struct Opened {
+    pub(super) window: Arc<Window>,
+    pub(super) session: Session,
+    pub(super) egui: egui_winit::State,
+    surface: Surface<OwnedDisplayHandle, Arc<Window>>,
+    /// From the last event that told it.
+    size: PhysicalSize<u32>,
+    title: String,
+    /// Nothing of the window can be seen.
+    pub(super) occluded: bool,
+    /// Something changed since the last frame; the viewer's revision tells what it knows.
+    dirty: bool,
+    drawn_revision: u64,
+    last_frame: Option<Instant>,
+    /// When the panels want to be shown again.
+    next_wish: Option<Instant>,
+}
+
+impl std::fmt::Debug for Opened {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Opened")
+            .field("size", &self.size)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Opened {
+    /// Makes a surface for `window`.
+    ///
+    /// # Errors
+    /// When the display does not take pictures.
+    pub(super) fn new(
+        display: OwnedDisplayHandle,
+        window: Arc<Window>,
+        session: Session,
+    ) -> Result<Self, SoftBufferError> {
+        let egui = egui_winit::State::new(
+            session.ctx().clone(),
+            egui::ViewportId::ROOT,
+            &display,
+            Some(scale_of(&window)),
+            window.theme(),
+            None,
+        );
+        let surface = Surface::new(&Context::new(display)?, Arc::clone(&window))?;
+        let size = window.inner_size();
+        let mut opened = Self {
+            window,
+            session,
+            egui,
+            surface,
+            size,
+            title: String::new(),
+            occluded: false,
+            dirty: true,
+            drawn_revision: 0,
+            last_frame: None,
+            next_wish: None,
+        };
+        opened.resized(size);
+        Ok(opened)
+    }
+
+    /// Another size or scale; zero while the window is minimised.
+    pub(super) fn resized(&mut self, size: PhysicalSize<u32>) {
+        self.size = size;
+        let longest = crate::raster::Framebuffer::MAX_SIDE;
+        let pixels = [size.width, size.height].map(|side| side.min(longest));
+        self.session.set_size(pixels, scale_of(&self.window));
+        self.dirty = true;
+    }
+
+    /// The scale of the monitor changed; the size follows in an event of its own.
+    pub(super) fn rescaled(&mut self) {
+        self.resized(self.size);
+    }
+
+    /// Something is to be shown anew.
+    pub(super) fn touch(&mut self) {
+        self.dirty = true;
+    }
+
+    /// Asks for a frame if one is due; returns when to look again, `None` for "when something happens".
+    pub(super) fn schedule(&mut self) -> Option<Instant> {
+        let now = Instant::now();
+        self.dirty |= self.session.viewer().revision() != self.drawn_revision;
+        if self.next_wish.is_some_and(|wish| wish <= now) {
+            self.dirty = true;
+        }
+        if self.occluded || self.size.width == 0 || self.size.height == 0 {
+            return None;
+        }
+        if !self.dirty {
+            return self.next_wish;
+        }
+        let due = self
+            .last_frame
+            .and_then(|last| last.checked_add(FLOOR))
+            .filter(|due| *due > now);
+        if due.is_none() {
+            self.window.request_redraw();
+        }
+        due
+    }
+
+    /// Draws and presents a frame.
+    ///
+    /// # Errors
+    /// When the display refuses it.
+    pub(super) fn draw(&mut self) -> Result<(), SoftBufferError> {
+        let PhysicalSize { width, height } = self.size;
+        let Some((columns, rows)) = NonZeroU32::new(width).zip(NonZeroU32::new(height)) else {
+            return Ok(());
+        };
+        self.last_frame = Some(Instant::now());
+        self.dirty = false;
+        self.await_resized_frame();
+        let input = self.egui.take_egui_input(&self.window);
+        let turn = self.session.turn(input);
+        self.egui.handle_platform_output(&self.window, turn.platform);
+        if let Some(text) = self.session.take_copied() {
+            self.egui.set_clipboard_text(text);
+        }
+        self.next_wish = Instant::now().checked_add(turn.next);
+        self.drawn_revision = self.session.viewer().revision();
+        self.surface.resize(columns, rows)?;
+        let mut buffer = self.surface.buffer_mut()?;
+        self.session.compose(&mut buffer, width);
+        self.window.pre_present_notify();
+        buffer.present()?;
+        let title = self.session.viewer().title();
+        if title != self.title {
+            self.window.set_title(&title);
+            self.title = title;
+        }
+        Ok(())
+    }
+
+    /// Gives the frame of a new size a moment to be finished.
+    fn await_resized_frame(&mut self) {
+        let start = Instant::now();
+        while start.elapsed() < RESIZE_WAIT {
+            self.session.poll();
+            let viewer = self.session.viewer();
+            let is_right = |frame: &crate::viewer::Frame| frame.picture.size == viewer.frame_size();
+            if viewer.is_settled() || viewer.frame().is_some_and(is_right) {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+}
+
+/// Device pixels per point.
+#[expect(clippy::cast_possible_truncation, reason = "a small number")]
+fn scale_of(window: &Window) -> f32 {
+    (window.scale_factor() as f32).clamp(0.5, 8.0)
+}

@@ -1,0 +1,155 @@
+//! Why a window cannot be opened, told apart: no display, or a library of the system that is missing.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use winit::event_loop::EventLoop;
+
+/// Sent from other threads: the viewer has something to take in.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wake;
+
+/// Why there is no window.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum NoWindow {
+    /// Nothing to open a window on; a few words say why.
+    NoDisplay(String),
+    /// A library is missing: one line with the packages that have it.
+    MissingLibrary(String),
+}
+
+/// Libraries that are loaded when a window opens, and the Debian packages that have them. A name that begins another
+/// one stands after it.
+const LIBRARIES: [(&str, &str); 7] = [
+    ("libxkbcommon-x11", "libxkbcommon-x11-0"),
+    ("libxkbcommon", "libxkbcommon0"),
+    ("libx11-xcb", "libx11-xcb1"),
+    ("libx11", "libx11-6"),
+    ("libxcursor", "libxcursor1"),
+    ("libxi", "libxi6"),
+    ("libwayland-client", "libwayland-client0"),
+];
+/// All that a window on X11 needs.
+const X11_PACKAGES: &str = "libx11-6 libxcursor1 libxi6 libx11-xcb1 libxkbcommon-x11-0";
+/// All that a window on Wayland needs.
+const WAYLAND_PACKAGES: &str = "libwayland-client0 libxkbcommon0";
+
+/// Connects to the display.
+pub(super) fn event_loop() -> Result<EventLoop<Wake>, NoWindow> {
+    if cfg!(target_os = "linux") && !any_display(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty())) {
+        return Err(NoWindow::NoDisplay(
+            "neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned(),
+        ));
+    }
+    match quietly(|| EventLoop::with_user_event().build()) {
+        Ok(Ok(event_loop)) => Ok(event_loop),
+        Ok(Err(error)) => Err(explain(&format!("{error}"), &format!("{error:?}"))),
+        Err(panic) => Err(explain(&panic, "")),
+    }
+}
+
+fn any_display(is_set: impl Fn(&str) -> bool) -> bool {
+    ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(is_set)
+}
+
+/// Runs `work` and turns a panic into its message, without a word on stderr: winit panics where libraries are missing.
+fn quietly<R>(work: impl FnOnce() -> R) -> Result<R, String> {
+    let message = Arc::new(Mutex::new(String::new()));
+    let seen = Arc::clone(&message);
+    let before = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        *seen.lock().unwrap_or_else(PoisonError::into_inner) = info.to_string();
+    }));
+    let result = catch_unwind(AssertUnwindSafe(work));
+    std::panic::set_hook(before);
+    result.map_err(|_| message.lock().unwrap_or_else(PoisonError::into_inner).clone())
+}
+
+/// The cause behind a failure of the window system.
+fn explain(message: &str, details: &str) -> NoWindow {
+    let text = format!("{message} {details}").to_lowercase();
+    if let Some((library, package)) = LIBRARIES.into_iter().find(|(library, _)| text.contains(library)) {
+        return NoWindow::MissingLibrary(missing(&format!("the library {library} is missing"), package));
+    }
+    if text.contains("shared librar") || text.contains("nowaylandlib") || text.contains("xlib library") {
+        let wayland = text.contains("wayland");
+        let packages = if wayland { WAYLAND_PACKAGES } else { X11_PACKAGES };
+        let what = if wayland {
+            "a library of Wayland is missing"
+        } else {
+            "a library of X11 is missing"
+        };
+        return NoWindow::MissingLibrary(missing(what, packages));
+    }
+    NoWindow::NoDisplay(format!("the display does not answer ({})", one_line(message)))
+}
+
+fn missing(what: &str, packages: &str) -> String {
+    format!("cannot open a window: {what}; install it with: sudo apt install {packages}")
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn startup_names_the_package() {
+        let cases = [
+            (
+                "Library libxkbcommon-x11.so could not be loaded.",
+                "apt install libxkbcommon-x11-0",
+            ),
+            (
+                "Library libxkbcommon.so could not be loaded.",
+                "apt install libxkbcommon0",
+            ),
+            (
+                "libX11-xcb.so.1: cannot open shared object file",
+                "apt install libx11-xcb1",
+            ),
+            (
+                "libXcursor.so.1: cannot open shared object file",
+                "apt install libxcursor1",
+            ),
+            (
+                "Failed to load one of xlib's shared libraries",
+                "apt install libx11-6 libxcursor1",
+            ),
+            (
+                "WaylandError(Connection(NoWaylandLib))",
+                "apt install libwayland-client0",
+            ),
+        ];
+        for (message, cure) in cases {
+            match explain(message, "") {
+                NoWindow::MissingLibrary(line) => assert!(line.contains(cure) && !line.contains('\n'), "{line}"),
+                other @ NoWindow::NoDisplay(_) => panic!("{message}: {other:?}"),
+            }
+        }
+        let refused = explain("os error: failed to open connection\nto X server", "");
+        assert!(
+            matches!(&refused, NoWindow::NoDisplay(why) if !why.contains('\n')),
+            "{refused:?}"
+        );
+    }
+
+    #[test]
+    fn startup_panics_become_messages() {
+        assert_eq!(quietly(|| 7), Ok(7), "nothing happened");
+        let panic = quietly(|| panic!("Library libxkbcommon-x11.so could not be loaded.")).map(|()| 0);
+        assert!(
+            panic.is_err_and(|message| message.contains("libxkbcommon-x11")),
+            "the message is kept"
+        );
+    }
+
+    #[test]
+    fn startup_looks_for_any_display() {
+        assert!(any_display(|name| name == "WAYLAND_DISPLAY"), "Wayland alone");
+        assert!(!any_display(|_| false), "none");
+    }
+}

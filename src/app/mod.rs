@@ -11,18 +11,25 @@ pub mod overlay;
 mod session;
 mod window;
 
+use std::io::Write as _;
+
 pub use error::AppError;
 pub use options::{ScriptSource, ViewOptions};
 
 /// Opens the window, or plays a session without one, until the user quits. Where no display can be reached, the
-/// window's first frame is saved as PNG instead. The answer is a line for the user, if there is anything to say.
+/// window's first frame is saved as PNG instead, and a line on stdout says so.
 ///
 /// # Errors
 /// When a script is at fault, when neither a window nor a picture of one can be made.
-pub fn run(options: &ViewOptions) -> Result<Option<String>, AppError> {
-    if options.headless {
-        headless::run(options)
+pub fn run(options: ViewOptions) -> Result<(), AppError> {
+    let line = if options.headless {
+        headless::run(&options)?
     } else {
-        window::run(options)
+        window::run(options)?
+    };
+    if let Some(line) = line {
+        // Whoever closed stdout does not want to read it.
+        let _ = writeln!(std::io::stdout(), "{line}");
     }
+    Ok(())
 }

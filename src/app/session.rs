@@ -1,6 +1,7 @@
 //! A viewer with its panels: routes keys and pointer to the one or the other, runs egui, and puts the picture of the
 //! whole window together. Knows no window system, so that a session runs with or without a display.
 
+use std::io::Write as _;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -63,6 +64,8 @@ pub(super) struct Session {
     /// For the next pass.
     events: Vec<Event>,
     outbox: Outbox,
+    /// The scene whose report was told last.
+    told: Option<std::sync::Arc<crate::scene::Scene>>,
 }
 
 /// What the program around has to do.
@@ -91,6 +94,7 @@ impl Session {
             modifiers: Modifiers::NONE,
             events: Vec::new(),
             outbox: Outbox::default(),
+            told: None,
         };
         session.fold_panel();
         session
@@ -104,9 +108,30 @@ impl Session {
         self.interface.ctx()
     }
 
-    /// Takes in what the viewer's threads finished; true if something is to be shown anew.
-    pub(super) fn poll(&mut self) -> bool {
-        self.viewer.poll()
+    /// Takes in what the viewer's threads finished.
+    pub(super) fn poll(&mut self) {
+        self.viewer.poll();
+        self.tell_report();
+    }
+
+    /// Says on stderr, once for every scene that is shown, what its reader left out.
+    fn tell_report(&mut self) {
+        let Some((entry, scene)) = self.viewer.current().and_then(|entry| Some((entry, entry.scene()?))) else {
+            return;
+        };
+        if self
+            .told
+            .as_ref()
+            .is_some_and(|told| std::sync::Arc::ptr_eq(told, scene))
+        {
+            return;
+        }
+        let mut stderr = std::io::stderr().lock();
+        for line in scene.report.lines() {
+            // Whoever closed stderr does not want to read it.
+            let _ = writeln!(stderr, "{}: {line}", entry.source.address());
+        }
+        self.told = Some(std::sync::Arc::clone(scene));
     }
 
     /// The text that a command copied.
@@ -342,6 +367,7 @@ impl Stage for Session {
     fn settle(&mut self) {
         for _ in 0..MAX_ROUNDS {
             self.viewer.finish_thumbnails();
+            self.tell_report();
             let revision = self.viewer.revision();
             if let Clock::Simulated(now) = &mut self.clock {
                 *now += ROUND;

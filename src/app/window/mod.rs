@@ -15,18 +15,18 @@ use startup::NoWindow;
 ///
 /// # Errors
 /// When a script is at fault, or neither a window nor its picture can be made.
-pub(super) fn run(options: &ViewOptions) -> Result<Option<String>, AppError> {
-    let script = headless::read_script(options)?;
+pub(super) fn run(options: ViewOptions) -> Result<Option<String>, AppError> {
+    let script = headless::read_script(&options)?;
     let event_loop = match startup::event_loop() {
         Ok(event_loop) => event_loop,
         Err(NoWindow::MissingLibrary(line)) => return Err(AppError::Window(line)),
         Err(NoWindow::NoDisplay(why)) => {
-            let done = headless::run(options)?.unwrap_or_else(|| "played the script without a window".to_owned());
+            let done = headless::run(&options)?.unwrap_or_else(|| "played the script without a window".to_owned());
             let cure = "for a window start it in a desktop session, through ssh -X, or under xvfb-run";
             return Ok(Some(format!("no display, since {why}: {done}; {cure}")));
         }
     };
-    let mut handler = Handler::new(options.clone(), script, event_loop.create_proxy());
+    let mut handler = Handler::new(options, script, event_loop.create_proxy());
     let ended = event_loop.run_app(&mut handler);
     match handler.failure {
         Some(failure) => Err(failure),

@@ -22,6 +22,9 @@ impl Viewer {
     /// Any command is fine at any time: one that makes no sense now changes nothing.
     #[must_use = "the program around the viewer has to carry out the effects"]
     pub fn apply(&mut self, command: Command) -> Vec<Effect> {
+        if self.is_so_already(&command) {
+            return Vec::new();
+        }
         let effects = self.dispatch(command);
         self.update();
         effects
@@ -90,12 +93,28 @@ impl Viewer {
         self.want_frame();
         self.place_inset();
         self.want_samples();
+        let drawn = self.drawn_state();
+        if self.last_drawn != Some(drawn) {
+            self.last_drawn = Some(drawn);
+            self.picture_revision += 1;
+        }
         self.save_when_ready();
     }
 
     /// Whether everything but the picture is hidden.
     pub fn everything_hidden(&self) -> bool {
         self.screen.hidden
+    }
+
+    /// Whether a command that windows repeat tells nothing new.
+    fn is_so_already(&self, command: &Command) -> bool {
+        match command {
+            Command::PointerMoved { at } => self.pointer.at == Some(*at),
+            Command::PointerLeft => self.pointer.at.is_none(),
+            Command::Resize(size) => self.screen.window == *size,
+            Command::SetFreeArea(area) => self.screen.free_area == *area,
+            _ => false,
+        }
     }
 
     fn dispatch(&mut self, command: Command) -> Vec<Effect> {
@@ -161,8 +180,11 @@ impl Viewer {
     fn change_inspector(&mut self, command: Command) {
         match command {
             Command::Inspector(toggle) => {
-                self.inspector.open = toggle.of(self.inspector.open);
-                if !self.inspector.open {
+                // What is hidden is not open to the eye: the key shows it again.
+                self.inspector.open = toggle.of(self.inspector.open && !self.screen.hidden);
+                if self.inspector.open {
+                    self.screen.hidden = false;
+                } else {
                     self.inspector.pin = None;
                 }
             }
@@ -199,17 +221,14 @@ impl Viewer {
 
     /// Closes or unpins what is open, the latest first; quits when nothing is.
     fn escape(&mut self) -> Vec<Effect> {
-        if self.screen.dialog.take().is_some() || self.inspector.pin.take().is_some() {
+        let had_dialog = self.screen.dialog.take().is_some();
+        if had_dialog || std::mem::take(&mut self.screen.hidden) || self.inspector.pin.take().is_some() {
             return Vec::new();
         }
-        if self.inspector.open {
-            self.inspector.open = false;
-        } else if self.screen.hidden {
-            self.screen.hidden = false;
-        } else {
-            return vec![Effect::Quit];
+        if std::mem::take(&mut self.inspector.open) {
+            return Vec::new();
         }
-        Vec::new()
+        vec![Effect::Quit]
     }
 
     fn wheel(&mut self, clicks: f64) {

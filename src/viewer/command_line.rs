@@ -11,7 +11,10 @@ use crate::scene::DialectChoice;
 
 impl Viewer {
     pub(super) fn copy_pixel(&mut self) -> Vec<Effect> {
-        let pixel = self.pinned_pixel().or(self.hovered_pixel()).or(self.inspected_pixel());
+        // In the inset the pointer reads pixels that the user looks at; elsewhere it is where it happens to be.
+        let in_inset = self.hovered_pixel().filter(|_| self.pointer_over_inset());
+        let pinned = in_inset.or(self.pinned_pixel());
+        let pixel = pinned.or(self.hovered_pixel()).or(self.inspected_pixel());
         match pixel.and_then(|pixel| self.status_of(pixel)) {
             Some(status) => self.copy(status.to_string()),
             None => Vec::new(),

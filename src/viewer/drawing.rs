@@ -31,6 +31,8 @@ pub(super) struct Drawing {
     /// A picture whose drawing failed: not tried again.
     failed: Option<Picture>,
     last_finished: Instant,
+    /// Grows with every change of `frame`.
+    number: u64,
     /// Memory of an old frame.
     spare: Option<Framebuffer>,
 }
@@ -71,12 +73,18 @@ impl Drawing {
             running: None,
             failed: None,
             last_finished: Instant::now(),
+            number: 0,
             spare: None,
         })
     }
 
     pub(super) fn frame(&self) -> Option<&Frame> {
         self.frame.as_deref()
+    }
+
+    /// Another number, another frame.
+    pub(super) fn number(&self) -> u64 {
+        self.number
     }
 
     /// The frame for threads that outlive this state of the viewer.
@@ -99,7 +107,7 @@ impl Drawing {
     /// Nothing is to be seen: there is no scene.
     pub(super) fn clear(&mut self) {
         self.wanted = None;
-        self.frame = None;
+        self.number += u64::from(self.frame.take().is_some());
         if let Some(running) = &self.running {
             running.cancel.cancel();
         }
@@ -123,8 +131,9 @@ impl Drawing {
     /// Whether a running frame is not worth finishing, now that `newer` is wanted.
     fn gives_up(&self, running: &Running, newer: &Picture) -> bool {
         let other = !Arc::ptr_eq(&running.picture.scene, &newer.scene) || running.picture.size != newer.size;
-        let slow = running.started.elapsed() > SLOW || self.frame.as_ref().is_some_and(|f| f.stats.total() > SLOW);
-        other || (slow && self.last_finished.elapsed() < PATIENCE)
+        let last_took = self.frame.as_ref().map_or(Duration::ZERO, |frame| frame.stats.total());
+        let takes = running.started.elapsed().max(last_took);
+        other || is_too_slow(takes, self.last_finished.elapsed())
     }
 
     /// Takes in what became of the running frame; true if there is a new one on the screen.
@@ -135,6 +144,7 @@ impl Drawing {
         let fresh = match drawn {
             Drawn::Frame(frame) if self.wanted.is_some() => {
                 self.last_finished = Instant::now();
+                self.number += 1;
                 let old = self.frame.replace(Arc::from(frame));
                 self.spare = old.and_then(Arc::into_inner).map(|frame| frame.pixels);
                 true
@@ -174,6 +184,11 @@ impl Drawing {
     }
 }
 
+/// Whether a frame that `takes` so long is given up for a newer one, `since` the last finished one.
+fn is_too_slow(takes: Duration, since: Duration) -> bool {
+    takes > SLOW && since < PATIENCE
+}
+
 impl Drop for Drawing {
     fn drop(&mut self) {
         // The crew, dropped next, waits for the thread.
@@ -197,5 +212,21 @@ impl Job {
             }
         };
         guarded(work).unwrap_or(Drawn::Failed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn drag_always_shows_something() {
+        let ms = Duration::from_millis;
+        assert!(
+            !is_too_slow(ms(30), ms(0)),
+            "a quick frame is left to finish, or a drag would show nothing"
+        );
+        assert!(is_too_slow(ms(900), ms(100)), "a slow one makes room for the newest");
+        assert!(!is_too_slow(ms(900), ms(2500)), "but the window must not seem dead");
     }
 }

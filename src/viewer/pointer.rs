@@ -159,15 +159,16 @@ impl Viewer {
         if self.pinned_pixel() == Some(pixel) {
             self.inspector.pin = None;
         } else {
-            self.inspector.pin = Some(pixel);
-            self.inspector.open = true;
+            self.pin(pixel.map(i64::from));
         }
     }
 
+    /// Pins the pixel, or the nearest in the frame, and shows the inspector.
     pub(super) fn pin(&mut self, pixel: [i64; 2]) {
         if let Some(pixel) = self.nearest_in_frame(pixel) {
             self.inspector.pin = Some(pixel);
             self.inspector.open = true;
+            self.screen.hidden = false;
         }
     }
 
@@ -182,12 +183,10 @@ impl Viewer {
 
     /// Where the inset goes now.
     pub(super) fn place_inset(&mut self) {
-        let center = self.inspected_pixel().filter(|_| self.inspector.open);
+        let to_be_seen = self.inspector.open && !self.screen.hidden;
+        let center = self.inspected_pixel().filter(|_| to_be_seen);
         let window = PixelRect::of_size(self.screen.window);
-        let area = match self.screen.free_area {
-            Some(free) if !self.everything_hidden() => free.intersection(&window),
-            _ => window,
-        };
+        let area = self.screen.free_area.map_or(window, |free| free.intersection(&window));
         let zoom = self.settings.pixel_zoom.factor();
         self.inset = center.and_then(|center| self.inspector.place(center, zoom, &area));
     }

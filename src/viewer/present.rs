@@ -31,10 +31,16 @@ pub fn show(frame: &Framebuffer, zoom: PixelZoom, window: &mut Framebuffer) {
     }
 }
 
+/// One row of the window: `y` counts the rows within a row of the frame.
 fn show_row(source: &[u32], factor: usize, y: usize, row: &mut [u32]) {
     let reached = (source.len() * factor).min(row.len());
     let (shown, beyond) = row.split_at_mut(reached);
     beyond.fill(BEYOND);
+    let is_opaque = source.iter().fold(u32::MAX, |all, pixel| all & pixel) >> 24 == 0xff;
+    if is_opaque && factor == 1 {
+        shown.copy_from_slice(&source[..reached]);
+        return;
+    }
     for (index, (block, pixel)) in shown.chunks_mut(factor).zip(source).enumerate() {
         if pixel >> 24 == 0xff {
             block.fill(*pixel);

@@ -41,6 +41,8 @@ pub(super) struct Probing {
     wanted: Option<Target>,
     found: Option<Probed>,
     is_running: bool,
+    /// Grows with every change of what [`Probing::samples`] answers.
+    number: u64,
 }
 
 /// A pixel of a frame.
@@ -83,6 +85,7 @@ impl Probing {
             wanted: None,
             found: None,
             is_running: false,
+            number: 0,
         })
     }
 
@@ -94,6 +97,11 @@ impl Probing {
         }
     }
 
+    /// Another number, other samples.
+    pub(super) fn number(&self) -> u64 {
+        self.number
+    }
+
     /// Whether what is wanted was found.
     pub(super) fn is_current(&self) -> bool {
         let found = self.found.as_ref().map(|found| &found.target);
@@ -101,13 +109,17 @@ impl Probing {
     }
 
     fn want(&mut self, target: Option<Target>) {
-        self.wanted = target;
-        self.next();
+        if self.wanted != target {
+            self.wanted = target;
+            self.number += 1;
+            self.next();
+        }
     }
 
     pub(super) fn finished(&mut self, probed: Probed) {
         self.is_running = false;
         self.found = Some(probed);
+        self.number += 1;
         self.next();
     }
 

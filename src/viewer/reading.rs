@@ -208,6 +208,8 @@ impl Viewer {
             return;
         }
         let dialect = read.dialect;
+        // A scene that was read again looks different in small too.
+        entry.thumbnail_asked &= entry.scene().is_none();
         entry.state = match read.result {
             Ok(scene) => SceneState::Ready { scene, dialect },
             Err(message) => {

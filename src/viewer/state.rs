@@ -13,8 +13,8 @@ use super::probing::{Probed, Probing};
 use super::reading::{ReadScene, Readers, Thumbnail};
 use super::screenshot::{Saved, Saver};
 use super::{
-    Camera, Dialog, Frame, Inspector, Message, PixelRect, PlacedInset, SceneEntry, Settings, Sight, Theme, ViewNumbers,
-    library,
+    Camera, Dialog, Frame, Inspector, Message, PixelRect, PixelZoom, PlacedInset, SceneEntry, Settings, Sight, Theme,
+    ViewNumbers, library,
 };
 use crate::geometry::View;
 
@@ -63,6 +63,9 @@ pub struct Viewer {
     pub(super) saver: Saver,
     pub(super) results: Receiver<Finished>,
     pub(super) revision: u64,
+    pub(super) picture_revision: u64,
+    /// What `picture_revision` stands for.
+    pub(super) last_drawn: Option<DrawnState>,
 }
 
 /// What is to be seen in the window besides the picture.
@@ -82,6 +85,16 @@ pub(super) struct Screen {
 pub(super) struct Shown {
     pub(super) text: bool,
     pub(super) panel: bool,
+}
+
+/// What decides the pixels of [`Viewer::draw_window`]; a frame and probed samples by their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct DrawnState {
+    frame: u64,
+    samples: u64,
+    inset: Option<PlacedInset>,
+    pixel_zoom: PixelZoom,
+    window: [u32; 2],
 }
 
 /// What a thread finished.
@@ -155,6 +168,8 @@ impl Viewer {
             saver: Saver::start(&mailbox, options.screenshot_dir)?,
             results,
             revision: 0,
+            picture_revision: 0,
+            last_drawn: None,
         };
         viewer.open(&options.paths);
         viewer.update();
@@ -189,6 +204,22 @@ impl Viewer {
     /// Grows whenever something that is to be seen changed.
     pub fn revision(&self) -> u64 {
         self.revision
+    }
+
+    /// Grows whenever [`Viewer::draw_window`] draws other pixels than before: not, for instance, when only the pointer
+    /// moved.
+    pub fn picture_revision(&self) -> u64 {
+        self.picture_revision
+    }
+
+    pub(super) fn drawn_state(&self) -> DrawnState {
+        DrawnState {
+            frame: self.drawing.number(),
+            samples: self.probing.number(),
+            inset: self.inset,
+            pixel_zoom: self.settings.pixel_zoom,
+            window: self.screen.window,
+        }
     }
 
     /// All scenes, in the order of the list.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use arbtest::arbitrary::{Result, Unstructured};
 use glam::{DVec2, dvec2};
+use rasterscope::raster::Framebuffer;
 use rasterscope::viewer::{Action, Command, PixelRect, PointerButton, ViewNumbers, Viewer, ViewerOptions, commands};
 
 use crate::support::session::{SQUARE, Session, TRIANGLES};
@@ -96,6 +97,7 @@ fn random_commands_never_break_the_viewer() {
             ..ViewerOptions::default()
         };
         let mut viewer = Viewer::new(options).unwrap();
+        let mut drawn: Option<(u64, Framebuffer)> = None;
         for _ in 0..u.int_in_range(1..=40)? {
             let _ = viewer.apply(command(u)?);
             let _ = (viewer.status(), viewer.title(), viewer.command_line());
@@ -103,7 +105,14 @@ fn random_commands_never_break_the_viewer() {
             match u.int_in_range(0..=3)? {
                 0 => viewer.finish(),
                 1 => _ = viewer.poll(),
-                2 => _ = viewer.window_picture(),
+                2 => {
+                    let now = (viewer.picture_revision(), viewer.window_picture());
+                    let is_told = drawn
+                        .as_ref()
+                        .is_none_or(|(revision, picture)| *revision != now.0 || *picture == now.1);
+                    assert!(is_told, "other pixels have another revision");
+                    drawn = Some(now);
+                }
                 _ => {}
             }
         }

@@ -16,6 +16,7 @@ mod render;
 mod robustness;
 mod scene_course;
 mod scene_svg;
+mod scene_triangulation;
 mod support;
 mod viewer_random;
 mod viewer_replay;

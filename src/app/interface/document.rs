@@ -55,7 +55,7 @@ pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
     }
     let [a, b, c] = stages.map(|(name, time)| {
         if timed {
-            format!("{name} {}", milliseconds(time))
+            format!("{name} {}", number(time))
         } else {
             name.to_owned()
         }
@@ -80,11 +80,16 @@ fn bar(ui: &mut Ui, parts: &[Duration]) {
 }
 
 fn milliseconds(time: Duration) -> String {
+    format!("{} ms", number(time))
+}
+
+/// Milliseconds without their unit.
+fn number(time: Duration) -> String {
     let ms = time.as_secs_f64() * 1000.0;
-    if ms < 9.995 {
-        format!("{ms:.2} ms")
-    } else {
-        format!("{ms:.1} ms")
+    match ms {
+        ms if ms < 9.995 => format!("{ms:.2}"),
+        ms if ms < 99.95 => format!("{ms:.1}"),
+        ms => format!("{ms:.0}"),
     }
 }
 

@@ -75,7 +75,7 @@ pub(super) fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         ui.vertical(|ui| heading(ui, "Scenes"));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
-            for (id, text) in [("next-scene", "⏵"), ("previous-scene", "⏴")] {
+            for (id, text) in [("next-scene", "▶"), ("previous-scene", "◀")] {
                 if command_button(ui, id, text).clicked() {
                     commands.extend(
                         crate::viewer::commands::find(id)
@@ -137,7 +137,7 @@ fn picture(
     let (rect, response) = ui.allocate_exact_size(cell, Sense::click());
     let current = index == viewer.current_index();
     if current && !ui.memory(|memory| memory.data.get_temp::<usize>(shown_id()) == Some(index)) {
-        response.scroll_to_me(None);
+        response.scroll_to_me(Some(egui::Align::Center));
         ui.memory_mut(|memory| memory.data.insert_temp(shown_id(), index));
     }
     if ui.is_rect_visible(rect) {
@@ -156,7 +156,7 @@ fn picture(
             ui.painter().text(
                 frame.center(),
                 Align2::CENTER_CENTER,
-                "✖",
+                "!",
                 FontId::proportional(20.0),
                 visuals.error_fg_color,
             );

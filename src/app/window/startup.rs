@@ -81,15 +81,20 @@ fn explain(message: &str, details: &str) -> NoWindow {
         };
         return NoWindow::MissingLibrary(missing(what, packages));
     }
-    NoWindow::NoDisplay(format!("the display does not answer ({})", one_line(message)))
+    NoWindow::NoDisplay(format!("the display does not answer ({})", cause(message)))
 }
 
 fn missing(what: &str, packages: &str) -> String {
     format!("cannot open a window: {what}; install it with: sudo apt install {packages}")
 }
 
-fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+/// The message as one line, without winit's own place in its source.
+fn cause(message: &str) -> String {
+    let line = message.split_whitespace().collect::<Vec<_>>().join(" ");
+    match line.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": ")) {
+        Some((_, cause)) => cause.to_owned(),
+        None => line,
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,88 @@
+//! A file dropped on the window, spoken as XDND: the protocol by which file managers do it.
+
+use x11rb::connection::Connection as _;
+use x11rb::protocol::Event;
+use x11rb::protocol::xproto::{
+    ClientMessageEvent, ConnectionExt as _, CreateWindowAux, EventMask, PropMode, SELECTION_NOTIFY_EVENT,
+    SelectionNotifyEvent, SelectionRequestEvent, WindowClass,
+};
+use x11rb::rust_connection::RustConnection;
+use x11rb::wrapper::ConnectionExt as _;
+
+use super::program::{Program, flat, textured, until, viewed};
+
+#[test]
+fn drop_opens_the_scene() {
+    let program = Program::start_bare(&flat());
+    program.shows(&viewed(&flat(), &[]), "the first picture");
+    let (x, root) = (&program.desktop.x, program.desktop.root);
+    let atom = |name: &str| x.intern_atom(false, name.as_bytes()).unwrap().reply().unwrap().atom;
+    let source = x.generate_id().unwrap();
+    x.create_window(
+        0,
+        source,
+        root,
+        0,
+        0,
+        1,
+        1,
+        0,
+        WindowClass::INPUT_OUTPUT,
+        0,
+        &CreateWindowAux::new(),
+    )
+    .unwrap();
+    let (selection, uri_list) = (atom("XdndSelection"), atom("text/uri-list"));
+    x.set_selection_owner(source, selection, x11rb::CURRENT_TIME).unwrap();
+    let send = |kind: &str, data: [u32; 5]| {
+        let event = ClientMessageEvent::new(32, program.window, atom(kind), data);
+        x.send_event(false, program.window, EventMask::NO_EVENT, event).unwrap();
+        x.flush().unwrap();
+    };
+    send("XdndEnter", [source, 5 << 24, uri_list, 0, 0]);
+    send("XdndPosition", [source, 0, 0x0064_0064, 0, atom("XdndActionCopy")]);
+    let uri = format!("file://{}\r\n", textured().display());
+    let mut dropped = false;
+    until("the transfer", || {
+        match x.poll_for_event().unwrap()? {
+            Event::SelectionRequest(asked) => hand_over(x, &asked, &uri),
+            Event::ClientMessage(message) if message.type_ == atom("XdndStatus") && !dropped => {
+                dropped = true;
+                send("XdndDrop", [source, 0, x11rb::CURRENT_TIME, 0, 0]);
+            }
+            Event::ClientMessage(message) if message.type_ == atom("XdndFinished") => return Some(()),
+            _ => {}
+        }
+        None
+    });
+    program.shows(&viewed(&textured(), &[]), "the dropped scene");
+}
+
+/// Gives the file's address to who asked for it.
+fn hand_over(x: &RustConnection, asked: &SelectionRequestEvent, uri: &str) {
+    let property = if asked.property == 0 {
+        asked.target
+    } else {
+        asked.property
+    };
+    x.change_property8(
+        PropMode::REPLACE,
+        asked.requestor,
+        property,
+        asked.target,
+        uri.as_bytes(),
+    )
+    .unwrap();
+    let answer = SelectionNotifyEvent {
+        response_type: SELECTION_NOTIFY_EVENT,
+        sequence: 0,
+        time: asked.time,
+        requestor: asked.requestor,
+        selection: asked.selection,
+        target: asked.target,
+        property,
+    };
+    x.send_event(false, asked.requestor, EventMask::NO_EVENT, answer)
+        .unwrap();
+    x.flush().unwrap();
+}

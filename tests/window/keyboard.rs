@@ -1,0 +1,143 @@
+//! Keys through the real keyboard: the window then shows what `render` makes with the same settings.
+
+use rasterscope::raster::SampleRate;
+use rasterscope::render::RenderSettings;
+use rasterscope::texture::{LevelSampling, PixelSampling};
+use rasterscope::viewer::{Command, Toggle};
+
+use super::desktop::keysym;
+use super::program::{Program, SIZE, flat, rendered, textured, until, viewed};
+
+#[test]
+fn keys_change_the_sampling() {
+    let path = textured();
+    let program = Program::start_bare(&path);
+    let mut settings = RenderSettings::default();
+    program.shows(&rendered(&path, &settings, SIZE), "the first picture");
+
+    let rate = |samples| SampleRate::new(samples).unwrap();
+    for (key, samples) in [('=', 4), ('=', 9), ('-', 4), ('+', 9), ('-', 4), ('-', 1), ('-', 1)] {
+        program.desktop.type_char(key, &[]);
+        settings.sample_rate = rate(samples);
+        program.shows(
+            &rendered(&path, &settings, SIZE),
+            &format!("{samples} samples after {key}"),
+        );
+    }
+    program.desktop.type_char('p', &[]);
+    settings.pixel_sampling = PixelSampling::Bilinear;
+    program.shows(&rendered(&path, &settings, SIZE), "bilinear after P");
+    for level in [LevelSampling::Nearest, LevelSampling::Linear, LevelSampling::Zero] {
+        program.desktop.type_char('l', &[]);
+        settings.level_sampling = level;
+        program.shows(
+            &rendered(&path, &settings, SIZE),
+            &format!("level {} after L", level.name()),
+        );
+    }
+}
+
+#[test]
+fn keys_change_the_view() {
+    let path = flat();
+    let program = Program::start_bare(&path);
+    let start = viewed(&path, &[]);
+    program.shows(&start, "the first picture");
+    let cases = [
+        (']', Command::RotateBy { degrees: 5.0 }),
+        ('[', Command::RotateBy { degrees: -5.0 }),
+        ('f', Command::FitView),
+        (' ', Command::ResetView),
+    ];
+    let mut played = Vec::new();
+    for (key, command) in cases {
+        program.desktop.type_char(key, &[]);
+        played.push(command);
+        program.shows(&viewed(&path, &played), &format!("after {key:?}"));
+    }
+    program.desktop.type_char('0', &[keysym::CONTROL]);
+    program.shows(&viewed(&path, &[Command::ActualSize]), "one unit one pixel");
+}
+
+#[test]
+fn keys_switch_scenes_and_keep_their_views() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, color) in [("a.svg", "#ff8000"), ("b.svg", "#0080ff")] {
+        let text =
+            format!("<svg width='100' height='100'><rect x='10' y='20' width='50' height='40' fill='{color}'/></svg>");
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let program = Program::start_bare(folder.path());
+    let (a, b) = (folder.path().join("a.svg"), folder.path().join("b.svg"));
+    program.shows(&viewed(&a, &[]), "the first scene");
+    program.desktop.type_char('f', &[]);
+    let fitted = viewed(&a, &[Command::FitView]);
+    program.shows(&fitted, "fitted");
+    program.desktop.press(keysym::PAGE_DOWN, &[]);
+    program.shows(&viewed(&b, &[]), "the second scene");
+    program.desktop.type_char('1', &[]);
+    program.shows(&fitted, "the first scene as it was left");
+    program.desktop.type_char('2', &[]);
+    program.shows(&viewed(&b, &[]), "the second scene by its digit");
+}
+
+#[test]
+fn keys_of_the_inspector() {
+    let path = flat();
+    let program = Program::start_bare(&path);
+    program.shows(&viewed(&path, &[]), "the first picture");
+    program.desktop.type_char('z', &[]);
+    let open = [Command::Inspector(Toggle::On), Command::Pin([250, 200])];
+    program.desktop.press(keysym::RETURN, &[]);
+    program.shows(&viewed(&path, &open), "pinned under the pointer");
+    program.desktop.press(keysym::LEFT, &[]);
+    program.desktop.press(keysym::RIGHT, &[keysym::SHIFT]);
+    let nudged = [&open[..], &[Command::Nudge([-1, 0]), Command::Nudge([10, 0])]].concat();
+    program.shows(&viewed(&path, &nudged), "nudged");
+    program.desktop.press(keysym::ESCAPE, &[]);
+    program.desktop.press(keysym::ESCAPE, &[]);
+    program.shows(&viewed(&path, &[]), "unpinned and closed");
+}
+
+#[test]
+fn keys_save_the_picture() {
+    let path = flat();
+    let program = Program::start_bare(&path);
+    let picture = viewed(&path, &[]);
+    program.shows(&picture, "the first picture");
+    program.desktop.type_char('s', &[]);
+    let file = until("the file", || {
+        let mut files = std::fs::read_dir(program.folder.path())
+            .unwrap()
+            .map(|file| file.unwrap().path());
+        files.find(|file| image::open(file).is_ok())
+    });
+    let name = file.file_name().unwrap().to_string_lossy().into_owned();
+    assert!(
+        name.starts_with("rasterscope-20") && file.extension().is_some_and(|ending| ending == "png"),
+        "year to millisecond: {name}"
+    );
+    let saved = image::open(&file).unwrap().into_rgba8();
+    assert_eq!((saved.width(), saved.height()), (SIZE[0], SIZE[1]), "the frame's size");
+    for (x, y, pixel) in saved.enumerate_pixels() {
+        assert_eq!(Some(pixel.0), picture.rgba(x, y), "pixel {x}, {y}");
+    }
+}
+
+#[test]
+fn keys_go_to_the_line_of_text_that_asks_for_them() {
+    let path = flat();
+    let program = Program::start_bare(&path);
+    program.shows(&viewed(&path, &[]), "the first picture");
+    program.desktop.type_char('p', &[keysym::CONTROL, keysym::SHIFT]);
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    for character in "rate 16".chars() {
+        program.desktop.type_char(character, &[]);
+    }
+    program.desktop.press(keysym::RETURN, &[]);
+    let sixteen = [Command::SetSampleRate(SampleRate::new(16).unwrap())];
+    program.shows(
+        &viewed(&path, &sixteen),
+        "the palette set the rate, and no letter did anything else",
+    );
+}

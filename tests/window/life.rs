@@ -1,0 +1,77 @@
+//! How the program starts, rests and ends.
+
+use std::process::Command as Process;
+use std::time::Duration;
+
+use super::desktop::keysym;
+use super::program::{Program, flat, viewed};
+
+#[test]
+fn close_ends_with_success() {
+    let mut program = Program::start(&flat());
+    program.close();
+    assert!(program.ended().success(), "the window was closed");
+}
+
+#[test]
+fn escape_quits_when_nothing_is_open() {
+    let mut program = Program::start_bare(&flat());
+    program.shows(&viewed(&flat(), &[]), "the first picture");
+    // The first shows the panels again.
+    program.desktop.press(keysym::ESCAPE, &[]);
+    program.desktop.press(keysym::ESCAPE, &[]);
+    assert!(program.ended().success(), "Esc quits");
+}
+
+#[test]
+fn rest_costs_nothing() {
+    let program = Program::start(&flat());
+    std::thread::sleep(Duration::from_secs(3));
+    let before = ticks(program.id());
+    std::thread::sleep(Duration::from_secs(3));
+    assert_eq!(ticks(program.id()), before, "the program worked while nothing happened");
+}
+
+/// User and system time of a process and all its threads, in the kernel's ticks.
+fn ticks(process: u32) -> u64 {
+    let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap();
+    // The name, in brackets, may hold blanks; user and system time are the 12th and 13th word after it.
+    let words: Vec<&str> = stat.rsplit_once(')').unwrap().1.split_whitespace().collect();
+    words[11].parse::<u64>().unwrap() + words[12].parse::<u64>().unwrap()
+}
+
+#[test]
+fn without_display_the_first_frame_becomes_a_file() {
+    for (display, why) in [
+        (None, "neither DISPLAY nor WAYLAND_DISPLAY"),
+        (Some(":9876"), "does not answer"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut process = Process::new(env!("CARGO_BIN_EXE_rasterscope"));
+        process
+            .arg(flat())
+            .args(["--size", "400x300"])
+            .current_dir(folder.path());
+        process
+            .env_remove("DISPLAY")
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET");
+        if let Some(display) = display {
+            process.env("DISPLAY", display);
+        }
+        let output = process.output().unwrap();
+        assert!(output.status.success(), "{output:?}");
+        let line = String::from_utf8(output.stdout).unwrap();
+        assert!(
+            line.contains(why) && line.contains("xvfb-run") && line.lines().count() == 1,
+            "{line}"
+        );
+        let files: Vec<_> = std::fs::read_dir(folder.path())
+            .unwrap()
+            .map(|file| file.unwrap().path())
+            .collect();
+        assert_eq!(files.len(), 1, "{files:?}");
+        let picture = image::open(&files[0]).unwrap();
+        assert_eq!((picture.width(), picture.height()), (400, 300), "the window's size");
+    }
+}

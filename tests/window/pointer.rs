@@ -1,0 +1,99 @@
+//! The pointer: dragging, the wheel, pinning.
+
+use std::time::Duration;
+
+use glam::DVec2;
+use rasterscope::viewer::{Command, Toggle};
+
+use super::program::{Program, SIZE, flat, until, viewed};
+
+/// Where the tests point, in window pixels.
+const AT: [i16; 2] = [180, 150];
+
+/// Lets the program see where the pointer is before a button goes down.
+fn settle() {
+    std::thread::sleep(Duration::from_millis(60));
+}
+
+#[test]
+fn pointer_drags_the_picture_pixel_by_pixel() {
+    let path = flat();
+    let program = Program::start_bare(&path);
+    program.shows(&viewed(&path, &[]), "the first picture");
+    program.desktop.point(AT[0], AT[1]);
+    settle();
+    program.desktop.button(1, true);
+    for step in 1..=7 {
+        program.desktop.point(AT[0] + 5 * step, AT[1] - 3 * step);
+    }
+    program.desktop.button(1, false);
+    let moved = [Command::PanBy {
+        by: DVec2::new(35.0, -21.0),
+    }];
+    program.shows(&viewed(&path, &moved), "moved by exactly 35, -21 pixels");
+    // Without the button the picture stays.
+    program.desktop.point(300, 300);
+    settle();
+    program.shows(&viewed(&path, &moved), "still there");
+}
+
+#[test]
+fn pointer_wheel_zooms_about_it() {
+    let path = flat();
+    let program = Program::start_bare(&path);
+    program.shows(&viewed(&path, &[]), "the first picture");
+    program.desktop.point(AT[0], AT[1]);
+    settle();
+    program.desktop.button(4, true);
+    program.desktop.button(4, false);
+    // A click from XTEST arrives as one or as two events.
+    let at = DVec2::new(f64::from(AT[0]), f64::from(AT[1]));
+    let zoomed = |clicks| viewed(&path, &[Command::PointerMoved { at }, Command::Wheel { clicks }]);
+    let (one, two) = (zoomed(1.0), zoomed(2.0));
+    let plain = |pixels: &[u32]| pixels.iter().map(|pixel| pixel & 0x00ff_ffff).collect::<Vec<_>>();
+    let expected = [plain(one.pixels()), plain(two.pixels())];
+    settle();
+    until("the zoomed picture", || {
+        let (pixels, _) = program.desktop.pixels(program.window)?;
+        expected.contains(&pixels).then_some(())
+    });
+    program.desktop.button(5, true);
+    program.desktop.button(5, false);
+    program.shows(&viewed(&path, &[]), "and back");
+}
+
+#[test]
+fn pointer_right_click_pins() {
+    let path = flat();
+    let program = Program::start_bare(&path);
+    program.shows(&viewed(&path, &[]), "the first picture");
+    program.desktop.point(AT[0], AT[1]);
+    settle();
+    program.desktop.button(3, true);
+    program.desktop.button(3, false);
+    let pin = [Command::Inspector(Toggle::On), Command::Pin(AT.map(i64::from))];
+    let at = |[x, y]: [i16; 2]| Command::PointerMoved {
+        at: DVec2::new(f64::from(x), f64::from(y)),
+    };
+    let pinned = viewed(&path, &[&[at(AT)], &pin[..]].concat());
+    program.shows(&pinned, "pinned by a right click");
+    program.desktop.point(20, 380);
+    settle();
+    program.shows(&pinned, "it stays while the pointer goes away");
+}
+
+#[test]
+fn resize_storm_ends_sharp() {
+    let path = flat();
+    let program = Program::start_bare(&path);
+    program.shows(&viewed(&path, &[]), "the first picture");
+    for step in 0..60_u32 {
+        program.resize([330 + step * 37 % 700, 250 + step * 53 % 600]);
+        std::thread::sleep(Duration::from_millis(u64::from(step % 7)));
+    }
+    for size in [[641, 479], [1333, 777], SIZE] {
+        program.resize(size);
+        let picture = viewed(&path, &[Command::Resize(size)]);
+        program.shows(&picture, &format!("sharp at {size:?}"));
+    }
+}

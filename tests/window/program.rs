@@ -1,0 +1,192 @@
+//! The program in its window, and what it should show.
+
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command as Process, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+use rasterscope::geometry::View;
+use rasterscope::raster::Framebuffer;
+use rasterscope::render::{RenderSettings, draw};
+use rasterscope::scene::{self, DialectChoice};
+use rasterscope::viewer::{Command, Viewer, ViewerOptions};
+use x11rb::connection::Connection as _;
+use x11rb::protocol::xproto::{ClientMessageEvent, ConfigureWindowAux, ConnectionExt as _, EventMask, Window};
+
+use super::desktop::Desktop;
+
+/// The longest that anything may take, on a busy machine too.
+const PATIENCE: Duration = Duration::from_secs(20);
+/// Width and height of the window at the start.
+pub(crate) const SIZE: [u32; 2] = [500, 400];
+
+/// A scene of ours with textures.
+pub(crate) fn textured() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/texmap/test4.svg")
+}
+
+/// A scene of ours with flat triangles.
+pub(crate) fn flat() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/basic/test4.svg")
+}
+
+/// The program, its window, and the folder it runs in.
+pub(crate) struct Program {
+    child: Child,
+    pub(crate) window: Window,
+    pub(crate) desktop: Desktop,
+    pub(crate) folder: tempfile::TempDir,
+}
+
+impl Program {
+    /// Opens `path` and waits for the window.
+    pub(crate) fn start(path: &Path) -> Self {
+        let desktop = Desktop::start();
+        let folder = tempfile::tempdir().unwrap();
+        let [width, height] = SIZE;
+        let child = Process::new(env!("CARGO_BIN_EXE_rasterscope"))
+            .args([
+                "view".as_ref(),
+                path.as_os_str(),
+                "--size".as_ref(),
+                format!("{width}x{height}").as_ref(),
+            ])
+            .env("DISPLAY", &desktop.name)
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET")
+            .env_remove("WINIT_X11_SCALE_FACTOR")
+            .current_dir(folder.path())
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap();
+        let window = until("the window", || desktop.find_window());
+        desktop.focus(window);
+        Self {
+            child,
+            window,
+            desktop,
+            folder,
+        }
+    }
+
+    /// Opens `path` and hides everything but the picture, so that every pixel of the window is the scene's.
+    pub(crate) fn start_bare(path: &Path) -> Self {
+        let program = Self::start(path);
+        program.desktop.point(250, 200);
+        program.desktop.press(super::desktop::keysym::TAB, &[]);
+        program
+    }
+
+    /// The process, for the system's tables.
+    pub(crate) fn id(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// Waits until the window shows `expected`; tells what differs if it never does.
+    pub(crate) fn shows(&self, expected: &Framebuffer, what: &str) {
+        let wanted: Vec<u32> = expected.pixels().iter().map(|pixel| pixel & 0x00ff_ffff).collect();
+        let start = Instant::now();
+        let mut last = None;
+        while start.elapsed() < PATIENCE {
+            last = self.desktop.pixels(self.window);
+            if last.as_ref().is_some_and(|(pixels, _)| *pixels == wanted) {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let (pixels, size) = last.unwrap();
+        let wrong = pixels.iter().zip(&wanted).filter(|(a, b)| a != b).count();
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+        let mut seen = Framebuffer::new(size[0], size[1]);
+        for (to, from) in seen.pixels_mut().iter_mut().zip(&pixels) {
+            *to = 0xff00_0000 | from;
+        }
+        rasterscope::figure::save_png(&seen, &folder.join("window-seen.png")).unwrap();
+        rasterscope::figure::save_png(expected, &folder.join("window-expected.png")).unwrap();
+        panic!(
+            "{what}: {wrong} of {} pixels differ, {size:?} instead of {}x{}; see window-*.png in {}",
+            wanted.len(),
+            expected.width(),
+            expected.height(),
+            folder.display()
+        );
+    }
+
+    /// Gives the window another size.
+    pub(crate) fn resize(&self, [width, height]: [u32; 2]) {
+        let size = ConfigureWindowAux::new().width(width).height(height);
+        self.desktop
+            .x
+            .configure_window(self.window, &size)
+            .unwrap()
+            .check()
+            .unwrap();
+    }
+
+    /// Asks the window to close, as a window manager does.
+    pub(crate) fn close(&self) {
+        let x = &self.desktop.x;
+        let atom = |name: &str| x.intern_atom(false, name.as_bytes()).unwrap().reply().unwrap().atom;
+        let data = [atom("WM_DELETE_WINDOW"), 0, 0, 0, 0];
+        let event = ClientMessageEvent::new(32, self.window, atom("WM_PROTOCOLS"), data);
+        x.send_event(false, self.window, EventMask::NO_EVENT, event)
+            .unwrap()
+            .check()
+            .unwrap();
+        x.flush().unwrap();
+    }
+
+    /// Waits for the program's end.
+    pub(crate) fn ended(&mut self) -> ExitStatus {
+        until("the end of the program", || self.child.try_wait().unwrap())
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        // It may have ended already.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// Asks again and again until there is an answer.
+pub(crate) fn until<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
+    let start = Instant::now();
+    loop {
+        if let Some(answer) = ask() {
+            return answer;
+        }
+        assert!(start.elapsed() < PATIENCE, "waited too long for {what}");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// What `render` makes of a scene in the default view.
+pub(crate) fn rendered(path: &Path, settings: &RenderSettings, size: [u32; 2]) -> Framebuffer {
+    let scene = scene::load(path, DialectChoice::Auto).unwrap();
+    let mut frame = Framebuffer::new(size[0], size[1]);
+    draw(
+        &scene,
+        &View::Default.transform(scene.canvas, size),
+        settings,
+        &mut frame,
+    );
+    frame
+}
+
+/// What the viewer without a window makes of the same commands.
+pub(crate) fn viewed(path: &Path, commands: &[Command]) -> Framebuffer {
+    let options = ViewerOptions {
+        paths: vec![path.to_owned()],
+        window: SIZE,
+        ..ViewerOptions::default()
+    };
+    let mut viewer = Viewer::new(options).unwrap();
+    viewer.finish();
+    for command in commands {
+        // Effects are for the window.
+        let _ = viewer.apply(command.clone());
+        viewer.finish();
+    }
+    viewer.window_picture()
+}

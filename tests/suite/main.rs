@@ -9,6 +9,7 @@ mod architecture;
 mod cli;
 mod coverage;
 mod gallery;
+mod golden;
 mod oracle;
 #[cfg(feature = "window")]
 mod overlay_painter;

@@ -2,5 +2,6 @@
 
 pub(crate) mod brute_force;
 pub(crate) mod documents;
+pub(crate) mod golden;
 pub(crate) mod scenes;
 pub(crate) mod session;

@@ -1,0 +1,128 @@
+//! Golden pictures of every own scene at several settings. `BLESS=1 cargo test golden` makes them anew.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use rasterscope::geometry::View;
+use rasterscope::raster::SampleRate;
+use rasterscope::render::RenderSettings;
+use rasterscope::rules::Rules;
+use rasterscope::scene::{DialectChoice, Paint, PrimitiveKind, Scene};
+use rasterscope::texture::{LevelSampling, PixelSampling};
+use rasterscope::viewer::{SceneSource, list_scenes};
+use rayon::prelude::*;
+
+use crate::support::golden::{check, folder};
+use crate::support::scenes::drawn;
+
+/// Small enough to be looked at in a review, large enough to show what a scene is about.
+const SIZE: [u32; 2] = [160, 160];
+
+fn settings(samples: u32, pixel_sampling: PixelSampling, level_sampling: LevelSampling) -> RenderSettings {
+    let sample_rate = SampleRate::new(samples).expect("a square number");
+    RenderSettings {
+        sample_rate,
+        pixel_sampling,
+        level_sampling,
+        ..RenderSettings::default()
+    }
+}
+
+/// The settings of the goldens and their names.
+fn all_settings() -> [(&'static str, RenderSettings); 4] {
+    let course = RenderSettings {
+        rules: Rules::Course,
+        ..RenderSettings::default()
+    };
+    [
+        ("1spp", settings(1, PixelSampling::Nearest, LevelSampling::Zero)),
+        ("4spp", settings(4, PixelSampling::Bilinear, LevelSampling::Nearest)),
+        ("16spp", settings(16, PixelSampling::Bilinear, LevelSampling::Linear)),
+        ("course", course),
+    ]
+}
+
+/// Flat scenes are integer arithmetic from end to end. Where levels of detail (a logarithm) and interpolated attributes
+/// take part, another platform's mathematics may round a byte the other way.
+fn tolerance(scene: &Scene) -> u8 {
+    let shaded = |kind: &PrimitiveKind| {
+        matches!(
+            kind,
+            PrimitiveKind::Triangle {
+                paint: Paint::Vertex(_) | Paint::Texture { .. },
+                ..
+            }
+        )
+    };
+    u8::from(scene.primitives.iter().any(|primitive| shaded(&primitive.kind)))
+}
+
+fn own_scenes() -> Vec<PathBuf> {
+    let (entries, problems) = list_scenes(&[Path::new(env!("CARGO_MANIFEST_DIR")).join("svg")]);
+    assert!(problems.is_empty(), "{problems:?}");
+    let file = |source| match source {
+        SceneSource::File(path) => Some(path),
+        SceneSource::Gallery(_) => None,
+    };
+    entries.into_iter().filter_map(|entry| file(entry.source)).collect()
+}
+
+/// `svg/basic/test4.svg` is `basic_test4`.
+fn topic(path: &Path) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg");
+    let inner = path.strip_prefix(root).expect("below svg").with_extension("");
+    inner
+        .components()
+        .map(|part| part.as_os_str().to_string_lossy().into_owned())
+        .collect::<Vec<_>>()
+        .join("_")
+}
+
+#[test]
+fn golden_pictures_of_every_own_scene() {
+    let problems: Vec<String> = own_scenes()
+        .par_iter()
+        .flat_map_iter(|path| {
+            let scene = rasterscope::scene::load(path, DialectChoice::Auto).expect("our own scenes can be read");
+            let view = View::Default.transform(scene.canvas, SIZE);
+            all_settings()
+                .into_iter()
+                .filter_map(|(name, settings)| {
+                    let frame = drawn(&scene, &view, &settings, SIZE);
+                    check(&format!("{}_{name}", topic(path)), &frame, tolerance(&scene)).err()
+                })
+                .collect::<Vec<_>>()
+        })
+        .collect();
+    assert!(
+        problems.is_empty(),
+        "{} pictures differ:\n{}",
+        problems.len(),
+        problems.join("\n")
+    );
+}
+
+#[test]
+fn golden_pictures_all_belong_to_a_scene() {
+    let expected: BTreeSet<String> = own_scenes()
+        .iter()
+        .flat_map(|path| all_settings().map(|(name, _)| format!("{}_{name}.png", topic(path))))
+        .collect();
+    let entries = std::fs::read_dir(folder()).expect("golden pictures");
+    let orphans: Vec<String> = entries
+        .map(|entry| {
+            entry
+                .expect("a readable entry")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .filter(|name| !name.starts_with("overlay_") && !expected.contains(name))
+        .collect();
+    assert!(orphans.is_empty(), "without a scene: {orphans:?}");
+    assert!(
+        expected.len() >= 120,
+        "every own scene has its pictures: {}",
+        expected.len()
+    );
+}

@@ -156,9 +156,24 @@ impl Premultiplied16 {
             Rules::Standard => Self::PER_BYTE / 2,
             Rules::Course => 0,
         };
-        // An opaque channel is at most `ONE`, so that the sum neither overflows nor exceeds a byte.
+        // A channel is at most `ONE`, so that the sum neither overflows nor exceeds a byte.
         let [r, g, b, _] = self.0.map(|channel| u32::from((channel + half) / Self::PER_BYTE));
         0xFF00_0000 | r << 16 | g << 8 | b
+    }
+
+    /// [`Premultiplied16::to_pixel`] of many opaque colours; four channels at once in one 64-bit number.
+    pub fn opaque_to_pixels(colors: &[Self], rules: Rules, pixels: &mut [u32]) {
+        let half = match rules {
+            Rules::Standard => 0x0080_0080_0080_0080,
+            Rules::Course => 0,
+        };
+        for (pixel, Self([r, g, b, a])) in pixels.iter_mut().zip(colors) {
+            let word = u64::from(*b) | u64::from(*g) << 16 | u64::from(*r) << 32 | u64::from(*a) << 48;
+            // A byte in every other byte, then side by side in each half, then both halves together.
+            let spread = ((word + half) >> 8) & 0x00FF_00FF_00FF_00FF;
+            let paired = spread | spread >> 8;
+            *pixel = low_half(paired & 0xFFFF | paired >> 16 & 0xFFFF_0000);
+        }
     }
 
     /// The straight 8-bit pixel `0xAARRGGBB` that is the mean of `count` samples with these channel sums, rounded to
@@ -210,13 +225,26 @@ fn div_one(product: u32) -> u32 {
     (product + ONE / 2) / ONE
 }
 
-/// `sum / full` as `rules` round it, at most 255.
+/// `sum / full` as `rules` round it, at most 255. Where the number of samples is a power of two, `full` is one too.
 #[inline]
 fn divide(sum: u32, full: u32, rules: Rules) -> u32 {
-    match rules {
-        Rules::Standard => ((sum + full / 2) / full).min(255),
-        Rules::Course => (sum / full).min(255),
-    }
+    let sum = match rules {
+        Rules::Standard => sum + full / 2,
+        Rules::Course => sum,
+    };
+    let mean = if full.is_power_of_two() {
+        sum >> full.trailing_zeros()
+    } else {
+        sum / full
+    };
+    mean.min(255)
+}
+
+/// The lower 32 bits.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "the caller wants just these bits")]
+fn low_half(word: u64) -> u32 {
+    word as u32
 }
 
 fn divide_wide(sum: u64, full: u64, rules: Rules) -> u32 {
@@ -253,6 +281,11 @@ mod tests {
                 for rules in Rules::ALL {
                     let mean = Premultiplied16::resolve(color.0.map(|channel| 4 * u32::from(channel)), 4, rules);
                     assert_eq!(color.to_pixel(rules), mean, "{color:?} under {rules:?}");
+                    if color.is_opaque() {
+                        let mut pixels = [0; 3];
+                        Premultiplied16::opaque_to_pixels(&[color; 3], rules, &mut pixels);
+                        assert_eq!(pixels, [mean; 3], "many of {color:?} under {rules:?}");
+                    }
                 }
             }
         }

@@ -32,11 +32,13 @@ impl EdgeWalker {
         let down = i64::from(grid.sample_coordinate(row)) - i64::from(top.y);
         let numerator = (i64::from(top.x) - half) * dy + down * dx;
         let divisor = dy << bits;
+        let (column, remainder) = floor_division(numerator, divisor);
+        let (column_step, remainder_step) = floor_division(dx, dy);
         Self {
-            column: numerator.div_euclid(divisor),
-            remainder: numerator.rem_euclid(divisor),
-            column_step: dx.div_euclid(dy),
-            remainder_step: dx.rem_euclid(dy) << bits,
+            column,
+            remainder,
+            column_step,
+            remainder_step: remainder_step << bits,
             divisor,
         }
     }
@@ -61,6 +63,17 @@ impl EdgeWalker {
         let carry = self.remainder >= self.divisor;
         self.column += i64::from(carry);
         self.remainder -= if carry { self.divisor } else { 0 };
+    }
+}
+
+/// Quotient and remainder, rounded down, by a divisor above zero; one division for both.
+#[inline]
+fn floor_division(numerator: i64, divisor: i64) -> (i64, i64) {
+    let (quotient, remainder) = (numerator / divisor, numerator % divisor);
+    if remainder < 0 {
+        (quotient - 1, remainder + divisor)
+    } else {
+        (quotient, remainder)
     }
 }
 

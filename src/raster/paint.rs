@@ -37,7 +37,9 @@ struct PixelRow {
     spans: [Span; MAX_SIDE],
     /// Sample rows in use.
     side: usize,
-    /// Pixels of which all samples are covered.
+    /// Pixels of which any sample is covered, and among them those of which all are; where these are none, they are an
+    /// empty span at the end.
+    touched: Span,
     full: Span,
 }
 
@@ -209,46 +211,22 @@ impl<'a> TilePainter<'a> {
         }
     }
 
-    /// Paints one row of pixels: solid colours pixel by pixel where all samples are covered, the rest by sample rows.
+    /// Paints one row of pixels: solid colours pixel by pixel, shaded ones by sample rows.
     fn pixel_row(&mut self, shader: &Shader<'_>, pixels: &PixelRow, row: i32) {
         let side = self.context.grid.side();
-        let lines = pixels.spans[..pixels.side].iter().zip(row * side..);
-        match shader {
-            Shader::Solid(color) => {
-                if pixels.full.is_empty() {
-                    for (span, line) in lines {
-                        self.solid(*span, line, *color);
-                    }
-                } else {
-                    self.fill(pixels.full, row, *color);
-                    let inner = Span {
-                        start: pixels.full.start * side,
-                        end: pixels.full.end * side,
-                    };
-                    for (span, line) in lines {
-                        self.solid(
-                            Span {
-                                start: span.start,
-                                end: inner.start,
-                            },
-                            line,
-                            *color,
-                        );
-                        self.solid(
-                            Span {
-                                start: inner.end,
-                                end: span.end,
-                            },
-                            line,
-                            *color,
-                        );
-                    }
+        if let Shader::Solid(color) = shader {
+            self.fill(pixels.full, row, *color);
+            for x in (pixels.touched.start..pixels.full.start).chain(pixels.full.end..pixels.touched.end) {
+                self.layers[self.depth - 1].fill_part(x, row, &pixels.spans[..pixels.side], *color);
+            }
+            if self.probe.is_some() {
+                for (span, line) in pixels.spans[..pixels.side].iter().zip(row * side..) {
+                    self.note(*span, line);
                 }
             }
-            _ => {
-                for (span, line) in lines {
-                    self.shaded(shader, *span, line);
-                }
+        } else {
+            for (span, line) in pixels.spans[..pixels.side].iter().zip(row * side..) {
+                self.shaded(shader, *span, line);
             }
         }
     }
@@ -260,11 +238,6 @@ impl<'a> TilePainter<'a> {
         {
             probe.hits.fill(Some(probe.source));
         }
-    }
-
-    fn solid(&mut self, columns: Span, line: i32, color: Premultiplied16) {
-        self.layers[self.depth - 1].fill_samples(columns, line, color);
-        self.note(columns, line);
     }
 
     fn shaded(&mut self, shader: &Shader<'_>, columns: Span, line: i32) {
@@ -296,26 +269,49 @@ impl<'a> TilePainter<'a> {
 impl PixelRow {
     fn new(spans: [Span; MAX_SIDE], side: i32) -> Self {
         let count = side.cast_unsigned() as usize;
-        let used = &spans[..count];
-        // A sample row without samples leaves no pixel full.
-        let inner = used.iter().fold(
+        let (mut outer, mut inner) = (
             Span {
-                start: i32::MIN,
+                start: i32::MAX,
+                end: 0,
+            },
+            Span {
+                start: 0,
                 end: i32::MAX,
             },
-            |inner, span| inner.intersection(*span),
         );
-        let full = if inner.is_empty() {
+        for span in &spans[..count] {
+            // A sample row without samples leaves no pixel full.
+            inner = inner.intersection(*span);
+            if !span.is_empty() {
+                outer = Span {
+                    start: outer.start.min(span.start),
+                    end: outer.end.max(span.end),
+                };
+            }
+        }
+        // Columns of a frame are never negative, so that division rounds down.
+        let touched = if outer.is_empty() {
             Span::default()
         } else {
             Span {
-                start: (inner.start + side - 1).div_euclid(side),
-                end: inner.end.div_euclid(side),
+                start: outer.start / side,
+                end: (outer.end + side - 1) / side,
             }
         };
+        let mut full = Span {
+            start: (inner.start + side - 1) / side,
+            end: inner.end / side,
+        };
+        if full.is_empty() {
+            full = Span {
+                start: touched.end,
+                end: touched.end,
+            };
+        }
         Self {
             spans,
             side: count,
+            touched,
             full,
         }
     }

@@ -199,15 +199,23 @@ impl<'a> DisplayList<'a> {
             }
             let tile = first + column as usize;
             let rect = self.context.tiles.pixels(column, row, self.context.size);
+            let width = (rect.x.end - rect.x.start).cast_unsigned() as usize;
+            let lines = pixels
+                .chunks_exact_mut(self.context.size[0] as usize)
+                .map(|line| &mut line[rect.x.start.cast_unsigned() as usize..][..width]);
+            if pass.bins.iter().all(|bins| bins.of_tile(tile).is_empty()) {
+                let paper = self.background().to_pixel(self.settings.sampling.rules);
+                lines.for_each(|line| line.fill(paper));
+                continue;
+            }
             painter.begin(rect, self.background());
             let (chunk, entry) = first_visible(&pass.bins, tile);
             for (i, bins) in pass.bins.iter().enumerate().skip(chunk) {
                 let skip = if i == chunk { entry } else { 0 };
                 painter.paint(&self.chunks[i], &bins.of_tile(tile)[skip..]);
             }
-            for (line, y) in (rect.y.start..rect.y.end).enumerate() {
-                let start = line * self.context.size[0] as usize + rect.x.start.cast_unsigned() as usize;
-                painter.resolve(y, &mut pixels[start..]);
+            for (line, y) in lines.zip(rect.y.start..) {
+                painter.resolve(y, line);
             }
         }
     }

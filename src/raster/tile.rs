@@ -126,6 +126,8 @@ pub(crate) struct Tile {
     /// One colour per pixel, in force where the pixel is not split.
     whole: Vec<Premultiplied16>,
     split: Vec<bool>,
+    /// Whether every sample is opaque: so it stays once the tile starts on an opaque background.
+    opaque: bool,
     /// All samples of a pixel side by side, in force where the pixel is split. Allocated with the first split.
     samples: Vec<Premultiplied16>,
 }
@@ -142,6 +144,7 @@ impl Tile {
             rules,
             whole: Vec::new(),
             split: Vec::new(),
+            opaque: false,
             samples: Vec::new(),
         }
     }
@@ -150,6 +153,7 @@ impl Tile {
     pub(crate) fn reset(&mut self, rect: PixelRect, color: Premultiplied16) {
         let length = |span: Span| usize::try_from(span.end - span.start).unwrap_or(0);
         self.rect = rect;
+        self.opaque = color.is_opaque();
         self.width = length(rect.x);
         let pixels = self.width * length(rect.y);
         self.whole.clear();
@@ -198,20 +202,30 @@ impl Tile {
         }
     }
 
-    /// Paints the samples `columns` (counted from the left of the frame, in samples) of sample row `row` with one colour.
+    /// Paints the samples that `spans` cover in pixel `x` of row `y` with one colour; a span for each sample row of the
+    /// pixel, in sample columns counted from the left of the frame.
     #[inline]
-    pub(crate) fn fill_samples(&mut self, columns: Span, row: i32, color: Premultiplied16) {
-        let opaque = color.is_opaque();
-        let rules = self.rules;
-        self.each_pixel_run(columns, row, |samples, _| {
-            if opaque {
-                samples.fill(color);
+    pub(crate) fn fill_part(&mut self, x: i32, y: i32, spans: &[Span], color: Premultiplied16) {
+        let pixel = self.index(x, y);
+        self.ensure_split(pixel);
+        let side = spans.len();
+        let width = i32::try_from(side).unwrap_or(1);
+        let left = x * width;
+        let samples = &mut self.samples[pixel * self.per_pixel..][..self.per_pixel];
+        for (span, line) in spans.iter().zip(samples.chunks_exact_mut(side)) {
+            let (start, end) = ((span.start - left).max(0), (span.end - left).min(width));
+            if start >= end {
+                continue;
+            }
+            let covered = &mut line[offset(start)..offset(end)];
+            if color.is_opaque() {
+                covered.fill(color);
             } else {
-                for sample in samples {
-                    *sample = color.over(*sample, rules);
+                for sample in covered {
+                    *sample = color.over(*sample, self.rules);
                 }
             }
-        });
+        }
     }
 
     /// Paints the samples `columns` of sample row `row` with a colour each.
@@ -314,20 +328,29 @@ impl Tile {
     /// Resolves row `y` of the tile into pixels `0xAARRGGBB`: each the mean of its samples.
     pub(crate) fn resolve(&self, y: i32, pixels: &mut [u32]) {
         let first = self.index(self.rect.x.start, y);
+        let pixels = &mut pixels[..self.width];
+        let whole = &self.whole[first..first + self.width];
+        if self.opaque {
+            Premultiplied16::opaque_to_pixels(whole, self.rules, pixels);
+        } else {
+            for (pixel, color) in pixels.iter_mut().zip(whole) {
+                *pixel = color.to_pixel(self.rules);
+            }
+        }
+        if self.samples.is_empty() {
+            return;
+        }
         let count = u32::try_from(self.per_pixel).unwrap_or(1);
-        for (i, pixel) in pixels.iter_mut().enumerate().take(self.width) {
-            let index = first + i;
-            *pixel = if self.split[index] {
+        for (i, pixel) in pixels.iter_mut().enumerate() {
+            if self.split[first + i] {
                 let mut sums = [0_u32; 4];
-                for sample in &self.samples[index * self.per_pixel..][..self.per_pixel] {
+                for sample in &self.samples[(first + i) * self.per_pixel..][..self.per_pixel] {
                     for (sum, channel) in sums.iter_mut().zip(sample.0) {
                         *sum += u32::from(channel);
                     }
                 }
-                Premultiplied16::resolve(sums, count, self.rules)
-            } else {
-                self.whole[index].to_pixel(self.rules)
-            };
+                *pixel = Premultiplied16::resolve(sums, count, self.rules);
+            }
         }
     }
 }

@@ -12,6 +12,8 @@ mod gallery;
 mod golden;
 mod oracle;
 #[cfg(feature = "window")]
+mod overlay_goldens;
+#[cfg(feature = "window")]
 mod overlay_painter;
 mod render;
 mod robustness;

@@ -139,7 +139,7 @@ impl Interface {
                         .id_salt("scenes")
                         .auto_shrink(false)
                         .show(ui, |ui| {
-                            self.scenes(ui, viewer, asked);
+                            self.scenes(ui, viewer, true, asked);
                         });
                 } else {
                     ScrollArea::vertical()
@@ -148,7 +148,9 @@ impl Interface {
                         .show(ui, |ui| {
                             self.settings(ui, viewer, asked);
                             scenes::title(ui, viewer, &mut asked.commands);
-                            self.scenes(ui, viewer, asked);
+                            // Scrolling to the scene would scroll the settings away.
+                            // Scrolling to the scene would scroll the settings away.
+                            self.scenes(ui, viewer, false, asked);
                         });
                 }
             });
@@ -167,8 +169,11 @@ impl Interface {
         self.settings_height = ui.cursor().top() - top;
     }
 
-    fn scenes(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
-        let mut wishes = Wishes::default();
+    fn scenes(&mut self, ui: &mut Ui, viewer: &Viewer, follow: bool, asked: &mut Asked) {
+        let mut wishes = Wishes {
+            follow,
+            ..Wishes::default()
+        };
         scenes::list(ui, viewer, &mut self.thumbnails, &mut wishes, &mut asked.commands);
         asked.thumbnails.extend(wishes.thumbnails);
     }

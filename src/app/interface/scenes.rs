@@ -22,6 +22,8 @@ const GAP: f32 = 6.0;
 #[derive(Debug, Default)]
 pub(super) struct Thumbnails {
     textures: Vec<Option<Thumbnail>>,
+    /// The scene that the list was last scrolled to.
+    shown: Option<usize>,
 }
 
 struct Thumbnail {
@@ -62,9 +64,11 @@ impl Thumbnails {
     }
 }
 
-/// What the list asks for.
+/// What the list is to do, and what it asks for.
 #[derive(Debug, Default)]
 pub(super) struct Wishes {
+    /// Whether it scrolls to a scene that has become the current one.
+    pub(super) follow: bool,
     /// Scenes whose thumbnails are in sight and missing.
     pub(super) thumbnails: Vec<usize>,
 }
@@ -75,7 +79,7 @@ pub(super) fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         ui.vertical(|ui| heading(ui, "Scenes"));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
-            for (id, text) in [("next-scene", "▶"), ("previous-scene", "◀")] {
+            for (id, text) in [("next-scene", "›"), ("previous-scene", "‹")] {
                 if command_button(ui, id, text).clicked() {
                     commands.extend(
                         crate::viewer::commands::find(id)
@@ -136,49 +140,14 @@ fn picture(
     let entry = &viewer.scenes()[index];
     let (rect, response) = ui.allocate_exact_size(cell, Sense::click());
     let current = index == viewer.current_index();
-    if current && !ui.memory(|memory| memory.data.get_temp::<usize>(shown_id()) == Some(index)) {
+    if current && wishes.follow && thumbnails.shown != Some(index) {
         response.scroll_to_me(Some(egui::Align::Center));
-        ui.memory_mut(|memory| memory.data.insert_temp(shown_id(), index));
+        thumbnails.shown = Some(index);
     }
-    if ui.is_rect_visible(rect) {
-        let visuals = ui.visuals();
-        let frame = Rect::from_min_size(rect.min, vec2(cell.x, PICTURE_HEIGHT));
-        ui.painter().rect_filled(frame, CornerRadius::same(4), Color32::WHITE);
-        if let Some(source) = &entry.thumbnail {
-            let scale = ui.pixels_per_point();
-            let texture = thumbnails.texture(ui, index, source, room(frame.size() - Vec2::splat(6.0), scale));
-            let size = texture.size_vec2() / scale;
-            let corner = ((frame.center() - size / 2.0) * scale).round() / scale;
-            let unit = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-            ui.painter()
-                .image(texture.id(), Rect::from_min_size(corner, size), unit, Color32::WHITE);
-        } else if entry.failure().is_some() {
-            ui.painter().text(
-                frame.center(),
-                Align2::CENTER_CENTER,
-                "!",
-                FontId::proportional(20.0),
-                visuals.error_fg_color,
-            );
-        } else {
-            wishes.thumbnails.push(index);
-        }
-        let line = if current {
-            egui::Stroke::new(2.0, visuals.selection.bg_fill)
-        } else if response.hovered() {
-            egui::Stroke::new(1.0, visuals.widgets.hovered.fg_stroke.color)
-        } else {
-            visuals.widgets.noninteractive.bg_stroke
-        };
-        ui.painter()
-            .rect_stroke(frame, CornerRadius::same(4), line, StrokeKind::Inside);
-        let color = if current {
-            visuals.strong_text_color()
-        } else {
-            visuals.weak_text_color()
-        };
-        name_below(ui, rect, name(entry), color);
+    if !ui.is_rect_visible(rect) {
+        return false;
     }
+    paint(ui, viewer, index, &response, (thumbnails, wishes));
     let key = if index < 9 {
         format!(" ({})", index + 1)
     } else {
@@ -194,8 +163,53 @@ fn picture(
         .clicked()
 }
 
-fn shown_id() -> egui::Id {
-    egui::Id::unique("scene scrolled to")
+/// Paints one scene: its thumbnail, its frame, its name.
+fn paint(
+    ui: &Ui,
+    viewer: &Viewer,
+    index: usize,
+    response: &egui::Response,
+    (thumbnails, wishes): (&mut Thumbnails, &mut Wishes),
+) {
+    let entry = &viewer.scenes()[index];
+    let (rect, current) = (response.rect, index == viewer.current_index());
+    let visuals = ui.visuals();
+    let frame = Rect::from_min_size(rect.min, vec2(rect.width(), PICTURE_HEIGHT));
+    ui.painter().rect_filled(frame, CornerRadius::same(4), Color32::WHITE);
+    if let Some(source) = &entry.thumbnail {
+        let scale = ui.pixels_per_point();
+        let texture = thumbnails.texture(ui, index, source, room(frame.size() - Vec2::splat(6.0), scale));
+        let size = texture.size_vec2() / scale;
+        let corner = ((frame.center() - size / 2.0) * scale).round() / scale;
+        let unit = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        ui.painter()
+            .image(texture.id(), Rect::from_min_size(corner, size), unit, Color32::WHITE);
+    } else if entry.failure().is_some() {
+        ui.painter().text(
+            frame.center(),
+            Align2::CENTER_CENTER,
+            "!",
+            FontId::proportional(20.0),
+            visuals.error_fg_color,
+        );
+    } else {
+        wishes.thumbnails.push(index);
+    }
+    let line = if current {
+        egui::Stroke::new(2.0, visuals.selection.bg_fill)
+    } else if response.hovered() {
+        egui::Stroke::new(1.0, visuals.widgets.hovered.fg_stroke.color)
+    } else {
+        visuals.widgets.noninteractive.bg_stroke
+    };
+    ui.painter()
+        .rect_stroke(frame, CornerRadius::same(4), line, StrokeKind::Inside);
+    let color = if current {
+        visuals.strong_text_color()
+    } else {
+        visuals.weak_text_color()
+    };
+    name_below(ui, rect, name(entry), color);
 }
 
 /// The name, shortened to the width of the cell.

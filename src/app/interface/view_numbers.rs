@@ -56,8 +56,8 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             ("reset-view", "Reset", Command::ResetView),
             ("fit", "Fit", Command::FitView),
             ("actual-size", "1:1", Command::ActualSize),
-            ("rotate-left", "↺", Command::RotateBy { degrees: -5.0 }),
-            ("rotate-right", "↻", Command::RotateBy { degrees: 5.0 }),
+            ("rotate-left", "−5°", Command::RotateBy { degrees: -5.0 }),
+            ("rotate-right", "+5°", Command::RotateBy { degrees: 5.0 }),
         ] {
             if command_button(ui, id, text).clicked() {
                 let known = crate::viewer::commands::find(id).and_then(crate::viewer::CommandSpec::command);

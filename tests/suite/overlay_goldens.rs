@@ -1,0 +1,132 @@
+//! Pictures of the whole window, made without a display: panels, dialogs, inspector, both themes, two scales.
+
+use std::path::Path;
+
+use rasterscope::app::{ScriptSource, ViewOptions, run};
+use rasterscope::raster::Framebuffer;
+use rasterscope::viewer::Theme;
+
+use crate::support::golden;
+
+/// Glyphs are rasterized in floats, and contrast is a power: on another processor a channel may round differently.
+const TOLERANCE: u8 = 1;
+
+/// One picture: its name, the window, the steps before it is taken.
+struct Case {
+    name: &'static str,
+    size: [u32; 2],
+    scale: f32,
+    theme: Theme,
+    steps: &'static str,
+}
+
+const CASES: [Case; 6] = [
+    Case {
+        name: "overlay_panel_dark",
+        size: [800, 600],
+        scale: 1.0,
+        theme: Theme::Dark,
+        steps: "panel on; move 300,300",
+    },
+    Case {
+        name: "overlay_panel_light_2x",
+        size: [800, 1100],
+        scale: 2.0,
+        theme: Theme::Light,
+        steps: "panel on; rate 16; move 100,300",
+    },
+    Case {
+        name: "overlay_help",
+        size: [800, 600],
+        scale: 1.0,
+        theme: Theme::Dark,
+        steps: "key ?",
+    },
+    Case {
+        name: "overlay_palette",
+        size: [520, 360],
+        scale: 1.0,
+        theme: Theme::Light,
+        steps: "key Ctrl+Shift+P; type samp; key Down",
+    },
+    Case {
+        name: "overlay_inspector",
+        size: [520, 420],
+        scale: 1.0,
+        theme: Theme::Dark,
+        steps: "pin 120,200; magnification 32; region 8; panel off",
+    },
+    Case {
+        name: "overlay_go_to_pixel",
+        size: [400, 300],
+        scale: 1.5,
+        theme: Theme::Light,
+        steps: "key Ctrl+G; type 7; key Enter",
+    },
+];
+
+fn picture(case: &Case, folder: &Path) -> Framebuffer {
+    let file = folder.join("window.png");
+    let steps = format!("{}; shot \"{}\"", case.steps, file.display());
+    run(ViewOptions {
+        paths: vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/basic/test4.svg")],
+        size: Some(case.size),
+        scale: Some(case.scale),
+        theme: Some(case.theme),
+        script: Some(ScriptSource::Text(steps)),
+        headless: true,
+        ..ViewOptions::default()
+    })
+    .unwrap();
+    let image = image::open(&file).unwrap().into_rgba8();
+    let mut frame = Framebuffer::new(image.width(), image.height());
+    for (to, from) in frame.pixels_mut().iter_mut().zip(image.pixels()) {
+        let [r, g, b, a] = from.0;
+        *to = u32::from_be_bytes([a, r, g, b]);
+    }
+    frame
+}
+
+#[test]
+fn overlay_goldens() {
+    let folder = tempfile::tempdir().unwrap();
+    let problems: Vec<String> = CASES
+        .iter()
+        .filter_map(|case| golden::check(case.name, &picture(case, folder.path()), TOLERANCE).err())
+        .collect();
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
+
+/// A script always makes the same picture: nothing in it depends on time.
+#[test]
+fn overlay_pictures_repeat() {
+    let folder = tempfile::tempdir().unwrap();
+    let first = picture(&CASES[1], folder.path());
+    assert!(
+        first == picture(&CASES[1], folder.path()),
+        "the same session, the same picture"
+    );
+}
+
+/// A mistake in a script is the user's, and told with its place.
+#[test]
+fn overlay_script_errors_are_input() {
+    let options = ViewOptions {
+        script: Some(ScriptSource::Text("key =; nonsense".to_owned())),
+        headless: true,
+        ..ViewOptions::default()
+    };
+    let error = run(options).unwrap_err();
+    assert!(error.is_input(), "{error}");
+    assert!(error.to_string().starts_with("--do:1:8: "), "{error}");
+    let options = ViewOptions {
+        script: Some(ScriptSource::File("/nowhere/script.txt".into())),
+        headless: true,
+        ..ViewOptions::default()
+    };
+    let error = run(options).unwrap_err();
+    assert!(
+        error.is_input() && error.to_string().contains("/nowhere/script.txt"),
+        "{error}"
+    );
+}

@@ -1,7 +1,8 @@
 //! An inset: a small region of a frame, each pixel magnified by a whole number.
 //!
 //! Every source pixel is an exact block of `magnification x magnification` pixels of its colour. Grid lines run
-//! between the blocks, never over them; only the sample marks of the centre pixel lie inside its block.
+//! between the blocks, never over them. Below the grid the centre pixel stands once more, large, with its samples, and
+//! beside it there is room for words. An inset too small for that marks the samples on the centre pixel's own block.
 //!
 //! ```text
 //!  margin  grid block grid block grid  margin
@@ -9,10 +10,16 @@
 //! ```
 
 use super::PixelRect;
+use super::paint::{fill, for_each_index, inner, outer, over_white};
+use super::samples::{SampleMark, draw_samples};
 use crate::raster::Framebuffer;
 
 /// Pixels around the grid: border, and the ticks that point at the centre pixel.
 const MARGIN: u32 = 7;
+/// Side of the centre pixel below the grid.
+const DETAIL: u32 = 88;
+/// Insets narrower than this have no room for it.
+const WIDTH_FOR_DETAIL: u32 = 200;
 /// Depth of the border's line.
 const BORDER: u32 = 2;
 
@@ -32,17 +39,8 @@ pub struct Inset {
     pub region: u32,
     /// Pixels along each side of a magnified pixel.
     pub magnification: u32,
-}
-
-/// One sample of the centre pixel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SampleMark {
-    /// Where in the pixel, each coordinate in `0.0..=1.0`.
-    pub at: [f64; 2],
-    /// The sample's colour, straight `[r, g, b, a]`.
-    pub color: [u8; 4],
-    /// Whether a primitive covers it.
-    pub covered: bool,
+    /// Whether the centre pixel stands large below the grid.
+    has_detail: bool,
 }
 
 impl Inset {
@@ -53,16 +51,65 @@ impl Inset {
 
     /// The inset with its numbers brought into their ranges.
     pub fn new(center: [i64; 2], region: u32, magnification: u32) -> Self {
-        Self {
+        let inset = Self {
             center,
             region: region.clamp(*Self::REGION.start(), *Self::REGION.end()),
             magnification: magnification.clamp(*Self::MAGNIFICATION.start(), *Self::MAGNIFICATION.end()),
+            has_detail: false,
+        };
+        Self {
+            has_detail: inset.grid_side() >= WIDTH_FOR_DETAIL,
+            ..inset
         }
     }
 
-    /// Pixels along each side of the inset's picture.
-    pub fn side(&self) -> u32 {
+    /// The same without the large centre pixel: where there is no room for it.
+    #[must_use]
+    pub fn without_detail(self) -> Self {
+        Self {
+            has_detail: false,
+            ..self
+        }
+    }
+
+    /// Width and height of the inset's picture.
+    pub fn size(&self) -> [u32; 2] {
+        let side = self.grid_side();
+        let below = if self.has_detail { DETAIL + MARGIN } else { 0 };
+        [side, side + below]
+    }
+
+    /// The grid with its margins.
+    fn grid_side(&self) -> u32 {
         2 * MARGIN + self.region * self.pitch() + 1
+    }
+
+    /// Whether the centre pixel stands large below the grid.
+    pub fn has_detail(&self) -> bool {
+        self.has_detail
+    }
+
+    /// Where the centre pixel stands large, relative to the inset's upper left corner.
+    pub fn detail(&self) -> Option<PixelRect> {
+        self.has_detail.then(|| PixelRect {
+            x: i64::from(MARGIN),
+            y: i64::from(self.grid_side()),
+            width: DETAIL,
+            height: DETAIL,
+        })
+    }
+
+    /// Where there is room for words about the centre pixel, relative to the inset's upper left corner. The ground is
+    /// light in every theme.
+    pub fn text_area(&self) -> Option<PixelRect> {
+        let detail = self.detail()?;
+        let x = detail.right() + i64::from(MARGIN);
+        let right = i64::from(self.grid_side() - MARGIN);
+        Some(PixelRect {
+            x,
+            width: u32::try_from(right - x).ok()?,
+            ..detail
+        })
     }
 
     /// From one block to the next.
@@ -97,8 +144,11 @@ impl Inset {
     }
 
     /// The source pixel shown at a position relative to the inset's upper left corner. A grid line counts for the
-    /// pixel after it; margins show none.
+    /// pixel after it; the large pixel below counts for the centre; margins show none.
     pub fn pixel_at(&self, [x, y]: [i64; 2]) -> Option<[i64; 2]> {
+        if self.detail().is_some_and(|detail| detail.contains([x, y])) {
+            return Some(self.center);
+        }
         let source = self.source();
         let index = |position: i64| {
             let index = (position - i64::from(MARGIN)).div_euclid(i64::from(self.pitch()));
@@ -107,41 +157,50 @@ impl Inset {
         Some([source.x + index(x)?, source.y + index(y)?])
     }
 
-    /// Draws the inset: `frame`'s pixels over white, and `samples` as dots on the centre pixel.
+    /// Draws the inset: `frame`'s pixels over white, and `samples` on the centre pixel.
     pub fn draw(&self, frame: &Framebuffer, samples: &[SampleMark]) -> Framebuffer {
-        let side = self.side();
-        let mut picture = Framebuffer::new(side, side);
-        let all = PixelRect::of_size([side, side]);
+        let [width, height] = self.size();
+        let mut picture = Framebuffer::new(width, height);
+        let all = PixelRect::of_size([width, height]);
+        let grid = PixelRect::of_size([self.grid_side(); 2]);
         fill(&mut picture, &all, BORDER_COLOR);
         fill(&mut picture, &inner(&all, BORDER), MARGIN_COLOR);
-        fill(&mut picture, &inner(&all, MARGIN), GRID_COLOR);
+        fill(&mut picture, &inner(&grid, MARGIN), GRID_COLOR);
         let source = self.source();
         for y in source.y..source.bottom() {
             for x in source.x..source.right() {
-                self.draw_pixel(frame, [x, y], &mut picture);
+                if let Some(block) = self.block([x, y]) {
+                    Self::draw_pixel(frame, [x, y], &block, &mut picture);
+                }
             }
         }
-        self.mark_center(&mut picture, samples);
+        self.mark_center(&mut picture);
+        if let Some(detail) = self.detail() {
+            fill(&mut picture, &detail, CENTER_COLOR);
+            Self::draw_pixel(frame, self.center, &inner(&detail, 1), &mut picture);
+            draw_samples(&inner(&detail, 1), samples, &mut picture);
+        } else if let Some(block) = self.block(self.center) {
+            draw_samples(&block, samples, &mut picture);
+        }
         picture
     }
 
     /// One magnified pixel, or hatching where the frame has none.
-    fn draw_pixel(&self, frame: &Framebuffer, pixel: [i64; 2], picture: &mut Framebuffer) {
-        let Some(block) = self.block(pixel) else { return };
+    fn draw_pixel(frame: &Framebuffer, pixel: [i64; 2], block: &PixelRect, picture: &mut Framebuffer) {
         let inside = (u32::try_from(pixel[0]).ok()).zip(u32::try_from(pixel[1]).ok());
         if let Some(rgba) = inside.and_then(|(x, y)| frame.rgba(x, y)) {
-            fill(picture, &block, over_white(rgba));
+            fill(picture, block, over_white(rgba));
             return;
         }
         let width = picture.width() as usize;
-        for_each_index(&block, width, |index| {
+        for_each_index(block, width, |index| {
             let stripe = (index % width + index / width) / 4 % 2;
             picture.pixels_mut()[index] = OUTSIDE_COLORS[stripe];
         });
     }
 
-    /// The frame around the centre pixel, the ticks that point at it from all sides, and its samples.
-    fn mark_center(&self, picture: &mut Framebuffer, samples: &[SampleMark]) {
+    /// The frame around the centre pixel, and the ticks that point at it from all sides.
+    fn mark_center(&self, picture: &mut Framebuffer) {
         let Some(block) = self.block(self.center) else { return };
         let ring = outer(&block);
         let edges = [
@@ -186,89 +245,7 @@ impl Inset {
         for rect in edges.iter().chain(&ticks) {
             fill(picture, rect, CENTER_COLOR);
         }
-        for sample in samples {
-            self.draw_sample(&block, sample, samples.len(), picture);
-        }
     }
-
-    /// A disc of the sample's colour where a primitive covers it, a square where none does, ringed so that it stands
-    /// out. Marks are left out where they would run into each other.
-    fn draw_sample(&self, block: &PixelRect, sample: &SampleMark, count: usize, picture: &mut Framebuffer) {
-        let per_side = (count as f64).sqrt().ceil();
-        let spacing = f64::from(self.magnification) / per_side;
-        let radius = (spacing * 0.3).min(6.0);
-        if radius < 1.0 {
-            return;
-        }
-        let [x, y] = sample.at.map(|part| part * f64::from(self.magnification));
-        let width = picture.width() as usize;
-        let ring = if is_dark(sample.color) {
-            0xffff_ffff
-        } else {
-            0xff00_0000
-        };
-        for_each_index(block, width, |index| {
-            let column = (index % width) as f64 - block.x as f64 + 0.5;
-            let row = (index / width) as f64 - block.y as f64 + 0.5;
-            let (dx, dy) = ((column - x).abs(), (row - y).abs());
-            let distance = if sample.covered { dx.hypot(dy) } else { dx.max(dy) };
-            if distance <= radius - 1.0 {
-                picture.pixels_mut()[index] = over_white(sample.color);
-            } else if distance <= radius {
-                picture.pixels_mut()[index] = ring;
-            }
-        });
-    }
-}
-
-/// `rect` without `depth` pixels on every side.
-fn inner(rect: &PixelRect, depth: u32) -> PixelRect {
-    PixelRect {
-        x: rect.x + i64::from(depth),
-        y: rect.y + i64::from(depth),
-        width: rect.width.saturating_sub(2 * depth),
-        height: rect.height.saturating_sub(2 * depth),
-    }
-}
-
-/// `rect` with one pixel more on every side.
-fn outer(rect: &PixelRect) -> PixelRect {
-    PixelRect {
-        x: rect.x - 1,
-        y: rect.y - 1,
-        width: rect.width + 2,
-        height: rect.height + 2,
-    }
-}
-
-fn fill(picture: &mut Framebuffer, rect: &PixelRect, color: u32) {
-    let width = picture.width() as usize;
-    for_each_index(rect, width, |index| picture.pixels_mut()[index] = color);
-}
-
-/// Calls `visit` with the index of every pixel of `rect`, which lies inside a picture of this `width`.
-fn for_each_index(rect: &PixelRect, width: usize, mut visit: impl FnMut(usize)) {
-    for y in rect.y..rect.bottom() {
-        for x in rect.x..rect.right() {
-            if let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y)) {
-                visit(y * width + x);
-            }
-        }
-    }
-}
-
-/// Whether white reads better than black on this straight colour over white.
-pub fn is_dark([r, g, b, a]: [u8; 4]) -> bool {
-    let luma = 0.299 * f32::from(r) + 0.587 * f32::from(g) + 0.114 * f32::from(b);
-    let opacity = f32::from(a) / 255.0;
-    luma * opacity + 255.0 * (1.0 - opacity) < 140.0
-}
-
-/// A straight colour over white, as opaque `0xAARRGGBB`.
-fn over_white([r, g, b, a]: [u8; 4]) -> u32 {
-    let alpha = u32::from(a);
-    let mix = |channel: u8| (u32::from(channel) * alpha + 255 * (255 - alpha) + 127) / 255;
-    0xff00_0000 | mix(r) << 16 | mix(g) << 8 | mix(b)
 }
 
 #[cfg(test)]
@@ -295,7 +272,7 @@ mod tests {
         for (center, region, magnification) in [([20, 15], 8, 2), ([0, 0], 9, 5), ([39, 29], 64, 3), ([5, 8], 16, 16)] {
             let inset = Inset::new(center, region, magnification);
             let picture = inset.draw(&frame, &[]);
-            assert_eq!(picture.width(), inset.side(), "the promised size");
+            assert_eq!([picture.width(), picture.height()], inset.size(), "the promised size");
             for y in 0..30_u32 {
                 for x in 0..40_u32 {
                     let Some(block) = inset.block([x.into(), y.into()]) else {
@@ -313,27 +290,42 @@ mod tests {
     }
 
     #[test]
-    fn inset_marks_samples_inside_the_centre_block_only() {
+    fn inset_marks_samples_in_their_place_only() {
         let frame = colorful(40, 30);
-        let inset = Inset::new([20, 15], 9, 24);
-        let plain = inset.draw(&frame, &[]);
         let marks = [0.25, 0.75].map(|x| SampleMark {
             at: [x, 0.5],
             color: [9, 8, 7, 255],
             covered: true,
         });
-        let marked = inset.draw(&frame, &marks);
-        let block = inset.block([20, 15]).expect("the centre is shown");
-        let mut changed = 0;
-        for (index, (before, after)) in plain.pixels().iter().zip(marked.pixels()).enumerate() {
-            let at = position(index, plain.width());
-            assert!(
-                before == after || block.contains(at),
-                "{at:?} lies outside the centre pixel"
-            );
-            changed += usize::from(before != after);
+        for (region, magnification) in [(9, 24), (8, 20)] {
+            let inset = Inset::new([20, 15], region, magnification);
+            let (plain, marked) = (inset.draw(&frame, &[]), inset.draw(&frame, &marks));
+            let place = inset.detail().or(inset.block([20, 15])).expect("the centre is shown");
+            let mut changed = 0;
+            for (index, (before, after)) in plain.pixels().iter().zip(marked.pixels()).enumerate() {
+                let at = position(index, plain.width());
+                assert!(before == after || place.contains(at), "{at:?} lies outside {place:?}");
+                changed += usize::from(before != after);
+            }
+            assert!(changed > 50, "the dots are to be seen: {changed} pixels");
         }
-        assert!(changed > 50, "the dots are to be seen: {changed} pixels");
+    }
+
+    #[test]
+    fn inset_shows_the_centre_large_where_there_is_room() {
+        let frame = colorful(40, 30);
+        let inset = Inset::new([20, 15], 15, 20);
+        let picture = inset.draw(&frame, &[]);
+        let detail = inset.detail().expect("there is room");
+        for_each_index(&inner(&detail, 1), picture.width() as usize, |index| {
+            assert_eq!(picture.pixels()[index], frame.pixels()[15 * 40 + 20], "its colour");
+        });
+        assert_eq!(inset.pixel_at([detail.x, detail.y]), Some([20, 15]), "it can be read");
+        let text = inset.text_area().expect("beside it");
+        let all = PixelRect::of_size(inset.size());
+        assert!(!text.overlaps(&detail) && text.intersection(&all) == text, "{text:?}");
+        assert_eq!(inset.pixel_at([text.x, text.y]), None, "words are no pixels");
+        assert!(Inset::new([0, 0], 8, 4).detail().is_none(), "too small");
     }
 
     #[test]

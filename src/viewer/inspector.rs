@@ -10,7 +10,7 @@ const STEPS: [u32; 17] = [2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 28, 32, 40, 48, 
 /// As many steps as there can be.
 const MAX_STEPS: u32 = 20;
 /// Part of the shorter side of its area that an inset may take.
-const SHARE: f64 = 0.75;
+const SHARE: f64 = 0.8;
 /// What it may take in the smallest window, in pixels.
 const LEAST: f64 = 48.0;
 /// Lines of a magnified pixel's label: red, green, blue.
@@ -122,8 +122,8 @@ impl Inspector {
     }
 
     /// Where the inset for the frame pixel `center` goes: inside `area`, never over that pixel as the window shows it
-    /// with `zoom` window pixels per side, and never most of the area. In a tight window the region shrinks, then the
-    /// magnification. Remembers the corner, so that the inset only moves when it must.
+    /// with `zoom` window pixels per side, and never most of the area. In a tight window the large pixel goes first, then the
+    /// region shrinks, then the magnification. Remembers the corner, so that the inset only moves when it must.
     pub(super) fn place(&mut self, center: [u32; 2], zoom: u32, area: &PixelRect) -> Option<PlacedInset> {
         let center = center.map(i64::from);
         let shown = PixelRect {
@@ -142,13 +142,15 @@ impl Inspector {
             .map(|m| (smallest, m));
         for (region, magnification) in regions.chain(magnifications) {
             let inset = Inset::new(center, region, magnification);
-            let size = [inset.side(); 2];
-            if f64::from(size[0]) > longest {
-                continue;
-            }
-            if let Some((corner, rect)) = place(area, size, &shown, self.corner) {
-                self.corner = corner;
-                return Some(PlacedInset { inset, rect });
+            for inset in [inset, inset.without_detail()] {
+                let size = inset.size();
+                if f64::from(size[0].max(size[1])) > longest {
+                    continue;
+                }
+                if let Some((corner, rect)) = place(area, size, &shown, self.corner) {
+                    self.corner = corner;
+                    return Some(PlacedInset { inset, rect });
+                }
             }
         }
         None
@@ -171,6 +173,17 @@ impl PlacedInset {
             x: block.x + self.rect.x,
             y: block.y + self.rect.y,
             ..block
+        })
+    }
+
+    /// Where there is room for words about the pixel in the middle, in window pixels. The ground is light in every
+    /// theme.
+    pub fn text_area(&self) -> Option<PixelRect> {
+        let area = self.inset.text_area()?;
+        Some(PixelRect {
+            x: area.x + self.rect.x,
+            y: area.y + self.rect.y,
+            ..area
         })
     }
 

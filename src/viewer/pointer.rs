@@ -75,7 +75,7 @@ impl Viewer {
     }
 
     /// The numbers to write on the inset's pixels when a character is `[width, height]` window pixels; none where
-    /// they do not fit, and none on the pixel in the middle while its samples are drawn there.
+    /// they do not fit, and none on the pixel in the middle where its samples are drawn there.
     pub fn pixel_labels(&self, character: [f32; 2]) -> Vec<PixelLabel> {
         let Some((placed, frame)) = self.inset.zip(self.frame()) else {
             return Vec::new();
@@ -84,7 +84,8 @@ impl Viewer {
             return Vec::new();
         }
         let source = placed.inset.source();
-        let marked = Some(placed.inset.center).filter(|_| !self.pixel_samples().is_empty());
+        let has_marks = !placed.inset.has_detail() && !self.pixel_samples().is_empty();
+        let marked = Some(placed.inset.center).filter(|_| has_marks);
         let all = (source.y..source.bottom()).flat_map(|y| (source.x..source.right()).map(move |x| [x, y]));
         let label = |pixel: [i64; 2]| {
             let block = placed.block(pixel)?;

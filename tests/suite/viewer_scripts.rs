@@ -17,7 +17,7 @@ fn script_plays_like_a_hand() {
         key =; key =
         pin 300,200; key Shift+Right
         drag 10,10 25,18
-        resize 500x400
+        resize 500x400; leave
         shot \"{}\"
         key ctrl+c
         quit

@@ -2,12 +2,13 @@
 
 use roxmltree::Node;
 
-use super::{Dialect, attributes, course, numbers};
+use super::{Dialect, attributes, course, course_values, numbers};
 
 /// The dialect as a setting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DialectChoice {
-    /// [`Dialect::Course`] if the document uses the course's own elements, or only elements that the course knows.
+    /// [`Dialect::Course`] if the document uses the course's own elements, or only elements and colours that the course
+    /// reads as SVG does.
     #[default]
     Auto,
     /// Always [`Dialect::Course`].
@@ -46,8 +47,9 @@ impl DialectChoice {
     }
 }
 
-/// The course's dialect if the document uses what only the course has, or nothing that the course does not have
-/// and a size in plain numbers, without which the course's reader has no canvas.
+/// The course's dialect if the document uses what only the course has; or nothing that the course does not have,
+/// colours that it reads as SVG does (named ones and `#fff` are others to it), no `style`, and a size in plain numbers,
+/// without which the course's reader has no canvas.
 fn recognise(root: Node<'_, '_>) -> Dialect {
     let mut foreign = false;
     let mut open = vec![root.children()];
@@ -63,7 +65,7 @@ fn recognise(root: Node<'_, '_>) -> Dialect {
         if matches!(name, "colortri" | "textri" | "texture") || is_point(node) {
             return Dialect::Course;
         }
-        foreign |= !course::ELEMENTS.contains(&name);
+        foreign |= !course::ELEMENTS.contains(&name) || is_styled_as_svg(node);
         open.push(node.children());
     }
     let sized = has_number(root, "width") && has_number(root, "height");
@@ -78,6 +80,15 @@ fn recognise(root: Node<'_, '_>) -> Dialect {
 fn has_number(node: Node<'_, '_>, name: &str) -> bool {
     let text = node.attribute(name).unwrap_or("").trim();
     text.strip_suffix("px").unwrap_or(text).parse::<f32>().is_ok()
+}
+
+/// Whether the element's look is written so that the course's reader would show another one.
+fn is_styled_as_svg(node: Node<'_, '_>) -> bool {
+    let misread = |name| {
+        node.attribute(name)
+            .is_some_and(|text| !course_values::color(text).as_svg)
+    };
+    node.has_attribute("style") || misread("fill") || misread("stroke")
 }
 
 /// Whether this is a rect without size, which the course draws as a point.

@@ -235,6 +235,15 @@ fn auto_finds_the_dialect() {
         ("viewBox='0 0 1 1'", "<rect width='1' height='1'/>", Dialect::Svg),
         ("width='100%' height='10'", "<rect width='1' height='1'/>", Dialect::Svg),
         ("width='10px' height='10.5px'", "<g/>", Dialect::Course),
+        (
+            size,
+            "<line stroke='1b1f8a'/><polygon fill='#FF8000' stroke='none'/>",
+            Dialect::Course,
+        ),
+        (size, "<polygon fill='red'/>", Dialect::Svg),
+        (size, "<polygon fill='red'/><rect/>", Dialect::Course),
+        (size, "<g fill='#fff'><polygon/></g>", Dialect::Svg),
+        (size, "<line style='stroke: #123456'/>", Dialect::Svg),
     ] {
         let scene = read(&svg(attributes, body), DialectChoice::Auto);
         assert_eq!(scene.dialect, expected, "<svg {attributes}>{body}");

@@ -9,6 +9,7 @@ mod controls;
 mod dialogs;
 mod document;
 mod floating;
+mod hits;
 mod look;
 mod sampling;
 mod scenes;
@@ -119,6 +120,7 @@ impl Interface {
             floating::overlay_text(ui, viewer, free);
         }
         floating::pixel_labels(ui, viewer);
+        hits::hits(ui, viewer);
         let messages = self.clock.show(ui, viewer, free, &mut asked.commands);
         self.covered.extend(messages);
         let ctx = self.ctx.clone();

@@ -273,6 +273,7 @@ impl Session {
             viewport.native_pixels_per_point = Some(self.scale);
             let mut asked = Asked::default();
             let (interface, viewer) = (&mut self.interface, &self.viewer);
+            interface.follow_theme(viewer.theme());
             let ctx = interface.ctx().clone();
             let mut output = ctx.run_ui(input.take(), |ui| {
                 asked = Asked::default();

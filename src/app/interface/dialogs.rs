@@ -57,7 +57,7 @@ impl Dialogs {
 
     fn go_to_pixel(&mut self, ctx: &Context, viewer: &Viewer, just_opened: bool, commands: &mut Vec<Command>) {
         let modal = modal("go to pixel").show(ctx, |ui| {
-            ui.set_width(300.0);
+            ui.set_width(300.0_f32.min(ctx.content_rect().width() - 40.0));
             ui.heading("Go to pixel");
             let [width, height] = viewer.frame_size();
             let hint = format!("x, y below {width}, {height}");
@@ -117,7 +117,7 @@ impl Dialogs {
             .area(area)
             .backdrop_color(BACKDROP)
             .show(ctx, |ui| {
-                ui.set_width((screen.width() - 60.0).clamp(200.0, 480.0));
+                ui.set_width((screen.width() - 60.0).min(480.0));
                 let enter = self.line(ui, "Command", "type a command", just_opened);
                 self.problem_line(ui);
                 let (argument, found) = self.found();
@@ -225,7 +225,7 @@ fn help(ctx: &Context, commands: &mut Vec<Command>) {
     let screen = ctx.content_rect();
     let columns = if screen.width() >= 760.0 { 2 } else { 1 };
     let modal = modal("help").show(ctx, |ui| {
-        ui.set_width((screen.width() - 48.0).min(if columns == 2 { 780.0 } else { 430.0 }));
+        ui.set_width((screen.width() - 60.0).min(if columns == 2 { 780.0 } else { 430.0 }));
         ui.horizontal(|ui| {
             ui.heading("Keys and gestures");
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.button("Close").clicked())
@@ -235,7 +235,7 @@ fn help(ctx: &Context, commands: &mut Vec<Command>) {
             | {
                 ui.add_space(4.0);
                 ScrollArea::vertical()
-                    .max_height(screen.height() - 110.0)
+                    .max_height(screen.height() - 120.0)
                     .show(ui, |ui| {
                         let (left, right) = Group::ALL.split_at(if columns == 2 { 3 } else { Group::ALL.len() });
                         ui.columns(columns, |columns| {

@@ -52,16 +52,10 @@ pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
     ];
     if timed {
         bar(ui, &stages.map(|(_, time)| time));
+        let words = stages.map(|(name, time)| format!("{name} {}", number(time)));
+        ui.label(RichText::new(words.join("  ·  ")).small().weak());
     }
-    let [a, b, c] = stages.map(|(name, time)| {
-        if timed {
-            format!("{name} {}", number(time))
-        } else {
-            name.to_owned()
-        }
-    });
     let triangles = grouped(stats.triangles);
-    ui.label(RichText::new(format!("{a}  ·  {b}  ·  {c}")).small().weak());
     ui.label(RichText::new(format!("{triangles} triangles")).small().weak());
 }
 

@@ -79,6 +79,7 @@ pub(super) fn install(ctx: &Context, animated: bool) {
             style.spacing.button_padding = vec2(6.0, 3.0);
             style.spacing.interact_size = vec2(28.0, 22.0);
             style.spacing.tooltip_width = 300.0;
+            style.spacing.window_margin = egui::Margin::same(MARGIN);
             // Dialogs grow with what they hold; each limits itself to the window.
             style.spacing.default_area_size = vec2(600.0, 4000.0);
             style.interaction.selectable_labels = false;

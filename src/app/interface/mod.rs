@@ -93,12 +93,16 @@ impl Interface {
         (size[0] - canvas) / 2.0 >= look::PANEL_WIDTH
     }
 
+    /// Takes the viewer's theme; to be called before a pass, which keeps the one that it begins with.
+    pub(super) fn follow_theme(&mut self, theme: Theme) {
+        if self.theme != Some(theme) {
+            self.theme = Some(theme);
+            look::set_theme(&self.ctx, theme);
+        }
+    }
+
     /// Lays out all panels.
     pub(super) fn show(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
-        if self.theme != Some(viewer.theme()) {
-            self.theme = Some(viewer.theme());
-            look::set_theme(&self.ctx, viewer.theme());
-        }
         self.covered.clear();
         let whole = ui.max_rect();
         let hidden = viewer.everything_hidden();

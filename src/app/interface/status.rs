@@ -1,6 +1,6 @@
 //! The status line: the pixel under the pointer, where it lies, its colour; and what the window shows.
 
-use egui::{Align, Color32, CornerRadius, FontId, Layout, RichText, Sense, Stroke, StrokeKind, Ui, vec2};
+use egui::{Align, Color32, CornerRadius, FontId, Layout, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::controls::tip;
 use crate::viewer::{Command, Status, Toggle, Viewer};
@@ -8,22 +8,39 @@ use crate::viewer::{Command, Status, Toggle, Viewer};
 /// Height of the line's contents, in points.
 const HEIGHT: f32 = 18.0;
 
-/// Fills the line.
+/// Fills the line. Where there is little room the switch of the panel stays, then the pixel; the rest gives way.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     ui.set_height(HEIGHT);
-    ui.horizontal_centered(|ui| {
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
-        match viewer.status() {
-            Some(status) => pixel(ui, &status, viewer.pinned_pixel().is_some()),
-            None => {
-                ui.label(RichText::new("point at a pixel; Z magnifies it, ? shows all keys").weak());
+        panel_switch(ui, viewer, commands);
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            ui.shrink_clip_rect(ui.max_rect());
+            match viewer.status() {
+                Some(status) => pixel(ui, &status, viewer.pinned_pixel().is_some()),
+                None => word(
+                    ui,
+                    "point at a pixel; Z magnifies it, ? shows all keys",
+                    FontId::proportional(13.0),
+                    true,
+                ),
             }
-        }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            panel_switch(ui, viewer, commands);
-            picture(ui, viewer);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| picture(ui, viewer));
         });
     });
+}
+
+/// A word, unless there is no room for all of it.
+fn word(ui: &mut Ui, text: &str, font: FontId, weak: bool) {
+    let color = if weak {
+        ui.visuals().weak_text_color()
+    } else {
+        ui.visuals().text_color()
+    };
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, color);
+    if galley.size().x <= ui.available_width() {
+        ui.label(galley);
+    }
 }
 
 /// Folds the side panel, or brings it back.
@@ -45,7 +62,6 @@ fn panel_switch(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 fn pixel(ui: &mut Ui, status: &Status, pinned: bool) {
     let [x, y] = status.pixel;
     field(ui, if pinned { "pinned" } else { "pixel" }, &format!("{x}, {y}"));
-    field(ui, "user", &status.user_text());
     if let Some(([r, g, b, _], (decimal, hex))) = status.rgba.zip(status.decimal_text().zip(status.hex_text())) {
         let (swatch, response) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::hover());
         let line = Stroke::new(1.0, ui.visuals().widgets.noninteractive.fg_stroke.color);
@@ -54,15 +70,25 @@ fn pixel(ui: &mut Ui, status: &Status, pinned: bool) {
         ui.painter()
             .rect_stroke(swatch, CornerRadius::same(3), line, StrokeKind::Inside);
         response.accessible_name(format!("Colour {hex}"));
-        ui.label(RichText::new(decimal).font(numbers()));
-        ui.label(RichText::new(hex).font(numbers()));
+        word(ui, &decimal, numbers(), false);
+        word(ui, &hex, numbers(), false);
+        ui.add_space(4.0);
     }
+    field(ui, "user", &status.user_text());
 }
 
+/// A value with its name before it, both or none.
 fn field(ui: &mut Ui, name: &str, value: &str) {
-    ui.label(RichText::new(name).weak().small());
-    ui.label(RichText::new(value).font(numbers()));
-    ui.add_space(4.0);
+    let (weak, plain) = (ui.visuals().weak_text_color(), ui.visuals().text_color());
+    let name = ui
+        .painter()
+        .layout_no_wrap(name.to_owned(), FontId::proportional(11.0), weak);
+    let value = ui.painter().layout_no_wrap(value.to_owned(), numbers(), plain);
+    if name.size().x + value.size().x + 6.0 <= ui.available_width() {
+        ui.label(name);
+        ui.label(value);
+        ui.add_space(4.0);
+    }
 }
 
 /// Size, scale and settings in few words, as far as there is room.

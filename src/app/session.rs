@@ -315,7 +315,7 @@ impl Session {
     /// The window's pixels below the panels.
     fn below(&mut self) -> &Framebuffer {
         let [width, height] = self.viewer.window_size().map(|side| side.min(Framebuffer::MAX_SIDE));
-        let revision = self.viewer.revision();
+        let revision = self.viewer.picture_revision();
         let resized = [self.below.width(), self.below.height()] != [width, height];
         if resized {
             self.below = Framebuffer::new(width, height);

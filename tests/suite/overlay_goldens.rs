@@ -20,7 +20,7 @@ struct Case {
     steps: &'static str,
 }
 
-const CASES: [Case; 6] = [
+const CASES: [Case; 7] = [
     Case {
         name: "overlay_panel_dark",
         size: [800, 600],
@@ -55,6 +55,13 @@ const CASES: [Case; 6] = [
         scale: 1.0,
         theme: Theme::Dark,
         steps: "pin 120,200; magnification 32; region 8; panel off",
+    },
+    Case {
+        name: "overlay_inspector_samples",
+        size: [800, 600],
+        scale: 1.0,
+        theme: Theme::Light,
+        steps: "rate 16; pin 250,214; magnification 24; region 12; panel off",
     },
     Case {
         name: "overlay_go_to_pixel",

@@ -21,6 +21,8 @@ pub(crate) struct Style {
     pub(crate) fill: Option<(Color, f64)>,
     /// Outline, and how opaque.
     pub(crate) stroke: Option<(Color, f64)>,
+    /// Attributes beyond these, such as `stroke-width="3"`.
+    pub(crate) more: &'static str,
 }
 
 impl Style {
@@ -54,6 +56,19 @@ impl Style {
             fill: self.fill.map(|(color, _)| (color, opacity)),
             ..self
         }
+    }
+
+    /// The same with this opacity of the outline.
+    pub(crate) fn stroke_opacity(self, opacity: f64) -> Self {
+        Self {
+            stroke: self.stroke.map(|(color, _)| (color, opacity)),
+            ..self
+        }
+    }
+
+    /// The same with further attributes.
+    pub(crate) fn with(self, more: &'static str) -> Self {
+        Self { more, ..self }
     }
 }
 
@@ -204,6 +219,10 @@ fn paint(style: Style) -> String {
         } else if name == "fill" && style.stroke.is_some() {
             text.push_str(" fill=\"none\"");
         }
+    }
+    if !style.more.is_empty() {
+        text.push(' ');
+        text.push_str(style.more);
     }
     text
 }

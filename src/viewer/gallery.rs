@@ -39,6 +39,15 @@ macro_rules! textures {
 
 /// Every scene of the gallery, in the order of the list: the handsome ones first, the cruel ones last.
 pub static SCENES: &[GalleryScene] = scenes![
+    "illustration/01_lighthouse.svg",
+    "illustration/02_fox.svg",
+    "illustration/03_night_city.svg",
+    "illustration/04_balloons.svg",
+    "illustration/05_swell.svg",
+    "illustration/06_rosette.svg",
+    "illustration/07_guilloche.svg",
+    "illustration/08_veils.svg",
+    "illustration/09_poster.svg",
     "basic/test1.svg",
     "basic/test2.svg",
     "basic/test3.svg",

@@ -3,6 +3,7 @@
 mod basic;
 mod floor;
 mod hardcore;
+mod illustration;
 mod locomotive;
 mod mesh;
 mod outline;
@@ -17,6 +18,7 @@ use super::SceneFile;
 /// Every scene that is made by code.
 pub(crate) fn scenes() -> Vec<SceneFile> {
     [
+        illustration::SCENES,
         basic::SCENES,
         texmap::SCENES,
         transforms::SCENES,

@@ -6,6 +6,7 @@
 #![expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
     clippy::unreadable_literal,
     reason = "texel indices of our own pictures, hash bits, and colours written as #RRGGBB is"
 )]

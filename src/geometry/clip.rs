@@ -109,7 +109,15 @@ impl Bound {
 
     /// Where the edge crosses the bound; the same for both directions of the edge.
     fn cut(self, a: &ClipVertex, b: &ClipVertex) -> ClipVertex {
-        let swap = (b.point.x, b.point.y) < (a.point.x, a.point.y);
+        // From the nearer end: from 1e30 away, what is near would drown in rounding.
+        let rank = |v: &ClipVertex| {
+            (
+                (self.coordinate(v.point) / 2.0 - self.at / 2.0).abs(),
+                v.point.x,
+                v.point.y,
+            )
+        };
+        let swap = rank(b) < rank(a);
         let (a, b) = if swap { (b, a) } else { (a, b) };
         let (from, to) = (self.coordinate(a.point), self.coordinate(b.point));
         // Halved, so that the difference of two huge coordinates stays finite.
@@ -131,6 +139,26 @@ impl Bound {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn clip_keeps_the_near_corner_of_a_far_triangle() {
+        let near = DVec2::new(500.0, 610.0);
+        for way in [
+            DVec2::new(-1e30, -3e29),
+            DVec2::new(1e30, -3e29),
+            DVec2::new(-3e29, 1e30),
+        ] {
+            let clipped = ClippedTriangle::new([near, way, way + way.perp() * 0.1]);
+            let corners: Vec<DVec2> = clipped.triangles().flatten().map(|corner| corner.point).collect();
+            assert!(corners.contains(&near), "{way}: the near corner stays");
+            // On a straight line from the near corner, every cut point has the direction of the far one.
+            let straight = corners.iter().any(|&corner| {
+                let along = (corner - near).normalize_or_zero();
+                along != DVec2::ZERO && along.distance(way.normalize()) < 1e-9
+            });
+            assert!(straight, "{way}: the edge keeps its direction, {corners:?}");
+        }
+    }
 
     #[test]
     fn clip_leaves_inner_triangles_alone() {

@@ -87,7 +87,13 @@ pub(super) fn guilloche() -> String {
             doc.polyline(&points, Style::stroke(family.color).stroke_opacity(0.6));
         }
     }
-    // Corners: fans of lines between two sides, whose envelope is a curve.
+    corners(&mut doc);
+    doc.finish()
+}
+
+/// Fans of lines in the corners, and a frame.
+fn corners(doc: &mut Document) {
+    // Lines between two sides, whose envelope is a curve.
     for (x, y, color) in [(0.0, 0.0, SEA), (1.0, 0.0, SKY), (1.0, 1.0, SEA), (0.0, 1.0, SKY)] {
         let corner = dvec2(x, y) * 960.0 + 20.0;
         let inward = dvec2(1.0 - 2.0 * x, 1.0 - 2.0 * y);
@@ -109,5 +115,4 @@ pub(super) fn guilloche() -> String {
         ];
         doc.polygon(&frame.map(|(x, y)| dvec2(x, y)), Style::stroke(INK.mix(SAND, 0.2)));
     }
-    doc.finish()
 }

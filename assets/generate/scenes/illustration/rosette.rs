@@ -4,7 +4,7 @@ use glam::{DVec2, dvec2};
 
 use super::outline::regular;
 use super::palette::{AMBER, BRICK, CORAL, Color, INK, NIGHT, PAPER, PLUM, SEA, SKY, TEAL, hex};
-use super::steady::{TAU, cos, polar, sin};
+use super::steady::{TAU, polar, sin};
 use super::{Document, Style, cell};
 
 const MIDDLE: DVec2 = dvec2(500.0, 500.0);
@@ -47,7 +47,7 @@ fn band(doc: &mut Document, [inner, outer]: [f64; 2], count: u32, colors: &[Colo
         let angle = |t: f64| TAU * (f64::from(k) + t) / f64::from(count);
         let gap = 1.5 / outer;
         let (from, to) = (angle(0.0) + gap, angle(1.0) - gap);
-        let middle = (from + to) / 2.0;
+        let middle = f64::midpoint(from, to);
         let points = [
             MIDDLE + polar(inner, from),
             MIDDLE + polar(outer, from),
@@ -121,7 +121,7 @@ fn petals(doc: &mut Document, [inner, outer]: [f64; 2], count: u32, colors: &[Co
         let mut points = vec![tip];
         for i in 0..=6 {
             let s = f64::from(i) / 6.0 * 2.0 - 1.0;
-            points.push(MIDDLE + polar(outer - 2.0 - 0.0 * cos(s), between + s * (wide - half(0.93) + 0.02)));
+            points.push(MIDDLE + polar(outer - 2.0, between + s * (wide - half(0.93) + 0.02)));
         }
         pane(
             doc,

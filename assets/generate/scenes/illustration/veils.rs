@@ -31,51 +31,7 @@ pub(super) fn veils() -> String {
             Style::fill(AMBER.mix(PAPER, 0.45)).opacity(opacity),
         );
     }
-    let mut chance = Chance::new(31);
-    let layers: [(f64, f64, Color); 5] = [
-        (396.0, 130.0, PLUM.mix(CORAL, 0.35).mix(SAND, 0.45)),
-        (458.0, 110.0, PLUM.mix(TEAL, 0.35).mix(SAND, 0.25)),
-        (530.0, 100.0, TEAL.mix(NIGHT, 0.25)),
-        (612.0, 90.0, PINE.mix(NIGHT, 0.4)),
-        (706.0, 80.0, INK),
-    ];
-    for (k, (base, swing, color)) in layers.into_iter().enumerate() {
-        let height = |x: f64| {
-            base - swing * (noise(70 + k as u64, x / 260.0, 0.7) - 0.45) * 1.5 - 9.0 * sin(x / 47.0 + 2.0 * k as f64)
-        };
-        let mut ridge: Vec<DVec2> = (0..=80)
-            .map(|i| f64::from(i) * 15.0)
-            .map(|x| dvec2(x, height(x)))
-            .collect();
-        ridge.extend([dvec2(1200.0, 800.0), dvec2(0.0, 800.0)]);
-        doc.polygon(&ridge, Style::fill(color));
-        if k >= 1 {
-            doc.open(
-                [
-                    "",
-                    "opacity=\"0.55\"",
-                    "opacity=\"0.7\"",
-                    "opacity=\"0.85\"",
-                    "opacity=\"1\"",
-                ][k],
-            );
-            let size = 10.0 + 9.0 * k as f64;
-            for _ in 0..(70 - 11 * k) {
-                let x = chance.range(30.0, 1170.0);
-                let tall = size * chance.range(1.6, 3.2);
-                tree(
-                    &mut doc,
-                    dvec2(x, height(x) + 6.0),
-                    dvec2(size * 0.5, tall),
-                    color.shade(-0.12),
-                );
-            }
-            doc.close();
-        }
-        for band in 0..3 {
-            mist(&mut doc, base + 40.0 + 16.0 * f64::from(band), k * 3 + band as usize);
-        }
-    }
+    hills(&mut doc);
     for (x, y, size) in [
         (300.0, 170.0, 1.0),
         (352.0, 140.0, 0.8),
@@ -119,4 +75,53 @@ fn mist(doc: &mut Document, y: f64, seed: usize) {
     let mut band: Vec<DVec2> = (0..=40).map(|i| edge(30.0 * f64::from(i), -1.0)).collect();
     band.extend((0..=40).rev().map(|i| edge(30.0 * f64::from(i), 1.0)));
     doc.polygon(&band, Style::fill(PAPER).opacity(0.17));
+}
+
+/// Five ridges with their trees, and mist between them.
+fn hills(doc: &mut Document) {
+    let mut chance = Chance::new(31);
+    let layers: [(f64, f64, Color); 5] = [
+        (396.0, 130.0, PLUM.mix(CORAL, 0.35).mix(SAND, 0.45)),
+        (458.0, 110.0, PLUM.mix(TEAL, 0.35).mix(SAND, 0.25)),
+        (530.0, 100.0, TEAL.mix(NIGHT, 0.25)),
+        (612.0, 90.0, PINE.mix(NIGHT, 0.4)),
+        (706.0, 80.0, INK),
+    ];
+    for (k, (base, swing, color)) in layers.into_iter().enumerate() {
+        let height = |x: f64| {
+            base - swing * (noise(70 + k as u64, x / 260.0, 0.7) - 0.45) * 1.5 - 9.0 * sin(x / 47.0 + 2.0 * k as f64)
+        };
+        let mut ridge: Vec<DVec2> = (0..=80)
+            .map(|i| f64::from(i) * 15.0)
+            .map(|x| dvec2(x, height(x)))
+            .collect();
+        ridge.extend([dvec2(1200.0, 800.0), dvec2(0.0, 800.0)]);
+        doc.polygon(&ridge, Style::fill(color));
+        if k >= 1 {
+            doc.open(
+                [
+                    "",
+                    "opacity=\"0.55\"",
+                    "opacity=\"0.7\"",
+                    "opacity=\"0.85\"",
+                    "opacity=\"1\"",
+                ][k],
+            );
+            let size = 10.0 + 9.0 * k as f64;
+            for _ in 0..(70 - 11 * k) {
+                let x = chance.range(30.0, 1170.0);
+                let tall = size * chance.range(1.6, 3.2);
+                tree(
+                    doc,
+                    dvec2(x, height(x) + 6.0),
+                    dvec2(size * 0.5, tall),
+                    color.shade(-0.12),
+                );
+            }
+            doc.close();
+        }
+        for band in 0..3 {
+            mist(doc, base + 40.0 + 16.0 * f64::from(band), k * 3 + band as usize);
+        }
+    }
 }

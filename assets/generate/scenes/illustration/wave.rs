@@ -3,8 +3,8 @@
 use glam::{DVec2, DVec3, dvec2, dvec3};
 
 use super::outline::regular;
-use super::palette::{AMBER, CORAL, Color, INK, NIGHT, PAPER, SAND, SEA, TEAL, WHITE, gradient, hex};
-use super::steady::{TAU, cos, exp, sin};
+use super::palette::{AMBER, CORAL, Color, INK, NIGHT, PAPER, SAND, SEA, TEAL, gradient, hex};
+use super::steady::{cos, exp, sin};
 use super::{Document, Style, cell, sky};
 
 const COLUMNS: i64 = 44;
@@ -33,32 +33,7 @@ pub(super) fn swell() -> String {
             CORAL.mix(AMBER, 0.35),
         ],
     );
-    let sun = dvec2(640.0, 330.0);
-    for (radius, opacity) in [(190.0, 0.12), (158.0, 0.16), (130.0, 0.22)] {
-        doc.polygon(&regular(sun, radius, 72, 0.0), Style::fill(PAPER).opacity(opacity));
-    }
-    doc.polygon(&regular(sun, 104.0, 72, 0.0), Style::fill(PAPER.mix(AMBER, 0.25)));
-    for (x, y, size) in [
-        (200.0, 210.0, 1.0),
-        (262.0, 176.0, 0.7),
-        (316.0, 236.0, 0.8),
-        (150.0, 160.0, 0.5),
-    ] {
-        let wing = [
-            (-34.0, -12.0),
-            (-14.0, -17.0),
-            (0.0, 0.0),
-            (15.0, -18.0),
-            (36.0, -10.0),
-            (14.0, -11.0),
-            (0.0, 8.0),
-            (-13.0, -10.0),
-        ];
-        doc.polygon(
-            &wing.map(|(dx, dy)| dvec2(x + dx * size, y + dy * size)),
-            Style::fill(INK),
-        );
-    }
+    air(&mut doc);
     doc.rect(
         dvec2(0.0, 548.0),
         dvec2(1000.0, 452.0),
@@ -75,17 +50,16 @@ pub(super) fn swell() -> String {
             };
             for triangle in pair {
                 let color = lit(triangle, cell(8, column, row));
-                doc.polygon(&triangle.map(project), Style::fill(color));
+                let points = inside(triangle.map(project));
+                if points.len() > 2 {
+                    doc.polygon(&points, Style::fill(color));
+                }
             }
         }
         if row == 9 {
             boat(&mut doc, project(surface(13, 9)) + dvec2(0.0, 6.0));
         }
     }
-    // Straight sides and foot: the sea is drawn a little wider than the canvas.
-    doc.rect(dvec2(-400.0, 300.0), dvec2(400.0, 1000.0), Style::fill(WHITE));
-    doc.rect(dvec2(1000.0, 300.0), dvec2(400.0, 1000.0), Style::fill(WHITE));
-    doc.rect(dvec2(-400.0, 1000.0), dvec2(1800.0, 500.0), Style::fill(WHITE));
     doc.finish()
 }
 
@@ -144,7 +118,7 @@ fn boat(doc: &mut Document, at: DVec2) {
     let place = |points: &[(f64, f64)]| -> Vec<DVec2> {
         points
             .iter()
-            .map(|&(x, y)| at + dvec2(x * cos(TAU * turn / 6.0) - y * sin(turn), x * sin(turn) + y * cos(turn)) * 1.15)
+            .map(|&(x, y)| at + dvec2(x * cos(turn) - y * sin(turn), x * sin(turn) + y * cos(turn)) * 1.15)
             .collect()
     };
     doc.polygon(
@@ -164,4 +138,59 @@ fn boat(doc: &mut Document, at: DVec2) {
         &place(&[(-46.0, 14.0), (0.0, -18.0), (46.0, 14.0)]),
         Style::fill(SAND.shade(-0.04)),
     );
+}
+
+/// The sun and some gulls.
+fn air(doc: &mut Document) {
+    let sun = dvec2(640.0, 330.0);
+    for (radius, opacity) in [(190.0, 0.12), (158.0, 0.16), (130.0, 0.22)] {
+        doc.polygon(&regular(sun, radius, 72, 0.0), Style::fill(PAPER).opacity(opacity));
+    }
+    doc.polygon(&regular(sun, 104.0, 72, 0.0), Style::fill(PAPER.mix(AMBER, 0.25)));
+    for (x, y, size) in [
+        (200.0, 210.0, 1.0),
+        (262.0, 176.0, 0.7),
+        (316.0, 236.0, 0.8),
+        (150.0, 160.0, 0.5),
+    ] {
+        let wing = [
+            (-34.0, -12.0),
+            (-14.0, -17.0),
+            (0.0, 0.0),
+            (15.0, -18.0),
+            (36.0, -10.0),
+            (14.0, -11.0),
+            (0.0, 8.0),
+            (-13.0, -10.0),
+        ];
+        doc.polygon(
+            &wing.map(|(dx, dy)| dvec2(x + dx * size, y + dy * size)),
+            Style::fill(INK),
+        );
+    }
+}
+
+/// The part of a triangle inside the canvas, after Sutherland and Hodgman (1974).
+fn inside(triangle: [DVec2; 3]) -> Vec<DVec2> {
+    let mut points = triangle.to_vec();
+    for (normal, bound) in [
+        (DVec2::X, 0.0),
+        (DVec2::Y, 0.0),
+        (-DVec2::X, -1000.0),
+        (-DVec2::Y, -1000.0),
+    ] {
+        let depth = |p: DVec2| normal.dot(p) - bound;
+        let mut kept = Vec::new();
+        for (k, &from) in points.iter().enumerate() {
+            let to = points[(k + 1) % points.len()];
+            if depth(from) >= 0.0 {
+                kept.push(from);
+            }
+            if (depth(from) >= 0.0) != (depth(to) >= 0.0) {
+                kept.push(from + (to - from) * (depth(from) / (depth(from) - depth(to))));
+            }
+        }
+        points = kept;
+    }
+    points
 }

@@ -12,7 +12,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder as _, ImageError};
 
 /// High enough that no block of the codec shows at any zoom that keeps texels small.
-const JPEG_QUALITY: u8 = 88;
+const JPEG_QUALITY: u8 = 80;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -37,7 +37,10 @@ fn encode(canvas: &catalogue::Canvas, jpeg: bool) -> Result<Vec<u8>, ImageError>
         encoder.write_image(&texels, canvas.width, canvas.height, ExtendedColorType::Rgb8)?;
     } else {
         let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
-        encoder.write_image(&texels, canvas.width, canvas.height, ExtendedColorType::Rgb8)?;
+        match greys(&texels) {
+            Some(greys) => encoder.write_image(&greys, canvas.width, canvas.height, ExtendedColorType::L8)?,
+            None => encoder.write_image(&texels, canvas.width, canvas.height, ExtendedColorType::Rgb8)?,
+        }
     }
     Ok(bytes)
 }
@@ -48,4 +51,14 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Box<dyn Error>> {
         fs::create_dir_all(folder)?;
     }
     fs::write(path, bytes).map_err(|error| format!("{}: {error}", path.display()).into())
+}
+
+/// One byte a texel where every texel of these RGB bytes is a grey.
+fn greys(texels: &[u8]) -> Option<Vec<u8>> {
+    texels
+        .as_chunks::<3>()
+        .0
+        .iter()
+        .map(|&[r, g, b]| (r == g && g == b).then_some(r))
+        .collect()
 }

@@ -72,7 +72,7 @@ fn points() -> String {
         dot(at, NIGHT.mix(SKY, glow * glow));
     }
     let tilt = |v: DVec2| MIDDLE + turned(v * dvec2(1.0, 0.7), -0.5);
-    for k in 0..5200 {
+    for k in 0..4400 {
         let along = 1.0 - 1.0 / (1.0 + 1.6 * chance.unit());
         let sweep = along / 0.615 * 7.4;
         let radius = 62.0 * exp(0.28 * sweep) * (1.0 + 0.075 * chance.normal());
@@ -80,7 +80,7 @@ fn points() -> String {
         let color = gradient(&[PAPER, AMBER, CORAL, SKY, SKY], along / 0.615);
         dot(tilt(polar(radius, angle)), color.mix(NIGHT, 0.35 * chance.unit()));
     }
-    for _ in 0..1300 {
+    for _ in 0..1000 {
         let bulge = dvec2(chance.normal(), chance.normal()) * 44.0;
         dot(
             tilt(bulge * dvec2(1.0, 1.25)),

@@ -64,7 +64,7 @@ fn zone_plate() -> String {
         } else {
             PAPER
         };
-        doc.polygon(&regular(MIDDLE, 250.0 * share.sqrt(), 72, 0.0), Style::fill(color));
+        doc.polygon(&regular(MIDDLE, 250.0 * share.sqrt(), 60, 0.0), Style::fill(color));
     }
     doc.finish()
 }

@@ -40,6 +40,9 @@ pub(super) const SCENES: &[SceneFile] = &[
     },
 ];
 
+/// A tenth of a unit is below a tenth of a pixel at the default view, and corners that meet stay one.
+const MESH_DECIMALS: usize = 1;
+
 fn vortex() -> String {
     let mut doc = Document::new(
         1000.0,
@@ -52,8 +55,9 @@ fn vortex() -> String {
     );
     doc.rect(DVec2::ZERO, dvec2(1000.0, 560.0), Style::fill(SAND.mix(PAPER, 0.4)));
     doc.texture("map", "map.png");
+    doc.decimals(MESH_DECIMALS);
     let eye = dvec2(520.0, 270.0);
-    bent(&mut doc, "map", [68, 36], |uv| {
+    bent(&mut doc, "map", [60, 32], |uv| {
         let p = dvec2(30.0, 40.0) + uv * dvec2(940.0, 480.0);
         let arm = (p - eye) * dvec2(1.0, 1.25);
         let calm = (uv * (1.0 - uv) * 4.0).min(DVec2::ONE);
@@ -75,6 +79,7 @@ fn sheet() -> String {
     );
     doc.rect(DVec2::ZERO, dvec2(1000.0, 640.0), Style::fill(SLATE.mix(INK, 0.35)));
     doc.texture("map", "map.png");
+    doc.decimals(MESH_DECIMALS);
     let place = |uv: DVec2| {
         let p = dvec2(60.0, 105.0) + uv * dvec2(880.0, 430.0);
         let lift = dvec2(
@@ -124,7 +129,8 @@ fn flag() -> String {
     doc.rect(dvec2(86.0, 60.0), dvec2(6.0, 740.0), Style::fill(SLATE));
     doc.polygon(&regular(dvec2(96.0, 50.0), 19.0, 24, 0.0), Style::fill(AMBER));
     doc.texture("picture", "picture.png");
-    bent(&mut doc, "picture", [44, 26], |uv| {
+    doc.decimals(MESH_DECIMALS);
+    bent(&mut doc, "picture", [40, 24], |uv| {
         let loose = uv.x * (0.4 + 0.6 * uv.x);
         let phase = TAU * (1.65 * uv.x - 0.12 + 0.16 * uv.y);
         let x = 106.0 + 790.0 * uv.x - 34.0 * loose * (1.0 - cos(2.0 * phase)) * 0.6;
@@ -146,6 +152,7 @@ fn coins() -> String {
     );
     doc.rect(DVec2::ZERO, dvec2(1000.0, 1000.0), Style::fill(TEAL.mix(INK, 0.55)));
     doc.texture("seal", "seal.png");
+    doc.decimals(MESH_DECIMALS);
     let count = 22;
     for k in 0..count {
         let shrink = exp(-0.205 * f64::from(k));
@@ -158,7 +165,7 @@ fn coins() -> String {
         let tilt = 0.35 * f64::from(k);
         // A little dome: the rim is squeezed more than the middle.
         let sectors = if k < 6 { 36 } else { 20 };
-        round(&mut doc, "seal", [sectors, if k < 6 { 4 } else { 2 }], |p| {
+        round(&mut doc, "seal", [sectors, if k < 6 { 3 } else { 2 }], |p| {
             let bulge = 1.0 + 0.12 * (1.0 - p.length_squared());
             center + turned(p * bulge, tilt) * radius
         });
@@ -216,13 +223,14 @@ fn meadow() -> String {
     ];
     doc.color_quad(band.map(|(x, y)| dvec2(x, y)), [haze[0], haze[0], haze[1], haze[1]]);
     doc.texture("leaves", "foliage.jpg");
+    doc.decimals(MESH_DECIMALS);
     Floor {
         sides: [0.0, 1000.0],
         horizon: horizon - 8.0,
         bottom: 700.0,
         tile: 760.0,
         shift: 0.31,
-        copies: 30,
+        copies: 22,
         depth: 0.8,
         cells: 5,
     }
@@ -252,7 +260,8 @@ fn planet() -> String {
     }
     doc.polygon(&regular(middle, 401.0, 160, 0.0), Style::fill(SEA.mix(PAPER, 0.4)));
     doc.texture("plan", "plan.png");
-    bent(&mut doc, "plan", [60, 38], |uv| {
+    doc.decimals(MESH_DECIMALS);
+    bent(&mut doc, "plan", [54, 34], |uv| {
         let (sin_lon, _) = sin_cos((uv.x - 0.5) * TAU / 2.0);
         let (sin_lat, cos_lat) = sin_cos((uv.y - 0.5) * TAU / 2.0);
         middle + turned(dvec2(sin_lon * cos_lat, sin_lat) * 400.0, -0.35)

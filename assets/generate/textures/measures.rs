@@ -89,6 +89,6 @@ pub(super) fn zone_plate() -> Canvas {
         let p = dvec2(x + 0.5, y + 0.5) - 256.0;
         // Phase in turns is r^2 / (4 R), so its slope at r = R is 1/2.
         let wave = 0.5 + 0.5 * cos(TAU * p.length_squared() / 1024.0);
-        INK.mix(PAPER, wave)
+        hex(0x101010).mix(hex(0xF4F4F4), wave)
     })
 }

@@ -82,7 +82,7 @@ pub(super) fn guilloche() -> String {
                 let beat = cos(family.waves * angle + phase) + 0.22 * sin(3.0 * family.waves * angle - phase);
                 MIDDLE + polar(family.radius + family.swing * beat * 0.82, angle)
             };
-            let steps = (family.waves as u32 * 16).max(160);
+            let steps = (family.waves as u32 * 12).max(160);
             let points: Vec<DVec2> = (0..=steps).map(|j| curve(j, steps)).collect();
             doc.polyline(&points, Style::stroke(family.color).stroke_opacity(0.6));
         }

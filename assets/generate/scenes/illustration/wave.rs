@@ -39,6 +39,7 @@ pub(super) fn swell() -> String {
         dvec2(1000.0, 452.0),
         Style::fill(NIGHT.mix(TEAL, 0.4)),
     );
+    doc.decimals(1);
     for row in (0..ROWS).rev() {
         for column in 0..COLUMNS {
             let corner = |i: i64, j: i64| surface(column + i, row + j);

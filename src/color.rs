@@ -99,17 +99,23 @@ impl Premultiplied16 {
         Self([channel(color.r), channel(color.g), channel(color.b), unit_to_16(alpha)])
     }
 
-    /// From premultiplied channels in `0.0..=255.0`, such as filtered texels.
+    /// From premultiplied channels in `0.0..=255.0`, such as filtered texels; rounded to nearest, or truncated to bytes
+    /// under the course's rules.
     #[inline]
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "`as` saturates at both ends of u16"
-    )]
     pub fn from_byte_range(channels: [f32; 4], rules: Rules) -> Self {
+        /// `2^23`: at this size a 32-bit float holds whole numbers only, so that adding it rounds; no conversion of a
+        /// float to an integer is as cheap, since those must also care for numbers out of range.
+        const WHOLE: f32 = 8_388_608.0;
+        let whole = |value: f32| (value + WHOLE).to_bits().to_le_bytes();
         Self(channels.map(|channel| match rules {
-            Rules::Standard => (channel * f32::from(Self::PER_BYTE) + 0.5) as u16,
-            Rules::Course => (channel as u8).into_16(),
+            Rules::Standard => {
+                let [low, high, ..] = whole(channel * f32::from(Self::PER_BYTE));
+                u16::from_le_bytes([low, high])
+            }
+            Rules::Course => {
+                let [nearest, ..] = whole(channel);
+                (nearest - u8::from(f32::from(nearest) > channel)).into_16()
+            }
         }))
     }
 

@@ -13,7 +13,7 @@ use crate::color::Premultiplied16;
 use crate::geometry::edge::doubled_area;
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::rules::Rules;
-use crate::texture::{Footprint, Sampler, SamplingSettings, Texture};
+use crate::texture::{Footprint, LANES, Sampler, SamplingSettings, Texture};
 
 /// Distance between two anchors, in pixels.
 const ANCHOR_PIXELS: i32 = 8;
@@ -78,7 +78,8 @@ impl<const K: usize> Planes<K> {
         planes
     }
 
-    /// Shades the samples of sample row `row` from column `first` on, from left to right, one for each of `colors`.
+    /// Shades the samples of sample row `row` from column `first` on, from left to right, one for each of `colors`;
+    /// `shade` turns the attributes of [`LANES`] samples into their colours.
     #[inline]
     #[expect(
         clippy::cast_possible_truncation,
@@ -89,7 +90,7 @@ impl<const K: usize> Planes<K> {
         grid: SubpixelGrid,
         (first, row): (i32, i32),
         mut colors: &mut [Premultiplied16],
-        shade: impl Fn([f32; K]) -> Premultiplied16,
+        shade: impl Fn([[f32; LANES]; K]) -> [Premultiplied16; LANES],
     ) {
         let side = grid.side();
         let anchor_columns = ANCHOR_PIXELS * side;
@@ -105,9 +106,14 @@ impl<const K: usize> Planes<K> {
             let inside = column - group * anchor_columns;
             let count = (anchor_columns - inside).cast_unsigned() as usize;
             let (run, rest) = colors.split_at_mut(count.min(colors.len()));
-            for (i, color) in (inside..).zip(run) {
-                let distance = (i as f32 + 0.5) * step;
-                *color = shade(std::array::from_fn(|k| at_anchor[k] + distance * slope[k]));
+            let mut start = inside as f32 + 0.5;
+            for colors in run.chunks_mut(LANES) {
+                // Small whole numbers and a half: exact in 32 bits, however they are added up.
+                let distance: [f32; LANES] = std::array::from_fn(|i| (start + i as f32) * step);
+                let attributes = std::array::from_fn(|k| distance.map(|distance| at_anchor[k] + distance * slope[k]));
+                let shaded = shade(attributes);
+                colors.copy_from_slice(&shaded[..colors.len()]);
+                start += LANES as f32;
             }
             column += anchor_columns - inside;
             colors = rest;
@@ -146,16 +152,20 @@ impl<'a> Shader<'a> {
         let at = (first, row);
         match self {
             Self::Solid(color) => colors.fill(*color),
-            Self::Vertex(planes) => planes.each(context.grid, at, colors, |rgba| vertex_color(rgba, rules)),
-            Self::Texture { uv, sampler, opacity } if *opacity >= 1.0 => {
-                uv.each(context.grid, at, colors, |[u, v]| {
-                    Premultiplied16::from_byte_range(sampler.sample(u, v), rules)
-                });
-            }
+            Self::Vertex(planes) => planes.each(context.grid, at, colors, |[r, g, b, a]| {
+                std::array::from_fn(|i| vertex_color([r[i], g[i], b[i], a[i]], rules))
+            }),
+            Self::Texture { uv, sampler, opacity } if *opacity >= 1.0 => uv.each(context.grid, at, colors, |[u, v]| {
+                sampler
+                    .sample_lanes(&u, &v)
+                    .map(|color| Premultiplied16::from_byte_range(color, rules))
+            }),
             Self::Texture { uv, sampler, opacity } => uv.each(context.grid, at, colors, |[u, v]| {
-                let faded = sampler.sample(u, v).map(|channel| channel * opacity);
                 // Truncation comes after blending: half of a texel is no byte.
-                Premultiplied16::from_byte_range(faded, Rules::Standard)
+                let faded = |color: [f32; 4]| color.map(|channel| channel * opacity);
+                sampler
+                    .sample_lanes(&u, &v)
+                    .map(|color| Premultiplied16::from_byte_range(faded(color), Rules::Standard))
             }),
         }
     }

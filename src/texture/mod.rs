@@ -2,11 +2,13 @@
 
 mod decode;
 mod footprint;
+mod lanes;
 mod pyramid;
 mod sampler;
 
 pub use decode::DecodeError;
 pub use footprint::Footprint;
+pub use lanes::LANES;
 pub use pyramid::{MipLevel, MipPyramid};
 pub use sampler::{LevelChoice, Sampler, SamplingSettings};
 

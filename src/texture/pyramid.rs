@@ -59,6 +59,12 @@ impl MipLevel {
         self.texels[y as usize * self.width as usize + x as usize]
     }
 
+    /// All texels, row by row.
+    #[inline]
+    pub(super) fn texels(&self) -> &[[u8; 4]] {
+        &self.texels
+    }
+
     fn to_exact(&self) -> ExactLevel {
         let texels = self.texels.par_iter().map(|texel| texel.map(f32::from)).collect();
         ExactLevel {

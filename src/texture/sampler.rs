@@ -28,11 +28,11 @@ pub struct LevelChoice {
 /// One texture read at one footprint.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler<'a> {
-    finer: &'a MipLevel,
+    pub(super) finer: &'a MipLevel,
     /// The next coarser level and its weight, when two are mixed.
-    coarser: Option<(&'a MipLevel, f32)>,
-    pixel: PixelSampling,
-    rules: Rules,
+    pub(super) coarser: Option<(&'a MipLevel, f32)>,
+    pub(super) pixel: PixelSampling,
+    pub(super) rules: Rules,
 }
 
 impl LevelChoice {
@@ -130,7 +130,7 @@ fn bilinear(level: &MipLevel, u: f32, v: f32, rules: Rules) -> [f32; 4] {
         Rules::Course => (u * (width - 1.0), v * (height - 1.0)),
     };
     // Beyond the outermost centres the border texel goes on, so clamping the point is clamping the texels.
-    let (x, y) = (x.clamp(0.0, width - 1.0), y.clamp(0.0, height - 1.0));
+    let (x, y) = (x.max(0.0).min(width - 1.0), y.max(0.0).min(height - 1.0));
     let (left, top) = (truncate(x), truncate(y));
     let (s, t) = (x - left as f32, y - top as f32);
     let texel = |x, y| level.texel(x, y).map(f32::from);
@@ -141,7 +141,7 @@ fn bilinear(level: &MipLevel, u: f32, v: f32, rules: Rules) -> [f32; 4] {
 
 /// `a + (b - a) t`: exact at `t = 0` and for equal colours, so that a constant texture stays constant.
 #[inline]
-fn lerp(a: [f32; 4], b: [f32; 4], t: f32) -> [f32; 4] {
+pub(super) fn lerp(a: [f32; 4], b: [f32; 4], t: f32) -> [f32; 4] {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t)
 }
 

@@ -86,9 +86,9 @@ fn between(at: &[f32; LANES], size: u32, scale: f32, shift: f32) -> Between {
         second: [0; LANES],
         weight: [0.0; LANES],
     };
-    for i in 0..LANES {
+    for (i, at) in at.iter().enumerate() {
         // In this order a point that is no number reads texel 0.
-        let x = (at[i] * factor + shift).max(0.0).min(last);
+        let x = (at * factor + shift).max(0.0).min(last);
         let nearest = x + WHOLE;
         let rounded = nearest - WHOLE;
         let too_far = u32::from(rounded > x);

@@ -61,7 +61,7 @@ const CASES: [Case; 7] = [
         size: [800, 600],
         scale: 1.0,
         theme: Theme::Light,
-        steps: "rate 16; pin 250,214; magnification 24; region 12; panel off",
+        steps: "rate 16; pin 277,178; magnification 24; region 12; panel off",
     },
     Case {
         name: "overlay_go_to_pixel",

@@ -6,7 +6,9 @@ use rasterscope::texture::{LevelSampling, PixelSampling};
 use rasterscope::viewer::{Command, Toggle};
 
 use super::desktop::keysym;
-use super::program::{Program, SIZE, flat, rendered, textured, until, viewed};
+use super::program::{
+    Program, SIZE, SMALL_INSET, SMALL_INSET_COMMANDS, flat, inset, rendered, textured, until, viewed,
+};
 
 #[test]
 fn keys_change_the_sampling() {
@@ -84,18 +86,24 @@ fn keys_switch_scenes_and_keep_their_views() {
 #[test]
 fn keys_of_the_inspector() {
     let path = flat();
-    let program = Program::start_bare(&path);
-    program.shows(&viewed(&path, &[]), "the first picture");
+    let program = Program::start_with(&path, &["--do", SMALL_INSET]);
+    program.desktop.point(250, 200);
     program.desktop.type_char('z', &[]);
-    let open = [Command::Inspector(Toggle::On), Command::Pin([250, 200])];
+    let open = [
+        &SMALL_INSET_COMMANDS[..],
+        &[Command::Inspector(Toggle::On), Command::Pin([250, 200])],
+    ]
+    .concat();
+    program.shows_somewhere(&inset(&path, &open), "the inset under the pointer");
     program.desktop.press(keysym::RETURN, &[]);
-    program.shows(&viewed(&path, &open), "pinned under the pointer");
+    program.desktop.point(20, 300);
     program.desktop.press(keysym::LEFT, &[]);
     program.desktop.press(keysym::RIGHT, &[keysym::SHIFT]);
     let nudged = [&open[..], &[Command::Nudge([-1, 0]), Command::Nudge([10, 0])]].concat();
-    program.shows(&viewed(&path, &nudged), "nudged");
+    program.shows_somewhere(&inset(&path, &nudged), "the pin, nudged");
     program.desktop.press(keysym::ESCAPE, &[]);
     program.desktop.press(keysym::ESCAPE, &[]);
+    program.desktop.press(keysym::TAB, &[]);
     program.shows(&viewed(&path, &[]), "unpinned and closed");
 }
 

@@ -3,9 +3,9 @@
 use std::time::Duration;
 
 use glam::DVec2;
-use rasterscope::viewer::{Command, Toggle};
+use rasterscope::viewer::Command;
 
-use super::program::{Program, SIZE, flat, until, viewed};
+use super::program::{Program, SIZE, SMALL_INSET, SMALL_INSET_COMMANDS, flat, inset, until, viewed};
 
 /// Where the tests point, in window pixels.
 const AT: [i16; 2] = [180, 150];
@@ -65,21 +65,17 @@ fn pointer_wheel_zooms_about_it() {
 #[test]
 fn pointer_right_click_pins() {
     let path = flat();
-    let program = Program::start_bare(&path);
-    program.shows(&viewed(&path, &[]), "the first picture");
+    let program = Program::start_with(&path, &["--do", SMALL_INSET]);
     program.desktop.point(AT[0], AT[1]);
     settle();
     program.desktop.button(3, true);
     program.desktop.button(3, false);
-    let pin = [Command::Inspector(Toggle::On), Command::Pin(AT.map(i64::from))];
-    let at = |[x, y]: [i16; 2]| Command::PointerMoved {
-        at: DVec2::new(f64::from(x), f64::from(y)),
-    };
-    let pinned = viewed(&path, &[&[at(AT)], &pin[..]].concat());
-    program.shows(&pinned, "pinned by a right click");
-    program.desktop.point(20, 380);
+    let pin = [&SMALL_INSET_COMMANDS[..], &[Command::Pin(AT.map(i64::from))]].concat();
+    let pinned = inset(&path, &pin);
+    program.shows_somewhere(&pinned, "the pixel pinned by a right click");
+    program.desktop.point(20, 300);
     settle();
-    program.shows(&pinned, "it stays while the pointer goes away");
+    program.shows_somewhere(&pinned, "it stays while the pointer goes away");
 }
 
 #[test]

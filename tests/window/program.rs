@@ -40,6 +40,11 @@ pub(crate) struct Program {
 impl Program {
     /// Opens `path` and waits for the window.
     pub(crate) fn start(path: &Path) -> Self {
+        Self::start_with(path, &[])
+    }
+
+    /// As [`Program::start`], with more arguments.
+    pub(crate) fn start_with(path: &Path, arguments: &[&str]) -> Self {
         let desktop = Desktop::start();
         let folder = tempfile::tempdir().unwrap();
         let [width, height] = SIZE;
@@ -50,6 +55,7 @@ impl Program {
                 "--size".as_ref(),
                 format!("{width}x{height}").as_ref(),
             ])
+            .args(arguments)
             .env("DISPLAY", &desktop.name)
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
@@ -109,6 +115,30 @@ impl Program {
             expected.height(),
             folder.display()
         );
+    }
+
+    /// Waits until `picture` stands somewhere in the window, pixel for pixel.
+    pub(crate) fn shows_somewhere(&self, picture: &Framebuffer, what: &str) {
+        let rows: Vec<Vec<u32>> = picture
+            .pixels()
+            .chunks(picture.width() as usize)
+            .map(|row| row.iter().map(|pixel| pixel & 0x00ff_ffff).collect())
+            .collect();
+        until(what, || {
+            let (pixels, [width, height]) = self.desktop.pixels(self.window)?;
+            let (width, height) = (width as usize, height as usize);
+            let stands_at = |x: usize, y: usize| {
+                rows.iter().enumerate().all(|(i, row)| {
+                    let start = (y + i) * width + x;
+                    pixels[start..start + row.len()] == row[..]
+                })
+            };
+            let columns = width.checked_sub(rows[0].len())?;
+            let lines = height.checked_sub(rows.len())?;
+            (0..=lines)
+                .any(|y| (0..=columns).any(|x| stands_at(x, y)))
+                .then_some(())
+        });
     }
 
     /// Gives the window another size.
@@ -176,6 +206,24 @@ pub(crate) fn rendered(path: &Path, settings: &RenderSettings, size: [u32; 2]) -
 
 /// What the viewer without a window makes of the same commands.
 pub(crate) fn viewed(path: &Path, commands: &[Command]) -> Framebuffer {
+    viewer_after(path, commands).window_picture()
+}
+
+/// The inspector's inset after the same commands.
+pub(crate) fn inset(path: &Path, commands: &[Command]) -> Framebuffer {
+    let viewer = viewer_after(path, commands);
+    let (window, place) = (viewer.window_picture(), viewer.inset().unwrap().rect);
+    let mut picture = Framebuffer::new(place.width, place.height);
+    let width = window.width() as usize;
+    let (left, top) = (usize::try_from(place.x).unwrap(), usize::try_from(place.y).unwrap());
+    for (i, row) in picture.pixels_mut().chunks_mut(place.width as usize).enumerate() {
+        let start = (top + i) * width + left;
+        row.copy_from_slice(&window.pixels()[start..start + place.width as usize]);
+    }
+    picture
+}
+
+fn viewer_after(path: &Path, commands: &[Command]) -> Viewer {
     let options = ViewerOptions {
         paths: vec![path.to_owned()],
         window: SIZE,
@@ -188,5 +236,11 @@ pub(crate) fn viewed(path: &Path, commands: &[Command]) -> Framebuffer {
         let _ = viewer.apply(command.clone());
         viewer.finish();
     }
-    viewer.window_picture()
+    viewer
 }
+
+/// A small inset: it has neither words nor numbers, which are for eyes.
+pub(crate) const SMALL_INSET: &str = "region 8; magnification 9";
+
+/// The commands of [`SMALL_INSET`].
+pub(crate) const SMALL_INSET_COMMANDS: [Command; 2] = [Command::SetInspectorRegion(8), Command::SetMagnification(9)];

@@ -15,6 +15,7 @@ mod oracle;
 mod overlay_goldens;
 #[cfg(feature = "window")]
 mod overlay_painter;
+mod readme;
 mod render;
 mod robustness;
 mod scene_course;

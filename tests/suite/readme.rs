@@ -31,7 +31,10 @@ fn readme_names_every_option_and_scene_folder() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let text = fs::read_to_string(root.join("README.md")).expect("the README");
     for command in ["view", "render", "bench"] {
-        let output = Command::new(env!("CARGO_BIN_EXE_rasterscope")).args([command, "--help"]).output().expect("help");
+        let output = Command::new(env!("CARGO_BIN_EXE_rasterscope"))
+            .args([command, "--help"])
+            .output()
+            .expect("help");
         let help = String::from_utf8(output.stdout).expect("text");
         let options = help.split_whitespace().filter_map(|word| word.strip_prefix("--"));
         for option in options.map(|word| word.trim_matches(|c: char| !c.is_alphabetic())) {
@@ -40,8 +43,15 @@ fn readme_names_every_option_and_scene_folder() {
         }
     }
     for entry in fs::read_dir(root.join("svg")).expect("scenes") {
-        let name = entry.expect("a readable entry").file_name().to_string_lossy().into_owned();
+        let name = entry
+            .expect("a readable entry")
+            .file_name()
+            .to_string_lossy()
+            .into_owned();
         assert!(text.contains(&format!("`svg/{name}`")), "svg/{name} is in the README");
     }
-    assert!(root.join("assets/screenshot.png").is_file(), "the picture at the top is there");
+    assert!(
+        root.join("assets/screenshot.png").is_file(),
+        "the picture at the top is there"
+    );
 }

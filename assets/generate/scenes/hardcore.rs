@@ -52,7 +52,7 @@ fn slices_of_a_pixel() -> String {
         SIDE,
         SIDE,
         &[
-            "1707 triangles from one corner; where they reach the far sides each is one pixel wide (1024 x 1024, default view).",
+            "1708 triangles from one corner; where they reach the far sides each is one pixel wide (1024 x 1024, default view).",
             "Towards the corner they get ever thinner, and at rate 1 chance decides which one a pixel centre hits: moire.",
             "Press = : the wings calm down to the mean of both colours. Space, wheel, Z: look at the corner itself.",
         ],

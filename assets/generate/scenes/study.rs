@@ -52,7 +52,7 @@ fn zone_plate() -> String {
         &[
             "A zone plate of 300 rings: the farther out, the finer. True are only the rings around the centre; all others",
             "are aliases, frequencies that one sample per pixel can't tell from lower ones.",
-            "Press = : at 4 samples the ghosts move outwards and pale, at 16 they are gone. Drag or zoom: ghosts swim, true rings don't.",
+            "Press = : at 4 samples the ghosts move outwards and pale, at 16 little is left of them. Drag or zoom: ghosts swim, true rings don't.",
         ],
     );
     doc.rect(DVec2::ZERO, dvec2(SIDE, SIDE), Style::fill(PAPER));
@@ -253,8 +253,8 @@ fn pixel_centres() -> String {
         SIDE,
         &[
             "Every corner lies exactly on a pixel centre, at 1024 x 1024 in the default view and at one unit per pixel (Ctrl+0).",
-            "A centre on an edge belongs to the triangle for which the edge is a top or a left one: squares of 25 pixels a side have",
-            "25 x 25 pixels, not 26, and neighbours neither overlap nor leave a gap. Z on any corner; then change the rules to course.",
+            "A centre on an edge belongs to the triangle for which the edge is a top or a left one: squares 75 pixels wide (1024) own",
+            "75 x 75 pixels, not 76 x 76, and neighbours neither overlap nor leave a gap. Z on any corner; then change the rules to course.",
         ],
     );
     doc.rect(DVec2::ZERO, dvec2(SIDE, SIDE), Style::fill(PAPER));

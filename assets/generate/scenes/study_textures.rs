@@ -39,15 +39,15 @@ fn zone_texture() -> String {
         640.0,
         640.0,
         &[
-            "A zone plate as a texture: every frequency up to the finest that 512 texels can hold, at four sizes.",
+            "A zone plate as a texture: every frequency up to the finest that 512 texels can hold, at five sizes.",
             "Rings around points that are not the centre are false: aliases. With level zero they fill the small plates;",
             "L: linear removes them, and P: bilinear those of the large plate. Drag: aliases swim, true rings move along.",
         ],
     );
     doc.rect(DVec2::ZERO, dvec2(640.0, 640.0), Style::fill(NIGHT));
     doc.texture("zone", "zone.png");
-    // At the default view of a 1024 x 1024 picture a pixel is 0.75 units: 528, 264, 132 and 66 pixels, just off
-    // whole fractions of 512, so that the beats are wide enough to be seen.
+    // At the default view of a 1024 x 1024 picture a pixel is 0.75 units: plates of 528, 240,
+    // 123, 64 and 32 pixels, so 1 to 16 texels a pixel.
     for (x, y, side) in [
         (24.0, 24.0, 396.0),
         (436.0, 24.0, 180.0),

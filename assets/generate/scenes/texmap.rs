@@ -145,7 +145,7 @@ fn coins() -> String {
         1000.0,
         1000.0,
         &[
-            "One seal, smaller and smaller: each coin has about a quarter less than the one before it.",
+            "One seal, smaller and smaller: each coin has about a fifth less across than the one before it.",
             "With level zero the small ones lose letters and sparkle: most texels fall between the samples. Press L:",
             "nearest and linear read a level that fits, and the smallest coin still has its true colours. Wheel: read the rim.",
         ],
@@ -243,7 +243,7 @@ fn planet() -> String {
         1000.0,
         1000.0,
         &[
-            "The plan of a city, 3840 x 2160 texels, on a small planet: a pixel in the middle holds some twenty texels,",
+            "The plan of a city, 3840 x 2160 texels, on a small planet: a pixel in the middle holds some seven texels,",
             "one at the rim many more. Level zero sparkles all over; L: linear calms it; = does it too, by brute force.",
             "Turn the wheel until the street names can be read, and watch the level of detail fall to zero.",
         ],

@@ -14,7 +14,7 @@ pub(super) fn night_city() -> String {
         1000.0,
         1000.0,
         &[
-            "A city at night: some three thousand rectangles, most of them windows of a few pixels.",
+            "A city at night: some 1700 rectangles, most of them windows of a few pixels.",
             "At rate 1 windows of one size come out in different widths, because pixel centres decide; press = and they agree.",
             "Zoom out with the wheel: windows smaller than a pixel twinkle at rate 1 and melt into a glow at 16.",
         ],

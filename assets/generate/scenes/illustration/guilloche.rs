@@ -23,7 +23,7 @@ pub(super) fn guilloche() -> String {
         1000.0,
         1000.0,
         &[
-            "Guilloche, the line work of banknotes: ninety closed curves of hairlines, half transparent, so that crossings darken.",
+            "Guilloche, the line work of banknotes: 84 closed curves of hairlines, half transparent, so that crossings darken.",
             "A hairline is one pixel wide at every zoom: zoom out and the lace closes up to solid bands, zoom in and it opens.",
             "The rate changes nothing here: a hairline fills all samples of its pixels. Z shows the stairs, and twice-mixed crossings.",
         ],

@@ -16,7 +16,7 @@ pub(super) fn swell() -> String {
         1000.0,
         1000.0,
         &[
-            "A swell of three thousand triangles, painted from the horizon to us; nearer ones cover what lies behind.",
+            "A swell of some 2700 triangles, painted from the horizon to us; nearer ones cover what lies behind.",
             "Far away, triangles are smaller than a pixel: rate 1 picks one of them, = mixes them. Turn with [ and ] and watch",
             "the horizon flicker. Z on the boat: painter's order decides which triangle a sample shows.",
         ],

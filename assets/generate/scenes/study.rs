@@ -52,7 +52,7 @@ fn zone_plate() -> String {
         &[
             "A zone plate of 300 rings: the farther out, the finer. True are only the rings around the centre; all others",
             "are aliases, frequencies that one sample per pixel can't tell from lower ones.",
-            "Press = : at 4 samples the ghosts move outwards and pale, at 16 little is left of them. Drag or zoom: ghosts swim, true rings don't.",
+            "Press = : at 4 samples the ghosts move outwards and pale, at 16 little is left of them. Zoom: ghosts swim, true rings grow.",
         ],
     );
     doc.rect(DVec2::ZERO, dvec2(SIDE, SIDE), Style::fill(PAPER));

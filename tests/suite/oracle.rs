@@ -31,54 +31,8 @@ fn rate(u: &mut arbtest::arbitrary::Unstructured<'_>) -> arbtest::arbitrary::Res
     Ok(at_rate(*u.choose(&[1, 4, 9, 16, 25])?))
 }
 
-#[test]
-fn oracle_agrees_on_flat_opaque_scenes_to_the_byte() {
-    let fills = Fills::Flat;
-    arbtest::arbtest(|u| {
-        let (scene, settings) = (random(u, SIDE, fills)?, rate(u)?);
-        let view = one_to_one(SIZE);
-        let (fast, slow) = (
-            drawn(&scene, &view, &settings, SIZE),
-            brute_force::draw(&scene, &view, &settings, SIZE),
-        );
-        assert_eq!(
-            difference(&fast, &slow, 0),
-            (0, 0),
-            "{settings:?}: {:#?}",
-            scene.primitives
-        );
-        Ok(())
-    })
-    .budget_ms(1500);
-}
-
-#[test]
-fn oracle_agrees_on_translucent_layers_within_one_level() {
-    // Every blend of the engine rounds to 1/65280; several of them may carry a byte over a rounding boundary.
-    let fills = Fills::Translucent;
-    arbtest::arbtest(|u| {
-        let (scene, settings) = (random(u, SIDE, fills)?, rate(u)?);
-        let view = one_to_one(SIZE);
-        let (fast, slow) = (
-            drawn(&scene, &view, &settings, SIZE),
-            brute_force::draw(&scene, &view, &settings, SIZE),
-        );
-        assert_eq!(
-            difference(&fast, &slow, 1).1,
-            0,
-            "{settings:?}: {:#?}",
-            scene.primitives
-        );
-        Ok(())
-    })
-    .budget_ms(1500);
-}
-
-#[test]
-fn oracle_agrees_on_colours_and_textures_within_one_level() {
-    // 32-bit interpolation may land on the other side of a texel's border: a sample in thousands, never a pattern.
-    let (mut pixels, mut different) = (0, 0);
-    let fills = Fills::Everything;
+/// Draws random scenes in both renderers for a while; `judge` looks at each pair.
+fn compare(fills: Fills, budget_ms: u64, mut judge: impl FnMut(&Framebuffer, &Framebuffer, &str)) {
     arbtest::arbtest(|u| {
         let (scene, mut settings) = (random(u, SIDE, fills)?, rate(u)?);
         settings.pixel_sampling = *u.choose(&PixelSampling::ALL)?;
@@ -88,17 +42,37 @@ fn oracle_agrees_on_colours_and_textures_within_one_level() {
             drawn(&scene, &view, &settings, SIZE),
             brute_force::draw(&scene, &view, &settings, SIZE),
         );
-        let (largest, count) = difference(&fast, &slow, 1);
-        assert!(
-            count < 8,
-            "{count} pixels, largest {largest}, {settings:?}: {:#?}",
-            scene.primitives
-        );
-        pixels += fast.pixels().len();
-        different += count;
+        judge(&fast, &slow, &format!("{settings:?}: {:#?}", scene.primitives));
         Ok(())
     })
-    .budget_ms(2500);
+    .budget_ms(budget_ms);
+}
+
+#[test]
+fn oracle_agrees_on_flat_opaque_scenes_to_the_byte() {
+    compare(Fills::Flat, 1500, |fast, slow, what| {
+        assert_eq!(difference(fast, slow, 0), (0, 0), "{what}")
+    });
+}
+
+#[test]
+fn oracle_agrees_on_translucent_layers_within_one_level() {
+    // Every blend of the engine rounds to 1/65280; several of them may carry a byte over a rounding boundary.
+    compare(Fills::Translucent, 1500, |fast, slow, what| {
+        assert_eq!(difference(fast, slow, 1).1, 0, "{what}")
+    });
+}
+
+#[test]
+fn oracle_agrees_on_colours_and_textures_within_one_level() {
+    // 32-bit interpolation may land on the other side of a texel's border: a sample in thousands, never a pattern.
+    let (mut pixels, mut different) = (0, 0);
+    compare(Fills::Everything, 2500, |fast, slow, what| {
+        let (largest, count) = difference(fast, slow, 1);
+        assert!(count < 8, "{count} pixels, largest {largest}, {what}");
+        pixels += fast.pixels().len();
+        different += count;
+    });
     assert!(
         different * 2000 <= pixels,
         "{different} of {pixels} pixels differ by more than one level"

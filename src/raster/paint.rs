@@ -4,7 +4,7 @@ use super::SampleHit;
 use super::bins::Entry;
 use super::display_list::{Chunk, Op, Paint, ScreenTriangle};
 use super::rows::{SortedTriangle, Span};
-use super::shade::{ShadeContext, Shader};
+use super::shade::{ShadeContext, Shader, ShaderKind};
 use super::tile::{PixelRect, Tile};
 use crate::color::Premultiplied16;
 
@@ -168,9 +168,12 @@ impl<'a> TilePainter<'a> {
             end: x.end * side,
         };
         for row in y.start..y.end {
-            if let Shader::Solid(color) = shader {
+            if let ShaderKind::Solid(color) = shader.kind {
                 self.fill(x, row, color);
             } else {
+                if shader.opaque {
+                    self.layers[self.depth - 1].split_unfilled(x, row);
+                }
                 for line in row * side..(row + 1) * side {
                     self.shaded(&shader, columns, line);
                 }
@@ -214,7 +217,7 @@ impl<'a> TilePainter<'a> {
     /// Paints one row of pixels: solid colours pixel by pixel, shaded ones by sample rows.
     fn pixel_row(&mut self, shader: &Shader<'_>, pixels: &PixelRow, row: i32) {
         let side = self.context.grid.side();
-        if let Shader::Solid(color) = shader {
+        if let ShaderKind::Solid(color) = &shader.kind {
             self.fill(pixels.full, row, *color);
             for x in (pixels.touched.start..pixels.full.start).chain(pixels.full.end..pixels.touched.end) {
                 self.layers[self.depth - 1].fill_part(x, row, &pixels.spans[..pixels.side], *color);
@@ -225,6 +228,9 @@ impl<'a> TilePainter<'a> {
                 }
             }
         } else {
+            if shader.opaque {
+                self.layers[self.depth - 1].split_unfilled(pixels.full, row);
+            }
             for (span, line) in pixels.spans[..pixels.side].iter().zip(row * side..) {
                 self.shaded(shader, *span, line);
             }
@@ -250,7 +256,7 @@ impl<'a> TilePainter<'a> {
         }
         let colors = &mut self.colors[..count];
         shader.shade(&self.context, columns.start, line, colors);
-        self.layers[self.depth - 1].write_samples(columns, line, colors);
+        self.layers[self.depth - 1].write_samples(columns, line, colors, shader.opaque);
         self.note(columns, line);
     }
 

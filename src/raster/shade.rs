@@ -30,7 +30,15 @@ pub(crate) struct Planes<const K: usize> {
 
 /// Turns the fragments of one triangle into colours.
 #[derive(Debug)]
-pub(crate) enum Shader<'a> {
+pub(crate) struct Shader<'a> {
+    pub(crate) kind: ShaderKind<'a>,
+    /// Whether every fragment hides what is below it.
+    pub(crate) opaque: bool,
+}
+
+/// Where a fragment's colour comes from.
+#[derive(Debug)]
+pub(crate) enum ShaderKind<'a> {
     /// One colour.
     Solid(Premultiplied16),
     /// Straight red, green, blue, alpha in `0.0..=1.0`.
@@ -134,15 +142,19 @@ impl Planes<2> {
 impl<'a> Shader<'a> {
     /// Prepares the shading of one triangle.
     pub(crate) fn new(context: &ShadeContext<'a>, triangle: &ScreenTriangle, paint: &Paint) -> Self {
-        match *paint {
-            Paint::Solid(color) => Self::Solid(color),
-            Paint::Vertex(colors) => Self::Vertex(Planes::new(context.grid, &triangle.corners, colors)),
+        let kind = match *paint {
+            Paint::Solid(color) => ShaderKind::Solid(color),
+            Paint::Vertex(colors) => ShaderKind::Vertex(Planes::new(context.grid, &triangle.corners, colors)),
             Paint::Texture { texture, uv, opacity } => {
                 let uv = Planes::new(context.grid, &triangle.corners, uv);
                 let pyramid = &context.textures[texture as usize].pyramid;
                 let sampler = Sampler::new(pyramid, &uv.footprint(), context.sampling);
-                Self::Texture { uv, sampler, opacity }
+                ShaderKind::Texture { uv, sampler, opacity }
             }
+        };
+        Self {
+            kind,
+            opaque: Self::is_opaque(paint, context.textures),
         }
     }
 
@@ -150,17 +162,19 @@ impl<'a> Shader<'a> {
     pub(crate) fn shade(&self, context: &ShadeContext<'_>, first: i32, row: i32, colors: &mut [Premultiplied16]) {
         let rules = context.sampling.rules;
         let at = (first, row);
-        match self {
-            Self::Solid(color) => colors.fill(*color),
-            Self::Vertex(planes) => planes.each(context.grid, at, colors, |[r, g, b, a]| {
+        match &self.kind {
+            ShaderKind::Solid(color) => colors.fill(*color),
+            ShaderKind::Vertex(planes) => planes.each(context.grid, at, colors, |[r, g, b, a]| {
                 std::array::from_fn(|i| vertex_color([r[i], g[i], b[i], a[i]], rules))
             }),
-            Self::Texture { uv, sampler, opacity } if *opacity >= 1.0 => uv.each(context.grid, at, colors, |[u, v]| {
-                sampler
-                    .sample_lanes(&u, &v)
-                    .map(|color| Premultiplied16::from_byte_range(color, rules))
-            }),
-            Self::Texture { uv, sampler, opacity } => uv.each(context.grid, at, colors, |[u, v]| {
+            ShaderKind::Texture { uv, sampler, opacity } if *opacity >= 1.0 => {
+                uv.each(context.grid, at, colors, |[u, v]| {
+                    sampler
+                        .sample_lanes(&u, &v)
+                        .map(|color| Premultiplied16::from_byte_range(color, rules))
+                });
+            }
+            ShaderKind::Texture { uv, sampler, opacity } => uv.each(context.grid, at, colors, |[u, v]| {
                 // Truncation comes after blending: half of a texel is no byte.
                 let faded = |color: [f32; 4]| color.map(|channel| channel * opacity);
                 sampler

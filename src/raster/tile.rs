@@ -228,30 +228,30 @@ impl Tile {
         }
     }
 
-    /// Paints the samples `columns` of sample row `row` with a colour each.
+    /// Paints the samples `columns` of sample row `row` with a colour each; `opaque` says that all of these are.
     #[inline]
-    pub(crate) fn write_samples(&mut self, columns: Span, row: i32, colors: &[Premultiplied16]) {
+    pub(crate) fn write_samples(&mut self, columns: Span, row: i32, colors: &[Premultiplied16], opaque: bool) {
         let rules = self.rules;
         if self.per_pixel == 1 {
             let first = self.index(columns.start, row);
-            for (below, color) in self.whole[first..].iter_mut().zip(colors) {
-                *below = if color.is_opaque() {
-                    *color
-                } else {
-                    color.over(*below, rules)
-                };
-            }
+            paint(&mut self.whole[first..first + colors.len()], colors, opaque, rules);
             return;
         }
         self.each_pixel_run(columns, row, |samples, at| {
-            for (sample, color) in samples.iter_mut().zip(&colors[at..]) {
-                *sample = if color.is_opaque() {
-                    *color
-                } else {
-                    color.over(*sample, rules)
-                };
-            }
+            let end = at + samples.len();
+            paint(samples, &colors[at..end], opaque, rules);
         });
+    }
+
+    /// Splits the pixels `xs` of row `y` for a painter that will overwrite all their samples.
+    #[inline]
+    pub(crate) fn split_unfilled(&mut self, xs: Span, y: i32) {
+        if self.per_pixel == 1 || xs.is_empty() {
+            return;
+        }
+        self.ensure_samples();
+        let first = self.index(xs.start, y);
+        self.split[first..first + offset(xs.end - xs.start)].fill(true);
     }
 
     /// Splits the pixels that a sample row touches and hands out the touched samples, pixel by pixel, each with its
@@ -276,6 +276,15 @@ impl Tile {
             );
             column = end;
             x += 1;
+        }
+    }
+
+    /// Makes room for the samples of every pixel.
+    #[inline]
+    fn ensure_samples(&mut self) {
+        let count = self.whole.len() * self.per_pixel;
+        if self.samples.len() < count {
+            self.samples.resize(count, Premultiplied16::TRANSPARENT);
         }
     }
 
@@ -352,6 +361,22 @@ impl Tile {
                 *pixel = Premultiplied16::resolve(sums, count, self.rules);
             }
         }
+    }
+}
+
+/// Paints colours over samples.
+#[inline]
+fn paint(samples: &mut [Premultiplied16], colors: &[Premultiplied16], opaque: bool, rules: Rules) {
+    if opaque {
+        samples.copy_from_slice(colors);
+        return;
+    }
+    for (sample, color) in samples.iter_mut().zip(colors) {
+        *sample = if color.is_opaque() {
+            *color
+        } else {
+            color.over(*sample, rules)
+        };
     }
 }
 

@@ -51,7 +51,7 @@ fn compare(fills: Fills, budget_ms: u64, mut judge: impl FnMut(&Framebuffer, &Fr
 #[test]
 fn oracle_agrees_on_flat_opaque_scenes_to_the_byte() {
     compare(Fills::Flat, 1500, |fast, slow, what| {
-        assert_eq!(difference(fast, slow, 0), (0, 0), "{what}")
+        assert_eq!(difference(fast, slow, 0), (0, 0), "{what}");
     });
 }
 
@@ -59,7 +59,7 @@ fn oracle_agrees_on_flat_opaque_scenes_to_the_byte() {
 fn oracle_agrees_on_translucent_layers_within_one_level() {
     // Every blend of the engine rounds to 1/65280; several of them may carry a byte over a rounding boundary.
     compare(Fills::Translucent, 1500, |fast, slow, what| {
-        assert_eq!(difference(fast, slow, 1).1, 0, "{what}")
+        assert_eq!(difference(fast, slow, 1).1, 0, "{what}");
     });
 }
 

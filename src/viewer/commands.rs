@@ -95,13 +95,20 @@ impl CommandSpec {
         }
     }
 
-    /// The keys as one text, such as `Ctrl+R, F5`; empty without keys. A run of digits is shortened to `1-9`.
+    /// The keys as one text, such as `Ctrl+R, F5`; empty without keys. A run of digits is shortened to `1-9`, the four
+    /// arrows to `Shift+arrows`.
     pub fn keys_text(&self) -> String {
         let digit = |chord: &Chord| matches!(chord.key, Key::Char(c) if c.is_ascii_digit());
         if let [first, .., last] = self.keys
             && self.keys.iter().all(digit)
         {
             return format!("{first}-{last}");
+        }
+        let arrows = [Key::Left, Key::Right, Key::Up, Key::Down];
+        if let [first, ..] = self.keys
+            && self.keys.iter().map(|chord| chord.key).eq(arrows)
+        {
+            return first.to_string().replace("Left", "arrows");
         }
         let names: Vec<String> = self.keys.iter().map(ToString::to_string).collect();
         names.join(", ")

@@ -167,7 +167,10 @@ fn save_new(folder: &Path, picture: &Framebuffer) -> Result<(PathBuf, [u32; 2]),
         };
         let path = folder.join(name);
         match write_new(&path, &bytes) {
-            Ok(()) => return Ok((path, [picture.width(), picture.height()])),
+            Ok(()) => {
+                let path = path.strip_prefix(".").unwrap_or(&path).to_owned();
+                return Ok((path, [picture.width(), picture.height()]));
+            }
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
             Err(error) => return Err(format!("{}: cannot save here: {error}; {cure}", folder.display())),
         }

@@ -20,7 +20,7 @@ struct Case {
     steps: &'static str,
 }
 
-const CASES: [Case; 7] = [
+const CASES: [Case; 9] = [
     Case {
         name: "overlay_panel_dark",
         size: [800, 600],
@@ -62,6 +62,20 @@ const CASES: [Case; 7] = [
         scale: 1.0,
         theme: Theme::Light,
         steps: "rate 16; pin 277,178; magnification 24; region 12; panel off",
+    },
+    Case {
+        name: "overlay_inspector_small",
+        size: [420, 420],
+        scale: 1.0,
+        theme: Theme::Dark,
+        steps: "rate 4; pin 160,200; magnification 2; region 64; panel off",
+    },
+    Case {
+        name: "overlay_panel_deep",
+        size: [560, 480],
+        scale: 1.0,
+        theme: Theme::Dark,
+        steps: "panel on; view -512.3456789,433.987654,12345678900",
     },
     Case {
         name: "overlay_go_to_pixel",
@@ -113,6 +127,25 @@ fn overlay_pictures_repeat() {
         first == picture(&CASES[1], folder.path()),
         "the same session, the same picture"
     );
+}
+
+/// A command that is chosen before its argument was typed leaves the caret where the argument goes.
+#[test]
+fn overlay_palette_takes_an_argument_later() {
+    let folder = tempfile::tempdir().unwrap();
+    let after = |steps| {
+        let case = Case {
+            name: "palette",
+            size: [700, 400],
+            scale: 1.0,
+            theme: Theme::Dark,
+            steps,
+        };
+        picture(&case, folder.path())
+    };
+    let chosen = after("panel on; key Ctrl+Shift+P; type rate; key Down; key Down; key Enter; type 16; key Enter");
+    assert!(chosen == after("panel on; rate 16"), "as if typed in one go");
+    assert!(chosen != after("panel on"), "the rate is to be seen");
 }
 
 /// A mistake in a script is the user's, and told with its place.

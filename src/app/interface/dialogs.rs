@@ -1,5 +1,6 @@
 //! What covers the picture until it is closed: help, the command palette, going to a pixel.
 
+use egui::text::{CCursor, CCursorRange};
 use egui::{Align, Align2, Area, Button, Color32, Context, Id, Key, Layout, Modal, Order, RichText, ScrollArea};
 use egui::{TextEdit, Ui, vec2};
 
@@ -14,6 +15,8 @@ pub(super) struct Dialogs {
     text: String,
     problem: Option<String>,
     chosen: usize,
+    /// The text was replaced: its line puts the caret behind it.
+    caret_to_end: bool,
 }
 
 impl Dialogs {
@@ -36,9 +39,17 @@ impl Dialogs {
 
     /// A line of text that has the keyboard. True when Enter was pressed.
     fn line(&mut self, ui: &mut Ui, name: &str, hint: &str, just_opened: bool) -> bool {
+        let id = ui.unique_id().with(name);
+        if std::mem::take(&mut self.caret_to_end) {
+            let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
+            let end = CCursor::new(self.text.chars().count());
+            state.cursor.set_char_range(Some(CCursorRange::one(end)));
+            state.store(ui.ctx(), id);
+        }
         let response = ui
             .add(
                 TextEdit::singleline(&mut self.text)
+                    .id(id)
                     .hint_text(hint)
                     .desired_width(f32::INFINITY)
                     .margin(vec2(8.0, 6.0)),
@@ -86,6 +97,8 @@ impl Dialogs {
             }
             // The palette goes on with the argument.
             self.text = format!("{} ", spec.id);
+            self.caret_to_end = true;
+            self.chosen = 0;
             self.problem = spec.argument.map(|argument| format!("type {}", argument.usage));
             return;
         }
@@ -142,6 +155,7 @@ impl Dialogs {
                 });
                 if run.is_some() {
                     self.run(run, &argument, commands);
+                    ui.ctx().request_repaint();
                 }
             });
         if modal.backdrop_response.clicked() {
@@ -196,7 +210,6 @@ fn entry(ui: &mut Ui, spec: &CommandSpec, chosen: bool) -> egui::Response {
     };
     let button = Button::selectable(chosen, spec.name).right_text(RichText::new(keys).small());
     ui.add_sized([ui.available_width(), CONTROL.y + 2.0], button)
-        .on_hover_text(spec.help)
         .accessible_name(spec.name)
 }
 

@@ -3,17 +3,21 @@
 
 use std::collections::HashMap;
 
-use egui::{Align2, Area, Color32, FontId, Frame, Id, Order, Rect, RichText, Sense, Ui, pos2, vec2};
+use egui::{Align2, Area, Color32, FontId, Frame, Id, Order, Rect, RichText, Sense, Ui, Vec2, pos2, vec2};
 
-use crate::viewer::{Command, Message, MessageKind, Viewer};
+use crate::viewer::{Command, Message, MessageKind, PixelRect, Viewer};
 
 /// Seconds that a message stays.
 const DONE_SECONDS: f64 = 5.0;
 /// Seconds that a message about a fault stays.
 const ERROR_SECONDS: f64 = 15.0;
 
-/// The text over the picture: scene and settings.
-pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect) {
+/// Free space around the text over the picture, in points.
+const TEXT_MARGIN: f32 = 10.0;
+
+/// The text over the picture: scene and settings. It gives way to the inspector's inset and to what is `taken`
+/// besides, and is left out where there is no room.
+pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) {
     let Some(entry) = viewer.current() else {
         return;
     };
@@ -41,10 +45,34 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect) {
         Color32::WHITE,
         (free.width() - 40.0).max(60.0),
     );
-    let at = free.min + vec2(10.0, 10.0);
-    let back = Rect::from_min_size(at, galley.size() + vec2(16.0, 10.0));
+    let inset = viewer.inset().map(|placed| points(&placed.rect, ui.pixels_per_point()));
+    let taken: Vec<Rect> = taken.iter().copied().chain(inset).collect();
+    let Some(back) = free_corner(free, galley.size() + vec2(16.0, 10.0), &taken) else {
+        return;
+    };
     ui.painter().rect_filled(back, 5.0, Color32::from_black_alpha(170));
-    ui.painter().galley(at + vec2(8.0, 5.0), galley, Color32::WHITE);
+    ui.painter().galley(back.min + vec2(8.0, 5.0), galley, Color32::WHITE);
+}
+
+/// Where a box of `size` goes: the first corner of `area` where nothing is `taken`.
+fn free_corner(area: Rect, size: Vec2, taken: &[Rect]) -> Option<Rect> {
+    let room = area.shrink(TEXT_MARGIN);
+    [
+        Align2::LEFT_TOP,
+        Align2::LEFT_BOTTOM,
+        Align2::RIGHT_TOP,
+        Align2::RIGHT_BOTTOM,
+    ]
+    .into_iter()
+    .map(|corner| corner.align_size_within_rect(size, room))
+    .find(|place| room.contains_rect(*place) && taken.iter().all(|other| !other.intersects(*place)))
+}
+
+/// Device pixels as points.
+pub(super) fn points(rect: &PixelRect, scale: f32) -> Rect {
+    let part = |value: i64| i32::try_from(value).unwrap_or_default() as f32 / scale;
+    let size = vec2(rect.width as f32, rect.height as f32) / scale;
+    Rect::from_min_size(pos2(part(rect.x), part(rect.y)), size)
 }
 
 /// The numbers on the inset's pixels, where they fit.
@@ -132,4 +160,32 @@ fn toast(ui: &Ui, message: &Message, corner: egui::Pos2, width: f32) -> (Rect, b
         .response;
     let response = response.on_hover_text("Click to close");
     (response.rect, response.clicked())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_goes_where_nothing_is() {
+        let area = Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0));
+        let size = vec2(100.0, 60.0);
+        let place = |taken: &[Rect]| free_corner(area, size, taken).map(|place| place.min);
+        let [left, right] = [0.0, 200.0].map(|x| Rect::from_min_size(pos2(x, 0.0), vec2(200.0, 200.0)));
+        assert_eq!(place(&[]), Some(pos2(10.0, 10.0)), "the upper left corner, if it may");
+        assert_eq!(place(&[left]), Some(pos2(10.0, 230.0)), "below the inset");
+        let below = Rect::from_min_size(pos2(0.0, 220.0), vec2(200.0, 80.0));
+        assert_eq!(
+            place(&[left, below]),
+            Some(pos2(290.0, 10.0)),
+            "beside inset and message"
+        );
+        assert_eq!(
+            place(&[left, below, right]),
+            Some(pos2(290.0, 230.0)),
+            "the last corner"
+        );
+        assert_eq!(place(&[area]), None, "no room");
+        assert_eq!(free_corner(area, vec2(390.0, 20.0), &[]), None, "too wide");
+    }
 }

@@ -1,17 +1,22 @@
 //! Words beside the inspector's large pixel: where it is, its colour, and what its samples hit.
 
-use egui::{Color32, FontId, Rect, Ui, pos2, vec2};
+use std::sync::Arc;
 
-use crate::viewer::Viewer;
+use egui::{Color32, FontId, Galley, Ui, pos2};
+
+use super::floating::points;
+use crate::viewer::{Status, Viewer};
 
 /// The inset's ground is light in every theme.
 const INK: Color32 = Color32::from_rgb(0x20, 0x24, 0x28);
 /// Height of the letters, in points.
 const SIZE: f32 = 11.0;
 
-/// Writes as many lines as fit.
+/// Width below which words about hits would break into letters, in points.
+const LEAST_WIDTH: f32 = 64.0;
+
+/// Writes as many lines as fit, each wholly or not at all: half a number would be another number.
 pub(super) fn hits(ui: &Ui, viewer: &Viewer) {
-    let scale = ui.pixels_per_point();
     let Some(placed) = viewer.inset() else { return };
     let (Some(area), Some(status)) = (
         placed.text_area(),
@@ -19,33 +24,47 @@ pub(super) fn hits(ui: &Ui, viewer: &Viewer) {
     ) else {
         return;
     };
-    let part = |value: i64| i32::try_from(value).unwrap_or_default() as f32 / scale;
-    let size = vec2(area.width as f32, area.height as f32) / scale;
-    let rect = Rect::from_min_size(pos2(part(area.x), part(area.y)), size);
-    let [x, y] = status.pixel;
-    let mut lines = vec![format!("pixel {x}, {y}")];
-    lines.extend(
-        status
-            .decimal_text()
-            .zip(status.hex_text())
-            .map(|(decimal, hex)| format!("{decimal}  {hex}")),
-    );
-    let count = viewer.pixel_samples().len();
-    lines.extend(
-        viewer
-            .hits()
-            .iter()
-            .map(|(hit, hits)| format!("{hits} of {count}: {hit}")),
-    );
-    let painter = ui.painter().with_clip_rect(rect);
+    let rect = points(&area, ui.pixels_per_point());
+    let galleys = numbers(ui, &status, rect.width())
+        .into_iter()
+        .chain(words(ui, viewer, rect.width()));
     let mut top = rect.top();
-    for line in lines {
-        let galley = painter.layout_no_wrap(line, FontId::proportional(SIZE), INK);
-        if top + galley.size().y > rect.bottom() + 1.0 {
+    for galley in galleys {
+        let next = top + galley.size().y;
+        if next > rect.bottom() + 1.0 {
             break;
         }
-        let next = top + galley.size().y;
-        painter.galley(pos2(rect.left(), top), galley, INK);
+        ui.painter().galley(pos2(rect.left(), top), galley, INK);
         top = next;
     }
+}
+
+/// Place and colour: lines that must not break, so that those that are too long are left out.
+fn numbers(ui: &Ui, status: &Status, width: f32) -> Vec<Arc<Galley>> {
+    let line = |text: String| {
+        let galley = ui.painter().layout_no_wrap(text, FontId::proportional(SIZE), INK);
+        (galley.size().x <= width).then_some(galley)
+    };
+    let [x, y] = status.pixel;
+    let mut lines = vec![line(format!("pixel {x}, {y}")).or_else(|| line(format!("{x}, {y}")))];
+    if let Some((decimal, hex)) = status.decimal_text().zip(status.hex_text()) {
+        match line(format!("{decimal}  {hex}")) {
+            Some(both) => lines.push(Some(both)),
+            None => lines.extend([line(decimal), line(hex)]),
+        }
+    }
+    lines.into_iter().flatten().collect()
+}
+
+/// What the samples hit: long lines break between words.
+fn words(ui: &Ui, viewer: &Viewer, width: f32) -> Vec<Arc<Galley>> {
+    if width < LEAST_WIDTH {
+        return Vec::new();
+    }
+    let count = viewer.pixel_samples().len();
+    let hits = viewer.hits();
+    let lines = hits.iter().map(|(hit, hits)| format!("{hits} of {count}: {hit}"));
+    lines
+        .map(|line| ui.painter().layout(line, FontId::proportional(SIZE), INK, width))
+        .collect()
 }

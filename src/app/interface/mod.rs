@@ -120,12 +120,12 @@ impl Interface {
         asked
             .commands
             .push(Command::SetFreeArea(Some(device_rect(free, ui.pixels_per_point()))));
-        if viewer.overlay_text() && !hidden {
-            floating::overlay_text(ui, viewer, free);
-        }
         floating::pixel_labels(ui, viewer);
         hits::hits(ui, viewer);
         let messages = self.clock.show(ui, viewer, free, &mut asked.commands);
+        if viewer.overlay_text() && !hidden {
+            floating::overlay_text(ui, viewer, free, &messages);
+        }
         self.covered.extend(messages);
         let ctx = self.ctx.clone();
         self.dialogs.show(&ctx, viewer, &mut asked.commands);
@@ -154,7 +154,6 @@ impl Interface {
                         .show(ui, |ui| {
                             self.settings(ui, viewer, asked);
                             scenes::title(ui, viewer, &mut asked.commands);
-                            // Scrolling to the scene would scroll the settings away.
                             // Scrolling to the scene would scroll the settings away.
                             self.scenes(ui, viewer, false, asked);
                         });

@@ -8,6 +8,9 @@ pub enum AppError {
     /// The script cannot be read or is at fault: the user's input (exit status 2).
     #[error("{0}")]
     Script(String),
+    /// A session without a window met a scene that cannot be read or a picture that cannot be saved: the user's input.
+    #[error("{0}")]
+    Input(String),
     /// A file could not be written.
     #[error("{}: cannot write this picture: {cause}; choose another place", path.display())]
     Write {
@@ -27,6 +30,6 @@ pub enum AppError {
 impl AppError {
     /// Whether the user's input is at fault rather than the system.
     pub fn is_input(&self) -> bool {
-        matches!(self, Self::Script(_))
+        matches!(self, Self::Script(_) | Self::Input(_))
     }
 }

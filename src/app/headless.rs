@@ -1,5 +1,9 @@
 //! Sessions without a window: the same viewer and panels, time that only scripts move, pictures in files.
 
+use std::fs::File;
+use std::io::{self, Read as _};
+use std::path::Path;
+
 use super::session::{Clock, Session};
 use super::{AppError, ScriptSource, ViewOptions};
 use crate::viewer::script::{Script, Stage as _, play};
@@ -7,6 +11,9 @@ use crate::viewer::{Message, MessageKind, Theme, Viewer, ViewerOptions, Waker};
 
 /// A window's size where nobody says another, in points.
 pub(super) const DEFAULT_SIZE: [f32; 2] = [1280.0, 800.0];
+
+/// Largest script, in bytes.
+const MAX_SCRIPT: usize = 16 << 20;
 
 /// The script, read, and its name in messages.
 #[derive(Clone, Debug)]
@@ -25,7 +32,7 @@ pub(super) fn read_script(options: &ViewOptions) -> Result<Option<NamedScript>, 
         Some(ScriptSource::Text(text)) => (text.clone(), "--do".to_owned()),
         Some(ScriptSource::File(path)) => {
             let name = path.display().to_string();
-            let text = std::fs::read_to_string(path).map_err(|error| {
+            let text = read_text(path).map_err(|error| {
                 AppError::Script(format!("{name}: cannot read this script: {error}; give a text file"))
             })?;
             (text, name)
@@ -33,6 +40,17 @@ pub(super) fn read_script(options: &ViewOptions) -> Result<Option<NamedScript>, 
     };
     let script = Script::parse(&text, &name).map_err(|error| AppError::Script(error.to_string()))?;
     Ok(Some(NamedScript { script, name }))
+}
+
+/// A text file, or a pipe that ends, of a size that a person could have written.
+fn read_text(path: &Path) -> io::Result<String> {
+    let mut text = String::new();
+    let limit = u64::try_from(MAX_SCRIPT).unwrap_or(u64::MAX);
+    File::open(path)?.take(limit + 1).read_to_string(&mut text)?;
+    if text.len() > MAX_SCRIPT {
+        return Err(io::Error::other("it is larger than 16 MiB"));
+    }
+    Ok(text)
 }
 
 /// How the viewer of a session starts.
@@ -79,9 +97,10 @@ pub(super) fn run(options: &ViewOptions) -> Result<Option<String>, AppError> {
     if let Some(NamedScript { script, name }) = script {
         play(&script, &name, &mut session).map_err(|error| AppError::Script(error.to_string()))?;
         session.settle();
-        return Ok(None);
+        return untroubled(&session).map(|()| None);
     }
     session.settle();
+    untroubled(&session)?;
     session.run(crate::viewer::Command::WindowScreenshot);
     session.settle();
     match session.viewer().messages().last() {
@@ -90,7 +109,22 @@ pub(super) fn run(options: &ViewOptions) -> Result<Option<String>, AppError> {
             text,
             ..
         }) => Ok(Some(text.clone())),
-        Some(message) => Err(AppError::Window(message.text.clone())),
+        Some(message) => Err(AppError::Input(message.text.clone())),
         None => Err(AppError::Window("no picture was saved".to_owned())),
+    }
+}
+
+/// Whether all went well so far: the scene could be read, screenshots could be saved. If not, the first thing that
+/// went wrong.
+fn untroubled(session: &Session) -> Result<(), AppError> {
+    let viewer = session.viewer();
+    let failure = viewer.current().and_then(|entry| entry.failure());
+    let error = viewer
+        .messages()
+        .iter()
+        .find(|message| message.kind == MessageKind::Error);
+    match failure.or(error.map(|message| message.text.as_str())) {
+        Some(problem) => Err(AppError::Input(problem.to_owned())),
+        None => Ok(()),
     }
 }

@@ -243,7 +243,10 @@ fn one_line(message: &str) -> String {
     let usage = message.find("\n\nUsage:").unwrap_or(message.len());
     let hint = message.find("\n\nFor more information").unwrap_or(message.len());
     let words: Vec<&str> = message[..usage.min(hint)].split_whitespace().collect();
-    format!("{}; see `rasterscope --help`", words.join(" "))
+    format!(
+        "{}; see `rasterscope --help`",
+        words.join(" ").replace(" tip: ", "; tip: ")
+    )
 }
 
 #[cfg(test)]

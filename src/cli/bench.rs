@@ -39,11 +39,10 @@ pub(super) fn run(options: &BenchOptions) -> Result<(), Failure> {
     let report = on_threads(&options.picture, || measure(options))??;
     if options.json {
         let json = serde_json::to_string(&report).map_err(Failure::other)?;
-        print(&json);
+        print(&json)
     } else {
-        print(&report.text());
+        print(&report.text())
     }
-    Ok(())
 }
 
 fn measure(options: &BenchOptions) -> Result<Report, Failure> {

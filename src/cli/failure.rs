@@ -36,18 +36,24 @@ impl Failure {
                 print_error(line);
                 ExitCode::from(1)
             }
-            Self::Text(text) => {
-                print(text.trim_end());
-                ExitCode::SUCCESS
-            }
+            Self::Text(text) => match print(text.trim_end()) {
+                Ok(()) => ExitCode::SUCCESS,
+                Err(failure) => failure.report(),
+            },
         }
     }
 }
 
 /// Prints a line, or lines, on stdout. A reader that has gone away is no reason to fail.
-pub(super) fn print(text: &str) {
+pub(super) fn print(text: &str) -> Result<(), Failure> {
     use std::io::Write as _;
-    let _ = writeln!(std::io::stdout().lock(), "{text}");
+    let mut stdout = std::io::stdout().lock();
+    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::other(format!(
+            "standard output: cannot write: {error}; send it elsewhere"
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// Prints one line on stderr.

@@ -1,5 +1,6 @@
 //! `rasterscope render`: a scene, or every scene in a folder, into PNG files.
 
+use std::collections::HashSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -9,7 +10,7 @@ use super::arguments::RenderOptions;
 use super::failure::{Failure, print_error};
 use super::picture::{Picture, on_threads};
 use crate::figure::save_png;
-use crate::viewer::{SceneSource, list_scenes};
+use crate::viewer::{SceneEntry, SceneSource, list_scenes};
 
 /// Draws what the options ask for.
 pub(super) fn run(options: &RenderOptions) -> Result<(), Failure> {
@@ -43,10 +44,19 @@ fn folder(options: &RenderOptions) -> Result<(), Failure> {
         bar.set_style(style);
     }
     let mut failed = 0;
+    let mut taken = HashSet::new();
     for entry in &entries {
         bar.set_message(entry.label.clone());
-        let output = options.output.join(Path::new(&entry.label)).with_extension("png");
-        match one(&entry.source, &output, options) {
+        let output = picture_of(entry, options);
+        let drawn = if taken.insert(output.clone()) {
+            one(&entry.source, &output, options)
+        } else {
+            let (scene, output) = (entry.source.address(), output.display());
+            Err(Failure::input(format!(
+                "{scene}: another scene's picture is {output} already; rename the scene"
+            )))
+        };
+        match drawn {
             Ok(()) => {}
             Err(Failure::Input(problem)) => {
                 failed += 1;
@@ -64,6 +74,15 @@ fn folder(options: &RenderOptions) -> Result<(), Failure> {
         )));
     }
     Ok(())
+}
+
+/// Where the picture of a scene in a folder goes: the same place in the output folder.
+fn picture_of(entry: &SceneEntry, options: &RenderOptions) -> PathBuf {
+    let inner = match &entry.source {
+        SceneSource::File(path) => path.strip_prefix(&options.scene).unwrap_or(path),
+        SceneSource::Gallery(_) => Path::new(&entry.label),
+    };
+    options.output.join(inner).with_extension("png")
 }
 
 fn one(source: &SceneSource, output: &Path, options: &RenderOptions) -> Result<(), Failure> {

@@ -8,6 +8,12 @@ use super::failure::Failure;
 pub(super) fn run(options: &ViewerOptions) -> Result<(), Failure> {
     use crate::app::{self, ScriptSource, ViewOptions};
 
+    let (entries, problems) = crate::viewer::list_scenes(&options.paths);
+    if entries.is_empty()
+        && let Some(problem) = problems.into_iter().next()
+    {
+        return Err(Failure::Input(problem));
+    }
     if let Some(threads) = options.framing.threads {
         // Fails only if the pool runs already, and nothing has used it before this line.
         rayon::ThreadPoolBuilder::new()

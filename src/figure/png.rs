@@ -30,11 +30,25 @@ pub fn encode_png(frame: &Framebuffer) -> Result<Vec<u8>, ImageError> {
     Ok(bytes)
 }
 
-/// Writes a frame as PNG file, replacing what was there: under another name first, so that no half file is ever seen.
+/// Writes a frame as PNG file, replacing a file that was there: under another name first, so that no half file is ever
+/// seen. A link is followed; a device, pipe or folder is left alone.
 ///
 /// # Errors
-/// When the frame has no pixels or the file cannot be written.
+/// When the frame has no pixels, when the name does not end in `.png`, when the file cannot be written.
 pub fn save_png(frame: &Framebuffer, path: &Path) -> io::Result<()> {
+    let refused = |why: &str| Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+    if !path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
+    {
+        return refused("pictures are written as PNG and their names end in .png");
+    }
+    // What is not there yet cannot be followed.
+    let target = std::fs::canonicalize(path);
+    let path = target.as_deref().unwrap_or(path);
+    if std::fs::metadata(path).is_ok_and(|there| !there.is_file()) {
+        return refused("there is something of that name that is no file");
+    }
     let bytes = encode_png(frame).map_err(io::Error::other)?;
     let name = path
         .file_name()
@@ -75,6 +89,28 @@ mod tests {
             1,
             "no other file is left"
         );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn png_replaces_files_only() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let at = |name: &str| folder.path().join(name);
+        let frame = Framebuffer::new(2, 1);
+        std::fs::write(at("notes.svg"), "<svg/>").expect("a small file");
+        assert!(save_png(&frame, &at("notes.svg")).is_err(), "no picture's name");
+        assert_eq!(
+            std::fs::read(at("notes.svg")).expect("still there"),
+            b"<svg/>",
+            "untouched"
+        );
+        std::os::unix::fs::symlink(at("target.png"), at("link.png")).expect("a link");
+        std::fs::write(at("target.png"), "old").expect("a small file");
+        save_png(&frame, &at("link.png")).expect("writable");
+        assert!(at("link.png").is_symlink(), "the link stays");
+        assert!(image::open(at("target.png")).is_ok(), "what it leads to is the picture");
+        std::os::unix::fs::symlink("/dev/null", at("device.png")).expect("a link");
+        assert!(save_png(&frame, &at("device.png")).is_err(), "a device is no file");
     }
 
     #[test]

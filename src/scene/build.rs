@@ -147,21 +147,17 @@ impl<'doc> Builder<'doc> {
         self.push(shape, PrimitiveKind::Hairline { ends, color })
     }
 
-    /// Fills closed contours of user-space points, unless the fill cannot be seen.
-    pub(super) fn fill(
-        &mut self,
-        shape: ShapeId,
-        contours: &[Vec<DVec2>],
-        rule: FillRule,
-        color: Rgba,
-    ) -> Result<(), Fault> {
+    /// Fills closed contours, unless the fill cannot be seen.
+    pub(super) fn fill(&mut self, shape: ShapeId, area: &Area<'_>, color: Rgba) -> Result<(), Fault> {
         if color.a <= 0.0 {
             return Ok(());
         }
-        if !contours.iter().flatten().all(|point| within_reach(*point)) {
+        let place = |point: &DVec2| area.to_user.transform_point2(*point);
+        let mut points = area.contours.iter().flatten();
+        if !points.all(|point| within_reach(*point) && within_reach(place(point))) {
             return Err(self.fault(shape, Problem::TooFar));
         }
-        let crossings = geometry::estimate_crossings(contours);
+        let crossings = geometry::estimate_crossings(area.contours);
         let Some(left) = self.crossings_left.checked_sub(crossings) else {
             let location = self.shapes[shape.0 as usize].location;
             let message = format!("not filled: its edges cross about {crossings} times; split it");
@@ -169,8 +165,8 @@ impl<'doc> Builder<'doc> {
             return Ok(());
         };
         self.crossings_left = left;
-        for points in geometry::triangulate(contours, rule) {
-            self.triangle(shape, points, Paint::Solid(color))?;
+        for points in geometry::triangulate(area.contours, area.rule) {
+            self.triangle(shape, points.each_ref().map(place), Paint::Solid(color))?;
         }
         Ok(())
     }
@@ -194,6 +190,17 @@ impl<'doc> Builder<'doc> {
             None => problem.nowhere(),
         }
     }
+}
+
+/// What a fill covers.
+pub(super) struct Area<'a> {
+    /// Closed contours in the shape's own coordinates. They are cut into triangles there: a transform that flattens
+    /// them to almost nothing would make edges that cross everywhere.
+    pub(super) contours: &'a [Vec<DVec2>],
+    /// Which regions lie inside.
+    pub(super) rule: FillRule,
+    /// The shape's own coordinates to user space.
+    pub(super) to_user: DAffine2,
 }
 
 /// Whether both coordinates are within the range of 32-bit floats, which also says that they are finite.

@@ -6,7 +6,7 @@
 use glam::{DAffine2, DVec2};
 use roxmltree::{Children, Node};
 
-use super::build::{Builder, unit_square};
+use super::build::{Area, Builder, unit_square};
 use super::error::Fault;
 use super::report::quote;
 use super::triangles::{self, Element, TextureFiles};
@@ -127,8 +127,12 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
         let fill = self.fill(node)?;
         let stroke = self.stroke(node)?.unwrap_or(Rgba::TRANSPARENT);
         let mut points = self.points(node)?;
-        let contour = points.iter().map(|point| to_user.transform_point2(*point)).collect();
-        self.builder.fill(shape, &[contour], FillRule::NonZero, fill)?;
+        let area = Area {
+            contours: std::slice::from_ref(&points),
+            rule: FillRule::NonZero,
+            to_user,
+        };
+        self.builder.fill(shape, &area, fill)?;
         points.extend(points.first().copied());
         self.outline(element, &points, stroke)
     }
@@ -189,7 +193,10 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
 
     /// `fill`: black when missing.
     fn fill(&mut self, node: Node<'doc, 'doc>) -> Result<Rgba, Fault> {
-        Ok(self.color(node, "fill", "fill-opacity")?.unwrap_or(Rgba::BLACK))
+        match self.color(node, "fill", "fill-opacity")? {
+            Some(color) => Ok(color),
+            None => Ok(Rgba::BLACK.faded(self.opacity(node, "fill-opacity")?)),
+        }
     }
 
     /// `stroke`, if there is one.

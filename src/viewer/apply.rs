@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::settings::next_of;
 use super::state::Finished;
-use super::{Camera, Command, Effect, PixelZoom, Sight, Theme, Viewer, library};
+use super::{Camera, Command, Effect, PixelRect, PixelZoom, Sight, Theme, Viewer, library};
 use crate::geometry::View;
 use crate::render::RenderSettings;
 use crate::rules::Rules;
@@ -142,7 +142,7 @@ impl Viewer {
             Command::ZoomAt { at, factor } => self.zoom(at, factor),
             Command::RotateBy { degrees } => self.look(|camera, sight| camera.rotate(degrees, sight)),
             Command::ResetView => self.reset_view(),
-            Command::FitView => self.look(Camera::fit),
+            Command::FitView => self.fit_view(),
             Command::ActualSize => self.look(Camera::actual_size),
             Command::SetView(numbers) => self.look(|camera, sight| camera.set(numbers, sight)),
             Command::SetPixelZoom(zoom) => self.set_pixel_zoom(zoom),
@@ -247,6 +247,16 @@ impl Viewer {
         }
     }
 
+    /// Into the part of the window that no panel covers.
+    fn fit_view(&mut self) {
+        let zoom = f64::from(self.settings.pixel_zoom.factor());
+        let window = PixelRect::of_size(self.screen.window);
+        let free = self.screen.free_area.map_or(window, |free| free.intersection(&window));
+        let corner = DVec2::new(free.x as f64, free.y as f64) / zoom;
+        let size = DVec2::new(f64::from(free.width), f64::from(free.height)) / zoom;
+        self.look(|camera, sight| camera.fit([corner, size], sight));
+    }
+
     fn reset_view(&mut self) {
         if let Some(entry) = self.scenes.get_mut(self.current) {
             entry.camera = Camera::default();
@@ -261,10 +271,10 @@ impl Viewer {
         }
     }
 
-    /// About a window pixel.
+    /// About the centre of a window pixel, so that the status line goes on telling the same place.
     fn zoom(&mut self, at: Option<DVec2>, factor: f64) {
         let zoom = f64::from(self.settings.pixel_zoom.factor());
-        let at = at.map_or(self.middle(), |at| at / zoom);
+        let at = at.map_or(self.middle(), |at| (at.floor() + 0.5) / zoom);
         self.look(|camera, sight| camera.zoom(at, factor, sight));
     }
 

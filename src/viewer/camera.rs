@@ -149,16 +149,19 @@ impl Camera {
         self.set(ViewNumbers { rotation, ..numbers }, sight);
     }
 
-    /// The largest view that shows the whole canvas; the rotation stays.
-    pub fn fit(&mut self, sight: &Sight) {
+    /// The largest view that shows the whole canvas in a part of the frame, given by its corner and size in frame
+    /// pixels; the rotation stays.
+    pub fn fit(&mut self, [corner, size]: [DVec2; 2], sight: &Sight) {
         let numbers = self.numbers(sight);
         let (sin, cos) = numbers.rotation.to_radians().sin_cos();
         let (sin, cos) = (sin.abs(), cos.abs());
         let canvas = sight.canvas;
         let turned = dvec2(canvas.x * cos + canvas.y * sin, canvas.x * sin + canvas.y * cos);
+        let scale = (size.max(DVec2::ONE) / turned).min_element();
+        let aside = unturned(corner + size / 2.0 - sight.size() / 2.0, numbers.rotation) / scale;
         let fitted = ViewNumbers {
-            center: canvas / 2.0,
-            scale: (sight.size() / turned).min_element(),
+            center: canvas / 2.0 - aside,
+            scale,
             ..numbers
         };
         self.set(fitted, sight);
@@ -274,14 +277,26 @@ mod tests {
     #[test]
     fn fit_touches_the_frame() {
         let mut camera = Camera::default();
-        camera.fit(&SIGHT);
+        let whole = [DVec2::ZERO, SIGHT.size()];
+        camera.fit(whole, &SIGHT);
         let scale = camera.numbers(&SIGHT).scale;
         assert!((scale - 3.2).abs() < 1e-12, "640 px for 200 units: {scale}");
         camera.rotate(90.0, &SIGHT);
-        camera.fit(&SIGHT);
+        camera.fit(whole, &SIGHT);
         let numbers = camera.numbers(&SIGHT);
         assert!((numbers.scale - 2.4).abs() < 1e-9, "480 px for 200 units: {numbers:?}");
         assert!((numbers.rotation - 90.0).abs() < 1e-12, "the rotation stays");
+        let part = [dvec2(40.0, 30.0), dvec2(400.0, 400.0)];
+        camera.fit(part, &SIGHT);
+        let middle = camera.transform(&SIGHT).to_pixels(SIGHT.canvas / 2.0);
+        assert!(
+            middle.abs_diff_eq(dvec2(240.0, 230.0), 1e-9),
+            "in the middle of the part: {middle}"
+        );
+        assert!(
+            (camera.numbers(&SIGHT).scale - 2.0).abs() < 1e-9,
+            "400 px for 200 units"
+        );
     }
 
     #[test]

@@ -179,7 +179,7 @@ pub const GESTURES: &[Gesture] = &[
     },
     Gesture {
         gesture: "wheel, pinch",
-        help: "Zooms about the pointer; over the inspector changes its magnification",
+        help: "Zooms about the pointer; over the pinned inspector changes its magnification",
     },
     Gesture {
         gesture: "right click",

@@ -13,7 +13,7 @@ use crate::scene::{self, DialectChoice, ReadOptions, Scene, SceneError};
 /// How deep folders are searched.
 const MAX_DEPTH: usize = 6;
 /// Most scenes in a list.
-const MAX_SCENES: usize = 2000;
+pub(super) const MAX_SCENES: usize = 2000;
 
 /// Where a scene is read from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -183,6 +183,13 @@ pub fn list_scenes(paths: &[PathBuf]) -> (Vec<SceneEntry>, Vec<String>) {
             }));
         } else {
             let source = SceneSource::from_address(path);
+            if matches!(&source, SceneSource::File(path) if fs::symlink_metadata(path).is_err()) {
+                problems.push(format!(
+                    "{}: no such file; give an SVG file or a folder of them",
+                    path.display()
+                ));
+                continue;
+            }
             let label = match path.file_name() {
                 Some(name) => name.to_string_lossy().into_owned(),
                 None => path.display().to_string(),
@@ -283,13 +290,15 @@ mod tests {
         }
         let (entries, problems) = list_scenes(&[folder.path().to_owned(), "nowhere.svg".into()]);
         let labels: Vec<&str> = entries.iter().map(|entry| entry.label.as_str()).collect();
-        assert_eq!(labels.len(), 3, "{labels:?}");
+        assert_eq!(labels.len(), 2, "{labels:?}");
         assert!(
             labels[0].ends_with("test9.SVG") && labels[1].ends_with("test10.svg"),
             "{labels:?}"
         );
-        assert_eq!(labels[2], "nowhere.svg", "reading it will say what is wrong");
-        assert!(problems.is_empty(), "{problems:?}");
+        assert!(
+            problems.len() == 1 && problems[0].starts_with("nowhere.svg: no such file"),
+            "{problems:?}"
+        );
         fs::remove_file(inner.join("test10.svg"))
             .and(fs::remove_file(inner.join("test9.SVG")))
             .expect("removed");

@@ -54,6 +54,13 @@ impl Messages {
         self.add(MessageKind::Error, text);
     }
 
+    /// Drops what was wrong with a file that is right by now.
+    pub(super) fn forget_problems_of(&mut self, file: &str) {
+        let of_file = |text: &str| text.strip_prefix(file).is_some_and(|rest| rest.starts_with(':'));
+        self.list
+            .retain(|message| message.kind != MessageKind::Error || !of_file(&message.text));
+    }
+
     pub(super) fn dismiss(&mut self, id: u64) {
         self.list.retain(|message| message.id != id);
     }
@@ -76,5 +83,11 @@ mod tests {
         let last = messages.all()[MOST - 1].id;
         messages.dismiss(last);
         assert_eq!(messages.all().len(), MOST - 1, "dismissed");
+        messages.error("a.svg:3:1: broken".into());
+        messages.error("a.svg.svg: broken".into());
+        messages.forget_problems_of("a.svg");
+        let left = messages.all().last().map(|message| message.text.as_str());
+        assert_eq!(left, Some("a.svg.svg: broken"), "only that of the file itself is gone");
+        assert_eq!(messages.all().len(), MOST - 1, "nothing else");
     }
 }

@@ -211,8 +211,12 @@ impl Viewer {
         // A scene that was read again looks different in small too.
         entry.thumbnail_asked &= entry.scene().is_none();
         entry.state = match read.result {
-            Ok(scene) => SceneState::Ready { scene, dialect },
+            Ok(scene) => {
+                self.messages.forget_problems_of(&entry.source.address());
+                SceneState::Ready { scene, dialect }
+            }
             Err(message) => {
+                entry.thumbnail = None;
                 if is_current {
                     self.messages.error(message.clone());
                 }

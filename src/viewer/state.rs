@@ -13,8 +13,8 @@ use super::probing::{Probed, Probing};
 use super::reading::{ReadScene, Readers, Thumbnail};
 use super::screenshot::{Saved, Saver};
 use super::{
-    Camera, Dialog, Frame, Inspector, Message, PixelRect, PixelZoom, PlacedInset, SceneEntry, Settings, Sight, Theme,
-    ViewNumbers, library,
+    Camera, Dialog, Frame, Inspector, Message, PixelRect, PixelZoom, PlacedInset, SceneEntry, SceneSource, Settings,
+    Sight, Theme, ViewNumbers, library,
 };
 use crate::geometry::View;
 
@@ -176,17 +176,47 @@ impl Viewer {
         Ok(viewer)
     }
 
-    /// Replaces the scenes by those in `paths`. Where they hold none, what is open is worth more than the gallery.
+    /// Adds the scenes in `paths` to the list and shows the first of them; at the start they are the list, or the
+    /// gallery is where they hold none.
     pub(super) fn open(&mut self, paths: &[PathBuf]) {
         let (mut scenes, problems) = library::list_scenes(paths);
         for problem in problems {
             self.messages.error(problem);
         }
-        if scenes.is_empty() && self.scenes.is_empty() {
-            scenes = library::gallery_entries();
-        }
-        if !scenes.is_empty() {
+        if self.scenes.is_empty() {
+            if scenes.is_empty() {
+                scenes = library::gallery_entries();
+            }
             self.replace_scenes(scenes);
+        } else if !scenes.is_empty() {
+            self.add_scenes(scenes);
+        }
+    }
+
+    /// Appends scenes and shows the first of them; one that is in the list already is read again instead.
+    fn add_scenes(&mut self, scenes: Vec<SceneEntry>) {
+        let place = |list: &[SceneEntry], source: &SceneSource| list.iter().position(|entry| entry.source == *source);
+        let first = scenes.first().map(|entry| entry.source.clone());
+        for mut scene in scenes {
+            if place(&self.scenes, &scene.source).is_some() {
+                continue;
+            }
+            if self.scenes.len() >= library::MAX_SCENES {
+                self.messages.error(format!(
+                    "{}: the list is full; start the program anew with it",
+                    scene.label
+                ));
+                break;
+            }
+            scene.camera = Camera::new(self.start_view);
+            self.scenes.push(scene);
+        }
+        if let Some(index) = first.and_then(|source| place(&self.scenes, &source)) {
+            let known = self.scenes[index].scene().is_some() || self.scenes[index].failure().is_some();
+            self.current = index;
+            if known {
+                self.read_current();
+            }
         }
     }
 

@@ -134,6 +134,42 @@ fn cli_renders_every_scene_of_a_folder() {
 }
 
 #[test]
+fn cli_never_draws_two_scenes_into_one_picture() {
+    let folder = folder_with(&[("in/a.svg", SCENE), ("in/a.SVG", SCENE)]);
+    let output = run(folder.path(), &["render", "in", "-o", "out", "--size", "20x20"]);
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{stderr}");
+    assert!(stderr.contains("rename"), "the cure: {stderr}");
+}
+
+#[cfg(feature = "window")]
+#[test]
+fn cli_view_answers_mistakes_too() {
+    let folder = folder_with(&[("a.svg", SCENE), ("broken.svg", "<svg>\n<g></svg>")]);
+    refused(folder.path(), &["nowhere.svg"], &["nowhere.svg"]);
+    refused(folder.path(), &["view", "--headless", "broken.svg"], &["broken.svg:2:"]);
+    refused(
+        folder.path(),
+        &["a.svg", "--headless", "--do", "shot a.svg"],
+        &["a.svg", ".png"],
+    );
+    let nowhere = [
+        "a.svg",
+        "--headless",
+        "--screenshot-dir",
+        "no/such",
+        "--do",
+        "key s; wait",
+    ];
+    refused(folder.path(), &nowhere, &["no/such"]);
+    assert_eq!(
+        fs::read_to_string(folder.path().join("a.svg")).expect("still there"),
+        SCENE,
+        "untouched"
+    );
+}
+
+#[test]
 fn cli_reports_what_it_skips() {
     let text = SCENE.replace("<polygon", "\n  <circle r='3'/><polygon");
     let folder = folder_with(&[("a.svg", &text)]);

@@ -357,3 +357,21 @@ fn svg_image_places_by_aspect() {
     let scene = svg_scene(&format!("<image xlink:href='{PNG}'/><image href='{PNG}'/>"));
     assert_eq!(scene.textures.len(), 1, "one address, one texture");
 }
+
+#[test]
+fn stroke_under_a_transform_that_flattens_it_ends() {
+    // Outlines that were cut into triangles after such a transform crossed themselves everywhere, for ever.
+    for transform in [
+        "matrix(3.1 .1 6.2 .2 0 0)",
+        "matrix(56.7 5.67 10 1 0 0)",
+        "skewX(90.00000001) skewY(89.99)",
+    ] {
+        let body = format!("<rect width='5' height='5' fill='none' stroke='red' transform='{transform}'/>");
+        let scene = svg_scene(&body);
+        assert!(
+            scene.primitives.len() < 100,
+            "{transform}: {} primitives",
+            scene.primitives.len()
+        );
+    }
+}

@@ -429,6 +429,38 @@ fn replay_gallery_without_paths() {
 }
 
 #[test]
+fn replay_opening_keeps_the_other_scenes() {
+    let mut session = Session::open(&[SQUARE, SQUARE], [64, 64]);
+    let count = session.viewer.scenes().len();
+    let broken = session.folder.path().join("broken.svg");
+    std::fs::write(&broken, "<svg").unwrap();
+    session.run(Command::Open(vec![session.folder.path().join("nowhere.svg")]));
+    assert_eq!(session.viewer.scenes().len(), count, "a missing file changes nothing");
+    assert_eq!(session.viewer.messages().len(), 1, "but is told");
+    for _ in 0..2 {
+        session.run(Command::Open(vec![broken.clone()]));
+        assert_eq!(session.viewer.scenes().len(), count + 1, "added once, at the end");
+        assert_eq!(session.viewer.current_index(), count, "and shown");
+    }
+    assert!(
+        session.viewer.current().unwrap().failure().is_some(),
+        "as broken as it is"
+    );
+    session.run(Command::PreviousScene);
+    session.assert_frame_is_current();
+    std::fs::write(&broken, SQUARE).unwrap();
+    session.run(Command::Open(vec![broken]));
+    session.assert_frame_is_current();
+    let left: Vec<_> = session
+        .viewer
+        .messages()
+        .iter()
+        .filter(|m| m.text.contains("broken.svg"))
+        .collect();
+    assert!(left.is_empty(), "repaired, so nothing is wrong any more: {left:?}");
+}
+
+#[test]
 fn replay_samples_of_the_inspected_pixel() {
     // A left half in red; and the same below thousands of shapes, which are probed in a thread.
     let half = |others: usize| {

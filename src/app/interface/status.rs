@@ -17,7 +17,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             ui.shrink_clip_rect(ui.max_rect());
             match viewer.status() {
-                Some(status) => pixel(ui, &status, viewer.pinned_pixel().is_some()),
+                Some(status) => pixel(ui, &status, viewer.pinned_pixel() == Some(status.pixel)),
                 None => word(
                     ui,
                     "point at a pixel; Z magnifies it, ? shows all keys",

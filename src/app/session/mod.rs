@@ -61,6 +61,8 @@ pub(super) struct Session {
     outbox: Outbox,
     /// The scene whose report was told last.
     told: Option<std::sync::Arc<crate::scene::Scene>>,
+    /// What was told last of a scene that cannot be read.
+    told_failure: Option<String>,
 }
 
 /// What the program around has to do.
@@ -90,6 +92,7 @@ impl Session {
             events: Vec::new(),
             outbox: Outbox::default(),
             told: None,
+            told_failure: None,
         };
         session.fold_panel();
         session
@@ -107,6 +110,20 @@ impl Session {
     pub(super) fn poll(&mut self) {
         self.viewer.poll();
         self.tell_report();
+        // A session without a window ends with what is wrong.
+        if matches!(self.clock, Clock::Real(_)) {
+            self.tell_failure();
+        }
+    }
+
+    /// Says on stderr, once, why the scene that should be shown is not.
+    fn tell_failure(&mut self) {
+        let failure = self.viewer.current().and_then(|entry| entry.failure());
+        if let Some(failure) = failure.filter(|failure| self.told_failure.as_deref() != Some(*failure)) {
+            // Whoever closed stderr does not want to read it.
+            let _ = writeln!(std::io::stderr().lock(), "rasterscope: {failure}");
+            self.told_failure = Some(failure.to_owned());
+        }
     }
 
     /// Says on stderr, once for every scene that is shown, what its reader left out.

@@ -1,6 +1,6 @@
 //! SVG's basic shapes and images, from attributes to primitives.
 
-use glam::{DAffine2, DVec2};
+use glam::DVec2;
 use roxmltree::Node;
 use svgtypes::NumberListParser;
 
@@ -11,7 +11,7 @@ use super::viewport::Frame;
 use super::{Element, Surroundings, SvgReader};
 use crate::color::Rgba;
 use crate::geometry::{FillRule, StrokeStyle, stroke_outline};
-use crate::scene::build::unit_square;
+use crate::scene::build::{Area, unit_square};
 use crate::scene::error::Fault;
 use crate::scene::{Paint, attributes, triangles};
 
@@ -54,13 +54,12 @@ impl<'doc> SvgReader<'_, 'doc> {
         if both {
             self.builder.begin_layer(element.shape)?;
         }
-        let contour = to_user(&outline.points, element.to_user);
-        self.builder.fill(
-            element.shape,
-            &[contour],
-            around.style.fill_rule,
-            fill.faded(own_opacity),
-        )?;
+        let area = Area {
+            contours: std::slice::from_ref(&outline.points),
+            rule: around.style.fill_rule,
+            to_user: element.to_user,
+        };
+        self.builder.fill(element.shape, &area, fill.faded(own_opacity))?;
         self.stroke(element, outline, around, stroke.faded(own_opacity))?;
         if both {
             self.builder.end_layer(element.shape, opacity)?;
@@ -93,11 +92,12 @@ impl<'doc> SvgReader<'_, 'doc> {
             miter_limit,
         };
         // In the shape's own coordinates, so that its transform acts on the stroke too.
-        let contours: Vec<Vec<DVec2>> = stroke_outline(&outline.points, outline.closed, &style)
-            .iter()
-            .map(|contour| to_user(contour, element.to_user))
-            .collect();
-        self.builder.fill(element.shape, &contours, FillRule::NonZero, color)
+        let area = Area {
+            contours: &stroke_outline(&outline.points, outline.closed, &style),
+            rule: FillRule::NonZero,
+            to_user: element.to_user,
+        };
+        self.builder.fill(element.shape, &area, color)
     }
 
     fn line(&mut self, node: Node<'doc, 'doc>, around: &Surroundings) -> Result<Outline, Fault> {
@@ -208,8 +208,4 @@ fn image_size(width: Option<f64>, height: Option<f64>, natural: Option<DVec2>) -
         (None, Some(height)) => natural * (height / natural.y),
         (None, None) => natural,
     }
-}
-
-fn to_user(points: &[DVec2], to_user: DAffine2) -> Vec<DVec2> {
-    points.iter().map(|point| to_user.transform_point2(*point)).collect()
 }

@@ -1,6 +1,6 @@
 //! Pictures of the whole window, made without a display: panels, dialogs, inspector, both themes, two scales.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rasterscope::app::{ScriptSource, ViewOptions, run};
 use rasterscope::raster::Framebuffer;
@@ -87,10 +87,15 @@ const CASES: [Case; 9] = [
 ];
 
 fn picture(case: &Case, folder: &Path) -> Framebuffer {
+    let document = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/basic/test4.svg");
+    picture_of(document, case, folder)
+}
+
+fn picture_of(document: PathBuf, case: &Case, folder: &Path) -> Framebuffer {
     let file = folder.join("window.png");
     let steps = format!("{}; shot \"{}\"", case.steps, file.display());
     run(ViewOptions {
-        paths: vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/basic/test4.svg")],
+        paths: vec![document],
         size: Some(case.size),
         scale: Some(case.scale),
         theme: Some(case.theme),
@@ -127,6 +132,38 @@ fn overlay_pictures_repeat() {
         first == picture(&CASES[1], folder.path()),
         "the same session, the same picture"
     );
+}
+
+/// The reader's notes take the height that the scenes leave.
+#[test]
+fn overlay_shows_all_notes() {
+    const NOTES: usize = 12;
+    let folder = tempfile::tempdir().unwrap();
+    let document = folder.path().join("notes.svg");
+    let unknown: Vec<String> = (0..NOTES).map(|number| format!("<unknown{number}/>")).collect();
+    let text = format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="10" height="10">{}</svg>"#,
+        unknown.concat()
+    );
+    std::fs::write(&document, text).unwrap();
+    let case = Case {
+        name: "notes",
+        size: [800, 860],
+        scale: 1.0,
+        theme: Theme::Dark,
+        steps: "panel on",
+    };
+    let frame = picture_of(document, &case, folder.path());
+    // The warning colour's red and blue are far apart; nothing else in the panel is yellow.
+    let is_yellow = |x, y| {
+        let pixel = frame.rgba(x, y);
+        pixel.is_some_and(|[r, g, b, _]| r > 150 && g > 100 && b < 110)
+    };
+    let written: Vec<bool> = (0..frame.height())
+        .map(|y| (540..800).any(|x| is_yellow(x, y)))
+        .collect();
+    let lines = written.windows(2).filter(|rows| !rows[0] && rows[1]).count();
+    assert_eq!(lines, NOTES, "one line for every note");
 }
 
 /// A command that is chosen before its argument was typed leaves the caret where the argument goes.

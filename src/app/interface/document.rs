@@ -33,30 +33,39 @@ pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
     }
 }
 
-/// Time of the last redraw and its stages, as numbers and as a bar. `None` where pictures must not depend on time.
+/// Time of the last redraw and its stages, as numbers and as a bar, unless pictures must not depend on time; and how
+/// many triangles it drew.
 pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
     let Some(frame) = viewer.frame() else {
         return;
     };
     let stats = &frame.stats;
-    let total = if timed {
-        format!("Redraw  {}", milliseconds(stats.total()))
-    } else {
-        "Redraw".to_owned()
-    };
-    heading(ui, &total);
-    let stages = [
-        ("transform", stats.transform),
-        ("bin", stats.bin),
-        ("raster", stats.raster),
-    ];
     if timed {
+        heading(ui, &format!("Redraw  {}", milliseconds(stats.total())));
+        let stages = [
+            ("transform", stats.transform),
+            ("bin", stats.bin),
+            ("raster", stats.raster),
+        ];
         bar(ui, &stages.map(|(_, time)| time));
         let words = stages.map(|(name, time)| format!("{name} {}", number(time)));
         ui.label(RichText::new(words.join("  ·  ")).small().weak());
+    } else {
+        ui.add_space(4.0);
     }
-    let triangles = grouped(stats.triangles);
-    ui.label(RichText::new(format!("{triangles} triangles")).small().weak());
+    // Points and hairlines are no triangles.
+    if let Some(text) = triangles(stats.triangles) {
+        ui.label(RichText::new(text).small().weak());
+    }
+}
+
+/// So many triangles in words; nothing where there are none.
+fn triangles(count: u64) -> Option<String> {
+    match count {
+        0 => None,
+        1 => Some("1 triangle".to_owned()),
+        _ => Some(format!("{} triangles", grouped(count))),
+    }
 }
 
 /// The stages as parts of a whole, the darkest first.
@@ -98,4 +107,19 @@ fn grouped(count: u64) -> String {
         text.push(digit);
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_in_words() {
+        assert_eq!(triangles(0), None, "a scene of points");
+        assert_eq!(triangles(1).as_deref(), Some("1 triangle"));
+        assert_eq!(
+            triangles(1_234_567).as_deref(),
+            Some("1\u{2009}234\u{2009}567 triangles")
+        );
+    }
 }

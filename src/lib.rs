@@ -7,9 +7,9 @@
 //! | room | turns | into |
 //! |---|---|---|
 //! | [`cli`] | arguments | a command and its exit status |
-//! | `app` (feature `window`) | window events | `viewer::Command`s, and a frame into a presented surface |
-//! | `viewer` | commands | state, a finished frame, saved files |
-//! | `figure` | frames | insets and figures |
+//! | `app` (feature `window`) | window events | [`viewer::Command`]s, and a frame into a presented surface |
+//! | [`viewer`] | commands | state, a finished frame, saved files |
+//! | [`figure`] | frames | insets and figures |
 //! | [`inspect`] | one pixel | the samples that made it |
 //! | [`render`] | scene + view + settings | a [`raster::Framebuffer`] |
 //! | [`scene`] | documents | a [`scene::Scene`] with nothing left to interpret |

@@ -3,7 +3,7 @@
 //! Coverage is decided exactly, so every vertex is snapped once to a fixed-point grid. One unit is `1 / (n << bits)`
 //! of a pixel, where `n x n` is the sample rate: samples then lie on the grid for every `n`, also for 3, 5, 6 and 7.
 //! About 14 bits per pixel are kept whatever the rate, far more than the 8 that a picture needs, so that snapping
-//! moves an edge by less than 1/30 000 of a pixel. Together with [`GUARD`] all coordinates fit `i32` and all edge
+//! moves an edge by less than 1/18 000 of a pixel. Together with [`GUARD`] all coordinates fit `i32` and all edge
 //! values fit `i64`: `2^16` pixels times `2^14` units are `2^30`, and products of two differences `2^61`.
 
 use glam::DVec2;

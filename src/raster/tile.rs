@@ -56,7 +56,7 @@ impl PixelRect {
 }
 
 impl TileLayout {
-    /// Tiles that hold about 16 000 samples, 130 kB, whatever the rate.
+    /// Tiles whose samples, when every pixel is split, still stay in a core's cache: at most 260 kB at any rate.
     pub(crate) fn for_rate(rate: SampleRate, size: [u32; 2]) -> Self {
         let sides_log2 = match rate.side() {
             1 | 2 => (6, 5),

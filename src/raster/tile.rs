@@ -191,14 +191,17 @@ impl Tile {
             self.split[first..last].fill(false);
             return;
         }
+        if !self.split[first..last].contains(&true) {
+            color.over_all(&mut self.whole[first..last], self.rules);
+            return;
+        }
         for pixel in first..last {
-            if self.split[pixel] {
-                for sample in &mut self.samples[pixel * self.per_pixel..][..self.per_pixel] {
-                    *sample = color.over(*sample, self.rules);
-                }
+            let colors = if self.split[pixel] {
+                &mut self.samples[pixel * self.per_pixel..][..self.per_pixel]
             } else {
-                self.whole[pixel] = color.over(self.whole[pixel], self.rules);
-            }
+                &mut self.whole[pixel..=pixel]
+            };
+            color.over_all(colors, self.rules);
         }
     }
 
@@ -221,9 +224,7 @@ impl Tile {
             if color.is_opaque() {
                 covered.fill(color);
             } else {
-                for sample in covered {
-                    *sample = color.over(*sample, self.rules);
-                }
+                color.over_all(covered, self.rules);
             }
         }
     }

@@ -22,6 +22,7 @@ mod scene_course;
 mod scene_svg;
 mod scene_triangulation;
 mod support;
+mod viewer_inspector;
 mod viewer_random;
 mod viewer_replay;
 mod viewer_screenshots;

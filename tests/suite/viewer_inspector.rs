@@ -1,0 +1,170 @@
+//! The pixel inspector without a window: pin, inset, labels, samples.
+
+use glam::dvec2;
+use rasterscope::raster::SampleRate;
+use rasterscope::viewer::{Command, PixelRect, PixelZoom, Toggle, ViewNumbers};
+
+use crate::support::session::{Session, TRIANGLES};
+
+#[test]
+fn inspector_pin_and_nudge() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    session.keys(&["Left"]);
+    assert_eq!(
+        session.viewer.pinned_pixel(),
+        None,
+        "arrows do nothing before the inspector is open"
+    );
+    session.run(Command::PointerMoved { at: dvec2(100.2, 50.9) });
+    session.keys(&["Enter"]);
+    assert_eq!(session.viewer.pinned_pixel(), Some([100, 50]), "pinned");
+    assert!(session.viewer.inspector().open, "and to be seen");
+    session.run(Command::PointerMoved { at: dvec2(3.0, 4.0) });
+    session.keys(&["Left", "Up", "Shift+Right", "Shift+Down"]);
+    assert_eq!(session.viewer.pinned_pixel(), Some([109, 59]), "nudged");
+    session.run(Command::Nudge([100_000, -100_000]));
+    assert_eq!(session.viewer.pinned_pixel(), Some([399, 0]), "within the frame");
+    session.run(Command::Resize([200, 300]));
+    assert_eq!(session.viewer.pinned_pixel(), Some([199, 0]), "in a smaller frame too");
+    session.run(Command::Resize([0, 0]));
+    assert_eq!(session.viewer.pinned_pixel(), None, "a minimised window has no pixels");
+    session.run(Command::Resize([400, 300]));
+    assert_eq!(session.viewer.pinned_pixel(), Some([399, 0]), "as the user chose it");
+}
+
+#[test]
+fn inspector_inset_reads_the_frame() {
+    let mut session = Session::open(&[TRIANGLES], [640, 480]);
+    session.run(Command::Pin([320, 240]));
+    let placed = session.viewer.inset().unwrap();
+    let block = placed.block([322, 239]).unwrap();
+    session.run(Command::PointerMoved {
+        at: dvec2(block.x as f64 + 1.5, block.y as f64 + 2.5),
+    });
+    assert!(session.viewer.pointer_over_inset(), "over the inset");
+    assert_eq!(session.viewer.hovered_pixel(), Some([322, 239]), "the magnified pixel");
+    assert_eq!(
+        session.viewer.status().unwrap().rgba,
+        session.pixels().rgba(322, 239),
+        "its colour"
+    );
+    let window = session.viewer.window_picture();
+    let corner = [block.x, block.y].map(|n| u32::try_from(n).unwrap());
+    assert_eq!(
+        window.rgba(corner[0], corner[1]),
+        session.pixels().rgba(322, 239),
+        "shown as it is"
+    );
+    let magnification = session.viewer.inspector().magnification;
+    let numbers = session.viewer.view_numbers();
+    session.run(Command::Wheel { clicks: 1.0 });
+    assert!(
+        session.viewer.inspector().magnification > magnification,
+        "the wheel magnifies here"
+    );
+    assert_eq!(session.viewer.view_numbers(), numbers, "and does not zoom the picture");
+}
+
+#[test]
+fn inspector_inset_never_hides_its_pixel() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    session.run(Command::Inspector(Toggle::On));
+    session.run(Command::SetFreeArea(Some(PixelRect {
+        x: 60,
+        y: 0,
+        width: 340,
+        height: 290,
+    })));
+    for zoom in PixelZoom::ALL {
+        session.run(Command::SetPixelZoom(zoom));
+        for y in (0..300).step_by(7) {
+            for x in (0..400).step_by(13) {
+                let _ = session.viewer.apply(Command::PointerMoved {
+                    at: dvec2(f64::from(x), f64::from(y)),
+                });
+                let [px, py] = session.viewer.inspected_pixel().unwrap();
+                let k = zoom.factor();
+                assert_eq!([px, py], [x / k, y / k], "follows the pointer, below the inset too");
+                let shown = PixelRect {
+                    x: i64::from(px * k),
+                    y: i64::from(py * k),
+                    width: k,
+                    height: k,
+                };
+                let placed = session.viewer.inset().unwrap();
+                assert!(!placed.rect.overlaps(&shown), "{placed:?} hides {shown:?}");
+                assert!(
+                    placed.rect.x >= 60 && placed.rect.bottom() <= 290,
+                    "below a panel: {placed:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn inspector_labels_only_where_they_fit() {
+    let mut session = Session::open(&[TRIANGLES], [640, 480]);
+    session.run(Command::Pin([0, 0]));
+    assert!(
+        session.viewer.pixel_labels([7.0, 12.0]).is_empty(),
+        "20 pixels are too few for 3 lines of 12"
+    );
+    session.run(Command::SetMagnification(40));
+    let labels = session.viewer.pixel_labels([7.0, 12.0]);
+    let inset = session.viewer.inset().unwrap().inset;
+    let visible = usize::try_from(inset.region - inset.region / 2).unwrap();
+    let dots = usize::from(!inset.has_detail());
+    let expected = visible * visible - dots;
+    assert_eq!(
+        labels.len(),
+        expected,
+        "only pixels of the frame have numbers, and dots need their place"
+    );
+    for label in labels {
+        let [x, y] = label.pixel;
+        assert_eq!(Some(label.rgba), session.pixels().rgba(x, y), "{label:?}");
+    }
+}
+
+#[test]
+fn inspector_samples_of_the_inspected_pixel() {
+    // A left half in red; and the same below thousands of shapes, which are probed in a thread.
+    let half = |others: usize| {
+        let other = r#"<rect x="0" y="90" width="1" height="1" fill="black"/>"#.repeat(others);
+        format!(
+            r##"<svg width="100" height="100"><rect id="left" fill="#ff0000" x="0" y="0" width="50" height="100"/>{other}</svg>"##
+        )
+    };
+    let mut session = Session::open(&[&half(0), &half(5000)], [120, 120]);
+    session.run(Command::SetSampleRate(SampleRate::new(16).unwrap()));
+    for key in ["1", "2"] {
+        session.keys(&[key]);
+        // The red edge runs through the middle of the pixel.
+        session.run(Command::SetView(ViewNumbers {
+            center: dvec2(49.5, 50.0),
+            scale: 1.0,
+            rotation: 0.0,
+        }));
+        session.run(Command::Pin([60, 60]));
+        let samples = session.viewer.pixel_samples();
+        assert_eq!(samples.len(), 16, "scene {key}");
+        let hits: Vec<(String, usize)> = session
+            .viewer
+            .hits()
+            .into_iter()
+            .map(|(hit, n)| (hit.to_string(), n))
+            .collect();
+        let expected = [("rect \"left\", line 1".to_owned(), 8), ("background".to_owned(), 8)];
+        assert_eq!(hits, expected, "scene {key}");
+        let green: u32 = samples.iter().map(|sample| u32::from(sample.mark.color[1])).sum();
+        let pixel = session.pixels().rgba(60, 60).unwrap();
+        assert_eq!(
+            (green + 8) / 16,
+            u32::from(pixel[1]),
+            "the pixel is the mean of its samples"
+        );
+    }
+    session.keys(&["Esc", "Esc"]);
+    assert!(session.viewer.pixel_samples().is_empty(), "the inspector is closed");
+}

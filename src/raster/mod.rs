@@ -14,6 +14,7 @@ mod rasterize;
 mod rows;
 mod sample_rate;
 mod shade;
+mod small;
 mod tile;
 
 pub use display_list::{Chunk, ChunkBuilder, Fill, ListContext};

@@ -5,6 +5,7 @@ use super::bins::Entry;
 use super::display_list::{Chunk, Op, Paint, ScreenTriangle};
 use super::rows::{SortedTriangle, Span};
 use super::shade::{ShadeContext, Shader, ShaderKind};
+use super::small::{SmallCoverage, small_coverage};
 use super::tile::{PixelRect, Tile};
 use crate::color::Premultiplied16;
 
@@ -183,6 +184,9 @@ impl<'a> TilePainter<'a> {
 
     fn triangle(&mut self, triangle: &ScreenTriangle, paint: &Paint) {
         let grid = self.context.grid;
+        if let Some(coverage) = small_coverage(triangle.corners, grid, self.context.sampling.rules) {
+            return self.small(triangle, paint, coverage);
+        }
         let PixelRect { x, y } = self.layers[0].rect;
         let Some(sorted) = SortedTriangle::new(triangle.corners, self.context.sampling.rules) else {
             return;
@@ -208,6 +212,32 @@ impl<'a> TilePainter<'a> {
             let mut spans = [Span::default(); MAX_SIDE];
             for line in line..end {
                 spans[line.rem_euclid(side).cast_unsigned() as usize] = walker.next_span(columns);
+            }
+            self.pixel_row(&shader, &PixelRow::new(spans, side), row);
+            line = end;
+        }
+    }
+
+    /// A triangle of a few samples, whose coverage is known.
+    fn small(&mut self, triangle: &ScreenTriangle, paint: &Paint, coverage: SmallCoverage) {
+        if coverage.mask == 0 {
+            return;
+        }
+        let side = self.context.grid.side();
+        let PixelRect { x, y } = self.layers[0].rect;
+        let samples = |pixels: Span| Span {
+            start: pixels.start * side,
+            end: pixels.end * side,
+        };
+        let rows = samples(y).intersection(coverage.rows());
+        let shader = Shader::new(&self.context, triangle, paint);
+        let mut line = rows.start;
+        while line < rows.end {
+            let row = line.div_euclid(side);
+            let end = rows.end.min((row + 1) * side);
+            let mut spans = [Span::default(); MAX_SIDE];
+            for line in line..end {
+                spans[line.rem_euclid(side).cast_unsigned() as usize] = coverage.span(line).intersection(samples(x));
             }
             self.pixel_row(&shader, &PixelRow::new(spans, side), row);
             line = end;

@@ -1,0 +1,254 @@
+//! The coverage of a triangle smaller than a few samples, as a bit for each: no walkers, no division, no loop over rows.
+//!
+//! The edge function of an edge is `e + column * right + row * down`, whose steps are multiples of the distance of two
+//! samples, `1 << bits`. Whether such a sum is below zero does not change when everything is divided by that distance
+//! and `e` rounded down. So three additions of small numbers decide a sample, exactly, with Pineda's edge functions
+//! ("A parallel algorithm for polygon rasterization", 1988); an edge that does not own its samples first loses one unit.
+
+use super::rows::{Span, end_of};
+use crate::geometry::edge::edge_value;
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::rules::Rules;
+
+/// Sample columns and rows of the box that a small triangle fits in.
+pub(crate) const SMALL: i32 = 8;
+
+/// The samples that a small triangle covers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct SmallCoverage {
+    /// Sample column and row of the lowest bit.
+    pub(crate) column: i32,
+    pub(crate) row: i32,
+    /// Bit `8 j + i` stands for the sample `i` columns to the right and `j` rows down; none are set where the triangle
+    /// covers nothing.
+    pub(crate) mask: u64,
+}
+
+/// An edge function divided by the distance of two samples: below zero at the samples outside.
+#[derive(Clone, Copy, Default)]
+struct SmallEdge {
+    /// At the first sample.
+    value: i32,
+    /// What it gains one sample to the right, and down.
+    right: i32,
+    down: i32,
+}
+
+/// The coverage of a triangle whose box holds at most [`SMALL`] columns and rows of samples; `None` for a larger one.
+#[inline]
+pub(crate) fn small_coverage(corners: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Option<SmallCoverage> {
+    let [a, b, c] = corners;
+    let column = grid.sample_at_or_after(a.x.min(b.x).min(c.x));
+    let row = grid.sample_at_or_after(a.y.min(b.y).min(c.y));
+    let columns = end_of(grid, a.x.max(b.x).max(c.x), rules) - column;
+    let rows = end_of(grid, a.y.max(b.y).max(c.y), rules) - row;
+    if columns > SMALL || rows > SMALL {
+        return None;
+    }
+    let mut coverage = SmallCoverage { column, row, mask: 0 };
+    if columns <= 0 || rows <= 0 {
+        return Some(coverage);
+    }
+    let area = edge_value(a, b, c);
+    if area == 0 {
+        return Some(coverage);
+    }
+    let first = GridPoint {
+        x: grid.sample_coordinate(column),
+        y: grid.sample_coordinate(row),
+    };
+    let [b, c] = if area < 0 { [c, b] } else { [b, c] };
+    let edges = [
+        SmallEdge::new(a, b, first, grid, rules),
+        SmallEdge::new(b, c, first, grid, rules),
+        SmallEdge::new(c, a, first, grid, rules),
+    ];
+    coverage.mask = u64::from(quarter(&edges, 0, 0));
+    if columns > 4 {
+        coverage.mask |= u64::from(quarter(&edges, 4, 0)) << 4;
+    }
+    if rows > 4 {
+        coverage.mask |= u64::from(quarter(&edges, 0, 4)) << 32;
+        if columns > 4 {
+            coverage.mask |= u64::from(quarter(&edges, 4, 4)) << 36;
+        }
+    }
+    Some(coverage)
+}
+
+impl SmallCoverage {
+    /// The sample rows from the first to the last that hold a covered sample; the mask must not be zero.
+    pub(crate) fn rows(self) -> Span {
+        let bit = |index: u32| self.row + (index / 8).cast_signed();
+        Span {
+            start: bit(self.mask.trailing_zeros()),
+            end: bit(self.mask.ilog2()) + 1,
+        }
+    }
+
+    /// The covered columns of one of [`SmallCoverage::rows`]: a triangle is convex, so they lie side by side.
+    pub(crate) fn span(self, row: i32) -> Span {
+        let [bits, ..] = (self.mask >> (SMALL * (row - self.row))).to_le_bytes();
+        let start = self.column + bits.trailing_zeros().cast_signed();
+        Span {
+            start,
+            end: start + bits.count_ones().cast_signed(),
+        }
+    }
+}
+
+impl SmallEdge {
+    /// The edge `from -> to` of a clockwise triangle, standing at the sample `first`.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "within nine samples of each other, all corners and samples keep the quotient below 2^22"
+    )]
+    fn new(from: GridPoint, to: GridPoint, first: GridPoint, grid: SubpixelGrid, rules: Rules) -> Self {
+        let (dx, dy) = (to.x - from.x, to.y - from.y);
+        // Clockwise on the screen: a left edge runs up, a top edge runs right.
+        let owns_ties = rules == Rules::Course || dy < 0 || (dy == 0 && dx > 0);
+        let exact = edge_value(from, to, first) - i64::from(!owns_ties);
+        Self {
+            value: (exact >> grid.bits()) as i32,
+            right: -dy,
+            down: dx,
+        }
+    }
+}
+
+/// The bits of four by four samples from `column` and `row` on.
+#[inline]
+fn quarter(edges: &[SmallEdge; 3], column: i32, row: i32) -> u32 {
+    let start = edges.map(|edge| edge.value + edge.right * column + edge.down * row);
+    let mut outside = [0_u32; 4];
+    for j in 0..4 {
+        for (i, outside) in (0..4).zip(&mut outside) {
+            let value = |k: usize| start[k] + edges[k].right * i + edges[k].down * j;
+            // All ones where any of the three is below zero.
+            let sign = (value(0) | value(1) | value(2)) >> 31;
+            *outside |= sign.cast_unsigned() & (1 << (SMALL * j + i));
+        }
+    }
+    !(outside[0] | outside[1] | outside[2] | outside[3]) & 0x0F0F_0F0F
+}
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+
+    use super::super::rows::SortedTriangle;
+    use super::*;
+    use crate::geometry::subpixel::GUARD;
+
+    /// The same from the row walker; empty where the triangle covers nothing.
+    fn walked(corners: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Vec<(i32, Span)> {
+        let everything = Span {
+            start: i32::MIN / 2,
+            end: i32::MAX / 2,
+        };
+        let Some(sorted) = SortedTriangle::new(corners, rules) else {
+            return Vec::new();
+        };
+        let rows = sorted.rows(grid);
+        if rows.is_empty() {
+            return Vec::new();
+        }
+        let mut walker = sorted.walk_from(grid, rows.start);
+        (rows.start..rows.end)
+            .map(|row| (row, walker.next_span(everything)))
+            .filter(|(_, span)| !span.is_empty())
+            .collect()
+    }
+
+    fn check(corners: [GridPoint; 3], grid: SubpixelGrid) -> bool {
+        for rules in Rules::ALL {
+            let Some(found) = small_coverage(corners, grid, rules) else {
+                return false;
+            };
+            let mut expected = 0_u64;
+            let mut spans = Vec::new();
+            if found.mask != 0 {
+                let rows = found.rows();
+                spans.extend((rows.start..rows.end).map(|row| (row, found.span(row))));
+            }
+            spans.retain(|(_, span)| !span.is_empty());
+            assert_eq!(spans, walked(corners, grid, rules), "{corners:?} {rules:?} as spans");
+            for (row, span) in walked(corners, grid, rules) {
+                for column in span.start..span.end {
+                    let (i, j) = (column - found.column, row - found.row);
+                    assert!(
+                        (0..SMALL).contains(&i) && (0..SMALL).contains(&j),
+                        "{corners:?} {rules:?} covers column {column}, row {row} outside its box at {found:?}"
+                    );
+                    expected |= 1 << (SMALL * j + i);
+                }
+            }
+            assert_eq!(found.mask, expected, "{corners:?} {rules:?} {grid:?}: {found:?}");
+        }
+        true
+    }
+
+    fn corners(u: &mut Unstructured<'_>, center: GridPoint, reach: i32, shift: u32) -> Result<[GridPoint; 3]> {
+        let mut near = |center: i32| Ok(center + (u.int_in_range(-reach..=reach)? << shift));
+        let mut point = || {
+            Ok(GridPoint {
+                x: near(center.x)?,
+                y: near(center.y)?,
+            })
+        };
+        Ok([point()?, point()?, point()?])
+    }
+
+    #[test]
+    fn small_triangles_are_covered_as_rows_say() {
+        let mut small = 0_u32;
+        arbtest::arbtest(|u| {
+            let grid = SubpixelGrid::new(u.int_in_range(1..=16)?);
+            // The far corners of the guard band, where edge values are largest, and the frame's origin.
+            let place = *u.choose(&[0.0, 3.5, 1919.0, GUARD.0 + 20.0, GUARD.1 - 20.0])?;
+            let center = grid.snap(
+                glam::DVec2::new(place, *u.choose(&[0.0, place, -place])?)
+                    .clamp(glam::DVec2::splat(GUARD.0 + 20.0), glam::DVec2::splat(GUARD.1 - 20.0)),
+            );
+            // On a lattice of half samples full of ties, or anywhere.
+            let corners = if u.arbitrary()? {
+                corners(u, center, 9, grid.bits() - 1)?
+            } else {
+                corners(u, center, 5 << grid.bits(), 0)?
+            };
+            small += u32::from(check(corners, grid));
+            Ok(())
+        })
+        .budget_ms(600);
+        assert!(small > 1000, "only {small} small triangles were compared");
+    }
+
+    #[test]
+    fn large_triangles_are_left_to_rows() {
+        let grid = SubpixelGrid::new(1);
+        let point = |x: f64, y: f64| grid.snap(glam::DVec2::new(x, y));
+        let corners = |width: f64, height: f64| [point(0.0, 0.0), point(width, 0.0), point(0.0, height)];
+        assert!(
+            small_coverage(corners(8.4, 8.4), grid, Rules::Standard).is_some(),
+            "8 by 8 samples"
+        );
+        assert!(
+            small_coverage(corners(9.0, 1.0), grid, Rules::Standard).is_none(),
+            "9 columns"
+        );
+        assert!(
+            small_coverage(corners(1.0, 9.0), grid, Rules::Standard).is_none(),
+            "9 rows"
+        );
+        let guard = [
+            point(GUARD.0, GUARD.0),
+            point(GUARD.1, GUARD.0),
+            point(GUARD.0, GUARD.1),
+        ];
+        assert!(
+            small_coverage(guard, grid, Rules::Course).is_none(),
+            "the whole guard band"
+        );
+    }
+}

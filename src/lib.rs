@@ -16,6 +16,7 @@
 //! | [`raster`] | screen-space primitives | resolved pixels |
 //! | [`texture`] | images | colours at a footprint |
 //! | [`geometry`], [`color`], [`rules`] | numbers | numbers |
+//! | [`simd`] | the machine | the vector instructions that kernels use |
 //!
 //! # Conventions
 //!
@@ -38,5 +39,6 @@ pub mod raster;
 pub mod render;
 pub mod rules;
 pub mod scene;
+pub mod simd;
 pub mod texture;
 pub mod viewer;

@@ -1,16 +1,21 @@
 //! Images to colours: decoding, pyramid, level of detail, sampling.
 
+mod cell;
 mod decode;
+mod filter;
 mod footprint;
 mod lanes;
 mod pyramid;
 mod sampler;
+mod uv_map;
 
 pub use decode::DecodeError;
+pub use filter::{Filter, PixelList, SampleGrid};
 pub use footprint::Footprint;
 pub use lanes::LANES;
 pub use pyramid::{MipLevel, MipPyramid};
 pub use sampler::{LevelChoice, Sampler, SamplingSettings};
+pub use uv_map::UvMap;
 
 /// How a colour is found inside one mip level.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

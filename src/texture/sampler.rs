@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Footprint, LevelSampling, MipLevel, MipPyramid, PixelSampling};
+use super::{Footprint, LevelSampling, MipLevel, MipPyramid, PixelSampling, cell};
 use crate::rules::Rules;
 
 /// How textures are read: what a user chooses.
@@ -56,6 +56,14 @@ impl LevelChoice {
                 }
             }
         }
+    }
+}
+
+impl LevelChoice {
+    /// The weight of the next level as a part of [`cell::MASS`].
+    #[expect(clippy::cast_possible_truncation, reason = "a weight in 0..=1 becomes 0..=MASS")]
+    pub(super) fn next_mass(self) -> i32 {
+        (self.next_weight * cell::MASS as f32).round() as i32
     }
 }
 

@@ -11,7 +11,7 @@ struct Room {
     crates: &'static [&'static str],
 }
 
-const BOTTOM: &[&str] = &["color", "geometry", "rules"];
+const BOTTOM: &[&str] = &["color", "geometry", "rules", "simd"];
 
 /// The table of permitted imports. Every room may name itself, `std` and crates that are not guarded.
 const ROOMS: &[Room] = &[
@@ -24,7 +24,7 @@ const ROOMS: &[Room] = &[
         name: "cli",
         rooms: &[
             "app", "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color",
-            "geometry", "rules",
+            "geometry", "rules", "simd",
         ],
         crates: &["clap", "serde", "serde_json", "indicatif"],
     },
@@ -32,7 +32,7 @@ const ROOMS: &[Room] = &[
         name: "app",
         rooms: &[
             "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry",
-            "rules",
+            "rules", "simd",
         ],
         crates: &["winit", "softbuffer", "egui", "egui_winit"],
     },
@@ -40,60 +40,70 @@ const ROOMS: &[Room] = &[
         name: "viewer",
         rooms: &[
             "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules",
+            "simd",
         ],
         crates: &["image", "jiff"],
     },
     Room {
         name: "figure",
         rooms: &[
-            "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules",
+            "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
         ],
         crates: &["image"],
     },
     Room {
         name: "compare",
-        rooms: &["render", "scene", "raster", "texture", "color", "geometry", "rules"],
+        rooms: &[
+            "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
+        ],
         crates: &[],
     },
     Room {
         name: "inspect",
-        rooms: &["render", "scene", "raster", "texture", "color", "geometry", "rules"],
+        rooms: &[
+            "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
+        ],
         crates: &[],
     },
     Room {
         name: "render",
-        rooms: &["scene", "raster", "texture", "color", "geometry", "rules"],
+        rooms: &["scene", "raster", "texture", "color", "geometry", "rules", "simd"],
         crates: &[],
     },
     Room {
         name: "scene",
-        rooms: &["texture", "color", "geometry", "rules"],
+        rooms: &["texture", "color", "geometry", "rules", "simd"],
         crates: &["roxmltree", "svgtypes", "simplecss", "data_url"],
     },
     Room {
         name: "raster",
-        rooms: &["texture", "color", "geometry", "rules"],
-        crates: &[],
+        rooms: &["texture", "color", "geometry", "rules", "simd"],
+        crates: &["fearless_simd"],
     },
     Room {
         name: "texture",
         rooms: BOTTOM,
-        crates: &["image"],
+        crates: &["image", "fearless_simd"],
     },
     Room {
         name: "geometry",
         rooms: BOTTOM,
-        crates: &["kurbo", "i_triangle"],
+        crates: &["kurbo", "i_triangle", "fearless_simd"],
     },
     Room {
         name: "color",
         rooms: BOTTOM,
-        crates: &[],
+        crates: &["fearless_simd"],
     },
     Room {
         name: "rules",
         rooms: &[],
         crates: &[],
+    },
+    Room {
+        name: "simd",
+        rooms: &[],
+        crates: &["fearless_simd"],
     },
 ];
 
@@ -115,6 +125,7 @@ const GUARDED: &[&str] = &[
     "serde_json",
     "indicatif",
     "jiff",
+    "fearless_simd",
 ];
 
 /// What is wrong with one line of a room's code.
@@ -216,6 +227,8 @@ fn architecture_checker_bites() {
         ("geometry", "let doc = roxmltree::Document::parse(text);", true),
         ("scene", "let doc = roxmltree::Document::parse(text);", false),
         ("texture", "use crate::render::draw;", true),
+        ("texture", "use fearless_simd::Simd;", false),
+        ("scene", "use fearless_simd::Simd;", true),
         ("main", "use rasterscope::raster::Framebuffer;", true),
         ("raster", "// crate::scene::Scene is what this must not see", false),
     ];

@@ -1,0 +1,77 @@
+//! The four texels around a point and their weights, in integers: the arithmetic of texture filtering, one point at a
+//! time. The kernels do the same for many points at once.
+//!
+//! A coordinate is rounded to [`FRACTION_BITS`] fractional bits of a texel. From there on everything is exact integer
+//! arithmetic, so that no compiler, processor or vector width can change a byte. The weights of all texels of a sample
+//! sum to [`MASS`] exactly: what is left over goes to the last one. So a constant texture stays constant.
+
+use super::{MipLevel, PixelSampling};
+
+/// Fractional bits of a texel coordinate.
+pub(super) const FRACTION_BITS: u32 = 15;
+/// The sum of the weights of one sample. Fits a signed 16-bit number.
+pub(super) const MASS: i32 = 1 << MASS_BITS;
+const MASS_BITS: u32 = 14;
+/// From a sum of bytes times weights to the 16 bits of a stored channel, which are 256 per byte.
+pub(super) const SUM_SHIFT: u32 = MASS_BITS - 8;
+/// A 64-bit float of this size has [`FRACTION_BITS`] bits left for fractions: adding it to a coordinate rounds the
+/// coordinate to them, and they stand in the lower bits of the sum.
+pub(super) const TO_FIXED: f64 = (1_u64 << (52 - FRACTION_BITS)) as f64;
+
+/// A coordinate in texels, clamped to `0..=last` and rounded to fixed point. A coordinate that is no number is 0.
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the fixed-point number is in the lower half"
+)]
+pub(super) fn to_fixed(texels: f64, last: f64) -> u32 {
+    (texels.max(0.0).min(last) + TO_FIXED).to_bits() as u32
+}
+
+/// `a b`, where `b` is a fraction of [`FRACTION_BITS`] bits, rounded to nearest.
+#[inline]
+fn share(a: i32, b: i32) -> i32 {
+    (a * b + (1 << (FRACTION_BITS - 1))) >> FRACTION_BITS
+}
+
+/// Weights `[upper left, upper right, lower left, lower right]` that sum to `mass`, for the fractions of a point.
+#[inline]
+pub(super) fn weights(x: i32, y: i32, mass: i32) -> [i32; 4] {
+    let lower = share(mass, y);
+    let upper = mass - lower;
+    let (upper_right, lower_right) = (share(upper, x), share(lower, x));
+    [upper - upper_right, upper_right, lower - lower_right, lower_right]
+}
+
+/// Adds the texels around the point `(x, y)`, in fixed point, to `sums`, with weights that sum to `mass`.
+#[inline]
+pub(super) fn add(level: &MipLevel, pixel: PixelSampling, [x, y]: [u32; 2], mass: i32, sums: &mut [i32; 4]) {
+    const FRACTION: u32 = (1 << FRACTION_BITS) - 1;
+    let (column, row) = ((x >> FRACTION_BITS).cast_signed(), (y >> FRACTION_BITS).cast_signed());
+    let mut add = |x, y, weight: i32| {
+        for (sum, channel) in sums.iter_mut().zip(level.texel(x, y)) {
+            *sum += i32::from(channel) * weight;
+        }
+    };
+    match pixel {
+        PixelSampling::Nearest => add(column, row, mass),
+        PixelSampling::Bilinear => {
+            let weights = weights((x & FRACTION).cast_signed(), (y & FRACTION).cast_signed(), mass);
+            add(column, row, weights[0]);
+            add(column + 1, row, weights[1]);
+            add(column, row + 1, weights[2]);
+            add(column + 1, row + 1, weights[3]);
+        }
+    }
+}
+
+/// A stored channel from the weighted sum of bytes, rounded to nearest.
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a weighted mean of bytes is a byte, which is 16 bits when stored"
+)]
+pub(super) fn to_channel(sum: i32) -> u16 {
+    ((sum + (1 << (SUM_SHIFT - 1))) >> SUM_SHIFT) as u16
+}

@@ -1,5 +1,7 @@
 //! The only place where scene meets raster: transforms a scene's primitives and draws them into a frame.
 
+mod regions;
+
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -14,6 +16,8 @@ use crate::raster::{
 use crate::rules::Rules;
 use crate::scene::{Paint, PrimitiveKind, Scene};
 use crate::texture::{LevelSampling, PixelSampling, SamplingSettings};
+
+pub use regions::{Subject, draw_regions, refine};
 
 /// Everything about a picture that is neither scene nor view.
 #[derive(Clone, Copy, Debug, PartialEq)]

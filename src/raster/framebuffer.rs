@@ -1,5 +1,7 @@
 //! Resolved pixels.
 
+use super::Region;
+
 /// A picture: `width` x `height` resolved pixels, rows from the top.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Framebuffer {
@@ -47,6 +49,28 @@ impl Framebuffer {
     /// All pixels, as [`Framebuffer::pixels`].
     pub fn pixels_mut(&mut self) -> &mut [u32] {
         &mut self.pixels
+    }
+
+    /// Copies those of a tile's `pixels`, row by row, that lie in `wanted` and in the frame.
+    pub fn copy_from(&mut self, tile: Region, pixels: &[u32], wanted: Region) {
+        let shown = tile
+            .intersection(wanted)
+            .intersection(Region::of_size([self.width, self.height]));
+        if shown.is_empty() {
+            return;
+        }
+        let (width, length) = (self.width as usize, shown.width as usize);
+        let left = (shown.x - tile.x) as usize;
+        let rows = pixels.chunks_exact(tile.width as usize);
+        let start = shown.y as usize * width + shown.x as usize;
+        let targets = self.pixels[start..].chunks_mut(width);
+        for (row, target) in rows
+            .skip((shown.y - tile.y) as usize)
+            .take(shown.height as usize)
+            .zip(targets)
+        {
+            target[..length].copy_from_slice(&row[left..left + length]);
+        }
     }
 
     /// The pixel in column `x` of row `y` as straight `[r, g, b, a]`, or `None` outside the frame.

@@ -30,9 +30,9 @@ pub struct RasterSettings {
 /// A display list ready to be drawn.
 #[derive(Debug)]
 pub struct DisplayList<'a> {
-    context: ListContext,
+    pub(super) context: ListContext,
     settings: RasterSettings,
-    chunks: Vec<Chunk>,
+    pub(super) chunks: Vec<Chunk>,
     textures: Vec<&'a Texture>,
 }
 
@@ -57,11 +57,11 @@ pub struct SampleHit {
 }
 
 /// One group of tile rows on its way to the frame.
-struct Pass<'a> {
+pub(super) struct Pass<'a> {
     /// The entries of each chunk.
     bins: Vec<Bins>,
     first_row: u32,
-    cancelled: &'a AtomicBool,
+    pub(super) cancelled: &'a AtomicBool,
 }
 
 impl ListContext {
@@ -121,18 +121,9 @@ impl<'a> DisplayList<'a> {
         let row_pixels = (width * self.context.tiles.tile_height()) as usize;
         for group in groups(&self.chunks, &self.context) {
             let start = Instant::now();
-            let bins: Vec<Bins> = self
-                .chunks
-                .par_iter()
-                .map(|chunk| Bins::new(chunk, &self.context, &self.textures, group))
-                .collect();
+            let pass = self.pass(group, cancelled);
             times.bin += start.elapsed();
             let start = Instant::now();
-            let pass = Pass {
-                bins,
-                first_row: group.start.cast_unsigned(),
-                cancelled,
-            };
             frame
                 .pixels_mut()
                 .par_chunks_mut(row_pixels)
@@ -182,7 +173,19 @@ impl<'a> DisplayList<'a> {
         Premultiplied16::from_straight(self.settings.background, self.settings.sampling.rules)
     }
 
-    fn painter(&self) -> TilePainter<'_> {
+    /// Sorts everything into the tiles of some tile rows.
+    pub(super) fn pass<'p>(&self, rows: Span, cancelled: &'p AtomicBool) -> Pass<'p> {
+        let chunks = self.chunks.par_iter();
+        Pass {
+            bins: chunks
+                .map(|chunk| Bins::new(chunk, &self.context, &self.textures, rows))
+                .collect(),
+            first_row: rows.start.cast_unsigned(),
+            cancelled,
+        }
+    }
+
+    pub(super) fn painter(&self) -> TilePainter<'_> {
         TilePainter::new(ShadeContext {
             grid: self.context.grid,
             sampling: self.settings.sampling,
@@ -192,31 +195,42 @@ impl<'a> DisplayList<'a> {
 
     /// Paints and resolves the tiles of one row.
     fn tile_row(&self, pass: &Pass<'_>, painter: &mut TilePainter<'_>, row: u32, pixels: &mut [u32]) {
-        let first = ((row - pass.first_row) * self.context.tiles.columns) as usize;
         for column in 0..self.context.tiles.columns {
             if pass.cancelled.load(Ordering::Relaxed) {
                 return;
             }
-            let tile = first + column as usize;
             let rect = self.context.tiles.pixels(column, row, self.context.size);
             let width = (rect.x.end - rect.x.start).cast_unsigned() as usize;
             let lines = pixels
                 .chunks_exact_mut(self.context.size[0] as usize)
                 .map(|line| &mut line[rect.x.start.cast_unsigned() as usize..][..width]);
-            if pass.bins.iter().all(|bins| bins.of_tile(tile).is_empty()) {
-                let paper = self.background().to_pixel(self.settings.sampling.rules);
-                lines.for_each(|line| line.fill(paper));
-                continue;
-            }
-            painter.begin(rect, self.background());
-            let (chunk, entry) = first_visible(&pass.bins, tile);
-            for (i, bins) in pass.bins.iter().enumerate().skip(chunk) {
-                let skip = if i == chunk { entry } else { 0 };
-                painter.paint(&self.chunks[i], &bins.of_tile(tile)[skip..]);
-            }
-            for (line, y) in lines.zip(rect.y.start..) {
-                painter.resolve(y, line);
-            }
+            self.tile_into(pass, painter, [column, row], lines);
+        }
+    }
+
+    /// Paints and resolves one tile into `lines`, its rows of pixels from the top.
+    pub(super) fn tile_into<'l>(
+        &self,
+        pass: &Pass<'_>,
+        painter: &mut TilePainter<'_>,
+        [column, row]: [u32; 2],
+        lines: impl Iterator<Item = &'l mut [u32]>,
+    ) {
+        let tile = ((row - pass.first_row) * self.context.tiles.columns + column) as usize;
+        let rect = self.context.tiles.pixels(column, row, self.context.size);
+        if pass.bins.iter().all(|bins| bins.of_tile(tile).is_empty()) {
+            let paper = self.background().to_pixel(self.settings.sampling.rules);
+            lines.for_each(|line| line.fill(paper));
+            return;
+        }
+        painter.begin(rect, self.background());
+        let (chunk, entry) = first_visible(&pass.bins, tile);
+        for (i, bins) in pass.bins.iter().enumerate().skip(chunk) {
+            let skip = if i == chunk { entry } else { 0 };
+            painter.paint(&self.chunks[i], &bins.of_tile(tile)[skip..]);
+        }
+        for (line, y) in lines.zip(rect.y.start..) {
+            painter.resolve(y, line);
         }
     }
 }

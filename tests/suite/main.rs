@@ -16,6 +16,7 @@ mod overlay_goldens;
 #[cfg(feature = "window")]
 mod overlay_painter;
 mod readme;
+mod regions;
 mod render;
 mod robustness;
 mod scene_course;

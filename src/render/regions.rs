@@ -1,0 +1,74 @@
+//! Parts of a picture: some rectangles of a frame, or all tiles in the order of their distance from a pixel.
+
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+use super::{CancelToken, FrameStats, RenderSettings, display_list};
+use crate::geometry::ViewTransform;
+use crate::raster::{Framebuffer, Region};
+use crate::scene::Scene;
+
+/// What decides a picture's pixels, but for its size.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// What is drawn.
+    pub scene: &'a Scene,
+    /// From where.
+    pub view: &'a ViewTransform,
+    /// How.
+    pub settings: &'a RenderSettings,
+}
+
+/// Draws the pixels of `regions` and leaves the rest of `frame` as it is; they are the bytes of [`super::draw`] of the
+/// whole frame. `None` once `cancel` says so: then the regions are unfinished.
+pub fn draw_regions(
+    subject: &Subject<'_>,
+    frame: &mut Framebuffer,
+    regions: &[Region],
+    cancel: &CancelToken,
+) -> Option<FrameStats> {
+    let size = [frame.width(), frame.height()];
+    let frame = Mutex::new(frame);
+    let publish = |tile: Region, pixels: &[u32]| {
+        let mut frame = frame.lock().unwrap_or_else(PoisonError::into_inner);
+        for region in regions {
+            frame.copy_from(tile, pixels, *region);
+        }
+    };
+    tiles(subject, size, (regions, [0, 0]), cancel, &publish)
+}
+
+/// Draws a frame of `size` pixels tile by tile, those nearest to the pixel `from` first, and hands each to `publish`:
+/// its place and its pixels `0xAARRGGBB`, row by row. Calls come from many threads at once; each pixel comes once, and
+/// all of them are the bytes of [`super::draw`]. `None` once `cancel` says so: then tiles are missing.
+pub fn refine(
+    subject: &Subject<'_>,
+    size: [u32; 2],
+    from: [u32; 2],
+    cancel: &CancelToken,
+    publish: impl Fn(Region, &[u32]) + Sync,
+) -> Option<FrameStats> {
+    tiles(subject, size, (&[Region::of_size(size)], from), cancel, &publish)
+}
+
+fn tiles(
+    subject: &Subject<'_>,
+    size: [u32; 2],
+    (wanted, from): (&[Region], [u32; 2]),
+    cancel: &CancelToken,
+    publish: &(impl Fn(Region, &[u32]) + Sync),
+) -> Option<FrameStats> {
+    let start = Instant::now();
+    let list = display_list(subject.scene, subject.view, subject.settings, size);
+    let transform = start.elapsed();
+    if cancel.is_cancelled() {
+        return None;
+    }
+    let times = list.rasterize_tiles(wanted, from, &cancel.0, publish)?;
+    Some(FrameStats {
+        transform,
+        bin: times.bin,
+        raster: times.raster,
+        triangles: list.triangles(),
+    })
+}

@@ -38,7 +38,7 @@ pub(super) enum Verb {
     View(ViewerOptions),
     /// Draw a scene, or every scene in a folder, into PNG files, without a window
     Render(RenderOptions),
-    /// Time redraws of a scene: median, minimum, milliseconds per stage
+    /// Time redraws of scenes: median, minimum, milliseconds per stage
     Bench(BenchOptions),
 }
 
@@ -86,12 +86,13 @@ pub(super) struct RenderOptions {
 
 #[derive(Debug, Args)]
 pub(super) struct BenchOptions {
-    /// An SVG file
-    pub(super) scene: PathBuf,
-    /// How often the scene is drawn
+    /// SVG files, or scenes of the gallery such as gallery:basic/test4.svg
+    #[arg(required = true, value_name = "SCENE")]
+    pub(super) scenes: Vec<PathBuf>,
+    /// How often each scene is drawn
     #[arg(long, default_value_t = 30, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(super) frames: u32,
-    /// Print one JSON object instead of text
+    /// Print JSON instead of text: an object, or for several scenes a list of objects
     #[arg(long)]
     pub(super) json: bool,
     #[command(flatten)]
@@ -300,6 +301,7 @@ mod tests {
             "rasterscope render a.svg -o b.png --background #ff80é",
             "rasterscope render a.svg -o b.png --pixel-sampling cubic",
             "rasterscope render a.svg -o b.png --unknown",
+            "rasterscope bench",
             "rasterscope bench a.svg --frames 0",
             "rasterscope bench a.svg --threads 0",
         ] {

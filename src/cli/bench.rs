@@ -1,5 +1,6 @@
 //! `rasterscope bench`: how long redraws take, as median and minimum, in total and per stage.
 
+use std::path::Path;
 use std::time::Duration;
 
 use serde::Serialize;
@@ -32,28 +33,36 @@ struct Stages {
     transform: f64,
     bin: f64,
     raster: f64,
+    /// Bringing the frame to a screen: `null`, because there is none here.
+    present: Option<f64>,
 }
 
-/// Draws the scene as often as asked and prints what it took.
+/// Draws each scene as often as asked and prints what it took, when all are done.
 pub(super) fn run(options: &BenchOptions) -> Result<(), Failure> {
-    let report = on_threads(&options.picture, || measure(options))??;
+    let reports = on_threads(&options.picture, || -> Result<Vec<Report>, Failure> {
+        options.scenes.iter().map(|scene| measure(scene, options)).collect()
+    })??;
     if options.json {
-        let json = serde_json::to_string(&report).map_err(Failure::other)?;
-        print(&json)
+        let json = match reports.as_slice() {
+            [report] => serde_json::to_string(report),
+            several => serde_json::to_string(several),
+        };
+        print(&json.map_err(Failure::other)?)
     } else {
-        print(&report.text())
+        let texts: Vec<String> = reports.iter().map(Report::text).collect();
+        print(&texts.join("\n\n"))
     }
 }
 
-fn measure(options: &BenchOptions) -> Result<Report, Failure> {
-    let mut picture = Picture::read(&SceneSource::from_address(&options.scene), &options.picture)?;
+fn measure(scene: &Path, options: &BenchOptions) -> Result<Report, Failure> {
+    let mut picture = Picture::read(&SceneSource::from_address(scene), &options.picture)?;
     // The first frame pays for memory that later ones find in place.
     picture.draw();
     let frames: Vec<FrameStats> = (0..options.frames).map(|_| picture.draw()).collect();
     let stage = |time: fn(&FrameStats) -> Duration| median(frames.iter().map(time).collect());
     let min = frames.iter().map(FrameStats::total).min().unwrap_or_default();
     Ok(Report {
-        scene: options.scene.display().to_string(),
+        scene: scene.display().to_string(),
         width: picture.frame().width(),
         height: picture.frame().height(),
         sample_rate: options.picture.sampling.sample_rate.samples(),
@@ -65,6 +74,7 @@ fn measure(options: &BenchOptions) -> Result<Report, Failure> {
             transform: milliseconds(stage(|frame| frame.transform)),
             bin: milliseconds(stage(|frame| frame.bin)),
             raster: milliseconds(stage(|frame| frame.raster)),
+            present: None,
         },
         triangles: frames.first().map_or(0, |frame| frame.triangles),
     })
@@ -74,7 +84,8 @@ impl Report {
     fn text(&self) -> String {
         format!(
             "{}\n{} x {} pixels, {} samples per pixel, {} threads, {} frames, {} triangles\n\
-             median     {:9.3} ms\nminimum    {:9.3} ms\ntransform  {:9.3} ms\nbin        {:9.3} ms\nraster     {:9.3} ms",
+             median     {:9.3} ms\nminimum    {:9.3} ms\ntransform  {:9.3} ms\nbin        {:9.3} ms\nraster     {:9.3} ms\n\
+             present         none",
             self.scene,
             self.width,
             self.height,

@@ -248,6 +248,12 @@ fn cli_bench_prints_json() {
     ] {
         assert_eq!(report[name], value, "{name} of {report}");
     }
+    let stages = &report["stages_ms"];
+    for stage in ["transform", "bin", "raster"] {
+        assert!(stages[stage].as_f64() >= Some(0.0), "{stage} of {report}");
+    }
+    assert!(stages["present"].is_null(), "nothing is presented: {report}");
+    assert_eq!(report["triangles"], 1, "triangles of {report}");
     let (median, min) = (report["median_ms"].as_f64(), report["min_ms"].as_f64());
     assert!(min > Some(0.0) && min <= median, "times: {report}");
     let text = run(folder.path(), &["bench", "a.svg", "--size", "64x48", "--frames", "1"]);
@@ -255,6 +261,29 @@ fn cli_bench_prints_json() {
         String::from_utf8_lossy(&text.stdout).contains("median"),
         "text for people"
     );
+}
+
+#[test]
+fn cli_bench_times_several_scenes() {
+    let folder = folder_with(&[("a.svg", SCENE), ("b.svg", &SCENE.replace("40", "50"))]);
+    let options = ["bench", "a.svg", "b.svg", "--size", "20x10", "--frames", "2"];
+    let text = run(folder.path(), &options);
+    let text = String::from_utf8(text.stdout).expect("text");
+    assert!(
+        text.contains("a.svg\n20 x 10") && text.contains("\n\nb.svg\n20 x 10"),
+        "both: {text}"
+    );
+    let output = run(folder.path(), &[&options[..], &["--json"]].concat());
+    let reports: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let reports = reports.as_array().expect("a list");
+    let names: Vec<_> = reports.iter().map(|report| report["scene"].as_str()).collect();
+    assert_eq!(names, [Some("a.svg"), Some("b.svg")], "in their order");
+    assert!(
+        reports.iter().all(|report| report["width"] == 20),
+        "as asked: {reports:?}"
+    );
+    refused(folder.path(), &["bench", "a.svg", "nowhere.svg"], &["nowhere.svg"]);
+    refused(folder.path(), &["bench"], &["SCENE"]);
 }
 
 #[test]

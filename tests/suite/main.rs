@@ -10,6 +10,7 @@ mod cli;
 mod coverage;
 mod gallery;
 mod golden;
+mod instruction_guard;
 mod oracle;
 #[cfg(feature = "window")]
 mod overlay_goldens;

@@ -1,0 +1,109 @@
+//! What `benches/llvmpipe` draws: meshes in pixels as raw arrays, our pictures of them, and our times.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use rasterscope::scene::{Paint, PrimitiveKind, Scene};
+use serde_json::{Value, json};
+
+use crate::ours::{Ours, pool, settings};
+use crate::race::{Budget, Rival, race};
+use crate::scenes::FRAMES;
+use crate::scenes::{flat, mesh};
+
+/// Sample rates of the comparison; llvmpipe supersamples by the square root.
+const RATES: [u32; 2] = [1, 16];
+
+/// The scenes of one folder.
+struct Export<'a> {
+    folder: &'a Path,
+    budget: Budget,
+    entries: Vec<Value>,
+}
+
+/// Times every scene on two threads and writes it into `folder`, with `scenes.json` that lists them.
+pub(crate) fn export(folder: &Path, budget: Budget) -> io::Result<()> {
+    fs::create_dir_all(folder)?;
+    let mut export = Export {
+        folder,
+        budget,
+        entries: Vec::new(),
+    };
+    for size in FRAMES {
+        for scene in flat::all(size) {
+            export.add("flat", scene.name, &scene.read(), size)?;
+        }
+        for mesh::MeshScene { name, scene } in mesh::textured(size) {
+            export.add("textured", name, &scene, size)?;
+        }
+    }
+    let base = mesh::texture();
+    let level = &base.pyramid.levels()[0];
+    let texels = (0..level.height().cast_signed()).flat_map(|y| (0..level.width().cast_signed()).map(move |x| (x, y)));
+    let bytes: Vec<u8> = texels.flat_map(|(x, y)| level.texel(x, y)).collect();
+    fs::write(folder.join("texture.rgba"), bytes)?;
+    let list = json!({
+        "texture": { "file": "texture.rgba", "side": mesh::TEXTURE_SIDE },
+        "scenes": export.entries,
+    });
+    fs::write(folder.join("scenes.json"), list.to_string())
+}
+
+impl Export<'_> {
+    fn add(&mut self, kind: &str, name: &str, scene: &Scene, size: [u32; 2]) -> io::Result<()> {
+        let pool = pool(2);
+        let mut ours = RATES.map(|rate| Ours::new(scene, size, settings(rate), &pool));
+        let number = self.entries.len();
+        let view = *ours[0].view();
+        let (mut points, mut attributes, mut translucent) = (Vec::new(), Vec::new(), false);
+        for primitive in &scene.primitives {
+            let PrimitiveKind::Triangle { points: corners, paint } = &primitive.kind else {
+                continue;
+            };
+            for (i, corner) in corners.iter().enumerate() {
+                let place = view.to_pixels(*corner).as_vec2();
+                points.extend([place.x, place.y].map(f32::to_le_bytes).concat());
+                match paint {
+                    Paint::Solid(color) => {
+                        translucent |= color.a < 1.0;
+                        let premultiplied = [color.r * color.a, color.g * color.a, color.b * color.a, color.a];
+                        attributes.extend(premultiplied.map(f32::to_le_bytes).concat());
+                    }
+                    Paint::Texture { uv, .. } => attributes.extend(uv[i].to_array().map(f32::to_le_bytes).concat()),
+                    Paint::Vertex(_) => {}
+                }
+            }
+        }
+        let write = |what: &str, bytes: &[u8]| {
+            let file = format!("{number}.{what}");
+            fs::write(self.folder.join(&file), bytes).map(|()| file)
+        };
+        let (points, attributes) = (write("points", &points)?, write("attributes", &attributes)?);
+        let mut rivals = ours.each_mut().map(|ours| {
+            Rival::new(|| {
+                ours.draw();
+            })
+        });
+        let timings = race(&mut rivals, self.budget);
+        drop(rivals);
+        let mut rates = Vec::new();
+        for ((rate, timing), ours) in RATES.iter().zip(timings).zip(&ours) {
+            let bytes: Vec<u8> = (0..size[1])
+                .flat_map(|y| (0..size[0]).map(move |x| (x, y)))
+                .flat_map(|(x, y)| ours.frame().rgba(x, y).unwrap_or_default())
+                .collect();
+            rates.push(json!({
+                "rate": rate,
+                "median_ms": timing.median,
+                "min_ms": timing.min,
+                "picture": write(&format!("at{rate}.rgba"), &bytes)?,
+            }));
+        }
+        self.entries.push(json!({
+            "kind": kind, "name": name, "size": size, "translucent": translucent,
+            "points": points, "attributes": attributes, "ours": rates,
+        }));
+        Ok(())
+    }
+}

@@ -1,0 +1,53 @@
+//! What a frame costs, ours and the peers': `cargo bench --bench frames -- [PART ...]`.
+//!
+//! Parts: `stages`, `flat`, `slivers`, `textured`, `million`, `points`; all of them without an argument. The last
+//! lines are the table of the README. `--export FOLDER` instead times us and writes what `benches/llvmpipe` draws.
+
+mod export;
+mod flat;
+mod meshes;
+mod ours;
+mod peers;
+mod race;
+mod scenes;
+mod table;
+
+use std::time::Duration;
+
+use race::Budget;
+use table::{markdown, say};
+
+const BUDGET: Budget = Budget {
+    time: Duration::from_millis(2500),
+    max_rounds: 60,
+};
+
+fn main() {
+    // Cargo adds `--bench`.
+    let words: Vec<String> = std::env::args().skip(1).filter(|word| word != "--bench").collect();
+    if let [option, folder] = words.as_slice()
+        && option == "--export"
+    {
+        export::export(folder.as_ref(), BUDGET).expect("a folder that can be written");
+        return;
+    }
+    let wanted = |part: &str| words.is_empty() || words.iter().any(|word| word == part);
+    let mut rows = Vec::new();
+    say("milliseconds, median (minimum); /1: one thread; @16: sixteen samples per pixel");
+    if wanted("flat") {
+        rows.extend(flat::flat(BUDGET));
+    }
+    if wanted("slivers") {
+        rows.extend(flat::slivers(BUDGET));
+    }
+    if wanted("textured") {
+        rows.extend(meshes::textured(BUDGET));
+    }
+    if wanted("million") {
+        rows.extend(meshes::million(BUDGET));
+    }
+    if wanted("points") {
+        meshes::points(BUDGET);
+    }
+    say(&format!("\n{}", markdown(&rows)));
+}

@@ -159,6 +159,11 @@ impl Inset {
 
     /// Draws the inset: `frame`'s pixels over white, and `samples` on the centre pixel.
     pub fn draw(&self, frame: &Framebuffer, samples: &[SampleMark]) -> Framebuffer {
+        self.draw_pixels(&|x, y| frame.rgba(x, y), samples)
+    }
+
+    /// As [`Inset::draw`], from the pixels that `rgba` knows: straight `[r, g, b, a]`. The others are hatched.
+    pub fn draw_pixels(&self, rgba: &dyn Fn(u32, u32) -> Option<[u8; 4]>, samples: &[SampleMark]) -> Framebuffer {
         let [width, height] = self.size();
         let mut picture = Framebuffer::new(width, height);
         let all = PixelRect::of_size([width, height]);
@@ -170,14 +175,14 @@ impl Inset {
         for y in source.y..source.bottom() {
             for x in source.x..source.right() {
                 if let Some(block) = self.block([x, y]) {
-                    Self::draw_pixel(frame, [x, y], &block, &mut picture);
+                    Self::draw_pixel(rgba, [x, y], &block, &mut picture);
                 }
             }
         }
         self.mark_center(&mut picture);
         if let Some(detail) = self.detail() {
             fill(&mut picture, &detail, CENTER_COLOR);
-            Self::draw_pixel(frame, self.center, &inner(&detail, 1), &mut picture);
+            Self::draw_pixel(rgba, self.center, &inner(&detail, 1), &mut picture);
             draw_samples(&inner(&detail, 1), samples, &mut picture);
         } else if let Some(block) = self.block(self.center) {
             draw_samples(&block, samples, &mut picture);
@@ -185,10 +190,15 @@ impl Inset {
         picture
     }
 
-    /// One magnified pixel, or hatching where the frame has none.
-    fn draw_pixel(frame: &Framebuffer, pixel: [i64; 2], block: &PixelRect, picture: &mut Framebuffer) {
+    /// One magnified pixel, or hatching where there is none.
+    fn draw_pixel(
+        rgba: &dyn Fn(u32, u32) -> Option<[u8; 4]>,
+        pixel: [i64; 2],
+        block: &PixelRect,
+        picture: &mut Framebuffer,
+    ) {
         let inside = (u32::try_from(pixel[0]).ok()).zip(u32::try_from(pixel[1]).ok());
-        if let Some(rgba) = inside.and_then(|(x, y)| frame.rgba(x, y)) {
+        if let Some(rgba) = inside.and_then(|(x, y)| rgba(x, y)) {
             fill(picture, block, over_white(rgba));
             return;
         }

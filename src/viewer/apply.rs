@@ -1,11 +1,15 @@
 //! Commands to changes of state; and the turns of the wheel that keep the state, the frame and the inset together.
 
+use std::time::Instant;
+
 use glam::DVec2;
 
+use super::drawing::Wish;
 use super::settings::next_of;
 use super::state::Finished;
 use super::{Camera, Command, Effect, PixelRect, PixelZoom, Sight, Theme, Viewer, library};
 use crate::geometry::View;
+use crate::raster::Region;
 use crate::render::RenderSettings;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
@@ -37,6 +41,10 @@ impl Viewer {
             self.take_in(finished);
             any = true;
         }
+        if self.due().is_some_and(|due| due <= Instant::now()) {
+            self.drawing.look();
+            any = true;
+        }
         if any {
             self.update();
         }
@@ -45,8 +53,19 @@ impl Viewer {
 
     /// Whether the frame of the current state is there and everything that was asked for is saved.
     pub fn is_settled(&self) -> bool {
+        self.is_final() && self.saver.is_idle()
+    }
+
+    /// Whether the final frame of the current state is there, and what the inspector says about it.
+    pub fn is_final(&self) -> bool {
         let reading = self.current().is_some_and(super::SceneEntry::is_reading);
-        !reading && self.drawing.is_current() && self.probing.is_current() && self.saver.is_idle()
+        !reading && self.drawing.is_current() && self.probing.is_current()
+    }
+
+    /// When to call [`Viewer::poll`] even if nothing wakes the event loop: then the hand rests, and the preview on the
+    /// screen is to be refined. `None` while there is nothing to wait for.
+    pub fn due(&self) -> Option<Instant> {
+        self.drawing.due()
     }
 
     /// Waits until [`Viewer::is_settled`]: for scripts, tests and pictures without a window.
@@ -61,12 +80,14 @@ impl Viewer {
 
     fn finish_until(&mut self, done: fn(&Self) -> bool) {
         self.poll();
+        self.drawing.set_hurry(true);
         while !done(self) {
             // Every pending piece of work sends its result, even when it fails; without threads there is none left.
-            let Ok(finished) = self.results.recv() else { return };
+            let Ok(finished) = self.results.recv() else { break };
             self.take_in(finished);
             self.update();
         }
+        self.drawing.set_hurry(self.saver.is_waiting());
     }
 
     fn take_in(&mut self, finished: Finished) {
@@ -90,8 +111,8 @@ impl Viewer {
     pub(super) fn update(&mut self) {
         self.revision += 1;
         self.want_scene();
-        self.want_frame();
         self.place_inset();
+        self.want_frame();
         self.want_samples();
         let drawn = self.drawn_state();
         if self.last_drawn != Some(drawn) {
@@ -173,6 +194,10 @@ impl Viewer {
             Command::SetBackground(color) => render.background = color,
             Command::NextDialect => self.settings.dialect = next_of(&DialectChoice::ALL, self.settings.dialect),
             Command::SetDialect(dialect) => self.settings.dialect = dialect,
+            Command::Progressive(toggle) => {
+                self.settings.progressive = toggle.of(self.settings.progressive);
+                self.drawing.set_progressive(self.settings.progressive);
+            }
             command => self.change_inspector(command),
         }
     }
@@ -319,7 +344,7 @@ impl Viewer {
         if size.contains(&0) {
             return;
         }
-        self.drawing.want(super::Picture {
+        let picture = super::Picture {
             scene,
             view: entry.camera.transform(&sight),
             settings: RenderSettings {
@@ -327,6 +352,28 @@ impl Viewer {
                 ..self.settings.render
             },
             size,
-        });
+        };
+        let from = self.attention();
+        let focus = self.inset.map(|placed| in_frame(&placed.inset.source(), size));
+        self.drawing.want(Wish::new(picture, from, focus));
+    }
+
+    /// The frame pixel that is to be final first: the one that the inspector shows, or under the pointer, or in the
+    /// middle.
+    fn attention(&self) -> [u32; 2] {
+        let inspected = self.inset.and_then(|_| self.inspected_pixel());
+        let middle = self.frame_size().map(|side| side / 2);
+        inspected.or(self.hovered_pixel()).unwrap_or(middle)
+    }
+}
+
+/// The part of a rectangle of frame pixels that a frame of `size` has.
+fn in_frame(rect: &PixelRect, size: [u32; 2]) -> Region {
+    let inside = rect.intersection(&PixelRect::of_size(size));
+    Region {
+        x: u32::try_from(inside.x).unwrap_or(0),
+        y: u32::try_from(inside.y).unwrap_or(0),
+        width: inside.width,
+        height: inside.height,
     }
 }

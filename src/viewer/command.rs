@@ -98,6 +98,8 @@ pub enum Command {
     SetDialect(DialectChoice),
     /// What lies below the first primitive.
     SetBackground(Rgba),
+    /// Whether coarse pictures may stand in for slow ones while the view moves.
+    Progressive(Toggle),
 
     // Scenes.
     /// The scene after the current one, round and round.

@@ -162,6 +162,14 @@ pub(super) static TABLE: &[CommandSpec] = &[
         Group::Sampling,
     )
     .argument(typed::BACKGROUND),
+    spec(
+        "progressive",
+        "Progressive drawing",
+        "Draws coarsely while the view moves and refines the picture when it rests",
+        Group::Sampling,
+    )
+    .run(&Command::Progressive(Toggle::Flip))
+    .argument(typed::PROGRESSIVE),
     // Scenes.
     spec("scene", "Scene", "Shows the scene with this number", Group::Scenes)
         .keys(&DIGITS)

@@ -2,9 +2,8 @@
 
 use glam::DVec2;
 
-use super::{PixelLabel, PixelRect, PointerButton, Status, Viewer, paste, show};
+use super::{PixelLabel, PixelRect, PointerButton, Status, Viewer};
 use crate::figure::is_dark;
-use crate::raster::Framebuffer;
 
 /// Where the pointer is and what it does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -69,7 +68,7 @@ impl Viewer {
         Some(Status {
             pixel,
             user: camera.transform(&sight).to_scene(centre),
-            rgba: self.frame().and_then(|frame| frame.pixels.rgba(pixel[0], pixel[1])),
+            rgba: self.frame().and_then(|frame| frame.final_rgba(pixel[0], pixel[1])),
             scale: camera.numbers(&sight).scale,
         })
     }
@@ -90,7 +89,7 @@ impl Viewer {
         let label = |pixel: [i64; 2]| {
             let block = placed.block(pixel)?;
             let pixel = self.in_frame(pixel)?;
-            let rgba = frame.pixels.rgba(pixel[0], pixel[1])?;
+            let rgba = frame.final_rgba(pixel[0], pixel[1])?;
             Some(PixelLabel {
                 pixel,
                 block,
@@ -99,25 +98,6 @@ impl Viewer {
             })
         };
         all.filter(|pixel| marked != Some(*pixel)).filter_map(label).collect()
-    }
-
-    /// The window's pixels below the panels: the frame as the pixel zoom shows it, and the inspector's inset.
-    pub fn window_picture(&self) -> Framebuffer {
-        let [width, height] = self.screen.window.map(|side| side.min(Framebuffer::MAX_SIDE));
-        let mut window = Framebuffer::new(width, height);
-        self.draw_window(&mut window);
-        window
-    }
-
-    /// As [`Viewer::window_picture`], into pixels that are there already.
-    pub fn draw_window(&self, window: &mut Framebuffer) {
-        let empty = Framebuffer::default();
-        let frame = self.frame().map_or(&empty, |frame| &frame.pixels);
-        show(frame, self.settings.pixel_zoom, window);
-        if let Some(placed) = self.inset.filter(|_| self.frame().is_some()) {
-            let inset = placed.inset.draw(frame, &self.sample_marks());
-            paste(&inset, [placed.rect.x, placed.rect.y], window);
-        }
     }
 
     pub(super) fn pointer_moved(&mut self, to: DVec2) {

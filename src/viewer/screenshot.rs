@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::background::{AtEnd, Crew, Mailbox, guarded};
+use super::present::{paste, show};
 use super::state::Finished;
-use super::{Frame, PixelZoom, PlacedInset, Viewer, paste, show};
+use super::{Frame, PixelRect, PixelZoom, PlacedInset, Viewer, WindowPixels};
 use crate::figure::{SampleMark, encode_png};
 use crate::raster::Framebuffer;
 
@@ -20,8 +21,10 @@ pub(super) struct Saver {
     crew: Crew<Job>,
     /// Where pictures go; `None` is the current folder.
     folder: Option<PathBuf>,
-    /// Screenshots that wait for the frame of the current state.
+    /// Screenshots that wait for a final frame, and the wish that it must not be older than: what was to be seen when
+    /// the last was asked for.
     waiting: u32,
+    since: u64,
     /// Pictures at work.
     running: u32,
 }
@@ -57,12 +60,18 @@ impl Saver {
             crew: Crew::start("save", 1, AtEnd::Complete, work)?,
             folder,
             waiting: 0,
+            since: 0,
             running: 0,
         })
     }
 
     pub(super) fn is_idle(&self) -> bool {
         self.waiting == 0 && self.running == 0
+    }
+
+    /// Whether a screenshot waits for its frame.
+    pub(super) fn is_waiting(&self) -> bool {
+        self.waiting > 0
     }
 
     fn push(&mut self, picture: Shot) {
@@ -86,16 +95,24 @@ impl Viewer {
 
     pub(super) fn ask_for_screenshot(&mut self) {
         self.saver.waiting = self.saver.waiting.saturating_add(1);
+        self.saver.since = self.drawing.newest_wish();
+        // No preview, and no rest: the picture of this moment, even if the view goes on moving.
+        self.drawing.set_hurry(true);
     }
 
-    /// Saves the screenshots that wait, as soon as the frame shows the current state.
+    /// Saves the screenshots that wait, as soon as there is a final frame of the state when they were asked for, or of
+    /// a later one.
     pub(super) fn save_when_ready(&mut self) {
         let reading = self.current().is_some_and(super::SceneEntry::is_reading);
-        if self.saver.waiting == 0 || reading || !self.drawing.is_current() || !self.probing.is_current() {
+        if self.saver.waiting == 0 || reading || !self.probing.is_current() {
             return;
         }
-        let Some(frame) = self.drawing.shared_frame().cloned() else {
+        let Some(frame) = self.drawing.final_frame(self.saver.since).cloned() else {
+            if !self.drawing.is_current() {
+                return;
+            }
             self.saver.waiting = 0;
+            self.drawing.set_hurry(false);
             self.messages
                 .error("nothing to save: there is no picture; open a scene first".to_owned());
             return;
@@ -109,6 +126,7 @@ impl Viewer {
                 inset,
             });
         }
+        self.drawing.set_hurry(false);
     }
 
     pub(super) fn picture_saved(&mut self, Saved(saved): Saved) {
@@ -142,15 +160,18 @@ fn with_inset(frame: &Framebuffer, placed: &PlacedInset, zoom: PixelZoom, marks:
     // One frame pixel stays one pixel of the file unless the inset, which is in window pixels, lies over it.
     let side = |length: u32| length.saturating_mul(zoom.factor()).min(Framebuffer::MAX_SIDE);
     let mut picture = Framebuffer::new(side(frame.width()), side(frame.height()));
+    let all = PixelRect::of_size([picture.width(), picture.height()]);
     if zoom == PixelZoom::ONE {
         picture.pixels_mut().copy_from_slice(frame.pixels());
     } else {
-        show(frame, zoom, &mut picture);
+        show(frame, zoom, &mut WindowPixels::of(&mut picture), &all);
     }
+    let inset = placed.inset.draw(frame, marks);
     paste(
-        &placed.inset.draw(frame, marks),
+        &inset,
         [placed.rect.x, placed.rect.y],
-        &mut picture,
+        &mut WindowPixels::of(&mut picture),
+        &all,
     );
     picture
 }

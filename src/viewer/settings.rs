@@ -4,7 +4,7 @@ use crate::render::RenderSettings;
 use crate::scene::DialectChoice;
 
 /// Everything about pictures that a user sets apart from scene and view.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Sampling, rules, background.
     pub render: RenderSettings,
@@ -12,6 +12,20 @@ pub struct Settings {
     pub dialect: DialectChoice,
     /// Window pixels per frame pixel.
     pub pixel_zoom: PixelZoom,
+    /// Whether coarse pictures may stand in for slow ones while the view moves. Only windows show them: whatever is
+    /// saved or read is final.
+    pub progressive: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            render: RenderSettings::default(),
+            dialect: DialectChoice::default(),
+            pixel_zoom: PixelZoom::default(),
+            progressive: true,
+        }
+    }
 }
 
 /// Window pixels along each side of a frame pixel: 1 to 8. Above 1 the frame is smaller than the window by this

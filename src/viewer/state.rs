@@ -66,6 +66,8 @@ pub struct Viewer {
     pub(super) picture_revision: u64,
     /// What `picture_revision` stands for.
     pub(super) last_drawn: Option<DrawnState>,
+    /// What [`Viewer::take_damage`] told last.
+    pub(super) last_shown: Option<DrawnState>,
 }
 
 /// What is to be seen in the window besides the picture.
@@ -90,11 +92,11 @@ pub(super) struct Shown {
 /// What decides the pixels of [`Viewer::draw_window`]; a frame and probed samples by their numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct DrawnState {
-    frame: u64,
-    samples: u64,
-    inset: Option<PlacedInset>,
-    pixel_zoom: PixelZoom,
-    window: [u32; 2],
+    pub(super) frame: u64,
+    pub(super) samples: u64,
+    pub(super) inset: Option<PlacedInset>,
+    pub(super) pixel_zoom: PixelZoom,
+    pub(super) window: [u32; 2],
 }
 
 /// What a thread finished.
@@ -170,7 +172,9 @@ impl Viewer {
             revision: 0,
             picture_revision: 0,
             last_drawn: None,
+            last_shown: None,
         };
+        viewer.drawing.set_progressive(viewer.settings.progressive);
         viewer.open(&options.paths);
         viewer.update();
         Ok(viewer)
@@ -272,7 +276,7 @@ impl Viewer {
         &self.settings
     }
 
-    /// The latest finished frame. It may show an older state; see [`Viewer::is_settled`].
+    /// The frame on the screen. It may show an older state, or be a preview; see [`Viewer::is_settled`].
     pub fn frame(&self) -> Option<&Frame> {
         self.drawing.frame()
     }

@@ -1,8 +1,14 @@
-//! The pixel under the pointer in numbers, and the window's title.
+//! The pixel under the pointer in numbers, and how far the frame is from final.
 
 use std::fmt;
+use std::time::{Duration, Instant};
 
 use glam::DVec2;
+
+use super::{Manner, Viewer};
+
+/// A refinement that takes longer shows how far it is.
+const LONG: Duration = Duration::from_millis(200);
 
 /// A pixel in numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +69,29 @@ impl fmt::Display for Status {
         match self.decimal_text().zip(self.hex_text()) {
             Some((decimal, hex)) => write!(f, "  {decimal}  {hex}"),
             None => Ok(()),
+        }
+    }
+}
+
+impl Viewer {
+    /// How the frame on the screen was made, unless it is final.
+    pub fn preview(&self) -> Option<Manner> {
+        Some(self.frame()?.preview.as_ref()?.manner)
+    }
+
+    /// Which part of a refinement that takes long is done, `0.0..=1.0`.
+    pub fn long_refinement(&self) -> Option<f64> {
+        let (since, done) = self.drawing.refinement()?;
+        (Instant::now().saturating_duration_since(since) >= LONG).then_some(done)
+    }
+
+    /// What the status line says about a frame that is not final, such as `preview, rate 1`.
+    pub fn preview_text(&self) -> Option<String> {
+        let preview = self.preview();
+        match (preview, self.drawing.refinement()) {
+            (Some(_), Some((_, done))) => Some(format!("refining {:.0} %", done * 100.0)),
+            (Some(manner), None) => Some(format!("preview, {manner}")),
+            (None, _) => None,
         }
     }
 }

@@ -86,6 +86,7 @@ pub(super) const RULES: Argument = argument("standard|course", |text| {
 pub(super) const BACKGROUND: Argument = argument("white|transparent|#RRGGBB", |text| {
     background(text).map(Command::SetBackground)
 });
+pub(super) const PROGRESSIVE: Argument = argument("on|off|flip", |text| toggle(text).map(Command::Progressive));
 pub(super) const SCENE: Argument = argument("a scene's number, from 1", |text| {
     let index = usize::try_from(whole(text)?).ok()?.checked_sub(1)?;
     Some(Command::Scene(index))

@@ -8,11 +8,14 @@
     reason = "numbers of a small picture; a test that cannot unwrap has failed"
 )]
 
+use std::sync::Arc;
+
 use arbtest::arbitrary::{Result, Unstructured};
+use egui::emath::TSTransform;
 use egui::epaint::textures::{TextureOptions, TexturesDelta};
-use egui::epaint::{ClippedPrimitive, ImageDelta, Mesh, Primitive, Vertex};
+use egui::epaint::{ClippedPrimitive, ClippedShape, ImageDelta, Mesh, Primitive, Shape, Vertex};
 use egui::{Color32, ColorImage, ImageData, Pos2, Rect, TextureId, pos2, vec2};
-use rasterscope::app::overlay::{CanvasRect, Overlay};
+use rasterscope::app::overlay::{CanvasRect, Output, Overlay};
 
 /// Sides of the canvas in pixels.
 const SIZE: [u32; 2] = [48, 40];
@@ -37,11 +40,35 @@ fn textures(image: ColorImage, options: TextureOptions) -> TexturesDelta {
     delta
 }
 
-fn clipped(clip_rect: Rect, mesh: Mesh) -> ClippedPrimitive {
-    ClippedPrimitive {
+fn clipped(clip_rect: Rect, mesh: Mesh) -> ClippedShape {
+    ClippedShape {
         clip_rect,
-        primitive: Primitive::Mesh(mesh),
+        shape: Shape::mesh(mesh),
+        transform_after_tessellation: TSTransform::IDENTITY,
     }
+}
+
+/// Paints shapes that are meshes, and gives the parts that were painted anew.
+fn paint(
+    overlay: &mut Overlay,
+    size: [u32; 2],
+    pixels_per_point: f32,
+    shapes: Vec<ClippedShape>,
+    textures: &mut TexturesDelta,
+) -> Vec<CanvasRect> {
+    let output = Output {
+        size,
+        pixels_per_point,
+        shapes,
+    };
+    let primitive = |shape: ClippedShape| match shape.shape {
+        Shape::Mesh(mesh) => ClippedPrimitive {
+            clip_rect: shape.clip_rect,
+            primitive: Primitive::Mesh(Arc::unwrap_or_clone(mesh)),
+        },
+        other => panic!("{other:?} is no mesh"),
+    };
+    overlay.paint(output, textures, |shapes| shapes.into_iter().map(primitive).collect())
 }
 
 /// The mesh over `below`, as real numbers, channels r g b a in 0..=255.
@@ -183,7 +210,8 @@ fn overlay_triangles_match_the_reference() {
         reference(&mesh, clip, scale, &atlas(), &mut expected);
         let mut overlay = Overlay::default();
         let count = mesh.triangles().count();
-        overlay.paint(
+        paint(
+            &mut overlay,
             SIZE,
             scale,
             vec![clipped(clip, mesh.clone())],
@@ -218,7 +246,13 @@ fn overlay_rectangles_match_the_reference() {
         reference(&mesh, Rect::EVERYTHING, 1.0, &atlas(), &mut expected);
         let mut overlay = Overlay::default();
         let primitives = vec![clipped(Rect::EVERYTHING, mesh)];
-        overlay.paint(SIZE, 1.0, primitives, &mut textures(atlas(), TextureOptions::LINEAR));
+        paint(
+            &mut overlay,
+            SIZE,
+            1.0,
+            primitives,
+            &mut textures(atlas(), TextureOptions::LINEAR),
+        );
         let (difference, at) = worst(&overlay, &expected);
         assert!(
             difference <= TOLERANCE,
@@ -253,7 +287,13 @@ fn overlay_shared_edges_blend_once() {
         mesh.add_triangle(1, 0, 3);
         let mut overlay = Overlay::default();
         let primitives = vec![clipped(Rect::EVERYTHING, mesh)];
-        overlay.paint(SIZE, 1.0, primitives, &mut textures(atlas(), TextureOptions::LINEAR));
+        paint(
+            &mut overlay,
+            SIZE,
+            1.0,
+            primitives,
+            &mut textures(atlas(), TextureOptions::LINEAR),
+        );
         for pixel in overlay.canvas().pixels() {
             assert!([0, 128].contains(&(pixel >> 24)), "alpha {}: {points:?}", pixel >> 24);
         }
@@ -284,7 +324,13 @@ fn overlay_survives_any_position() {
             mesh.indices.extend([0, 1, 99]); // outside: left out
             let mut overlay = Overlay::default();
             let primitives = vec![clipped(Rect::EVERYTHING, mesh)];
-            overlay.paint(SIZE, 1.0, primitives, &mut textures(atlas(), TextureOptions::LINEAR));
+            paint(
+                &mut overlay,
+                SIZE,
+                1.0,
+                primitives,
+                &mut textures(atlas(), TextureOptions::LINEAR),
+            );
         }
     }
 }
@@ -304,12 +350,12 @@ fn overlay_repaints_only_what_changed() {
     ];
     let whole = CanvasRect::of_size(SIZE[0], SIZE[1]);
     assert_eq!(
-        overlay.paint(SIZE, 1.0, first.clone(), &mut delta),
-        whole,
+        paint(&mut overlay, SIZE, 1.0, first.clone(), &mut delta),
+        [whole],
         "the first time everything"
     );
     assert!(
-        overlay.paint(SIZE, 1.0, first.clone(), &mut delta).is_empty(),
+        paint(&mut overlay, SIZE, 1.0, first.clone(), &mut delta).is_empty(),
         "nothing changed"
     );
 
@@ -317,10 +363,20 @@ fn overlay_repaints_only_what_changed() {
         first[0].clone(),
         square(pos2(22.0, 20.0), Color32::from_black_alpha(100)),
     ];
-    let damage = overlay.paint(SIZE, 1.0, moved.clone(), &mut delta);
-    assert!(damage.left >= 18 && damage.right <= 28, "old and new place: {damage:?}");
+    let damage = paint(&mut overlay, SIZE, 1.0, moved.clone(), &mut delta);
+    let near = |part: &CanvasRect| part.left >= 16 && part.right <= 30 && part.top >= 16 && part.bottom <= 28;
+    assert!(
+        !damage.is_empty() && damage.iter().all(near),
+        "old and new place: {damage:?}"
+    );
     let mut fresh = Overlay::default();
-    fresh.paint(SIZE, 1.0, moved.clone(), &mut textures(atlas(), TextureOptions::LINEAR));
+    paint(
+        &mut fresh,
+        SIZE,
+        1.0,
+        moved.clone(),
+        &mut textures(atlas(), TextureOptions::LINEAR),
+    );
     assert_eq!(overlay.canvas().pixels(), fresh.canvas().pixels(), "as if painted anew");
 
     delta.push(
@@ -332,7 +388,7 @@ fn overlay_repaints_only_what_changed() {
         ),
     );
     assert!(
-        !overlay.paint(SIZE, 1.0, moved, &mut delta).is_empty(),
+        !paint(&mut overlay, SIZE, 1.0, moved, &mut delta).is_empty(),
         "a texture changed in part"
     );
     let pixel = overlay.canvas().pixels()[3 * SIZE[0] as usize + 3];
@@ -357,7 +413,13 @@ fn overlay_pictures_are_copied_exactly() {
         Color32::WHITE,
     );
     let mut overlay = Overlay::default();
-    overlay.paint(SIZE, 2.0, vec![clipped(Rect::EVERYTHING, mesh)], &mut delta);
+    paint(
+        &mut overlay,
+        SIZE,
+        2.0,
+        vec![clipped(Rect::EVERYTHING, mesh)],
+        &mut delta,
+    );
     for (i, texel) in picture.pixels.iter().enumerate() {
         let got = overlay.canvas().pixels()[(12 + i / 8) * SIZE[0] as usize + 8 + i % 8];
         let [r, g, b, a] = texel.to_array();
@@ -372,7 +434,13 @@ fn overlay_lies_over_the_frame() {
     mesh.add_colored_rect(rect, Color32::from_black_alpha(51));
     let mut overlay = Overlay::default();
     let primitives = vec![clipped(Rect::EVERYTHING, mesh)];
-    overlay.paint([4, 3], 1.0, primitives, &mut textures(atlas(), TextureOptions::LINEAR));
+    paint(
+        &mut overlay,
+        [4, 3],
+        1.0,
+        primitives,
+        &mut textures(atlas(), TextureOptions::LINEAR),
+    );
     let mut frame = vec![0xffff_ffff_u32; 12];
     overlay.canvas().lay_over(&mut frame);
     let board: Vec<u32> = frame.iter().map(|pixel| pixel & 255).collect();

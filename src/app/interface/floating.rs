@@ -12,6 +12,8 @@ const DONE_SECONDS: f64 = 5.0;
 /// Seconds that a message about a fault stays.
 const ERROR_SECONDS: f64 = 15.0;
 
+/// Height of the progress bar, in points.
+const BAR_HEIGHT: f32 = 3.0;
 /// Free space around the text over the picture, in points.
 const TEXT_MARGIN: f32 = 10.0;
 
@@ -52,6 +54,19 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect])
     };
     ui.painter().rect_filled(back, 5.0, Color32::from_black_alpha(170));
     ui.painter().galley(back.min + vec2(8.0, 5.0), galley, Color32::WHITE);
+}
+
+/// A thin bar along the picture's upper edge: how far a refinement is that takes long.
+pub(super) fn progress(ui: &Ui, viewer: &Viewer, free: Rect) {
+    let Some(done) = viewer.long_refinement() else {
+        return;
+    };
+    #[expect(clippy::cast_possible_truncation, reason = "between 0 and 1")]
+    let done = done as f32;
+    let track = Rect::from_min_size(free.min, vec2(free.width(), BAR_HEIGHT));
+    let bar = Rect::from_min_size(free.min, vec2(free.width() * done, BAR_HEIGHT));
+    ui.painter().rect_filled(track, 0.0, Color32::from_black_alpha(60));
+    ui.painter().rect_filled(bar, 0.0, ui.visuals().selection.bg_fill);
 }
 
 /// Where a box of `size` goes: the first corner of `area` where nothing is `taken`.

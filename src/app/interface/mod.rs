@@ -139,6 +139,9 @@ impl Interface {
         asked
             .commands
             .push(Command::SetFreeArea(Some(device_rect(free, ui.pixels_per_point()))));
+        if !hidden {
+            floating::progress(ui, viewer, free);
+        }
         floating::pixel_labels(ui, viewer);
         hits::hits(ui, viewer);
         let messages = self.clock.show(ui, viewer, free, &mut asked.commands);

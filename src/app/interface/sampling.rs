@@ -7,7 +7,7 @@ use crate::raster::SampleRate;
 use crate::rules::Rules;
 use crate::scene::{Dialect, DialectChoice};
 use crate::texture::{LevelSampling, PixelSampling};
-use crate::viewer::{Command, PixelZoom, Viewer};
+use crate::viewer::{Command, PixelZoom, Toggle, Viewer};
 
 /// Shows the settings and adds what was changed to `commands`.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
@@ -59,6 +59,14 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let values = PixelZoom::ALL.map(|value| (value, value.factor().to_string()));
         let chosen = choice(ui, "Pixel zoom", &tip("pixel-zoom"), settings.pixel_zoom, &values);
         commands.extend(chosen.map(Command::SetPixelZoom));
+    });
+    row(ui, "Moving", |ui| {
+        let mut on = settings.progressive;
+        let response = ui.checkbox(&mut on, "coarse first, then fine");
+        let response = response.on_hover_text(tip("progressive"));
+        if response.accessible_name("Progressive drawing").changed() {
+            commands.push(Command::Progressive(if on { Toggle::On } else { Toggle::Off }));
+        }
     });
 }
 

@@ -17,7 +17,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             ui.shrink_clip_rect(ui.max_rect());
             match viewer.status() {
-                Some(status) => pixel(ui, &status, viewer.pinned_pixel() == Some(status.pixel)),
+                Some(status) => pixel(ui, viewer, &status),
                 None => word(
                     ui,
                     "point at a pixel; Z magnifies it, ? shows all keys",
@@ -59,8 +59,9 @@ fn panel_switch(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
 }
 
-fn pixel(ui: &mut Ui, status: &Status, pinned: bool) {
+fn pixel(ui: &mut Ui, viewer: &Viewer, status: &Status) {
     let [x, y] = status.pixel;
+    let pinned = viewer.pinned_pixel() == Some(status.pixel);
     field(ui, if pinned { "pinned" } else { "pixel" }, &format!("{x}, {y}"));
     if let Some(([r, g, b, _], (decimal, hex))) = status.rgba.zip(status.decimal_text().zip(status.hex_text())) {
         let (swatch, response) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::hover());
@@ -72,6 +73,10 @@ fn pixel(ui: &mut Ui, status: &Status, pinned: bool) {
         response.accessible_name(format!("Colour {hex}"));
         word(ui, &decimal, numbers(), false);
         word(ui, &hex, numbers(), false);
+        ui.add_space(4.0);
+    } else if viewer.preview().is_some() {
+        // No number comes from a pixel that is not final.
+        word(ui, "…", numbers(), true);
         ui.add_space(4.0);
     }
     field(ui, "user", &status.user_text());
@@ -95,6 +100,10 @@ fn field(ui: &mut Ui, name: &str, value: &str) {
 fn picture(ui: &mut Ui, viewer: &Viewer) {
     let [width, height] = viewer.frame_size();
     let render = &viewer.settings().render;
+    if let Some(text) = viewer.preview_text() {
+        ui.label(egui::RichText::new(text).size(11.0).color(ui.visuals().warn_fg_color));
+        ui.add_space(4.0);
+    }
     let mut words = vec![format!("{width}×{height}")];
     if let Some(numbers) = viewer.view_numbers() {
         words.push(format!("{} px/unit", short(numbers.scale)));

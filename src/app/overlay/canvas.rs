@@ -116,12 +116,16 @@ impl Canvas {
         if area.is_empty() {
             return;
         }
-        let whole_rows = area.left == 0 && area.right == self.width;
         for y in area.top..area.bottom {
             let start = y as usize * self.width as usize;
             self.pixels[start + area.left as usize..start + area.right as usize].fill(0);
-            if whole_rows {
-                self.used[y as usize] = UNUSED;
+            let [first, end] = &mut self.used[y as usize];
+            // What is left of the used part, where that is one piece.
+            match (area.left <= *first, area.right >= *end) {
+                (true, true) => [*first, *end] = UNUSED,
+                (true, false) => *first = area.right.max(*first),
+                (false, true) => *end = area.left.min(*end),
+                (false, false) => {}
             }
         }
     }
@@ -137,12 +141,20 @@ impl Canvas {
 
     /// Lays the canvas over opaque pixels of the same size. Their top byte is of no interest and left as it falls.
     pub fn lay_over(&self, below: &mut [u32]) {
-        if self.width == 0 {
+        self.lay_part_over(CanvasRect::of_size(self.width, self.height), below);
+    }
+
+    /// As [`Canvas::lay_over`], but only over the pixels of `area`.
+    pub fn lay_part_over(&self, area: CanvasRect, below: &mut [u32]) {
+        let area = area.intersect(CanvasRect::of_size(self.width, self.height));
+        if area.is_empty() {
             return;
         }
         let width = self.width as usize;
         let rows = below.chunks_exact_mut(width).zip(self.pixels.chunks_exact(width));
-        for ((below, row), &[first, end]) in rows.zip(&self.used) {
+        let rows = rows.zip(&self.used).skip(area.top as usize);
+        for ((below, row), &[first, end]) in rows.take((area.bottom - area.top) as usize) {
+            let (first, end) = (first.max(area.left), end.min(area.right));
             if first < end {
                 let used = first as usize..end as usize;
                 for (pixel, source) in below[used.clone()].iter_mut().zip(&row[used]) {

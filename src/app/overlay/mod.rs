@@ -1,9 +1,10 @@
-//! egui's triangles on the CPU: the interface is painted into a canvas of its own and laid over the scene's frame.
+//! egui's shapes on the CPU: the interface is painted into a canvas of its own and laid over the scene's frame.
 //!
-//! egui hands out meshes in points, y down, with premultiplied sRGB-encoded colours that are to be mixed as they are.
-//! The canvas is in device pixels and is repainted only where a mesh changed.
+//! egui hands out shapes in points, y down, and meshes with premultiplied sRGB-encoded colours that are to be mixed as
+//! they are. The canvas is in device pixels and is repainted only where a shape changed.
 
 mod canvas;
+mod changes;
 mod pixel;
 mod quad;
 mod texture;
@@ -11,10 +12,11 @@ mod triangle;
 
 pub use canvas::{Canvas, CanvasRect};
 
+use egui::Rect;
 use egui::epaint::textures::TexturesDelta;
-use egui::epaint::{ClippedPrimitive, Mesh, Primitive};
-use egui::{Rect, TextureId};
+use egui::epaint::{ClippedPrimitive, ClippedShape, Mesh, Primitive};
 
+use changes::{changed_bounds, joined, reach};
 use quad::Quad;
 use texture::Textures;
 use triangle::Corner;
@@ -24,8 +26,19 @@ use triangle::Corner;
 pub struct Overlay {
     canvas: Canvas,
     textures: Textures,
-    painted: Vec<ClippedPrimitive>,
+    painted: Vec<ClippedShape>,
     pixels_per_point: f32,
+}
+
+/// What egui put out.
+#[derive(Clone, Debug, Default)]
+pub struct Output {
+    /// The surface in device pixels.
+    pub size: [u32; 2],
+    /// Device pixels per point.
+    pub pixels_per_point: f32,
+    /// In painter's order.
+    pub shapes: Vec<ClippedShape>,
 }
 
 impl Overlay {
@@ -34,33 +47,59 @@ impl Overlay {
         &self.canvas
     }
 
-    /// Brings the canvas up to what egui put out for a surface of `size` pixels, and says which part changed.
+    /// Brings the canvas up to what egui put out, and says which parts were painted anew; no two share a pixel.
     ///
-    /// Takes everything out of `textures`. Paint callbacks are skipped: nothing here makes any.
+    /// Takes everything out of `textures`. `tessellate` cuts the shapes that touch those parts into triangles; paint
+    /// callbacks are skipped: nothing here makes any.
     pub fn paint(
         &mut self,
-        size: [u32; 2],
-        pixels_per_point: f32,
-        primitives: Vec<ClippedPrimitive>,
+        output: Output,
         textures: &mut TexturesDelta,
-    ) -> CanvasRect {
+        tessellate: impl FnOnce(Vec<ClippedShape>) -> Vec<ClippedPrimitive>,
+    ) -> Vec<CanvasRect> {
+        let Output {
+            size,
+            pixels_per_point,
+            shapes,
+        } = output;
         let changed_textures = self.textures.set(textures);
         let resized = [self.canvas.width(), self.canvas.height()] != size;
         if resized {
             self.canvas = Canvas::new(size[0], size[1]);
         }
-        let whole = CanvasRect::of_size(size[0], size[1]);
         let same_scale = pixels_per_point.to_bits() == self.pixels_per_point.to_bits();
         self.pixels_per_point = pixels_per_point;
-        let damage = if resized || !same_scale {
-            whole
+        let whole = CanvasRect::of_size(size[0], size[1]);
+        let parts = if resized || !same_scale {
+            vec![whole]
         } else {
-            self.damage(&primitives, &changed_textures).intersect(whole)
+            let bounds = changed_bounds(&self.painted, &shapes, &changed_textures);
+            joined(bounds.into_iter().map(|bounds| self.around(bounds).intersect(whole)))
         };
-        if !damage.is_empty() {
-            self.canvas.clear(damage);
+        if !parts.is_empty() {
+            self.repaint(&parts, &shapes, tessellate);
+        }
+        self.painted = shapes;
+        self.textures.free(textures);
+        parts
+    }
+
+    /// Clears `parts` and paints all shapes there.
+    fn repaint(
+        &mut self,
+        parts: &[CanvasRect],
+        shapes: &[ClippedShape],
+        tessellate: impl FnOnce(Vec<ClippedShape>) -> Vec<ClippedPrimitive>,
+    ) {
+        let touches = |shape: &&ClippedShape| {
+            let pixels = self.around(reach(shape));
+            parts.iter().any(|part| !part.intersect(pixels).is_empty())
+        };
+        let primitives = tessellate(shapes.iter().filter(touches).cloned().collect());
+        for part in parts {
+            self.canvas.clear(*part);
             for primitive in &primitives {
-                let clip = self.to_pixels(primitive.clip_rect).intersect(damage);
+                let clip = self.to_pixels(primitive.clip_rect).intersect(*part);
                 if let Primitive::Mesh(mesh) = &primitive.primitive
                     && !clip.is_empty()
                 {
@@ -68,34 +107,14 @@ impl Overlay {
                 }
             }
         }
-        self.painted = primitives;
-        self.textures.free(textures);
-        damage
     }
 
-    /// The pixels that may differ between what was painted last and `primitives`.
-    fn damage(&self, primitives: &[ClippedPrimitive], changed_textures: &[TextureId]) -> CanvasRect {
-        let mut damage = CanvasRect::EMPTY;
-        for index in 0..primitives.len().max(self.painted.len()) {
-            let (old, new) = (self.painted.get(index), primitives.get(index));
-            if let (Some(old), Some(new)) = (old, new)
-                && is_same(old, new, changed_textures)
-            {
-                continue;
-            }
-            for primitive in [old, new].into_iter().flatten() {
-                damage = damage.join(self.reach(primitive));
-            }
-        }
-        damage
-    }
-
-    /// The pixels that a primitive can touch.
-    fn reach(&self, primitive: &ClippedPrimitive) -> CanvasRect {
-        let Primitive::Mesh(mesh) = &primitive.primitive else {
+    /// The pixels that a rectangle in points touches.
+    fn around(&self, points: Rect) -> CanvasRect {
+        if !points.is_positive() {
             return CanvasRect::EMPTY;
-        };
-        self.to_pixels(primitive.clip_rect.intersect(mesh.calc_bounds().expand(1.0)))
+        }
+        self.to_pixels(points.expand(1.0 / self.pixels_per_point.max(0.1)))
     }
 
     /// A rectangle in points as the pixels inside; edges are rounded, as egui's own renderers do.
@@ -139,15 +158,5 @@ impl Overlay {
             }
             rest = after;
         }
-    }
-}
-
-/// Whether both paint the same pixels.
-fn is_same(old: &ClippedPrimitive, new: &ClippedPrimitive, changed_textures: &[TextureId]) -> bool {
-    match (&old.primitive, &new.primitive) {
-        (Primitive::Mesh(a), Primitive::Mesh(b)) => {
-            old.clip_rect == new.clip_rect && !changed_textures.contains(&b.texture_id) && a == b
-        }
-        _ => false,
     }
 }

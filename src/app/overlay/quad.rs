@@ -3,7 +3,7 @@
 use super::canvas::{Canvas, CanvasRect};
 use super::pixel;
 use super::texture::Bitmap;
-use super::triangle::{Corner, first_pixel};
+use super::triangle::{Corner, first_pixel, pixel_from};
 
 /// An upright rectangle of one colour, with the part of the texture that it shows.
 #[derive(Clone, Copy, Debug)]
@@ -42,8 +42,8 @@ impl Quad {
         if left >= right || top >= bottom {
             return;
         }
-        let u = Axis::new([a.x, d.x], [a.uv[0], d.uv[0]], left);
-        let v = Axis::new([a.y, d.y], [a.uv[1], d.uv[1]], top);
+        let u = Axis::new([a.x, d.x], [a.uv[0], d.uv[0]]);
+        let v = Axis::new([a.y, d.y], [a.uv[1], d.uv[1]]);
         if u.is_constant() && v.is_constant() {
             let color = pixel::modulate(a.color, texture.sample(u.start, v.start));
             for y in top..bottom {
@@ -52,16 +52,16 @@ impl Quad {
             return;
         }
         let texel_per_pixel = u.is_texel_per_pixel() && v.is_texel_per_pixel();
-        let mut v_at = v.start;
+        let mut v_at = v.at(top);
         for y in top..bottom {
             let row = canvas.span_mut(y, left, right);
             let texels = texel_per_pixel
-                .then(|| texture.row(u.texel(), v_at >> 16, row.len()))
+                .then(|| texture.row(u.texel(left), v_at >> 16, row.len()))
                 .flatten();
             if let Some(texels) = texels {
                 copy(row, texels, a.color);
             } else {
-                let mut u_at = u.start;
+                let mut u_at = u.at(left);
                 for pixel in row {
                     let source = pixel::modulate(a.color, texture.sample(u_at, v_at));
                     *pixel = pixel::over(source, *pixel);
@@ -84,9 +84,11 @@ fn copy(row: &mut [u32], texels: &[u32], color: u32) {
     }
 }
 
-/// A texture coordinate along one axis of the rectangle, in 1/65536 texels.
+/// A texture coordinate along one axis of the rectangle, in 1/65536 texels. It runs from the rectangle's own first
+/// pixel: what a clip cuts off does not change the rest by a bit.
 #[derive(Clone, Copy, Debug)]
 struct Axis {
+    first: i64,
     /// At the centre of the first pixel.
     start: i64,
     /// Per pixel.
@@ -98,10 +100,12 @@ impl Axis {
     /// 1/256 texel changes no channel by more than one.
     const TOLERANCE: i64 = 256;
 
-    fn new([from, to]: [i64; 2], [uv_from, uv_to]: [f32; 2], first: u32) -> Self {
+    fn new([from, to]: [i64; 2], [uv_from, uv_to]: [f32; 2]) -> Self {
+        let first = pixel_from(from);
         let per_step = f64::from(uv_to - uv_from) / (to - from).max(1) as f64;
-        let inside = (i64::from(first) * 256 + 128 - from) as f64;
+        let inside = (first * 256 + 128 - from) as f64;
         Self {
+            first,
             start: fixed(f64::from(uv_from) + per_step * inside),
             step: fixed(per_step * 256.0),
         }
@@ -116,8 +120,14 @@ impl Axis {
         (self.step - 65536).abs() <= Self::TOLERANCE / 64 && ((self.start & 0xffff) - 32768).abs() <= Self::TOLERANCE
     }
 
-    fn texel(self) -> i64 {
-        self.start >> 16
+    /// At the centre of `pixel`.
+    fn at(self, pixel: u32) -> i64 {
+        self.start + self.step * (i64::from(pixel) - self.first)
+    }
+
+    /// The texel of `pixel`, where each pixel has one of its own.
+    fn texel(self, pixel: u32) -> i64 {
+        (self.start >> 16) + i64::from(pixel) - self.first
     }
 }
 

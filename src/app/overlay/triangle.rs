@@ -51,9 +51,14 @@ fn snap(position: f32) -> i64 {
     (position * STEPS as f32).round().clamp(-FARTHEST, FARTHEST) as i64
 }
 
-/// The first pixel whose centre is not before `position`, kept inside `low..=high`.
+/// The first pixel whose centre is not before `position`.
+pub(super) fn pixel_from(position: i64) -> i64 {
+    (position - STEPS / 2 + STEPS - 1).div_euclid(STEPS)
+}
+
+/// As [`pixel_from`], kept inside `low..=high`.
 pub(super) fn first_pixel(position: i64, low: u32, high: u32) -> u32 {
-    let first = (position - STEPS / 2 + STEPS - 1).div_euclid(STEPS);
+    let first = pixel_from(position);
     u32::try_from(first.clamp(i64::from(low), i64::from(high))).unwrap_or(low)
 }
 
@@ -87,7 +92,7 @@ pub(super) fn paint(canvas: &mut Canvas, clip: CanvasRect, corners: [Corner; 3],
             let first = first_pixel(left, clip.left, clip.right);
             let end = first_pixel(right, clip.left, clip.right);
             if first < end {
-                shade.row(canvas.span_mut(y, first, end), first, y);
+                shade.row(canvas.span_mut(y, first, end), [pixel_from(left), first.into()], y);
             }
             long.step();
             short.step();
@@ -154,9 +159,9 @@ impl Plane {
     }
 
     /// The value at the centre of pixel `(x, y)` and its step to the right, both times `unit` and rounded.
-    fn along(&self, first: &Corner, [x, y]: [u32; 2], unit: f64) -> (i64, i64) {
-        let dx = (i64::from(x) * STEPS + STEPS / 2 - first.x) as f64;
-        let dy = (i64::from(y) * STEPS + STEPS / 2 - first.y) as f64;
+    fn along(&self, first: &Corner, [x, y]: [i64; 2], unit: f64) -> (i64, i64) {
+        let dx = (x * STEPS + STEPS / 2 - first.x) as f64;
+        let dy = (y * STEPS + STEPS / 2 - first.y) as f64;
         let at = self.at_first + self.per_x * dx + self.per_y * dy;
         (to_integer(at * unit), to_integer(self.per_x * STEPS as f64 * unit))
     }
@@ -209,8 +214,9 @@ impl<'a> Shade<'a> {
         }
     }
 
-    /// Paints the pixels of `row`, the first of which is pixel `(x, y)`.
-    fn row(&mut self, row: &mut [u32], x: u32, y: u32) {
+    /// Paints the pixels of `row`, the first of which is pixel `(x, y)`. Values run from pixel `start`, where the
+    /// triangle's row begins: what a clip cuts off does not change the rest by a bit.
+    fn row(&mut self, row: &mut [u32], [start, x]: [i64; 2], y: u32) {
         if self.colors.is_none() && self.uv.is_none() {
             pixel::fill(row, pixel::modulate(self.first.color, self.texel));
             return;
@@ -220,12 +226,15 @@ impl<'a> Shade<'a> {
         if let Some(planes) = &self.colors {
             gradient(
                 &mut self.sources,
-                planes.map(|plane| plane.along(&self.first, [x, y], 65536.0)),
+                planes.map(|plane| plane.along(&self.first, [start, y.into()], 65536.0)),
+                x - start,
             );
         }
         match &self.uv {
             Some(planes) => {
-                let [(mut u, du), (mut v, dv)] = planes.map(|plane| plane.along(&self.first, [x, y], 65536.0));
+                let [(mut u, du), (mut v, dv)] =
+                    planes.map(|plane| plane.along(&self.first, [start, y.into()], 65536.0));
+                (u, v) = (u + du * (x - start), v + dv * (x - start));
                 for source in &mut self.sources {
                     *source = pixel::modulate(*source, self.texture.sample(u, v));
                     u += du;
@@ -248,13 +257,17 @@ fn bits(uv: [f32; 2]) -> [u32; 2] {
     uv.map(f32::to_bits)
 }
 
-/// Fills `sources` with colours whose channels (alpha, red, green, blue, each value and step in 1/65536) run evenly.
-fn gradient(sources: &mut [u32], channels: [(i64, i64); 4]) {
+/// Fills `sources` with colours whose channels (alpha, red, green, blue, each value and step in 1/65536) run evenly,
+/// after the first `skipped` of them.
+fn gradient(sources: &mut [u32], channels: [(i64, i64); 4], skipped: i64) {
     const HALF: i64 = 1 << 15;
     const MOST: i64 = 255 << 16;
     // Inside the triangle every value lies in 0..=255, so steps beyond that belong to rows of a single pixel.
     let [mut a, mut r, mut g, mut b] = channels.map(|(value, _)| clamp_to_i32(value, MOST) + clamp_to_i32(HALF, HALF));
     let [da, dr, dg, db] = channels.map(|(_, step)| clamp_to_i32(step, MOST));
+    let skipped = i32::try_from(skipped).unwrap_or_default();
+    let past = |value: i32, step: i32| value.wrapping_add(step.wrapping_mul(skipped));
+    (a, r, g, b) = (past(a, da), past(r, dr), past(g, dg), past(b, db));
     let byte = |value: i32| u32::from_ne_bytes((value >> 16).clamp(0, 255).to_ne_bytes());
     for source in sources {
         *source = (byte(a) << 24) | (byte(r) << 16) | (byte(g) << 8) | byte(b);

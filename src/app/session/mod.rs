@@ -1,8 +1,10 @@
 //! A viewer with its panels: routes keys and pointer to the one or the other, runs egui, and puts the picture of the
 //! whole window together. Knows no window system, so that a session runs with or without a display.
 
+mod damage;
 mod stage;
 
+use std::collections::VecDeque;
 use std::io::Write as _;
 use std::time::{Duration, Instant};
 
@@ -10,14 +12,17 @@ use egui::{Event, PlatformOutput, Pos2, RawInput, Rect, ViewportId, pos2, vec2};
 use glam::DVec2;
 
 use super::interface::{Asked, Interface};
-use super::overlay::Overlay;
+use super::overlay::{CanvasRect, Output, Overlay};
 use crate::raster::Framebuffer;
 use crate::viewer::{
-    Command, Dialog, Effect, Key, KeyPress, Modifiers, PixelRect, PointerButton, Toggle, Viewer, commands,
+    Command, Dialog, Effect, Key, KeyPress, Modifiers, PixelRect, PointerButton, Toggle, Viewer, WindowPixels, commands,
 };
+use damage::Damage;
 
 /// Passes of the panels for one change: a command of a panel changes what the panels show.
 const MAX_PASSES: u32 = 4;
+/// Surfaces have two or three buffers; one that was shown longer ago is written whole.
+const LONGEST_AGE: usize = 3;
 
 /// What time it is for the panels.
 #[derive(Debug)]
@@ -46,9 +51,9 @@ pub(super) struct Session {
     clock: Clock,
     /// Device pixels per point.
     scale: f32,
-    /// The window's pixels below the panels, and the viewer's revision that they show.
-    below: Framebuffer,
-    below_revision: Option<u64>,
+    /// What of the panels changed since [`Session::compose`], and what it wrote, the latest first.
+    damage: Damage,
+    composed: VecDeque<Damage>,
     free_area: Option<PixelRect>,
     pointer: Option<DVec2>,
     /// A drag that began on the picture stays with it.
@@ -69,6 +74,8 @@ pub(super) struct Session {
 #[derive(Debug, Default)]
 struct Outbox {
     quit: bool,
+    /// Pictures of the window that were asked for.
+    pictures: u32,
     copied: Option<String>,
 }
 
@@ -82,8 +89,8 @@ impl Session {
             overlay: Overlay::default(),
             clock,
             scale,
-            below: Framebuffer::default(),
-            below_revision: None,
+            damage: Damage::default(),
+            composed: VecDeque::new(),
             free_area: None,
             pointer: None,
             holds_picture: false,
@@ -180,10 +187,7 @@ impl Session {
         for effect in self.viewer.apply(command) {
             match effect {
                 Effect::CopyText(text) => self.outbox.copied = Some(text),
-                Effect::PictureOfWindow => {
-                    let picture = self.picture();
-                    self.viewer.save_window_picture(picture);
-                }
+                Effect::PictureOfWindow => self.outbox.pictures = self.outbox.pictures.saturating_add(1),
                 Effect::Quit => self.outbox.quit = true,
             }
         }
@@ -291,10 +295,20 @@ impl Session {
                 asked = Asked::default();
                 interface.show(ui, viewer, &mut asked);
             });
-            let shapes = std::mem::take(&mut output.shapes);
-            let primitives = ctx.tessellate(shapes, output.pixels_per_point);
-            self.overlay
-                .paint(size, output.pixels_per_point, primitives, &mut output.textures_delta);
+            let pixels_per_point = output.pixels_per_point;
+            let shapes = Output {
+                size,
+                pixels_per_point,
+                shapes: std::mem::take(&mut output.shapes),
+            };
+            let tessellate = |shapes| ctx.tessellate(shapes, pixels_per_point);
+            let parts = self.overlay.paint(shapes, &mut output.textures_delta, tessellate);
+            if !self.damage.is_for(size) {
+                self.damage = Damage::all(size);
+            }
+            for part in parts {
+                self.damage.add(&window_rect(part));
+            }
             let root = output.viewport_output.get(&ViewportId::ROOT);
             turn.next = root.map_or(Duration::MAX, |root| root.repaint_delay);
             turn.platform.append(std::mem::take(&mut output.platform_output));
@@ -302,6 +316,7 @@ impl Session {
                 break;
             }
         }
+        self.save_pictures();
         turn
     }
 
@@ -324,40 +339,71 @@ impl Session {
         any
     }
 
-    /// The window's pixels below the panels.
-    fn below(&mut self) -> &Framebuffer {
-        let [width, height] = self.viewer.window_size().map(|side| side.min(Framebuffer::MAX_SIDE));
-        let revision = self.viewer.picture_revision();
-        let resized = [self.below.width(), self.below.height()] != [width, height];
-        if resized {
-            self.below = Framebuffer::new(width, height);
+    /// Brings a surface up to date that shows what this wrote `age` calls ago, and says which parts it wrote. Its rows
+    /// are `width` pixels long; with an `age` of 0 its pixels are of no use. Where the size is not the window's, nothing
+    /// is written: another call with the right size follows.
+    pub(super) fn compose(&mut self, surface: &mut [u32], width: u32, age: u8) -> Vec<PixelRect> {
+        let size = self.window();
+        let fits = size[0] == width && surface.len() == size[0] as usize * size[1] as usize;
+        if !fits {
+            return Vec::new();
         }
-        if resized || self.below_revision != Some(revision) {
-            self.viewer.draw_window(&mut self.below);
-            self.below_revision = Some(revision);
+        let mut now = self.take_damage(size);
+        self.composed.truncate(LONGEST_AGE);
+        self.composed.push_front(now.clone());
+        let before = usize::from(age);
+        if before == 0 || before > self.composed.len() {
+            now = Damage::all(size);
         }
-        &self.below
+        self.composed.iter().take(before).for_each(|damage| now.join(damage));
+        let parts = now.rects();
+        self.write(surface, size, &parts);
+        parts
     }
 
-    /// Writes the whole window's pixels into a surface whose rows are `width` pixels long. What the window has no
-    /// pixel for is left as it is.
-    pub(super) fn compose(&mut self, surface: &mut [u32], width: u32) {
-        self.below();
-        if self.below.width() == width && surface.len() == self.below.pixels().len() {
-            surface.copy_from_slice(self.below.pixels());
-            self.overlay.canvas().lay_over(surface);
+    /// Everything that changed since the last call.
+    fn take_damage(&mut self, size: [u32; 2]) -> Damage {
+        let mut damage = std::mem::replace(&mut self.damage, Damage::none(size));
+        match self.viewer.take_damage() {
+            Some(parts) if damage.is_for(size) => parts.iter().for_each(|part| damage.add(part)),
+            _ => damage = Damage::all(size),
         }
+        damage
+    }
+
+    /// Writes parts of the window: the picture, straight from the frame, and the panels over it.
+    fn write(&self, surface: &mut [u32], size: [u32; 2], parts: &[PixelRect]) {
+        let mut window = WindowPixels { size, pixels: surface };
+        self.viewer.draw_parts(parts, &mut window);
+        for part in parts {
+            self.overlay.canvas().lay_part_over(canvas_rect(part), window.pixels);
+        }
+    }
+
+    fn window(&self) -> [u32; 2] {
+        self.viewer.window_size().map(|side| side.min(Framebuffer::MAX_SIDE))
     }
 
     /// The picture of the whole window.
-    pub(super) fn picture(&mut self) -> Framebuffer {
-        let mut picture = self.below().clone();
-        let width = picture.width();
-        self.compose(picture.pixels_mut(), width);
+    pub(super) fn picture(&self) -> Framebuffer {
+        let size = self.window();
+        let mut picture = Framebuffer::new(size[0], size[1]);
+        self.write(picture.pixels_mut(), size, &[PixelRect::of_size(size)]);
         for pixel in picture.pixels_mut() {
             *pixel |= 0xff00_0000;
         }
         picture
+    }
+
+    /// Saves the pictures of the window that were asked for, once it shows the final picture.
+    fn save_pictures(&mut self) {
+        if self.outbox.pictures == 0 || !self.viewer.is_final() {
+            return;
+        }
+        let picture = self.picture();
+        for _ in 0..std::mem::take(&mut self.outbox.pictures) {
+            self.viewer.save_window_picture(picture.clone());
+        }
     }
 
     /// A turn without any window system behind it.
@@ -367,5 +413,26 @@ impl Session {
             ..RawInput::default()
         };
         self.turn(input)
+    }
+}
+
+/// A part of the window as a part of the overlay.
+fn canvas_rect(part: &PixelRect) -> CanvasRect {
+    let edge = |at: i64| u32::try_from(at.max(0)).unwrap_or(u32::MAX);
+    CanvasRect {
+        left: edge(part.x),
+        top: edge(part.y),
+        right: edge(part.right()),
+        bottom: edge(part.bottom()),
+    }
+}
+
+/// A part of the overlay as a part of the window.
+fn window_rect(part: CanvasRect) -> PixelRect {
+    PixelRect {
+        x: part.left.into(),
+        y: part.top.into(),
+        width: part.right.saturating_sub(part.left),
+        height: part.bottom.saturating_sub(part.top),
     }
 }

@@ -8,12 +8,13 @@ use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use softbuffer::{Context, SoftBufferError, Surface};
+use softbuffer::{Context, Rect, SoftBufferError, Surface};
 use winit::dpi::PhysicalSize;
 use winit::event_loop::OwnedDisplayHandle;
 use winit::window::Window;
 
 use super::super::session::Session;
+use crate::viewer::PixelRect;
 
 /// Least time between two frames.
 const FLOOR: Duration = Duration::from_millis(16);
@@ -33,6 +34,8 @@ pub(super) struct Opened {
     pub(super) occluded: bool,
     /// Something changed since the last frame; the viewer's revision tells what it knows.
     dirty: bool,
+    /// Since when a frame is asked for by us, not by the window system.
+    asked: Option<Instant>,
     drawn_revision: u64,
     last_frame: Option<Instant>,
     /// When the panels want to be shown again.
@@ -76,6 +79,7 @@ impl Opened {
             title: String::new(),
             occluded: false,
             dirty: true,
+            asked: None,
             drawn_revision: 0,
             last_frame: None,
             next_wish: None,
@@ -106,6 +110,9 @@ impl Opened {
     /// Asks for a frame if one is due; returns when to look again, `None` for "when something happens".
     pub(super) fn schedule(&mut self) -> Option<Instant> {
         let now = Instant::now();
+        if self.session.viewer().due().is_some_and(|due| due <= now) {
+            self.session.poll();
+        }
         self.dirty |= self.session.viewer().revision() != self.drawn_revision;
         if self.next_wish.is_some_and(|wish| wish <= now) {
             self.dirty = true;
@@ -114,13 +121,17 @@ impl Opened {
             return None;
         }
         if !self.dirty {
-            return self.next_wish;
+            return [self.next_wish, self.session.viewer().due()]
+                .into_iter()
+                .flatten()
+                .min();
         }
         let due = self
             .last_frame
             .and_then(|last| last.checked_add(FLOOR))
             .filter(|due| *due > now);
         if due.is_none() {
+            self.asked = Some(now);
             self.window.request_redraw();
         }
         due
@@ -135,6 +146,8 @@ impl Opened {
         let Some((columns, rows)) = NonZeroU32::new(width).zip(NonZeroU32::new(height)) else {
             return Ok(());
         };
+        // Asked by the window system, the window may have lost any of its pixels.
+        let exposed = self.asked.take().is_none();
         self.last_frame = Some(Instant::now());
         self.dirty = false;
         self.await_resized_frame();
@@ -148,9 +161,16 @@ impl Opened {
         self.drawn_revision = self.session.viewer().revision();
         self.surface.resize(columns, rows)?;
         let mut buffer = self.surface.buffer_mut()?;
-        self.session.compose(&mut buffer, width);
-        self.window.pre_present_notify();
-        buffer.present()?;
+        let age = buffer.age();
+        let mut parts = self.session.compose(&mut buffer, width, age);
+        if exposed || age == 0 {
+            parts = vec![PixelRect::of_size([width, height])];
+        }
+        let damage: Vec<Rect> = parts.iter().filter_map(surface_rect).collect();
+        if !damage.is_empty() {
+            self.window.pre_present_notify();
+            buffer.present_with_damage(&damage)?;
+        }
         let title = self.session.viewer().title();
         if title != self.title {
             self.window.set_title(&title);
@@ -172,6 +192,16 @@ impl Opened {
             std::thread::sleep(Duration::from_millis(1));
         }
     }
+}
+
+/// A part of the window as softbuffer names it.
+fn surface_rect(part: &PixelRect) -> Option<Rect> {
+    Some(Rect {
+        x: u32::try_from(part.x).ok()?,
+        y: u32::try_from(part.y).ok()?,
+        width: NonZeroU32::new(part.width)?,
+        height: NonZeroU32::new(part.height)?,
+    })
 }
 
 /// Device pixels per point.

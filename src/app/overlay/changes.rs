@@ -1,0 +1,221 @@
+//! Which parts of the interface changed from one picture to the next: its shapes are compared before they are cut into
+//! triangles, so that only what changed costs anything.
+//!
+//! Both lists are in painter's order. Shapes that stand in both, in the same order, are matched; every pixel outside
+//! the others' bounds then gets the same shapes in the same order as before, so it keeps its colour.
+
+use std::sync::Arc;
+
+use egui::epaint::{ClippedShape, Shape};
+use egui::{Rect, TextureId};
+
+use super::CanvasRect;
+
+/// How far two lists may be apart where one of them has shapes that the other does not have.
+const WINDOW: usize = 48;
+/// Farther than this from its bounds nothing of a shape is painted, in points: edges are softened over a pixel, and
+/// positions are rounded to whole pixels.
+const REACH: f32 = 2.0;
+/// Most parts that are told apart.
+const MAX_PARTS: usize = 24;
+
+/// The bounds, in points, of all shapes that stand in one list only, or use a texture that changed.
+pub(super) fn changed_bounds(old: &[ClippedShape], new: &[ClippedShape], textures: &[TextureId]) -> Vec<Rect> {
+    let mut bounds = Vec::new();
+    let mut add = |shapes: &[ClippedShape]| bounds.extend(shapes.iter().map(reach).filter(Rect::is_positive));
+    let (mut i, mut j) = (0, 0);
+    while i < old.len() || j < new.len() {
+        let (skip_old, skip_new) = next_match(&old[i..], &new[j..]);
+        add(&old[i..i + skip_old]);
+        add(&new[j..j + skip_new]);
+        (i, j) = (i + skip_old, j + skip_new);
+        if let (Some(_), Some(shape)) = (old.get(i), new.get(j)) {
+            if uses(&shape.shape, textures) {
+                add(&new[j..=j]);
+            }
+            (i, j) = (i + 1, j + 1);
+        }
+    }
+    bounds
+}
+
+/// How many shapes of both lists come before the next that stands in both: as few as possible, all if there is none
+/// near.
+fn next_match(old: &[ClippedShape], new: &[ClippedShape]) -> (usize, usize) {
+    for distance in 0..WINDOW {
+        for skip_old in 0..=distance.min(old.len()) {
+            let skip_new = distance - skip_old;
+            if let (Some(a), Some(b)) = (old.get(skip_old), new.get(skip_new))
+                && is_same(a, b)
+            {
+                return (skip_old, skip_new);
+            }
+        }
+    }
+    // Far apart: give up one of each and look again.
+    if old.len() > WINDOW || new.len() > WINDOW {
+        (old.len().min(1), new.len().min(1))
+    } else {
+        (old.len(), new.len())
+    }
+}
+
+/// Whether both paint the same pixels. Texts that egui laid out once share their memory.
+fn is_same(a: &ClippedShape, b: &ClippedShape) -> bool {
+    if a.clip_rect != b.clip_rect || a.transform_after_tessellation != b.transform_after_tessellation {
+        return false;
+    }
+    match (&a.shape, &b.shape) {
+        (Shape::Text(a), Shape::Text(b)) if Arc::ptr_eq(&a.galley, &b.galley) => {
+            a.pos == b.pos
+                && a.underline == b.underline
+                && a.override_text_color == b.override_text_color
+                && a.fallback_color == b.fallback_color
+                && a.opacity_factor.to_bits() == b.opacity_factor.to_bits()
+                && a.angle.to_bits() == b.angle.to_bits()
+        }
+        (a, b) => a == b,
+    }
+}
+
+fn uses(shape: &Shape, textures: &[TextureId]) -> bool {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().any(|shape| uses(shape, textures)),
+        shape => textures.contains(&shape.texture_id()),
+    }
+}
+
+/// Where a shape can paint anything, in points.
+pub(super) fn reach(shape: &ClippedShape) -> Rect {
+    let bounds = match &shape.shape {
+        // Lines below and through a text may reach beyond its letters.
+        Shape::Text(text) if text.angle == 0.0 => {
+            let rows = text.galley.rect.translate(text.pos.to_vec2());
+            rows | shape.shape.visual_bounding_rect()
+        }
+        Shape::Text(_) | Shape::Vec(_) => Rect::EVERYTHING,
+        other => other.visual_bounding_rect(),
+    };
+    if !bounds.is_positive() && bounds != Rect::NOTHING {
+        // Lines without width or height.
+        return shape.clip_rect;
+    }
+    let bounds = shape.transform_after_tessellation * bounds.expand(REACH);
+    shape.clip_rect.intersect(bounds)
+}
+
+/// Joins parts that overlap or nearly do, until all are apart and few.
+pub(super) fn joined(parts: impl IntoIterator<Item = CanvasRect>) -> Vec<CanvasRect> {
+    let mut apart: Vec<CanvasRect> = Vec::new();
+    for part in parts.into_iter().filter(|part| !part.is_empty()) {
+        let mut part = part;
+        // A part that grew may touch others that it did not touch before.
+        while let Some(at) = apart.iter().position(|other| is_worth_joining(part, *other)) {
+            part = part.join(apart.swap_remove(at));
+        }
+        apart.push(part);
+    }
+    if apart.len() > MAX_PARTS {
+        let all = apart.into_iter().fold(CanvasRect::EMPTY, CanvasRect::join);
+        return vec![all];
+    }
+    apart
+}
+
+/// Whether two parts share a pixel, or their common box holds little more than they do.
+fn is_worth_joining(a: CanvasRect, b: CanvasRect) -> bool {
+    let area = |rect: CanvasRect| {
+        u64::from(rect.right.saturating_sub(rect.left)) * u64::from(rect.bottom.saturating_sub(rect.top))
+    };
+    !a.intersect(b).is_empty() || area(a.join(b)) <= (area(a) + area(b)) * 3 / 2
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Color32, CornerRadius, pos2, vec2};
+
+    use super::*;
+
+    fn square(at: f32) -> ClippedShape {
+        let rect = Rect::from_min_size(pos2(at, 0.0), vec2(4.0, 4.0));
+        let shape = Shape::rect_filled(rect, CornerRadius::ZERO, Color32::RED);
+        ClippedShape {
+            clip_rect: Rect::EVERYTHING,
+            shape,
+            transform_after_tessellation: egui::emath::TSTransform::IDENTITY,
+        }
+    }
+
+    /// The left edges of what changed.
+    fn changed(old: &[f32], new: &[f32]) -> Vec<f32> {
+        let list = |all: &[f32]| all.iter().map(|at| square(*at)).collect::<Vec<_>>();
+        let mut edges: Vec<f32> = changed_bounds(&list(old), &list(new), &[])
+            .iter()
+            .map(|rect| rect.left() + REACH)
+            .collect();
+        edges.sort_by(f32::total_cmp);
+        edges
+    }
+
+    #[test]
+    fn changes_are_what_stands_in_one_list_only() {
+        assert_eq!(changed(&[1.0, 2.0, 3.0], &[1.0, 2.0, 3.0]), [] as [f32; 0], "nothing");
+        assert_eq!(
+            changed(&[1.0, 2.0, 3.0], &[1.0, 9.0, 3.0]),
+            [2.0, 9.0],
+            "old and new place"
+        );
+        assert_eq!(changed(&[1.0, 3.0], &[1.0, 2.0, 3.0]), [2.0], "inserted");
+        assert_eq!(changed(&[1.0, 2.0, 3.0], &[3.0]), [1.0, 2.0], "removed");
+        assert_eq!(changed(&[], &[4.0]), [4.0], "all new");
+        assert_eq!(changed(&[1.0, 2.0], &[2.0, 1.0]).len(), 2, "another order is a change");
+    }
+
+    #[test]
+    fn changes_of_texture_count() {
+        let list = [square(1.0)];
+        assert_eq!(
+            changed_bounds(&list, &list, &[TextureId::default()]).len(),
+            1,
+            "its texture"
+        );
+        assert!(
+            changed_bounds(&list, &list, &[TextureId::User(3)]).is_empty(),
+            "another's"
+        );
+    }
+
+    #[test]
+    fn parts_are_apart() {
+        arbtest::arbtest(|u| {
+            let mut parts = Vec::new();
+            for _ in 0..u.int_in_range(0..=40)? {
+                let (left, top) = (u.int_in_range(0..=200)?, u.int_in_range(0..=200)?);
+                let (width, height): (u32, u32) = (u.int_in_range(0..=20)?, u.int_in_range(0..=20)?);
+                parts.push(CanvasRect {
+                    left,
+                    top,
+                    right: left + width,
+                    bottom: top + height,
+                });
+            }
+            let result = joined(parts.clone());
+            assert!(result.len() <= MAX_PARTS, "{}", result.len());
+            for (i, part) in result.iter().enumerate() {
+                let others = &result[i + 1..];
+                assert!(
+                    others.iter().all(|other| part.intersect(*other).is_empty()),
+                    "{result:?}"
+                );
+            }
+            for part in parts.into_iter().filter(|part| !part.is_empty()) {
+                assert!(
+                    result.iter().any(|all| all.intersect(part) == part),
+                    "{part:?} in {result:?}"
+                );
+            }
+            Ok(())
+        })
+        .budget_ms(300);
+    }
+}

@@ -1,0 +1,228 @@
+//! What the drawing thread does: whole frames, previews, and final tiles that come as they are painted.
+
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::super::background::guarded;
+use super::super::frame::ExactCells;
+use super::super::{Frame, Manner, Picture, Preview};
+use super::preview::{coarse_view, magnify, shift};
+use crate::raster::{Framebuffer, Region, SampleRate};
+use crate::render::{CancelToken, FrameStats, RenderSettings, Subject, draw_cancellable, draw_regions, refine};
+
+/// Time between two messages with tiles: the window shows about thirty stages of a refinement a second.
+const TICK: Duration = Duration::from_millis(32);
+
+/// A frame to be drawn.
+pub(super) struct Job {
+    pub(super) picture: Picture,
+    pub(super) plan: Plan,
+    pub(super) cancel: Arc<CancelToken>,
+    /// Pixels to draw into.
+    pub(super) spare: Option<Framebuffer>,
+    /// Final tiles come nearest to this pixel first.
+    pub(super) from: [u32; 2],
+    /// What must be final in a preview, too.
+    pub(super) focus: Option<Region>,
+}
+
+/// How to come to a picture.
+#[derive(Debug)]
+pub(super) enum Plan {
+    /// All of it at once.
+    Whole,
+    /// A step of the ladder.
+    Coarse(Manner),
+    /// A step of the ladder, then final tiles; a picture that is quick to draw comes at once.
+    CoarseThenFine(Manner),
+    /// This frame, moved by so many pixels.
+    Moved(Arc<Frame>, [i64; 2]),
+    /// Final tiles over what is on the screen.
+    Fine,
+}
+
+/// What the thread has to say.
+#[derive(Debug)]
+pub(in super::super) enum Drawn {
+    /// A frame in place of the one before. There is more to come unless it `ended`.
+    Frame { frame: Box<Frame>, ended: bool },
+    /// Final tiles of the picture; with the last come the times of all.
+    Tiles {
+        tiles: Vec<TilePixels>,
+        ended: Option<FrameStats>,
+    },
+    /// It was given up.
+    GivenUp,
+    /// The renderer failed, which is a defect.
+    Failed,
+}
+
+/// A painted tile.
+#[derive(Debug)]
+pub(in super::super) struct TilePixels {
+    pub(super) region: Region,
+    pub(super) pixels: Vec<u32>,
+}
+
+/// Tiles on their way to the window.
+struct Outbox<'a, F: Fn(Drawn)> {
+    /// A preview that was not shown yet.
+    preview: Option<Box<Frame>>,
+    tiles: Vec<TilePixels>,
+    last_post: Instant,
+    post: &'a F,
+}
+
+impl Job {
+    /// Draws, and hands every stage to `post`; the last is one that ends the job.
+    pub(super) fn draw(self, post: &(impl Fn(Drawn) + Sync + Send)) {
+        let ended = guarded(|| self.work(post)).unwrap_or(Some(Drawn::Failed));
+        post(ended.unwrap_or(Drawn::GivenUp));
+    }
+
+    fn work(mut self, post: &(impl Fn(Drawn) + Sync + Send)) -> Option<Drawn> {
+        let start = Instant::now();
+        let plan = std::mem::replace(&mut self.plan, Plan::Fine);
+        match plan {
+            Plan::Whole => {
+                let mut pixels = self.pixels();
+                let Picture {
+                    scene, view, settings, ..
+                } = &self.picture;
+                let stats = draw_cancellable(scene, view, settings, &mut pixels, &self.cancel)?;
+                Some(self.frame(pixels, stats, None, true))
+            }
+            Plan::Coarse(manner) => self.coarse(manner, true),
+            Plan::Moved(frame, by) => self.moved(&frame, by),
+            Plan::CoarseThenFine(manner) => match self.coarse(manner, false)? {
+                Drawn::Frame { frame, .. } if start.elapsed() < TICK => self.fine(post, Some(frame), start),
+                preview => {
+                    post(preview);
+                    self.fine(post, None, Instant::now())
+                }
+            },
+            Plan::Fine => self.fine(post, None, start),
+        }
+    }
+
+    /// A frame's memory.
+    fn pixels(&mut self) -> Framebuffer {
+        let [width, height] = self.picture.size;
+        let fits = |pixels: &Framebuffer| [pixels.width(), pixels.height()] == [width, height];
+        let spare = self.spare.take().filter(fits);
+        spare.unwrap_or_else(|| Framebuffer::new(width, height))
+    }
+
+    fn frame(&self, pixels: Framebuffer, stats: FrameStats, preview: Option<Preview>, ended: bool) -> Drawn {
+        let frame = Box::new(Frame {
+            pixels,
+            picture: self.picture.clone(),
+            stats,
+            preview,
+        });
+        Drawn::Frame { frame, ended }
+    }
+
+    /// A preview on a step of the ladder.
+    fn coarse(&mut self, manner: Manner, ended: bool) -> Option<Drawn> {
+        let settings = RenderSettings {
+            sample_rate: SampleRate::ONE,
+            ..self.picture.settings
+        };
+        let mut pixels = self.pixels();
+        let Picture { scene, view, .. } = &self.picture;
+        let stats = match manner {
+            Manner::Coarse(side) => {
+                let [width, height] = self.picture.size.map(|length| length.div_ceil(side));
+                let mut small = Framebuffer::new(width, height);
+                let view = coarse_view(view, side);
+                let stats = draw_cancellable(scene, &view, &settings, &mut small, &self.cancel)?;
+                magnify(&small, side, &mut pixels);
+                stats
+            }
+            _ => draw_cancellable(scene, view, &settings, &mut pixels, &self.cancel)?,
+        };
+        let exact = self.sharpen(&mut pixels)?;
+        Some(self.frame(pixels, stats, Some(Preview { manner, exact }), ended))
+    }
+
+    /// A preview from a frame that lies elsewhere.
+    fn moved(&mut self, frame: &Frame, by: [i64; 2]) -> Option<Drawn> {
+        let mut pixels = self.pixels();
+        let strips = shift(&frame.pixels, by, &mut pixels);
+        let stats = draw_regions(&self.picture.subject(), &mut pixels, &strips, &self.cancel)?;
+        let mut exact = self.sharpen(&mut pixels)?;
+        for strip in strips {
+            exact.mark(strip);
+        }
+        let manner = Manner::Moved;
+        Some(self.frame(pixels, stats, Some(Preview { manner, exact }), true))
+    }
+
+    /// Draws what must be final in a preview, too.
+    fn sharpen(&self, pixels: &mut Framebuffer) -> Option<ExactCells> {
+        let mut exact = ExactCells::new(self.picture.size);
+        if let Some(focus) = self.focus {
+            draw_regions(&self.picture.subject(), pixels, &[focus], &self.cancel)?;
+            exact.mark(focus);
+        }
+        Some(exact)
+    }
+
+    /// Final tiles over what is on the screen, or over a preview that is shown with the first of them.
+    fn fine<F: Fn(Drawn) + Sync + Send>(&self, post: &F, preview: Option<Box<Frame>>, since: Instant) -> Option<Drawn> {
+        let outbox = Mutex::new(Outbox {
+            preview,
+            tiles: Vec::new(),
+            last_post: since,
+            post,
+        });
+        let publish = |region: Region, pixels: &[u32]| {
+            let tile = TilePixels {
+                region,
+                pixels: pixels.to_vec(),
+            };
+            outbox.lock().unwrap_or_else(PoisonError::into_inner).add(tile);
+        };
+        let subject: Subject<'_> = self.picture.subject();
+        let stats = refine(&subject, self.picture.size, self.from, &self.cancel, publish)?;
+        let Outbox { preview, tiles, .. } = outbox.into_inner().unwrap_or_else(PoisonError::into_inner);
+        match preview {
+            // Nothing was shown yet: the picture is quick to draw and comes at once.
+            Some(mut frame) => {
+                for tile in &tiles {
+                    tile.put(&mut frame.pixels);
+                }
+                (frame.preview, frame.stats) = (None, stats);
+                Some(Drawn::Frame { frame, ended: true })
+            }
+            None => Some(Drawn::Tiles {
+                tiles,
+                ended: Some(stats),
+            }),
+        }
+    }
+}
+
+impl<F: Fn(Drawn)> Outbox<'_, F> {
+    /// Keeps a tile until it is time to show what came.
+    fn add(&mut self, tile: TilePixels) {
+        self.tiles.push(tile);
+        if self.last_post.elapsed() < TICK {
+            return;
+        }
+        self.last_post = Instant::now();
+        if let Some(frame) = self.preview.take() {
+            (self.post)(Drawn::Frame { frame, ended: false });
+        }
+        let tiles = std::mem::take(&mut self.tiles);
+        (self.post)(Drawn::Tiles { tiles, ended: None });
+    }
+}
+
+impl TilePixels {
+    /// Copies it to its place.
+    pub(super) fn put(&self, frame: &mut Framebuffer) {
+        frame.copy_from(self.region, &self.pixels, self.region);
+    }
+}

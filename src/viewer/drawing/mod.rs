@@ -1,0 +1,464 @@
+//! Frames: which one is wanted, what is drawn in its stead while the view moves, when to give one up.
+//!
+//! One frame is drawn at a time, in a thread of its own; the newest wish is drawn next. While the view moves and final
+//! frames would take longer than the budget, previews are drawn; when the hand rests, final tiles replace them, those
+//! nearest to the pointer first. A newer wish ends that at once. Without previews a quick frame is left to finish even
+//! if a newer one is wanted, since a drag would otherwise show nothing until it ends; a slow one is given up, but
+//! never for so long that the window seems dead.
+
+mod job;
+mod pace;
+mod preview;
+
+use std::io;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::background::{AtEnd, Crew, Mailbox};
+use super::frame::ExactCells;
+use super::state::Finished;
+use super::{Frame, Manner, Picture, Preview};
+use crate::raster::{Framebuffer, Region};
+use crate::render::{CancelToken, FrameStats};
+pub(super) use job::Drawn;
+use job::{Job, Plan, TilePixels};
+use pace::{BUDGET, Pace};
+use preview::whole_pixels;
+
+/// A final frame that takes longer is given up for a newer wish.
+const SLOW: Duration = Duration::from_millis(400);
+/// After so long without a new frame, the one that is drawn is left to finish.
+const PATIENCE: Duration = Duration::from_secs(2);
+/// So long after the last wish the hand counts as resting.
+const REST: Duration = Duration::from_millis(100);
+
+/// The state of drawing.
+#[derive(Debug)]
+pub(super) struct Drawing {
+    crew: Crew<Job>,
+    /// The frame on the screen, and the number of the wish that it came of.
+    frame: Option<Arc<Frame>>,
+    frame_wish: u64,
+    /// What is to be on the screen.
+    wanted: Option<Wish>,
+    running: Option<Running>,
+    /// A picture whose drawing failed: not tried again.
+    failed: Option<Picture>,
+    pace: Pace,
+    /// Whether previews may be shown.
+    progressive: bool,
+    /// Somebody waits for the final frame: no previews, no rest.
+    hurry: bool,
+    last_finished: Instant,
+    /// Grows with every change of `frame`.
+    number: u64,
+    wishes: u64,
+    changes: Changes,
+    /// Memory of an old frame.
+    spare: Option<Framebuffer>,
+}
+
+/// What is wanted.
+#[derive(Clone, Debug)]
+pub(super) struct Wish {
+    pub(super) picture: Picture,
+    /// Final tiles come nearest to this pixel first.
+    pub(super) from: [u32; 2],
+    /// What must be final in a preview, too: what the inspector reads.
+    pub(super) focus: Option<Region>,
+    number: u64,
+    since: Instant,
+}
+
+#[derive(Debug)]
+struct Running {
+    wish: Wish,
+    stage: Stage,
+    cancel: Arc<CancelToken>,
+    started: Instant,
+    /// Pixels that are final.
+    done: u64,
+}
+
+/// What a running drawing is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    Whole,
+    Preview,
+    /// Final tiles, as they come.
+    Fine,
+}
+
+/// What of the frame changed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Changes {
+    /// There is another frame.
+    All,
+    /// These parts.
+    Regions(Vec<Region>),
+}
+
+impl Wish {
+    pub(super) fn new(picture: Picture, from: [u32; 2], focus: Option<Region>) -> Self {
+        Self {
+            picture,
+            from,
+            focus,
+            number: 0,
+            since: Instant::now(),
+        }
+    }
+}
+
+impl Drawing {
+    pub(super) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Self> {
+        let mailbox = mailbox.clone();
+        let work = move |job: Job| job.draw(&|drawn| mailbox.post(Finished::Drawn(drawn)));
+        Ok(Self {
+            crew: Crew::start("draw", 1, AtEnd::Abandon, work)?,
+            frame: None,
+            frame_wish: 0,
+            wanted: None,
+            running: None,
+            failed: None,
+            pace: Pace::default(),
+            progressive: true,
+            hurry: false,
+            last_finished: Instant::now(),
+            number: 0,
+            wishes: 0,
+            changes: Changes::All,
+            spare: None,
+        })
+    }
+
+    pub(super) fn frame(&self) -> Option<&Frame> {
+        self.frame.as_deref()
+    }
+
+    /// Another number, another frame.
+    pub(super) fn number(&self) -> u64 {
+        self.number
+    }
+
+    /// The frame for threads that outlive this state of the viewer, if it is final and no older than the wish of this
+    /// number.
+    pub(super) fn final_frame(&self, wish: u64) -> Option<&Arc<Frame>> {
+        let frame = self.frame.as_ref()?;
+        (frame.preview.is_none() && self.frame_wish >= wish).then_some(frame)
+    }
+
+    /// The number of the newest wish.
+    pub(super) fn newest_wish(&self) -> u64 {
+        self.wishes
+    }
+
+    /// Whether the frame shows what is wanted and is final, or never will.
+    pub(super) fn is_current(&self) -> bool {
+        match &self.wanted {
+            None => true,
+            Some(wanted) => {
+                let is_final = self.frame().is_some_and(|frame| frame.preview.is_none());
+                (self.shows(&wanted.picture) && is_final) || self.failed.as_ref() == Some(&wanted.picture)
+            }
+        }
+    }
+
+    fn shows(&self, picture: &Picture) -> bool {
+        self.frame().is_some_and(|frame| frame.picture == *picture)
+    }
+
+    /// What changed since the last call.
+    pub(super) fn take_changes(&mut self) -> Changes {
+        std::mem::replace(&mut self.changes, Changes::Regions(Vec::new()))
+    }
+
+    /// Since when final tiles are drawn over what is on the screen, and which part of them is there, `0.0..=1.0`.
+    pub(super) fn refinement(&self) -> Option<(Instant, f64)> {
+        let running = self.running.as_ref()?;
+        let is_fine = running.stage == Stage::Fine;
+        let [width, height] = running.wish.picture.size.map(f64::from);
+        is_fine.then_some((running.started, running.done as f64 / (width * height).max(1.0)))
+    }
+
+    /// When the drawing is to be asked again: then the hand rests. `None` while there is nothing to wait for.
+    pub(super) fn due(&self) -> Option<Instant> {
+        let wanted = self.wanted.as_ref().filter(|_| self.running.is_none())?;
+        if self.is_current() {
+            return None;
+        }
+        wanted.since.checked_add(REST)
+    }
+
+    /// Starts what is due.
+    pub(super) fn look(&mut self) {
+        self.next();
+    }
+
+    /// Whether previews may be shown.
+    pub(super) fn set_progressive(&mut self, progressive: bool) {
+        if self.progressive != progressive {
+            self.progressive = progressive;
+            self.next();
+        }
+    }
+
+    /// Whether somebody waits for a final frame.
+    pub(super) fn set_hurry(&mut self, hurry: bool) {
+        if self.hurry != hurry {
+            self.hurry = hurry;
+            self.next();
+        }
+    }
+
+    /// Nothing is to be seen: there is no scene.
+    pub(super) fn clear(&mut self) {
+        self.wanted = None;
+        if self.frame.take().is_some() {
+            self.changed(Changes::All);
+        }
+        if let Some(running) = &self.running {
+            running.cancel.cancel();
+        }
+    }
+
+    /// This is to be on the screen.
+    pub(super) fn want(&mut self, wish: Wish) {
+        if let Some(wanted) = self.wanted.as_mut().filter(|wanted| wanted.picture == wish.picture) {
+            (wanted.from, wanted.focus) = (wish.from, wish.focus);
+            return;
+        }
+        if let Some(running) = &self.running
+            && running.wish.picture != wish.picture
+            && self.gives_up(running, &wish.picture)
+        {
+            running.cancel.cancel();
+        }
+        self.wishes += 1;
+        self.wanted = Some(Wish {
+            number: self.wishes,
+            ..wish
+        });
+        self.next();
+    }
+
+    /// Whether a running frame is not worth finishing, now that `newer` is wanted.
+    fn gives_up(&self, running: &Running, newer: &Picture) -> bool {
+        let before = &running.wish.picture;
+        let other = !Arc::ptr_eq(&before.scene, &newer.scene) || before.size != newer.size;
+        let elapsed = running.started.elapsed();
+        match running.stage {
+            Stage::Fine => true,
+            // Whoever waits is not to be kept waiting for ever by a view that goes on moving.
+            Stage::Whole if self.hurry => false,
+            Stage::Whole if self.progressive => other || elapsed > 2 * BUDGET,
+            _ => {
+                let last_took = self.frame().map_or(Duration::ZERO, |frame| frame.stats.total());
+                other || is_too_slow(elapsed.max(last_took), self.last_finished.elapsed())
+            }
+        }
+    }
+
+    /// Takes in what the thread has to say; true if there is news for the screen.
+    pub(super) fn finished(&mut self, drawn: Drawn) -> bool {
+        match drawn {
+            Drawn::Frame { frame, ended } => {
+                self.note(&frame);
+                let fresh = self.wanted.is_some();
+                if let Some(running) = self.running.as_ref().filter(|_| fresh) {
+                    self.last_finished = Instant::now();
+                    self.frame_wish = running.wish.number;
+                    let old = self.frame.replace(Arc::from(frame));
+                    self.spare = old.and_then(Arc::into_inner).map(|frame| frame.pixels);
+                    self.changed(Changes::All);
+                }
+                if ended {
+                    self.end();
+                }
+                fresh
+            }
+            Drawn::Tiles { tiles, ended } => {
+                let fresh = self.take_tiles(&tiles, ended);
+                if ended.is_some() {
+                    self.end();
+                }
+                fresh
+            }
+            Drawn::GivenUp => {
+                if let Some(running) = self.running.take()
+                    && running.stage != Stage::Preview
+                {
+                    self.pace
+                        .note_given_up(&running.wish.picture, running.started.elapsed());
+                }
+                self.next();
+                false
+            }
+            Drawn::Failed => {
+                self.failed = self.running.take().map(|running| running.wish.picture);
+                self.next();
+                true
+            }
+        }
+    }
+
+    /// Puts final tiles into the frame.
+    fn take_tiles(&mut self, tiles: &[TilePixels], ended: Option<FrameStats>) -> bool {
+        let (Some(running), Some(frame)) = (&mut self.running, &mut self.frame) else {
+            return false;
+        };
+        let picture = &running.wish.picture;
+        if self.wanted.is_none() || frame.picture.size != picture.size {
+            return false;
+        }
+        let frame = Arc::make_mut(frame);
+        if frame.picture != *picture {
+            frame.picture = picture.clone();
+            frame.preview = None;
+            self.frame_wish = running.wish.number;
+        }
+        let exact = ExactCells::new(picture.size);
+        let manner = Manner::Earlier;
+        let preview = frame.preview.get_or_insert(Preview { manner, exact });
+        let mut regions = Vec::with_capacity(tiles.len());
+        for tile in tiles {
+            tile.put(&mut frame.pixels);
+            preview.exact.mark(tile.region);
+            running.done += u64::from(tile.region.width) * u64::from(tile.region.height);
+            regions.push(tile.region);
+        }
+        if let Some(stats) = ended {
+            (frame.preview, frame.stats) = (None, stats);
+            self.frame_wish = running.wish.number;
+            self.pace.note(&running.wish.picture, None, stats.total());
+            self.last_finished = Instant::now();
+        }
+        self.changed(Changes::Regions(regions));
+        true
+    }
+
+    /// Learns from the times of a frame.
+    fn note(&mut self, frame: &Frame) {
+        let manner = frame.preview.as_ref().map(|preview| preview.manner);
+        self.pace.note(&frame.picture, manner, frame.stats.total());
+    }
+
+    fn end(&mut self) {
+        self.running = None;
+        self.next();
+    }
+
+    fn changed(&mut self, changes: Changes) {
+        self.number += 1;
+        match (&mut self.changes, changes) {
+            (Changes::Regions(all), Changes::Regions(more)) => all.extend(more),
+            (_, Changes::All) => self.changes = Changes::All,
+            (Changes::All, Changes::Regions(_)) => {}
+        }
+    }
+
+    /// Whether the renderer failed on what is wanted.
+    pub(super) fn has_failed(&self) -> bool {
+        let wanted = self.wanted.as_ref().map(|wish| &wish.picture);
+        self.failed.is_some() && self.failed.as_ref() == wanted
+    }
+
+    /// Starts what is to be drawn now, if nothing is being drawn.
+    fn next(&mut self) {
+        if self.running.is_some() || self.is_current() {
+            return;
+        }
+        let Some(wish) = self.wanted.clone() else { return };
+        let Some(plan) = self.plan(&wish) else { return };
+        let stage = plan.stage();
+        let cancel = Arc::new(CancelToken::default());
+        self.crew.push(Job {
+            picture: wish.picture.clone(),
+            plan,
+            cancel: Arc::clone(&cancel),
+            spare: self.spare.take(),
+            from: wish.from,
+            focus: wish.focus,
+        });
+        self.running = Some(Running {
+            wish,
+            stage,
+            cancel,
+            started: Instant::now(),
+            done: 0,
+        });
+    }
+
+    /// How to come to what is wanted; `None` while a preview of it is on the screen and the hand does not rest.
+    fn plan(&self, wish: &Wish) -> Option<Plan> {
+        let picture = &wish.picture;
+        if self.hurry || !self.progressive {
+            return Some(Plan::Whole);
+        }
+        if self.shows(picture) {
+            return (wish.since.elapsed() >= REST).then_some(Plan::Fine);
+        }
+        let expected = self.pace.whole_frame(picture);
+        let before = self
+            .frame
+            .as_ref()
+            .filter(|frame| Arc::ptr_eq(&frame.picture.scene, &picture.scene) && frame.picture.size == picture.size);
+        let moved = before.and_then(|frame| Some((frame, whole_pixels(frame, picture)?)));
+        if let Some((frame, by)) = moved.filter(|_| expected.is_some() && self.pace.moves(picture)) {
+            return Some(Plan::Moved(Arc::clone(frame), by));
+        }
+        if expected.is_some_and(|expected| expected <= BUDGET) {
+            return Some(Plan::Whole);
+        }
+        // Other settings do not move anything: the picture stays until its final tiles are there.
+        if before.is_some_and(|frame| frame.picture.view == picture.view) {
+            return Some(Plan::Fine);
+        }
+        let step = self.pace.step(picture);
+        Some(if expected.is_some() && before.is_some() {
+            Plan::Coarse(step)
+        } else {
+            Plan::CoarseThenFine(step)
+        })
+    }
+}
+
+impl Plan {
+    fn stage(&self) -> Stage {
+        match self {
+            Self::Whole => Stage::Whole,
+            Self::Coarse(_) | Self::Moved(..) => Stage::Preview,
+            Self::CoarseThenFine(_) | Self::Fine => Stage::Fine,
+        }
+    }
+}
+
+/// Whether a frame that `takes` so long is given up for a newer one, `since` the last finished one.
+fn is_too_slow(takes: Duration, since: Duration) -> bool {
+    takes > SLOW && since < PATIENCE
+}
+
+impl Drop for Drawing {
+    fn drop(&mut self) {
+        // The crew, dropped next, waits for the thread.
+        if let Some(running) = &self.running {
+            running.cancel.cancel();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn drag_always_shows_something() {
+        let ms = Duration::from_millis;
+        assert!(
+            !is_too_slow(ms(30), ms(0)),
+            "a quick frame is left to finish, or a drag would show nothing"
+        );
+        assert!(is_too_slow(ms(900), ms(100)), "a slow one makes room for the newest");
+        assert!(!is_too_slow(ms(900), ms(2500)), "but the window must not seem dead");
+    }
+}

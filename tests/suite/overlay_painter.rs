@@ -43,7 +43,7 @@ fn textures(image: ColorImage, options: TextureOptions) -> TexturesDelta {
 fn clipped(clip_rect: Rect, mesh: Mesh) -> ClippedShape {
     ClippedShape {
         clip_rect,
-        shape: Shape::mesh(mesh),
+        shape: Shape::Mesh(Arc::new(mesh)),
         transform_after_tessellation: TSTransform::IDENTITY,
     }
 }

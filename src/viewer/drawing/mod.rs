@@ -9,6 +9,8 @@
 mod job;
 mod pace;
 mod preview;
+#[cfg(test)]
+mod tests;
 
 use std::io;
 use std::sync::Arc;
@@ -444,21 +446,5 @@ impl Drop for Drawing {
         if let Some(running) = &self.running {
             running.cancel.cancel();
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn drag_always_shows_something() {
-        let ms = Duration::from_millis;
-        assert!(
-            !is_too_slow(ms(30), ms(0)),
-            "a quick frame is left to finish, or a drag would show nothing"
-        );
-        assert!(is_too_slow(ms(900), ms(100)), "a slow one makes room for the newest");
-        assert!(!is_too_slow(ms(900), ms(2500)), "but the window must not seem dead");
     }
 }

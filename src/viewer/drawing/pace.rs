@@ -230,7 +230,9 @@ mod tests {
             !pace.moves(&picture),
             "unless that is slow too, and nothing is known of steps"
         );
-        pace.note(&picture, Some(Manner::RateOne), ms(60));
-        assert!(pace.moves(&picture), "or a step is slower");
+        for manner in [Manner::Coarse(4), Manner::Coarse(2), Manner::RateOne] {
+            pace.note(&picture, Some(manner), ms(60));
+        }
+        assert!(pace.moves(&picture), "or every step is slower");
     }
 }

@@ -1,0 +1,341 @@
+//! Drawing step by step, with times as the tests would have them: no test depends on how quick the machine is.
+
+use std::sync::mpsc::{Receiver, channel};
+
+use glam::DVec2;
+
+use super::*;
+use crate::color::Rgba;
+use crate::geometry::View;
+use crate::raster::SampleRate;
+use crate::render::{RenderSettings, draw};
+use crate::scene::{Dialect, Paint, Primitive, PrimitiveKind, Scene, Shape, ShapeId, SourceLocation};
+
+const SIZE: [u32; 2] = [150, 130];
+const SLOW_FRAME: Duration = Duration::from_secs(10);
+
+/// Drawing, and the thread's messages.
+struct Desk {
+    drawing: Drawing,
+    messages: Receiver<Finished>,
+    scene: Arc<Scene>,
+}
+
+/// A few triangles that overlap.
+fn scene() -> Arc<Scene> {
+    let mut scene = Scene::empty(DVec2::splat(100.0), Dialect::Svg);
+    scene.shapes = vec![Shape {
+        element: "polygon".into(),
+        id: None,
+        location: SourceLocation { line: 1, column: 1 },
+    }];
+    let corners = [[5.0, 8.0], [92.0, 20.0], [40.0, 97.0], [80.0, 88.0], [11.0, 60.0]];
+    scene.primitives = (0..corners.len())
+        .map(|i| {
+            let points = [0, 1, 2].map(|k| DVec2::from(corners[(i + k) % corners.len()]));
+            let paint = Paint::Solid(Rgba {
+                a: 0.7,
+                ..Rgba::from_bytes([40 * u8::try_from(i).expect("few"), 90, 200, 255])
+            });
+            let kind = PrimitiveKind::Triangle { points, paint };
+            Primitive {
+                shape: ShapeId(0),
+                kind,
+            }
+        })
+        .collect();
+    Arc::new(scene)
+}
+
+impl Desk {
+    fn new() -> Self {
+        let (sender, messages) = channel();
+        let drawing = Drawing::start(&Mailbox::new(sender, Arc::new(|| {}))).expect("a thread");
+        let scene = scene();
+        Self {
+            drawing,
+            messages,
+            scene,
+        }
+    }
+
+    fn picture(&self, rate: u32, center: [f64; 2], scale: f64) -> Picture {
+        let view = View::At {
+            center: center.into(),
+            scale,
+            rotation: 0.0,
+        };
+        Picture {
+            scene: Arc::clone(&self.scene),
+            view: view.transform(self.scene.canvas, SIZE),
+            settings: RenderSettings {
+                sample_rate: SampleRate::new(rate).expect("a square number"),
+                ..RenderSettings::default()
+            },
+            size: SIZE,
+        }
+    }
+
+    fn want(&mut self, picture: &Picture) {
+        self.drawing.want(Wish::new(picture.clone(), [20, 30], None));
+    }
+
+    /// Whole frames of `picture` are slow from now on.
+    fn is_slow(&mut self, picture: &Picture) {
+        self.drawing.pace.note(picture, None, SLOW_FRAME);
+    }
+
+    /// Takes in messages until the thread has nothing more to do.
+    fn work(&mut self) {
+        while self.drawing.running.is_some() {
+            let message = self.messages.recv().expect("the thread answers");
+            self.take_in(message);
+        }
+    }
+
+    fn take_in(&mut self, message: Finished) {
+        match message {
+            Finished::Drawn(drawn) => self.drawing.finished(drawn),
+            other => panic!("{other:?} is not about drawing"),
+        };
+    }
+
+    /// Lets the hand rest, and takes in what comes of it.
+    fn rest(&mut self) {
+        self.work();
+        if let Some(wanted) = &mut self.drawing.wanted {
+            wanted.since = wanted.since.checked_sub(2 * REST).expect("a clock that runs");
+        }
+        self.drawing.look();
+        self.work();
+    }
+
+    fn frame(&self) -> &Frame {
+        self.drawing.frame().expect("a frame")
+    }
+
+    fn manner(&self) -> Option<Manner> {
+        self.frame().preview.as_ref().map(|preview| preview.manner)
+    }
+
+    /// Asserts that the final frame of `picture` is on the screen.
+    fn shows_final(&self, picture: &Picture, what: &str) {
+        assert!(self.drawing.is_current(), "{what}: nothing is left to do");
+        assert_eq!(self.manner(), None, "{what}: no preview");
+        assert!(self.frame().pixels == drawn(picture), "{what}: other bytes than draw's");
+        assert_eq!(self.drawing.due(), None, "{what}: nothing to wait for");
+    }
+}
+
+fn drawn(picture: &Picture) -> Framebuffer {
+    let mut frame = Framebuffer::new(SIZE[0], SIZE[1]);
+    draw(&picture.scene, &picture.view, &picture.settings, &mut frame);
+    frame
+}
+
+#[test]
+fn first_picture_comes_final() {
+    let mut desk = Desk::new();
+    let picture = desk.picture(16, [50.0, 50.0], 1.0);
+    desk.want(&picture);
+    desk.work();
+    desk.shows_final(&picture, "without rest");
+}
+
+#[test]
+fn zooming_previews_and_resting_refines() {
+    let mut desk = Desk::new();
+    let (first, second) = (desk.picture(16, [50.0, 50.0], 1.0), desk.picture(16, [50.0, 50.0], 1.3));
+    desk.want(&first);
+    desk.work();
+    desk.is_slow(&first);
+    desk.want(&second);
+    desk.work();
+    assert_eq!(desk.manner(), Some(Manner::RateOne), "the finest step");
+    let coarse = Picture {
+        settings: RenderSettings {
+            sample_rate: SampleRate::ONE,
+            ..second.settings
+        },
+        ..second.clone()
+    };
+    assert!(desk.frame().pixels == drawn(&coarse), "the picture at rate 1");
+    assert!(!desk.drawing.is_current(), "not what is wanted");
+    assert!(desk.drawing.due().is_some(), "to be looked at again");
+    assert!(
+        desk.frame().final_rgba(20, 30).is_none(),
+        "no number comes from a preview"
+    );
+    desk.rest();
+    desk.shows_final(&second, "at rest");
+}
+
+#[test]
+fn slow_steps_become_coarser() {
+    let mut desk = Desk::new();
+    let (first, second) = (desk.picture(16, [50.0, 50.0], 1.0), desk.picture(16, [50.0, 50.0], 1.3));
+    desk.want(&first);
+    desk.work();
+    desk.is_slow(&first);
+    desk.drawing.pace.note(&first, Some(Manner::RateOne), SLOW_FRAME);
+    desk.want(&second);
+    desk.work();
+    assert_eq!(desk.manner(), Some(Manner::Coarse(2)), "squares of 2x2 pixels");
+    let pixels = &desk.frame().pixels;
+    for y in 0..SIZE[1] {
+        for x in 0..SIZE[0] {
+            assert_eq!(pixels.rgba(x, y), pixels.rgba(x / 2 * 2, y / 2 * 2), "{x}, {y}");
+        }
+    }
+    desk.rest();
+    desk.shows_final(&second, "at rest");
+}
+
+#[test]
+fn panning_moves_what_is_there() {
+    let mut desk = Desk::new();
+    let first = desk.picture(16, [50.0, 50.0], 1.0);
+    desk.want(&first);
+    desk.work();
+    desk.is_slow(&first);
+    let mut center = [50.0, 50.0];
+    for by in [[7.0, 0.0], [0.0, -5.0], [-40.0, 31.0], [120.0, 100.0]] {
+        center = [center[0] - by[0], center[1] - by[1]];
+        let moved = desk.picture(16, center, 1.0);
+        desk.want(&moved);
+        desk.work();
+        assert_eq!(desk.manner(), Some(Manner::Moved), "by {by:?}");
+        assert!(
+            desk.frame().pixels == drawn(&moved),
+            "whole pixels move the picture by {by:?}"
+        );
+    }
+    let last = desk.picture(16, center, 1.0);
+    desk.rest();
+    desk.shows_final(&last, "at rest");
+    let half = desk.picture(16, [center[0] - 0.5, center[1]], 1.0);
+    desk.is_slow(&last);
+    desk.want(&half);
+    desk.work();
+    assert_eq!(desk.manner(), Some(Manner::RateOne), "half a pixel is another picture");
+}
+
+#[test]
+fn settings_refine_without_rest() {
+    let mut desk = Desk::new();
+    let (one, sixteen) = (desk.picture(1, [50.0, 50.0], 1.0), desk.picture(16, [50.0, 50.0], 1.0));
+    desk.want(&one);
+    desk.work();
+    desk.want(&sixteen);
+    desk.work();
+    desk.shows_final(&sixteen, "another rate");
+}
+
+#[test]
+fn inspected_pixels_are_final_in_previews() {
+    let mut desk = Desk::new();
+    let (first, second) = (desk.picture(16, [50.0, 50.0], 1.0), desk.picture(16, [50.0, 50.0], 1.3));
+    desk.want(&first);
+    desk.work();
+    desk.is_slow(&first);
+    let focus = Region {
+        x: 40,
+        y: 50,
+        width: 24,
+        height: 24,
+    };
+    desk.drawing.want(Wish::new(second.clone(), [50, 60], Some(focus)));
+    desk.work();
+    assert_eq!(desk.manner(), Some(Manner::RateOne), "a preview");
+    let expected = drawn(&second);
+    let final_pixels = (40..64).flat_map(|x| (56..72).map(move |y| (x, y)));
+    for (x, y) in final_pixels {
+        assert_eq!(desk.frame().final_rgba(x, y), expected.rgba(x, y), "{x}, {y}");
+    }
+    desk.rest();
+    desk.shows_final(&second, "at rest");
+}
+
+#[test]
+fn newer_wish_ends_a_refinement() {
+    let mut desk = Desk::new();
+    let (first, second) = (desk.picture(16, [50.0, 50.0], 1.0), desk.picture(16, [50.0, 50.0], 1.3));
+    desk.want(&first);
+    let running = desk.drawing.running.as_ref().expect("it is being drawn");
+    assert_eq!(running.stage, Stage::Fine, "tile by tile");
+    let cancel = Arc::clone(&running.cancel);
+    desk.want(&second);
+    assert!(cancel.is_cancelled(), "at once");
+    desk.work();
+    desk.rest();
+    desk.shows_final(&second, "the newest");
+}
+
+#[test]
+fn whoever_waits_gets_final_frames() {
+    let mut desk = Desk::new();
+    let (first, second) = (desk.picture(16, [50.0, 50.0], 1.0), desk.picture(16, [50.0, 50.0], 1.3));
+    desk.want(&first);
+    desk.work();
+    desk.is_slow(&first);
+    desk.drawing.set_hurry(true);
+    desk.want(&second);
+    desk.work();
+    desk.shows_final(&second, "in a hurry");
+    desk.drawing.set_hurry(false);
+    desk.is_slow(&first);
+    desk.want(&first);
+    desk.work();
+    assert!(desk.manner().is_some(), "a preview again");
+    desk.drawing.set_progressive(false);
+    desk.work();
+    desk.shows_final(&first, "previews turned off");
+}
+
+#[test]
+fn any_wishes_end_in_the_same_bytes() {
+    arbtest::arbtest(|u| {
+        let mut desk = Desk::new();
+        let mut center = [50.0, 50.0];
+        let (mut scale, mut rate) = (1.0, 4);
+        for _ in 0..u.int_in_range(1..=12)? {
+            match u.int_in_range(0..=3)? {
+                0 => scale = f64::from(u.int_in_range(2..=9)?) / 4.0,
+                1 => rate = *u.choose(&[1, 4, 16])?,
+                _ => {
+                    let mut by = || Ok(f64::from(u.int_in_range(-20..=20)?) / 2.0);
+                    center = [center[0] + by()?, center[1] + by()?];
+                }
+            }
+            let picture = desk.picture(rate, center, scale);
+            desk.want(&picture);
+            match u.int_in_range(0..=4)? {
+                0 => desk.rest(),
+                1 => desk.work(),
+                2 => desk.is_slow(&picture),
+                3 => {
+                    while let Ok(message) = desk.messages.try_recv() {
+                        desk.take_in(message);
+                    }
+                }
+                _ => {}
+            }
+        }
+        let last = desk.drawing.wanted.as_ref().expect("a wish").picture.clone();
+        desk.rest();
+        desk.shows_final(&last, "in the end");
+        Ok(())
+    })
+    .budget_ms(1500);
+}
+
+#[test]
+fn drag_always_shows_something() {
+    let ms = Duration::from_millis;
+    assert!(
+        !is_too_slow(ms(30), ms(0)),
+        "a quick frame is left to finish, or a drag would show nothing"
+    );
+    assert!(is_too_slow(ms(900), ms(100)), "a slow one makes room for the newest");
+    assert!(!is_too_slow(ms(900), ms(2500)), "but the window must not seem dead");
+}

@@ -153,7 +153,7 @@ fn display_list<'a>(
         .par_chunks(length)
         .enumerate()
         .map(|(i, primitives)| {
-            let mut builder = ChunkBuilder::new(&context);
+            let mut builder = ChunkBuilder::new(&context, primitives.len());
             for (source, primitive) in (i * length..).zip(primitives) {
                 builder.set_source(number(source));
                 add(&mut builder, &screen, &primitive.kind);
@@ -162,7 +162,7 @@ fn display_list<'a>(
         })
         .collect();
     if settings.outline {
-        let mut builder = ChunkBuilder::new(&context);
+        let mut builder = ChunkBuilder::new(&context, 4);
         builder.set_source(number(scene.primitives.len()));
         for ends in screen.outline(scene.canvas) {
             builder.hairline(ends, Rgba::BLACK);

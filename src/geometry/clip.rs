@@ -16,11 +16,16 @@ pub struct ClipVertex {
     pub weights: [f64; 3],
 }
 
-/// A convex polygon of at most seven corners: a triangle cut by four lines.
-#[derive(Clone, Debug, Default)]
+/// A convex polygon: a triangle cut by four lines.
+#[derive(Clone, Copy, Debug)]
 pub struct ClippedTriangle {
-    corners: Vec<ClipVertex>,
+    corners: [ClipVertex; MOST_CORNERS],
+    count: usize,
 }
+
+/// Room for corners: seven when arithmetic is exact, since each of four lines adds one at most; rounding may make a
+/// polygon a little concave, so that a line crosses it more than twice.
+const MOST_CORNERS: usize = 12;
 
 /// A line that bounds the guard band: points with `sign * (coordinate - bound) >= 0` are kept.
 #[derive(Clone, Copy)]
@@ -54,6 +59,7 @@ const BOUNDS: [Bound; 4] = [
 ];
 
 /// Whether a point lies in the guard band.
+#[inline]
 pub fn in_guard(point: DVec2) -> bool {
     point.cmpge(DVec2::splat(GUARD.0)).all() && point.cmple(DVec2::splat(GUARD.1)).all()
 }
@@ -61,25 +67,41 @@ pub fn in_guard(point: DVec2) -> bool {
 impl ClippedTriangle {
     /// The part of a triangle inside the guard band; empty where there is none.
     pub fn new(points: [DVec2; 3]) -> Self {
-        let mut corners: Vec<ClipVertex> = (0..3)
-            .map(|i| {
-                let mut weights = [0.0; 3];
-                weights[i] = 1.0;
-                ClipVertex {
-                    point: points[i],
-                    weights,
-                }
-            })
-            .collect();
-        for bound in BOUNDS {
-            corners = bound.clip(&corners);
+        let mut polygon = Self::EMPTY;
+        for (i, point) in points.into_iter().enumerate() {
+            let mut weights = [0.0; 3];
+            weights[i] = 1.0;
+            polygon.push(ClipVertex { point, weights });
         }
-        Self { corners }
+        for bound in BOUNDS {
+            polygon = bound.clip(polygon.corners());
+        }
+        polygon
+    }
+
+    const EMPTY: Self = Self {
+        corners: [ClipVertex {
+            point: DVec2::ZERO,
+            weights: [0.0; 3],
+        }; MOST_CORNERS],
+        count: 0,
+    };
+
+    fn corners(&self) -> &[ClipVertex] {
+        &self.corners[..self.count]
+    }
+
+    /// Adds a corner, where there is room.
+    fn push(&mut self, corner: ClipVertex) {
+        if self.count < MOST_CORNERS {
+            self.corners[self.count] = corner;
+            self.count += 1;
+        }
     }
 
     /// The triangles of a fan around the first corner.
     pub fn triangles(&self) -> impl Iterator<Item = [ClipVertex; 3]> + '_ {
-        let corners = &self.corners;
+        let corners = self.corners();
         (2..corners.len()).map(move |i| [corners[0], corners[i - 1], corners[i]])
     }
 }
@@ -93,8 +115,8 @@ impl Bound {
         self.sign * (self.coordinate(vertex.point) - self.at) >= 0.0
     }
 
-    fn clip(self, polygon: &[ClipVertex]) -> Vec<ClipVertex> {
-        let mut kept = Vec::with_capacity(polygon.len() + 1);
+    fn clip(self, polygon: &[ClipVertex]) -> ClippedTriangle {
+        let mut kept = ClippedTriangle::EMPTY;
         for (i, vertex) in polygon.iter().enumerate() {
             let next = &polygon[(i + 1) % polygon.len()];
             if self.keeps(vertex) {

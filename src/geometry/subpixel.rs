@@ -57,7 +57,8 @@ impl SubpixelGrid {
         f64::from(self.side << self.bits)
     }
 
-    /// The grid point nearest to a screen-space point inside [`GUARD`].
+    /// The grid point nearest to a screen-space point, which must lie inside [`GUARD`].
+    #[inline]
     pub fn snap(&self, point: DVec2) -> GridPoint {
         let scaled = point * self.units_per_pixel();
         GridPoint {
@@ -67,34 +68,46 @@ impl SubpixelGrid {
     }
 
     /// The first sample row or column at or after a coordinate: samples lie at `(i + 1/2) << bits`.
+    #[inline]
     pub fn sample_at_or_after(&self, coordinate: i32) -> i32 {
         let half = 1 << (self.bits - 1);
         (coordinate - half + (1 << self.bits) - 1) >> self.bits
     }
 
     /// The first sample row or column after a coordinate.
+    #[inline]
     pub fn sample_after(&self, coordinate: i32) -> i32 {
         self.sample_at_or_after(coordinate + 1)
     }
 
     /// The coordinate of a sample row or column.
+    #[inline]
     pub fn sample_coordinate(&self, index: i32) -> i32 {
         (index << self.bits) + (1 << (self.bits - 1))
     }
 
     /// The position of a sample row or column in pixels.
+    #[inline]
     pub fn sample_position(&self, index: i32) -> f64 {
         (f64::from(index) + 0.5) / f64::from(self.side)
     }
 }
 
-/// To nearest, saturating at the ends of `i32`; halves go up, so that shifting by whole units commutes with rounding.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "`as` saturates, which is what a caller outside the guard band gets"
-)]
+/// `1.5 * 2^52`: at this size a 64-bit float holds whole numbers only, the lowest 32 bits of which are an `i32`.
+const WHOLE: f64 = 6_755_399_441_055_744.0;
+
+/// To nearest, for values of `i32`; halves go up, so that shifting by whole units commutes with rounding.
+///
+/// Neither `floor` nor a saturating conversion is a single instruction on every machine; additions are.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "the lowest 32 bits are meant")]
 fn round_to_i32(value: f64) -> i32 {
-    (value + 0.5).floor() as i32
+    debug_assert!(value.abs() < 2_147_483_647.0, "{value} lies on the grid");
+    let value = value + 0.5;
+    let whole = value + WHOLE;
+    // The nearest whole number may be the one above.
+    let above = whole - WHOLE > value;
+    (whole.to_bits() as u32).cast_signed() - i32::from(above)
 }
 
 /// The whole number at or below, saturating; NaN becomes 0.
@@ -141,6 +154,30 @@ mod tests {
             let far = grid.snap(DVec2::new(x + 512.0, 0.0)).x;
             assert_eq!(far - near, 512 << 14, "snapping {x} and its shift");
         }
+    }
+
+    #[test]
+    #[expect(clippy::cast_possible_truncation, reason = "the values fit")]
+    fn rounding_by_additions_is_rounding() {
+        let slow = |value: f64| (value + 0.5).floor() as i32;
+        let edges: [f64; 8] = [0.0, 0.5, 1.0, 1.5, 2.5, 1e9 + 0.5, 671_088_640.0, 402_653_184.5];
+        for value in edges {
+            for near in [
+                value,
+                f64::from_bits(value.to_bits() + 1),
+                f64::from_bits(value.to_bits().max(1) - 1),
+            ] {
+                assert_eq!(round_to_i32(near), slow(near), "{near:?}");
+                assert_eq!(round_to_i32(-near), slow(-near), "-{near:?}");
+            }
+        }
+        arbtest::arbtest(|u| {
+            let value =
+                u.int_in_range(-1_000_000_000_i64..=1_000_000_000)? as f64 / 2_f64.powi(u.int_in_range(0..=40)?);
+            assert_eq!(round_to_i32(value), slow(value), "{value:?}");
+            Ok(())
+        })
+        .budget_ms(100);
     }
 
     #[test]

@@ -1,25 +1,34 @@
 //! Which ops touch which tile, in painter's order.
 //!
-//! A small triangle goes to the tiles of its box. For a larger one the edge functions at each tile's corner samples
-//! decide: a tile wholly outside an edge is left out, a tile inside all three is marked as covered, so that painting it
-//! needs no coverage at all. An opaque triangle that covers a tile hides everything painted there before.
+//! Two walks over the ops of a chunk: the first counts the entries of each tile, the second writes them where they
+//! belong. Nothing is allocated per op or per tile. A stamp goes to the tiles of its bits, cut to each. A triangle is
+//! followed row of tiles by row of tiles: a tile that it covers is marked, so that painting it needs no coverage at
+//! all. An opaque triangle that covers a tile hides everything painted there before.
 
 use rayon::prelude::*;
 
-use super::display_list::{Chunk, ListContext, Op};
+use super::display_list::{Chunk, ListContext, Op, Paint};
+use super::entry::Entry;
 use super::rows::Span;
 use super::shade::Shader;
+use super::small::{SampleBox, SmallCoverage};
 use super::tile::PixelRect;
-use crate::geometry::edge::{doubled_area, edge_value};
+use super::tile_rows::TileRows;
 use crate::geometry::subpixel::GridPoint;
 use crate::texture::Texture;
 
 /// Most entries that are held at once; more are made and painted in several passes over groups of tile rows.
-const MAX_ENTRIES: u64 = 1 << 24;
+const MAX_ENTRIES: u64 = 1 << 22;
 
-/// One op in one tile.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Entry(u32);
+/// How many entries there will be.
+#[derive(Debug)]
+pub(crate) struct Plan {
+    /// For each chunk the number of its entries in each tile of the frame.
+    counts: Vec<Vec<u32>>,
+    /// Tiles in a row, rows of tiles.
+    columns: usize,
+    rows: i32,
+}
 
 /// The entries of one chunk, tile by tile.
 #[derive(Debug, Default)]
@@ -29,98 +38,125 @@ pub(crate) struct Bins {
     starts: Vec<u32>,
 }
 
-/// How a triangle lies to a tile.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Relation {
-    Outside,
-    Crossing,
-    Covering,
+/// Walks over the ops of a chunk.
+struct Walk<'a> {
+    chunk: &'a Chunk,
+    context: &'a ListContext,
+    /// Tile rows to look at.
+    rows: Span,
+    samples: Sides,
+    pixels: Sides,
+    /// The samples of the frame.
+    frame: SampleBox,
 }
 
-impl Entry {
-    const COVERS: u32 = 1 << 31;
-    const HIDES: u32 = 1 << 30;
+/// The sides of a tile, in samples or in pixels, and how to divide by them.
+#[derive(Clone, Copy)]
+struct Sides {
+    width: u32,
+    height: u32,
+    inverse: [u64; 2],
+}
 
-    /// An op that touches a tile, or a part of it.
-    pub(crate) fn crossing(op: usize) -> Self {
-        debug_assert!(op < Self::HIDES as usize, "op {op} fits 30 bits");
-        Self(u32::try_from(op).unwrap_or(0))
+impl Sides {
+    const SHIFT: u32 = 40;
+
+    fn new(width: u32, height: u32) -> Self {
+        // Rounded up, it is too large by less than one in `2^SHIFT`; no coordinate of a frame reaches `2^20`, so the
+        // error of a quotient stays below `2^-20`, too little to carry it over a whole number.
+        let inverse = |side: u32| (1_u64 << Self::SHIFT).div_ceil(u64::from(side));
+        Self {
+            width,
+            height,
+            inverse: [inverse(width), inverse(height)],
+        }
     }
 
-    /// Index of the op in its chunk.
-    pub(crate) fn op(self) -> usize {
-        (self.0 & !(Self::COVERS | Self::HIDES)) as usize
+    /// The tile column that holds a column of the frame.
+    #[inline]
+    fn column(&self, x: i32) -> i32 {
+        quotient(x, self.inverse[0])
     }
 
-    /// Whether the op is a triangle that covers every sample of the tile.
-    pub(crate) fn covers_tile(self) -> bool {
-        self.0 & Self::COVERS != 0
+    /// The tile row that holds a row of the frame.
+    #[inline]
+    fn row(&self, y: i32) -> i32 {
+        quotient(y, self.inverse[1])
+    }
+}
+
+#[inline]
+fn quotient(coordinate: i32, inverse: u64) -> i32 {
+    debug_assert!((0..1 << 20).contains(&coordinate), "{coordinate} lies in the frame");
+    ((u64::from(coordinate.cast_unsigned()) * inverse) >> Sides::SHIFT) as i32
+}
+
+impl Plan {
+    /// Counts the entries of all chunks.
+    pub(crate) fn new(chunks: &[Chunk], context: &ListContext, textures: &[&Texture]) -> Self {
+        let tiles = context.tiles;
+        let all = Span {
+            start: 0,
+            end: tiles.rows.cast_signed(),
+        };
+        let of_chunk = |chunk| {
+            let mut counts = vec![0; tiles.columns as usize * tiles.rows as usize];
+            Walk::new(chunk, context, all).each(textures, |tile, _| counts[tile] += 1);
+            counts
+        };
+        Self {
+            counts: chunks.par_iter().map(of_chunk).collect(),
+            columns: tiles.columns as usize,
+            rows: tiles.rows.cast_signed(),
+        }
     }
 
-    /// Whether nothing painted in the tile before this op can be seen.
-    pub(crate) fn hides_tile(self) -> bool {
-        self.0 & Self::HIDES != 0
+    /// The tile rows of the frame in groups whose entries fit in memory together; mostly a single group.
+    pub(crate) fn groups(&self) -> Vec<Span> {
+        let (mut groups, mut start, mut in_group) = (Vec::new(), 0, 0_u64);
+        for row in 0..self.rows {
+            let tiles = place(row) * self.columns..(place(row) + 1) * self.columns;
+            let of_chunk = |counts: &Vec<u32>| counts[tiles.clone()].iter().map(|count| u64::from(*count)).sum::<u64>();
+            let in_row: u64 = self.counts.iter().map(of_chunk).sum();
+            in_group += in_row;
+            if in_group > MAX_ENTRIES && row > start {
+                groups.push(Span { start, end: row });
+                start = row;
+                in_group = in_row;
+            }
+        }
+        groups.push(Span { start, end: self.rows });
+        groups
+    }
+
+    /// Sorts the ops of every chunk into the tiles of `rows`, a range of tile rows.
+    pub(crate) fn bins(&self, chunks: &[Chunk], context: &ListContext, textures: &[&Texture], rows: Span) -> Vec<Bins> {
+        let tiles = place(rows.start) * self.columns..place(rows.end) * self.columns;
+        chunks
+            .par_iter()
+            .zip(&self.counts)
+            .map(|(chunk, counts)| Bins::new(&Walk::new(chunk, context, rows), &counts[tiles.clone()], textures))
+            .collect()
     }
 }
 
 impl Bins {
-    /// Sorts the ops of a chunk into the tiles of `rows`, a range of tile rows.
-    pub(crate) fn new(chunk: &Chunk, context: &ListContext, textures: &[&Texture], rows: Span) -> Self {
-        let columns = context.tiles.columns as usize;
-        let tile = |x: i32, y: i32| place(y - rows.start) * columns + place(x);
-        let mut found: Vec<(u32, Entry)> = Vec::with_capacity(chunk.ops.len());
-        let mut depth = chunk.layers_open;
-        for (i, op) in chunk.ops.iter().enumerate() {
-            let Some(area) = chunk.area(op, context) else {
-                continue;
-            };
-            let mut tiles = context.tiles.tiles_of(area);
-            tiles.y = tiles.y.intersection(rows);
-            match op {
-                Op::BeginLayer { .. } => depth += 1,
-                Op::EndLayer { .. } => depth = depth.saturating_sub(1),
-                Op::Triangle(_) | Op::Pixels { .. } => {}
-            }
-            let triangle = match op {
-                Op::Triangle(index) => Some(&chunk.triangles[*index as usize]),
-                _ => None,
-            };
-            let hides = depth == 0
-                && triangle.is_some_and(|triangle| Shader::is_opaque(&chunk.paints[triangle.paint as usize], textures));
-            let large = (tiles.x.end - tiles.x.start) * (tiles.y.end - tiles.y.start) > 2;
-            for y in tiles.y.start..tiles.y.end {
-                for x in tiles.x.start..tiles.x.end {
-                    let mut entry = Entry::crossing(i);
-                    if let Some(triangle) = triangle.filter(|_| large) {
-                        match relation(context, triangle.corners, [x, y]) {
-                            Relation::Outside => continue,
-                            Relation::Crossing => {}
-                            Relation::Covering => entry.0 |= Entry::COVERS | if hides { Entry::HIDES } else { 0 },
-                        }
-                    }
-                    found.push((u32::try_from(tile(x, y)).unwrap_or(0), entry));
-                }
-            }
-        }
-        Self::sorted(&found, columns * place(rows.end - rows.start))
-    }
-
-    /// A counting sort by tile, which keeps the order of ops inside a tile.
-    fn sorted(found: &[(u32, Entry)], tiles: usize) -> Self {
-        let mut starts = vec![0_u32; tiles + 1];
-        for (tile, _) in found {
-            starts[*tile as usize + 1] += 1;
-        }
-        for tile in 0..tiles {
-            starts[tile + 1] += starts[tile];
-        }
+    /// Sorts what a walk meets into tiles with `counts` entries each.
+    fn new(walk: &Walk<'_>, counts: &[u32], textures: &[&Texture]) -> Self {
+        let mut starts = Vec::with_capacity(counts.len() + 1);
+        let mut total = 0;
+        starts.push(0);
+        starts.extend(counts.iter().map(|count| {
+            total += count;
+            total
+        }));
         let mut next = starts.clone();
-        let mut entries = vec![Entry(0); found.len()];
-        for (tile, entry) in found {
-            let slot = &mut next[*tile as usize];
-            entries[*slot as usize] = *entry;
+        let mut entries = vec![Entry::default(); total as usize];
+        walk.each(textures, |tile, entry| {
+            let slot = &mut next[tile];
+            entries[*slot as usize] = entry;
             *slot += 1;
-        }
+        });
         Self { entries, starts }
     }
 
@@ -130,76 +166,238 @@ impl Bins {
     }
 }
 
-/// Cuts the tile rows of a frame into groups whose entries fit in memory together; mostly a single group.
-pub(crate) fn groups(chunks: &[Chunk], context: &ListContext) -> Vec<Span> {
-    let rows = context.tiles.rows as usize;
-    let counts = chunks
-        .par_iter()
-        .map(|chunk| {
-            let mut changes = vec![0_i64; rows + 1];
-            for op in &chunk.ops {
-                if let Some(area) = chunk.area(op, context) {
-                    let tiles = context.tiles.tiles_of(area);
-                    let width = i64::from(tiles.x.end - tiles.x.start);
-                    changes[place(tiles.y.start)] += width;
-                    changes[place(tiles.y.end)] -= width;
-                }
-            }
-            changes
-        })
-        .reduce(
-            || vec![0; rows + 1],
-            |a, b| a.iter().zip(&b).map(|(a, b)| a + b).collect(),
-        );
-    let (mut groups, mut start, mut in_row, mut in_group) = (Vec::new(), 0, 0_i64, 0_u64);
-    for (row, change) in (0_i32..).zip(&counts[..rows]) {
-        in_row += change;
-        in_group += in_row.cast_unsigned();
-        if in_group > MAX_ENTRIES && row > start {
-            groups.push(Span { start, end: row });
-            start = row;
-            in_group = in_row.cast_unsigned();
+/// The entries of a chunk in the tile in column `column` of row `row`, without those of any other.
+pub(crate) fn entries_of_tile(
+    chunk: &Chunk,
+    context: &ListContext,
+    textures: &[&Texture],
+    [column, row]: [i32; 2],
+) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    let rows = Span {
+        start: row,
+        end: row + 1,
+    };
+    Walk::new(chunk, context, rows).each(textures, |tile, entry| {
+        if tile == place(column) {
+            entries.push(entry);
+        }
+    });
+    entries
+}
+
+impl<'a> Walk<'a> {
+    fn new(chunk: &'a Chunk, context: &'a ListContext, rows: Span) -> Self {
+        let (width_log2, height_log2) = context.tiles.sides_log2();
+        let side = context.grid.side().cast_unsigned();
+        Self {
+            chunk,
+            context,
+            rows,
+            samples: Sides::new(side << width_log2, side << height_log2),
+            pixels: Sides::new(1 << width_log2, 1 << height_log2),
+            frame: context.samples(),
         }
     }
-    groups.push(Span {
-        start,
-        end: i32::try_from(rows).unwrap_or(i32::MAX),
-    });
-    groups
+
+    /// Calls `visit` with every entry of the chunk and the number of its tile, counted from the first row's first.
+    fn each(&self, textures: &[&Texture], mut visit: impl FnMut(usize, Entry)) {
+        let mut depth = self.chunk.layers_open;
+        for (i, op) in self.chunk.ops.iter().enumerate() {
+            match *op {
+                Op::Samples(index) => {
+                    let stamp = &self.chunk.stamps[index as usize];
+                    let entry = Entry::samples(i, stamp.color);
+                    self.stamp(self.samples, stamp.coverage, entry, &mut visit);
+                }
+                Op::Pixels(index) => {
+                    let stamp = &self.chunk.stamps[index as usize];
+                    let entry = Entry::pixels(i, stamp.color);
+                    self.stamp(self.pixels, stamp.coverage, entry, &mut visit);
+                }
+                Op::Hairline(index) => {
+                    let line = &self.chunk.hairlines[index as usize];
+                    let entry = Entry::pixels(i, line.color);
+                    line.blocks(self.context.size, |pixels| {
+                        self.stamp(self.pixels, pixels, entry, &mut visit);
+                    });
+                }
+                Op::Triangle(index) => {
+                    let triangle = &self.chunk.triangles[index as usize];
+                    let paint = &self.chunk.paints[triangle.paint as usize];
+                    let flat = match paint {
+                        Paint::Solid(color) => Some(*color),
+                        Paint::Vertex(_) | Paint::Texture { .. } => None,
+                    };
+                    let opaque = Shader::is_opaque(paint, textures);
+                    let entry = Entry::triangle(i, index, flat, opaque);
+                    self.triangle(triangle.corners, entry, depth == 0, &mut visit);
+                }
+                Op::BeginLayer(index) | Op::EndLayer(index) => {
+                    depth = match op {
+                        Op::BeginLayer(_) => depth + 1,
+                        _ => depth.saturating_sub(1),
+                    };
+                    self.rect(self.chunk.layers[index as usize].area, Entry::layer(i), &mut visit);
+                }
+            }
+        }
+    }
+
+    /// The number of a tile.
+    #[inline]
+    fn tile(&self, column: i32, row: i32) -> usize {
+        place(row - self.rows.start) * self.context.tiles.columns as usize + place(column)
+    }
+
+    /// A stamp in each tile that holds any of its bits.
+    #[inline]
+    fn stamp(&self, sides: Sides, stamp: SmallCoverage, entry: Entry, visit: &mut impl FnMut(usize, Entry)) {
+        let (columns, rows) = (stamp.columns(), stamp.rows());
+        let (left, right) = (sides.column(columns.start), sides.column(columns.end - 1));
+        let (top, bottom) = (sides.row(rows.start), sides.row(rows.end - 1));
+        let (width, height) = (sides.width.cast_signed(), sides.height.cast_signed());
+        if left == right && top == bottom {
+            if self.rows.start <= top && top < self.rows.end {
+                let entry = in_tile(stamp, entry, [left * width, top * height]);
+                visit(self.tile(left, top), entry);
+            }
+            return;
+        }
+        for row in top.max(self.rows.start)..=bottom.min(self.rows.end - 1) {
+            for column in left..=right {
+                let of_tile = |tile: i32, side: i32| Span {
+                    start: tile * side,
+                    end: (tile + 1) * side,
+                };
+                let part = stamp.within(of_tile(column, width), of_tile(row, height));
+                if part.mask != 0 {
+                    let entry = in_tile(part, entry, [column * width, row * height]);
+                    visit(self.tile(column, row), entry);
+                }
+            }
+        }
+    }
+
+    /// A triangle in each tile it touches; `base` says that it is in no layer.
+    fn triangle(&self, corners: [GridPoint; 3], entry: Entry, base: bool, visit: &mut impl FnMut(usize, Entry)) {
+        let (grid, sides) = (self.context.grid, self.samples);
+        let samples = SampleBox::new(corners, grid, self.context.rules).intersection(self.frame);
+        if samples.columns.is_empty() || samples.rows.is_empty() {
+            return;
+        }
+        let (left, right) = (
+            sides.column(samples.columns.start),
+            sides.column(samples.columns.end - 1),
+        );
+        let (top, bottom) = (sides.row(samples.rows.start), sides.row(samples.rows.end - 1));
+        let band_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
+        let height = sides.height.cast_signed();
+        let covers_none =
+            |span: Span, side: u32, frame: Span| span.end - span.start < side.cast_signed().min(frame.end);
+        if (right - left + 1) * (bottom - top + 1) <= 2
+            && (covers_none(samples.columns, sides.width, self.frame.columns)
+                || covers_none(samples.rows, sides.height, self.frame.rows))
+        {
+            for row in band_rows {
+                (left..=right).for_each(|column| visit(self.tile(column, row), entry));
+            }
+            return;
+        }
+        let edges = TileRows::new(corners);
+        for row in band_rows {
+            let in_tile = Span {
+                start: row * height,
+                end: ((row + 1) * height).min(self.frame.rows.end),
+            };
+            let inside = in_tile.intersection(samples.rows);
+            let band = edges.band(
+                grid.sample_coordinate(inside.start),
+                grid.sample_coordinate(inside.end - 1),
+            );
+            let touched = self.touched(band.touched, left, right);
+            let covered = if inside == in_tile {
+                self.covered(band.covered)
+            } else {
+                Span::default()
+            };
+            for column in touched.start..touched.end {
+                let covers = covered.start <= column && column < covered.end;
+                let entry = if covers {
+                    entry.covering(base && entry.is_opaque())
+                } else {
+                    entry
+                };
+                visit(self.tile(column, row), entry);
+            }
+        }
+    }
+
+    /// The tile columns from `left` to `right` that hold coordinates between the two of `columns`.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "clamped to the tiles of a frame; just before the first, truncation names the first"
+    )]
+    fn touched(&self, columns: [f64; 2], left: i32, right: i32) -> Span {
+        let width = f64::from(self.samples.width << self.context.grid.bits());
+        // Far more than the error of the quotients lies between a tile's side and the nearest sample.
+        let tile = |x: f64| (x / width).clamp(f64::from(left) - 1.0, f64::from(right) + 1.0) as i32;
+        Span {
+            start: tile(columns[0]).max(left),
+            end: tile(columns[1]).min(right) + 1,
+        }
+    }
+
+    /// The tile columns all samples of which lie between the two coordinates.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "clamped to the tiles of a frame; truncation rounds down there"
+    )]
+    fn covered(&self, [first, last]: [f64; 2]) -> Span {
+        if first > last {
+            return Span::default();
+        }
+        let grid = self.context.grid;
+        let width = f64::from(self.samples.width << grid.bits());
+        let half = f64::from(1 << (grid.bits() - 1));
+        let columns = self.context.tiles.columns.cast_signed();
+        let whole = |tiles: f64| tiles.clamp(0.0, f64::from(columns)) as i32;
+        let start = (first - half) / width;
+        let start = whole(start) + i32::from(f64::from(whole(start)) < start);
+        let mut end = whole((last + half) / width);
+        // The frame may cut the last tile short.
+        if end == columns - 1 && f64::from(grid.sample_coordinate(self.frame.columns.end - 1)) <= last {
+            end = columns;
+        }
+        Span { start, end }
+    }
+
+    /// An op in every tile of a rectangle of pixels.
+    fn rect(&self, area: PixelRect, entry: Entry, visit: &mut impl FnMut(usize, Entry)) {
+        if area.x.is_empty() || area.y.is_empty() {
+            return;
+        }
+        let mut tiles = self.context.tiles.tiles_of(area);
+        tiles.y = tiles.y.intersection(self.rows);
+        for row in tiles.y.start..tiles.y.end {
+            (tiles.x.start..tiles.x.end).for_each(|column| visit(self.tile(column, row), entry));
+        }
+    }
+}
+
+/// The entry of a stamp all bits of which lie in the tile that begins at `[x, y]`.
+#[inline]
+fn in_tile(stamp: SmallCoverage, entry: Entry, [x, y]: [i32; 2]) -> Entry {
+    let (column, row) = (stamp.columns().start, stamp.rows().start);
+    let shift = 8 * (row - stamp.row) + column - stamp.column;
+    let near = |distance: i32| u16::try_from(distance).unwrap_or(0);
+    entry.with_bits([near(column - x), near(row - y)], stamp.mask >> shift)
 }
 
 /// A tile coordinate, which is never negative.
+#[inline]
 fn place(coordinate: i32) -> usize {
     coordinate.max(0).cast_unsigned() as usize
-}
-
-/// How a triangle lies to the samples of a tile.
-fn relation(context: &ListContext, [a, b, c]: [GridPoint; 3], [column, row]: [i32; 2]) -> Relation {
-    let grid = context.grid;
-    let PixelRect { x, y } = context
-        .tiles
-        .pixels(column.cast_unsigned(), row.cast_unsigned(), context.size);
-    let first_and_last = |pixels: Span| {
-        [pixels.start * grid.side(), pixels.end * grid.side() - 1].map(|sample| grid.sample_coordinate(sample))
-    };
-    let (xs, ys) = (first_and_last(x), first_and_last(y));
-    let corners = if doubled_area([a, b, c]) < 0 {
-        [a, c, b]
-    } else {
-        [a, b, c]
-    };
-    let mut covered = true;
-    for i in 0..3 {
-        let at = |x: usize, y: usize| edge_value(corners[i], corners[(i + 1) % 3], GridPoint { x: xs[x], y: ys[y] });
-        let values = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
-        if values.iter().all(|value| *value < 0) {
-            return Relation::Outside;
-        }
-        covered &= values.iter().all(|value| *value > 0);
-    }
-    if covered {
-        Relation::Covering
-    } else {
-        Relation::Crossing
-    }
 }

@@ -4,38 +4,95 @@
 
 use glam::DVec2;
 
+use super::small::{SMALL, SmallCoverage};
+use crate::color::Premultiplied16;
+
 /// How far outside the frame a line is stepped along rather than cut off, in pixels.
 const MARGIN: f64 = 4096.0;
 
-/// Appends the pixels `[column, row]` of the line between two screen-space points that lie in a frame of `size`.
-pub(super) fn trace(ends: [DVec2; 2], size: [u32; 2], pixels: &mut Vec<[u16; 2]>) {
-    let Some([from, to]) = cut(ends, size) else {
-        return;
-    };
-    let (from, to) = if from[0] > to[0] { (to, from) } else { (from, to) };
-    let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-    let slope = dy / dx;
-    let step = if slope.abs() <= 1.0 {
-        [1.0, slope]
-    } else if dx == 0.0 {
-        [0.0, if dy < 0.0 { -1.0 } else { 1.0 }]
-    } else {
-        [1.0 / slope.abs(), slope.signum()]
-    };
-    let frame = [size[0] as f32, size[1] as f32];
-    let [mut x, mut y] = from;
-    while x.floor() <= to[0].floor() && (y - from[1]).abs() <= dy.abs() {
-        if x >= 0.0 && x < frame[0] && y >= 0.0 && y < frame[1] {
-            pixels.push(pixel(truncate(x), truncate(y)));
+/// A line one pixel wide, near the frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hairline {
+    /// From left to right, in pixels.
+    from: [f32; 2],
+    to: [f32; 2],
+    pub(crate) color: Premultiplied16,
+}
+
+/// Gathers pixels that come one after the other into blocks of eight by eight.
+#[derive(Debug)]
+struct Gatherer<F: FnMut(SmallCoverage)> {
+    block: SmallCoverage,
+    emit: F,
+}
+
+impl Hairline {
+    /// The line between two screen-space points; `None` when it misses a frame of `size`.
+    pub(crate) fn new(ends: [DVec2; 2], size: [u32; 2], color: Premultiplied16) -> Option<Self> {
+        let [from, to] = cut(ends, size)?;
+        let (from, to) = if from[0] > to[0] { (to, from) } else { (from, to) };
+        Some(Self { from, to, color })
+    }
+
+    /// Calls `visit` with each pixel `[column, row]` of the line that lies in a frame of `size`.
+    #[inline]
+    fn trace(&self, size: [u32; 2], mut visit: impl FnMut(i32, i32)) {
+        let Self { from, to, .. } = *self;
+        let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+        let slope = dy / dx;
+        let step = if slope.abs() <= 1.0 {
+            [1.0, slope]
+        } else if dx == 0.0 {
+            [0.0, if dy < 0.0 { -1.0 } else { 1.0 }]
+        } else {
+            [1.0 / slope.abs(), slope.signum()]
+        };
+        let frame = [size[0] as f32, size[1] as f32];
+        let (last, height) = (to[0].floor(), dy.abs());
+        let [mut x, mut y] = from;
+        // Before its whole number exceeds `last`, `x` exceeds it by one.
+        while x < last + 1.0 && (y - from[1]).abs() <= height {
+            if x >= 0.0 && x < frame[0] && y >= 0.0 && y < frame[1] {
+                visit(truncate(x), truncate(y));
+            }
+            x += step[0];
+            y += step[1];
         }
-        x += step[0];
-        y += step[1];
+    }
+
+    /// Calls `visit` with the pixels of the line in a frame of `size`, up to eight by eight of them at once.
+    #[inline]
+    pub(crate) fn blocks(&self, size: [u32; 2], visit: impl FnMut(SmallCoverage)) {
+        let mut gatherer = Gatherer {
+            block: SmallCoverage::default(),
+            emit: visit,
+        };
+        self.trace(size, |x, y| gatherer.add(x, y));
+        gatherer.finish();
     }
 }
 
-/// A pixel inside a frame, whose sides fit 16 bits.
-pub(super) fn pixel(x: i32, y: i32) -> [u16; 2] {
-    [x, y].map(|coordinate| u16::try_from(coordinate).unwrap_or(0))
+impl<F: FnMut(SmallCoverage)> Gatherer<F> {
+    #[inline]
+    fn add(&mut self, x: i32, y: i32) {
+        let (column, row) = (x & -SMALL, y & -SMALL);
+        let bit = 1 << (SMALL * (y - row) + x - column);
+        // A pixel that a line visits twice is painted twice.
+        if self.block.column != column || self.block.row != row || self.block.mask & bit != 0 {
+            self.finish();
+            self.block.column = column;
+            self.block.row = row;
+        }
+        self.block.mask |= bit;
+    }
+
+    #[inline]
+    fn finish(&mut self) {
+        if self.block.mask != 0 {
+            (self.emit)(self.block);
+        }
+        self.block.mask = 0;
+    }
 }
 
 #[expect(
@@ -102,10 +159,49 @@ fn cut_at(from: DVec2, to: DVec2, axis: usize, bound: f64) -> DVec2 {
 mod tests {
     use super::*;
 
-    fn pixels(from: (f64, f64), to: (f64, f64)) -> Vec<[u16; 2]> {
+    fn line(from: (f64, f64), to: (f64, f64), size: [u32; 2]) -> Option<Hairline> {
+        Hairline::new([DVec2::from(from), DVec2::from(to)], size, Premultiplied16::TRANSPARENT)
+    }
+
+    fn pixels(from: (f64, f64), to: (f64, f64)) -> Vec<[i32; 2]> {
         let mut pixels = Vec::new();
-        trace([DVec2::from(from), DVec2::from(to)], [8, 6], &mut pixels);
+        if let Some(line) = line(from, to, [8, 6]) {
+            line.trace([8, 6], |x, y| pixels.push([x, y]));
+        }
         pixels
+    }
+
+    #[test]
+    fn hairline_in_blocks_is_the_same_pixels() {
+        const SIZE: [u32; 2] = [90, 70];
+        arbtest::arbtest(|u| {
+            let mut point = || -> arbtest::arbitrary::Result<(f64, f64)> {
+                let mut at = || Ok(f64::from(u.int_in_range(-600..=1200)?) / 10.0);
+                Ok((at()?, at()?))
+            };
+            let Some(line) = line(point()?, point()?, SIZE) else {
+                return Ok(());
+            };
+            let (mut expected, mut found) = (Vec::new(), Vec::new());
+            line.trace(SIZE, |x, y| expected.push([x, y]));
+            let mut blocks = 0;
+            line.blocks(SIZE, |block| {
+                blocks += 1;
+                for bit in (0..64).filter(|bit| block.mask >> bit & 1 == 1) {
+                    found.push([block.column + bit % SMALL, block.row + bit / SMALL]);
+                }
+            });
+            assert!(
+                blocks <= 2 + expected.len() / 3,
+                "{blocks} blocks for {} pixels",
+                expected.len()
+            );
+            expected.sort_unstable();
+            found.sort_unstable();
+            assert_eq!(found, expected, "{line:?}");
+            Ok(())
+        })
+        .budget_ms(200);
     }
 
     #[test]

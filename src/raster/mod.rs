@@ -6,7 +6,9 @@
 //! sample depends on its own position only, so neither threads nor tiles show in the result.
 
 mod bins;
+mod chunk_builder;
 mod display_list;
+mod entry;
 mod framebuffer;
 mod hairline;
 mod paint;
@@ -17,8 +19,10 @@ mod sample_rate;
 mod shade;
 mod small;
 mod tile;
+mod tile_rows;
 
-pub use display_list::{Chunk, ChunkBuilder, Fill, ListContext};
+pub use chunk_builder::ChunkBuilder;
+pub use display_list::{Chunk, Fill, ListContext};
 pub use framebuffer::Framebuffer;
 pub use rasterize::{DisplayList, RasterSettings, RasterTimes, SampleHit};
 pub use regions::Region;

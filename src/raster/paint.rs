@@ -1,13 +1,14 @@
 //! Painting one tile: every op of the display list that touches it, in painter's order.
 
 use super::SampleHit;
-use super::bins::Entry;
-use super::display_list::{Chunk, Op, Paint, ScreenTriangle};
+use super::display_list::Chunk;
+use super::entry::{Entry, Work};
 use super::rows::{SortedTriangle, Span};
 use super::shade::{ShadeContext, Shader, ShaderKind};
 use super::small::{SmallCoverage, small_coverage};
 use super::tile::{PixelRect, Tile};
 use crate::color::Premultiplied16;
+use crate::geometry::subpixel::GridPoint;
 
 /// Most samples along one side of a pixel.
 const MAX_SIDE: usize = 16;
@@ -65,27 +66,25 @@ impl<'a> TilePainter<'a> {
     /// Paints the ops of one chunk that touch the tile.
     pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[Entry]) {
         for entry in entries {
-            let index = entry.op();
             if let Some(probe) = &mut self.probe {
-                probe.source = chunk.sources[index];
+                probe.source = chunk.sources[entry.op()];
             }
-            match chunk.ops[index] {
-                Op::Triangle(triangle) => {
-                    let triangle = &chunk.triangles[triangle as usize];
-                    let paint = &chunk.paints[triangle.paint as usize];
-                    if entry.covers_tile() {
-                        self.whole_tile(triangle, paint);
-                    } else {
-                        self.triangle(triangle, paint);
-                    }
+            match entry.work(chunk) {
+                Work::Samples(coverage, color) => self.samples(coverage, color),
+                Work::Pixels(pixels, color) => {
+                    let PixelRect { x, y } = self.layers[0].rect;
+                    pixels
+                        .moved(x.start, y.start)
+                        .each_run(|row, xs| self.fill(xs, row, color));
                 }
-                Op::Pixels { start, count, paint } => {
-                    if let Paint::Solid(color) = chunk.paints[paint as usize] {
-                        self.pixels(&chunk.pixels[start as usize..][..count as usize], color);
-                    }
+                Work::Flat(corners, color) => self.triangle(*entry, corners, |_| Shader::flat(color)),
+                Work::Shaded(triangle, paint) => {
+                    self.triangle(*entry, &triangle.corners, |context| {
+                        Shader::new(context, triangle, paint)
+                    });
                 }
-                Op::BeginLayer { .. } => self.push_layer(self.layers[0].rect, Premultiplied16::TRANSPARENT),
-                Op::EndLayer { opacity, .. } => self.pop_layer(opacity),
+                Work::BeginLayer => self.push_layer(self.layers[0].rect, Premultiplied16::TRANSPARENT),
+                Work::EndLayer(opacity) => self.pop_layer(opacity),
             }
         }
     }
@@ -148,21 +147,9 @@ impl<'a> TilePainter<'a> {
         below[self.depth - 1].composite(&above[0], opacity);
     }
 
-    fn pixels(&mut self, pixels: &[[u16; 2]], color: Premultiplied16) {
-        for [x, y] in pixels {
-            let (x, y) = (i32::from(*x), i32::from(*y));
-            let xs = Span { start: x, end: x + 1 };
-            let rect = self.layers[0].rect;
-            if !xs.intersection(rect.x).is_empty() && (rect.y.start..rect.y.end).contains(&y) {
-                self.fill(xs, y, color);
-            }
-        }
-    }
-
-    /// A triangle that the edge functions at the tile's corners have found to cover all of it.
-    fn whole_tile(&mut self, triangle: &ScreenTriangle, paint: &Paint) {
+    /// What covers all of the tile.
+    fn whole_tile(&mut self, shader: &Shader<'_>) {
         let PixelRect { x, y } = self.layers[0].rect;
-        let shader = Shader::new(&self.context, triangle, paint);
         let side = self.context.grid.side();
         let columns = Span {
             start: x.start * side,
@@ -176,19 +163,31 @@ impl<'a> TilePainter<'a> {
                     self.layers[self.depth - 1].split_unfilled(x, row);
                 }
                 for line in row * side..(row + 1) * side {
-                    self.shaded(&shader, columns, line);
+                    self.shaded(shader, columns, line);
                 }
             }
         }
     }
 
-    fn triangle(&mut self, triangle: &ScreenTriangle, paint: &Paint) {
+    /// A triangle, shaded by what `shader` makes once it is needed.
+    fn triangle(
+        &mut self,
+        entry: Entry,
+        corners: &[GridPoint; 3],
+        shader: impl FnOnce(&ShadeContext<'a>) -> Shader<'a>,
+    ) {
+        if entry.covers_tile() {
+            return self.whole_tile(&shader(&self.context));
+        }
         let grid = self.context.grid;
-        if let Some(coverage) = small_coverage(triangle.corners, grid, self.context.sampling.rules) {
-            return self.small(triangle, paint, coverage);
+        if let Some(coverage) = small_coverage(*corners, grid, self.context.sampling.rules) {
+            if coverage.mask != 0 {
+                self.few_samples(&shader(&self.context), coverage);
+            }
+            return;
         }
         let PixelRect { x, y } = self.layers[0].rect;
-        let Some(sorted) = SortedTriangle::new(triangle.corners, self.context.sampling.rules) else {
+        let Some(sorted) = SortedTriangle::new(*corners, self.context.sampling.rules) else {
             return;
         };
         let side = grid.side();
@@ -203,7 +202,7 @@ impl<'a> TilePainter<'a> {
         if rows.is_empty() {
             return;
         }
-        let shader = Shader::new(&self.context, triangle, paint);
+        let shader = shader(&self.context);
         let mut walker = sorted.walk_from(grid, rows.start);
         let mut line = rows.start;
         while line < rows.end {
@@ -218,11 +217,20 @@ impl<'a> TilePainter<'a> {
         }
     }
 
-    /// A triangle of a few samples, whose coverage is known.
-    fn small(&mut self, triangle: &ScreenTriangle, paint: &Paint, coverage: SmallCoverage) {
-        if coverage.mask == 0 {
-            return;
+    /// Samples of one colour, counted from the tile's first.
+    fn samples(&mut self, coverage: SmallCoverage, color: Premultiplied16) {
+        let side = self.context.grid.side();
+        let PixelRect { x, y } = self.layers[0].rect;
+        let coverage = coverage.moved(x.start * side, y.start * side);
+        if side == 1 {
+            coverage.each_run(|row, xs| self.fill(xs, row, color));
+        } else {
+            self.few_samples(&Shader::flat(color), coverage);
         }
+    }
+
+    /// The few samples of a small triangle.
+    fn few_samples(&mut self, shader: &Shader<'_>, coverage: SmallCoverage) {
         let side = self.context.grid.side();
         let PixelRect { x, y } = self.layers[0].rect;
         let samples = |pixels: Span| Span {
@@ -230,7 +238,6 @@ impl<'a> TilePainter<'a> {
             end: pixels.end * side,
         };
         let rows = samples(y).intersection(coverage.rows());
-        let shader = Shader::new(&self.context, triangle, paint);
         let mut line = rows.start;
         while line < rows.end {
             let row = line.div_euclid(side);
@@ -239,7 +246,7 @@ impl<'a> TilePainter<'a> {
             for line in line..end {
                 spans[line.rem_euclid(side).cast_unsigned() as usize] = coverage.span(line).intersection(samples(x));
             }
-            self.pixel_row(&shader, &PixelRow::new(spans, side), row);
+            self.pixel_row(shader, &PixelRow::new(spans, side), row);
             line = end;
         }
     }

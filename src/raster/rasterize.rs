@@ -5,12 +5,13 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
-use super::bins::{Bins, Entry, groups};
+use super::bins::{Bins, Plan, entries_of_tile};
 use super::display_list::{Chunk, ListContext, measure_layers};
+use super::entry::Entry;
 use super::paint::TilePainter;
 use super::rows::Span;
 use super::shade::ShadeContext;
-use super::tile::{PixelRect, TileLayout};
+use super::tile::TileLayout;
 use super::{Framebuffer, SampleRate};
 use crate::color::{Premultiplied16, Rgba};
 use crate::geometry::subpixel::SubpixelGrid;
@@ -99,7 +100,7 @@ impl<'a> DisplayList<'a> {
 
     /// Triangles in the list.
     pub fn triangles(&self) -> u64 {
-        self.chunks.iter().map(|chunk| chunk.triangles.len() as u64).sum()
+        self.chunks.iter().map(|chunk| chunk.triangle_count).sum()
     }
 
     /// Draws everything into `frame`, which must have the size of the list's context; `None` when `cancelled` was set
@@ -119,9 +120,12 @@ impl<'a> DisplayList<'a> {
             return Some(times);
         }
         let row_pixels = (width * self.context.tiles.tile_height()) as usize;
-        for group in groups(&self.chunks, &self.context) {
+        let start = Instant::now();
+        let plan = self.plan();
+        times.bin += start.elapsed();
+        for group in plan.groups() {
             let start = Instant::now();
-            let pass = self.pass(group, cancelled);
+            let pass = self.pass(&plan, group, cancelled);
             times.bin += start.elapsed();
             let start = Instant::now();
             frame
@@ -149,21 +153,14 @@ impl<'a> DisplayList<'a> {
             return None;
         }
         let pixel = [x.cast_signed(), y.cast_signed()];
-        let inside = |span: Span, at: i32| (span.start..span.end).contains(&at);
+        let context = ListContext {
+            tiles: TileLayout::new((0, 0), self.context.size),
+            ..self.context
+        };
         let touching: Vec<Vec<Entry>> = self
             .chunks
             .par_iter()
-            .map(|chunk| {
-                let touches = |op| {
-                    let area: Option<PixelRect> = chunk.area(op, &self.context);
-                    area.is_some_and(|area| inside(area.x, pixel[0]) && inside(area.y, pixel[1]))
-                };
-                (0..)
-                    .zip(&chunk.ops)
-                    .filter(|(_, op)| touches(op))
-                    .map(|(i, _)| Entry::crossing(i))
-                    .collect()
-            })
+            .map(|chunk| entries_of_tile(chunk, &context, &self.textures, pixel))
             .collect();
         let chunks: Vec<(&Chunk, &[Entry])> = self.chunks.iter().zip(touching.iter().map(Vec::as_slice)).collect();
         Some(self.painter().probe(&chunks, pixel, self.background()))
@@ -173,13 +170,15 @@ impl<'a> DisplayList<'a> {
         Premultiplied16::from_straight(self.settings.background, self.settings.sampling.rules)
     }
 
+    /// Counts what each tile will hold.
+    pub(super) fn plan(&self) -> Plan {
+        Plan::new(&self.chunks, &self.context, &self.textures)
+    }
+
     /// Sorts everything into the tiles of some tile rows.
-    pub(super) fn pass<'p>(&self, rows: Span, cancelled: &'p AtomicBool) -> Pass<'p> {
-        let chunks = self.chunks.par_iter();
+    pub(super) fn pass<'p>(&self, plan: &Plan, rows: Span, cancelled: &'p AtomicBool) -> Pass<'p> {
         Pass {
-            bins: chunks
-                .map(|chunk| Bins::new(chunk, &self.context, &self.textures, rows))
-                .collect(),
+            bins: plan.bins(&self.chunks, &self.context, &self.textures, rows),
             first_row: rows.start.cast_unsigned(),
             cancelled,
         }
@@ -250,7 +249,8 @@ mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
     use glam::DVec2;
 
-    use super::super::display_list::{ChunkBuilder, Fill};
+    use super::super::chunk_builder::ChunkBuilder;
+    use super::super::display_list::Fill;
     use super::*;
     use crate::texture::{LevelSampling, MipLevel, MipPyramid, PixelSampling};
 
@@ -332,7 +332,7 @@ mod tests {
             let seed: Vec<u8> = (0..400).map(|_| u.arbitrary()).collect::<Result<_>>()?;
             let draw = |tiles: TileLayout| -> Result<Framebuffer> {
                 let context = ListContext::with_tiles(SIZE, &settings, tiles);
-                let mut builder = ChunkBuilder::new(&context);
+                let mut builder = ChunkBuilder::new(&context, 12);
                 fill(&mut builder, &mut Unstructured::new(&seed))?;
                 let list = DisplayList::new(context, settings, vec![builder.finish()], vec![&texture]);
                 let mut frame = Framebuffer::new(SIZE[0], SIZE[1]);

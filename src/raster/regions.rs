@@ -6,7 +6,6 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
-use super::bins::groups;
 use super::rasterize::{DisplayList, Pass, RasterTimes};
 use super::rows::Span;
 use super::tile::PixelRect;
@@ -97,7 +96,11 @@ impl DisplayList<'_> {
             return Some(times);
         }
         let wishes = self.wishes(wanted, from);
-        let mut passes: Vec<(Span, Vec<Wish>)> = groups(&self.chunks, &self.context)
+        let start = Instant::now();
+        let plan = self.plan();
+        times.bin += start.elapsed();
+        let mut passes: Vec<(Span, Vec<Wish>)> = plan
+            .groups()
             .into_iter()
             .map(|rows| {
                 let inside = |wish: &&Wish| (rows.start..rows.end).contains(&wish.tile[1].cast_signed());
@@ -108,7 +111,7 @@ impl DisplayList<'_> {
         passes.sort_by_key(|(_, wishes)| wishes.first().map(|wish| distance(wish.region, from)));
         for (rows, wishes) in passes {
             let start = Instant::now();
-            let pass = self.pass(rows, cancelled);
+            let pass = self.pass(&plan, rows, cancelled);
             times.bin += start.elapsed();
             let start = Instant::now();
             self.paint_in_order(&pass, &wishes, publish);

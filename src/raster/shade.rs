@@ -140,6 +140,14 @@ impl Planes<2> {
 }
 
 impl<'a> Shader<'a> {
+    /// One colour, everywhere.
+    pub(crate) fn flat(color: Premultiplied16) -> Self {
+        Self {
+            kind: ShaderKind::Solid(color),
+            opaque: color.is_opaque(),
+        }
+    }
+
     /// Prepares the shading of one triangle.
     pub(crate) fn new(context: &ShadeContext<'a>, triangle: &ScreenTriangle, paint: &Paint) -> Self {
         let kind = match *paint {

@@ -13,7 +13,14 @@ use crate::rules::Rules;
 /// Sample columns and rows of the box that a small triangle fits in.
 pub(crate) const SMALL: i32 = 8;
 
-/// The samples that a small triangle covers.
+/// The columns and rows of samples between the least and the greatest corner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct SampleBox {
+    pub(crate) columns: Span,
+    pub(crate) rows: Span,
+}
+
+/// The samples that a small triangle covers, or any other few samples or pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct SmallCoverage {
     /// Sample column and row of the lowest bit.
@@ -34,55 +41,149 @@ struct SmallEdge {
     down: i32,
 }
 
-/// The coverage of a triangle whose box holds at most [`SMALL`] columns and rows of samples; `None` for a larger one.
-#[inline]
-pub(crate) fn small_coverage(corners: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Option<SmallCoverage> {
-    let [a, b, c] = corners;
-    let column = grid.sample_at_or_after(a.x.min(b.x).min(c.x));
-    let row = grid.sample_at_or_after(a.y.min(b.y).min(c.y));
-    let columns = end_of(grid, a.x.max(b.x).max(c.x), rules) - column;
-    let rows = end_of(grid, a.y.max(b.y).max(c.y), rules) - row;
-    if columns > SMALL || rows > SMALL {
-        return None;
-    }
-    let mut coverage = SmallCoverage { column, row, mask: 0 };
-    if columns <= 0 || rows <= 0 {
-        return Some(coverage);
-    }
-    let area = edge_value(a, b, c);
-    if area == 0 {
-        return Some(coverage);
-    }
-    let first = GridPoint {
-        x: grid.sample_coordinate(column),
-        y: grid.sample_coordinate(row),
-    };
-    let [b, c] = if area < 0 { [c, b] } else { [b, c] };
-    let edges = [
-        SmallEdge::new(a, b, first, grid, rules),
-        SmallEdge::new(b, c, first, grid, rules),
-        SmallEdge::new(c, a, first, grid, rules),
-    ];
-    coverage.mask = u64::from(quarter(&edges, 0, 0));
-    if columns > 4 {
-        coverage.mask |= u64::from(quarter(&edges, 4, 0)) << 4;
-    }
-    if rows > 4 {
-        coverage.mask |= u64::from(quarter(&edges, 0, 4)) << 32;
-        if columns > 4 {
-            coverage.mask |= u64::from(quarter(&edges, 4, 4)) << 36;
+impl SampleBox {
+    /// The box of a triangle; empty in a direction in which the triangle holds no sample.
+    #[inline]
+    pub(crate) fn new([a, b, c]: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Self {
+        let span = |a: i32, b: i32, c: i32| Span {
+            start: grid.sample_at_or_after(a.min(b).min(c)),
+            end: end_of(grid, a.max(b).max(c), rules),
+        };
+        Self {
+            columns: span(a.x, b.x, c.x),
+            rows: span(a.y, b.y, c.y),
         }
     }
-    Some(coverage)
+
+    /// What lies in both.
+    #[inline]
+    pub(crate) fn intersection(self, other: Self) -> Self {
+        Self {
+            columns: self.columns.intersection(other.columns),
+            rows: self.rows.intersection(other.rows),
+        }
+    }
+
+    /// Whether its samples fit the bits of a [`SmallCoverage`].
+    #[inline]
+    pub(crate) fn is_small(self) -> bool {
+        self.columns.end - self.columns.start <= SMALL && self.rows.end - self.rows.start <= SMALL
+    }
+}
+
+/// The coverage of a triangle whose box holds at most [`SMALL`] columns and rows of samples; `None` for a larger one.
+pub(crate) fn small_coverage(corners: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Option<SmallCoverage> {
+    let samples = SampleBox::new(corners, grid, rules);
+    samples
+        .is_small()
+        .then(|| SmallCoverage::new(corners, samples, grid, rules))
 }
 
 impl SmallCoverage {
-    /// The sample rows from the first to the last that hold a covered sample; the mask must not be zero.
+    /// What a triangle covers whose box is `samples`, which must be small.
+    #[inline]
+    pub(crate) fn new([a, b, c]: [GridPoint; 3], samples: SampleBox, grid: SubpixelGrid, rules: Rules) -> Self {
+        let (column, row) = (samples.columns.start, samples.rows.start);
+        let mut coverage = Self { column, row, mask: 0 };
+        if samples.columns.is_empty() || samples.rows.is_empty() {
+            return coverage;
+        }
+        let area = edge_value(a, b, c);
+        if area == 0 {
+            return coverage;
+        }
+        let first = GridPoint {
+            x: grid.sample_coordinate(column),
+            y: grid.sample_coordinate(row),
+        };
+        let [b, c] = if area < 0 { [c, b] } else { [b, c] };
+        let edges = [
+            SmallEdge::new(a, b, first, grid, rules),
+            SmallEdge::new(b, c, first, grid, rules),
+            SmallEdge::new(c, a, first, grid, rules),
+        ];
+        let (wide, high) = (samples.columns.end - column > 4, samples.rows.end - row > 4);
+        coverage.mask = u64::from(quarter(&edges, 0, 0));
+        if wide {
+            coverage.mask |= u64::from(quarter(&edges, 4, 0)) << 4;
+        }
+        if high {
+            coverage.mask |= u64::from(quarter(&edges, 0, 4)) << 32;
+        }
+        if wide && high {
+            coverage.mask |= u64::from(quarter(&edges, 4, 4)) << 36;
+        }
+        coverage
+    }
+
+    /// The rows from the first to the last that hold a covered sample; the mask must not be zero.
+    #[inline]
     pub(crate) fn rows(self) -> Span {
         let bit = |index: u32| self.row + (index / 8).cast_signed();
         Span {
             start: bit(self.mask.trailing_zeros()),
             end: bit(self.mask.ilog2()) + 1,
+        }
+    }
+
+    /// The columns from the first to the last that hold a covered sample; the mask must not be zero.
+    #[inline]
+    pub(crate) fn columns(self) -> Span {
+        let halves = self.mask | self.mask >> 32;
+        let quarters = halves | halves >> 16;
+        let [bits, ..] = (quarters | quarters >> 8).to_le_bytes();
+        Span {
+            start: self.column + bits.trailing_zeros().cast_signed(),
+            end: self.column + 8 - bits.leading_zeros().cast_signed(),
+        }
+    }
+
+    /// The same bits `columns` to the right and `rows` down.
+    #[inline]
+    pub(crate) fn moved(self, columns: i32, rows: i32) -> Self {
+        Self {
+            column: self.column + columns,
+            row: self.row + rows,
+            mask: self.mask,
+        }
+    }
+
+    /// What of it lies in a rectangle, standing at or after the rectangle's first column and row.
+    pub(crate) fn within(self, columns: Span, rows: Span) -> Self {
+        let clip = |first: i32, span: Span| {
+            let start = (span.start - first).clamp(0, SMALL);
+            (start, (span.end - first).clamp(start, SMALL))
+        };
+        let ((left, right), (top, bottom)) = (clip(self.column, columns), clip(self.row, rows));
+        // `bits` ones from bit 0 on; a shift by all 64 would overflow.
+        let ones = |bits: i32| if bits == 64 { u64::MAX } else { (1 << bits) - 1 };
+        let in_columns = (ones(right) & !ones(left)) * 0x0101_0101_0101_0101;
+        let in_rows = ones(SMALL * bottom) & !ones(SMALL * top);
+        // Where nothing is left, the shift may be by all bits.
+        let shift = (SMALL * top + left).cast_unsigned();
+        Self {
+            column: self.column + left,
+            row: self.row + top,
+            mask: (self.mask & in_columns & in_rows).checked_shr(shift).unwrap_or(0),
+        }
+    }
+
+    /// Calls `visit` with every row that holds a bit and each run of bits side by side in it.
+    #[inline]
+    pub(crate) fn each_run(self, mut visit: impl FnMut(i32, Span)) {
+        let mut bits = self.mask;
+        while bits != 0 {
+            let first = bits.trailing_zeros();
+            let start = (first % 8).cast_signed();
+            // A run ends with its row.
+            let length = (bits >> first).trailing_ones().cast_signed().min(SMALL - start);
+            let column = self.column + start;
+            let columns = Span {
+                start: column,
+                end: column + length,
+            };
+            visit(self.row + (first / 8).cast_signed(), columns);
+            bits &= !(((1 << length) - 1) << first);
         }
     }
 
@@ -222,6 +323,63 @@ mod tests {
         })
         .budget_ms(600);
         assert!(small > 1000, "only {small} small triangles were compared");
+    }
+
+    #[test]
+    fn bits_are_cut_as_if_one_by_one() {
+        arbtest::arbtest(|u| {
+            let coverage = SmallCoverage {
+                column: u.int_in_range(-9..=3)?,
+                row: u.int_in_range(-9..=3)?,
+                mask: u.arbitrary()?,
+            };
+            let mut span = || -> Result<Span> {
+                let start = u.int_in_range(-12..=14)?;
+                Ok(Span {
+                    start,
+                    end: start + u.int_in_range(0..=20)?,
+                })
+            };
+            let (columns, rows) = (span()?, span()?);
+            let cut = coverage.within(columns, rows);
+            let has = |coverage: SmallCoverage, column: i32, row: i32| {
+                let (i, j) = (column - coverage.column, row - coverage.row);
+                (0..SMALL).contains(&i) && (0..SMALL).contains(&j) && coverage.mask >> (SMALL * j + i) & 1 == 1
+            };
+            let (mut across, mut down) = (Vec::new(), Vec::new());
+            for row in -30..40 {
+                for column in -30..40 {
+                    let inside =
+                        (columns.start..columns.end).contains(&column) && (rows.start..rows.end).contains(&row);
+                    let expected = inside && has(coverage, column, row);
+                    assert_eq!(
+                        has(cut, column, row),
+                        expected,
+                        "{coverage:?} in {columns:?} {rows:?}: {cut:?}"
+                    );
+                    if expected {
+                        across.push(column);
+                        down.push(row);
+                    }
+                }
+            }
+            let mut in_runs = Vec::new();
+            cut.each_run(|row, span| in_runs.extend((span.start..span.end).map(|column| (row, column))));
+            let one_by_one: Vec<_> = down.iter().copied().zip(across.iter().copied()).collect();
+            assert_eq!(in_runs, one_by_one, "runs of {cut:?}");
+            if cut.mask != 0 {
+                let ends = |found: &[i32]| (found.iter().min().copied(), found.iter().max().map(|last| last + 1));
+                let (columns, rows) = (cut.columns(), cut.rows());
+                assert_eq!(
+                    ends(&across),
+                    (Some(columns.start), Some(columns.end)),
+                    "columns of {cut:?}"
+                );
+                assert_eq!(ends(&down), (Some(rows.start), Some(rows.end)), "rows of {cut:?}");
+            }
+            Ok(())
+        })
+        .budget_ms(200);
     }
 
     #[test]

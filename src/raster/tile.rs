@@ -79,14 +79,14 @@ impl TileLayout {
         }
     }
 
+    /// Sides of a tile in pixels, as powers of two.
+    pub(crate) fn sides_log2(self) -> (u32, u32) {
+        (self.width_log2, self.height_log2)
+    }
+
     /// Rows of pixels in a row of tiles.
     pub(crate) fn tile_height(self) -> u32 {
         1 << self.height_log2
-    }
-
-    /// The number of the tile that holds a pixel, row by row.
-    pub(crate) fn tile_of(self, [x, y]: [u16; 2]) -> u32 {
-        (u32::from(y) >> self.height_log2) * self.columns + (u32::from(x) >> self.width_log2)
     }
 
     /// The tile columns or rows that a half-open, non-empty box of pixels touches, clipped to the frame.

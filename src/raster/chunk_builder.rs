@@ -1,0 +1,233 @@
+//! Screen-space primitives to the ops of a chunk: clipped, snapped, and left out where no sample is covered.
+
+use glam::DVec2;
+
+use super::display_list::{Chunk, Fill, LayerMark, ListContext, Op, Paint, ScreenTriangle, Stamp};
+use super::hairline::Hairline;
+use super::small::{SampleBox, SmallCoverage};
+use super::tile::PixelRect;
+use crate::color::{Premultiplied16, Rgba, unit_to_16};
+use crate::geometry::clip::{ClipVertex, ClippedTriangle, in_guard};
+use crate::geometry::edge::doubled_area;
+use crate::geometry::subpixel::floor_to_i32;
+
+/// Fills one chunk.
+#[derive(Debug)]
+pub struct ChunkBuilder<'a> {
+    context: &'a ListContext,
+    /// The samples of the frame.
+    frame: SampleBox,
+    chunk: Chunk,
+    source: u32,
+    /// The colour used last, as given and as stored.
+    color: (Rgba, Premultiplied16),
+}
+
+impl<'a> ChunkBuilder<'a> {
+    /// An empty chunk with room for some primitives.
+    pub fn new(context: &'a ListContext, primitives: usize) -> Self {
+        let stored = Premultiplied16::from_straight(Rgba::BLACK, context.rules);
+        Self {
+            context,
+            frame: context.samples(),
+            chunk: Chunk {
+                ops: Vec::with_capacity(primitives),
+                sources: Vec::with_capacity(primitives),
+                ..Chunk::default()
+            },
+            source: 0,
+            color: (Rgba::BLACK, stored),
+        }
+    }
+
+    /// Everything added from here on comes from the caller's primitive number `source`.
+    pub fn set_source(&mut self, source: u32) {
+        self.source = source;
+    }
+
+    /// The finished chunk.
+    pub fn finish(self) -> Chunk {
+        self.chunk
+    }
+
+    /// Adds a triangle in screen space; any finite coordinates.
+    #[inline]
+    pub fn triangle(&mut self, points: [DVec2; 3], fill: &Fill) {
+        if points.iter().all(|point| in_guard(*point)) {
+            self.snapped(points, fill);
+        } else {
+            self.clipped(points, fill);
+        }
+    }
+
+    /// Adds a triangle that reaches beyond the guard band.
+    #[cold]
+    fn clipped(&mut self, points: [DVec2; 3], fill: &Fill) {
+        if !points.iter().all(|point| point.is_finite()) || !self.may_show(points) {
+            return;
+        }
+        for corners in ClippedTriangle::new(points).triangles() {
+            self.snapped(corners.map(|corner| corner.point), &fill.at(&corners));
+        }
+    }
+
+    /// Adds a line one pixel wide; any finite coordinates.
+    pub fn hairline(&mut self, ends: [DVec2; 2], color: Rgba) {
+        let color = self.color(color);
+        if let Some(line) = Hairline::new(ends, self.context.size, color) {
+            let index = index(self.chunk.hairlines.len());
+            self.chunk.hairlines.push(line);
+            self.push(Op::Hairline(index));
+        }
+    }
+
+    /// Adds a single pixel.
+    pub fn point(&mut self, at: DVec2, color: Rgba) {
+        let (x, y) = (at.x.floor(), at.y.floor());
+        let [width, height] = self.context.size.map(f64::from);
+        if x >= 0.0 && x < width && y >= 0.0 && y < height {
+            let coverage = SmallCoverage {
+                column: floor_to_i32(x),
+                row: floor_to_i32(y),
+                mask: 1,
+            };
+            self.stamp(coverage, color, Op::Pixels);
+        }
+    }
+
+    /// Starts a transparent layer.
+    pub fn begin_layer(&mut self) {
+        self.layer(0, Op::BeginLayer);
+    }
+
+    /// Paints the layer over what is below it.
+    pub fn end_layer(&mut self, opacity: f32) {
+        self.layer(unit_to_16(opacity.clamp(0.0, 1.0)), Op::EndLayer);
+    }
+
+    fn layer(&mut self, opacity: u16, op: fn(u32) -> Op) {
+        let index = index(self.chunk.layers.len());
+        let area = PixelRect::NOTHING;
+        self.chunk.layers.push(LayerMark { area, opacity });
+        self.push(op(index));
+    }
+
+    #[inline]
+    fn push(&mut self, op: Op) {
+        self.chunk.ops.push(op);
+        self.chunk.sources.push(self.source);
+    }
+
+    /// Whether a triangle's box touches the frame at all.
+    fn may_show(&self, [a, b, c]: [DVec2; 3]) -> bool {
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        let frame = DVec2::new(f64::from(self.context.size[0]), f64::from(self.context.size[1]));
+        high.cmpge(DVec2::ZERO).all() && low.cmple(frame).all()
+    }
+
+    /// Adds a triangle inside the guard band, unless it covers no sample of the frame.
+    #[inline]
+    fn snapped(&mut self, points: [DVec2; 3], fill: &Fill) {
+        let (grid, rules) = (self.context.grid, self.context.rules);
+        let corners = points.map(|point| grid.snap(point));
+        let samples = SampleBox::new(corners, grid, rules);
+        let inside = samples.intersection(self.frame);
+        if inside.columns.is_empty() || inside.rows.is_empty() {
+            return;
+        }
+        if samples.is_small() {
+            let mut coverage = SmallCoverage::new(corners, samples, grid, rules);
+            if inside != samples {
+                coverage = coverage.within(self.frame.columns, self.frame.rows);
+            }
+            if coverage.mask == 0 {
+                return;
+            }
+            if let Fill::Solid(color) = *fill {
+                self.stamp(coverage, color, Op::Samples);
+                self.chunk.triangle_count += 1;
+                return;
+            }
+        } else if doubled_area(corners) == 0 {
+            return;
+        }
+        let paint = self.paint(fill);
+        let index = index(self.chunk.triangles.len());
+        self.chunk.triangles.push(ScreenTriangle { corners, paint });
+        self.push(Op::Triangle(index));
+        self.chunk.triangle_count += 1;
+    }
+
+    #[inline]
+    fn stamp(&mut self, coverage: SmallCoverage, color: Rgba, op: fn(u32) -> Op) {
+        let color = self.color(color);
+        let stamps = &mut self.chunk.stamps;
+        if stamps.is_empty() {
+            // What begins with one small primitive mostly goes on like that.
+            stamps.reserve(self.chunk.ops.capacity());
+        }
+        let index = index(stamps.len());
+        stamps.push(Stamp { coverage, color });
+        self.push(op(index));
+    }
+
+    /// A colour as it is stored; the same one twice costs nothing.
+    #[inline]
+    fn color(&mut self, color: Rgba) -> Premultiplied16 {
+        if color != self.color.0 {
+            self.color = (color, Premultiplied16::from_straight(color, self.context.rules));
+            self.chunk.translucent |= !self.color.1.is_opaque();
+        }
+        self.color.1
+    }
+
+    /// The index of a paint; runs of the same solid colour share one.
+    fn paint(&mut self, fill: &Fill) -> u32 {
+        let paint = match *fill {
+            Fill::Solid(color) => Paint::Solid(self.color(color)),
+            Fill::Vertex(colors) => Paint::Vertex(colors.map(|color| [color.r, color.g, color.b, color.a])),
+            Fill::Texture { texture, uv, opacity } => Paint::Texture { texture, uv, opacity },
+        };
+        if self.chunk.paints.last() != Some(&paint) {
+            self.chunk.translucent |= paint.is_translucent();
+            self.chunk.paints.push(paint);
+        }
+        index(self.chunk.paints.len() - 1)
+    }
+}
+
+/// A chunk holds far fewer than `2^32` of anything: its input is a slice of at most 65 536 primitives, each of which
+/// adds at most five triangles.
+fn index(value: usize) -> u32 {
+    u32::try_from(value).unwrap_or(u32::MAX)
+}
+
+impl Fill {
+    /// The same fill on a part of the triangle.
+    fn at(&self, corners: &[ClipVertex; 3]) -> Self {
+        match *self {
+            Self::Solid(_) => *self,
+            Self::Vertex(colors) => Self::Vertex(corners.map(|corner| {
+                let mix = |channel: fn(&Rgba) -> f32| blend(corner.weights, colors.each_ref().map(channel));
+                Rgba {
+                    r: mix(|c| c.r),
+                    g: mix(|c| c.g),
+                    b: mix(|c| c.b),
+                    a: mix(|c| c.a),
+                }
+            })),
+            Self::Texture { texture, uv, opacity } => {
+                let uv = corners.map(|corner| [0, 1].map(|i| blend(corner.weights, uv.map(|uv| uv[i]))));
+                Self::Texture { texture, uv, opacity }
+            }
+        }
+    }
+}
+
+/// A barycentric mix in 64 bits.
+#[expect(clippy::cast_possible_truncation, reason = "attributes are 32-bit floats")]
+fn blend(weights: [f64; 3], values: [f32; 3]) -> f32 {
+    // Relative to the first corner, so that equal values stay equal.
+    let first = f64::from(values[0]);
+    (first + weights[1] * (f64::from(values[1]) - first) + weights[2] * (f64::from(values[2]) - first)) as f32
+}

@@ -1,12 +1,13 @@
 //! What a frame costs, ours and the peers': `cargo bench --bench frames -- [PART ...]`.
 //!
-//! Parts: `stages`, `flat`, `slivers`, `textured`, `million`, `points`; all of them without an argument. The last
+//! Parts: `parts`, `stages`, `flat`, `slivers`, `textured`, `million`, `points`; all of them without an argument. The last
 //! lines are the table of the README. `--export FOLDER` instead times us and writes what `benches/llvmpipe` draws.
 
 mod export;
 mod flat;
 mod meshes;
 mod ours;
+mod parts;
 mod peers;
 mod race;
 mod scenes;
@@ -33,7 +34,13 @@ fn main() {
     }
     let wanted = |part: &str| words.is_empty() || words.iter().any(|word| word == part);
     let mut rows = Vec::new();
-    say("milliseconds, median (minimum); /1: one thread; @16: sixteen samples per pixel");
+    if wanted("parts") {
+        parts::parts();
+    }
+    if wanted("stages") {
+        parts::stages();
+    }
+    say("\nmilliseconds, median (minimum); /1: one thread; @16: sixteen samples per pixel");
     if wanted("flat") {
         rows.extend(flat::flat(BUDGET));
     }
@@ -49,5 +56,7 @@ fn main() {
     if wanted("points") {
         meshes::points(BUDGET);
     }
-    say(&format!("\n{}", markdown(&rows)));
+    if !rows.is_empty() {
+        say(&format!("\n{}", markdown(&rows)));
+    }
 }

@@ -1,10 +1,12 @@
 //! What a frame costs, ours and the peers': `cargo bench --bench frames -- [PART ...]`.
 //!
-//! Parts: `parts`, `stages`, `flat`, `slivers`, `textured`, `million`, `points`; all of them without an argument. The last
+//! Parts: `parts`, `stages`, `flat`, `slivers`, `textured`, `million`, `points`,
+//! `memory`; all of them without an argument. The last
 //! lines are the table of the README. `--export FOLDER` instead times us and writes what `benches/llvmpipe` draws.
 
 mod export;
 mod flat;
+mod memory;
 mod meshes;
 mod ours;
 mod parts;
@@ -33,6 +35,8 @@ fn main() {
         return;
     }
     let wanted = |part: &str| words.is_empty() || words.iter().any(|word| word == part);
+    // First, while the allocator holds nothing of others.
+    let memory = if wanted("memory") { memory::memory() } else { Vec::new() };
     let mut rows = Vec::new();
     if wanted("parts") {
         parts::parts();
@@ -56,6 +60,7 @@ fn main() {
     if wanted("points") {
         meshes::points(BUDGET);
     }
+    rows.extend(memory);
     if !rows.is_empty() {
         say(&format!("\n{}", markdown(&rows)));
     }

@@ -17,12 +17,28 @@ use std::process::ExitCode;
 use arguments::{Arguments, Verb};
 use failure::Failure;
 
+use crate::simd;
+
+/// The environment variable that fixes the vector instructions: for measurements that must not depend on the machine.
+const SIMD_VARIABLE: &str = "RASTERSCOPE_SIMD";
+
 /// Runs the program with its arguments, its own name first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    match arguments::parse(arguments).and_then(|arguments| execute(&arguments)) {
+    let done = arguments::parse(arguments).and_then(|arguments| {
+        choose_simd()?;
+        execute(&arguments)
+    });
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
+}
+
+fn choose_simd() -> Result<(), Failure> {
+    let Some(name) = std::env::var_os(SIMD_VARIABLE) else {
+        return Ok(());
+    };
+    simd::choose(&name.to_string_lossy()).map_err(|error| Failure::input(format!("{SIMD_VARIABLE}: {error}")))
 }
 
 fn execute(arguments: &Arguments) -> Result<(), Failure> {

@@ -213,6 +213,35 @@ fn architecture_doors_open_downwards_only() {
     assert!(seen.len() >= 8, "the rooms were looked at: {seen:?}");
 }
 
+/// What the benchmarks may use: the engine, as any program could.
+const BENCHES: Room = Room {
+    name: "benches",
+    rooms: &[
+        "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
+    ],
+    crates: &["serde_json"],
+};
+
+#[test]
+fn architecture_benches_use_the_engine_only() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut all = Vec::new();
+    files(&root.join("benches"), &mut all);
+    let mut wrong = Vec::new();
+    for path in &all {
+        let text = fs::read_to_string(path).expect("readable source");
+        for (number, line) in (1..).zip(text.lines()) {
+            wrong.extend(violation(&BENCHES, line).map(|what| format!("{}:{number}: {what}", path.display())));
+        }
+    }
+    assert!(wrong.is_empty(), "walls broken:\n{}", wrong.join("\n"));
+    assert!(all.len() >= 5, "the benchmarks were looked at: {all:?}");
+    assert!(
+        violation(&BENCHES, "use rasterscope::viewer::Viewer;").is_some(),
+        "the check bites"
+    );
+}
+
 #[test]
 fn architecture_checker_bites() {
     let room = |name: &str| ROOMS.iter().find(|room| room.name == name).expect("a room");

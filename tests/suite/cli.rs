@@ -264,6 +264,44 @@ fn cli_bench_prints_json() {
 }
 
 #[test]
+fn cli_draws_the_same_bytes_with_every_simd_level() {
+    let folder = folder_with(&[("a.svg", SCENE)]);
+    let draw = |level: &str| {
+        let picture = format!("{level}.png");
+        let output = Command::new(env!("CARGO_BIN_EXE_rasterscope"))
+            .current_dir(folder.path())
+            .env("RASTERSCOPE_SIMD", level)
+            .args([
+                "render",
+                "a.svg",
+                "-o",
+                &picture,
+                "--size",
+                "80x60",
+                "--sample-rate",
+                "4",
+            ])
+            .output()
+            .expect("the program starts");
+        (output, fs::read(folder.path().join(picture)).ok())
+    };
+    let (_, expected) = draw("auto");
+    assert!(expected.is_some(), "a picture");
+    for (name, _) in rasterscope::simd::available() {
+        let (output, picture) = draw(name);
+        assert!(output.status.success(), "{name}: {output:?}");
+        assert_eq!(picture, expected, "{name}");
+    }
+    let (output, picture) = draw("mmx");
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!((output.status.code(), picture), (Some(2), None), "{stderr}");
+    assert!(
+        stderr.contains("RASTERSCOPE_SIMD") && stderr.contains("baseline"),
+        "the cure: {stderr}"
+    );
+}
+
+#[test]
 fn cli_bench_times_several_scenes() {
     let folder = folder_with(&[("a.svg", SCENE), ("b.svg", &SCENE.replace("40", "50"))]);
     let options = ["bench", "a.svg", "b.svg", "--size", "20x10", "--frames", "2"];

@@ -401,3 +401,179 @@ fn in_tile(stamp: SmallCoverage, entry: Entry, [x, y]: [i32; 2]) -> Entry {
 fn place(coordinate: i32) -> usize {
     coordinate.max(0).cast_unsigned() as usize
 }
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+    use glam::DVec2;
+
+    use super::super::chunk_builder::ChunkBuilder;
+    use super::super::display_list::Fill;
+    use super::super::entry::Work;
+    use super::super::rows::SortedTriangle;
+    use super::super::tile::TileLayout;
+    use super::super::{RasterSettings, SampleRate};
+    use super::*;
+    use crate::color::Rgba;
+    use crate::rules::Rules;
+    use crate::texture::SamplingSettings;
+
+    const SIZE: [u32; 2] = [150, 90];
+
+    fn settings(side: u32, rules: Rules) -> RasterSettings {
+        RasterSettings {
+            rate: SampleRate::new(side * side).expect("a square number"),
+            sampling: SamplingSettings {
+                rules,
+                ..SamplingSettings::default()
+            },
+            background: Rgba::WHITE,
+        }
+    }
+
+    fn binned(context: &ListContext, triangles: &[[DVec2; 3]]) -> (Chunk, Bins) {
+        let mut builder = ChunkBuilder::new(context, triangles.len());
+        for triangle in triangles {
+            builder.triangle(*triangle, &Fill::Solid(Rgba::BLACK));
+        }
+        let chunk = builder.finish();
+        let chunks = [chunk];
+        let plan = Plan::new(&chunks, context, &[]);
+        let groups = plan.groups();
+        assert_eq!(groups.len(), 1, "few entries are one group");
+        let bins = plan.bins(&chunks, context, &[], groups[0]).pop().expect("one chunk");
+        let [chunk] = chunks;
+        (chunk, bins)
+    }
+
+    /// The samples that a chunk's triangles cover in a rectangle of pixels, counted from its first, by the row walker.
+    fn covered(chunk: &Chunk, context: &ListContext, rect: PixelRect) -> Vec<(i32, i32)> {
+        let side = context.grid.side();
+        let scaled = |span: Span| Span {
+            start: span.start * side,
+            end: span.end * side,
+        };
+        let (columns, rows) = (scaled(rect.x), scaled(rect.y));
+        let mut samples = Vec::new();
+        for triangle in &chunk.triangles {
+            let Some(sorted) = SortedTriangle::new(triangle.corners, context.rules) else {
+                continue;
+            };
+            let inside = sorted.rows(context.grid).intersection(rows);
+            if inside.is_empty() {
+                continue;
+            }
+            let mut walker = sorted.walk_from(context.grid, inside.start);
+            for row in inside.start..inside.end {
+                let span = walker.next_span(columns);
+                samples.extend((span.start..span.end).map(|column| (column - columns.start, row - rows.start)));
+            }
+        }
+        samples
+    }
+
+    fn triangle(u: &mut Unstructured<'_>) -> Result<[DVec2; 3]> {
+        // Around the frame, on a lattice full of ties, far beyond it, or at the ends of the guard band.
+        let scale = *u.choose(&[0.25, 1.0, 1.0, 7.3, 300.0, 40_960.0 / 200.0, 1e6, 1e28])?;
+        let mut point = || -> Result<DVec2> {
+            let mut at = || Ok(f64::from(u.int_in_range(-200..=200)?) * 0.5);
+            Ok(DVec2::new(at()?, at()?) * scale + DVec2::new(70.0, 40.0))
+        };
+        Ok([point()?, point()?, point()?])
+    }
+
+    #[test]
+    fn bins_hold_every_tile_that_a_triangle_touches_and_mark_none_it_leaves_open() {
+        let (mut covering, mut crossing) = (0_u32, 0_u32);
+        arbtest::arbtest(|u| {
+            let settings = settings(u.int_in_range(1..=5)?, *u.choose(&Rules::ALL)?);
+            let sides = *u.choose(&[(3, 3), (6, 5), (2, 4), (0, 1)])?;
+            let context = ListContext::with_tiles(SIZE, &settings, TileLayout::new(sides, SIZE));
+            let (chunk, bins) = binned(&context, &[triangle(u)?]);
+            for row in 0..context.tiles.rows {
+                for column in 0..context.tiles.columns {
+                    let entries = bins.of_tile((row * context.tiles.columns + column) as usize);
+                    let rect = context.tiles.pixels(column, row, SIZE);
+                    let found = covered(&chunk, &context, rect);
+                    let touches = entries.iter().any(|entry| matches!(entry.work(&chunk), Work::Flat(..)));
+                    assert!(
+                        touches || found.is_empty(),
+                        "tile {column}, {row} is missing: {chunk:?}"
+                    );
+                    let side = context.grid.side();
+                    let all = (rect.x.end - rect.x.start) * side * (rect.y.end - rect.y.start) * side;
+                    for entry in entries {
+                        assert!(entry.is_opaque(), "black is opaque");
+                        assert_eq!(entry.covers_tile(), entry.hides_tile(), "what covers, hides");
+                        if entry.covers_tile() {
+                            assert_eq!(found.len(), place(all), "tile {column}, {row} is open: {chunk:?}");
+                        }
+                        covering += u32::from(entry.covers_tile());
+                        crossing += u32::from(!entry.covers_tile());
+                    }
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(700);
+        assert!(
+            covering > 100 && crossing > 100,
+            "{covering} covering, {crossing} crossing entries"
+        );
+    }
+
+    #[test]
+    fn stamps_in_tiles_are_the_samples_of_their_triangle() {
+        arbtest::arbtest(|u| {
+            let settings = settings(u.int_in_range(1..=4)?, *u.choose(&Rules::ALL)?);
+            let sides = *u.choose(&[(3, 3), (6, 5), (1, 2), (0, 0)])?;
+            let context = ListContext::with_tiles(SIZE, &settings, TileLayout::new(sides, SIZE));
+            let side = f64::from(context.grid.side());
+            let corner = DVec2::new(
+                f64::from(u.int_in_range(-40..=1500)?),
+                f64::from(u.int_in_range(-40..=900)?),
+            ) / 10.0;
+            let mut point = || -> Result<DVec2> {
+                let mut at = || Ok(f64::from(u.int_in_range(0..=28)?) / 4.0);
+                Ok(corner + DVec2::new(at()?, at()?) / side)
+            };
+            let points = [point()?, point()?, point()?];
+            let (chunk, bins) = binned(&context, &[points]);
+            // The same triangle, kept as one.
+            let corners = points.map(|point| context.grid.snap(point));
+            let mut kept = Chunk::default();
+            kept.triangles
+                .push(super::super::display_list::ScreenTriangle { corners, paint: 0 });
+            assert!(chunk.triangles.is_empty(), "{points:?} is small");
+            for row in 0..context.tiles.rows {
+                for column in 0..context.tiles.columns {
+                    let mut found = Vec::new();
+                    for entry in bins.of_tile((row * context.tiles.columns + column) as usize) {
+                        let Work::Samples(coverage, _) = entry.work(&chunk) else {
+                            panic!("{entry:?} is a stamp of samples");
+                        };
+                        coverage.each_run(|row, span| found.extend((span.start..span.end).map(|column| (column, row))));
+                    }
+                    let expected = covered(&kept, &context, context.tiles.pixels(column, row, SIZE));
+                    assert_eq!(found, expected, "{points:?} in tile {column}, {row}");
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(500);
+    }
+
+    #[test]
+    fn slivers_cost_the_tiles_they_touch() {
+        let settings = settings(1, Rules::Standard);
+        let size = [1024, 1024];
+        let context = ListContext::with_tiles(size, &settings, TileLayout::new((5, 5), size));
+        let far = |x: f64, y: f64| DVec2::new(x, y);
+        let (_, bins) = binned(&context, &[[DVec2::ZERO, far(1023.0, 1024.0), far(1024.0, 1023.0)]]);
+        let entries = bins.entries.len();
+        assert!(
+            (32..=3 * 32).contains(&entries),
+            "{entries} entries along a diagonal of 32 tiles"
+        );
+    }
+}

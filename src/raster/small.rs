@@ -102,16 +102,13 @@ impl SmallCoverage {
             SmallEdge::new(b, c, first, grid, rules),
             SmallEdge::new(c, a, first, grid, rules),
         ];
-        let (wide, high) = (samples.columns.end - column > 4, samples.rows.end - row > 4);
-        coverage.mask = u64::from(quarter(&edges, 0, 0));
-        if wide {
-            coverage.mask |= u64::from(quarter(&edges, 4, 0)) << 4;
-        }
-        if high {
-            coverage.mask |= u64::from(quarter(&edges, 0, 4)) << 32;
-        }
-        if wide && high {
-            coverage.mask |= u64::from(quarter(&edges, 4, 4)) << 36;
+        let wide = samples.columns.end - column > 4;
+        for j in 0..samples.rows.end - row {
+            let mut bits = quad(&edges, 0, j);
+            if wide {
+                bits |= quad(&edges, 4, j) << 4;
+            }
+            coverage.mask |= u64::from(bits) << (SMALL * j);
         }
         coverage
     }
@@ -218,20 +215,18 @@ impl SmallEdge {
     }
 }
 
-/// The bits of four by four samples from `column` and `row` on.
+/// The bits of four samples side by side, from column `i` of row `j` on.
 #[inline]
-fn quarter(edges: &[SmallEdge; 3], column: i32, row: i32) -> u32 {
-    let start = edges.map(|edge| edge.value + edge.right * column + edge.down * row);
-    let mut outside = [0_u32; 4];
-    for j in 0..4 {
-        for (i, outside) in (0..4).zip(&mut outside) {
-            let value = |k: usize| start[k] + edges[k].right * i + edges[k].down * j;
-            // All ones where any of the three is below zero.
-            let sign = (value(0) | value(1) | value(2)) >> 31;
-            *outside |= sign.cast_unsigned() & (1 << (SMALL * j + i));
-        }
+fn quad(edges: &[SmallEdge; 3], i: i32, j: i32) -> u32 {
+    let start = edges.map(|edge| edge.value + edge.right * i + edge.down * j);
+    let mut inside = 0;
+    for i in 0..4 {
+        let value = |k: usize| start[k] + edges[k].right * i;
+        // The sign is clear where none of the three is below zero.
+        let outside = (value(0) | value(1) | value(2)).cast_unsigned() >> 31;
+        inside |= (1 - outside) << i;
     }
-    !(outside[0] | outside[1] | outside[2] | outside[3]) & 0x0F0F_0F0F
+    inside
 }
 
 #[cfg(test)]

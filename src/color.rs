@@ -99,6 +99,12 @@ impl Premultiplied16 {
         Self([channel(color.r), channel(color.g), channel(color.b), unit_to_16(alpha)])
     }
 
+    /// From premultiplied bytes; exact.
+    #[inline]
+    pub fn from_bytes(channels: [u8; 4]) -> Self {
+        Self(channels.map(Into16::into_16))
+    }
+
     /// From premultiplied channels in `0.0..=255.0`, such as filtered texels; rounded to nearest, or truncated to bytes
     /// under the course's rules.
     #[inline]

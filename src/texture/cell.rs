@@ -11,12 +11,21 @@ use super::{MipLevel, PixelSampling};
 pub(super) const FRACTION_BITS: u32 = 15;
 /// The sum of the weights of one sample. Fits a signed 16-bit number.
 pub(super) const MASS: i32 = 1 << MASS_BITS;
-const MASS_BITS: u32 = 14;
+pub(super) const MASS_BITS: u32 = 14;
 /// From a sum of bytes times weights to the 16 bits of a stored channel, which are 256 per byte.
 pub(super) const SUM_SHIFT: u32 = MASS_BITS - 8;
 /// A 64-bit float of this size has [`FRACTION_BITS`] bits left for fractions: adding it to a coordinate rounds the
 /// coordinate to them, and they stand in the lower bits of the sum.
 pub(super) const TO_FIXED: f64 = (1_u64 << (52 - FRACTION_BITS)) as f64;
+
+/// Where the first texel's centre lies from the corner, in texels, for whole coordinates to be what `pixel` looks for:
+/// corners of texels, or centres.
+pub(super) fn first_centre(pixel: PixelSampling) -> f64 {
+    match pixel {
+        PixelSampling::Nearest => 0.0,
+        PixelSampling::Bilinear => 0.5,
+    }
+}
 
 /// A coordinate in texels, clamped to `0..=last` and rounded to fixed point. A coordinate that is no number is 0.
 #[inline]

@@ -5,9 +5,8 @@ use std::io::Cursor;
 use image::{ImageReader, Limits};
 
 use super::MipLevel;
+use super::pyramid::MAX_SIDE;
 
-/// Longest side of an image, in texels.
-const MAX_SIDE: u32 = 16_384;
 /// Memory that decoding may use, in bytes.
 const MAX_BYTES: u64 = 1 << 30;
 

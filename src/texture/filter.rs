@@ -2,11 +2,10 @@
 
 use glam::DVec2;
 
-use super::cell;
-use super::sampler::LevelChoice;
+use super::sampler::{LevelChoice, mass};
 use super::{LevelSampling, MipLevel, MipPyramid, PixelSampling, UvMap};
+use super::{cell, points, sums};
 use crate::color::Premultiplied16;
-use crate::rules::Rules;
 use crate::simd::Level;
 
 /// Coefficients beyond this are no triangle's: with them, sums of products could become infinite or no number.
@@ -58,28 +57,35 @@ struct FilterLevel<'a> {
     dy: DVec2,
 }
 
-/// Sample columns and rows counted from the pivot of a map.
+/// A level as the lists of one call see it: counted in samples from the origin of their grid.
 #[derive(Clone, Copy, Debug)]
-struct Grid {
-    /// The sample `[0, 0]` of a list, relative to the pivot, in samples.
-    first: DVec2,
-    /// Samples along one side of a pixel.
-    side: f64,
+pub(super) struct GridLevel<'a> {
+    pub(super) level: &'a MipLevel,
+    /// Its part of [`cell::MASS`].
+    pub(super) mass: i32,
+    pub(super) x: Axis,
+    pub(super) y: Axis,
 }
 
-impl Grid {
-    fn new(pivot: DVec2, grid: SampleGrid) -> Self {
-        /// The finest part of a sample that a pivot is rounded to, far below the grid that vertices lie on: it takes
-        /// back what dividing by `side` lost, so that distances are exact.
-        const UNITS: f64 = (1 << 20) as f64;
-        let side = f64::from(grid.side);
-        let pivot = (pivot * side * UNITS).round() / UNITS;
-        let origin = DVec2::new(f64::from(grid.origin[0]), f64::from(grid.origin[1]));
-        Self {
-            first: origin * side + 0.5 - pivot,
-            side,
-        }
-    }
+/// One coordinate of a level, in texels, as an affine function of sample column and row relative to the pivot.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Axis {
+    pub(super) at_pivot: f64,
+    /// Change per sample to the right, and down.
+    pub(super) right: f64,
+    pub(super) down: f64,
+    /// The greatest coordinate, at the centre of the last texel.
+    pub(super) last: f64,
+}
+
+/// All that a kernel needs for the lists of one call.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plan<'a> {
+    pub(super) pixel: PixelSampling,
+    /// Sample `[0, 0]` relative to the pivot, in samples.
+    pub(super) first: DVec2,
+    pub(super) finer: GridLevel<'a>,
+    pub(super) coarser: Option<GridLevel<'a>>,
 }
 
 impl<'a> Filter<'a> {
@@ -88,7 +94,7 @@ impl<'a> Filter<'a> {
         let levels = pyramid.levels();
         let size = DVec2::new(f64::from(levels[0].width()), f64::from(levels[0].height()));
         let choice = LevelChoice::new(&map.footprint(), size, pyramid.last_level(), level);
-        let mass = choice.next_mass();
+        let mass = mass(choice.next_weight);
         let prepare = |number: usize, mass| FilterLevel::new(&levels[number], mass, map, pixel);
         let (finer, coarser) = match mass {
             0 => (prepare(choice.level, cell::MASS), None),
@@ -111,21 +117,13 @@ impl<'a> Filter<'a> {
     /// `points[i]` is a sample column and row counted from the first sample of the grid's origin; sample column `c` of
     /// the screen lies at `(c + 0.5) / side`. The colour at `points[i]` is written to `out[i]`.
     pub fn points(&self, simd: Level, grid: SampleGrid, points: &[[u16; 2]], out: &mut [Premultiplied16]) {
-        let _ = simd;
-        let grid = Grid::new(self.pivot, grid);
-        for (color, point) in out.iter_mut().zip(points) {
-            *color = self.point(&grid, *point);
-        }
+        points::filter(simd, &self.plan(grid), points, out);
     }
 
     /// As [`Filter::points`], but as pixels `0xAARRGGBB`: [`Premultiplied16::to_pixel`] of the colours, which must be
     /// opaque.
     pub fn pixels(&self, simd: Level, grid: SampleGrid, points: &[[u16; 2]], out: &mut [u32]) {
-        let _ = simd;
-        let grid = Grid::new(self.pivot, grid);
-        for (pixel, point) in out.iter_mut().zip(points) {
-            *pixel = self.point(&grid, *point).to_pixel(Rules::Standard);
-        }
+        points::filter_pixels(simd, &self.plan(grid), points, out);
     }
 
     /// The sums of the premultiplied colours over the samples of pixels, channels as in [`Premultiplied16`]. The sum over
@@ -135,49 +133,30 @@ impl<'a> Filter<'a> {
     /// small enough: a sum may differ from the sum of [`Filter::points`] by rounding, far below one level of a byte
     /// per sample. Where every sample reads the same colour `c`, it is exactly the number of samples times `256 c`.
     pub fn sums(&self, simd: Level, grid: SampleGrid, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
-        let _ = simd;
-        let side = grid.side;
-        let grid = Grid::new(self.pivot, grid);
-        for (i, (sum, pixel)) in sums.iter_mut().zip(list.pixels).enumerate() {
-            *sum = [0; 4];
-            for j in 0..side * side {
-                if list.masks.is_none_or(|masks| masks[i] >> j & 1 == 1) {
-                    let at = [
-                        u32::from(pixel[0]) * side + j % side,
-                        u32::from(pixel[1]) * side + j / side,
-                    ];
-                    let color = self.point_at(&grid, at.map(f64::from));
-                    for (sum, channel) in sum.iter_mut().zip(color.0) {
-                        *sum += u32::from(channel);
-                    }
-                }
-            }
-        }
+        sums::sum(simd, &self.plan(grid), grid.side, list, sums);
     }
 
-    fn point(&self, grid: &Grid, point: [u16; 2]) -> Premultiplied16 {
-        self.point_at(grid, point.map(f64::from))
-    }
-
-    fn point_at(&self, grid: &Grid, point: [f64; 2]) -> Premultiplied16 {
-        let from_pivot = grid.first + DVec2::from_array(point);
-        let mut sums = [0; 4];
-        for level in [Some(&self.finer), self.coarser.as_ref()].into_iter().flatten() {
-            let at = level.fixed(from_pivot, grid.side);
-            cell::add(level.level, self.pixel, at, level.mass, &mut sums);
+    pub(super) fn plan(&self, grid: SampleGrid) -> Plan<'a> {
+        /// The finest part of a sample that a pivot is rounded to, far below the grid that vertices lie on: it takes
+        /// back what dividing by `side` lost, so that distances are exact.
+        const UNITS: f64 = (1 << 20) as f64;
+        let side = f64::from(grid.side);
+        let pivot = (self.pivot * side * UNITS).round() / UNITS;
+        let origin = DVec2::new(f64::from(grid.origin[0]), f64::from(grid.origin[1]));
+        Plan {
+            pixel: self.pixel,
+            first: origin * side + 0.5 - pivot,
+            finer: self.finer.on_grid(side),
+            coarser: self.coarser.map(|level| level.on_grid(side)),
         }
-        Premultiplied16(sums.map(cell::to_channel))
     }
 }
 
 impl<'a> FilterLevel<'a> {
     fn new(level: &'a MipLevel, mass: i32, map: &UvMap, pixel: PixelSampling) -> Self {
         let size = DVec2::new(f64::from(level.width()), f64::from(level.height()));
-        let centre = match pixel {
-            PixelSampling::Nearest => 0.0,
-            PixelSampling::Bilinear => 0.5,
-        };
-        let (at_pivot, dx, dy) = (map.uv * size - centre, map.dx * size, map.dy * size);
+        let at_pivot = map.uv * size - cell::first_centre(pixel);
+        let (dx, dy) = (map.dx * size, map.dy * size);
         let usable = |vector: DVec2| vector.abs().max_element() < LARGEST && !vector.is_nan();
         let (at_pivot, dx, dy) = if usable(at_pivot) && usable(dx) && usable(dy) {
             (at_pivot, dx, dy)
@@ -193,14 +172,19 @@ impl<'a> FilterLevel<'a> {
         }
     }
 
-    /// Where a sample lies, in fixed point; `from_pivot` in samples.
-    fn fixed(&self, from_pivot: DVec2, side: f64) -> [u32; 2] {
-        let (dx, dy) = (self.dx / side, self.dy / side);
-        let at = (self.at_pivot + from_pivot.x * dx) + from_pivot.y * dy;
-        [
-            cell::to_fixed(at.x, f64::from(self.level.width() - 1)),
-            cell::to_fixed(at.y, f64::from(self.level.height() - 1)),
-        ]
+    fn on_grid(&self, side: f64) -> GridLevel<'a> {
+        let axis = |at_pivot, right: f64, down: f64, size: u32| Axis {
+            at_pivot,
+            right: right / side,
+            down: down / side,
+            last: f64::from(size - 1),
+        };
+        GridLevel {
+            level: self.level,
+            mass: self.mass,
+            x: axis(self.at_pivot.x, self.dx.x, self.dy.x, self.level.width()),
+            y: axis(self.at_pivot.y, self.dx.y, self.dy.y, self.level.height()),
+        }
     }
 }
 

@@ -40,7 +40,7 @@ impl Sampler<'_> {
     #[inline]
     fn lanes_of_level(&self, level: &MipLevel, u: &[f32; LANES], v: &[f32; LANES]) -> [[f32; 4]; LANES] {
         let texels = level.texels();
-        let width = level.width();
+        let (width, stride) = (level.width(), level.stride());
         match self.pixel {
             PixelSampling::Nearest => {
                 let (scale, shift) = match self.rules {
@@ -49,7 +49,7 @@ impl Sampler<'_> {
                 };
                 let x = between(u, width, scale, shift).first;
                 let y = between(v, level.height(), scale, shift).first;
-                std::array::from_fn(|i| texels[(y[i] * width + x[i]) as usize].map(f32::from))
+                std::array::from_fn(|i| texels[(y[i] * stride + x[i]) as usize].map(f32::from))
             }
             PixelSampling::Bilinear => {
                 let (scale, shift) = match self.rules {
@@ -59,7 +59,7 @@ impl Sampler<'_> {
                 let x = between(u, width, scale, shift);
                 let y = between(v, level.height(), scale, shift);
                 std::array::from_fn(|i| {
-                    let texel = |x: u32, y: u32| texels[(y * width + x) as usize].map(f32::from);
+                    let texel = |x: u32, y: u32| texels[(y * stride + x) as usize].map(f32::from);
                     let upper = lerp(
                         texel(x.first[i], y.first[i]),
                         texel(x.second[i], y.first[i]),
@@ -138,7 +138,7 @@ mod tests {
             }
             let together = sampler.sample_lanes(&us, &vs);
             for i in 0..LANES {
-                let alone = sampler.sample(us[i], vs[i]).map(f32::to_bits);
+                let alone = sampler.sample_floats(us[i], vs[i]).map(f32::to_bits);
                 assert_eq!(
                     together[i].map(f32::to_bits),
                     alone,

@@ -3,17 +3,23 @@
 mod cell;
 mod decode;
 mod filter;
+mod footing;
 mod footprint;
 mod lanes;
+#[cfg(test)]
+mod oracle;
+mod points;
 mod pyramid;
 mod sampler;
+mod sums;
+mod tails;
 mod uv_map;
 
 pub use decode::DecodeError;
 pub use filter::{Filter, PixelList, SampleGrid};
 pub use footprint::Footprint;
 pub use lanes::LANES;
-pub use pyramid::{MipLevel, MipPyramid};
+pub use pyramid::{MAX_SIDE, MipLevel, MipPyramid};
 pub use sampler::{LevelChoice, Sampler, SamplingSettings};
 pub use uv_map::UvMap;
 

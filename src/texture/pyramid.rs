@@ -2,11 +2,23 @@
 
 use rayon::prelude::*;
 
+/// The longest side of a level, in texels.
+pub const MAX_SIDE: u32 = 16_384;
+
+/// Texels after the last row that kernels may read and never use: a block of 4 x 4 texels that starts at the last one
+/// reaches 3 rows and 4 texels further.
+fn padding(stride: u32) -> usize {
+    3 * stride as usize + 4
+}
+
 /// One resolution of an image: `width x height` premultiplied RGBA texels in rows from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MipLevel {
     width: u32,
     height: u32,
+    /// Texels from one row to the next.
+    stride: u32,
+    /// The rows, and a padding.
     texels: Vec<[u8; 4]>,
 }
 
@@ -34,11 +46,19 @@ impl MipLevel {
     /// A level of `width` x `height` premultiplied RGBA texels in rows from the top.
     ///
     /// # Panics
-    /// When a side is zero or the number of texels is not their product.
-    pub fn new(width: u32, height: u32, texels: Vec<[u8; 4]>) -> Self {
+    /// When a side is zero or above [`MAX_SIDE`], or the number of texels is not their product.
+    pub fn new(width: u32, height: u32, mut texels: Vec<[u8; 4]>) -> Self {
         assert!(width > 0 && height > 0, "a level has at least one texel");
+        assert!(width.max(height) <= MAX_SIDE, "a side has at most {MAX_SIDE} texels");
         assert_eq!(texels.len(), width as usize * height as usize, "one colour per texel");
-        Self { width, height, texels }
+        let stride = width;
+        texels.resize(texels.len() + padding(stride), [0; 4]);
+        Self {
+            width,
+            height,
+            stride,
+            texels,
+        }
     }
 
     /// Texels in a row.
@@ -56,17 +76,30 @@ impl MipLevel {
     pub fn texel(&self, x: i32, y: i32) -> [u8; 4] {
         let x = x.max(0).cast_unsigned().min(self.width - 1);
         let y = y.max(0).cast_unsigned().min(self.height - 1);
-        self.texels[y as usize * self.width as usize + x as usize]
+        self.texels[y as usize * self.stride as usize + x as usize]
     }
 
-    /// All texels, row by row.
+    /// All texels, row by row, and a padding: a block of 4 x 4 texels may be read wherever it starts in the level.
     #[inline]
     pub(super) fn texels(&self) -> &[[u8; 4]] {
         &self.texels
     }
 
+    /// Texels from one row to the next.
+    #[inline]
+    pub(super) fn stride(&self) -> u32 {
+        self.stride
+    }
+
+    /// The rows without padding.
+    fn rows(&self) -> impl IndexedParallelIterator<Item = &[[u8; 4]]> {
+        let used = self.stride as usize * self.height as usize;
+        let rows = self.texels[..used].par_chunks_exact(self.stride as usize);
+        rows.map(|row| &row[..self.width as usize])
+    }
+
     fn to_exact(&self) -> ExactLevel {
-        let texels = self.texels.par_iter().map(|texel| texel.map(f32::from)).collect();
+        let texels = self.rows().flatten_iter().map(|texel| texel.map(f32::from)).collect();
         ExactLevel {
             width: self.width,
             height: self.height,
@@ -79,7 +112,7 @@ impl MipPyramid {
     /// Builds every level from the base, rows in parallel. Each level is the area-weighted mean of the one above it,
     /// also where a side is odd; texels are rounded to bytes only once.
     pub fn build(base: MipLevel) -> Self {
-        let opaque = base.texels.par_iter().all(|texel| texel[3] == u8::MAX);
+        let opaque = base.rows().all(|row| row.iter().all(|texel| texel[3] == u8::MAX));
         let mut levels = vec![base];
         if levels[0].width > 1 || levels[0].height > 1 {
             let mut exact = levels[0].to_exact().halved();
@@ -180,12 +213,13 @@ mod tests {
 
     fn mean(level: &MipLevel) -> [f64; 4] {
         let mut sum = [0.0; 4];
-        for texel in &level.texels {
+        let texels: Vec<_> = level.rows().flatten_iter().copied().collect();
+        for texel in &texels {
             for (sum, channel) in sum.iter_mut().zip(texel) {
                 *sum += f64::from(*channel);
             }
         }
-        sum.map(|sum| sum / level.texels.len() as f64)
+        sum.map(|sum| sum / texels.len() as f64)
     }
 
     #[test]
@@ -247,7 +281,7 @@ mod tests {
             let same = pyramid
                 .levels()
                 .iter()
-                .all(|level| level.texels.iter().all(|found| *found == texel));
+                .all(|level| level.rows().flatten_iter().all(|found| *found == texel));
             assert!(same, "{width}x{height}");
         }
     }

@@ -1,0 +1,233 @@
+//! What the kernels are held against: random textures and maps, filtering one sample at a time in integers, and
+//! filtering in 64-bit floats by the definition.
+
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_possible_wrap,
+    reason = "an oracle is short and plain; its numbers are small"
+)]
+
+use arbtest::arbitrary::{Result, Unstructured};
+use glam::DVec2;
+
+use super::filter::Plan;
+use super::footing::{Footing, Scale};
+use super::{Filter, LevelSampling, MipLevel, MipPyramid, PixelSampling, SampleGrid, UvMap, cell};
+use crate::color::Premultiplied16;
+
+/// The colour at one sample: what the kernels do for many.
+pub(super) fn point(plan: &Plan<'_>, point: [u32; 2]) -> Premultiplied16 {
+    let from_pivot = plan.first + DVec2::new(f64::from(point[0]), f64::from(point[1]));
+    let mut sums = [0; 4];
+    for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
+        let at = [&level.x, &level.y].map(|axis| {
+            let at = (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
+            cell::to_fixed(at, axis.last)
+        });
+        cell::add(level.level, plan.pixel, at, level.mass, &mut sums);
+    }
+    Premultiplied16(sums.map(cell::to_channel))
+}
+
+/// The colour at one sample by the definition, channels in `0.0..=255.0`.
+pub(super) fn exact_point(plan: &Plan<'_>, point: [u32; 2]) -> [f64; 4] {
+    let from_pivot = plan.first + DVec2::new(f64::from(point[0]), f64::from(point[1]));
+    let mut sums = [0.0; 4];
+    for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
+        let [x, y] = [&level.x, &level.y].map(|axis| {
+            let at = axis.at_pivot + from_pivot.x * axis.right + from_pivot.y * axis.down;
+            at.clamp(0.0, axis.last)
+        });
+        let mass = f64::from(level.mass) / f64::from(cell::MASS);
+        for (column, row) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+            let (column, row) = (x.floor() + column, y.floor() + row);
+            let weight = (1.0 - (x - column).abs()) * (1.0 - (y - row).abs());
+            let texel = level.level.texel(column as i32, row as i32);
+            for (sum, channel) in sums.iter_mut().zip(texel) {
+                *sum += f64::from(channel) * weight * mass;
+            }
+        }
+    }
+    sums
+}
+
+/// The sum over the samples of a pixel that `covered` says; what the kernel does for many, by tents instead of tails.
+pub(super) fn pixel_sum(plan: &Plan<'_>, side: u32, pixel: [u32; 2], covered: impl Fn(u32) -> bool) -> [u32; 4] {
+    let samples: Vec<[u32; 2]> = (0..side * side)
+        .filter(|j| covered(*j))
+        .map(|j| [j % side, j / side])
+        .collect();
+    let scale = Scale::new(side);
+    let footings = match plan.pixel {
+        PixelSampling::Bilinear => Footing::of_plan(plan, scale),
+        PixelSampling::Nearest => None,
+    };
+    let Some((finer, coarser)) = footings else {
+        let mut sums = [0; 4];
+        for sample in samples {
+            let color = point(plan, [pixel[0] * side + sample[0], pixel[1] * side + sample[1]]);
+            for (sum, channel) in sums.iter_mut().zip(color.0) {
+                *sum += u32::from(channel);
+            }
+        }
+        return sums;
+    };
+    let total = (samples.len() as i32) << scale.sample_bits;
+    let part = coarser
+        .as_ref()
+        .map_or(0, |coarser| (total * coarser.level.mass + cell::MASS / 2) / cell::MASS);
+    let mut sums = [0; 4];
+    for (footing, total) in [(Some(&finer), total - part), (coarser.as_ref(), part)] {
+        if let Some(footing) = footing {
+            add_block(plan, (footing, total), pixel, &samples, &mut sums);
+        }
+    }
+    let unit = f64::from(1 << scale.sample_bits);
+    sums.map(|sum| (f64::from(sum) * 256.0 / unit + 0.5).floor() as u32)
+}
+
+/// Adds the 4 x 4 texels under a pixel, weighed so that the weights sum to `total`.
+fn add_block(
+    plan: &Plan<'_>,
+    (footing, total): (&Footing<'_>, i32),
+    pixel: [u32; 2],
+    samples: &[[u32; 2]],
+    sums: &mut [i32; 4],
+) {
+    let scale = footing.scale;
+    let one = 1 << scale.bits;
+    let middle = f64::from(scale.side - 1) / 2.0;
+    let center = pixel.map(|pixel| f64::from(pixel) * f64::from(scale.side) + middle);
+    let center = plan.first + DVec2::from_array(center);
+    let level = &footing.level;
+    let axes = [(&level.x, &footing.x), (&level.y, &footing.y)];
+    let placed = axes.map(|(axis, offsets)| {
+        let at = (axis.at_pivot + center.x * axis.right) + center.y * axis.down;
+        let at = (at.clamp(-2.0, axis.last + 2.0) * f64::from(one)).round_ties_even() as i32;
+        let last = axis.last as i32;
+        let first = (at + offsets.least).div_euclid(one).clamp(0, last);
+        (first, at - first * one, (last - first).min(3) * one)
+    });
+    let mut products = [[0_i64; 4]; 4];
+    for [i, j] in samples {
+        let [x, y] = [0, 1].map(|axis| {
+            let (offsets, (_, at, last)) = (axes[axis].1, placed[axis]);
+            let at = at + i32::from(offsets.columns[*i as usize]) + i32::from(offsets.rows[*j as usize]);
+            let at = at.clamp(0, last);
+            [0, 1, 2, 3].map(|k| i64::from((one - (at - k * one).abs()).max(0)))
+        });
+        for (row, y) in products.iter_mut().zip(y) {
+            for (product, x) in row.iter_mut().zip(x) {
+                *product += x * y;
+            }
+        }
+    }
+    let rounded = |sum: i64| (sum as f32 * footing.per_product).round_ties_even() as i32;
+    let mut below = total;
+    for (r, row) in products.iter().enumerate() {
+        let next = rounded(products[r + 1..].iter().flatten().sum()).min(below);
+        let mut beyond = below - next;
+        for c in 0..4 {
+            let left = rounded(row[c + 1..].iter().sum()).min(beyond);
+            let texel = level.level.texel(placed[0].0 + c as i32, placed[1].0 + r as i32);
+            for (sum, channel) in sums.iter_mut().zip(texel) {
+                *sum += i32::from(channel) * (beyond - left);
+            }
+            beyond = left;
+        }
+        below = next;
+    }
+}
+
+/// A texture of few or many texels, smooth or as rough as can be.
+pub(super) fn pyramid(u: &mut Unstructured<'_>) -> Result<MipPyramid> {
+    let side = |u: &mut Unstructured<'_>| match u.int_in_range(0..=5)? {
+        0 => Ok(1),
+        1 => u.int_in_range(1..=3),
+        2 => Ok(32),
+        _ => u.int_in_range(1..=70),
+    };
+    let (width, height) = (side(u)?, side(u)?);
+    let rough = u.arbitrary()?;
+    let seed: u32 = u.arbitrary()?;
+    let texels = (0..width * height)
+        .map(|i: u32| {
+            let mut bits = (i ^ seed).wrapping_mul(0x9E37_79B1);
+            bits ^= bits >> 15;
+            bits = bits.wrapping_mul(0x85EB_CA77);
+            bits ^= bits >> 13;
+            if rough {
+                bits.to_le_bytes().map(|byte| if byte > 127 { 255 } else { 0 })
+            } else {
+                bits.to_le_bytes()
+            }
+        })
+        .collect();
+    Ok(MipPyramid::build(MipLevel::new(width, height, texels)))
+}
+
+/// A map from pixels to the texture: magnified, minified, turned, mirrored, flat, or absurd.
+pub(super) fn map(u: &mut Unstructured<'_>, base: &MipLevel) -> Result<UvMap> {
+    let size = DVec2::new(f64::from(base.width()), f64::from(base.height()));
+    let number = |u: &mut Unstructured<'_>, range: f64| -> Result<f64> {
+        Ok(f64::from(u.int_in_range(-1_000_000..=1_000_000)?) / 1e6 * range)
+    };
+    let scale = number(u, 6.0)?.exp2();
+    let (dx, dy) = match u.int_in_range(0..=6)? {
+        0 => (DVec2::new(scale, 0.0), DVec2::new(0.0, scale)),
+        1 => (DVec2::new(0.0, scale), DVec2::new(-scale, 0.0)),
+        2 => (DVec2::new(scale, 0.0), DVec2::new(0.0, -number(u, 2.0)?)),
+        3 => (DVec2::splat(scale), DVec2::splat(scale)),
+        4 => {
+            let absurd = [0.0, 1e30, -1e30, 1e-30, f64::INFINITY, f64::NAN, 1e300];
+            let mut any = || Ok(DVec2::new(*u.choose(&absurd)?, *u.choose(&absurd)?));
+            (any()?, any()?)
+        }
+        _ => {
+            let turned = DVec2::from_angle(number(u, 3.2)?);
+            (turned * scale, turned.perp() * scale * number(u, 1.5)?)
+        }
+    };
+    let pivot = DVec2::new(number(u, 100.0)?, number(u, 100.0)?);
+    let uv = match u.int_in_range(0..=20)? {
+        0 => DVec2::new(1e30, f64::NAN),
+        1 => DVec2::new(-1e30, 1e30),
+        _ => DVec2::new(number(u, 1.5)?, number(u, 1.5)?),
+    };
+    Ok(UvMap {
+        pivot: (pivot * 256.0).round() / 256.0,
+        uv,
+        dx: dx / size,
+        dy: dy / size,
+    })
+}
+
+/// A grid of samples not far from the pivot, so that textures are seen.
+pub(super) fn grid(u: &mut Unstructured<'_>, map: &UvMap) -> Result<SampleGrid> {
+    let near = |u: &mut Unstructured<'_>, pivot: f64| -> Result<i32> { Ok(pivot as i32 + u.int_in_range(-60..=5)?) };
+    Ok(SampleGrid {
+        side: u.int_in_range(1..=16)?,
+        origin: [near(u, map.pivot.x)?, near(u, map.pivot.y)?],
+    })
+}
+
+pub(super) fn filter<'a>(u: &mut Unstructured<'_>, pyramid: &'a MipPyramid, map: &UvMap) -> Result<Filter<'a>> {
+    let (pixel, level) = (*u.choose(&PixelSampling::ALL)?, *u.choose(&LevelSampling::ALL)?);
+    Ok(Filter::new(pyramid, map, pixel, level))
+}
+
+/// The time of one cycle of the processor, in seconds: a quarter of a multiplication that waits for an addition.
+pub(super) fn cycle() -> f64 {
+    const STEPS: u32 = 20_000_000;
+    let best = (0..5).map(|_| {
+        let start = std::time::Instant::now();
+        let mut value = std::hint::black_box(1_u64);
+        for step in 0..STEPS {
+            value = (value ^ u64::from(step)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        }
+        std::hint::black_box(value);
+        start.elapsed().as_secs_f64()
+    });
+    best.fold(f64::MAX, f64::min) / f64::from(STEPS) / 4.0
+}

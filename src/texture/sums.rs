@@ -1,0 +1,342 @@
+//! The sums of pixels' samples: each a weighted sum of few texels, where the samples are close together, and of
+//! filtered samples elsewhere.
+
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch, i32x8, u8x16};
+use glam::DVec2;
+
+use super::PixelSampling;
+use super::cell::{MASS, MASS_BITS};
+use super::filter::{PixelList, Plan};
+use super::footing::{Footing, MAX_SIDE, Scale};
+use super::points::{self, MAX_LANES, Positions};
+use super::tails::{Covered, Weighed, weigh};
+use crate::color::Premultiplied16;
+use crate::simd::Level;
+
+/// Where a vector of pixels reads one level.
+struct Blocks {
+    /// The first of the 4 x 4 texels of each pixel.
+    offsets: [u32; MAX_LANES],
+    /// The weights of 2 x 2 texels: the upper left ones, then to the right, then below; each four as in
+    /// [`points::weigh_columns`].
+    weights: [[u64; MAX_LANES]; 4],
+}
+
+/// See [`super::Filter::sums`].
+pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
+    let scale = Scale::new(side);
+    let footings = match plan.pixel {
+        PixelSampling::Nearest => None,
+        PixelSampling::Bilinear => Footing::of_plan(plan, scale),
+    };
+    match footings {
+        Some(footings) => dispatch!(level, simd => sum_texels(simd, plan, scale, &footings, (list, sums))),
+        None => dispatch!(level, simd => sum_samples(simd, plan, scale, list, sums)),
+    }
+}
+
+/// Filters every sample.
+#[inline(always)]
+fn sum_samples<S: Simd>(simd: S, plan: &Plan<'_>, scale: Scale, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
+    const MAX_SAMPLES: usize = MAX_SIDE * MAX_SIDE;
+    let mut all = [[0; 2]; MAX_SAMPLES];
+    let side = scale.side as usize;
+    let samples = &mut all[..side * side];
+    for (j, row) in (0..).zip(samples.chunks_exact_mut(side)) {
+        for (i, sample) in (0..).zip(row) {
+            *sample = [i, j];
+        }
+    }
+    let mut some = [[0; 2]; MAX_SAMPLES];
+    let mut colors = [Premultiplied16::TRANSPARENT; MAX_SAMPLES];
+    for (i, (sum, pixel)) in sums.iter_mut().zip(list.pixels).enumerate() {
+        let mut plan = *plan;
+        plan.first += DVec2::new(f64::from(pixel[0]), f64::from(pixel[1])) * f64::from(scale.side);
+        let samples = match list.masks {
+            None => &*samples,
+            Some(masks) => {
+                let mut count = 0;
+                for (j, sample) in samples.iter().enumerate().take(64) {
+                    some[count] = *sample;
+                    count += usize::from(masks[i] >> j & 1 == 1);
+                }
+                &some[..count]
+            }
+        };
+        points::filter_with(simd, &plan, samples, &mut colors[..samples.len()]);
+        *sum = [0; 4];
+        for color in &colors[..samples.len()] {
+            for (sum, channel) in sum.iter_mut().zip(color.0) {
+                *sum += u32::from(channel);
+            }
+        }
+    }
+}
+
+/// Weighs the texels below every pixel.
+#[inline(always)]
+fn sum_texels<S: Simd>(
+    simd: S,
+    plan: &Plan<'_>,
+    scale: Scale,
+    (finer, coarser): &(Footing<'_>, Option<Footing<'_>>),
+    (list, sums): (PixelList<'_>, &mut [[u32; 4]]),
+) {
+    let lanes = S::u32s::LEN;
+    let mut blocks = [Blocks::EMPTY; 2];
+    let middle = plan.first + f64::from(scale.side - 1) / 2.0;
+    for (i, (pixels, sums)) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).enumerate() {
+        let [columns, rows] = points::columns_and_rows(simd, pixels);
+        let side = S::f32s::splat(simd, scale.side as f32);
+        let at = Positions::new(simd, [columns * side, rows * side], middle);
+        let masks = list.masks.map(|masks| &masks[i * lanes..][..pixels.len()]);
+        let (covered, count) = cover(simd, scale, masks);
+        let total = count << scale.sample_bits;
+        match coarser {
+            None => blocks[0].fill(simd, finer, &at, (covered, total)),
+            Some(coarser) => {
+                let number = |value| S::i32s::splat(simd, value);
+                let part = (total * number(coarser.level.mass) + number(MASS / 2)) >> MASS_BITS;
+                blocks[0].fill(simd, finer, &at, (covered, total - part));
+                blocks[1].fill(simd, coarser, &at, (covered, part));
+            }
+        }
+        for (lane, sum) in sums.iter_mut().enumerate() {
+            let mut channels = blocks[0].sum(simd, finer, lane);
+            if let Some(coarser) = coarser {
+                channels += blocks[1].sum(simd, coarser, lane);
+            }
+            let (left, right) = channels.split();
+            let channels = left + right;
+            // A byte times a sample's weight becomes 256.
+            let scaled = if scale.sample_bits >= 8 {
+                let shift = scale.sample_bits - 8;
+                (channels + ((1 << shift) >> 1)) >> shift
+            } else {
+                channels << (8 - scale.sample_bits)
+            };
+            *sum = scaled.bitcast::<fearless_simd::u32x4<S>>().to_array();
+        }
+    }
+}
+
+/// The samples of a vector of pixels that take part, and how many they are.
+#[inline(always)]
+fn cover<S: Simd>(simd: S, scale: Scale, masks: Option<&[u64]>) -> (Covered<S>, S::i32s) {
+    let count = scale.side * scale.side;
+    let Some(masks) = masks else {
+        return (Covered::All, S::i32s::splat(simd, count.cast_signed()));
+    };
+    let possible = if count < 64 { (1 << count) - 1 } else { u64::MAX };
+    let (mut low, mut high, mut counts) = ([0; MAX_LANES], [0; MAX_LANES], [0; MAX_LANES]);
+    for (i, mask) in masks.iter().enumerate().take(MAX_LANES) {
+        let mask = mask & possible;
+        [low[i], high[i]] = halves(mask);
+        counts[i] = mask.count_ones();
+    }
+    let vector = |numbers: &[u32; MAX_LANES]| S::u32s::from_slice(simd, &numbers[..S::u32s::LEN]);
+    (Covered::Some(vector(&low), vector(&high)), vector(&counts).bitcast())
+}
+
+/// The lower and the upper 32 bits.
+#[expect(clippy::cast_possible_truncation, reason = "one half after the other")]
+#[inline(always)]
+fn halves(bits: u64) -> [u32; 2] {
+    [bits as u32, (bits >> 32) as u32]
+}
+
+impl Blocks {
+    const EMPTY: Self = Self {
+        offsets: [0; MAX_LANES],
+        weights: [[0; MAX_LANES]; 4],
+    };
+
+    /// Notes where a vector of pixels reads a level.
+    #[inline(always)]
+    fn fill<S: Simd>(&mut self, simd: S, footing: &Footing<'_>, at: &Positions<S>, covered: (Covered<S>, S::i32s)) {
+        let Weighed { offsets, weights } = if footing.is_narrow() {
+            weigh::<S, 2>(simd, footing, at, covered)
+        } else {
+            weigh::<S, 3>(simd, footing, at, covered)
+        };
+        offsets.store_slice(&mut self.offsets[..S::u32s::LEN]);
+        for (quarter, packed) in self.weights.iter_mut().enumerate() {
+            let (r, c) = (quarter / 2 * 2, quarter % 2 * 2);
+            let column = |c: usize| weights[r][c] | weights[r + 1][c] << 16;
+            points::store_columns::<S>(column(c), column(c + 1), packed);
+        }
+    }
+
+    /// Red, green, blue and alpha of a pixel in the units of the weights: even columns, then odd columns.
+    #[inline(always)]
+    fn sum<S: Simd>(&self, simd: S, footing: &Footing<'_>, lane: usize) -> i32x8<S> {
+        let stride = footing.level.level.stride() as usize;
+        let texels = &footing.level.level.texels()[self.offsets[lane % MAX_LANES] as usize..][..3 * stride + 4];
+        let row = |r: usize| -> u8x16<S> {
+            let mut bytes = [0; 16];
+            bytes.copy_from_slice(texels[r * stride..][..4].as_flattened());
+            u8x16::simd_from(simd, bytes)
+        };
+        let rows = [row(0), row(1), row(2), row(3)];
+        let weights = self.weights.map(|quarter| quarter[lane % MAX_LANES]);
+        let upper = points::columns(simd, rows[0].zip_low(rows[1]), weights[0])
+            + points::columns(simd, rows[0].zip_high(rows[1]), weights[1]);
+        let lower = points::columns(simd, rows[2].zip_low(rows[3]), weights[2])
+            + points::columns(simd, rows[2].zip_high(rows[3]), weights[3]);
+        upper + lower
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Instant;
+
+    use arbtest::arbitrary;
+
+    use super::super::{Filter, LevelSampling, MipLevel, MipPyramid, SampleGrid, UvMap, oracle};
+    use super::*;
+    use crate::simd;
+
+    #[test]
+    fn sums_are_what_their_definition_says_on_every_level() {
+        let (mut weighed, mut filtered) = (0, 0);
+        arbtest::arbtest(|u| {
+            let pyramid = oracle::pyramid(u)?;
+            let map = oracle::map(u, &pyramid.levels()[0])?;
+            let grid = oracle::grid(u, &map)?;
+            let filter = oracle::filter(u, &pyramid, &map)?;
+            let plan = filter.plan(grid);
+            if Footing::of_plan(&plan, Scale::new(grid.side)).is_some() {
+                weighed += 1;
+            } else {
+                filtered += 1;
+            }
+            let count = u.int_in_range(0..=40)?;
+            let mut pixel = || Ok([u.int_in_range(0..=70)?, u.int_in_range(0..=70)?]);
+            let pixels = (0..count)
+                .map(|_| pixel())
+                .collect::<arbitrary::Result<Vec<[u16; 2]>>>()?;
+            let masks = (0..count)
+                .map(|_| u.arbitrary())
+                .collect::<arbitrary::Result<Vec<u64>>>()?;
+            let masks = (grid.side <= 8 && u.arbitrary()?).then_some(&masks[..]);
+            let expected: Vec<_> = pixels
+                .iter()
+                .enumerate()
+                .map(|(i, at)| {
+                    let covered = |j: u32| masks.is_none_or(|masks| masks[i] >> j & 1 == 1);
+                    oracle::pixel_sum(&plan, grid.side, at.map(u32::from), covered)
+                })
+                .collect();
+            for (name, level) in simd::tested() {
+                let mut found = vec![[0; 4]; count];
+                filter.sums(level, grid, PixelList { pixels: &pixels, masks }, &mut found);
+                assert_eq!(found, expected, "{name}: {filter:?} {grid:?} {masks:x?}");
+            }
+            Ok(())
+        })
+        .budget_ms(2000);
+        assert!(
+            weighed > 20 && filtered > 20,
+            "both ways were taken: {weighed} and {filtered}"
+        );
+    }
+
+    #[test]
+    fn sums_are_within_a_seventh_of_a_byte_of_the_definition() {
+        arbtest::arbtest(|u| {
+            let pyramid = oracle::pyramid(u)?;
+            let map = oracle::map(u, &pyramid.levels()[0])?;
+            let grid = oracle::grid(u, &map)?;
+            let level = *u.choose(&LevelSampling::ALL)?;
+            let filter = Filter::new(&pyramid, &map, PixelSampling::Bilinear, level);
+            let plan = filter.plan(grid);
+            let mask: u64 = if grid.side <= 8 && u.arbitrary()? {
+                u.arbitrary()?
+            } else {
+                u64::MAX
+            };
+            let covered = |j: u32| j >= 64 || mask >> j & 1 == 1;
+            let count = (0..grid.side * grid.side).filter(|j| covered(*j)).count();
+            for _ in 0..10 {
+                let at = [u.int_in_range(0..=70)?, u.int_in_range(0..=70)?];
+                let found = oracle::pixel_sum(&plan, grid.side, at, covered);
+                let mut exact = [0.0; 4];
+                for j in (0..grid.side * grid.side).filter(|j| covered(*j)) {
+                    let point = [at[0] * grid.side + j % grid.side, at[1] * grid.side + j / grid.side];
+                    for (sum, channel) in exact.iter_mut().zip(oracle::exact_point(&plan, point)) {
+                        *sum += channel;
+                    }
+                }
+                for (found, exact) in found.iter().zip(exact) {
+                    let error = (f64::from(*found) / 256.0 - exact).abs() / count.max(1) as f64;
+                    assert!(
+                        error < 0.15,
+                        "{error}: {found} / 256 is not {exact}: {filter:?} {grid:?} {at:?} {mask:x}"
+                    );
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(1000);
+    }
+
+    /// `cargo test --release -- --ignored --nocapture speed_of_sums`
+    #[test]
+    #[ignore = "a measurement"]
+    fn speed_of_sums() {
+        let size = 1024;
+        let texels = (0..size * size)
+            .map(|i: u32| i.wrapping_mul(0x9E37_79B1).to_le_bytes())
+            .collect();
+        let pyramid = MipPyramid::build(MipLevel::new(size, size, texels));
+        let pixels: Vec<[u16; 2]> = (0..64 * 64).map(|i| [i % 64, i / 64]).collect();
+        let masks: Vec<u64> = (0..64 * 64)
+            .map(|i: u64| i.wrapping_mul(0x9E37_79B9_7F4A_7C15))
+            .collect();
+        let cycle = oracle::cycle();
+        for (turn, name) in [(0.0, "upright"), (0.6, "turned")] {
+            let turn = DVec2::from_angle(turn) * 1.3 / f64::from(size);
+            let map = UvMap {
+                pivot: DVec2::new(-500.0, -500.0),
+                uv: DVec2::ZERO,
+                dx: turn,
+                dy: turn.perp(),
+            };
+            for (sampling, side) in [
+                (LevelSampling::Zero, 4),
+                (LevelSampling::Linear, 2),
+                (LevelSampling::Linear, 3),
+                (LevelSampling::Linear, 4),
+                (LevelSampling::Linear, 8),
+            ] {
+                let filter = Filter::new(&pyramid, &map, PixelSampling::Bilinear, sampling);
+                for (level_name, level) in simd::tested() {
+                    let grid = SampleGrid { side, origin: [0, 0] };
+                    let mut sums = vec![[0; 4]; pixels.len()];
+                    let best = [None, Some(&masks[..])].map(|masks| {
+                        let mut best = f64::MAX;
+                        for _ in 0..100 {
+                            let start = Instant::now();
+                            filter.sums(level, grid, PixelList { pixels: &pixels, masks }, &mut sums);
+                            best = best.min(start.elapsed().as_secs_f64());
+                        }
+                        best / pixels.len() as f64 / cycle
+                    });
+                    eprintln!(
+                        "{name:8} {:6} side {side} {level_name:8} all {:6.1} some {:6.1} cycles a pixel",
+                        sampling.name(),
+                        best[0],
+                        best[1]
+                    );
+                }
+            }
+        }
+    }
+}

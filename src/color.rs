@@ -225,6 +225,54 @@ impl Premultiplied16 {
     }
 }
 
+/// Resolves the sums of a fixed number of samples; as [`Premultiplied16::resolve`], with the division prepared.
+#[derive(Clone, Copy, Debug)]
+pub struct Resolver {
+    count: u32,
+    rules: Rules,
+    /// What opaque samples sum up to.
+    opaque: u32,
+    half: u32,
+    /// Where the number of samples is a power of two, dividing is shifting.
+    shift: Option<u32>,
+}
+
+impl Resolver {
+    /// For `count` samples per pixel.
+    pub fn new(count: u32, rules: Rules) -> Self {
+        let full = u32::from(Premultiplied16::PER_BYTE) * count;
+        Self {
+            count,
+            rules,
+            opaque: u32::from(Premultiplied16::ONE) * count,
+            half: match rules {
+                Rules::Standard => full / 2,
+                Rules::Course => 0,
+            },
+            shift: full.is_power_of_two().then(|| full.trailing_zeros()),
+        }
+    }
+
+    /// Samples per pixel.
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// The straight 8-bit pixel `0xAARRGGBB` that is the mean of samples with these channel sums.
+    #[inline]
+    pub fn pixel(&self, sums: [u32; 4]) -> u32 {
+        let [r, g, b, a] = sums;
+        match self.shift {
+            Some(shift) if a == self.opaque => {
+                // No sum exceeds that of opaque white, so that no mean exceeds 255.
+                let byte = |sum: u32| ((sum + self.half) >> shift).min(255);
+                0xFF00_0000 | byte(r) << 16 | byte(g) << 8 | byte(b)
+            }
+            _ => Premultiplied16::resolve(sums, self.count, self.rules),
+        }
+    }
+}
+
 /// Bytes as 16-bit channels.
 trait Into16 {
     /// `0..=255` onto `0..=Premultiplied16::ONE`, exactly.
@@ -384,6 +432,31 @@ mod tests {
             0xFF00_0100,
             "and down"
         );
+    }
+
+    #[test]
+    fn resolver_resolves_as_the_plain_division() {
+        arbtest::arbtest(|u| {
+            let side = u.int_in_range(1..=16_u32)?;
+            let count = side * side;
+            let opaque = u32::from(Premultiplied16::ONE) * count;
+            let alpha = if u.arbitrary()? {
+                opaque
+            } else {
+                u.int_in_range(0..=opaque)?
+            };
+            let mut channel = || u.int_in_range(0..=alpha);
+            let sums = [channel()?, channel()?, channel()?, alpha];
+            for rules in Rules::ALL {
+                assert_eq!(
+                    Resolver::new(count, rules).pixel(sums),
+                    Premultiplied16::resolve(sums, count, rules),
+                    "{sums:?} of {count} samples, {rules:?}"
+                );
+            }
+            Ok(())
+        })
+        .budget_ms(100);
     }
 
     #[test]

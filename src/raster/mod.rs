@@ -7,19 +7,28 @@
 
 mod bins;
 mod chunk_builder;
+mod deferred;
+mod direct;
 mod display_list;
 mod entry;
+mod fragments;
 mod framebuffer;
 mod hairline;
 mod paint;
+mod pixel_block;
+mod pixel_row;
+mod planes;
 mod rasterize;
 mod regions;
 mod rows;
 mod sample_rate;
 mod shade;
+mod slots;
 mod small;
 mod tile;
 mod tile_rows;
+mod vertex;
+mod visibility;
 
 pub use chunk_builder::ChunkBuilder;
 pub use display_list::{Chunk, Fill, ListContext};

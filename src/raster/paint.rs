@@ -3,15 +3,13 @@
 use super::SampleHit;
 use super::display_list::Chunk;
 use super::entry::{Entry, Work};
-use super::rows::{SortedTriangle, Span};
+use super::pixel_row::{PixelRow, each_pixel_row, each_pixel_row_of_few, scaled};
+use super::rows::Span;
 use super::shade::{ShadeContext, Shader, ShaderKind};
-use super::small::{SmallCoverage, small_coverage};
+use super::small::SmallCoverage;
 use super::tile::{PixelRect, Tile};
 use crate::color::Premultiplied16;
 use crate::geometry::subpixel::GridPoint;
-
-/// Most samples along one side of a pixel.
-const MAX_SIDE: usize = 16;
 
 /// Paints tiles, one after the other, reusing its memory.
 #[derive(Debug)]
@@ -21,6 +19,8 @@ pub(crate) struct TilePainter<'a> {
     layers: Vec<Tile>,
     /// How many of `layers` are in use.
     depth: usize,
+    /// The samples at work and their colours.
+    points: Vec<[u16; 2]>,
     colors: Vec<Premultiplied16>,
     /// When a pixel is probed: which source painted each sample last.
     probe: Option<Probe>,
@@ -33,18 +33,6 @@ struct Probe {
     hits: Vec<Option<u32>>,
 }
 
-/// The samples that one row of pixels owns.
-struct PixelRow {
-    /// Sample columns per sample row.
-    spans: [Span; MAX_SIDE],
-    /// Sample rows in use.
-    side: usize,
-    /// Pixels of which any sample is covered, and among them those of which all are; where these are none, they are an
-    /// empty span at the end.
-    touched: Span,
-    full: Span,
-}
-
 impl<'a> TilePainter<'a> {
     /// A painter for one drawing.
     pub(crate) fn new(context: ShadeContext<'a>) -> Self {
@@ -52,6 +40,7 @@ impl<'a> TilePainter<'a> {
             context,
             layers: Vec::new(),
             depth: 0,
+            points: Vec::new(),
             colors: Vec::new(),
             probe: None,
         }
@@ -151,10 +140,7 @@ impl<'a> TilePainter<'a> {
     fn whole_tile(&mut self, shader: &Shader<'_>) {
         let PixelRect { x, y } = self.layers[0].rect;
         let side = self.context.grid.side();
-        let columns = Span {
-            start: x.start * side,
-            end: x.end * side,
-        };
+        let columns = scaled(x, side);
         for row in y.start..y.end {
             if let ShaderKind::Solid(color) = shader.kind {
                 self.fill(x, row, color);
@@ -170,97 +156,38 @@ impl<'a> TilePainter<'a> {
     }
 
     /// A triangle, shaded by what `shader` makes once it is needed.
-    fn triangle(
-        &mut self,
-        entry: Entry,
-        corners: &[GridPoint; 3],
-        shader: impl FnOnce(&ShadeContext<'a>) -> Shader<'a>,
-    ) {
+    fn triangle(&mut self, entry: Entry, corners: &[GridPoint; 3], shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>) {
         if entry.covers_tile() {
             return self.whole_tile(&shader(&self.context));
         }
-        let grid = self.context.grid;
-        if let Some(coverage) = small_coverage(*corners, grid, self.context.sampling.rules) {
-            if coverage.mask != 0 {
-                self.few_samples(&shader(&self.context), coverage);
-            }
-            return;
-        }
-        let PixelRect { x, y } = self.layers[0].rect;
-        let Some(sorted) = SortedTriangle::new(*corners, self.context.sampling.rules) else {
-            return;
-        };
-        let side = grid.side();
-        let columns = Span {
-            start: x.start * side,
-            end: x.end * side,
-        };
-        let rows = sorted.rows(grid).intersection(Span {
-            start: y.start * side,
-            end: y.end * side,
+        let settings = (self.context.grid, self.context.sampling.rules);
+        let rect = self.layers[0].rect;
+        let mut prepared = None;
+        each_pixel_row(*corners, settings, rect, |row| {
+            let shader = prepared.get_or_insert_with(|| shader(&self.context));
+            self.pixel_row(shader, row);
         });
-        if rows.is_empty() {
-            return;
-        }
-        let shader = shader(&self.context);
-        let mut walker = sorted.walk_from(grid, rows.start);
-        let mut line = rows.start;
-        while line < rows.end {
-            let row = line.div_euclid(side);
-            let end = rows.end.min((row + 1) * side);
-            let mut spans = [Span::default(); MAX_SIDE];
-            for line in line..end {
-                spans[line.rem_euclid(side).cast_unsigned() as usize] = walker.next_span(columns);
-            }
-            self.pixel_row(&shader, &PixelRow::new(spans, side), row);
-            line = end;
-        }
     }
 
     /// Samples of one colour, counted from the tile's first.
     fn samples(&mut self, coverage: SmallCoverage, color: Premultiplied16) {
         let side = self.context.grid.side();
-        let PixelRect { x, y } = self.layers[0].rect;
-        let coverage = coverage.moved(x.start * side, y.start * side);
-        if side == 1 {
-            coverage.each_run(|row, xs| self.fill(xs, row, color));
-        } else {
-            self.few_samples(&Shader::flat(color), coverage);
-        }
-    }
-
-    /// The few samples of a small triangle.
-    fn few_samples(&mut self, shader: &Shader<'_>, coverage: SmallCoverage) {
-        let side = self.context.grid.side();
-        let PixelRect { x, y } = self.layers[0].rect;
-        let samples = |pixels: Span| Span {
-            start: pixels.start * side,
-            end: pixels.end * side,
-        };
-        let rows = samples(y).intersection(coverage.rows());
-        let mut line = rows.start;
-        while line < rows.end {
-            let row = line.div_euclid(side);
-            let end = rows.end.min((row + 1) * side);
-            let mut spans = [Span::default(); MAX_SIDE];
-            for line in line..end {
-                spans[line.rem_euclid(side).cast_unsigned() as usize] = coverage.span(line).intersection(samples(x));
-            }
-            self.pixel_row(shader, &PixelRow::new(spans, side), row);
-            line = end;
-        }
+        let rect = self.layers[0].rect;
+        let coverage = coverage.moved(rect.x.start * side, rect.y.start * side);
+        let shader = Shader::flat(color);
+        each_pixel_row_of_few(coverage, side, rect, |row| self.pixel_row(&shader, row));
     }
 
     /// Paints one row of pixels: solid colours pixel by pixel, shaded ones by sample rows.
-    fn pixel_row(&mut self, shader: &Shader<'_>, pixels: &PixelRow, row: i32) {
-        let side = self.context.grid.side();
+    fn pixel_row(&mut self, shader: &Shader<'_>, pixels: &PixelRow) {
+        let (side, row) = (self.context.grid.side(), pixels.y);
         if let ShaderKind::Solid(color) = &shader.kind {
             self.fill(pixels.full, row, *color);
-            for x in (pixels.touched.start..pixels.full.start).chain(pixels.full.end..pixels.touched.end) {
-                self.layers[self.depth - 1].fill_part(x, row, &pixels.spans[..pixels.side], *color);
+            for x in pixels.partial() {
+                self.layers[self.depth - 1].fill_part(x, row, pixels.spans(), *color);
             }
             if self.probe.is_some() {
-                for (span, line) in pixels.spans[..pixels.side].iter().zip(row * side..) {
+                for (span, line) in pixels.spans().iter().zip(row * side..) {
                     self.note(*span, line);
                 }
             }
@@ -268,7 +195,7 @@ impl<'a> TilePainter<'a> {
             if shader.opaque {
                 self.layers[self.depth - 1].split_unfilled(pixels.full, row);
             }
-            for (span, line) in pixels.spans[..pixels.side].iter().zip(row * side..) {
+            for (span, line) in pixels.spans().iter().zip(row * side..) {
                 self.shaded(shader, *span, line);
             }
         }
@@ -292,7 +219,14 @@ impl<'a> TilePainter<'a> {
             self.colors.resize(count, Premultiplied16::TRANSPARENT);
         }
         let colors = &mut self.colors[..count];
-        shader.shade(&self.context, columns.start, line, colors);
+        let PixelRect { x, y } = self.layers[0].rect;
+        let side = self.context.grid.side();
+        let inside = |from: i32, to: i32| u16::try_from(to - from * side).unwrap_or(u16::MAX);
+        let row = inside(y.start, line);
+        self.points.clear();
+        self.points
+            .extend((inside(x.start, columns.start)..inside(x.start, columns.end)).map(|column| [column, row]));
+        shader.points(self.context.samples_from([x.start, y.start]), &self.points, colors);
         self.layers[self.depth - 1].write_samples(columns, line, colors, shader.opaque);
         self.note(columns, line);
     }
@@ -305,57 +239,6 @@ impl<'a> TilePainter<'a> {
                 let sample = line.rem_euclid(side) * side + column.rem_euclid(side);
                 probe.hits[sample.cast_unsigned() as usize] = Some(probe.source);
             }
-        }
-    }
-}
-
-impl PixelRow {
-    fn new(spans: [Span; MAX_SIDE], side: i32) -> Self {
-        let count = side.cast_unsigned() as usize;
-        let (mut outer, mut inner) = (
-            Span {
-                start: i32::MAX,
-                end: 0,
-            },
-            Span {
-                start: 0,
-                end: i32::MAX,
-            },
-        );
-        for span in &spans[..count] {
-            // A sample row without samples leaves no pixel full.
-            inner = inner.intersection(*span);
-            if !span.is_empty() {
-                outer = Span {
-                    start: outer.start.min(span.start),
-                    end: outer.end.max(span.end),
-                };
-            }
-        }
-        // Columns of a frame are never negative, so that division rounds down.
-        let touched = if outer.is_empty() {
-            Span::default()
-        } else {
-            Span {
-                start: outer.start / side,
-                end: (outer.end + side - 1) / side,
-            }
-        };
-        let mut full = Span {
-            start: (inner.start + side - 1) / side,
-            end: inner.end / side,
-        };
-        if full.is_empty() {
-            full = Span {
-                start: touched.end,
-                end: touched.end,
-            };
-        }
-        Self {
-            spans,
-            side: count,
-            touched,
-            full,
         }
     }
 }

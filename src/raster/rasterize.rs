@@ -6,15 +6,19 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 
 use super::bins::{Bins, Plan, entries_of_tile};
-use super::display_list::{Chunk, ListContext, measure_layers};
-use super::entry::Entry;
+use super::deferred::DeferredPainter;
+use super::direct::DirectPainter;
+use super::display_list::{Chunk, ListContext, Paint, measure_layers};
+use super::entry::{Entry, Work};
 use super::paint::TilePainter;
+use super::pixel_block::PixelBlock;
 use super::rows::Span;
-use super::shade::ShadeContext;
+use super::shade::{ShadeContext, Shader};
 use super::tile::TileLayout;
 use super::{Framebuffer, SampleRate};
 use crate::color::{Premultiplied16, Rgba};
 use crate::geometry::subpixel::SubpixelGrid;
+use crate::rules::Rules;
 use crate::texture::{SamplingSettings, Texture};
 
 /// Everything that decides how primitives become pixels.
@@ -35,6 +39,7 @@ pub struct DisplayList<'a> {
     settings: RasterSettings,
     pub(super) chunks: Vec<Chunk>,
     textures: Vec<&'a Texture>,
+    kinds: Kinds,
 }
 
 /// Where the time went.
@@ -55,6 +60,38 @@ pub struct SampleHit {
     pub color: Premultiplied16,
     /// The source of what painted it last; `None` for the background.
     pub source: Option<u32>,
+}
+
+/// What the primitives of a list are like.
+#[derive(Clone, Copy, Debug)]
+struct Kinds {
+    /// All are opaque, and none is in a layer.
+    opaque: bool,
+    /// Samples that are shaded must be blended one by one.
+    blended: bool,
+}
+
+/// How a tile is painted.
+///
+/// With one sample per pixel, and where everything is flat, all methods give the same bytes, so each tile takes the
+/// fastest. Where samples are shaded, the deferred method rounds once per primitive and pixel, blending once per
+/// sample: tiles that shade anything take the one or the other for the whole list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Method {
+    /// Opaque primitives straight into the frame.
+    Direct,
+    /// What each sample shows, then its colour.
+    Deferred,
+    /// The colour of each sample, primitive by primitive.
+    Blended,
+}
+
+/// A painter for each method.
+#[derive(Debug)]
+pub(super) struct Painters<'a> {
+    direct: DirectPainter<'a>,
+    deferred: DeferredPainter<'a>,
+    blended: TilePainter<'a>,
 }
 
 /// One group of tile rows on its way to the frame.
@@ -81,6 +118,30 @@ impl ListContext {
     }
 }
 
+impl Kinds {
+    fn of(chunks: &[Chunk], textures: &[&Texture], rules: Rules) -> Self {
+        let layers = chunks.iter().any(Chunk::has_layers);
+        let translucent = chunks.iter().any(|chunk| chunk.translucent);
+        let (shaded, shaded_opaque) = chunks
+            .par_iter()
+            .map(|chunk| {
+                let mut shaded = chunk
+                    .paints
+                    .iter()
+                    .filter(|paint| !matches!(paint, Paint::Solid(_)))
+                    .peekable();
+                let any = shaded.peek().is_some();
+                (any, shaded.all(|paint| Shader::is_opaque(paint, textures)))
+            })
+            .reduce(|| (false, true), |a, b| (a.0 || b.0, a.1 && b.1));
+        Self {
+            opaque: !translucent && shaded_opaque && !layers,
+            // The course truncates every sample; layers do not know what would be below a sample that shows through.
+            blended: !shaded_opaque || shaded && (layers || rules == Rules::Course),
+        }
+    }
+}
+
 impl<'a> DisplayList<'a> {
     /// Chunks in painter's order, built with `context`; [`super::Fill::Texture`] points into `textures`.
     pub fn new(
@@ -90,11 +151,13 @@ impl<'a> DisplayList<'a> {
         textures: Vec<&'a Texture>,
     ) -> Self {
         measure_layers(&mut chunks, &context);
+        let kinds = Kinds::of(&chunks, &textures, settings.sampling.rules);
         Self {
             context,
             settings,
             chunks,
             textures,
+            kinds,
         }
     }
 
@@ -136,8 +199,8 @@ impl<'a> DisplayList<'a> {
                 .take((group.end - group.start).cast_unsigned() as usize)
                 .with_max_len(1)
                 .for_each_init(
-                    || self.painter(),
-                    |painter, (pixels, row)| self.tile_row(&pass, painter, row, pixels),
+                    || self.painters(),
+                    |painters, (pixels, row)| self.tile_row(&pass, painters, row, pixels),
                 );
             times.raster += start.elapsed();
             if cancelled.load(Ordering::Relaxed) {
@@ -163,7 +226,7 @@ impl<'a> DisplayList<'a> {
             .map(|chunk| entries_of_tile(chunk, &context, &self.textures, pixel))
             .collect();
         let chunks: Vec<(&Chunk, &[Entry])> = self.chunks.iter().zip(touching.iter().map(Vec::as_slice)).collect();
-        Some(self.painter().probe(&chunks, pixel, self.background()))
+        Some(TilePainter::new(self.shade_context()).probe(&chunks, pixel, self.background()))
     }
 
     fn background(&self) -> Premultiplied16 {
@@ -184,52 +247,95 @@ impl<'a> DisplayList<'a> {
         }
     }
 
-    pub(super) fn painter(&self) -> TilePainter<'_> {
-        TilePainter::new(ShadeContext {
+    fn shade_context(&self) -> ShadeContext<'_> {
+        ShadeContext {
             grid: self.context.grid,
             sampling: self.settings.sampling,
             textures: &self.textures,
-        })
+        }
+    }
+
+    /// Painters for one thread.
+    pub(super) fn painters(&self) -> Painters<'_> {
+        Painters {
+            direct: DirectPainter::new(self.shade_context()),
+            deferred: DeferredPainter::new(self.shade_context()),
+            blended: TilePainter::new(self.shade_context()),
+        }
+    }
+
+    /// How a tile is painted, of which the ops from `first` on are to be seen: see [`Method`].
+    fn method(&self, pass: &Pass<'_>, tile: usize, first: (usize, usize)) -> Method {
+        let all = |kind: fn(&Entry, &Chunk) -> bool| {
+            visible(&pass.bins, tile, first)
+                .all(|(chunk, entries)| entries.iter().all(|entry| kind(entry, &self.chunks[chunk])))
+        };
+        let rate_one = self.settings.rate == SampleRate::ONE;
+        if rate_one && (self.kinds.opaque || all(|entry, _| entry.is_opaque())) {
+            Method::Direct
+        } else if !self.kinds.blended || all(|entry, chunk| !matches!(entry.work(chunk), Work::Shaded(..))) {
+            Method::Deferred
+        } else {
+            Method::Blended
+        }
     }
 
     /// Paints and resolves the tiles of one row.
-    fn tile_row(&self, pass: &Pass<'_>, painter: &mut TilePainter<'_>, row: u32, pixels: &mut [u32]) {
+    fn tile_row<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, row: u32, pixels: &mut [u32]) {
+        let stride = self.context.size[0] as usize;
         for column in 0..self.context.tiles.columns {
             if pass.cancelled.load(Ordering::Relaxed) {
                 return;
             }
             let rect = self.context.tiles.pixels(column, row, self.context.size);
-            let width = (rect.x.end - rect.x.start).cast_unsigned() as usize;
-            let lines = pixels
-                .chunks_exact_mut(self.context.size[0] as usize)
-                .map(|line| &mut line[rect.x.start.cast_unsigned() as usize..][..width]);
-            self.tile_into(pass, painter, [column, row], lines);
+            let left = rect.x.start.cast_unsigned() as usize;
+            let mut block = PixelBlock::new(rect, &mut pixels[left..], stride);
+            self.tile(pass, painters, [column, row], &mut block);
         }
     }
 
-    /// Paints and resolves one tile into `lines`, its rows of pixels from the top.
-    pub(super) fn tile_into<'l>(
-        &self,
+    /// Paints and resolves the tile in `column` and `row`.
+    pub(super) fn tile<'s>(
+        &'s self,
         pass: &Pass<'_>,
-        painter: &mut TilePainter<'_>,
+        painters: &mut Painters<'s>,
         [column, row]: [u32; 2],
-        lines: impl Iterator<Item = &'l mut [u32]>,
+        block: &mut PixelBlock<'_>,
     ) {
         let tile = ((row - pass.first_row) * self.context.tiles.columns + column) as usize;
-        let rect = self.context.tiles.pixels(column, row, self.context.size);
+        let background = self.background();
+        let rules = self.settings.sampling.rules;
         if pass.bins.iter().all(|bins| bins.of_tile(tile).is_empty()) {
-            let paper = self.background().to_pixel(self.settings.sampling.rules);
-            lines.for_each(|line| line.fill(paper));
+            block.fill(background.to_pixel(rules));
             return;
         }
-        painter.begin(rect, self.background());
-        let (chunk, entry) = first_visible(&pass.bins, tile);
-        for (i, bins) in pass.bins.iter().enumerate().skip(chunk) {
-            let skip = if i == chunk { entry } else { 0 };
-            painter.paint(&self.chunks[i], &bins.of_tile(tile)[skip..]);
-        }
-        for (line, y) in lines.zip(rect.y.start..) {
-            painter.resolve(y, line);
+        let first = first_visible(&pass.bins, tile);
+        match self.method(pass, tile, first) {
+            Method::Direct => {
+                let covered = pass.bins[first.0].of_tile(tile).get(first.1);
+                if !covered.is_some_and(|entry| entry.hides_tile()) {
+                    block.fill(background.to_pixel(rules));
+                }
+                for (chunk, entries) in visible(&pass.bins, tile, first) {
+                    painters.direct.paint(&self.chunks[chunk], entries, block);
+                }
+            }
+            Method::Deferred => {
+                painters.deferred.begin(block.rect, background);
+                for (chunk, entries) in visible(&pass.bins, tile, first) {
+                    painters.deferred.paint(&self.chunks[chunk], entries);
+                }
+                painters.deferred.resolve(block);
+            }
+            Method::Blended => {
+                painters.blended.begin(block.rect, background);
+                for (chunk, entries) in visible(&pass.bins, tile, first) {
+                    painters.blended.paint(&self.chunks[chunk], entries);
+                }
+                for y in block.rect.y.start..block.rect.y.end {
+                    painters.blended.resolve(y, block.line(y));
+                }
+            }
         }
     }
 }
@@ -242,6 +348,18 @@ fn first_visible(bins: &[Bins], tile: usize) -> (usize, usize) {
         }
     }
     (0, 0)
+}
+
+/// The entries of a tile from `first` on, chunk by chunk.
+fn visible(
+    bins: &[Bins],
+    tile: usize,
+    (chunk, entry): (usize, usize),
+) -> impl Iterator<Item = (usize, &[Entry])> + Clone {
+    bins.iter().enumerate().skip(chunk).map(move |(i, bins)| {
+        let skip = if i == chunk { entry } else { 0 };
+        (i, &bins.of_tile(tile)[skip..])
+    })
 }
 
 #[cfg(test)]
@@ -320,7 +438,7 @@ mod tests {
         let sampling = SamplingSettings {
             pixel: PixelSampling::Bilinear,
             level: LevelSampling::Linear,
-            rules: crate::rules::Rules::Standard,
+            rules: Rules::Standard,
         };
         arbtest::arbtest(|u| {
             let rate = SampleRate::new(*u.choose(&[1, 4, 9, 64])?).expect("a square number");

@@ -6,6 +6,7 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
+use super::pixel_block::PixelBlock;
 use super::rasterize::{DisplayList, Pass, RasterTimes};
 use super::rows::Span;
 use super::tile::PixelRect;
@@ -142,15 +143,17 @@ impl DisplayList<'_> {
     fn paint_in_order(&self, pass: &Pass<'_>, wishes: &[Wish], publish: &(impl Fn(Region, &[u32]) + Sync)) {
         let next = AtomicUsize::new(0);
         let work = || {
-            let mut painter = self.painter();
+            let mut painters = self.painters();
             let mut pixels = Vec::new();
             while let Some(wish) = wishes.get(next.fetch_add(1, Ordering::Relaxed))
                 && !pass.cancelled.load(Ordering::Relaxed)
             {
                 let Region { width, height, .. } = wish.region;
                 pixels.resize(width as usize * height as usize, 0);
-                let lines = pixels.chunks_exact_mut(width as usize);
-                self.tile_into(pass, &mut painter, wish.tile, lines);
+                let [column, row] = wish.tile;
+                let rect = self.context.tiles.pixels(column, row, self.context.size);
+                let mut block = PixelBlock::new(rect, &mut pixels, width as usize);
+                self.tile(pass, &mut painters, wish.tile, &mut block);
                 publish(wish.region, &pixels);
             }
         };

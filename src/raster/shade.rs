@@ -1,32 +1,15 @@
 //! Fragments to colours: attributes interpolated over a triangle, textures read at them.
-//!
-//! # Where the numbers come from
-//!
-//! An attribute is an affine function of the pixel position. It is evaluated in 64 bits at anchors every
-//! [`ANCHOR_PIXELS`] pixels of a row, at absolute positions, and in 32 bits from there on. So a fragment's value depends
-//! on its own position only, never on the tile or the run of fragments it is shaded with.
 
 use glam::DVec2;
 
 use super::display_list::{Paint, ScreenTriangle};
-use crate::color::Premultiplied16;
-use crate::geometry::edge::doubled_area;
-use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use super::planes::Planes;
+use super::vertex::VertexColors;
+use crate::color::{Premultiplied16, unit_to_16};
+use crate::geometry::subpixel::SubpixelGrid;
 use crate::rules::Rules;
-use crate::texture::{Footprint, LANES, Sampler, SamplingSettings, Texture};
-
-/// Distance between two anchors, in pixels.
-const ANCHOR_PIXELS: i32 = 8;
-
-/// `K` attributes as affine functions of the pixel position.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Planes<const K: usize> {
-    origin: DVec2,
-    at_origin: [f64; K],
-    /// Change per pixel to the right, and down.
-    pub(crate) dx: [f64; K],
-    pub(crate) dy: [f64; K],
-}
+use crate::simd;
+use crate::texture::{Filter, PixelList, SampleGrid, Sampler, SamplingSettings, Texture, UvMap};
 
 /// Turns the fragments of one triangle into colours.
 #[derive(Debug)]
@@ -34,6 +17,7 @@ pub(crate) struct Shader<'a> {
     pub(crate) kind: ShaderKind<'a>,
     /// Whether every fragment hides what is below it.
     pub(crate) opaque: bool,
+    rules: Rules,
 }
 
 /// Where a fragment's colour comes from.
@@ -41,14 +25,23 @@ pub(crate) struct Shader<'a> {
 pub(crate) enum ShaderKind<'a> {
     /// One colour.
     Solid(Premultiplied16),
-    /// Straight red, green, blue, alpha in `0.0..=1.0`.
-    Vertex(Planes<4>),
-    /// `(u, v)`, read through a sampler and multiplied by an opacity.
-    Texture {
+    /// Colours at the corners.
+    Vertex(VertexColors),
+    /// A texture under the standard rules, multiplied by an opacity.
+    Texture { filter: Filter<'a>, opacity: f32 },
+    /// A texture under the course's rules: `(u, v)`, read through a sampler and multiplied by an opacity.
+    CourseTexture {
         uv: Planes<2>,
         sampler: Sampler<'a>,
         opacity: f32,
     },
+}
+
+/// Some pixels of a tile, counted from the first pixel of the grid.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pixels<'p> {
+    pub(crate) grid: SampleGrid,
+    pub(crate) places: &'p [[u16; 2]],
 }
 
 /// What shading needs to know besides the triangle.
@@ -59,82 +52,12 @@ pub(crate) struct ShadeContext<'a> {
     pub(crate) textures: &'a [&'a Texture],
 }
 
-impl<const K: usize> Planes<K> {
-    /// The planes through a triangle's corners. `doubled_area` must not be zero.
-    fn new(grid: SubpixelGrid, corners: &[GridPoint; 3], values: [[f32; K]; 3]) -> Self {
-        let units = grid.units_per_pixel();
-        let side = |from: usize, to: usize| {
-            let dx = i64::from(corners[to].x) - i64::from(corners[from].x);
-            let dy = i64::from(corners[to].y) - i64::from(corners[from].y);
-            DVec2::new(dx as f64, dy as f64) / units
-        };
-        let (b, c) = (side(0, 1), side(0, 2));
-        let area = doubled_area(*corners) as f64 / (units * units);
-        let mut planes = Self {
-            origin: DVec2::new(f64::from(corners[0].x), f64::from(corners[0].y)) / units,
-            at_origin: [0.0; K],
-            dx: [0.0; K],
-            dy: [0.0; K],
-        };
-        for (i, first) in values[0].into_iter().enumerate() {
-            let first = f64::from(first);
-            let (to_b, to_c) = (f64::from(values[1][i]) - first, f64::from(values[2][i]) - first);
-            planes.at_origin[i] = first;
-            planes.dx[i] = (to_b * c.y - to_c * b.y) / area;
-            planes.dy[i] = (to_c * b.x - to_b * c.x) / area;
-        }
-        planes
-    }
-
-    /// Shades the samples of sample row `row` from column `first` on, from left to right, one for each of `colors`;
-    /// `shade` turns the attributes of [`LANES`] samples into their colours.
-    #[inline]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "fragments are interpolated in 32 bits from an anchor on"
-    )]
-    fn each(
-        &self,
-        grid: SubpixelGrid,
-        (first, row): (i32, i32),
-        mut colors: &mut [Premultiplied16],
-        shade: impl Fn([[f32; LANES]; K]) -> [Premultiplied16; LANES],
-    ) {
-        let side = grid.side();
-        let anchor_columns = ANCHOR_PIXELS * side;
-        let step = 1.0 / side as f32;
-        let slope = self.dx.map(|slope| slope as f32);
-        let down = grid.sample_position(row) - self.origin.y;
-        let mut column = first;
-        while !colors.is_empty() {
-            let group = column.div_euclid(anchor_columns);
-            let right = f64::from(group * ANCHOR_PIXELS) - self.origin.x;
-            let at_anchor: [f32; K] =
-                std::array::from_fn(|i| (self.at_origin[i] + right * self.dx[i] + down * self.dy[i]) as f32);
-            let inside = column - group * anchor_columns;
-            let count = (anchor_columns - inside).cast_unsigned() as usize;
-            let (run, rest) = colors.split_at_mut(count.min(colors.len()));
-            let mut start = inside as f32 + 0.5;
-            for colors in run.chunks_mut(LANES) {
-                // Small whole numbers and a half: exact in 32 bits, however they are added up.
-                let distance: [f32; LANES] = std::array::from_fn(|i| (start + i as f32) * step);
-                let attributes = std::array::from_fn(|k| distance.map(|distance| at_anchor[k] + distance * slope[k]));
-                let shaded = shade(attributes);
-                colors.copy_from_slice(&shaded[..colors.len()]);
-                start += LANES as f32;
-            }
-            column += anchor_columns - inside;
-            colors = rest;
-        }
-    }
-}
-
-impl Planes<2> {
-    /// The change of `(u, v)` per pixel.
-    pub(crate) fn footprint(&self) -> Footprint {
-        Footprint {
-            dx: DVec2::from_array(self.dx),
-            dy: DVec2::from_array(self.dy),
+impl ShadeContext<'_> {
+    /// The samples of a tile whose first pixel is `origin`.
+    pub(crate) fn samples_from(&self, origin: [i32; 2]) -> SampleGrid {
+        SampleGrid {
+            side: self.grid.side().cast_unsigned(),
+            origin,
         }
     }
 }
@@ -145,50 +68,146 @@ impl<'a> Shader<'a> {
         Self {
             kind: ShaderKind::Solid(color),
             opaque: color.is_opaque(),
+            rules: Rules::Standard,
         }
     }
 
     /// Prepares the shading of one triangle.
     pub(crate) fn new(context: &ShadeContext<'a>, triangle: &ScreenTriangle, paint: &Paint) -> Self {
+        let opaque = Self::is_opaque(paint, context.textures);
+        let rules = context.sampling.rules;
         let kind = match *paint {
             Paint::Solid(color) => ShaderKind::Solid(color),
-            Paint::Vertex(colors) => ShaderKind::Vertex(Planes::new(context.grid, &triangle.corners, colors)),
+            Paint::Vertex(colors) => ShaderKind::Vertex(VertexColors::new(
+                Planes::new(context.grid, &triangle.corners, colors),
+                opaque,
+            )),
             Paint::Texture { texture, uv, opacity } => {
-                let uv = Planes::new(context.grid, &triangle.corners, uv);
                 let pyramid = &context.textures[texture as usize].pyramid;
-                let sampler = Sampler::new(pyramid, &uv.footprint(), context.sampling);
-                ShaderKind::Texture { uv, sampler, opacity }
+                let uv = Planes::new(context.grid, &triangle.corners, uv);
+                let map = uv_map(context.grid, &uv);
+                let sampling = context.sampling;
+                match rules {
+                    Rules::Standard => ShaderKind::Texture {
+                        filter: Filter::new(pyramid, &map, sampling.pixel, sampling.level),
+                        opacity,
+                    },
+                    Rules::Course => ShaderKind::CourseTexture {
+                        uv,
+                        sampler: Sampler::new(pyramid, &map.footprint(), sampling),
+                        opacity,
+                    },
+                }
             }
         };
-        Self {
-            kind,
-            opaque: Self::is_opaque(paint, context.textures),
+        Self { kind, opaque, rules }
+    }
+
+    /// The colours of samples, counted from the first sample of the grid's origin.
+    pub(crate) fn points(&self, grid: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
+        match &self.kind {
+            ShaderKind::Solid(color) => colors.fill(*color),
+            ShaderKind::Vertex(vertex) => vertex.points(grid, self.rules, points, colors),
+            ShaderKind::Texture { filter, opacity } => {
+                filter.points(simd::level(), grid, points, colors);
+                if *opacity < 1.0 {
+                    let opacity = unit_to_16(opacity.max(0.0));
+                    for color in colors {
+                        *color = color.faded(opacity);
+                    }
+                }
+            }
+            ShaderKind::CourseTexture { uv, sampler, opacity } => {
+                let side = grid.side.cast_signed();
+                for ([x, y], color) in points.iter().zip(colors) {
+                    let sample = [
+                        grid.origin[0] * side + i32::from(*x),
+                        grid.origin[1] * side + i32::from(*y),
+                    ];
+                    *color = course_texel(sampler, course_uv(uv, side, sample), *opacity);
+                }
+            }
         }
     }
 
-    /// Shades the samples of sample row `row` from `first` column on, one for each of `colors`.
-    pub(crate) fn shade(&self, context: &ShadeContext<'_>, first: i32, row: i32, colors: &mut [Premultiplied16]) {
-        let rules = context.sampling.rules;
-        let at = (first, row);
+    /// The values of pixels that show nothing but this triangle, at one sample each; it must be opaque.
+    pub(crate) fn pixels(&self, pixels: Pixels<'_>, values: &mut [u32]) {
+        let Pixels { grid, places } = pixels;
         match &self.kind {
-            ShaderKind::Solid(color) => colors.fill(*color),
-            ShaderKind::Vertex(planes) => planes.each(context.grid, at, colors, |[r, g, b, a]| {
-                std::array::from_fn(|i| vertex_color([r[i], g[i], b[i], a[i]], rules))
-            }),
-            ShaderKind::Texture { uv, sampler, opacity } if *opacity >= 1.0 => {
-                uv.each(context.grid, at, colors, |[u, v]| {
-                    sampler
-                        .sample_lanes(&u, &v)
-                        .map(|color| Premultiplied16::from_byte_range(color, rules))
-                });
+            ShaderKind::Solid(color) => values.fill(color.to_pixel(self.rules)),
+            ShaderKind::Vertex(vertex) if self.rules == Rules::Standard => {
+                vertex.pixels(simd::level(), grid, places, values);
             }
-            ShaderKind::Texture { uv, sampler, opacity } => uv.each(context.grid, at, colors, |[u, v]| {
-                // Truncation comes after blending: half of a texel is no byte.
-                let faded = |color: [f32; 4]| color.map(|channel| channel * opacity);
-                sampler
-                    .sample_lanes(&u, &v)
-                    .map(|color| Premultiplied16::from_byte_range(faded(color), Rules::Standard))
-            }),
+            ShaderKind::Texture { filter, .. } => filter.pixels(simd::level(), grid, places, values),
+            ShaderKind::Vertex(_) | ShaderKind::CourseTexture { .. } => {
+                let mut colors = vec![Premultiplied16::TRANSPARENT; places.len()];
+                self.points(grid, places, &mut colors);
+                for (value, color) in values.iter_mut().zip(colors) {
+                    *value = color.to_pixel(self.rules);
+                }
+            }
+        }
+    }
+
+    /// For each of the pixels the sum of all its samples. The triangle must be opaque and the rules the standard ones.
+    pub(crate) fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {
+        let Pixels { grid, places } = pixels;
+        match &self.kind {
+            ShaderKind::Vertex(vertex) => vertex.sums(simd::level(), grid, places, sums),
+            ShaderKind::Texture { filter, .. } => {
+                let list = PixelList {
+                    pixels: places,
+                    masks: None,
+                };
+                filter.sums(simd::level(), grid, list, sums);
+            }
+            ShaderKind::Solid(_) | ShaderKind::CourseTexture { .. } => {
+                debug_assert!(false, "flat and course's primitives are not summed");
+            }
+        }
+    }
+
+    /// For each of the pixels the sum of some of its samples, under the same conditions: a mask each of the 64 samples
+    /// from `first` on.
+    pub(crate) fn masked_sums(&self, pixels: Pixels<'_>, (masks, first): (&[u64], u32), sums: &mut [[u32; 4]]) {
+        let Pixels { grid, places } = pixels;
+        match &self.kind {
+            ShaderKind::Vertex(vertex) => vertex.masked_sums(grid, (places, masks, first), sums),
+            ShaderKind::Texture { filter, .. } if grid.side <= 8 => {
+                let list = PixelList {
+                    pixels: places,
+                    masks: Some(masks),
+                };
+                filter.sums(simd::level(), grid, list, sums);
+            }
+            _ => self.sums_of_points(pixels, (masks, first), sums),
+        }
+    }
+
+    /// As [`Shader::masked_sums`], sample by sample.
+    fn sums_of_points(&self, pixels: Pixels<'_>, (masks, first): (&[u64], u32), sums: &mut [[u32; 4]]) {
+        let side = pixels.grid.side;
+        let mut points = Vec::with_capacity(64);
+        let mut colors = [Premultiplied16::TRANSPARENT; 64];
+        for ((place, mask), sum) in pixels.places.iter().zip(masks).zip(sums) {
+            points.clear();
+            points.extend(
+                (first..)
+                    .zip(0..64)
+                    .filter(|(_, bit)| mask & 1_u64 << bit != 0)
+                    .map(|(sample, _)| {
+                        let inside = [sample % side, sample / side];
+                        [0, 1].map(|i| u16::try_from(u32::from(place[i]) * side + inside[i]).unwrap_or(u16::MAX))
+                    }),
+            );
+            let colors = &mut colors[..points.len()];
+            self.points(pixels.grid, &points, colors);
+            *sum = [0; 4];
+            for color in colors {
+                for (sum, channel) in sum.iter_mut().zip(color.0) {
+                    *sum += u32::from(channel);
+                }
+            }
         }
     }
 
@@ -202,11 +221,36 @@ impl<'a> Shader<'a> {
     }
 }
 
-/// An interpolated straight colour as samples store it.
-#[inline]
-fn vertex_color([r, g, b, a]: [f32; 4], rules: Rules) -> Premultiplied16 {
-    // Rounding may carry an attribute a little beyond the colours at the corners.
-    let alpha = a.clamp(0.0, 1.0);
-    let channel = |value: f32| value.clamp(0.0, 1.0) * alpha * 255.0;
-    Premultiplied16::from_byte_range([channel(r), channel(g), channel(b), alpha * 255.0], rules)
+/// The planes of `(u, v)` in pixels.
+fn uv_map(grid: SubpixelGrid, uv: &Planes<2>) -> UvMap {
+    let side = f64::from(grid.side());
+    UvMap {
+        pivot: DVec2::from_array(uv.pivot) / side,
+        uv: DVec2::from_array(uv.at_pivot),
+        dx: DVec2::from_array(uv.dx) * side,
+        dy: DVec2::from_array(uv.dy) * side,
+    }
+}
+
+/// `(u, v)` at a sample as the course's 32-bit arithmetic has it: in 64 bits at an anchor every eight pixels of a row, in
+/// 32 bits from there on. Where a sample lies on the border of two texels, the last bit decides.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the course reads textures at 32-bit floats"
+)]
+fn course_uv(uv: &Planes<2>, side: i32, [column, row]: [i32; 2]) -> [f32; 2] {
+    let anchor = column.div_euclid(8 * side) * 8 * side;
+    let at_anchor = uv.at(f64::from(anchor), f64::from(row) + 0.5);
+    let pixels = ((column - anchor) as f32 + 0.5) * (1.0 / side as f32);
+    [0, 1].map(|i| at_anchor[i] as f32 + pixels * (uv.dx[i] * f64::from(side)) as f32)
+}
+
+/// A texture read by the course's rules.
+fn course_texel(sampler: &Sampler<'_>, [u, v]: [f32; 2], opacity: f32) -> Premultiplied16 {
+    let color = sampler.sample(u, v);
+    if opacity >= 1.0 {
+        return Premultiplied16::from_byte_range(color, Rules::Course);
+    }
+    // Truncation comes after blending: half of a texel is no byte.
+    Premultiplied16::from_byte_range(color.map(|channel| channel * opacity), Rules::Standard)
 }

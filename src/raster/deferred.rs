@@ -1,0 +1,374 @@
+//! Tiles in two steps: first what each sample shows, then the colours of what is seen.
+//!
+//! Nothing hidden is ever shaded, and a primitive's part of a pixel is shaded as one, whatever the number of samples:
+//! its sum over the samples is taken before anything is rounded. Translucent flat colours are mixed once for all
+//! samples that show the same.
+
+use super::display_list::Chunk;
+use super::entry::{Entry, Work};
+use super::fragments::{Fragment, Part, Unresolved};
+use super::pixel_block::PixelBlock;
+use super::pixel_row::{each_pixel_row, each_pixel_row_of_few};
+use super::shade::{Pixels, ShadeContext, Shader};
+use super::slots::{Shaded, SlotColor, Slots};
+use super::small::SmallCoverage;
+use super::tile::PixelRect;
+use super::visibility::{MAX_SLOTS, Run, Slot, VisibilityTile, lanes, splat};
+use crate::color::{Premultiplied16, Resolver};
+use crate::geometry::subpixel::GridPoint;
+use crate::texture::SampleGrid;
+
+/// Paints tiles in which only opaque primitives are shaded, one after the other, reusing its memory.
+#[derive(Debug)]
+pub(crate) struct DeferredPainter<'a> {
+    context: ShadeContext<'a>,
+    resolver: Resolver,
+    /// The base and above it the open layers.
+    layers: Vec<VisibilityTile>,
+    /// How many of `layers` are in use.
+    depth: usize,
+    slots: Slots<'a>,
+    unresolved: Unresolved,
+    shading: Shading,
+    /// Samples whose colours were computed.
+    pub(crate) samples_shaded: u64,
+    /// Pixels whose samples were resolved one by one.
+    pub(crate) pixels_split: u64,
+}
+
+/// Memory for the fragments of one primitive.
+#[derive(Debug, Default)]
+struct Shading {
+    /// Pixels of the tile, and which of their samples; the latter empty where it is all.
+    places: Vec<[u16; 2]>,
+    masks: Vec<u64>,
+    /// Where their sums go.
+    targets: Vec<u32>,
+    sums: Vec<[u32; 4]>,
+}
+
+impl<'a> DeferredPainter<'a> {
+    /// A painter for one drawing.
+    pub(crate) fn new(context: ShadeContext<'a>) -> Self {
+        let side = context.grid.side().cast_unsigned();
+        Self {
+            context,
+            resolver: Resolver::new(side * side, context.sampling.rules),
+            layers: vec![VisibilityTile::new(context.grid.side())],
+            depth: 1,
+            slots: Slots::new(context.sampling.rules),
+            unresolved: Unresolved::default(),
+            shading: Shading::default(),
+            samples_shaded: 0,
+            pixels_split: 0,
+        }
+    }
+
+    /// Starts a tile.
+    pub(crate) fn begin(&mut self, rect: PixelRect, background: Premultiplied16) {
+        self.slots.clear();
+        let slot = self.slots.flat(background);
+        self.layers[0].reset(rect, slot);
+        self.depth = 1;
+    }
+
+    /// Paints the ops of one chunk that touch the tile.
+    pub(crate) fn paint(&mut self, chunk: &'a Chunk, entries: &[Entry]) {
+        for entry in entries {
+            self.make_room();
+            match entry.work(chunk) {
+                Work::Samples(coverage, color) => self.samples(coverage, color),
+                Work::Pixels(coverage, color) => self.pixels(coverage, color),
+                Work::Flat(corners, color) if entry.is_opaque() => {
+                    let slot = self.slots.flat(color);
+                    self.opaque(corners, slot, *entry);
+                }
+                Work::Flat(corners, color) => self.translucent(corners, color, *entry),
+                Work::Shaded(triangle, paint) => {
+                    let slot = self.slots.shaded(triangle, paint);
+                    self.opaque(&triangle.corners, slot, *entry);
+                }
+                Work::BeginLayer => self.begin_layer(),
+                Work::EndLayer(opacity) => self.end_layer(opacity),
+            }
+        }
+    }
+
+    /// Shades what is seen and resolves the finished tile.
+    pub(crate) fn resolve(&mut self, block: &mut PixelBlock<'_>) {
+        self.unresolved.clear();
+        let PixelRect { x, y } = self.layers[0].rect;
+        for (y, row) in (y.start..y.end).zip(0..) {
+            self.resolve_row(y, row, block.line(y));
+        }
+        if self.unresolved.is_empty() {
+            return;
+        }
+        self.unresolved.sort(self.slots.len());
+        self.shade([x.start, y.start], block);
+        for (place, sums) in self.unresolved.places.iter().zip(&self.unresolved.sums) {
+            block.put(*place, self.resolver.pixel(*sums));
+        }
+    }
+
+    #[inline]
+    fn opaque(&mut self, corners: &[GridPoint; 3], slot: Slot, entry: Entry) {
+        let tile = &mut self.layers[self.depth - 1];
+        if entry.covers_tile() {
+            tile.cover(slot);
+        } else {
+            let settings = (self.context.grid, self.context.sampling.rules);
+            each_pixel_row(*corners, settings, tile.rect, |row| tile.paint(row, slot));
+        }
+    }
+
+    fn translucent(&mut self, corners: &[GridPoint; 3], color: Premultiplied16, entry: Entry) {
+        let (tile, slots) = (&mut self.layers[self.depth - 1], &mut self.slots);
+        slots.next_paint();
+        if entry.covers_tile() {
+            tile.change_all(|slot| slots.under(slot, color));
+        } else {
+            let settings = (self.context.grid, self.context.sampling.rules);
+            each_pixel_row(*corners, settings, tile.rect, |row| {
+                tile.change(row, |slot| slots.under(slot, color));
+            });
+        }
+    }
+
+    /// A few samples of one colour, counted from the tile's first.
+    fn samples(&mut self, coverage: SmallCoverage, color: Premultiplied16) {
+        let side = self.context.grid.side();
+        let (tile, slots) = (&mut self.layers[self.depth - 1], &mut self.slots);
+        let rect = tile.rect;
+        let coverage = coverage.moved(rect.x.start * side, rect.y.start * side);
+        if color.is_opaque() {
+            let slot = slots.flat(color);
+            each_pixel_row_of_few(coverage, side, rect, |row| tile.paint(row, slot));
+        } else {
+            slots.next_paint();
+            each_pixel_row_of_few(coverage, side, rect, |row| {
+                tile.change(row, |slot| slots.under(slot, color));
+            });
+        }
+    }
+
+    /// A few pixels of one colour, counted from the tile's first.
+    fn pixels(&mut self, coverage: SmallCoverage, color: Premultiplied16) {
+        let (tile, slots) = (&mut self.layers[self.depth - 1], &mut self.slots);
+        let coverage = coverage.moved(tile.rect.x.start, tile.rect.y.start);
+        if color.is_opaque() {
+            let slot = slots.flat(color);
+            coverage.each_run(|y, xs| tile.paint_pixels(xs, y, slot));
+        } else {
+            slots.next_paint();
+            coverage.each_run(|y, xs| tile.change_pixels(xs, y, |slot| slots.under(slot, color)));
+        }
+    }
+
+    fn begin_layer(&mut self) {
+        let rect = self.layers[0].rect;
+        if self.layers.len() == self.depth {
+            self.layers.push(VisibilityTile::new(self.context.grid.side()));
+        }
+        let slot = self.slots.flat(Premultiplied16::TRANSPARENT);
+        self.layers[self.depth].reset(rect, slot);
+        self.depth += 1;
+    }
+
+    fn end_layer(&mut self, opacity: u16) {
+        if self.depth < 2 {
+            return;
+        }
+        self.depth -= 1;
+        let slots = &mut self.slots;
+        let (below, above) = self.layers.split_at_mut(self.depth);
+        let mut known = std::collections::HashMap::new();
+        below[self.depth - 1].composite(&above[0], |below, above| {
+            let color = slots.get(above).flat;
+            if color == Premultiplied16::TRANSPARENT {
+                return below;
+            }
+            *known
+                .entry((below, above))
+                .or_insert_with(|| slots.mix(below, color.faded(opacity)))
+        });
+    }
+
+    /// Makes sure that every slot may be mixed with the next paint. There are twice as many numbers as samples in a
+    /// tile and its layers, so that some are out of use when all are given away.
+    #[inline]
+    fn make_room(&mut self) {
+        if !self.slots.is_full() {
+            return;
+        }
+        let mut used = vec![false; MAX_SLOTS];
+        let layers = &mut self.layers[..self.depth];
+        for layer in &*layers {
+            layer.each_slot(|slot| used[usize::from(slot)] = true);
+        }
+        let numbers = self.slots.keep(&used);
+        for layer in layers {
+            layer.renumber(|slot| numbers[usize::from(slot)]);
+        }
+    }
+
+    /// Resolves what is flat, and notes what is to be shaded.
+    fn resolve_row(&mut self, y: i32, row: u16, line: &mut [u32]) {
+        let (tile, slots) = (&self.layers[0], &self.slots);
+        let unresolved = &mut self.unresolved;
+        for (run, range) in tile.runs(y) {
+            let columns = (0_u16..).take(range.end).skip(range.start);
+            match run {
+                Run::Whole(slot) => {
+                    let shown = slots.get(slot);
+                    if shown.shaded.is_none() {
+                        line[range].fill(shown.pixel);
+                    } else {
+                        columns.for_each(|x| unresolved.whole(slot, [x, row]));
+                    }
+                }
+                Run::Split => {
+                    self.pixels_split += range.len() as u64;
+                    if slots.any_shaded {
+                        for x in columns {
+                            unresolved.split([x, row], tile.samples(usize::from(x), y), |slot| {
+                                let shown = slots.get(slot);
+                                shown.shaded.is_none().then(|| shown.sum(1))
+                            });
+                        }
+                    } else {
+                        for x in range {
+                            line[x] = self.resolver.pixel(flat_sum(tile, slots, x, y));
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Shades all fragments: whole pixels are done then, others have the colours added to their sums. `origin` is the
+    /// tile's first pixel.
+    fn shade(&mut self, origin: [i32; 2], block: &mut PixelBlock<'_>) {
+        let (context, resolver, slots, shading) = (&self.context, self.resolver, &self.slots, &mut self.shading);
+        let Unresolved {
+            places, sums, sorted, ..
+        } = &mut self.unresolved;
+        let grid = context.samples_from(origin);
+        for fragments in sorted.by_slot() {
+            let shown = slots.get(fragments[0].slot);
+            let Some(Shaded { triangle, paint, kept }) = shown.shaded else {
+                continue;
+            };
+            let shader = Shader::new(context, triangle, paint);
+            let whole = shading.shade_whole(fragments, grid, &shader);
+            self.samples_shaded += whole * u64::from(grid.side * grid.side);
+            for (place, sum) in shading.places.iter().zip(&shading.sums) {
+                block.put(*place, resolver.pixel(shown.over_shaded(*sum, kept, resolver.count())));
+            }
+            for first in (0..resolver.count()).step_by(64) {
+                shading.gather(fragments, places, first);
+                self.samples_shaded += shading
+                    .masks
+                    .iter()
+                    .map(|mask| u64::from(mask.count_ones()))
+                    .sum::<u64>();
+                shading.shade_parts((grid, first), &shader);
+                for ((target, found), mask) in shading.targets.iter().zip(&shading.sums).zip(&shading.masks) {
+                    let found = shown.over_shaded(*found, kept, mask.count_ones());
+                    for (sum, channel) in sums[*target as usize].iter_mut().zip(found) {
+                        *sum += channel;
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl SlotColor<'_> {
+    /// What `count` samples show of which the primitive below has the sum `shaded`.
+    #[inline]
+    fn over_shaded(&self, shaded: [u32; 4], kept: u16, count: u32) -> [u32; 4] {
+        const ONE: u64 = Premultiplied16::ONE as u64;
+        if kept == Premultiplied16::ONE {
+            return shaded;
+        }
+        let mut sums = self.sum(count);
+        for (sum, channel) in sums.iter_mut().zip(shaded) {
+            let part = (u64::from(channel) * u64::from(kept) + ONE / 2) / ONE;
+            *sum += u32::try_from(part).unwrap_or(u32::MAX);
+        }
+        // What is left after rounding twice: opaque below stays opaque.
+        sums[3] = shaded[3];
+        sums
+    }
+}
+
+impl Shading {
+    /// Shades the fragments that are whole pixels; how many there are.
+    fn shade_whole(&mut self, fragments: &[Fragment], grid: SampleGrid, shader: &Shader<'_>) -> u64 {
+        self.places.clear();
+        for fragment in fragments {
+            if let Part::Whole { place } = fragment.part {
+                self.places.push(place);
+            }
+        }
+        self.make_sums();
+        if !self.places.is_empty() {
+            let places = &self.places;
+            shader.pixel_sums(Pixels { grid, places }, &mut self.sums);
+        }
+        self.places.len() as u64
+    }
+
+    /// Gathers the fragments that are parts of pixels; of the 64 samples from `first` on.
+    fn gather(&mut self, fragments: &[Fragment], places: &[[u16; 2]], first: u32) {
+        self.places.clear();
+        self.masks.clear();
+        self.targets.clear();
+        for fragment in fragments {
+            if let Part::Masked { pixel, first: at, mask } = fragment.part
+                && u32::from(at) == first
+            {
+                self.places.push(places[pixel as usize]);
+                self.masks.push(mask);
+                self.targets.push(pixel);
+            }
+        }
+    }
+
+    fn shade_parts(&mut self, (grid, first): (SampleGrid, u32), shader: &Shader<'_>) {
+        self.make_sums();
+        if !self.places.is_empty() {
+            let places = &self.places;
+            shader.masked_sums(Pixels { grid, places }, (&self.masks, first), &mut self.sums);
+        }
+    }
+
+    fn make_sums(&mut self) {
+        self.sums.clear();
+        self.sums.resize(self.places.len(), [0; 4]);
+    }
+}
+
+/// The sum of a split pixel's samples where all of them are flat.
+#[inline]
+fn flat_sum(tile: &VisibilityTile, slots: &Slots<'_>, x: usize, y: i32) -> [u32; 4] {
+    let mut sums = [0; 4];
+    let mut add = |slot: Slot, times: u32| {
+        let color = slots.get(slot).sum(times);
+        for i in 0..4 {
+            sums[i] += color[i];
+        }
+    };
+    for (word, used) in tile.sample_words(x, y) {
+        let slots = lanes(word);
+        if word == splat(slots[0]) {
+            add(slots[0], used);
+        } else {
+            for slot in &slots[..used as usize] {
+                add(*slot, 1);
+            }
+        }
+    }
+    sums
+}

@@ -1,0 +1,49 @@
+//! The part of a frame that one tile is painted into.
+
+use super::rows::Span;
+use super::tile::PixelRect;
+
+/// A rectangle of a frame's pixels.
+#[derive(Debug)]
+pub(crate) struct PixelBlock<'p> {
+    /// Which pixels of the frame these are.
+    pub(crate) rect: PixelRect,
+    /// From the first pixel of the rectangle on.
+    pixels: &'p mut [u32],
+    /// Distance between two rows.
+    stride: usize,
+}
+
+impl<'p> PixelBlock<'p> {
+    /// The rectangle `rect` of a frame; `pixels` begins with its first pixel, and its rows lie `stride` apart.
+    pub(crate) fn new(rect: PixelRect, pixels: &'p mut [u32], stride: usize) -> Self {
+        Self { rect, pixels, stride }
+    }
+
+    /// The pixels of row `y` of the frame.
+    #[inline]
+    pub(crate) fn line(&mut self, y: i32) -> &mut [u32] {
+        self.span(y, self.rect.x)
+    }
+
+    /// The pixels `xs` of row `y` of the frame, which must lie in the rectangle.
+    #[inline]
+    pub(crate) fn span(&mut self, y: i32, xs: Span) -> &mut [u32] {
+        let length = |from: i32, to: i32| usize::try_from(to - from).unwrap_or(0);
+        let start = length(self.rect.y.start, y) * self.stride + length(self.rect.x.start, xs.start);
+        &mut self.pixels[start..][..length(xs.start, xs.end)]
+    }
+
+    /// Sets the pixel in column `x` and row `y` of the rectangle.
+    #[inline]
+    pub(crate) fn put(&mut self, [x, y]: [u16; 2], value: u32) {
+        self.pixels[usize::from(y) * self.stride + usize::from(x)] = value;
+    }
+
+    /// Gives all pixels one value.
+    pub(crate) fn fill(&mut self, pixel: u32) {
+        for y in self.rect.y.start..self.rect.y.end {
+            self.line(y).fill(pixel);
+        }
+    }
+}

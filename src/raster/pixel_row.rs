@@ -1,0 +1,178 @@
+//! A triangle's coverage of a rectangle of pixels, one row of pixels at a time.
+
+use super::rows::{SortedTriangle, Span};
+use super::sample_rate::SampleRate;
+use super::small::{SmallCoverage, small_coverage};
+use super::tile::PixelRect;
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::rules::Rules;
+
+/// Most samples along one side of a pixel.
+const MAX_SIDE: usize = SampleRate::MAX_SIDE as usize;
+
+/// The samples of one row of pixels that a triangle covers.
+#[derive(Debug)]
+pub(crate) struct PixelRow {
+    /// The row of pixels.
+    pub(crate) y: i32,
+    /// Covered sample columns per sample row.
+    spans: [Span; MAX_SIDE],
+    /// Sample rows in use.
+    side: usize,
+    /// Pixels of which any sample is covered, and among them those of which all are; where these are none, they are an
+    /// empty span at the end.
+    pub(crate) touched: Span,
+    pub(crate) full: Span,
+}
+
+/// Calls `paint` for every row of pixels in `rect` of which the triangle covers any sample, from top to bottom.
+#[inline]
+pub(crate) fn each_pixel_row(
+    corners: [GridPoint; 3],
+    (grid, rules): (SubpixelGrid, Rules),
+    rect: PixelRect,
+    paint: impl FnMut(&PixelRow),
+) {
+    if let Some(coverage) = small_coverage(corners, grid, rules) {
+        return each_pixel_row_of_few(coverage, grid.side(), rect, paint);
+    }
+    let Some(sorted) = SortedTriangle::new(corners, rules) else {
+        return;
+    };
+    let rows = sorted.rows(grid).intersection(scaled(rect.y, grid.side()));
+    if !rows.is_empty() {
+        let mut walker = sorted.walk_from(grid, rows.start);
+        each_row(grid.side(), rect, rows, |_, columns| walker.next_span(columns), paint);
+    }
+}
+
+/// As [`each_pixel_row`] for samples that are known.
+#[inline]
+pub(crate) fn each_pixel_row_of_few(coverage: SmallCoverage, side: i32, rect: PixelRect, paint: impl FnMut(&PixelRow)) {
+    if coverage.mask != 0 {
+        let span = |line, columns| coverage.span(line).intersection(columns);
+        each_row(side, rect, coverage.rows(), span, paint);
+    }
+}
+
+/// Gathers the spans of sample rows into rows of pixels; `next_span` is asked for the part of each of `rows` in `rect`,
+/// from top to bottom.
+#[inline]
+fn each_row(
+    side: i32,
+    rect: PixelRect,
+    rows: Span,
+    mut next_span: impl FnMut(i32, Span) -> Span,
+    mut paint: impl FnMut(&PixelRow),
+) {
+    let columns = scaled(rect.x, side);
+    let rows = rows.intersection(scaled(rect.y, side));
+    let mut row = PixelRow {
+        y: 0,
+        spans: [Span::default(); MAX_SIDE],
+        side: side.cast_unsigned() as usize,
+        touched: Span::default(),
+        full: Span::default(),
+    };
+    if side == 1 {
+        for y in rows.start..rows.end {
+            row.spans[0] = next_span(y, columns);
+            if !row.spans[0].is_empty() {
+                (row.y, row.touched, row.full) = (y, row.spans[0], row.spans[0]);
+                paint(&row);
+            }
+        }
+        return;
+    }
+    let mut line = rows.start;
+    while line < rows.end {
+        row.y = line.div_euclid(side);
+        let top = row.y * side;
+        for (span, line) in row.spans[..row.side].iter_mut().zip(top..) {
+            let inside = rows.start <= line && line < rows.end;
+            *span = if inside {
+                next_span(line, columns)
+            } else {
+                Span::default()
+            };
+        }
+        row.measure();
+        if !row.touched.is_empty() {
+            paint(&row);
+        }
+        line = top + side;
+    }
+}
+
+/// A span of pixels as a span of samples.
+pub(crate) fn scaled(pixels: Span, side: i32) -> Span {
+    Span {
+        start: pixels.start * side,
+        end: pixels.end * side,
+    }
+}
+
+impl PixelRow {
+    /// Covered sample columns for each sample row of the row of pixels.
+    #[inline]
+    pub(crate) fn spans(&self) -> &[Span] {
+        &self.spans[..self.side]
+    }
+
+    /// The pixels that are covered in part.
+    #[inline]
+    pub(crate) fn partial(&self) -> impl Iterator<Item = i32> + use<> {
+        (self.touched.start..self.full.start).chain(self.full.end..self.touched.end)
+    }
+
+    /// Finds out which pixels are touched and which are full.
+    #[inline]
+    fn measure(&mut self) {
+        let (mut outer, mut inner) = (
+            Span {
+                start: i32::MAX,
+                end: 0,
+            },
+            Span {
+                start: 0,
+                end: i32::MAX,
+            },
+        );
+        for span in &self.spans[..self.side] {
+            // A sample row without samples leaves no pixel full.
+            inner = inner.intersection(*span);
+            if !span.is_empty() {
+                outer = Span {
+                    start: outer.start.min(span.start),
+                    end: outer.end.max(span.end),
+                };
+            }
+        }
+        if outer.is_empty() {
+            (self.touched, self.full) = (Span::default(), Span::default());
+            return;
+        }
+        // Columns of a frame are never negative, so that division rounds down.
+        let side = u32::try_from(self.side).unwrap_or(1);
+        let down = |column: i32| (column.cast_unsigned() / side).cast_signed();
+        let up = |column: i32| (column.cast_unsigned().saturating_add(side - 1) / side).cast_signed();
+        self.touched = Span {
+            start: down(outer.start),
+            end: up(outer.end),
+        };
+        self.full = if inner.is_empty() {
+            Span::default()
+        } else {
+            Span {
+                start: up(inner.start),
+                end: down(inner.end),
+            }
+        };
+        if self.full.is_empty() {
+            self.full = Span {
+                start: self.touched.end,
+                end: self.touched.end,
+            };
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! The colours that the samples of a tile may show, by number.
+//!
+//! Painting a translucent colour over a slot makes a new slot: once for all samples that show the old one.
+
+use super::display_list::{Paint, ScreenTriangle};
+use super::visibility::{MAX_SLOTS, Slot};
+use crate::color::Premultiplied16;
+use crate::rules::Rules;
+
+/// What samples may show.
+#[derive(Debug)]
+pub(crate) struct Slots<'a> {
+    rules: Rules,
+    all: Vec<SlotColor<'a>>,
+    /// For each slot what it became under the latest translucent paint, and which paint that was.
+    painted: Vec<(u32, Slot)>,
+    paint: u32,
+    /// Whether anything is to be shaded.
+    pub(crate) any_shaded: bool,
+}
+
+/// What the samples of one slot show.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SlotColor<'a> {
+    /// The colour; over a shaded primitive, what translucent paints add to it.
+    pub(crate) flat: Premultiplied16,
+    /// The pixel that shows nothing but the flat colour.
+    pub(crate) pixel: u32,
+    /// The opaque primitive below.
+    pub(crate) shaded: Option<Shaded<'a>>,
+}
+
+/// A primitive that is to be shaded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shaded<'a> {
+    pub(crate) triangle: &'a ScreenTriangle,
+    pub(crate) paint: &'a Paint,
+    /// How much of its colour shines through, of [`Premultiplied16::ONE`].
+    pub(crate) kept: u16,
+}
+
+impl<'a> Slots<'a> {
+    /// No slots.
+    pub(crate) fn new(rules: Rules) -> Self {
+        Self {
+            rules,
+            all: Vec::new(),
+            painted: Vec::new(),
+            paint: 0,
+            any_shaded: false,
+        }
+    }
+
+    /// Forgets all slots.
+    pub(crate) fn clear(&mut self) {
+        self.all.clear();
+        self.painted.clear();
+        self.paint = 0;
+        self.any_shaded = false;
+    }
+
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.all.len()
+    }
+
+    /// What a slot shows.
+    #[inline]
+    pub(crate) fn get(&self, slot: Slot) -> &SlotColor<'a> {
+        &self.all[usize::from(slot)]
+    }
+
+    /// Whether each slot in use may become another one, and one more may come, without running out of numbers.
+    pub(crate) fn is_full(&self) -> bool {
+        self.all.len() > MAX_SLOTS / 2 - 1
+    }
+
+    /// A slot for a flat colour; successive ones of the same colour share it.
+    #[inline]
+    pub(crate) fn flat(&mut self, color: Premultiplied16) -> Slot {
+        let newest = self.all.last();
+        if newest.is_none_or(|newest| newest.flat != color || newest.shaded.is_some()) {
+            self.all.push(SlotColor {
+                flat: color,
+                pixel: color.to_pixel(self.rules),
+                shaded: None,
+            });
+        }
+        self.newest()
+    }
+
+    /// A slot for an opaque primitive that is to be shaded.
+    #[inline]
+    pub(crate) fn shaded(&mut self, triangle: &'a ScreenTriangle, paint: &'a Paint) -> Slot {
+        self.any_shaded = true;
+        self.all.push(SlotColor {
+            flat: Premultiplied16::TRANSPARENT,
+            pixel: 0,
+            shaded: Some(Shaded {
+                triangle,
+                paint,
+                kept: Premultiplied16::ONE,
+            }),
+        });
+        self.newest()
+    }
+
+    /// From here on [`Slots::under`] speaks of another paint.
+    pub(crate) fn next_paint(&mut self) {
+        self.paint += 1;
+    }
+
+    /// What samples of `slot` show under a translucent colour, which is the same for all calls between two of
+    /// [`Slots::next_paint`].
+    #[inline]
+    pub(crate) fn under(&mut self, slot: Slot, color: Premultiplied16) -> Slot {
+        if self.painted.len() < self.all.len() {
+            self.painted.resize(self.all.len(), (0, 0));
+        }
+        let (paint, known) = self.painted[usize::from(slot)];
+        if paint == self.paint {
+            return known;
+        }
+        let mixed = self.mix(slot, color);
+        self.painted[usize::from(slot)] = (self.paint, mixed);
+        mixed
+    }
+
+    /// A new slot for a colour over what `below` shows.
+    pub(crate) fn mix(&mut self, below: Slot, color: Premultiplied16) -> Slot {
+        let mut mixed = *self.get(below);
+        mixed.flat = color.over(mixed.flat, self.rules);
+        match &mut mixed.shaded {
+            None => mixed.pixel = mixed.flat.to_pixel(self.rules),
+            Some(shaded) => {
+                let rest = Premultiplied16::ONE - color.0[3];
+                let [kept, ..] = Premultiplied16([shaded.kept; 4]).faded(rest).0;
+                shaded.kept = kept;
+            }
+        }
+        self.all.push(mixed);
+        self.newest()
+    }
+
+    /// Keeps the slots for which `used` is set; the new number of each.
+    pub(crate) fn keep(&mut self, used: &[bool]) -> Vec<Slot> {
+        let mut numbers = vec![0; used.len()];
+        let mut kept = 0;
+        for (old, number) in numbers.iter_mut().enumerate().filter(|(old, _)| used[*old]) {
+            self.all[kept] = self.all[old];
+            *number = Slot::try_from(kept).unwrap_or(0);
+            kept += 1;
+        }
+        self.all.truncate(kept);
+        self.painted.clear();
+        numbers
+    }
+
+    fn newest(&self) -> Slot {
+        debug_assert!(self.all.len() <= MAX_SLOTS, "slots are made room for");
+        Slot::try_from(self.all.len() - 1).unwrap_or(0)
+    }
+}
+
+impl SlotColor<'_> {
+    /// `count` times the flat colour.
+    #[inline]
+    pub(crate) fn sum(&self, count: u32) -> [u32; 4] {
+        let [r, g, b, a] = self.flat.0;
+        [
+            u32::from(r) * count,
+            u32::from(g) * count,
+            u32::from(b) * count,
+            u32::from(a) * count,
+        ]
+    }
+}

@@ -12,7 +12,7 @@ use egui::{Rect, TextureId};
 use super::CanvasRect;
 
 /// How far two lists may be apart where one of them has shapes that the other does not have.
-const WINDOW: usize = 48;
+const WINDOW: usize = 16;
 /// Farther than this from its bounds nothing of a shape is painted, in points: edges are softened over a pixel, and
 /// positions are rounded to whole pixels.
 const REACH: f32 = 2.0;

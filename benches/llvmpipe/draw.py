@@ -37,7 +37,7 @@ TEXTURED = """
 #version 330
 uniform sampler2D image;
 uniform float bias;
-in vec2 mixed;
+smooth in vec2 mixed;
 out vec4 color;
 void main() { color = texture(image, mixed, bias); }
 """

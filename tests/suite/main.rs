@@ -16,6 +16,8 @@ mod oracle;
 mod overlay_goldens;
 #[cfg(feature = "window")]
 mod overlay_painter;
+#[cfg(feature = "window")]
+mod overlay_repaints;
 mod readme;
 mod regions;
 mod render;

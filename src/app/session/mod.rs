@@ -3,6 +3,8 @@
 
 mod damage;
 mod stage;
+#[cfg(test)]
+mod tests;
 
 use std::collections::VecDeque;
 use std::io::Write as _;

@@ -32,7 +32,7 @@ pub(crate) struct Desktop {
 }
 
 impl Desktop {
-    /// Starts a server with a screen of 1600x1200 pixels.
+    /// Starts a server with a screen of 1920x1200 pixels.
     pub(crate) fn start() -> Self {
         let started = Command::new("Xvfb")
             .args([
@@ -43,7 +43,7 @@ impl Desktop {
                 "tcp",
                 "-screen",
                 "0",
-                "1600x1200x24",
+                "1920x1200x24",
             ])
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -100,6 +100,25 @@ impl Desktop {
             .map(|p| u32::from_le_bytes([p[0], p[1], p[2], 0]))
             .collect();
         Some((pixels, [u32::from(width), u32::from(height)]))
+    }
+
+    /// The bytes of a part of the window: its corner, width and height. Empty while the window changes its size.
+    pub(crate) fn part(&self, window: Window, [x, y, width, height]: [u16; 4]) -> Vec<u8> {
+        let corner = [x, y].map(|at| i16::try_from(at).unwrap());
+        let part = self
+            .x
+            .get_image(
+                ImageFormat::Z_PIXMAP,
+                window,
+                corner[0],
+                corner[1],
+                width,
+                height,
+                u32::MAX,
+            )
+            .unwrap()
+            .reply();
+        part.map(|image| image.data).unwrap_or_default()
     }
 
     /// Presses and releases a key that makes `character`, with Shift where the keyboard needs it.

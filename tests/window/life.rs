@@ -33,7 +33,7 @@ fn rest_costs_nothing() {
 }
 
 /// User and system time of a process and all its threads, in the kernel's ticks.
-fn ticks(process: u32) -> u64 {
+pub(crate) fn ticks(process: u32) -> u64 {
     let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap();
     // The name, in brackets, may hold blanks; user and system time are the 12th and 13th word after it.
     let words: Vec<&str> = stat.rsplit_once(')').unwrap().1.split_whitespace().collect();

@@ -10,5 +10,6 @@ mod desktop;
 mod drop;
 mod keyboard;
 mod life;
+mod pacing;
 mod pointer;
 mod program;

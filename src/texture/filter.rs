@@ -123,7 +123,7 @@ impl<'a> Filter<'a> {
     /// As [`Filter::points`], but as pixels `0xAARRGGBB`: [`Premultiplied16::to_pixel`] of the colours, which must be
     /// opaque.
     pub fn pixels(&self, simd: Level, grid: SampleGrid, points: &[[u16; 2]], out: &mut [u32]) {
-        points::filter_pixels(simd, &self.plan(grid), points, out);
+        points::filter(simd, &self.plan(grid), points, out);
     }
 
     /// The sums of the premultiplied colours over the samples of pixels, channels as in [`Premultiplied16`]. The sum over

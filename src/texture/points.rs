@@ -7,7 +7,7 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, i16x8, i16x16, i32x4, i32x8, u8x16, u8x32, u16x8, u16x16, u32x4, u64x2, u64x4};
+use fearless_simd::{Simd, dispatch, i16x16, i32x8, mask32x8, u8x16, u16x8, u16x16, u32x4, u32x8, u64x2};
 
 use glam::DVec2;
 
@@ -28,8 +28,14 @@ const ROUND: i32 = 1 << (FRACTION_BITS - 1 + 16);
 struct Cells {
     /// The first of the four texels around each sample.
     offsets: [u32; BLOCK],
-    /// Their weights, 16 bits each from the lowest: upper left, lower left, upper right, lower right.
-    weights: [u64; BLOCK],
+    /// The weights of the left two texels and of the right two; the lower 16 bits are the upper one's.
+    left: [i32; BLOCK],
+    right: [i32; BLOCK],
+}
+
+/// What becomes of four colours, channels as in [`Premultiplied16`].
+pub(super) trait FromColors: Sized {
+    fn four<S: Simd>(simd: S, colors: u16x16<S>) -> [Self; 4];
 }
 
 /// Positions of samples relative to the pivot, in samples; the first and the second half of the lanes.
@@ -45,99 +51,121 @@ struct Source<'a> {
     upper: &'a [[u8; 4]],
     lower: &'a [[u8; 4]],
     cells: &'a Cells,
+    mass: i32,
 }
 
-/// See [`super::Filter::points`].
-pub(super) fn filter(level: Level, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [Premultiplied16]) {
+/// See [`super::Filter::points`] and [`super::Filter::pixels`].
+pub(super) fn filter<C: FromColors>(level: Level, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
     dispatch!(level, simd => filter_with(simd, plan, points, out));
 }
 
-/// See [`super::Filter::pixels`].
-pub(super) fn filter_pixels(level: Level, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [u32]) {
-    dispatch!(level, simd => filter_pixels_with(simd, plan, points, out));
-}
-
 #[inline(always)]
-pub(super) fn filter_with<S: Simd>(simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [Premultiplied16]) {
+pub(super) fn filter_with<S: Simd, C: FromColors>(simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
     let mut cells = [Cells::EMPTY; 2];
     for (points, out) in points.chunks(BLOCK).zip(out.chunks_mut(BLOCK)) {
-        filter_block(simd, plan, points, &mut cells, out);
-    }
-}
-
-#[inline(always)]
-fn filter_pixels_with<S: Simd>(simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [u32]) {
-    let mut cells = [Cells::EMPTY; 2];
-    let mut colors = [Premultiplied16::TRANSPARENT; BLOCK];
-    for (points, out) in points.chunks(BLOCK).zip(out.chunks_mut(BLOCK)) {
-        let colors = &mut colors[..points.len().next_multiple_of(4)];
-        filter_block(simd, plan, points, &mut cells, colors);
-        for (colors, out) in colors.chunks_exact(4).zip(out.chunks_mut(4)) {
-            let pixels = opaque_pixels(simd, colors).to_array();
-            out.copy_from_slice(&pixels[..out.len()]);
+        prepare(simd, plan, points, &mut cells);
+        let [finer, coarser] = &cells;
+        let finer = Source::new(&plan.finer, finer);
+        let coarser = plan.coarser.as_ref().map(|level| Source::new(level, coarser));
+        match (plan.pixel, coarser) {
+            (PixelSampling::Nearest, None) => nearest(simd, finer, out),
+            (PixelSampling::Nearest, Some(coarser)) => nearest_mixed(simd, finer, coarser, out),
+            (PixelSampling::Bilinear, None) => bilinear(simd, finer, out),
+            (PixelSampling::Bilinear, Some(coarser)) => trilinear(simd, finer, coarser, out),
         }
     }
 }
 
-/// Colours at up to [`BLOCK`] samples.
+/// Notes where up to [`BLOCK`] samples read the levels.
 #[inline(always)]
-fn filter_block<S: Simd>(
-    simd: S,
-    plan: &Plan<'_>,
-    points: &[[u16; 2]],
-    cells: &mut [Cells; 2],
-    out: &mut [Premultiplied16],
-) {
-    let [finer, coarser] = cells;
+fn prepare<S: Simd>(simd: S, plan: &Plan<'_>, points: &[[u16; 2]], [finer, coarser]: &mut [Cells; 2]) {
     let lanes = S::u32s::LEN;
-    for (i, points) in points.chunks(lanes).enumerate() {
-        let at = Positions::new(simd, columns_and_rows(simd, points), plan.first);
-        finer.prepare(simd, plan.pixel, &plan.finer, (&at, i * lanes));
+    let last = points.len().saturating_sub(lanes);
+    for first in (0..points.len()).step_by(lanes) {
+        // The last vector begins earlier rather than to be short.
+        let first = first.min(last);
+        let at = Positions::new(simd, columns_and_rows(simd, &points[first..]), plan.first);
+        finer.note(simd, plan.pixel, &plan.finer, (&at, first));
         if let Some(level) = &plan.coarser {
-            coarser.prepare(simd, plan.pixel, level, (&at, i * lanes));
-        }
-    }
-    let finer = Source::new(&plan.finer, finer);
-    let coarser = plan.coarser.as_ref().map(|level| Source::new(level, coarser));
-    match (plan.pixel, coarser) {
-        (PixelSampling::Nearest, None) => {
-            for (i, color) in out.iter_mut().enumerate() {
-                *color = Premultiplied16::from_bytes(finer.texel(i));
-            }
-        }
-        (PixelSampling::Nearest, Some(coarser)) => {
-            let masses = plan.coarser.map_or(0, |level| level.mass) << 16 | plan.finer.mass;
-            for (i, out) in out.chunks_mut(2).enumerate() {
-                let first = mixed(simd, finer.texel(2 * i), coarser.texel(2 * i), masses);
-                let second = mixed(simd, finer.texel(2 * i + 1), coarser.texel(2 * i + 1), masses);
-                store(first, second, out);
-            }
-        }
-        (PixelSampling::Bilinear, None) => {
-            for (i, out) in out.chunks_mut(2).enumerate() {
-                let (first, second) = (finer.bilinear(simd, 2 * i), finer.bilinear(simd, 2 * i + 1));
-                store(both_columns(first), both_columns(second), out);
-            }
-        }
-        (PixelSampling::Bilinear, Some(coarser)) => {
-            for (i, out) in out.chunks_mut(2).enumerate() {
-                let first = finer.bilinear(simd, 2 * i) + coarser.bilinear(simd, 2 * i);
-                let second = finer.bilinear(simd, 2 * i + 1) + coarser.bilinear(simd, 2 * i + 1);
-                store(both_columns(first), both_columns(second), out);
-            }
+            coarser.note(simd, plan.pixel, level, (&at, first));
         }
     }
 }
 
-/// Sample or pixel columns and rows as floats, of at most as many as a vector has lanes.
+/// Calls `$colors` for the numbers of each four samples and writes what becomes of them; it is no function, because a
+/// closure would not be inlined.
+macro_rules! by_fours {
+    ($simd:expr, $out:expr, |$i:ident| $colors:expr) => {{
+        let (fours, rest) = $out.as_chunks_mut::<4>();
+        let mut $i = 0;
+        for four in fours {
+            *four = C::four($simd, $colors);
+            $i += 4;
+        }
+        if !rest.is_empty() {
+            for (out, color) in rest.iter_mut().zip(C::four($simd, $colors)) {
+                *out = color;
+            }
+        }
+    }};
+}
+
+#[inline(always)]
+fn nearest<S: Simd, C: FromColors>(simd: S, texels: Source<'_>, out: &mut [C]) {
+    by_fours!(simd, out, |i| {
+        let bytes = texels.four(simd, i);
+        let zero = u8x16::splat(simd, 0);
+        let (low, high) = (zero.zip_low(bytes), zero.zip_high(bytes));
+        low.bitcast::<u16x8<S>>().combine(high.bitcast::<u16x8<S>>())
+    });
+}
+
+#[inline(always)]
+fn nearest_mixed<S: Simd, C: FromColors>(simd: S, finer: Source<'_>, coarser: Source<'_>, out: &mut [C]) {
+    let masses: i16x16<S> = i32x8::splat(simd, coarser.mass << 16 | finer.mass).bitcast();
+    by_fours!(simd, out, |i| {
+        let (fine, coarse) = (finer.four(simd, i), coarser.four(simd, i));
+        let low: i16x16<S> = widen(fine.zip_low(coarse));
+        let high: i16x16<S> = widen(fine.zip_high(coarse));
+        round(
+            simd,
+            low.pairwise_dot_product(masses),
+            high.pairwise_dot_product(masses),
+        )
+    });
+}
+
+#[inline(always)]
+fn bilinear<S: Simd, C: FromColors>(simd: S, texels: Source<'_>, out: &mut [C]) {
+    by_fours!(simd, out, |i| {
+        let low = both_columns(texels.bilinear(simd, i), texels.bilinear(simd, i + 1));
+        let high = both_columns(texels.bilinear(simd, i + 2), texels.bilinear(simd, i + 3));
+        round(simd, low, high)
+    });
+}
+
+#[inline(always)]
+fn trilinear<S: Simd, C: FromColors>(simd: S, finer: Source<'_>, coarser: Source<'_>, out: &mut [C]) {
+    by_fours!(simd, out, |i| {
+        let first = finer.bilinear(simd, i) + coarser.bilinear(simd, i);
+        let second = finer.bilinear(simd, i + 1) + coarser.bilinear(simd, i + 1);
+        let third = finer.bilinear(simd, i + 2) + coarser.bilinear(simd, i + 2);
+        let fourth = finer.bilinear(simd, i + 3) + coarser.bilinear(simd, i + 3);
+        round(simd, both_columns(first, second), both_columns(third, fourth))
+    });
+}
+
+/// Sample or pixel columns and rows as floats, of as many as a vector has lanes.
 #[inline(always)]
 pub(super) fn columns_and_rows<S: Simd>(simd: S, points: &[[u16; 2]]) -> [S::f32s; 2] {
     let lanes = S::u32s::LEN;
-    let both: S::u32s = if points.len() == lanes {
+    let both: S::u32s = if let Some(points) = points.get(..lanes) {
         S::u16s::from_slice(simd, points.as_flattened()).bitcast()
     } else {
         let mut padded = [[0; 2]; MAX_LANES];
-        padded[..points.len()].copy_from_slice(points);
+        for (padded, point) in padded.iter_mut().zip(points) {
+            *padded = *point;
+        }
         S::u16s::from_slice(simd, padded[..lanes].as_flattened()).bitcast()
     };
     let column: S::i32s = (both & S::u32s::splat(simd, 0xFFFF)).bitcast();
@@ -190,12 +218,13 @@ impl<S: Simd> Positions<S> {
 impl Cells {
     const EMPTY: Self = Self {
         offsets: [0; BLOCK],
-        weights: [0; BLOCK],
+        left: [0; BLOCK],
+        right: [0; BLOCK],
     };
 
     /// Notes the cells of a vector of samples from number `first` on.
     #[inline(always)]
-    fn prepare<S: Simd>(
+    fn note<S: Simd>(
         &mut self,
         simd: S,
         pixel: PixelSampling,
@@ -228,7 +257,8 @@ impl Cells {
         // No part of a difference is negative, so that nothing is borrowed from the upper half.
         let right = share(upper, x) | share(lower, x) << 16;
         let left = (upper | lower << 16) - right;
-        store_columns::<S>(left, right, &mut self.weights[first..first + lanes]);
+        left.store_slice(&mut self.left[first..first + lanes]);
+        right.store_slice(&mut self.right[first..first + lanes]);
     }
 }
 
@@ -241,51 +271,46 @@ impl<'a> Source<'a> {
             upper: &texels[..count],
             lower: &texels[stride..][..count],
             cells,
+            mass: level.mass,
         }
     }
 
-    /// The first texel of sample `i`.
+    /// The first texels of four samples.
     #[inline(always)]
-    fn texel(&self, i: usize) -> [u8; 4] {
-        self.upper[self.cells.offsets[i % BLOCK] as usize]
+    fn four<S: Simd>(&self, simd: S, i: usize) -> u8x16<S> {
+        let texel = |i: usize| u32::from_le_bytes(self.upper[self.cells.offsets[i % BLOCK] as usize]);
+        u32x4::simd_from(simd, [texel(i), texel(i + 1), texel(i + 2), texel(i + 3)]).bitcast()
     }
 
     /// Red, green, blue and alpha of sample `i` in the units of the weights: the left column's sums, then the right's.
     #[inline(always)]
     fn bilinear<S: Simd>(&self, simd: S, i: usize) -> i32x8<S> {
-        let at = self.cells.offsets[i % BLOCK] as usize;
+        let i = i % BLOCK;
+        let at = self.cells.offsets[i] as usize;
         let upper: u8x16<S> = u64x2::simd_from(simd, [row(self.upper, at), 0]).bitcast();
         let lower: u8x16<S> = u64x2::simd_from(simd, [row(self.lower, at), 0]).bitcast();
-        columns(simd, upper.zip_low(lower), self.cells.weights[i % BLOCK])
+        columns(simd, upper.zip_low(lower), self.cells.left[i], self.cells.right[i])
     }
-}
-
-/// Writes the weights of 2 x 2 texels for a vector of samples as [`columns`] takes them; in the lower 16 bits of `left`
-/// and `right` the upper texels' ones.
-#[inline(always)]
-pub(super) fn store_columns<S: Simd>(left: S::i32s, right: S::i32s, out: &mut [u64]) {
-    let (low, high) = out[..S::u32s::LEN].split_at_mut(S::u32s::LEN / 2);
-    left.zip_low(right).bitcast::<S::u64s>().store_slice(low);
-    left.zip_high(right).bitcast::<S::u64s>().store_slice(high);
 }
 
 /// Two columns of two texels with their weights: red, green, blue and alpha of the left column, then of the right one.
 ///
-/// `texels` holds the left column's upper and lower red, upper and lower green and so on, then the right column's;
-/// `weights` 16 bits each from the lowest: upper left, lower left, upper right, lower right.
+/// `texels` holds the left column's upper and lower red, upper and lower green and so on, then the right column's. The
+/// lower 16 bits of a column's weights are those of the upper texel.
 #[inline(always)]
-pub(super) fn columns<S: Simd>(simd: S, texels: u8x16<S>, weights: u64) -> i32x8<S> {
-    /// Each half of a 64-bit number four times, first the lower one.
-    const SPREAD: [u8; 32] = [
-        0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 7, 4, 5, 6, 7, 4, 5, 6, 7,
-    ];
-    let (left, right) = texels.widen();
-    let channels: i16x16<S> = left.combine(right).bitcast();
-    let weights: u8x32<S> = u64x4::splat(simd, weights).bitcast();
-    let weights: i16x16<S> = weights
-        .swizzle_dyn_within_blocks(u8x32::simd_from(simd, SPREAD))
+pub(super) fn columns<S: Simd>(simd: S, texels: u8x16<S>, left: i32, right: i32) -> i32x8<S> {
+    let first_half = mask32x8::simd_from(simd, [-1, -1, -1, -1, 0, 0, 0, 0]);
+    let weights: i16x16<S> = first_half
+        .select(i32x8::splat(simd, left), i32x8::splat(simd, right))
         .bitcast();
-    channels.pairwise_dot_product(weights)
+    widen(texels).pairwise_dot_product(weights)
+}
+
+/// Bytes as 16-bit numbers.
+#[inline(always)]
+fn widen<S: Simd>(bytes: u8x16<S>) -> i16x16<S> {
+    // Of twice as many bytes, because for them there is one instruction.
+    bytes.combine(bytes).widen().0.bitcast()
 }
 
 /// Two neighbouring texels as one number.
@@ -296,48 +321,49 @@ fn row(texels: &[[u8; 4]], at: usize) -> u64 {
     u64::from_le_bytes(bytes)
 }
 
-/// The sums of a sample's left and right column.
+/// The sums of the left and right columns of two samples.
 #[inline(always)]
-fn both_columns<S: Simd>(sums: i32x8<S>) -> i32x4<S> {
-    let (left, right) = sums.split();
-    left + right
+fn both_columns<S: Simd>(first: i32x8<S>, second: i32x8<S>) -> i32x8<S> {
+    let (first, second) = (first.split(), second.split());
+    first.0.combine(second.0) + first.1.combine(second.1)
 }
 
-/// Two texels with the weights in the two halves of `masses`, in their units.
+/// Rounds the sums of four samples to the bits that are stored; see `cell::to_channel`.
 #[inline(always)]
-fn mixed<S: Simd>(simd: S, finer: [u8; 4], coarser: [u8; 4], masses: i32) -> i32x4<S> {
-    let word = |texel| -> u8x16<S> { u32x4::simd_from(simd, [u32::from_le_bytes(texel), 0, 0, 0]).bitcast() };
-    let (channels, _) = word(finer).zip_low(word(coarser)).widen();
-    let channels: i16x8<S> = channels.bitcast();
-    let weights: i16x8<S> = i32x4::splat(simd, masses).bitcast();
-    channels.pairwise_dot_product(weights)
+fn round<S: Simd>(simd: S, low: i32x8<S>, high: i32x8<S>) -> u16x16<S> {
+    let half = i32x8::splat(simd, 1 << (SUM_SHIFT - 1));
+    let low: u32x8<S> = ((low + half) >> SUM_SHIFT).bitcast();
+    let high: u32x8<S> = ((high + half) >> SUM_SHIFT).bitcast();
+    low.relaxed_narrow(high)
 }
 
-/// Rounds the sums of two samples to the bits that are stored; see `cell::to_channel`.
-#[inline(always)]
-fn store<S: Simd>(first: i32x4<S>, second: i32x4<S>, out: &mut [Premultiplied16]) {
-    let half = 1 << (SUM_SHIFT - 1);
-    let first: u32x4<S> = ((first + half) >> SUM_SHIFT).bitcast();
-    let second: u32x4<S> = ((second + half) >> SUM_SHIFT).bitcast();
-    let channels = first.relaxed_narrow(second).to_array();
-    for (color, channels) in out.iter_mut().zip(channels.as_chunks().0) {
-        *color = Premultiplied16(*channels);
+impl FromColors for Premultiplied16 {
+    #[inline(always)]
+    fn four<S: Simd>(_: S, colors: u16x16<S>) -> [Self; 4] {
+        let channels = colors.to_array();
+        let [r0, g0, b0, a0, r1, g1, b1, a1, r2, g2, b2, a2, r3, g3, b3, a3] = channels;
+        [
+            Self([r0, g0, b0, a0]),
+            Self([r1, g1, b1, a1]),
+            Self([r2, g2, b2, a2]),
+            Self([r3, g3, b3, a3]),
+        ]
     }
 }
 
-/// Four opaque colours as pixels; see [`Premultiplied16::to_pixel`].
-#[inline(always)]
-fn opaque_pixels<S: Simd>(simd: S, colors: &[Premultiplied16]) -> u32x4<S> {
-    /// From red, green, blue, alpha to the bytes of `0xAARRGGBB` from the lowest.
-    const ORDER: [u8; 16] = [2, 1, 0, 3, 6, 5, 4, 7, 10, 9, 8, 11, 14, 13, 12, 15];
-    let mut channels = [0; 16];
-    for (channels, color) in channels.as_chunks_mut().0.iter_mut().zip(colors) {
-        *channels = color.0;
+/// Opaque colours as pixels; see [`Premultiplied16::to_pixel`].
+impl FromColors for u32 {
+    #[inline(always)]
+    fn four<S: Simd>(simd: S, colors: u16x16<S>) -> [Self; 4] {
+        /// From red, green, blue, alpha to the bytes of `0xAARRGGBB` from the lowest.
+        const ORDER: [u8; 16] = [2, 1, 0, 3, 6, 5, 4, 7, 10, 9, 8, 11, 14, 13, 12, 15];
+        let bytes = (colors + u16x16::splat(simd, Premultiplied16::PER_BYTE / 2)) >> 8;
+        let (low, high) = bytes.split();
+        let bytes = low
+            .relaxed_narrow(high)
+            .swizzle_dyn_within_blocks(u8x16::simd_from(simd, ORDER));
+        bytes.bitcast::<u32x4<S>>().to_array()
     }
-    let (first, second) = u16x16::simd_from(simd, channels).split();
-    let byte = |channels: u16x8<S>| (channels + Premultiplied16::PER_BYTE / 2) >> 8;
-    let bytes = byte(first).relaxed_narrow(byte(second));
-    bytes.swizzle_dyn_within_blocks(u8x16::simd_from(simd, ORDER)).bitcast()
 }
 
 #[cfg(test)]

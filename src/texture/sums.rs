@@ -23,9 +23,8 @@ use crate::simd::Level;
 struct Blocks {
     /// The first of the 4 x 4 texels of each pixel.
     offsets: [u32; MAX_LANES],
-    /// The weights of 2 x 2 texels: the upper left ones, then to the right, then below; each four as in
-    /// [`points::weigh_columns`].
-    weights: [[u64; MAX_LANES]; 4],
+    /// The weights of the upper two rows' texels from column to column, two by two, then those of the lower two rows.
+    weights: [[i32; MAX_LANES]; 8],
 }
 
 /// See [`super::Filter::sums`].
@@ -99,12 +98,12 @@ fn sum_texels<S: Simd>(
         let (covered, count) = cover(simd, scale, masks);
         let total = count << scale.sample_bits;
         match coarser {
-            None => blocks[0].fill(simd, finer, &at, (covered, total)),
+            None => blocks[0].outlined_fill(simd, finer, &at, (covered, total)),
             Some(coarser) => {
                 let number = |value| S::i32s::splat(simd, value);
                 let part = (total * number(coarser.level.mass) + number(MASS / 2)) >> MASS_BITS;
-                blocks[0].fill(simd, finer, &at, (covered, total - part));
-                blocks[1].fill(simd, coarser, &at, (covered, part));
+                blocks[0].outlined_fill(simd, finer, &at, (covered, total - part));
+                blocks[1].outlined_fill(simd, coarser, &at, (covered, part));
             }
         }
         for (lane, sum) in sums.iter_mut().enumerate() {
@@ -154,10 +153,24 @@ fn halves(bits: u64) -> [u32; 2] {
 impl Blocks {
     const EMPTY: Self = Self {
         offsets: [0; MAX_LANES],
-        weights: [[0; MAX_LANES]; 4],
+        weights: [[0; MAX_LANES]; 8],
     };
 
-    /// Notes where a vector of pixels reads a level.
+    /// Notes where a vector of pixels reads a level; compiled once for the two levels.
+    #[inline(never)]
+    fn outlined_fill<S: Simd>(
+        &mut self,
+        simd: S,
+        footing: &Footing<'_>,
+        at: &Positions<S>,
+        covered: (Covered<S>, S::i32s),
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.fill(simd, footing, at, covered),
+        );
+    }
+
     #[inline(always)]
     fn fill<S: Simd>(&mut self, simd: S, footing: &Footing<'_>, at: &Positions<S>, covered: (Covered<S>, S::i32s)) {
         let Weighed { offsets, weights } = if footing.is_narrow() {
@@ -166,31 +179,39 @@ impl Blocks {
             weigh::<S, 3>(simd, footing, at, covered)
         };
         offsets.store_slice(&mut self.offsets[..S::u32s::LEN]);
-        for (quarter, packed) in self.weights.iter_mut().enumerate() {
-            let (r, c) = (quarter / 2 * 2, quarter % 2 * 2);
-            let column = |c: usize| weights[r][c] | weights[r + 1][c] << 16;
-            points::store_columns::<S>(column(c), column(c + 1), packed);
+        for (i, packed) in self.weights.iter_mut().enumerate() {
+            let (row, column) = (i / 4 * 2, i % 4);
+            let both = weights[row][column] | weights[row + 1][column] << 16;
+            both.store_slice(&mut packed[..S::u32s::LEN]);
         }
     }
 
     /// Red, green, blue and alpha of a pixel in the units of the weights: even columns, then odd columns.
     #[inline(always)]
     fn sum<S: Simd>(&self, simd: S, footing: &Footing<'_>, lane: usize) -> i32x8<S> {
+        let lane = lane % MAX_LANES;
         let stride = footing.level.level.stride() as usize;
-        let texels = &footing.level.level.texels()[self.offsets[lane % MAX_LANES] as usize..][..3 * stride + 4];
-        let row = |r: usize| -> u8x16<S> {
-            let mut bytes = [0; 16];
-            bytes.copy_from_slice(texels[r * stride..][..4].as_flattened());
-            u8x16::simd_from(simd, bytes)
-        };
-        let rows = [row(0), row(1), row(2), row(3)];
-        let weights = self.weights.map(|quarter| quarter[lane % MAX_LANES]);
-        let upper = points::columns(simd, rows[0].zip_low(rows[1]), weights[0])
-            + points::columns(simd, rows[0].zip_high(rows[1]), weights[1]);
-        let lower = points::columns(simd, rows[2].zip_low(rows[3]), weights[2])
-            + points::columns(simd, rows[2].zip_high(rows[3]), weights[3]);
+        let texels = &footing.level.level.texels()[self.offsets[lane] as usize..][..3 * stride + 4];
+        let rows = [
+            row(simd, texels),
+            row(simd, &texels[stride..]),
+            row(simd, &texels[2 * stride..]),
+            row(simd, &texels[3 * stride..]),
+        ];
+        let weights = &self.weights;
+        let pair = |texels, i: usize| points::columns(simd, texels, weights[i][lane], weights[i + 1][lane]);
+        let upper = pair(rows[0].zip_low(rows[1]), 0) + pair(rows[0].zip_high(rows[1]), 2);
+        let lower = pair(rows[2].zip_low(rows[3]), 4) + pair(rows[2].zip_high(rows[3]), 6);
         upper + lower
     }
+}
+
+/// Four texels.
+#[inline(always)]
+fn row<S: Simd>(simd: S, texels: &[[u8; 4]]) -> u8x16<S> {
+    let mut bytes = [0; 16];
+    bytes.copy_from_slice(texels[..4].as_flattened());
+    u8x16::simd_from(simd, bytes)
 }
 
 #[cfg(test)]

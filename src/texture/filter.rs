@@ -137,17 +137,17 @@ impl<'a> Filter<'a> {
     }
 
     pub(super) fn plan(&self, grid: SampleGrid) -> Plan<'a> {
-        /// The finest part of a sample that a pivot is rounded to, far below the grid that vertices lie on: it takes
-        /// back what dividing by `side` lost, so that distances are exact.
-        const UNITS: f64 = (1 << 20) as f64;
+        /// Adding and subtracting this rounds to multiples of `2^-20`, far finer than the grid that vertices lie on: it
+        /// takes back what dividing by `side` lost, so that distances are exact.
+        const ROUND: f64 = 1.5 * (1_u64 << 32) as f64;
         let side = f64::from(grid.side);
-        let pivot = (self.pivot * side * UNITS).round() / UNITS;
+        let pivot = (self.pivot * side + ROUND) - ROUND;
         let origin = DVec2::new(f64::from(grid.origin[0]), f64::from(grid.origin[1]));
         Plan {
             pixel: self.pixel,
             first: origin * side + 0.5 - pivot,
-            finer: self.finer.on_grid(side),
-            coarser: self.coarser.map(|level| level.on_grid(side)),
+            finer: self.finer.on_grid(1.0 / side),
+            coarser: self.coarser.map(|level| level.on_grid(1.0 / side)),
         }
     }
 }
@@ -172,11 +172,11 @@ impl<'a> FilterLevel<'a> {
         }
     }
 
-    fn on_grid(&self, side: f64) -> GridLevel<'a> {
+    fn on_grid(&self, sample: f64) -> GridLevel<'a> {
         let axis = |at_pivot, right: f64, down: f64, size: u32| Axis {
             at_pivot,
-            right: right / side,
-            down: down / side,
+            right: right * sample,
+            down: down * sample,
             last: f64::from(size - 1),
         };
         GridLevel {

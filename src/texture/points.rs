@@ -7,7 +7,7 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, i16x16, i32x8, mask32x8, u8x16, u16x8, u16x16, u32x4, u32x8, u64x2};
+use fearless_simd::{Simd, dispatch, i16x16, i32x8, u8x16, u8x32, u16x8, u16x16, u32x4, u32x8, u64x2, u64x4};
 
 use glam::DVec2;
 
@@ -17,8 +17,8 @@ use super::filter::{Axis, GridLevel, Plan};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
 
-/// Samples that are prepared together; their offsets and weights stay in the nearest cache.
-const BLOCK: usize = 32;
+/// Samples that are prepared together; few, so that short lists do not pay for clearing memory.
+const BLOCK: usize = 16;
 /// The most lanes of 32 bits that a vector has.
 pub(super) const MAX_LANES: usize = 16;
 /// The second factor of a pair that rounds a product to nearest before its fraction is cut off; its partner is 1.
@@ -28,10 +28,15 @@ const ROUND: i32 = 1 << (FRACTION_BITS - 1 + 16);
 struct Cells {
     /// The first of the four texels around each sample.
     offsets: [u32; BLOCK],
-    /// The weights of the left two texels and of the right two; the lower 16 bits are the upper one's.
-    left: [i32; BLOCK],
-    right: [i32; BLOCK],
+    /// Their weights, as [`Spread::columns`] takes them.
+    weights: [u64; BLOCK],
 }
+
+/// How to spread the weights of two columns over channels: each half of a 64-bit number four times, the lower half first.
+///
+/// The order of bytes is hidden from the compiler, which would replace one shuffle by two that it knows.
+#[derive(Clone, Copy)]
+pub(super) struct Spread<S: Simd>(u8x32<S>);
 
 /// What becomes of four colours, channels as in [`Premultiplied16`].
 pub(super) trait FromColors: Sized {
@@ -62,6 +67,7 @@ pub(super) fn filter<C: FromColors>(level: Level, plan: &Plan<'_>, points: &[[u1
 #[inline(always)]
 pub(super) fn filter_with<S: Simd, C: FromColors>(simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
     let mut cells = [Cells::EMPTY; 2];
+    let spread = Spread::new(simd);
     for (points, out) in points.chunks(BLOCK).zip(out.chunks_mut(BLOCK)) {
         prepare(simd, plan, points, &mut cells);
         let [finer, coarser] = &cells;
@@ -70,8 +76,8 @@ pub(super) fn filter_with<S: Simd, C: FromColors>(simd: S, plan: &Plan<'_>, poin
         match (plan.pixel, coarser) {
             (PixelSampling::Nearest, None) => nearest(simd, finer, out),
             (PixelSampling::Nearest, Some(coarser)) => nearest_mixed(simd, finer, coarser, out),
-            (PixelSampling::Bilinear, None) => bilinear(simd, finer, out),
-            (PixelSampling::Bilinear, Some(coarser)) => trilinear(simd, finer, coarser, out),
+            (PixelSampling::Bilinear, None) => bilinear(simd, spread, finer, out),
+            (PixelSampling::Bilinear, Some(coarser)) => trilinear(simd, spread, [finer, coarser], out),
         }
     }
 }
@@ -136,21 +142,24 @@ fn nearest_mixed<S: Simd, C: FromColors>(simd: S, finer: Source<'_>, coarser: So
 }
 
 #[inline(always)]
-fn bilinear<S: Simd, C: FromColors>(simd: S, texels: Source<'_>, out: &mut [C]) {
+fn bilinear<S: Simd, C: FromColors>(simd: S, spread: Spread<S>, texels: Source<'_>, out: &mut [C]) {
     by_fours!(simd, out, |i| {
-        let low = both_columns(texels.bilinear(simd, i), texels.bilinear(simd, i + 1));
-        let high = both_columns(texels.bilinear(simd, i + 2), texels.bilinear(simd, i + 3));
+        let low = both_columns(texels.bilinear(simd, spread, i), texels.bilinear(simd, spread, i + 1));
+        let high = both_columns(
+            texels.bilinear(simd, spread, i + 2),
+            texels.bilinear(simd, spread, i + 3),
+        );
         round(simd, low, high)
     });
 }
 
 #[inline(always)]
-fn trilinear<S: Simd, C: FromColors>(simd: S, finer: Source<'_>, coarser: Source<'_>, out: &mut [C]) {
+fn trilinear<S: Simd, C: FromColors>(simd: S, spread: Spread<S>, [finer, coarser]: [Source<'_>; 2], out: &mut [C]) {
     by_fours!(simd, out, |i| {
-        let first = finer.bilinear(simd, i) + coarser.bilinear(simd, i);
-        let second = finer.bilinear(simd, i + 1) + coarser.bilinear(simd, i + 1);
-        let third = finer.bilinear(simd, i + 2) + coarser.bilinear(simd, i + 2);
-        let fourth = finer.bilinear(simd, i + 3) + coarser.bilinear(simd, i + 3);
+        let first = finer.bilinear(simd, spread, i) + coarser.bilinear(simd, spread, i);
+        let second = finer.bilinear(simd, spread, i + 1) + coarser.bilinear(simd, spread, i + 1);
+        let third = finer.bilinear(simd, spread, i + 2) + coarser.bilinear(simd, spread, i + 2);
+        let fourth = finer.bilinear(simd, spread, i + 3) + coarser.bilinear(simd, spread, i + 3);
         round(simd, both_columns(first, second), both_columns(third, fourth))
     });
 }
@@ -163,8 +172,11 @@ pub(super) fn columns_and_rows<S: Simd>(simd: S, points: &[[u16; 2]]) -> [S::f32
         S::u16s::from_slice(simd, points.as_flattened()).bitcast()
     } else {
         let mut padded = [[0; 2]; MAX_LANES];
-        for (padded, point) in padded.iter_mut().zip(points) {
-            *padded = *point;
+        // The last one again and again; copying just those there are would be a call.
+        if let Some(last) = points.len().checked_sub(1) {
+            for (i, padded) in padded[..lanes].iter_mut().enumerate() {
+                *padded = points[i.min(last)];
+            }
         }
         S::u16s::from_slice(simd, padded[..lanes].as_flattened()).bitcast()
     };
@@ -218,8 +230,7 @@ impl<S: Simd> Positions<S> {
 impl Cells {
     const EMPTY: Self = Self {
         offsets: [0; BLOCK],
-        left: [0; BLOCK],
-        right: [0; BLOCK],
+        weights: [0; BLOCK],
     };
 
     /// Notes the cells of a vector of samples from number `first` on.
@@ -257,8 +268,7 @@ impl Cells {
         // No part of a difference is negative, so that nothing is borrowed from the upper half.
         let right = share(upper, x) | share(lower, x) << 16;
         let left = (upper | lower << 16) - right;
-        left.store_slice(&mut self.left[first..first + lanes]);
-        right.store_slice(&mut self.right[first..first + lanes]);
+        store_columns::<S>(left, right, &mut self.weights[first..first + lanes]);
     }
 }
 
@@ -284,26 +294,63 @@ impl<'a> Source<'a> {
 
     /// Red, green, blue and alpha of sample `i` in the units of the weights: the left column's sums, then the right's.
     #[inline(always)]
-    fn bilinear<S: Simd>(&self, simd: S, i: usize) -> i32x8<S> {
+    fn bilinear<S: Simd>(&self, simd: S, spread: Spread<S>, i: usize) -> i32x8<S> {
         let i = i % BLOCK;
         let at = self.cells.offsets[i] as usize;
         let upper: u8x16<S> = u64x2::simd_from(simd, [row(self.upper, at), 0]).bitcast();
         let lower: u8x16<S> = u64x2::simd_from(simd, [row(self.lower, at), 0]).bitcast();
-        columns(simd, upper.zip_low(lower), self.cells.left[i], self.cells.right[i])
+        spread.columns(simd, upper.zip_low(lower), self.cells.weights[i])
     }
 }
 
-/// Two columns of two texels with their weights: red, green, blue and alpha of the left column, then of the right one.
-///
-/// `texels` holds the left column's upper and lower red, upper and lower green and so on, then the right column's. The
-/// lower 16 bits of a column's weights are those of the upper texel.
+/// Writes the weights of 2 x 2 texels for a vector of samples as [`Spread::columns`] takes them; in the lower 16 bits of
+/// `left` and `right` the upper texels' ones.
 #[inline(always)]
-pub(super) fn columns<S: Simd>(simd: S, texels: u8x16<S>, left: i32, right: i32) -> i32x8<S> {
-    let first_half = mask32x8::simd_from(simd, [-1, -1, -1, -1, 0, 0, 0, 0]);
-    let weights: i16x16<S> = first_half
-        .select(i32x8::splat(simd, left), i32x8::splat(simd, right))
-        .bitcast();
-    widen(texels).pairwise_dot_product(weights)
+pub(super) fn store_columns<S: Simd>(left: S::i32s, right: S::i32s, out: &mut [u64]) {
+    let (low, high) = out[..S::u32s::LEN].split_at_mut(S::u32s::LEN / 2);
+    left.zip_low(right).bitcast::<S::u64s>().store_slice(low);
+    left.zip_high(right).bitcast::<S::u64s>().store_slice(high);
+}
+
+impl<S: Simd> Spread<S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S) -> Self {
+        const ORDER: [u8; 32] = [
+            0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 7, 4, 5, 6, 7, 4, 5, 6, 7,
+        ];
+        let order = if Self::BY_ORDER {
+            std::hint::black_box(ORDER)
+        } else {
+            ORDER
+        };
+        Self(u8x32::simd_from(simd, order))
+    }
+
+    /// Two columns of two texels with their weights: red, green, blue, alpha of the left column, then of the right one.
+    ///
+    /// `texels` holds the left column's upper and lower red, upper and lower green and so on, then the right column's;
+    /// `weights` 16 bits each from the lowest: upper left, lower left, upper right, lower right.
+    #[inline(always)]
+    pub(super) fn columns(self, simd: S, texels: u8x16<S>, weights: u64) -> i32x8<S> {
+        let weights: i16x16<S> = if Self::BY_ORDER {
+            let both: u8x32<S> = u64x4::splat(simd, weights).bitcast();
+            both.swizzle_dyn_within_blocks(self.0).bitcast()
+        } else {
+            let [left, right] = halves(weights);
+            u32x4::splat(simd, left).combine(u32x4::splat(simd, right)).bitcast()
+        };
+        widen(texels).pairwise_dot_product(weights)
+    }
+
+    /// Whether vectors of 256 bits have an instruction that brings bytes into any order.
+    const BY_ORDER: bool = S::u32s::LEN >= 8;
+}
+
+/// The lower and the upper 32 bits.
+#[expect(clippy::cast_possible_truncation, reason = "one half after the other")]
+#[inline(always)]
+pub(super) fn halves(bits: u64) -> [u32; 2] {
+    [bits as u32, (bits >> 32) as u32]
 }
 
 /// Bytes as 16-bit numbers.

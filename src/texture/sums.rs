@@ -14,7 +14,7 @@ use super::PixelSampling;
 use super::cell::{MASS, MASS_BITS};
 use super::filter::{PixelList, Plan};
 use super::footing::{Footing, MAX_SIDE, Scale};
-use super::points::{self, MAX_LANES, Positions};
+use super::points::{self, MAX_LANES, Positions, Spread};
 use super::tails::{Covered, Weighed, weigh};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
@@ -23,8 +23,8 @@ use crate::simd::Level;
 struct Blocks {
     /// The first of the 4 x 4 texels of each pixel.
     offsets: [u32; MAX_LANES],
-    /// The weights of the upper two rows' texels from column to column, two by two, then those of the lower two rows.
-    weights: [[i32; MAX_LANES]; 8],
+    /// The weights of 2 x 2 texels as [`Spread::columns`] takes them: those at the upper left, to the right, below.
+    weights: [[u64; MAX_LANES]; 4],
 }
 
 /// See [`super::Filter::sums`].
@@ -89,6 +89,7 @@ fn sum_texels<S: Simd>(
 ) {
     let lanes = S::u32s::LEN;
     let mut blocks = [Blocks::EMPTY; 2];
+    let spread = Spread::new(simd);
     let middle = plan.first + f64::from(scale.side - 1) / 2.0;
     for (i, (pixels, sums)) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).enumerate() {
         let [columns, rows] = points::columns_and_rows(simd, pixels);
@@ -107,9 +108,9 @@ fn sum_texels<S: Simd>(
             }
         }
         for (lane, sum) in sums.iter_mut().enumerate() {
-            let mut channels = blocks[0].sum(simd, finer, lane);
+            let mut channels = blocks[0].sum(simd, spread, finer, lane);
             if let Some(coarser) = coarser {
-                channels += blocks[1].sum(simd, coarser, lane);
+                channels += blocks[1].sum(simd, spread, coarser, lane);
             }
             let (left, right) = channels.split();
             let channels = left + right;
@@ -136,24 +137,17 @@ fn cover<S: Simd>(simd: S, scale: Scale, masks: Option<&[u64]>) -> (Covered<S>, 
     let (mut low, mut high, mut counts) = ([0; MAX_LANES], [0; MAX_LANES], [0; MAX_LANES]);
     for (i, mask) in masks.iter().enumerate().take(MAX_LANES) {
         let mask = mask & possible;
-        [low[i], high[i]] = halves(mask);
+        [low[i], high[i]] = points::halves(mask);
         counts[i] = mask.count_ones();
     }
     let vector = |numbers: &[u32; MAX_LANES]| S::u32s::from_slice(simd, &numbers[..S::u32s::LEN]);
     (Covered::Some(vector(&low), vector(&high)), vector(&counts).bitcast())
 }
 
-/// The lower and the upper 32 bits.
-#[expect(clippy::cast_possible_truncation, reason = "one half after the other")]
-#[inline(always)]
-fn halves(bits: u64) -> [u32; 2] {
-    [bits as u32, (bits >> 32) as u32]
-}
-
 impl Blocks {
     const EMPTY: Self = Self {
         offsets: [0; MAX_LANES],
-        weights: [[0; MAX_LANES]; 8],
+        weights: [[0; MAX_LANES]; 4],
     };
 
     /// Notes where a vector of pixels reads a level; compiled once for the two levels.
@@ -180,15 +174,16 @@ impl Blocks {
         };
         offsets.store_slice(&mut self.offsets[..S::u32s::LEN]);
         for (i, packed) in self.weights.iter_mut().enumerate() {
-            let (row, column) = (i / 4 * 2, i % 4);
-            let both = weights[row][column] | weights[row + 1][column] << 16;
-            both.store_slice(&mut packed[..S::u32s::LEN]);
+            let (row, column) = (i / 2 * 2, i % 2 * 2);
+            let left = weights[row][column] | weights[row + 1][column] << 16;
+            let right = weights[row][column + 1] | weights[row + 1][column + 1] << 16;
+            points::store_columns::<S>(left, right, packed);
         }
     }
 
     /// Red, green, blue and alpha of a pixel in the units of the weights: even columns, then odd columns.
     #[inline(always)]
-    fn sum<S: Simd>(&self, simd: S, footing: &Footing<'_>, lane: usize) -> i32x8<S> {
+    fn sum<S: Simd>(&self, simd: S, spread: Spread<S>, footing: &Footing<'_>, lane: usize) -> i32x8<S> {
         let lane = lane % MAX_LANES;
         let stride = footing.level.level.stride() as usize;
         let texels = &footing.level.level.texels()[self.offsets[lane] as usize..][..3 * stride + 4];
@@ -199,9 +194,9 @@ impl Blocks {
             row(simd, &texels[3 * stride..]),
         ];
         let weights = &self.weights;
-        let pair = |texels, i: usize| points::columns(simd, texels, weights[i][lane], weights[i + 1][lane]);
-        let upper = pair(rows[0].zip_low(rows[1]), 0) + pair(rows[0].zip_high(rows[1]), 2);
-        let lower = pair(rows[2].zip_low(rows[3]), 4) + pair(rows[2].zip_high(rows[3]), 6);
+        let quarter = |texels, i: usize| spread.columns(simd, texels, weights[i][lane]);
+        let upper = quarter(rows[0].zip_low(rows[1]), 0) + quarter(rows[0].zip_high(rows[1]), 1);
+        let lower = quarter(rows[2].zip_low(rows[3]), 2) + quarter(rows[2].zip_high(rows[3]), 3);
         upper + lower
     }
 }

@@ -127,7 +127,7 @@ fn overlay_repaints_little_for_a_hovered_widget() {
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(pos2(0.0, 0.0), Vec2::new(400.0, 300.0))),
             time: Some(pass as f64),
-            events: vec![Event::PointerMoved(pos2(320.0, y))],
+            events: vec![Event::PointerMoved(pos2(262.0, y))],
             focused: true,
             ..RawInput::default()
         };

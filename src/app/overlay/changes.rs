@@ -96,10 +96,10 @@ pub(super) fn reach(shape: &ClippedShape) -> Rect {
         Shape::Text(_) | Shape::Vec(_) => Rect::EVERYTHING,
         other => other.visual_bounding_rect(),
     };
-    if !bounds.is_positive() && bounds != Rect::NOTHING {
-        // Lines without width or height.
+    if bounds.any_nan() {
         return shape.clip_rect;
     }
+    // What paints nothing has bounds that stay turned inside out.
     let bounds = shape.transform_after_tessellation * bounds.expand(REACH);
     shape.clip_rect.intersect(bounds)
 }

@@ -69,7 +69,9 @@ impl Bitmap {
         usize::try_from(inside).unwrap_or_default()
     }
 
-    fn apply(&mut self, delta: &ImageDelta) {
+    /// Takes new texels in. True if pixels that were painted with the old ones may look different: a letter that joins
+    /// the font's texture, in a place that was transparent, changes nothing that anybody painted.
+    fn apply(&mut self, delta: &ImageDelta) -> bool {
         let egui::ImageData::Color(image) = &delta.image;
         let [width, height] = image.size;
         let texels = image.pixels.iter().copied().map(pixel::from_color);
@@ -81,14 +83,18 @@ impl Bitmap {
                 linear: delta.options.magnification == TextureFilter::Linear,
                 wrap: delta.options.wrap_mode,
             };
-            return;
+            return true;
         };
         if left + width > self.width || top + height > self.height {
-            return; // egui promises that this never happens
+            return false; // egui promises that this never happens
         }
+        let mut any_seen = false;
         for (i, texel) in texels.enumerate() {
-            self.texels[(top + i / width) * self.width + left + i % width] = texel;
+            let old = &mut self.texels[(top + i / width) * self.width + left + i % width];
+            any_seen |= *old != 0 && *old != texel;
+            *old = texel;
         }
+        any_seen
     }
 }
 
@@ -104,15 +110,19 @@ pub(super) struct Textures {
 }
 
 impl Textures {
-    /// Takes new and changed textures in, and names them. To be called before painting.
+    /// Takes new and changed textures in, and names those that make a difference to what was painted with them. To be
+    /// called before painting.
     pub(super) fn set(&mut self, delta: &mut TexturesDelta) -> Vec<TextureId> {
         let mut changed = Vec::with_capacity(delta.set.len());
         for (id, images) in delta.set.drain() {
             let bitmap = self.bitmaps.entry(id).or_default();
+            let mut any_seen = false;
             for image in &images {
-                bitmap.apply(image);
+                any_seen |= bitmap.apply(image);
             }
-            changed.push(id);
+            if any_seen {
+                changed.push(id);
+            }
         }
         changed
     }

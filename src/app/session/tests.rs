@@ -81,11 +81,8 @@ fn compose_writes_only_what_changed() {
         before,
         "the scene is left alone"
     );
-    // Letters that were never painted before change egui's texture, and with it everything: first all digits.
-    for x in [304.0, 125.0, 678.0, 900.0, 300.0] {
-        desk.session.pointer(Some(DVec2::new(x, 300.0)));
-        desk.compose();
-    }
+    desk.session.pointer(Some(DVec2::new(300.0, 300.0)));
+    desk.compose();
     desk.session.pointer(Some(DVec2::new(310.0, 300.0)));
     let written = desk.compose();
     assert!(written < all / 20, "{written} pixels for another pixel's numbers");

@@ -36,11 +36,16 @@ pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
     Ok(reader(bytes)?.into_dimensions()?)
 }
 
-fn decode_with(bytes: &[u8], texel: impl Fn([u8; 4]) -> [u8; 4]) -> Result<MipLevel, DecodeError> {
+fn decode_with(bytes: &[u8], texel: impl Fn([u8; 4]) -> [u8; 4] + Sync) -> Result<MipLevel, DecodeError> {
     let image = reader(bytes)?.decode()?.into_rgba8();
     let (width, height) = image.dimensions();
-    let texels = image.pixels().map(|pixel| texel(pixel.0)).collect();
-    Ok(MipLevel::new(width, height, texels))
+    let (pixels, _) = image.as_raw().as_chunks::<4>();
+    Ok(MipLevel::from_rows(width, height, |y, row| {
+        let pixels = &pixels[y * width as usize..];
+        for (out, pixel) in row.iter_mut().zip(pixels) {
+            *out = texel(*pixel);
+        }
+    }))
 }
 
 fn reader(bytes: &[u8]) -> Result<ImageReader<Cursor<&[u8]>>, DecodeError> {

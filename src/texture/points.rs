@@ -268,7 +268,10 @@ impl Cells {
         // No part of a difference is negative, so that nothing is borrowed from the upper half.
         let right = share(upper, x) | share(lower, x) << 16;
         let left = (upper | lower << 16) - right;
-        store_columns::<S>(left, right, &mut self.weights[first..first + lanes]);
+        let (low, high) = self.weights[first..first + lanes].split_at_mut(lanes / 2);
+        let weights = in_columns::<S>(left, right);
+        weights[0].store_slice(low);
+        weights[1].store_slice(high);
     }
 }
 
@@ -303,13 +306,11 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Writes the weights of 2 x 2 texels for a vector of samples as [`Spread::columns`] takes them; in the lower 16 bits of
-/// `left` and `right` the upper texels' ones.
+/// The weights of 2 x 2 texels for a vector of samples as [`Spread::columns`] takes them, for the first and the second
+/// half of the lanes; in the lower 16 bits of `left` and `right` the upper texels' ones.
 #[inline(always)]
-pub(super) fn store_columns<S: Simd>(left: S::i32s, right: S::i32s, out: &mut [u64]) {
-    let (low, high) = out[..S::u32s::LEN].split_at_mut(S::u32s::LEN / 2);
-    left.zip_low(right).bitcast::<S::u64s>().store_slice(low);
-    left.zip_high(right).bitcast::<S::u64s>().store_slice(high);
+pub(super) fn in_columns<S: Simd>(left: S::i32s, right: S::i32s) -> [S::u64s; 2] {
+    [left.zip_low(right).bitcast(), left.zip_high(right).bitcast()]
 }
 
 impl<S: Simd> Spread<S> {
@@ -419,7 +420,7 @@ mod tests {
 
     use arbtest::arbitrary;
 
-    use super::super::{Filter, LevelSampling, MipLevel, MipPyramid, SampleGrid, UvMap, oracle};
+    use super::super::{Filter, LevelSampling, MipLevel, MipPyramid, PixelList, SampleGrid, UvMap, oracle};
     use super::*;
     use crate::rules::Rules;
     use crate::simd;
@@ -575,6 +576,77 @@ mod tests {
                         );
                     }
                 }
+            }
+        }
+    }
+
+    /// `cargo test --release -- --ignored --nocapture speed_of_short_lists`
+    #[test]
+    #[ignore = "a measurement"]
+    fn speed_of_short_lists() {
+        let size = 256;
+        let texels = (0..size * size)
+            .map(|i: u32| i.wrapping_mul(0x9E37_79B1).to_le_bytes())
+            .collect();
+        let pyramid = MipPyramid::build(MipLevel::new(size, size, texels));
+        let turn = DVec2::from_angle(0.6) * 1.3 / f64::from(size);
+        let map = UvMap {
+            pivot: DVec2::new(-50.0, -50.0),
+            uv: DVec2::ZERO,
+            dx: turn,
+            dy: turn.perp(),
+        };
+        let cycle = oracle::cycle();
+        let filter = || {
+            Filter::new(
+                &pyramid,
+                std::hint::black_box(&map),
+                PixelSampling::Bilinear,
+                LevelSampling::Linear,
+            )
+        };
+        let best = |act: &mut dyn FnMut()| {
+            let times = (0..50).map(|_| {
+                let start = Instant::now();
+                for _ in 0..100 {
+                    act();
+                }
+                start.elapsed().as_secs_f64() / 100.0
+            });
+            times.fold(f64::MAX, f64::min) / cycle
+        };
+        let new = best(&mut || {
+            std::hint::black_box(filter());
+        });
+        eprintln!("a filter: {new:.0} cycles");
+        let filter = filter();
+        let list: Vec<[u16; 2]> = (0..32).map(|i| [i % 6 * 4, i / 6 * 4]).collect();
+        for (name, level) in simd::tested() {
+            for count in [1, 4, 8, 16, 32] {
+                let (mut colors, mut sums) = ([Premultiplied16::TRANSPARENT; 32], [[0; 4]; 32]);
+                let grid = SampleGrid {
+                    side: 1,
+                    origin: [0, 0],
+                };
+                let points = best(&mut || {
+                    filter.points(level, std::hint::black_box(grid), &list[..count], &mut colors);
+                });
+                let grid = SampleGrid {
+                    side: 4,
+                    origin: [0, 0],
+                };
+                let pixels = PixelList {
+                    pixels: &list[..count],
+                    masks: None,
+                };
+                let all = best(&mut || filter.sums(level, std::hint::black_box(grid), pixels, &mut sums));
+                let masks = [0x7777; 32];
+                let pixels = PixelList {
+                    masks: Some(&masks),
+                    ..pixels
+                };
+                let some = best(&mut || filter.sums(level, std::hint::black_box(grid), pixels, &mut sums));
+                eprintln!("{name:8} {count:2}: points {points:5.0}, sums {all:5.0}, masked sums {some:5.0} cycles");
             }
         }
     }

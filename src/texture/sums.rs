@@ -20,11 +20,12 @@ use crate::color::Premultiplied16;
 use crate::simd::Level;
 
 /// Where a vector of pixels reads one level.
-struct Blocks {
+struct Blocks<S: Simd> {
     /// The first of the 4 x 4 texels of each pixel.
-    offsets: [u32; MAX_LANES],
-    /// The weights of 2 x 2 texels as [`Spread::columns`] takes them: those at the upper left, to the right, below.
-    weights: [[u64; MAX_LANES]; 4],
+    offsets: S::u32s,
+    /// The weights of 2 x 2 texels as [`Spread::columns`] takes them, for the first and the second half of the lanes: at
+    /// the upper left, at the upper right, at the lower left, at the lower right.
+    weights: [[S::u64s; 2]; 4],
 }
 
 /// See [`super::Filter::sums`].
@@ -88,7 +89,6 @@ fn sum_texels<S: Simd>(
     (list, sums): (PixelList<'_>, &mut [[u32; 4]]),
 ) {
     let lanes = S::u32s::LEN;
-    let mut blocks = [Blocks::EMPTY; 2];
     let spread = Spread::new(simd);
     let middle = plan.first + f64::from(scale.side - 1) / 2.0;
     for (i, (pixels, sums)) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).enumerate() {
@@ -98,19 +98,18 @@ fn sum_texels<S: Simd>(
         let masks = list.masks.map(|masks| &masks[i * lanes..][..pixels.len()]);
         let (covered, count) = cover(simd, scale, masks);
         let total = count << scale.sample_bits;
-        match coarser {
-            None => blocks[0].outlined_fill(simd, finer, &at, (covered, total)),
-            Some(coarser) => {
-                let number = |value| S::i32s::splat(simd, value);
-                let part = (total * number(coarser.level.mass) + number(MASS / 2)) >> MASS_BITS;
-                blocks[0].outlined_fill(simd, finer, &at, (covered, total - part));
-                blocks[1].outlined_fill(simd, coarser, &at, (covered, part));
-            }
-        }
+        let number = |value| S::i32s::splat(simd, value);
+        let part = coarser.as_ref().map_or(number(0), |coarser| {
+            (total * number(coarser.level.mass) + number(MASS / 2)) >> MASS_BITS
+        });
+        let fine = Blocks::outlined(simd, finer, &at, (covered, total - part));
+        let coarse = coarser
+            .as_ref()
+            .map(|coarser| (Blocks::outlined(simd, coarser, &at, (covered, part)), coarser));
         for (lane, sum) in sums.iter_mut().enumerate() {
-            let mut channels = blocks[0].sum(simd, spread, finer, lane);
-            if let Some(coarser) = coarser {
-                channels += blocks[1].sum(simd, spread, coarser, lane);
+            let mut channels = fine.sum(simd, spread, finer, lane);
+            if let Some((coarse, coarser)) = &coarse {
+                channels += coarse.sum(simd, spread, coarser, lane);
             }
             let (left, right) = channels.split();
             let channels = left + right;
@@ -144,57 +143,45 @@ fn cover<S: Simd>(simd: S, scale: Scale, masks: Option<&[u64]>) -> (Covered<S>, 
     (Covered::Some(vector(&low), vector(&high)), vector(&counts).bitcast())
 }
 
-impl Blocks {
-    const EMPTY: Self = Self {
-        offsets: [0; MAX_LANES],
-        weights: [[0; MAX_LANES]; 4],
-    };
-
-    /// Notes where a vector of pixels reads a level; compiled once for the two levels.
+impl<S: Simd> Blocks<S> {
+    /// [`Blocks::new`], compiled once for the two levels.
     #[inline(never)]
-    fn outlined_fill<S: Simd>(
-        &mut self,
-        simd: S,
-        footing: &Footing<'_>,
-        at: &Positions<S>,
-        covered: (Covered<S>, S::i32s),
-    ) {
+    fn outlined(simd: S, footing: &Footing<'_>, at: &Positions<S>, covered: (Covered<S>, S::i32s)) -> Self {
         simd.vectorize(
             #[inline(always)]
-            || self.fill(simd, footing, at, covered),
-        );
+            || Self::new(simd, footing, at, covered),
+        )
     }
 
     #[inline(always)]
-    fn fill<S: Simd>(&mut self, simd: S, footing: &Footing<'_>, at: &Positions<S>, covered: (Covered<S>, S::i32s)) {
+    fn new(simd: S, footing: &Footing<'_>, at: &Positions<S>, covered: (Covered<S>, S::i32s)) -> Self {
         let Weighed { offsets, weights } = if footing.is_narrow() {
             weigh::<S, 2>(simd, footing, at, covered)
         } else {
             weigh::<S, 3>(simd, footing, at, covered)
         };
-        offsets.store_slice(&mut self.offsets[..S::u32s::LEN]);
-        for (i, packed) in self.weights.iter_mut().enumerate() {
-            let (row, column) = (i / 2 * 2, i % 2 * 2);
-            let left = weights[row][column] | weights[row + 1][column] << 16;
-            let right = weights[row][column + 1] | weights[row + 1][column + 1] << 16;
-            points::store_columns::<S>(left, right, packed);
+        let both = |row: usize, column: usize| weights[row][column] | weights[row + 1][column] << 16;
+        let quarter = |row: usize, column: usize| points::in_columns::<S>(both(row, column), both(row, column + 1));
+        Self {
+            offsets,
+            weights: [quarter(0, 0), quarter(0, 2), quarter(2, 0), quarter(2, 2)],
         }
     }
 
     /// Red, green, blue and alpha of a pixel in the units of the weights: even columns, then odd columns.
     #[inline(always)]
-    fn sum<S: Simd>(&self, simd: S, spread: Spread<S>, footing: &Footing<'_>, lane: usize) -> i32x8<S> {
-        let lane = lane % MAX_LANES;
+    fn sum(&self, simd: S, spread: Spread<S>, footing: &Footing<'_>, lane: usize) -> i32x8<S> {
         let stride = footing.level.level.stride() as usize;
-        let texels = &footing.level.level.texels()[self.offsets[lane] as usize..][..3 * stride + 4];
+        let texels = &footing.level.level.texels()[self.offsets.as_slice()[lane] as usize..][..3 * stride + 4];
         let rows = [
             row(simd, texels),
             row(simd, &texels[stride..]),
             row(simd, &texels[2 * stride..]),
             row(simd, &texels[3 * stride..]),
         ];
-        let weights = &self.weights;
-        let quarter = |texels, i: usize| spread.columns(simd, texels, weights[i][lane]);
+        let half = S::u64s::LEN;
+        let weights = |i: usize| self.weights[i][usize::from(lane >= half)].as_slice()[lane % half];
+        let quarter = |texels, i: usize| spread.columns(simd, texels, weights(i));
         let upper = quarter(rows[0].zip_low(rows[1]), 0) + quarter(rows[0].zip_high(rows[1]), 1);
         let lower = quarter(rows[2].zip_low(rows[3]), 2) + quarter(rows[2].zip_high(rows[3]), 3);
         upper + lower

@@ -9,12 +9,12 @@ use super::subpixel::{GridPoint, SubpixelGrid};
 /// The columns at which one edge crosses successive sample rows.
 #[derive(Clone, Copy, Debug)]
 pub struct EdgeWalker {
-    /// `floor` of the crossing, in sample columns.
-    column: i64,
-    /// What is left of it: `0..divisor`.
-    remainder: i64,
-    column_step: i64,
-    remainder_step: i64,
+    /// The crossing in sample columns, rounded up; and by how much that was, `0..divisor`.
+    column: i32,
+    excess: i64,
+    /// What a row down adds: whole columns, and what is to be taken from the excess.
+    column_step: i32,
+    excess_step: i64,
     divisor: i64,
 }
 
@@ -33,37 +33,47 @@ impl EdgeWalker {
         let numerator = (i64::from(top.x) - half) * dy + down * dx;
         let divisor = dy << bits;
         let (column, remainder) = floor_division(numerator, divisor);
+        let rounded_up = i64::from(remainder > 0);
         let (column_step, remainder_step) = floor_division(dx, dy);
         Self {
-            column,
-            remainder,
-            column_step,
-            remainder_step: remainder_step << bits,
+            column: low_half(column + rounded_up),
+            excess: divisor * rounded_up - remainder,
+            column_step: low_half(column_step),
+            excess_step: remainder_step << bits,
             divisor,
         }
     }
 
     /// The first sample column at or right of the edge in this row.
     #[inline]
-    pub fn at_or_after(&self) -> i64 {
-        self.column + i64::from(self.remainder > 0)
+    pub fn at_or_after(&self) -> i32 {
+        self.column
     }
 
     /// The first sample column strictly right of the edge in this row.
     #[inline]
-    pub fn after(&self) -> i64 {
-        self.column + 1
+    pub fn after(&self) -> i32 {
+        self.column + i32::from(self.excess == 0)
     }
 
     /// Goes down one sample row.
     #[inline]
     pub fn step(&mut self) {
-        self.column += self.column_step;
-        self.remainder += self.remainder_step;
-        let carry = self.remainder >= self.divisor;
-        self.column += i64::from(carry);
-        self.remainder -= if carry { self.divisor } else { 0 };
+        // Beyond the end of the edge, where nobody looks any more, the column may wrap.
+        self.column = self.column.wrapping_add(self.column_step);
+        self.excess -= self.excess_step;
+        if self.excess < 0 {
+            self.column = self.column.wrapping_add(1);
+            self.excess += self.divisor;
+        }
     }
+}
+
+/// A column of an edge within the guard band, which fits 32 bits: its ends do.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "what fits is kept")]
+fn low_half(column: i64) -> i32 {
+    column as i32
 }
 
 /// Quotient and remainder, rounded down, by a divisor above zero; one division for both.
@@ -120,8 +130,8 @@ mod tests {
             let mut walker = EdgeWalker::new(grid, top, bottom, first);
             for row in first..grid.sample_at_or_after(bottom.y) {
                 let y = grid.sample_coordinate(row);
-                let value = |column: i64| {
-                    let x = grid.sample_coordinate(i32::try_from(column).expect("columns are small here"));
+                let value = |column: i32| {
+                    let x = grid.sample_coordinate(column);
                     edge_value(top, bottom, GridPoint { x, y })
                 };
                 // Downwards, the right of the edge on the screen is where the edge function is negative.

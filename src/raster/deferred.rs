@@ -10,7 +10,7 @@ use super::fragments::{Fragment, Part, Unresolved};
 use super::pixel_block::PixelBlock;
 use super::pixel_row::{each_pixel_row, each_pixel_row_of_few};
 use super::shade::{Pixels, ShadeContext, Shader};
-use super::slots::{Shaded, SlotColor, Slots};
+use super::slots::{Shaded, SlotColor, Slots, Spread};
 use super::small::SmallCoverage;
 use super::tile::PixelRect;
 use super::visibility::{MAX_SLOTS, Run, Slot, VisibilityTile, lanes, splat};
@@ -353,22 +353,16 @@ impl Shading {
 /// The sum of a split pixel's samples where all of them are flat.
 #[inline]
 fn flat_sum(tile: &VisibilityTile, slots: &Slots<'_>, x: usize, y: i32) -> [u32; 4] {
-    let mut sums = [0; 4];
-    let mut add = |slot: Slot, times: u32| {
-        let color = slots.get(slot).sum(times);
-        for i in 0..4 {
-            sums[i] += color[i];
-        }
-    };
-    for (word, used) in tile.sample_words(x, y) {
-        let slots = lanes(word);
-        if word == splat(slots[0]) {
-            add(slots[0], used);
+    let mut sum = Spread::default();
+    tile.each_sample_word(x, y, |word, used| {
+        let shown = lanes(word);
+        if word == splat(shown[0]) {
+            sum.add(slots.get(shown[0]).spread, used);
         } else {
-            for slot in &slots[..used as usize] {
-                add(*slot, 1);
+            for slot in &shown[..used as usize] {
+                sum.add_one(slots.get(*slot).spread);
             }
         }
-    }
-    sums
+    });
+    sum.channels()
 }

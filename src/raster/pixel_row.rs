@@ -84,21 +84,42 @@ fn each_row(
         }
         return;
     }
+    match side {
+        4 => gather_rows(4, rows, &mut row, |line| next_span(line, columns), paint),
+        _ => gather_rows(side, rows, &mut row, |line| next_span(line, columns), paint),
+    }
+}
+
+/// Calls `paint` with each row of pixels of which a sample row lies in `rows`. Inlined, so that the compiler knows the
+/// commonest `side`.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "divisions by a known side are shifts")]
+fn gather_rows(
+    side: i32,
+    rows: Span,
+    row: &mut PixelRow,
+    mut next_span: impl FnMut(i32) -> Span,
+    mut paint: impl FnMut(&PixelRow),
+) {
     let mut line = rows.start;
     while line < rows.end {
-        row.y = line.div_euclid(side);
+        // Rows of a frame are never negative.
+        row.y = (line.cast_unsigned() / side.cast_unsigned()).cast_signed();
         let top = row.y * side;
-        for (span, line) in row.spans[..row.side].iter_mut().zip(top..) {
-            let inside = rows.start <= line && line < rows.end;
-            *span = if inside {
-                next_span(line, columns)
-            } else {
-                Span::default()
-            };
+        let spans = &mut row.spans[..side.cast_unsigned() as usize];
+        if rows.start <= top && top + side <= rows.end {
+            for (span, line) in spans.iter_mut().zip(top..) {
+                *span = next_span(line);
+            }
+        } else {
+            spans.fill(Span::default());
+            for line in line..rows.end.min(top + side) {
+                spans[(line - top).cast_unsigned() as usize] = next_span(line);
+            }
         }
-        row.measure();
+        row.measure(side);
         if !row.touched.is_empty() {
-            paint(&row);
+            paint(row);
         }
         line = top + side;
     }
@@ -126,8 +147,9 @@ impl PixelRow {
     }
 
     /// Finds out which pixels are touched and which are full.
-    #[inline]
-    fn measure(&mut self) {
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "divisions by a known side are shifts")]
+    fn measure(&mut self, side: i32) {
         let (mut outer, mut inner) = (
             Span {
                 start: i32::MAX,
@@ -138,7 +160,7 @@ impl PixelRow {
                 end: i32::MAX,
             },
         );
-        for span in &self.spans[..self.side] {
+        for span in &self.spans[..side.cast_unsigned() as usize] {
             // A sample row without samples leaves no pixel full.
             inner = inner.intersection(*span);
             if !span.is_empty() {
@@ -153,7 +175,7 @@ impl PixelRow {
             return;
         }
         // Columns of a frame are never negative, so that division rounds down.
-        let side = u32::try_from(self.side).unwrap_or(1);
+        let side = side.cast_unsigned();
         let down = |column: i32| (column.cast_unsigned() / side).cast_signed();
         let up = |column: i32| (column.cast_unsigned().saturating_add(side - 1) / side).cast_signed();
         self.touched = Span {

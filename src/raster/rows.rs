@@ -29,8 +29,8 @@ pub(crate) struct SortedTriangle {
 /// Walks a triangle's sample rows from top to bottom.
 #[derive(Debug)]
 pub(crate) struct RowWalker {
-    long: EdgeWalker,
-    short: EdgeWalker,
+    left: EdgeWalker,
+    right: EdgeWalker,
     /// The short edge that takes over at `switch`, and that row.
     lower: [GridPoint; 2],
     switch: i32,
@@ -98,9 +98,16 @@ impl SortedTriangle {
         } else {
             [top, middle]
         };
+        let long = EdgeWalker::new(grid, top, bottom, row);
+        let short = EdgeWalker::new(grid, upper[0], upper[1], row);
+        let (left, right) = if self.long_is_right {
+            (short, long)
+        } else {
+            (long, short)
+        };
         RowWalker {
-            long: EdgeWalker::new(grid, top, bottom, row),
-            short: EdgeWalker::new(grid, upper[0], upper[1], row),
+            left,
+            right,
             lower: [middle, bottom],
             switch: if row >= switch { i32::MAX } else { switch },
             row,
@@ -116,29 +123,30 @@ impl RowWalker {
     #[inline]
     pub(crate) fn next_span(&mut self, columns: Span) -> Span {
         if self.row == self.switch {
-            self.short = EdgeWalker::new(self.grid, self.lower[0], self.lower[1], self.row);
+            self.take_lower_edge();
         }
-        let (left, right) = if self.long_is_right {
-            (&self.short, &self.long)
-        } else {
-            (&self.long, &self.short)
-        };
         let end = match self.rules {
-            Rules::Standard => right.at_or_after(),
-            Rules::Course => right.after(),
-        };
-        let clip = |column: i64| {
-            let clipped = column.clamp(i64::from(columns.start), i64::from(columns.end));
-            i32::try_from(clipped).unwrap_or(columns.end)
+            Rules::Standard => self.right.at_or_after(),
+            Rules::Course => self.right.after(),
         };
         let span = Span {
-            start: clip(left.at_or_after()),
-            end: clip(end),
+            start: self.left.at_or_after().max(columns.start),
+            end: end.min(columns.end),
         };
-        self.long.step();
-        self.short.step();
+        self.left.step();
+        self.right.step();
         self.row += 1;
         span
+    }
+
+    #[cold]
+    fn take_lower_edge(&mut self) {
+        let lower = EdgeWalker::new(self.grid, self.lower[0], self.lower[1], self.row);
+        if self.long_is_right {
+            self.left = lower;
+        } else {
+            self.right = lower;
+        }
     }
 }
 

@@ -24,11 +24,17 @@ pub(crate) struct Slots<'a> {
 pub(crate) struct SlotColor<'a> {
     /// The colour; over a shaded primitive, what translucent paints add to it.
     pub(crate) flat: Premultiplied16,
+    /// The same, spread so that many can be added up.
+    pub(crate) spread: Spread,
     /// The pixel that shows nothing but the flat colour.
     pub(crate) pixel: u32,
     /// The opaque primitive below.
     pub(crate) shaded: Option<Shaded<'a>>,
 }
+
+/// The sum of up to 65 536 colours, two channels of 32 bits in each number: red and green, blue and alpha.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Spread([u64; 2]);
 
 /// A primitive that is to be shaded.
 #[derive(Clone, Copy, Debug)]
@@ -82,6 +88,7 @@ impl<'a> Slots<'a> {
         if newest.is_none_or(|newest| newest.flat != color || newest.shaded.is_some()) {
             self.all.push(SlotColor {
                 flat: color,
+                spread: Spread::new(color),
                 pixel: color.to_pixel(self.rules),
                 shaded: None,
             });
@@ -95,6 +102,7 @@ impl<'a> Slots<'a> {
         self.any_shaded = true;
         self.all.push(SlotColor {
             flat: Premultiplied16::TRANSPARENT,
+            spread: Spread::default(),
             pixel: 0,
             shaded: Some(Shaded {
                 triangle,
@@ -130,6 +138,7 @@ impl<'a> Slots<'a> {
     pub(crate) fn mix(&mut self, below: Slot, color: Premultiplied16) -> Slot {
         let mut mixed = *self.get(below);
         mixed.flat = color.over(mixed.flat, self.rules);
+        mixed.spread = Spread::new(mixed.flat);
         match &mut mixed.shaded {
             None => mixed.pixel = mixed.flat.to_pixel(self.rules),
             Some(shaded) => {
@@ -162,16 +171,44 @@ impl<'a> Slots<'a> {
     }
 }
 
+impl Spread {
+    /// One colour.
+    #[inline]
+    fn new(color: Premultiplied16) -> Self {
+        let [r, g, b, a] = color.0.map(u64::from);
+        Self([r | g << 32, b | a << 32])
+    }
+
+    /// Adds a colour `times`.
+    #[inline]
+    pub(crate) fn add(&mut self, color: Self, times: u32) {
+        // Sums of a pixel's samples fit 32 bits, so that nothing carries over.
+        self.0[0] += color.0[0] * u64::from(times);
+        self.0[1] += color.0[1] * u64::from(times);
+    }
+
+    /// Adds a colour once.
+    #[inline]
+    pub(crate) fn add_one(&mut self, color: Self) {
+        self.0[0] += color.0[0];
+        self.0[1] += color.0[1];
+    }
+
+    /// Red, green, blue, alpha.
+    #[inline]
+    pub(crate) fn channels(self) -> [u32; 4] {
+        let low = |word: u64| word.to_le_bytes();
+        let ([a, b, c, d, e, f, g, h], [i, j, k, l, m, n, o, p]) = (low(self.0[0]), low(self.0[1]));
+        [[a, b, c, d], [e, f, g, h], [i, j, k, l], [m, n, o, p]].map(u32::from_le_bytes)
+    }
+}
+
 impl SlotColor<'_> {
     /// `count` times the flat colour.
     #[inline]
     pub(crate) fn sum(&self, count: u32) -> [u32; 4] {
-        let [r, g, b, a] = self.flat.0;
-        [
-            u32::from(r) * count,
-            u32::from(g) * count,
-            u32::from(b) * count,
-            u32::from(a) * count,
-        ]
+        let mut sum = Spread::default();
+        sum.add(self.spread, count);
+        sum.channels()
     }
 }

@@ -259,10 +259,21 @@ impl VisibilityTile {
             .flat_map(|row| row.iter().flat_map(|word| lanes(*word)).take(self.side))
     }
 
-    /// The samples of a split pixel in words of four sample slots, each with how many of them count.
+    /// Calls `visit` with the samples of a split pixel, four in a word, each with how many of them count.
     #[inline]
-    pub(crate) fn sample_words(&self, x: usize, y: i32) -> impl Iterator<Item = (u64, u32)> + '_ {
-        self.words(x, y).iter().copied().zip(self.used.iter().copied().cycle())
+    pub(crate) fn each_sample_word(&self, x: usize, y: i32, mut visit: impl FnMut(u64, u32)) {
+        let words = self.words(x, y);
+        if self.words == 1 {
+            for word in words {
+                visit(*word, self.used[0]);
+            }
+            return;
+        }
+        for row in words.chunks_exact(self.words) {
+            for (word, used) in row.iter().zip(&self.used) {
+                visit(*word, *used);
+            }
+        }
     }
 
     #[inline]

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use crate::color::Rgba;
 use crate::geometry::ViewTransform;
 use crate::raster::{
-    Chunk, ChunkBuilder, DisplayList, Fill, Framebuffer, ListContext, RasterSettings, SampleHit, SampleRate,
+    Chunk, ChunkBuilder, Counters, DisplayList, Fill, Framebuffer, ListContext, RasterSettings, SampleHit, SampleRate,
 };
 use crate::rules::Rules;
 use crate::scene::{Paint, PrimitiveKind, Scene};
@@ -56,16 +56,20 @@ pub struct FrameStats {
     pub transform: Duration,
     /// Primitives to tiles.
     pub bin: Duration,
-    /// Coverage, shading and resolve, tile by tile.
+    /// Coverage and shading, tile by tile.
     pub raster: Duration,
+    /// Samples to pixels, tile by tile.
+    pub resolve: Duration,
     /// Triangles that reached the tiles.
     pub triangles: u64,
+    /// What was done in the tiles.
+    pub counters: Counters,
 }
 
 impl FrameStats {
     /// The whole frame.
     pub fn total(&self) -> Duration {
-        self.transform + self.bin + self.raster
+        self.transform + self.bin + self.raster + self.resolve
     }
 }
 
@@ -106,7 +110,9 @@ pub fn draw_cancellable(
         transform,
         bin: times.bin,
         raster: times.raster,
+        resolve: times.resolve,
         triangles: list.triangles(),
+        counters: times.counters,
     })
 }
 

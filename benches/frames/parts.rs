@@ -22,10 +22,11 @@ const FRAMES_PER_LINE: usize = 9;
 /// A stage's name and where a frame's statistics hold it.
 type Stage = (&'static str, fn(&FrameStats) -> Duration);
 
-const STAGES: [Stage; 3] = [
+const STAGES: [Stage; 4] = [
     ("transform", |stats| stats.transform),
     ("bin", |stats| stats.bin),
     ("raster+shade", |stats| stats.raster),
+    ("resolve", |stats| stats.resolve),
 ];
 
 /// Every way to read a texture.

@@ -26,13 +26,29 @@ struct Report {
     stages_ms: Stages,
     /// Triangles that reached the tiles in one frame.
     triangles: u64,
+    counters: Counters,
+}
+
+/// What one frame did.
+#[derive(Debug, Serialize)]
+struct Counters {
+    triangles: u64,
+    /// Tiles that a primitive covered wholly.
+    blocks_whole: u64,
+    /// Parts of tiles that an edge bounds.
+    blocks_split: u64,
+    /// Samples whose colours were interpolated or read from a texture.
+    samples_shaded: u64,
 }
 
 #[derive(Debug, Serialize)]
 struct Stages {
     transform: f64,
     bin: f64,
+    /// Coverage and shading.
     raster: f64,
+    /// Samples to pixels.
+    resolve: f64,
     /// Bringing the frame to a screen: `null`, because there is none here.
     present: Option<f64>,
 }
@@ -60,6 +76,7 @@ fn measure(scene: &Path, options: &BenchOptions) -> Result<Report, Failure> {
     picture.draw();
     let frames: Vec<FrameStats> = (0..options.frames).map(|_| picture.draw()).collect();
     let stage = |time: fn(&FrameStats) -> Duration| median(frames.iter().map(time).collect());
+    let last = frames.last().copied().unwrap_or_default();
     let min = frames.iter().map(FrameStats::total).min().unwrap_or_default();
     Ok(Report {
         scene: scene.display().to_string(),
@@ -74,9 +91,16 @@ fn measure(scene: &Path, options: &BenchOptions) -> Result<Report, Failure> {
             transform: milliseconds(stage(|frame| frame.transform)),
             bin: milliseconds(stage(|frame| frame.bin)),
             raster: milliseconds(stage(|frame| frame.raster)),
+            resolve: milliseconds(stage(|frame| frame.resolve)),
             present: None,
         },
-        triangles: frames.first().map_or(0, |frame| frame.triangles),
+        triangles: last.triangles,
+        counters: Counters {
+            triangles: last.triangles,
+            blocks_whole: last.counters.blocks_whole,
+            blocks_split: last.counters.blocks_split,
+            samples_shaded: last.counters.samples_shaded,
+        },
     })
 }
 
@@ -85,7 +109,8 @@ impl Report {
         format!(
             "{}\n{} x {} pixels, {} samples per pixel, {} threads, {} frames, {} triangles\n\
              median     {:9.3} ms\nminimum    {:9.3} ms\ntransform  {:9.3} ms\nbin        {:9.3} ms\nraster     {:9.3} ms\n\
-             present         none",
+             resolve    {:9.3} ms\npresent         none\n\
+             blocks covered whole {}, blocks split {}, samples shaded {}",
             self.scene,
             self.width,
             self.height,
@@ -98,6 +123,10 @@ impl Report {
             self.stages_ms.transform,
             self.stages_ms.bin,
             self.stages_ms.raster,
+            self.stages_ms.resolve,
+            self.counters.blocks_whole,
+            self.counters.blocks_split,
+            self.counters.samples_shaded,
         )
     }
 }

@@ -4,6 +4,8 @@
 //! its sum over the samples is taken before anything is rounded. Translucent flat colours are mixed once for all
 //! samples that show the same.
 
+use std::time::{Duration, Instant};
+
 use super::display_list::Chunk;
 use super::entry::{Entry, Work};
 use super::fragments::{Fragment, Part, Unresolved};
@@ -32,8 +34,6 @@ pub(crate) struct DeferredPainter<'a> {
     shading: Shading,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
-    /// Pixels whose samples were resolved one by one.
-    pub(crate) pixels_split: u64,
 }
 
 /// Memory for the fragments of one primitive.
@@ -60,7 +60,6 @@ impl<'a> DeferredPainter<'a> {
             unresolved: Unresolved::default(),
             shading: Shading::default(),
             samples_shaded: 0,
-            pixels_split: 0,
         }
     }
 
@@ -94,21 +93,24 @@ impl<'a> DeferredPainter<'a> {
         }
     }
 
-    /// Shades what is seen and resolves the finished tile.
-    pub(crate) fn resolve(&mut self, block: &mut PixelBlock<'_>) {
+    /// Shades what is seen and resolves the finished tile; how long shading took, if that is to be `timed`.
+    pub(crate) fn resolve(&mut self, block: &mut PixelBlock<'_>, timed: bool) -> Duration {
         self.unresolved.clear();
         let PixelRect { x, y } = self.layers[0].rect;
         for (y, row) in (y.start..y.end).zip(0..) {
             self.resolve_row(y, row, block.line(y));
         }
         if self.unresolved.is_empty() {
-            return;
+            return Duration::ZERO;
         }
+        let start = timed.then(Instant::now);
         self.unresolved.sort(self.slots.len());
         self.shade([x.start, y.start], block);
+        let shading = start.map(|start| start.elapsed()).unwrap_or_default();
         for (place, sums) in self.unresolved.places.iter().zip(&self.unresolved.sums) {
             block.put(*place, self.resolver.pixel(*sums));
         }
+        shading
     }
 
     #[inline]
@@ -228,7 +230,6 @@ impl<'a> DeferredPainter<'a> {
                     }
                 }
                 Run::Split => {
-                    self.pixels_split += range.len() as u64;
                     if slots.any_shaded {
                         for x in columns {
                             unresolved.split([x, row], tile.samples(usize::from(x), y), |slot| {

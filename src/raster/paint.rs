@@ -22,6 +22,8 @@ pub(crate) struct TilePainter<'a> {
     /// The samples at work and their colours.
     points: Vec<[u16; 2]>,
     colors: Vec<Premultiplied16>,
+    /// Samples whose colours were computed.
+    pub(crate) samples_shaded: u64,
     /// When a pixel is probed: which source painted each sample last.
     probe: Option<Probe>,
 }
@@ -42,6 +44,7 @@ impl<'a> TilePainter<'a> {
             depth: 0,
             points: Vec::new(),
             colors: Vec::new(),
+            samples_shaded: 0,
             probe: None,
         }
     }
@@ -218,6 +221,7 @@ impl<'a> TilePainter<'a> {
         if self.colors.len() < count {
             self.colors.resize(count, Premultiplied16::TRANSPARENT);
         }
+        self.samples_shaded += count as u64;
         let colors = &mut self.colors[..count];
         let PixelRect { x, y } = self.layers[0].rect;
         let side = self.context.grid.side();

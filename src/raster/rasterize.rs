@@ -14,12 +14,16 @@ use super::paint::TilePainter;
 use super::pixel_block::PixelBlock;
 use super::rows::Span;
 use super::shade::{ShadeContext, Shader};
+use super::tally::{Counters, SharedTally, Tally};
 use super::tile::TileLayout;
 use super::{Framebuffer, SampleRate};
 use crate::color::{Premultiplied16, Rgba};
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::rules::Rules;
 use crate::texture::{SamplingSettings, Texture};
+
+/// One tile of so many is timed.
+const TIMED: usize = 7;
 
 /// Everything that decides how primitives become pixels.
 #[derive(Clone, Copy, Debug)]
@@ -47,8 +51,24 @@ pub struct DisplayList<'a> {
 pub struct RasterTimes {
     /// Ops to tiles.
     pub bin: Duration,
-    /// Coverage, shading and resolve.
+    /// Coverage and shading.
     pub raster: Duration,
+    /// Samples to pixels; estimated from the time that a part of the tiles took.
+    pub resolve: Duration,
+    /// What was done.
+    pub counters: Counters,
+}
+
+impl RasterTimes {
+    /// Adds the painting of some tiles that took `time`.
+    pub(super) fn painted(&mut self, time: Duration, tally: &Tally) {
+        let resolve = time.mul_f64(tally.resolving_share());
+        self.resolve += resolve;
+        self.raster += time.saturating_sub(resolve);
+        self.counters.blocks_whole += tally.counters.blocks_whole;
+        self.counters.blocks_split += tally.counters.blocks_split;
+        self.counters.samples_shaded += tally.counters.samples_shaded;
+    }
 }
 
 /// What one sample of a pixel holds when everything is painted.
@@ -92,6 +112,7 @@ pub(super) struct Painters<'a> {
     direct: DirectPainter<'a>,
     deferred: DeferredPainter<'a>,
     blended: TilePainter<'a>,
+    pub(super) tally: Tally,
 }
 
 /// One group of tile rows on its way to the frame.
@@ -100,6 +121,7 @@ pub(super) struct Pass<'a> {
     bins: Vec<Bins>,
     first_row: u32,
     pub(super) cancelled: &'a AtomicBool,
+    pub(super) tally: SharedTally,
 }
 
 impl ListContext {
@@ -202,7 +224,7 @@ impl<'a> DisplayList<'a> {
                     || self.painters(),
                     |painters, (pixels, row)| self.tile_row(&pass, painters, row, pixels),
                 );
-            times.raster += start.elapsed();
+            times.painted(start.elapsed(), &pass.tally.total());
             if cancelled.load(Ordering::Relaxed) {
                 return None;
             }
@@ -244,6 +266,7 @@ impl<'a> DisplayList<'a> {
             bins: plan.bins(&self.chunks, &self.context, &self.textures, rows),
             first_row: rows.start.cast_unsigned(),
             cancelled,
+            tally: SharedTally::default(),
         }
     }
 
@@ -261,6 +284,7 @@ impl<'a> DisplayList<'a> {
             direct: DirectPainter::new(self.shade_context()),
             deferred: DeferredPainter::new(self.shade_context()),
             blended: TilePainter::new(self.shade_context()),
+            tally: Tally::default(),
         }
     }
 
@@ -292,6 +316,7 @@ impl<'a> DisplayList<'a> {
             let mut block = PixelBlock::new(rect, &mut pixels[left..], stride);
             self.tile(pass, painters, [column, row], &mut block);
         }
+        pass.tally.take(&mut painters.tally);
     }
 
     /// Paints and resolves the tile in `column` and `row`.
@@ -310,6 +335,14 @@ impl<'a> DisplayList<'a> {
             return;
         }
         let first = first_visible(&pass.bins, tile);
+        for (_, entries) in visible(&pass.bins, tile, first) {
+            let whole = entries.iter().filter(|entry| entry.covers_tile()).count() as u64;
+            painters.tally.counters.blocks_whole += whole;
+            painters.tally.counters.blocks_split += entries.len() as u64 - whole;
+        }
+        // Looking at the clock costs as much as resolving a few rows.
+        let start = tile.is_multiple_of(TIMED).then(Instant::now);
+        let mut resolving = None;
         match self.method(pass, tile, first) {
             Method::Direct => {
                 let covered = pass.bins[first.0].of_tile(tile).get(first.1);
@@ -319,23 +352,34 @@ impl<'a> DisplayList<'a> {
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
                     painters.direct.paint(&self.chunks[chunk], entries, block);
                 }
+                painters.tally.counters.samples_shaded += std::mem::take(&mut painters.direct.samples_shaded);
             }
             Method::Deferred => {
                 painters.deferred.begin(block.rect, background);
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
                     painters.deferred.paint(&self.chunks[chunk], entries);
                 }
-                painters.deferred.resolve(block);
+                resolving = start.map(|_| Instant::now());
+                // Shading comes in between, and is none of it.
+                let shading = painters.deferred.resolve(block, start.is_some());
+                resolving = resolving.and_then(|start| start.checked_add(shading));
+                painters.tally.counters.samples_shaded += std::mem::take(&mut painters.deferred.samples_shaded);
             }
             Method::Blended => {
                 painters.blended.begin(block.rect, background);
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
                     painters.blended.paint(&self.chunks[chunk], entries);
                 }
+                resolving = start.map(|_| Instant::now());
                 for y in block.rect.y.start..block.rect.y.end {
                     painters.blended.resolve(y, block.line(y));
                 }
+                painters.tally.counters.samples_shaded += std::mem::take(&mut painters.blended.samples_shaded);
             }
+        }
+        if let Some(start) = start {
+            painters.tally.timed += start.elapsed();
+            painters.tally.resolving += resolving.map(|start| start.elapsed()).unwrap_or_default();
         }
     }
 }

@@ -116,7 +116,7 @@ impl DisplayList<'_> {
             times.bin += start.elapsed();
             let start = Instant::now();
             self.paint_in_order(&pass, &wishes, publish);
-            times.raster += start.elapsed();
+            times.painted(start.elapsed(), &pass.tally.total());
             if cancelled.load(Ordering::Relaxed) {
                 return None;
             }
@@ -156,6 +156,7 @@ impl DisplayList<'_> {
                 self.tile(pass, &mut painters, wish.tile, &mut block);
                 publish(wish.region, &pixels);
             }
+            pass.tally.take(&mut painters.tally);
         };
         rayon::scope(|scope| {
             for _ in 0..rayon::current_num_threads().min(wishes.len()) {

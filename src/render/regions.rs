@@ -69,6 +69,8 @@ fn tiles(
         transform,
         bin: times.bin,
         raster: times.raster,
+        resolve: times.resolve,
         triangles: list.triangles(),
+        counters: times.counters,
     })
 }

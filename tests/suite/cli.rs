@@ -249,11 +249,26 @@ fn cli_bench_prints_json() {
         assert_eq!(report[name], value, "{name} of {report}");
     }
     let stages = &report["stages_ms"];
-    for stage in ["transform", "bin", "raster"] {
+    for stage in ["transform", "bin", "raster", "resolve"] {
         assert!(stages[stage].as_f64() >= Some(0.0), "{stage} of {report}");
     }
     assert!(stages["present"].is_null(), "nothing is presented: {report}");
     assert_eq!(report["triangles"], 1, "triangles of {report}");
+    assert_eq!(
+        report["counters"]["triangles"], 1,
+        "once more among the counters: {report}"
+    );
+    for counter in ["blocks_whole", "blocks_split", "samples_shaded"] {
+        assert!(report["counters"][counter].is_u64(), "{counter} of {report}");
+    }
+    assert!(
+        report["counters"]["blocks_split"].as_u64() > Some(0),
+        "the triangle has edges: {report}"
+    );
+    assert_eq!(
+        report["counters"]["samples_shaded"], 0,
+        "flat colours need no shading: {report}"
+    );
     let (median, min) = (report["median_ms"].as_f64(), report["min_ms"].as_f64());
     assert!(min > Some(0.0) && min <= median, "times: {report}");
     let text = run(folder.path(), &["bench", "a.svg", "--size", "64x48", "--frames", "1"]);

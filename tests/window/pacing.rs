@@ -1,12 +1,12 @@
 //! Slow scenes in the window: previews while the view moves, the final picture when it rests, nothing else in files.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
 use rasterscope::raster::SampleRate;
-use rasterscope::viewer::Command;
+use rasterscope::texture::{LevelSampling, PixelSampling};
+use rasterscope::viewer::{Command, PointerButton};
 
 use super::desktop::keysym;
 use super::life::ticks;
@@ -17,27 +17,29 @@ const AT: [i16; 2] = [180, 150];
 /// The accent of the dark theme, which the progress bar has.
 const ACCENT: u32 = 0x002c_68ba;
 
-/// A scene of translucent gradients over all of the canvas: every sample of every layer is to be shaded and blended.
-fn slow_scene(folder: &Path, layers: u32) -> PathBuf {
-    let mut text = "<svg width='100' height='100'>\n".to_owned();
-    for layer in 0..layers {
-        let shift = layer % 7;
-        writeln!(
-            text,
-            "<colortri points='{shift},-300 -400,300 400,50{shift}' \
-             colors='1 0 0.{shift} 0.5  0 1 0.{shift} 0.5  0 0 1 0.5'/>\
-             <polygon points='{shift},5 90,{shift}0 50,9{shift}' fill='#18{shift}0a0' fill-opacity='0.5'/>"
-        )
-        .unwrap();
-    }
-    text.push_str("</svg>\n");
-    let path = folder.join("slow.svg");
-    std::fs::write(&path, text).unwrap();
-    path
+/// A scene whose every pixel is read from textures: no trick makes 256 samples of it as quick as one.
+fn slow() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/texmap/test1.svg")
 }
 
-fn rate(samples: u32) -> Command {
-    Command::SetSampleRate(SampleRate::new(samples).unwrap())
+/// What makes it slow.
+const SLOWLY: [&str; 6] = [
+    "--sample-rate",
+    "256",
+    "--pixel-sampling",
+    "bilinear",
+    "--level-sampling",
+    "linear",
+];
+
+/// The same settings at any rate, and then more commands.
+fn at_rate(samples: u32, more: &[Command]) -> Vec<Command> {
+    let settings = [
+        Command::SetSampleRate(SampleRate::new(samples).unwrap()),
+        Command::SetPixelSampling(PixelSampling::Bilinear),
+        Command::SetLevelSampling(LevelSampling::Linear),
+    ];
+    [&settings, more].concat()
 }
 
 fn plain(pixels: &[u32]) -> Vec<u32> {
@@ -50,38 +52,30 @@ fn settle() {
 
 #[test]
 fn slow_zoom_shows_a_preview_then_the_final_picture_then_rests() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = slow_scene(folder.path(), 6);
-    let program = Program::start_with(&path, &["--sample-rate", "64", "--do", "hide on"]);
-    program.shows(&viewed(&path, &[rate(64)]), "the first picture");
+    let path = slow();
+    let program = Program::start_with(&path, &[&SLOWLY[..], &["--do", "hide on"]].concat());
+    program.shows(&viewed(&path, &at_rate(256, &[])), "the first picture");
     program.desktop.point(AT[0], AT[1]);
     settle();
     let at = DVec2::from(AT.map(f64::from));
     let mut seen = false;
-    let mut clicks = 0.0;
+    // The wheel as the window tells it: a click from XTEST arrives as one or as two events.
+    let mut turned = Vec::new();
+    let turns = |count: usize| vec![Command::Wheel { clicks: 1.0 }; count];
     // On a busy machine a preview may be coarser than rate 1: another click, another chance.
     for _ in 0..6 {
+        let candidates = [1, 2].map(|more| {
+            let all = [&[Command::PointerMoved { at }], &turned[..], &turns(more)].concat();
+            [1, 256].map(|rate| plain(viewed(&path, &at_rate(rate, &all)).pixels()))
+        });
         program.desktop.button(4, true);
         program.desktop.button(4, false);
-        // A click from XTEST arrives as one or as two events.
-        let previews = [clicks + 1.0, clicks + 2.0].map(|clicks| {
-            let commands = [rate(1), Command::PointerMoved { at }, Command::Wheel { clicks }];
-            plain(viewed(&path, &commands).pixels())
-        });
-        let start = Instant::now();
-        while start.elapsed() < Duration::from_secs(1) && !seen {
-            let shown = program.desktop.pixels(program.window).map(|(pixels, _)| pixels);
-            seen = shown.is_some_and(|shown| previews.contains(&shown));
-        }
-        let finals = [clicks + 1.0, clicks + 2.0].map(|clicks| {
-            let commands = [rate(64), Command::PointerMoved { at }, Command::Wheel { clicks }];
-            plain(viewed(&path, &commands).pixels())
-        });
-        clicks += until("the final picture", || {
+        let more = until("the final picture", || {
             let (pixels, _) = program.desktop.pixels(program.window)?;
-            let at = finals.iter().position(|picture| *picture == pixels)?;
-            Some(if at == 0 { 1.0 } else { 2.0 })
+            seen |= candidates.iter().any(|[preview, _]| *preview == pixels);
+            candidates.iter().position(|[_, last]| *last == pixels)
         });
+        turned.extend(turns(more + 1));
         if seen {
             break;
         }
@@ -95,15 +89,20 @@ fn slow_zoom_shows_a_preview_then_the_final_picture_then_rests() {
 
 #[test]
 fn slow_drag_ends_final_and_its_screenshots_are_so() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = slow_scene(folder.path(), 6);
-    let program = Program::start_with(&path, &["--sample-rate", "64", "--do", "hide on"]);
-    program.shows(&viewed(&path, &[rate(64)]), "the first picture");
+    let path = slow();
+    let program = Program::start_with(&path, &[&SLOWLY[..], &["--do", "hide on"]].concat());
+    program.shows(&viewed(&path, &at_rate(256, &[])), "the first picture");
     program.desktop.point(AT[0], AT[1]);
     settle();
     program.desktop.button(1, true);
+    // The same motions for the expected pictures: their sum would have other last digits.
+    let moved = |x: i16, y: i16| Command::PointerMoved {
+        at: DVec2::from([AT[0] + x, AT[1] - y].map(f64::from)),
+    };
+    let mut motions = vec![moved(0, 0), Command::PointerPressed(PointerButton::Primary)];
     for step in 1..=5 {
         program.desktop.point(AT[0] + 6 * step, AT[1] - 3 * step);
+        motions.push(moved(6 * step, 3 * step));
         settle();
     }
     program.desktop.type_char('s', &[]);
@@ -116,15 +115,15 @@ fn slow_drag_ends_final_and_its_screenshots_are_so() {
         files.find(|file| image::open(file).is_ok())
     });
     program.desktop.button(1, false);
-    let moved = |x: f64, y: f64| viewed(&path, &[rate(64), Command::PanBy { by: DVec2::new(x, y) }]);
-    let last = moved(40.0, -20.0);
+    let asked = viewed(&path, &at_rate(256, &motions));
+    motions.push(moved(40, 20));
+    let last = viewed(&path, &at_rate(256, &motions));
     program.shows(&last, "the final picture, moved by exactly 40, -20");
     let picture = image::open(file).unwrap().into_rgba8();
     let saved: Vec<u32> = picture
         .pixels()
         .map(|pixel| u32::from_be_bytes([0, pixel.0[0], pixel.0[1], pixel.0[2]]))
         .collect();
-    let asked = moved(30.0, -15.0);
     assert!(
         [asked, last].iter().any(|picture| plain(picture.pixels()) == saved),
         "the file holds a final picture of the moment it was asked for, or of the next"
@@ -133,9 +132,8 @@ fn slow_drag_ends_final_and_its_screenshots_are_so() {
 
 #[test]
 fn slow_refinement_shows_how_far_it_is() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = slow_scene(folder.path(), 60);
-    let mut program = Program::start_with(&path, &["--sample-rate", "256"]);
+    let mut program = Program::start_with(&slow(), &SLOWLY);
+    program.resize([1900, 1060]);
     until("the progress bar", || {
         let (pixels, [width, _]) = program.desktop.pixels(program.window)?;
         (pixels[width as usize + 1] == ACCENT).then_some(())
@@ -151,13 +149,19 @@ fn slow_refinement_shows_how_far_it_is() {
 fn drag_of_a_large_textured_scene_keeps_up() {
     const STUCK: Duration = Duration::from_millis(500);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/texmap/test6.svg");
-    let program = Program::start_with(&path, &["--sample-rate", "16", "--pixel-sampling", "bilinear"]);
+    let settings = [
+        "--sample-rate",
+        "16",
+        "--pixel-sampling",
+        "bilinear",
+        "--level-sampling",
+        "linear",
+    ];
+    let program = Program::start_with(&path, &settings);
     program.resize([1920, 1080]);
-    let size = [Command::Resize([1920, 1080]), rate(16)];
     program.desktop.point(900, 500);
     program.desktop.press(keysym::TAB, &[]);
-    let sampling = Command::SetPixelSampling(rasterscope::texture::PixelSampling::Bilinear);
-    let start = [&size[..], std::slice::from_ref(&sampling)].concat();
+    let start = at_rate(16, &[Command::Resize([1920, 1080])]);
     program.shows(&viewed(&path, &start), "the first picture");
     program.desktop.button(1, true);
     let begin = Instant::now();

@@ -94,18 +94,42 @@ impl VisibilityTile {
             self.whole[line + offset(left, row.full.start)..line + offset(left, row.full.end)].fill(slot);
         }
         for x in row.partial() {
-            let pixel = line + offset(left, x);
-            let shown = self.whole[pixel];
-            if shown == slot {
-                continue;
-            }
+            self.paint_part(line + offset(left, x), x, row.spans(), slot);
+        }
+    }
+
+    /// Lets the samples of one pixel that `spans` cover show `slot`; `x` is the pixel's column in the frame.
+    #[inline]
+    fn paint_part(&mut self, pixel: usize, x: i32, spans: &[Span], slot: Slot) {
+        let shown = self.whole[pixel];
+        if shown == slot {
+            return;
+        }
+        let painted = splat(slot);
+        if self.words > 1 {
             if shown != SPLIT {
                 self.split(pixel, shown);
             }
-            let painted = splat(slot);
-            self.each_covered_word(pixel, x, row.spans(), |word, mask| {
+            self.each_covered_word(pixel, x, spans, |word, mask| *word = *word & !mask | painted & mask);
+            return;
+        }
+        if shown != SPLIT {
+            self.make_room();
+            self.whole[pixel] = SPLIT;
+        }
+        let samples = &mut self.samples[pixel * self.side..][..self.side];
+        let left = x * i32::try_from(self.side).unwrap_or(1);
+        if shown == SPLIT {
+            for (word, span) in samples.iter_mut().zip(spans) {
+                let mask = covered(*span, left);
                 *word = *word & !mask | painted & mask;
-            });
+            }
+        } else {
+            let below = splat(shown);
+            for (word, span) in samples.iter_mut().zip(spans) {
+                let mask = covered(*span, left);
+                *word = below & !mask | painted & mask;
+            }
         }
     }
 
@@ -203,15 +227,10 @@ impl VisibilityTile {
     #[inline]
     fn each_covered_word(&mut self, pixel: usize, x: i32, spans: &[Span], mut paint: impl FnMut(&mut u64, u64)) {
         let left = x * i32::try_from(self.side).unwrap_or(1);
-        // Bits beyond a pixel's last column are of no account.
-        let mask = |span: &Span, left: i32| {
-            let first = |at: i32| FIRST[(at - left).clamp(0, 4).cast_unsigned() as usize];
-            first(span.end) & !first(span.start)
-        };
         if self.words == 1 {
             let samples = &mut self.samples[pixel * self.side..][..self.side];
             for (word, span) in samples.iter_mut().zip(spans) {
-                paint(word, mask(span, left));
+                paint(word, covered(*span, left));
             }
             return;
         }
@@ -219,7 +238,7 @@ impl VisibilityTile {
         let samples = &mut self.samples[pixel * per_pixel..][..per_pixel];
         for (words, span) in samples.chunks_exact_mut(self.words).zip(spans) {
             for (word, left) in words.iter_mut().zip((left..).step_by(PER_WORD)) {
-                paint(word, mask(span, left));
+                paint(word, covered(*span, left));
             }
         }
     }
@@ -227,13 +246,19 @@ impl VisibilityTile {
     /// Gives a pixel one slot per sample.
     #[inline]
     fn split(&mut self, pixel: usize, shown: Slot) {
+        self.make_room();
         let per_pixel = self.side * self.words;
-        let count = self.whole.len() * per_pixel;
+        self.whole[pixel] = SPLIT;
+        self.samples[pixel * per_pixel..][..per_pixel].fill(splat(shown));
+    }
+
+    /// Makes sure that there is room for the samples of all pixels.
+    #[inline]
+    fn make_room(&mut self) {
+        let count = self.whole.len() * self.side * self.words;
         if self.samples.len() < count {
             self.samples.resize(count, 0);
         }
-        self.whole[pixel] = SPLIT;
-        self.samples[pixel * per_pixel..][..per_pixel].fill(splat(shown));
     }
 
     /// The runs of row `y` from left to right, each with its range of pixels counted from the tile's left side.
@@ -324,6 +349,14 @@ fn run_length(line: &[Slot], slot: Slot) -> usize {
         length += BLOCK;
     }
     length + line[length..].iter().take_while(|found| **found == slot).count()
+}
+
+/// The bits of the four samples from column `left` on that a span covers. Bits beyond a pixel's last column are of no
+/// account.
+#[inline]
+fn covered(span: Span, left: i32) -> u64 {
+    let first = |at: i32| FIRST[(at - left).clamp(0, 4).cast_unsigned() as usize];
+    first(span.end) & !first(span.start)
 }
 
 /// Four times the same slot.

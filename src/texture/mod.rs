@@ -5,7 +5,6 @@ mod decode;
 mod filter;
 mod footing;
 mod footprint;
-mod lanes;
 #[cfg(test)]
 mod oracle;
 mod points;
@@ -18,7 +17,6 @@ mod uv_map;
 pub use decode::DecodeError;
 pub use filter::{Filter, PixelList, SampleGrid};
 pub use footprint::Footprint;
-pub use lanes::LANES;
 pub use pyramid::{MAX_SIDE, MipLevel, MipPyramid};
 pub use sampler::{LevelChoice, Sampler, SamplingSettings};
 pub use uv_map::UvMap;

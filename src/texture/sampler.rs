@@ -29,11 +29,11 @@ pub struct LevelChoice {
 /// One texture read at one footprint.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler<'a> {
-    pub(super) finer: &'a MipLevel,
+    finer: &'a MipLevel,
     /// The next coarser level and its weight, when two are mixed.
-    pub(super) coarser: Option<(&'a MipLevel, f32)>,
-    pub(super) pixel: PixelSampling,
-    pub(super) rules: Rules,
+    coarser: Option<(&'a MipLevel, f32)>,
+    pixel: PixelSampling,
+    rules: Rules,
 }
 
 impl LevelChoice {
@@ -112,7 +112,13 @@ impl<'a> Sampler<'a> {
                 self.add(level, at, mass, &mut sums);
                 sums.map(|sum| f32::from(cell::to_channel(sum)) / f32::from(Premultiplied16::PER_BYTE))
             }
-            Rules::Course => self.sample_floats(u, v),
+            Rules::Course => {
+                let fine = self.sample_level(self.finer, u, v);
+                match self.coarser {
+                    None => fine,
+                    Some((level, weight)) => lerp(fine, self.sample_level(level, u, v), weight),
+                }
+            }
         }
     }
 
@@ -123,46 +129,26 @@ impl<'a> Sampler<'a> {
         cell::add(level, self.pixel, at, mass, sums);
     }
 
-    #[inline]
-    pub(super) fn sample_floats(&self, u: f32, v: f32) -> [f32; 4] {
-        let fine = self.sample_level(self.finer, u, v);
-        match self.coarser {
-            None => fine,
-            Some((level, weight)) => lerp(fine, self.sample_level(level, u, v), weight),
-        }
-    }
-
-    #[inline]
     fn sample_level(&self, level: &MipLevel, u: f32, v: f32) -> [f32; 4] {
         match self.pixel {
-            PixelSampling::Nearest => nearest(level, u, v, self.rules),
-            PixelSampling::Bilinear => bilinear(level, u, v, self.rules),
+            PixelSampling::Nearest => course_nearest(level, u, v),
+            PixelSampling::Bilinear => course_bilinear(level, u, v),
         }
     }
 }
 
-/// The texel that contains the point; under the course's rules texel `round(u (w - 1)), round(v (h - 1))`.
-#[inline]
-fn nearest(level: &MipLevel, u: f32, v: f32, rules: Rules) -> [f32; 4] {
+/// Texel `round(u (w - 1)), round(v (h - 1))`.
+fn course_nearest(level: &MipLevel, u: f32, v: f32) -> [f32; 4] {
     let (width, height) = (level.width() as f32, level.height() as f32);
-    let (x, y) = match rules {
-        Rules::Standard => (u * width, v * height),
-        Rules::Course => (u * (width - 1.0) + 0.5, v * (height - 1.0) + 0.5),
-    };
+    let (x, y) = (u * (width - 1.0) + 0.5, v * (height - 1.0) + 0.5);
     level.texel(truncate(x.max(0.0)), truncate(y.max(0.0))).map(f32::from)
 }
 
-/// The four texels whose centres surround the point, weighted by distance (design of every GPU; Vulkan 1.3, section
-/// "Texel filtering"); under the course's rules texel centres lie at whole multiples of `1 / (w - 1)`.
-#[inline]
-fn bilinear(level: &MipLevel, u: f32, v: f32, rules: Rules) -> [f32; 4] {
-    let (width, height) = (level.width() as f32, level.height() as f32);
-    let (x, y) = match rules {
-        Rules::Standard => (u * width - 0.5, v * height - 0.5),
-        Rules::Course => (u * (width - 1.0), v * (height - 1.0)),
-    };
+/// The four texels around the point, weighted by distance, where texel centres lie at whole multiples of `1 / (w - 1)`.
+fn course_bilinear(level: &MipLevel, u: f32, v: f32) -> [f32; 4] {
+    let (right, bottom) = (level.width() as f32 - 1.0, level.height() as f32 - 1.0);
     // Beyond the outermost centres the border texel goes on, so clamping the point is clamping the texels.
-    let (x, y) = (x.max(0.0).min(width - 1.0), y.max(0.0).min(height - 1.0));
+    let (x, y) = ((u * right).max(0.0).min(right), (v * bottom).max(0.0).min(bottom));
     let (left, top) = (truncate(x), truncate(y));
     let (s, t) = (x - left as f32, y - top as f32);
     let texel = |x, y| level.texel(x, y).map(f32::from);
@@ -172,13 +158,11 @@ fn bilinear(level: &MipLevel, u: f32, v: f32, rules: Rules) -> [f32; 4] {
 }
 
 /// `a + (b - a) t`: exact at `t = 0` and for equal colours, so that a constant texture stays constant.
-#[inline]
-pub(super) fn lerp(a: [f32; 4], b: [f32; 4], t: f32) -> [f32; 4] {
+fn lerp(a: [f32; 4], b: [f32; 4], t: f32) -> [f32; 4] {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t)
 }
 
 /// Towards zero, saturating; NaN becomes 0. For coordinates at or above zero this is `floor`.
-#[inline]
 #[expect(
     clippy::cast_possible_truncation,
     reason = "`as` saturates, and texels are clamped to their level"
@@ -190,7 +174,9 @@ fn truncate(value: f32) -> i32 {
 #[cfg(test)]
 #[expect(clippy::float_cmp, reason = "these filters promise exact values")]
 mod tests {
+    use super::super::{Filter, SampleGrid, UvMap};
     use super::*;
+    use crate::simd;
 
     const ALL: [(PixelSampling, LevelSampling); 6] = [
         (PixelSampling::Nearest, LevelSampling::Zero),
@@ -246,18 +232,29 @@ mod tests {
         .budget_ms(200);
     }
 
+    /// Reads level 0.
+    fn at(level: MipLevel, pixel: PixelSampling, rules: Rules, [u, v]: [f32; 2]) -> [f32; 4] {
+        let settings = SamplingSettings {
+            pixel,
+            level: LevelSampling::Zero,
+            rules,
+        };
+        Sampler::new(&MipPyramid::build(level), &footprint(1.0, 4.0), settings).sample(u, v)
+    }
+
     #[test]
     fn nearest_takes_the_texel_that_contains_the_point() {
-        let level = MipLevel::new(4, 1, [10, 20, 30, 40].map(|red| [red, 0, 0, 255]).to_vec());
-        let red = |u, rules| nearest(&level, u, 0.5, rules)[0];
+        let level = || MipLevel::new(4, 1, [10, 20, 30, 40].map(|red| [red, 0, 0, 255]).to_vec());
+        let red = |u, rules| at(level(), PixelSampling::Nearest, rules, [u, 0.5])[0];
         for (u, expected) in [
-            (-1.0, 10.0),
+            (f32::NAN, 10.0),
+            (-1e30, 10.0),
             (0.0, 10.0),
             (0.2499, 10.0),
             (0.25, 20.0),
             (0.99, 40.0),
             (1.0, 40.0),
-            (7.0, 40.0),
+            (f32::INFINITY, 40.0),
         ] {
             assert_eq!(red(u, Rules::Standard), expected, "standard at {u}");
         }
@@ -275,40 +272,62 @@ mod tests {
 
     #[test]
     fn bilinear_is_exact_at_texel_centres_and_halfway_between() {
-        let level = MipLevel::new(
-            2,
-            2,
-            vec![[0, 0, 0, 255], [100, 0, 0, 255], [0, 200, 0, 255], [100, 200, 0, 255]],
-        );
-        let at = |u, v| bilinear(&level, u, v, Rules::Standard);
-        assert_eq!(at(0.25, 0.25), [0.0, 0.0, 0.0, 255.0], "a texel's centre");
-        assert_eq!(at(0.5, 0.5), [50.0, 100.0, 0.0, 255.0], "the middle of four");
-        assert_eq!(
-            at(0.0, 1.0),
-            [0.0, 200.0, 0.0, 255.0],
-            "beyond the centres the border goes on"
-        );
+        let texels = vec![[0, 0, 0, 255], [100, 0, 0, 255], [0, 200, 0, 255], [100, 200, 0, 255]];
+        let read = |point, rules| {
+            let level = MipLevel::new(2, 2, texels.clone());
+            at(level, PixelSampling::Bilinear, rules, point)
+        };
+        for (rules, centre) in [(Rules::Standard, 0.25), (Rules::Course, 0.0)] {
+            let found = read([centre, centre], rules);
+            assert_eq!(found, [0.0, 0.0, 0.0, 255.0], "a texel's centre, {rules:?}");
+            let found = read([0.5, 0.5], rules);
+            assert_eq!(found, [50.0, 100.0, 0.0, 255.0], "the middle of four, {rules:?}");
+            let found = read([-0.5, 1.5], rules);
+            assert_eq!(found, [0.0, 200.0, 0.0, 255.0], "the border goes on, {rules:?}");
+        }
     }
 
     #[test]
-    fn trilinear_at_whole_levels_equals_bilinear_there() {
+    fn trilinear_at_whole_levels_is_that_level_alone() {
         let pyramid = ramp(64);
-        for level in 0..=pyramid.last_level() {
-            let print = footprint(f64::from(1_u32 << level), 64.0);
-            let trilinear = Sampler::new(
-                &pyramid,
-                &print,
-                settings(PixelSampling::Bilinear, LevelSampling::Linear),
-            );
-            for (u, v) in [(0.1, 0.9), (0.5, 0.5), (0.77, 0.13)] {
-                let expected = bilinear(&pyramid.levels()[level], u, v, Rules::Standard);
-                for (found, expected) in trilinear.sample(u, v).iter().zip(expected) {
-                    assert!(
-                        (found - expected).abs() < 0.1,
-                        "{found} at level {level}, {u}, {v}, not {expected}"
-                    );
-                }
+        for rules in Rules::ALL {
+            for level in 0..=pyramid.last_level() {
+                let print = footprint(f64::from(1_u32 << level), 64.0);
+                let read = |level| {
+                    let settings = SamplingSettings {
+                        pixel: PixelSampling::Bilinear,
+                        level,
+                        rules,
+                    };
+                    let sampler = Sampler::new(&pyramid, &print, settings);
+                    [(0.1, 0.9), (0.5, 0.5), (0.77, 0.13)].map(|(u, v)| sampler.sample(u, v))
+                };
+                let (mixed, alone) = (read(LevelSampling::Linear), read(LevelSampling::Nearest));
+                assert_eq!(mixed, alone, "level {level}, {rules:?}");
             }
+        }
+    }
+
+    #[test]
+    fn single_points_are_fragments_of_a_filter() {
+        let pyramid = ramp(64);
+        for (pixel, level) in ALL {
+            let footprint = footprint(2.7, 64.0);
+            let map = UvMap {
+                pivot: DVec2::new(0.5, 0.5),
+                uv: DVec2::new(0.375, 0.8125),
+                dx: footprint.dx,
+                dy: footprint.dy,
+            };
+            let grid = SampleGrid {
+                side: 1,
+                origin: [0, 0],
+            };
+            let mut color = [Premultiplied16::TRANSPARENT];
+            Filter::new(&pyramid, &map, pixel, level).points(simd::level(), grid, &[[0, 0]], &mut color);
+            let alone = Sampler::new(&pyramid, &footprint, settings(pixel, level)).sample(0.375, 0.8125);
+            let stored = Premultiplied16::from_byte_range(alone, Rules::Standard);
+            assert_eq!(color, [stored], "{pixel:?} {level:?}");
         }
     }
 

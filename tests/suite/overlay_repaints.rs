@@ -28,7 +28,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         }
         ui.collapsing("folded", |ui| ui.label("text that comes and goes"));
         egui::ScrollArea::vertical().show(ui, |ui| {
-            for row in 0..20 + state.rows {
+            for row in 0..20 + 9 * state.rows {
                 let _ = ui.selectable_label(row % 3 == 0, format!("row {row}"));
             }
         });

@@ -25,12 +25,14 @@ pub(super) fn changed_bounds(old: &[ClippedShape], new: &[ClippedShape], texture
     let mut add = |shapes: &[ClippedShape]| bounds.extend(shapes.iter().map(reach).filter(Rect::is_positive));
     let (mut i, mut j) = (0, 0);
     while i < old.len() || j < new.len() {
-        let (skip_old, skip_new) = next_match(&old[i..], &new[j..]);
+        let next = next_match(&old[i..], &new[j..]);
+        // Far apart: give up one of each and look again.
+        let (skip_old, skip_new) = next.unwrap_or(((old.len() - i).min(1), (new.len() - j).min(1)));
         add(&old[i..i + skip_old]);
         add(&new[j..j + skip_new]);
         (i, j) = (i + skip_old, j + skip_new);
-        if let (Some(_), Some(shape)) = (old.get(i), new.get(j)) {
-            if uses(&shape.shape, textures) {
+        if next.is_some() {
+            if uses(&new[j].shape, textures) {
                 add(&new[j..=j]);
             }
             (i, j) = (i + 1, j + 1);
@@ -39,25 +41,20 @@ pub(super) fn changed_bounds(old: &[ClippedShape], new: &[ClippedShape], texture
     bounds
 }
 
-/// How many shapes of both lists come before the next that stands in both: as few as possible, all if there is none
+/// How many shapes of both lists come before the next that stands in both, as few as possible; `None` if there is none
 /// near.
-fn next_match(old: &[ClippedShape], new: &[ClippedShape]) -> (usize, usize) {
+fn next_match(old: &[ClippedShape], new: &[ClippedShape]) -> Option<(usize, usize)> {
     for distance in 0..WINDOW {
         for skip_old in 0..=distance.min(old.len()) {
             let skip_new = distance - skip_old;
             if let (Some(a), Some(b)) = (old.get(skip_old), new.get(skip_new))
                 && is_same(a, b)
             {
-                return (skip_old, skip_new);
+                return Some((skip_old, skip_new));
             }
         }
     }
-    // Far apart: give up one of each and look again.
-    if old.len() > WINDOW || new.len() > WINDOW {
-        (old.len().min(1), new.len().min(1))
-    } else {
-        (old.len(), new.len())
-    }
+    None
 }
 
 /// Whether both paint the same pixels. Texts that egui laid out once share their memory.
@@ -168,6 +165,13 @@ mod tests {
         assert_eq!(changed(&[1.0, 3.0], &[1.0, 2.0, 3.0]), [2.0], "inserted");
         assert_eq!(changed(&[1.0, 2.0, 3.0], &[3.0]), [1.0, 2.0], "removed");
         assert_eq!(changed(&[], &[4.0]), [4.0], "all new");
+        let far = |from: u8| (from..from + 100).map(f32::from).collect::<Vec<_>>();
+        assert_eq!(changed(&far(0), &far(100)).len(), 200, "nothing in common");
+        assert_eq!(changed(&far(0), &[]).len(), 100, "all gone");
+        let inserted = [&[255.0], &far(0)[..50], &far(120)[..40], &far(50)[..50]].concat();
+        let seen = changed(&far(0), &inserted);
+        let missing = [&[255.0], &far(120)[..40]].concat();
+        assert!(missing.iter().all(|at| seen.contains(at)), "far apart: {seen:?}");
         assert_eq!(changed(&[1.0, 2.0], &[2.0, 1.0]).len(), 2, "another order is a change");
     }
 

@@ -216,18 +216,3 @@ pub(super) fn filter<'a>(u: &mut Unstructured<'_>, pyramid: &'a MipPyramid, map:
     let (pixel, level) = (*u.choose(&PixelSampling::ALL)?, *u.choose(&LevelSampling::ALL)?);
     Ok(Filter::new(pyramid, map, pixel, level))
 }
-
-/// The time of one cycle of the processor, in seconds: a quarter of a multiplication that waits for an addition.
-pub(super) fn cycle() -> f64 {
-    const STEPS: u32 = 20_000_000;
-    let best = (0..5).map(|_| {
-        let start = std::time::Instant::now();
-        let mut value = std::hint::black_box(1_u64);
-        for step in 0..STEPS {
-            value = (value ^ u64::from(step)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        }
-        std::hint::black_box(value);
-        start.elapsed().as_secs_f64()
-    });
-    best.fold(f64::MAX, f64::min) / f64::from(STEPS) / 4.0
-}

@@ -416,11 +416,9 @@ impl FromColors for u32 {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Instant;
-
     use arbtest::arbitrary;
 
-    use super::super::{Filter, LevelSampling, MipLevel, MipPyramid, PixelList, SampleGrid, UvMap, oracle};
+    use super::super::{Filter, LevelSampling, MipLevel, MipPyramid, SampleGrid, UvMap, oracle};
     use super::*;
     use crate::rules::Rules;
     use crate::simd;
@@ -528,126 +526,5 @@ mod tests {
             Ok(())
         })
         .budget_ms(300);
-    }
-
-    /// `cargo test --release -- --ignored --nocapture speed_of_points`
-    #[test]
-    #[ignore = "a measurement"]
-    fn speed_of_points() {
-        let size = 1024;
-        let texels = (0..size * size)
-            .map(|i: u32| i.wrapping_mul(0x9E37_79B1).to_le_bytes())
-            .collect();
-        let pyramid = MipPyramid::build(MipLevel::new(size, size, texels));
-        let points: Vec<[u16; 2]> = (0..64 * 64).map(|i| [i % 64, i / 64]).collect();
-        let cycle = oracle::cycle();
-        for (turn, name) in [(0.0, "upright"), (0.6, "turned")] {
-            let turn = DVec2::from_angle(turn) * 1.3 / f64::from(size);
-            let map = UvMap {
-                pivot: DVec2::new(-500.0, -500.0),
-                uv: DVec2::ZERO,
-                dx: turn,
-                dy: turn.perp(),
-            };
-            for pixel in PixelSampling::ALL {
-                for sampling in [LevelSampling::Zero, LevelSampling::Linear] {
-                    let filter = Filter::new(&pyramid, &map, pixel, sampling);
-                    for (level_name, level) in simd::tested() {
-                        let grid = SampleGrid {
-                            side: 1,
-                            origin: [0, 0],
-                        };
-                        let mut out = vec![Premultiplied16::TRANSPARENT; points.len()];
-                        let mut pixels = vec![0; points.len()];
-                        let mut best = [f64::MAX; 2];
-                        for _ in 0..200 {
-                            let start = Instant::now();
-                            filter.points(level, grid, &points, &mut out);
-                            best[0] = best[0].min(start.elapsed().as_secs_f64());
-                            let start = Instant::now();
-                            filter.pixels(level, grid, &points, &mut pixels);
-                            best[1] = best[1].min(start.elapsed().as_secs_f64());
-                        }
-                        let [colors, pixels] = best.map(|best| best / points.len() as f64 / cycle);
-                        eprintln!(
-                            "{name:8} {:8} {:6} {level_name:8} points {colors:6.2} pixels {pixels:6.2} cycles",
-                            pixel.name(),
-                            sampling.name()
-                        );
-                    }
-                }
-            }
-        }
-    }
-
-    /// `cargo test --release -- --ignored --nocapture speed_of_short_lists`
-    #[test]
-    #[ignore = "a measurement"]
-    fn speed_of_short_lists() {
-        let size = 256;
-        let texels = (0..size * size)
-            .map(|i: u32| i.wrapping_mul(0x9E37_79B1).to_le_bytes())
-            .collect();
-        let pyramid = MipPyramid::build(MipLevel::new(size, size, texels));
-        let turn = DVec2::from_angle(0.6) * 1.3 / f64::from(size);
-        let map = UvMap {
-            pivot: DVec2::new(-50.0, -50.0),
-            uv: DVec2::ZERO,
-            dx: turn,
-            dy: turn.perp(),
-        };
-        let cycle = oracle::cycle();
-        let filter = || {
-            Filter::new(
-                &pyramid,
-                std::hint::black_box(&map),
-                PixelSampling::Bilinear,
-                LevelSampling::Linear,
-            )
-        };
-        let best = |act: &mut dyn FnMut()| {
-            let times = (0..50).map(|_| {
-                let start = Instant::now();
-                for _ in 0..100 {
-                    act();
-                }
-                start.elapsed().as_secs_f64() / 100.0
-            });
-            times.fold(f64::MAX, f64::min) / cycle
-        };
-        let new = best(&mut || {
-            std::hint::black_box(filter());
-        });
-        eprintln!("a filter: {new:.0} cycles");
-        let filter = filter();
-        let list: Vec<[u16; 2]> = (0..32).map(|i| [i % 6 * 4, i / 6 * 4]).collect();
-        for (name, level) in simd::tested() {
-            for count in [1, 4, 8, 16, 32] {
-                let (mut colors, mut sums) = ([Premultiplied16::TRANSPARENT; 32], [[0; 4]; 32]);
-                let grid = SampleGrid {
-                    side: 1,
-                    origin: [0, 0],
-                };
-                let points = best(&mut || {
-                    filter.points(level, std::hint::black_box(grid), &list[..count], &mut colors);
-                });
-                let grid = SampleGrid {
-                    side: 4,
-                    origin: [0, 0],
-                };
-                let pixels = PixelList {
-                    pixels: &list[..count],
-                    masks: None,
-                };
-                let all = best(&mut || filter.sums(level, std::hint::black_box(grid), pixels, &mut sums));
-                let masks = [0x7777; 32];
-                let pixels = PixelList {
-                    masks: Some(&masks),
-                    ..pixels
-                };
-                let some = best(&mut || filter.sums(level, std::hint::black_box(grid), pixels, &mut sums));
-                eprintln!("{name:8} {count:2}: points {points:5.0}, sums {all:5.0}, masked sums {some:5.0} cycles");
-            }
-        }
     }
 }

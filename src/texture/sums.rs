@@ -198,11 +198,9 @@ fn row<S: Simd>(simd: S, texels: &[[u8; 4]]) -> u8x16<S> {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Instant;
-
     use arbtest::arbitrary;
 
-    use super::super::{Filter, LevelSampling, MipLevel, MipPyramid, SampleGrid, UvMap, oracle};
+    use super::super::{Filter, LevelSampling, oracle};
     use super::*;
     use crate::simd;
 
@@ -288,58 +286,5 @@ mod tests {
             Ok(())
         })
         .budget_ms(1000);
-    }
-
-    /// `cargo test --release -- --ignored --nocapture speed_of_sums`
-    #[test]
-    #[ignore = "a measurement"]
-    fn speed_of_sums() {
-        let size = 1024;
-        let texels = (0..size * size)
-            .map(|i: u32| i.wrapping_mul(0x9E37_79B1).to_le_bytes())
-            .collect();
-        let pyramid = MipPyramid::build(MipLevel::new(size, size, texels));
-        let pixels: Vec<[u16; 2]> = (0..64 * 64).map(|i| [i % 64, i / 64]).collect();
-        let masks: Vec<u64> = (0..64 * 64)
-            .map(|i: u64| i.wrapping_mul(0x9E37_79B9_7F4A_7C15))
-            .collect();
-        let cycle = oracle::cycle();
-        for (turn, name) in [(0.0, "upright"), (0.6, "turned")] {
-            let turn = DVec2::from_angle(turn) * 1.3 / f64::from(size);
-            let map = UvMap {
-                pivot: DVec2::new(-500.0, -500.0),
-                uv: DVec2::ZERO,
-                dx: turn,
-                dy: turn.perp(),
-            };
-            for (sampling, side) in [
-                (LevelSampling::Zero, 4),
-                (LevelSampling::Linear, 2),
-                (LevelSampling::Linear, 3),
-                (LevelSampling::Linear, 4),
-                (LevelSampling::Linear, 8),
-            ] {
-                let filter = Filter::new(&pyramid, &map, PixelSampling::Bilinear, sampling);
-                for (level_name, level) in simd::tested() {
-                    let grid = SampleGrid { side, origin: [0, 0] };
-                    let mut sums = vec![[0; 4]; pixels.len()];
-                    let best = [None, Some(&masks[..])].map(|masks| {
-                        let mut best = f64::MAX;
-                        for _ in 0..100 {
-                            let start = Instant::now();
-                            filter.sums(level, grid, PixelList { pixels: &pixels, masks }, &mut sums);
-                            best = best.min(start.elapsed().as_secs_f64());
-                        }
-                        best / pixels.len() as f64 / cycle
-                    });
-                    eprintln!(
-                        "{name:8} {:6} side {side} {level_name:8} all {:6.1} some {:6.1} cycles a pixel",
-                        sampling.name(),
-                        best[0],
-                        best[1]
-                    );
-                }
-            }
-        }
     }
 }

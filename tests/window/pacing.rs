@@ -154,7 +154,7 @@ fn slow_refinement_shows_how_far_it_is() {
 /// needs (see the README), since machines that test are busy.
 #[test]
 fn drag_of_a_large_textured_scene_keeps_up() {
-    const STUCK: Duration = Duration::from_millis(500);
+    const STUCK: Duration = Duration::from_millis(150);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/texmap/test6.svg");
     let settings = [
         "--sample-rate",
@@ -190,7 +190,8 @@ fn drag_of_a_large_textured_scene_keeps_up() {
     gaps.sort();
     let (middle, longest) = (gaps[gaps.len() / 2], gaps[gaps.len() - 1]);
     println!("{} pictures, middle {middle:?}, longest {longest:?} apart", gaps.len());
-    assert!(longest < STUCK, "the longest of {} gaps: {longest:?}", gaps.len());
+    // Other programs may take the processor for longer than that now and then, but not most of the time.
+    assert!(middle < STUCK, "the middle one of {} gaps: {middle:?}", gaps.len());
     // Hundreds of motions add up to other last digits than one: back to numbers that are known.
     program.desktop.type_char(' ', &[]);
     program.shows(&viewed(&path, &start), "the final picture of the default view");

@@ -4,6 +4,11 @@ use std::sync::OnceLock;
 
 pub use fearless_simd::Level;
 
+const _: () = assert!(
+    cfg!(target_endian = "little"),
+    "kernels take wide numbers apart as little-endian machines do"
+);
+
 /// What the kernels of this process use, once somebody asked.
 static CHOSEN: OnceLock<Level> = OnceLock::new();
 

@@ -10,6 +10,10 @@ use crate::simd::Level;
 
 /// Coefficients beyond this are no triangle's: with them, sums of products could become infinite or no number.
 const LARGEST: f64 = 1e200;
+/// Pivots beyond this, in pixels, are nowhere near a frame.
+const FARTHEST: f64 = 1e9;
+/// The most samples along one side of a pixel.
+const MAX_SIDE: u32 = 16;
 
 /// One texture read at the fragments of one triangle, under the standard rules.
 ///
@@ -38,8 +42,8 @@ pub struct SampleGrid {
 pub struct PixelList<'a> {
     /// Column and row of each pixel, counted from the grid's origin.
     pub pixels: &'a [[u16; 2]],
-    /// Bit `j` of `masks[i]`: whether sample `j` of `pixels[i]`, counted row by row, takes part. At most 64 samples per
-    /// pixel then. Without masks all take part.
+    /// As many as pixels; bit `j` of `masks[i]` says whether sample `j` of `pixels[i]`, counted row by row, takes part.
+    /// Samples from the 64th on do not, then. Without masks all take part.
     pub masks: Option<&'a [u64]>,
 }
 
@@ -95,7 +99,11 @@ impl<'a> Filter<'a> {
         let size = DVec2::new(f64::from(levels[0].width()), f64::from(levels[0].height()));
         let choice = LevelChoice::new(&map.footprint(), size, pyramid.last_level(), level);
         let mass = mass(choice.next_weight);
-        let prepare = |number: usize, mass| FilterLevel::new(&levels[number], mass, map, pixel);
+        let near = map.pivot.is_finite() && map.pivot.abs().max_element() < FARTHEST;
+        let prepare = |number: usize, mass| {
+            let level = FilterLevel::new(&levels[number], mass, map, pixel);
+            if near { level } else { level.flat() }
+        };
         let (finer, coarser) = match mass {
             0 => (prepare(choice.level, cell::MASS), None),
             cell::MASS => (prepare(choice.level + 1, cell::MASS), None),
@@ -106,7 +114,7 @@ impl<'a> Filter<'a> {
         };
         Self {
             pixel,
-            pivot: map.pivot,
+            pivot: if near { map.pivot } else { DVec2::ZERO },
             finer,
             coarser,
         }
@@ -140,7 +148,12 @@ impl<'a> Filter<'a> {
         /// Adding and subtracting this rounds to multiples of `2^-20`, far finer than the grid that vertices lie on: it
         /// takes back what dividing by `side` lost, so that distances are exact.
         const ROUND: f64 = 1.5 * (1_u64 << 32) as f64;
-        let side = f64::from(grid.side);
+        let samples = grid.side;
+        assert!(
+            (1..=MAX_SIDE).contains(&samples),
+            "{samples} x {samples} samples are not supported"
+        );
+        let side = f64::from(samples);
         let pivot = (self.pivot * side + ROUND) - ROUND;
         let origin = DVec2::new(f64::from(grid.origin[0]), f64::from(grid.origin[1]));
         Plan {
@@ -157,18 +170,28 @@ impl<'a> FilterLevel<'a> {
         let size = DVec2::new(f64::from(level.width()), f64::from(level.height()));
         let at_pivot = map.uv * size - cell::first_centre(pixel);
         let (dx, dy) = (map.dx * size, map.dy * size);
-        let usable = |vector: DVec2| vector.abs().max_element() < LARGEST && !vector.is_nan();
-        let (at_pivot, dx, dy) = if usable(at_pivot) && usable(dx) && usable(dy) {
-            (at_pivot, dx, dy)
-        } else {
-            (DVec2::ZERO, DVec2::ZERO, DVec2::ZERO)
-        };
-        Self {
+        let usable = |vector: DVec2| vector.is_finite() && vector.abs().max_element() < LARGEST;
+        let map = Self {
             level,
             mass,
             at_pivot,
             dx,
             dy,
+        };
+        if usable(at_pivot) && usable(dx) && usable(dy) {
+            map
+        } else {
+            map.flat()
+        }
+    }
+
+    /// The first texel everywhere: what is left of a map that is none.
+    fn flat(self) -> Self {
+        Self {
+            at_pivot: DVec2::ZERO,
+            dx: DVec2::ZERO,
+            dy: DVec2::ZERO,
+            ..self
         }
     }
 

@@ -1,6 +1,7 @@
 //! Images to colours: decoding, pyramid, level of detail, sampling.
 
 mod cell;
+mod channels;
 mod decode;
 mod filter;
 mod footing;
@@ -8,6 +9,7 @@ mod footprint;
 #[cfg(test)]
 mod oracle;
 mod points;
+mod positions;
 mod pyramid;
 mod sampler;
 mod sums;

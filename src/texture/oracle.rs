@@ -189,7 +189,11 @@ pub(super) fn map(u: &mut Unstructured<'_>, base: &MipLevel) -> Result<UvMap> {
             (turned * scale, turned.perp() * scale * number(u, 1.5)?)
         }
     };
-    let pivot = DVec2::new(number(u, 100.0)?, number(u, 100.0)?);
+    let pivot = match u.int_in_range(0..=20)? {
+        0 => DVec2::new(f64::NAN, 3.0),
+        1 => DVec2::new(-1e300, f64::INFINITY),
+        _ => DVec2::new(number(u, 100.0)?, number(u, 100.0)?),
+    };
     let uv = match u.int_in_range(0..=20)? {
         0 => DVec2::new(1e30, f64::NAN),
         1 => DVec2::new(-1e30, 1e30),
@@ -205,7 +209,9 @@ pub(super) fn map(u: &mut Unstructured<'_>, base: &MipLevel) -> Result<UvMap> {
 
 /// A grid of samples not far from the pivot, so that textures are seen.
 pub(super) fn grid(u: &mut Unstructured<'_>, map: &UvMap) -> Result<SampleGrid> {
-    let near = |u: &mut Unstructured<'_>, pivot: f64| -> Result<i32> { Ok(pivot as i32 + u.int_in_range(-60..=5)?) };
+    let near = |u: &mut Unstructured<'_>, pivot: f64| -> Result<i32> {
+        Ok(pivot.clamp(-1e6, 1e6) as i32 + u.int_in_range(-60..=5)?)
+    };
     Ok(SampleGrid {
         side: u.int_in_range(1..=16)?,
         origin: [near(u, map.pivot.x)?, near(u, map.pivot.y)?],

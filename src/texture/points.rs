@@ -7,20 +7,17 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, i16x16, i32x8, u8x16, u8x32, u16x8, u16x16, u32x4, u32x8, u64x2, u64x4};
-
-use glam::DVec2;
+use fearless_simd::{Simd, dispatch, i16x16, i32x8, u8x16, u16x8, u32x4, u64x2};
 
 use super::PixelSampling;
-use super::cell::{FRACTION_BITS, SUM_SHIFT, TO_FIXED};
-use super::filter::{Axis, GridLevel, Plan};
-use crate::color::Premultiplied16;
+use super::cell::FRACTION_BITS;
+use super::channels::{FromColors, Spread, both_columns, in_columns, round, widen};
+use super::filter::{GridLevel, Plan};
+use super::positions::{Positions, columns_and_rows};
 use crate::simd::Level;
 
 /// Samples that are prepared together; few, so that short lists do not pay for clearing memory.
 const BLOCK: usize = 16;
-/// The most lanes of 32 bits that a vector has.
-pub(super) const MAX_LANES: usize = 16;
 /// The second factor of a pair that rounds a product to nearest before its fraction is cut off; its partner is 1.
 const ROUND: i32 = 1 << (FRACTION_BITS - 1 + 16);
 
@@ -30,23 +27,6 @@ struct Cells {
     offsets: [u32; BLOCK],
     /// Their weights, as [`Spread::columns`] takes them.
     weights: [u64; BLOCK],
-}
-
-/// How to spread the weights of two columns over channels: each half of a 64-bit number four times, the lower half first.
-///
-/// The order of bytes is hidden from the compiler, which would replace one shuffle by two that it knows.
-#[derive(Clone, Copy)]
-pub(super) struct Spread<S: Simd>(u8x32<S>);
-
-/// What becomes of four colours, channels as in [`Premultiplied16`].
-pub(super) trait FromColors: Sized {
-    fn four<S: Simd>(simd: S, colors: u16x16<S>) -> [Self; 4];
-}
-
-/// Positions of samples relative to the pivot, in samples; the first and the second half of the lanes.
-pub(super) struct Positions<S: Simd> {
-    columns: [S::f64s; 2],
-    rows: [S::f64s; 2],
 }
 
 /// The texels of a level and where to read them.
@@ -164,69 +144,6 @@ fn trilinear<S: Simd, C: FromColors>(simd: S, spread: Spread<S>, [finer, coarser
     });
 }
 
-/// Sample or pixel columns and rows as floats, of as many as a vector has lanes.
-#[inline(always)]
-pub(super) fn columns_and_rows<S: Simd>(simd: S, points: &[[u16; 2]]) -> [S::f32s; 2] {
-    let lanes = S::u32s::LEN;
-    let both: S::u32s = if let Some(points) = points.get(..lanes) {
-        S::u16s::from_slice(simd, points.as_flattened()).bitcast()
-    } else {
-        let mut padded = [[0; 2]; MAX_LANES];
-        // The last one again and again; copying just those there are would be a call.
-        if let Some(last) = points.len().checked_sub(1) {
-            for (i, padded) in padded[..lanes].iter_mut().enumerate() {
-                *padded = points[i.min(last)];
-            }
-        }
-        S::u16s::from_slice(simd, padded[..lanes].as_flattened()).bitcast()
-    };
-    let column: S::i32s = (both & S::u32s::splat(simd, 0xFFFF)).bitcast();
-    let row: S::i32s = (both >> 16).bitcast();
-    [S::f32s::float_from(column), S::f32s::float_from(row)]
-}
-
-impl<S: Simd> Positions<S> {
-    /// Of samples counted from one at `first`. All numbers are exact: whole ones below `2^20` and multiples of `2^-20`.
-    #[inline(always)]
-    pub(super) fn new(simd: S, [columns, rows]: [S::f32s; 2], first: DVec2) -> Self {
-        let (columns, rows) = (columns.widen(), rows.widen());
-        let (left, top) = (S::f64s::splat(simd, first.x), S::f64s::splat(simd, first.y));
-        Self {
-            columns: [columns.0 + left, columns.1 + left],
-            rows: [rows.0 + top, rows.1 + top],
-        }
-    }
-
-    /// Where samples lie on an axis, inside the level, in fixed point; see `cell::to_fixed`.
-    #[inline(always)]
-    fn fixed(&self, simd: S, axis: &Axis) -> S::i32s {
-        self.round(simd, axis, (0.0, axis.last), TO_FIXED)
-    }
-
-    /// Where samples lie on an axis, at most two texels outside the level, with `bits` fractional bits.
-    #[inline(always)]
-    pub(super) fn near(&self, simd: S, axis: &Axis, bits: u32) -> S::i32s {
-        // One half more than in `cell`, so that negative numbers stand below it in two's complement.
-        let to_fixed = 1.5 * (1_u64 << (52 - bits)) as f64;
-        self.round(simd, axis, (-2.0, axis.last + 2.0), to_fixed)
-    }
-
-    #[inline(always)]
-    fn round(&self, simd: S, axis: &Axis, limits: (f64, f64), to_fixed: f64) -> S::i32s {
-        let half = self.round_half(simd, axis, limits, (0, to_fixed));
-        half.narrow(self.round_half(simd, axis, limits, (1, to_fixed)))
-    }
-
-    #[inline(always)]
-    fn round_half(&self, simd: S, axis: &Axis, (least, most): (f64, f64), (half, to_fixed): (usize, f64)) -> S::i64s {
-        let right = self.columns[half] * S::f64s::splat(simd, axis.right);
-        let down = self.rows[half] * S::f64s::splat(simd, axis.down);
-        let at = (S::f64s::splat(simd, axis.at_pivot) + right) + down;
-        let inside = at.max(S::f64s::splat(simd, least)).min(S::f64s::splat(simd, most));
-        (inside + S::f64s::splat(simd, to_fixed)).bitcast()
-    }
-}
-
 impl Cells {
     const EMPTY: Self = Self {
         offsets: [0; BLOCK],
@@ -306,61 +223,6 @@ impl<'a> Source<'a> {
     }
 }
 
-/// The weights of 2 x 2 texels for a vector of samples as [`Spread::columns`] takes them, for the first and the second
-/// half of the lanes; in the lower 16 bits of `left` and `right` the upper texels' ones.
-#[inline(always)]
-pub(super) fn in_columns<S: Simd>(left: S::i32s, right: S::i32s) -> [S::u64s; 2] {
-    [left.zip_low(right).bitcast(), left.zip_high(right).bitcast()]
-}
-
-impl<S: Simd> Spread<S> {
-    #[inline(always)]
-    pub(super) fn new(simd: S) -> Self {
-        const ORDER: [u8; 32] = [
-            0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 7, 4, 5, 6, 7, 4, 5, 6, 7,
-        ];
-        let order = if Self::BY_ORDER {
-            std::hint::black_box(ORDER)
-        } else {
-            ORDER
-        };
-        Self(u8x32::simd_from(simd, order))
-    }
-
-    /// Two columns of two texels with their weights: red, green, blue, alpha of the left column, then of the right one.
-    ///
-    /// `texels` holds the left column's upper and lower red, upper and lower green and so on, then the right column's;
-    /// `weights` 16 bits each from the lowest: upper left, lower left, upper right, lower right.
-    #[inline(always)]
-    pub(super) fn columns(self, simd: S, texels: u8x16<S>, weights: u64) -> i32x8<S> {
-        let weights: i16x16<S> = if Self::BY_ORDER {
-            let both: u8x32<S> = u64x4::splat(simd, weights).bitcast();
-            both.swizzle_dyn_within_blocks(self.0).bitcast()
-        } else {
-            let [left, right] = halves(weights);
-            u32x4::splat(simd, left).combine(u32x4::splat(simd, right)).bitcast()
-        };
-        widen(texels).pairwise_dot_product(weights)
-    }
-
-    /// Whether vectors of 256 bits have an instruction that brings bytes into any order.
-    const BY_ORDER: bool = S::u32s::LEN >= 8;
-}
-
-/// The lower and the upper 32 bits.
-#[expect(clippy::cast_possible_truncation, reason = "one half after the other")]
-#[inline(always)]
-pub(super) fn halves(bits: u64) -> [u32; 2] {
-    [bits as u32, (bits >> 32) as u32]
-}
-
-/// Bytes as 16-bit numbers.
-#[inline(always)]
-fn widen<S: Simd>(bytes: u8x16<S>) -> i16x16<S> {
-    // Of twice as many bytes, because for them there is one instruction.
-    bytes.combine(bytes).widen().0.bitcast()
-}
-
 /// Two neighbouring texels as one number.
 #[inline(always)]
 fn row(texels: &[[u8; 4]], at: usize) -> u64 {
@@ -369,57 +231,14 @@ fn row(texels: &[[u8; 4]], at: usize) -> u64 {
     u64::from_le_bytes(bytes)
 }
 
-/// The sums of the left and right columns of two samples.
-#[inline(always)]
-fn both_columns<S: Simd>(first: i32x8<S>, second: i32x8<S>) -> i32x8<S> {
-    let (first, second) = (first.split(), second.split());
-    first.0.combine(second.0) + first.1.combine(second.1)
-}
-
-/// Rounds the sums of four samples to the bits that are stored; see `cell::to_channel`.
-#[inline(always)]
-fn round<S: Simd>(simd: S, low: i32x8<S>, high: i32x8<S>) -> u16x16<S> {
-    let half = i32x8::splat(simd, 1 << (SUM_SHIFT - 1));
-    let low: u32x8<S> = ((low + half) >> SUM_SHIFT).bitcast();
-    let high: u32x8<S> = ((high + half) >> SUM_SHIFT).bitcast();
-    low.relaxed_narrow(high)
-}
-
-impl FromColors for Premultiplied16 {
-    #[inline(always)]
-    fn four<S: Simd>(_: S, colors: u16x16<S>) -> [Self; 4] {
-        let channels = colors.to_array();
-        let [r0, g0, b0, a0, r1, g1, b1, a1, r2, g2, b2, a2, r3, g3, b3, a3] = channels;
-        [
-            Self([r0, g0, b0, a0]),
-            Self([r1, g1, b1, a1]),
-            Self([r2, g2, b2, a2]),
-            Self([r3, g3, b3, a3]),
-        ]
-    }
-}
-
-/// Opaque colours as pixels; see [`Premultiplied16::to_pixel`].
-impl FromColors for u32 {
-    #[inline(always)]
-    fn four<S: Simd>(simd: S, colors: u16x16<S>) -> [Self; 4] {
-        /// From red, green, blue, alpha to the bytes of `0xAARRGGBB` from the lowest.
-        const ORDER: [u8; 16] = [2, 1, 0, 3, 6, 5, 4, 7, 10, 9, 8, 11, 14, 13, 12, 15];
-        let bytes = (colors + u16x16::splat(simd, Premultiplied16::PER_BYTE / 2)) >> 8;
-        let (low, high) = bytes.split();
-        let bytes = low
-            .relaxed_narrow(high)
-            .swizzle_dyn_within_blocks(u8x16::simd_from(simd, ORDER));
-        bytes.bitcast::<u32x4<S>>().to_array()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use arbtest::arbitrary;
+    use glam::DVec2;
 
     use super::super::{Filter, LevelSampling, MipLevel, MipPyramid, SampleGrid, UvMap, oracle};
     use super::*;
+    use crate::color::Premultiplied16;
     use crate::rules::Rules;
     use crate::simd;
 

@@ -12,9 +12,11 @@ use glam::DVec2;
 
 use super::PixelSampling;
 use super::cell::{MASS, MASS_BITS};
+use super::channels::{self, Spread};
 use super::filter::{PixelList, Plan};
 use super::footing::{Footing, MAX_SIDE, Scale};
-use super::points::{self, MAX_LANES, Positions, Spread};
+use super::points;
+use super::positions::{MAX_LANES, Positions, columns_and_rows};
 use super::tails::{Covered, Weighed, weigh};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
@@ -92,7 +94,7 @@ fn sum_texels<S: Simd>(
     let spread = Spread::new(simd);
     let middle = plan.first + f64::from(scale.side - 1) / 2.0;
     for (i, (pixels, sums)) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).enumerate() {
-        let [columns, rows] = points::columns_and_rows(simd, pixels);
+        let [columns, rows] = columns_and_rows(simd, pixels);
         let side = S::f32s::splat(simd, scale.side as f32);
         let at = Positions::new(simd, [columns * side, rows * side], middle);
         let masks = list.masks.map(|masks| &masks[i * lanes..][..pixels.len()]);
@@ -136,7 +138,7 @@ fn cover<S: Simd>(simd: S, scale: Scale, masks: Option<&[u64]>) -> (Covered<S>, 
     let (mut low, mut high, mut counts) = ([0; MAX_LANES], [0; MAX_LANES], [0; MAX_LANES]);
     for (i, mask) in masks.iter().enumerate().take(MAX_LANES) {
         let mask = mask & possible;
-        [low[i], high[i]] = points::halves(mask);
+        [low[i], high[i]] = channels::halves(mask);
         counts[i] = mask.count_ones();
     }
     let vector = |numbers: &[u32; MAX_LANES]| S::u32s::from_slice(simd, &numbers[..S::u32s::LEN]);
@@ -161,7 +163,7 @@ impl<S: Simd> Blocks<S> {
             weigh::<S, 3>(simd, footing, at, covered)
         };
         let both = |row: usize, column: usize| weights[row][column] | weights[row + 1][column] << 16;
-        let quarter = |row: usize, column: usize| points::in_columns::<S>(both(row, column), both(row, column + 1));
+        let quarter = |row: usize, column: usize| channels::in_columns::<S>(both(row, column), both(row, column + 1));
         Self {
             offsets,
             weights: [quarter(0, 0), quarter(0, 2), quarter(2, 0), quarter(2, 2)],

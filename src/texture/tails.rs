@@ -17,7 +17,7 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
 use super::footing::{Footing, Lines, Offsets, Scale, TEXELS};
-use super::points::Positions;
+use super::positions::Positions;
 
 /// Adding this to a 32-bit float rounds it to a whole number, which then stands in the lower bits.
 const WHOLE: f32 = 8_388_608.0;
@@ -72,15 +72,15 @@ pub(super) fn weigh<S: Simd, const T: usize>(
         at.near(simd, &footing.level.y, scale.bits),
         (&footing.y, footing.level.y.last),
     );
-    let products = match (covered, footing.lines) {
-        (Covered::All, Some(Lines::Upright)) => {
-            let x = line::<S, T>(simd, scale, x, &footing.x.columns);
-            let y = line::<S, T>(simd, scale, y, &footing.y.rows);
-            outer::<S, T>(simd, x, y)
-        }
-        (Covered::All, Some(Lines::Turned)) => {
-            let x = line::<S, T>(simd, scale, x, &footing.x.rows);
-            let y = line::<S, T>(simd, scale, y, &footing.y.columns);
+    let lines = match footing.lines {
+        Some(Lines::Upright) => Some((&footing.x.columns, &footing.y.rows)),
+        Some(Lines::Turned) => Some((&footing.x.rows, &footing.y.columns)),
+        None => None,
+    };
+    let products = match (covered, lines) {
+        (Covered::All, Some(offsets)) => {
+            let x = line::<S, T>(simd, scale, x, offsets.0);
+            let y = line::<S, T>(simd, scale, y, offsets.1);
             outer::<S, T>(simd, x, y)
         }
         _ => products::<S, T>(simd, footing, (x, y), covered),

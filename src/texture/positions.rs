@@ -1,0 +1,85 @@
+//! Where the samples of a vector lie in a level, in fixed point.
+
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
+use fearless_simd::Simd;
+use fearless_simd::prelude::*;
+use glam::DVec2;
+
+use super::cell::TO_FIXED;
+use super::filter::Axis;
+
+/// The most lanes of 32 bits that a vector has.
+pub(super) const MAX_LANES: usize = 16;
+
+/// Positions of samples relative to the pivot, in samples; the first and the second half of the lanes.
+pub(super) struct Positions<S: Simd> {
+    columns: [S::f64s; 2],
+    rows: [S::f64s; 2],
+}
+
+/// Sample or pixel columns and rows as floats, of as many as a vector has lanes.
+#[inline(always)]
+pub(super) fn columns_and_rows<S: Simd>(simd: S, points: &[[u16; 2]]) -> [S::f32s; 2] {
+    let lanes = S::u32s::LEN;
+    let both: S::u32s = if let Some(points) = points.get(..lanes) {
+        S::u16s::from_slice(simd, points.as_flattened()).bitcast()
+    } else {
+        let mut padded = [[0; 2]; MAX_LANES];
+        // The last one again and again; copying just those there are would be a call.
+        if let Some(last) = points.len().checked_sub(1) {
+            for (i, padded) in padded[..lanes].iter_mut().enumerate() {
+                *padded = points[i.min(last)];
+            }
+        }
+        S::u16s::from_slice(simd, padded[..lanes].as_flattened()).bitcast()
+    };
+    let column: S::i32s = (both & S::u32s::splat(simd, 0xFFFF)).bitcast();
+    let row: S::i32s = (both >> 16).bitcast();
+    [S::f32s::float_from(column), S::f32s::float_from(row)]
+}
+
+impl<S: Simd> Positions<S> {
+    /// Of samples counted from one at `first`. All numbers are exact: whole ones below `2^20` and multiples of `2^-20`.
+    #[inline(always)]
+    pub(super) fn new(simd: S, [columns, rows]: [S::f32s; 2], first: DVec2) -> Self {
+        let (columns, rows) = (columns.widen(), rows.widen());
+        let (left, top) = (S::f64s::splat(simd, first.x), S::f64s::splat(simd, first.y));
+        Self {
+            columns: [columns.0 + left, columns.1 + left],
+            rows: [rows.0 + top, rows.1 + top],
+        }
+    }
+
+    /// Where samples lie on an axis, inside the level, in fixed point; see `cell::to_fixed`.
+    #[inline(always)]
+    pub(super) fn fixed(&self, simd: S, axis: &Axis) -> S::i32s {
+        self.round(simd, axis, (0.0, axis.last), TO_FIXED)
+    }
+
+    /// Where samples lie on an axis, at most two texels outside the level, with `bits` fractional bits.
+    #[inline(always)]
+    pub(super) fn near(&self, simd: S, axis: &Axis, bits: u32) -> S::i32s {
+        // One half more than in `cell`, so that negative numbers stand below it in two's complement.
+        let to_fixed = 1.5 * (1_u64 << (52 - bits)) as f64;
+        self.round(simd, axis, (-2.0, axis.last + 2.0), to_fixed)
+    }
+
+    #[inline(always)]
+    fn round(&self, simd: S, axis: &Axis, limits: (f64, f64), to_fixed: f64) -> S::i32s {
+        let half = self.round_half(simd, axis, limits, (0, to_fixed));
+        half.narrow(self.round_half(simd, axis, limits, (1, to_fixed)))
+    }
+
+    #[inline(always)]
+    fn round_half(&self, simd: S, axis: &Axis, (least, most): (f64, f64), (half, to_fixed): (usize, f64)) -> S::i64s {
+        let right = self.columns[half] * S::f64s::splat(simd, axis.right);
+        let down = self.rows[half] * S::f64s::splat(simd, axis.down);
+        let at = (S::f64s::splat(simd, axis.at_pivot) + right) + down;
+        let inside = at.max(S::f64s::splat(simd, least)).min(S::f64s::splat(simd, most));
+        (inside + S::f64s::splat(simd, to_fixed)).bitcast()
+    }
+}

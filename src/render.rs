@@ -15,7 +15,7 @@ use crate::raster::{
 };
 use crate::rules::Rules;
 use crate::scene::{Paint, PrimitiveKind, Scene};
-use crate::texture::{LevelSampling, PixelSampling, SamplingSettings};
+use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, SamplingSettings};
 
 pub use regions::{Subject, draw_regions, refine};
 
@@ -28,6 +28,10 @@ pub struct RenderSettings {
     pub pixel_sampling: PixelSampling,
     /// Between mip levels.
     pub level_sampling: LevelSampling,
+    /// Along a footprint.
+    pub anisotropy: Anisotropy,
+    /// How large a footprint counts.
+    pub detail: LevelOfDetail,
     /// Whose conventions.
     pub rules: Rules,
     /// What lies below the first primitive.
@@ -42,6 +46,8 @@ impl Default for RenderSettings {
             sample_rate: SampleRate::ONE,
             pixel_sampling: PixelSampling::default(),
             level_sampling: LevelSampling::default(),
+            anisotropy: Anisotropy::default(),
+            detail: LevelOfDetail::default(),
             rules: Rules::default(),
             background: Rgba::WHITE,
             outline: true,
@@ -144,6 +150,9 @@ fn display_list<'a>(
         sampling: SamplingSettings {
             pixel: settings.pixel_sampling,
             level: settings.level_sampling,
+            anisotropy: settings.anisotropy,
+            detail: settings.detail,
+            sample_step: 1.0 / f64::from(settings.sample_rate.side()),
             rules: settings.rules,
         },
         background: settings.background,

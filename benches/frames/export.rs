@@ -4,7 +4,9 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
+use rasterscope::render::RenderSettings;
 use rasterscope::scene::{Paint, PrimitiveKind, Scene};
+use rasterscope::texture::Anisotropy;
 use serde_json::{Value, json};
 
 use crate::ours::{Ours, pool, settings};
@@ -12,8 +14,9 @@ use crate::race::{Budget, Rival, race};
 use crate::scenes::FRAMES;
 use crate::scenes::{flat, mesh};
 
-/// Sample rates of the comparison; llvmpipe supersamples by the square root.
-const RATES: [u32; 2] = [1, 16];
+/// Sample rates of the comparison, for which llvmpipe supersamples by the square root, and the most taps of anisotropic
+/// filtering: the last case is of textured scenes only.
+const CASES: [(u32, u32); 3] = [(1, 1), (16, 1), (1, 16)];
 
 /// The scenes of one folder.
 struct Export<'a> {
@@ -53,7 +56,15 @@ pub(crate) fn export(folder: &Path, budget: Budget) -> io::Result<()> {
 impl Export<'_> {
     fn add(&mut self, kind: &str, name: &str, scene: &Scene, size: [u32; 2]) -> io::Result<()> {
         let pool = pool(2);
-        let mut ours = RATES.map(|rate| Ours::new(scene, size, settings(rate), &pool));
+        let cases = if kind == "textured" { &CASES[..] } else { &CASES[..2] };
+        let draws = cases.iter().map(|(rate, taps)| {
+            let settings = RenderSettings {
+                anisotropy: Anisotropy::new(*taps).unwrap_or_default(),
+                ..settings(*rate)
+            };
+            Ours::new(scene, size, settings, &pool)
+        });
+        let mut ours: Vec<Ours<'_>> = draws.collect();
         let number = self.entries.len();
         let view = *ours[0].view();
         let (mut points, mut attributes, mut translucent) = (Vec::new(), Vec::new(), false);
@@ -80,29 +91,29 @@ impl Export<'_> {
             fs::write(self.folder.join(&file), bytes).map(|()| file)
         };
         let (points, attributes) = (write("points", &points)?, write("attributes", &attributes)?);
-        let mut rivals = ours.each_mut().map(|ours| {
-            Rival::new(|| {
-                ours.draw();
-            })
-        });
+        let draw = |ours: &mut Ours<'_>| {
+            ours.draw();
+        };
+        let mut rivals: Vec<Rival<'_>> = ours.iter_mut().map(|ours| Rival::new(move || draw(ours))).collect();
         let timings = race(&mut rivals, self.budget);
         drop(rivals);
-        let mut rates = Vec::new();
-        for ((rate, timing), ours) in RATES.iter().zip(timings).zip(&ours) {
+        let mut listed = Vec::new();
+        for (((rate, taps), timing), ours) in cases.iter().zip(timings).zip(&ours) {
             let bytes: Vec<u8> = (0..size[1])
                 .flat_map(|y| (0..size[0]).map(move |x| (x, y)))
                 .flat_map(|(x, y)| ours.frame().rgba(x, y).unwrap_or_default())
                 .collect();
-            rates.push(json!({
+            listed.push(json!({
                 "rate": rate,
+                "anisotropy": taps,
                 "median_ms": timing.median,
                 "min_ms": timing.min,
-                "picture": write(&format!("at{rate}.rgba"), &bytes)?,
+                "picture": write(&format!("at{rate}_{taps}.rgba"), &bytes)?,
             }));
         }
         self.entries.push(json!({
             "kind": kind, "name": name, "size": size, "translucent": translucent,
-            "points": points, "attributes": attributes, "ours": rates,
+            "points": points, "attributes": attributes, "ours": listed,
         }));
         Ok(())
     }

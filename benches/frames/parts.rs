@@ -9,7 +9,9 @@ use rasterscope::color::Premultiplied16;
 use rasterscope::render::{FrameStats, RenderSettings};
 use rasterscope::scene::Scene;
 use rasterscope::simd;
-use rasterscope::texture::{Filter, LevelSampling, MipLevel, MipPyramid, PixelSampling, SampleGrid, UvMap};
+use rasterscope::texture::{
+    Filter, LevelSampling, MipLevel, MipPyramid, PixelSampling, SampleGrid, SamplingSettings, UvMap,
+};
 
 use crate::ours::{Ours, pool, settings};
 use crate::race::Timing;
@@ -92,6 +94,11 @@ fn filter(bencher: Bencher<'_, '_>, name: &str) {
         .into_iter()
         .find(|(pixel, level)| name == format!("{} {}", pixel.name(), level.name()))
         .expect("one of the filters");
+    let sampling = SamplingSettings {
+        pixel,
+        level,
+        ..SamplingSettings::default()
+    };
     let texture = mesh::texture();
     // 1.4 texels per pixel, turned: two levels are mixed.
     let side = f64::from(mesh::TEXTURE_SIDE);
@@ -108,7 +115,7 @@ fn filter(bencher: Bencher<'_, '_>, name: &str) {
     let points: Vec<[u16; 2]> = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| [x, y])).collect();
     let mut colors = vec![Premultiplied16::default(); points.len()];
     bencher.counter(ItemsCount::new(points.len())).bench_local(|| {
-        Filter::new(&texture.pyramid, &map, pixel, level).points(simd::level(), grid, &points, &mut colors);
+        Filter::new(&texture.pyramid, &map, &sampling).points(simd::level(), grid, &points, &mut colors);
     });
 }
 

@@ -63,6 +63,8 @@ void main() {
 BUDGET, FEWEST = 2.0, 3
 # Mean absolute difference per channel, in 1/255, above which the pictures are not of the same scene.
 TOLERANCE = 1.5
+# The same where each weighs the texels of a long footprint in its own way: llvmpipe as ellipses.
+ANISOTROPIC_TOLERANCE = 4.0
 
 
 class Frames:
@@ -140,16 +142,18 @@ def main(folder):
     ratios, differs = {}, False
     for scene in listed["scenes"]:
         for ours in scene["ours"]:
+            texture.anisotropy = ours["anisotropy"]
             frames = Frames(context, folder, scene, texture, math.isqrt(ours["rate"]))
             median, least = frames.times_ms()
             expected = numpy.frombuffer((folder / ours["picture"]).read_bytes(), "u1")
             difference = numpy.abs(frames.picture().astype("i2") - expected).mean()
-            differs |= difference > TOLERANCE
+            differs |= difference > (TOLERANCE if ours["anisotropy"] == 1 else ANISOTROPIC_TOLERANCE)
             ratio = median / ours["median_ms"], least / ours["min_ms"]
-            ratios.setdefault((scene["kind"], ours["rate"]), []).append(ratio)
+            ratios.setdefault((scene["kind"], ours["rate"], ours["anisotropy"]), []).append(ratio)
             width, height = scene["size"]
             print(
-                f"{scene['kind']:8} {scene['name']:13} {width:4}x{height:4} rate {ours['rate']:2}: llvmpipe"
+                f"{scene['kind']:8} {scene['name']:13} {width:4}x{height:4} rate {ours['rate']:2}"
+                f" anisotropy {ours['anisotropy']:2}: llvmpipe"
                 f" {median:8.3f} ({least:8.3f}) ms, ours {ours['median_ms']:8.3f} ({ours['min_ms']:8.3f}) ms,"
                 f" {ratio[0]:6.2f}x ({ratio[1]:6.2f}x), pictures differ by {difference:.2f}/255",
                 flush=True,
@@ -162,9 +166,10 @@ def main(folder):
 def report(ratios):
     """The rows of the README."""
     asked = {
-        ("flat", 16): ("flat scenes, rate 16, against llvmpipe at 4x4 supersampling", "30x as fast", ""),
-        ("textured", 1): ("textured meshes, trilinear, rate 1, against llvmpipe", "1x as fast", "2x"),
-        ("textured", 16): ("the same at rate 16, against llvmpipe at 4x4 supersampling", "2x as fast", "4x"),
+        ("flat", 16, 1): ("flat scenes, rate 16, against llvmpipe at 4x4 supersampling", "30x as fast", ""),
+        ("textured", 1, 1): ("textured meshes, trilinear, rate 1, against llvmpipe", "1x as fast", "2x"),
+        ("textured", 16, 1): ("the same at rate 16, against llvmpipe at 4x4 supersampling", "2x as fast", "4x"),
+        ("textured", 1, 16): ("the same at rate 1, anisotropy 16 in both", "1x as fast", "2x"),
     }
     print("\n| work | must | aim | here | command |\n| --- | --- | --- | --- | --- |")
     for key, (work, must, aim) in asked.items():

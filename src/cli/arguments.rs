@@ -16,7 +16,7 @@ use crate::raster::SampleRate;
 use crate::render::RenderSettings;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
-use crate::texture::{LevelSampling, PixelSampling};
+use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
 use crate::viewer::Theme;
 
 /// See how a picture is sampled.
@@ -137,6 +137,18 @@ pub(super) struct SamplingOptions {
     /// Which mip levels of a texture are read
     #[arg(long, default_value = LevelSampling::default().name(), value_enum)]
     pub(super) level_sampling: LevelSampling,
+    /// The most taps along a footprint that is longer than wide: 1 (off) to 64
+    #[arg(long, default_value = "1", value_name = "N", value_parser = anisotropy)]
+    pub(super) anisotropy: Anisotropy,
+    /// Levels added to a texture's level of detail: -16 to 16
+    #[arg(long, default_value = "0", value_name = "B", value_parser = lod_bias, allow_hyphen_values = true)]
+    pub(super) lod_bias: LodBias,
+    /// The level of detail instead of the footprint's: 0 to 16 [default: the footprint's]
+    #[arg(long, value_name = "L", value_parser = lod_level, allow_hyphen_values = true)]
+    pub(super) lod_level: Option<FixedLevel>,
+    /// Whether a footprint is a pixel's or a sample's
+    #[arg(long, default_value = Derivatives::default().name(), value_enum)]
+    pub(super) lod_per: Derivatives,
     /// white, transparent or #RRGGBB
     #[arg(long, default_value = "white", value_name = "COLOUR", value_parser = background)]
     pub(super) background: Rgba,
@@ -155,6 +167,12 @@ impl SamplingOptions {
             sample_rate: self.sample_rate,
             pixel_sampling: self.pixel_sampling,
             level_sampling: self.level_sampling,
+            anisotropy: self.anisotropy,
+            detail: LevelOfDetail {
+                bias: self.lod_bias,
+                fixed: self.lod_level,
+                derivatives: self.lod_per,
+            },
             rules: self.rules,
             background: self.background,
             outline: view != View::Canvas,
@@ -177,11 +195,26 @@ macro_rules! named_values {
     )*};
 }
 
-named_values!(PixelSampling, LevelSampling, Rules, DialectChoice, Theme);
+named_values!(PixelSampling, LevelSampling, Derivatives, Rules, DialectChoice, Theme);
 
 fn sample_rate(text: &str) -> Result<SampleRate, String> {
     let rate = text.parse().ok().and_then(SampleRate::new);
     rate.ok_or_else(|| "the sample rate is a square number: 1, 4, 9, 16, 25, 36, 49, 64 ... 256".to_owned())
+}
+
+fn anisotropy(text: &str) -> Result<Anisotropy, String> {
+    let taps = text.parse().ok().and_then(Anisotropy::new);
+    taps.ok_or_else(|| "anisotropy is a whole number from 1, which is off, to 64".to_owned())
+}
+
+fn lod_bias(text: &str) -> Result<LodBias, String> {
+    let bias = text.parse().ok().and_then(LodBias::new);
+    bias.ok_or_else(|| "the bias is a number of levels from -16 to 16".to_owned())
+}
+
+fn lod_level(text: &str) -> Result<FixedLevel, String> {
+    let level = text.parse().ok().and_then(FixedLevel::new);
+    level.ok_or_else(|| "a fixed level is a number from 0, the base, to 16".to_owned())
 }
 
 fn scale(text: &str) -> Result<f32, String> {
@@ -266,8 +299,8 @@ mod tests {
     #[test]
     fn arguments_of_render_become_settings() {
         let line = "rasterscope render a.svg -o b.png --size 300x200 --sample-rate 16 --pixel-sampling bilinear \
-                    --level-sampling linear --view=-5,10,2.5,-90 --background #ff8000 --dialect course --rules course \
-                    --threads 2";
+                    --level-sampling linear --anisotropy 16 --lod-bias -1.5 --lod-level 2.25 --lod-per sample \
+                    --view=-5,10,2.5,-90 --background #ff8000 --dialect course --rules course --threads 2";
         let Ok(Arguments {
             verb: Verb::Render(options),
         }) = parsed(&line.split_whitespace().collect::<Vec<_>>().join(" "))
@@ -279,6 +312,13 @@ mod tests {
         assert_eq!(settings.sample_rate.samples(), 16, "rate");
         assert_eq!(settings.pixel_sampling, PixelSampling::Bilinear, "pixel sampling");
         assert_eq!(settings.level_sampling, LevelSampling::Linear, "level sampling");
+        assert_eq!(settings.anisotropy.taps(), 16, "anisotropy");
+        let detail = LevelOfDetail {
+            bias: LodBias::new(-1.5).expect("a bias"),
+            fixed: FixedLevel::new(2.25),
+            derivatives: Derivatives::Sample,
+        };
+        assert_eq!(settings.detail, detail, "level of detail");
         assert_eq!(
             settings.background.to_bytes(Rules::Standard),
             [255, 128, 0, 255],
@@ -300,6 +340,14 @@ mod tests {
             "rasterscope render a.svg -o b.png --background red",
             "rasterscope render a.svg -o b.png --background #ff80é",
             "rasterscope render a.svg -o b.png --pixel-sampling cubic",
+            "rasterscope render a.svg -o b.png --anisotropy 0",
+            "rasterscope render a.svg -o b.png --anisotropy 65",
+            "rasterscope render a.svg -o b.png --anisotropy 2.5",
+            "rasterscope render a.svg -o b.png --lod-bias 16.5",
+            "rasterscope render a.svg -o b.png --lod-bias nan",
+            "rasterscope render a.svg -o b.png --lod-level -1",
+            "rasterscope render a.svg -o b.png --lod-level 1e9",
+            "rasterscope render a.svg -o b.png --lod-per texel",
             "rasterscope render a.svg -o b.png --unknown",
             "rasterscope bench",
             "rasterscope bench a.svg --frames 0",

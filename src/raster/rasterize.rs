@@ -482,7 +482,7 @@ mod tests {
         let sampling = SamplingSettings {
             pixel: PixelSampling::Bilinear,
             level: LevelSampling::Linear,
-            rules: Rules::Standard,
+            ..SamplingSettings::default()
         };
         arbtest::arbtest(|u| {
             let rate = SampleRate::new(*u.choose(&[1, 4, 9, 64])?).expect("a square number");

@@ -89,12 +89,12 @@ impl<'a> Shader<'a> {
                 let sampling = context.sampling;
                 match rules {
                     Rules::Standard => ShaderKind::Texture {
-                        filter: Filter::new(pyramid, &map, sampling.pixel, sampling.level),
+                        filter: Filter::new(pyramid, &map, &sampling),
                         opacity,
                     },
                     Rules::Course => ShaderKind::CourseTexture {
                         uv,
-                        sampler: Sampler::new(pyramid, &map.footprint(), sampling),
+                        sampler: Sampler::new(pyramid, &map.footprint(), &sampling),
                         opacity,
                     },
                 }

@@ -17,6 +17,9 @@ pub(super) const SUM_SHIFT: u32 = MASS_BITS - 8;
 /// A 64-bit float of this size has [`FRACTION_BITS`] bits left for fractions: adding it to a coordinate rounds the
 /// coordinate to them, and they stand in the lower bits of the sum.
 pub(super) const TO_FIXED: f64 = (1_u64 << (52 - FRACTION_BITS)) as f64;
+/// How many texels beyond a level positions of samples count, and how many long the way to a tap: as many as the largest
+/// level has, so that a sum of three fits 32 bits.
+pub(super) const REACH: f64 = 16_384.0;
 
 /// Where the first texel's centre lies from the corner, in texels, for whole coordinates to be what `pixel` looks for:
 /// corners of texels, or centres.
@@ -35,6 +38,49 @@ pub(super) fn first_centre(pixel: PixelSampling) -> f64 {
 )]
 pub(super) fn to_fixed(texels: f64, last: f64) -> u32 {
     (texels.max(0.0).min(last) + TO_FIXED).to_bits() as u32
+}
+
+/// Where a tap lies that is `offset` texels from a sample at `texels`: both are rounded, then added and clamped.
+///
+/// Neither counts as more than [`REACH`] texels beyond the level: from there on taps read its border.
+#[inline]
+pub(super) fn tap(texels: f64, offset: f64, last: f64) -> u32 {
+    let at = signed(texels, (-REACH, last + REACH)) + tap_offset(offset);
+    at.clamp(0, to_fixed(last, last).cast_signed()).cast_unsigned()
+}
+
+/// The distance of a tap from its sample in fixed point.
+#[inline]
+pub(super) fn tap_offset(texels: f64) -> i32 {
+    signed(texels, (-REACH, REACH))
+}
+
+/// A coordinate inside limits, rounded to fixed point.
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the fixed-point number is in the lower half"
+)]
+fn signed(texels: f64, (least, most): (f64, f64)) -> i32 {
+    // One half more, so that negative numbers stand below it in two's complement.
+    (texels.max(least).min(most) + 1.5 * TO_FIXED).to_bits() as i32
+}
+
+/// The stored channel of `count` taps, from the sum of what each adds.
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a weighted mean of bytes is a byte, which is 16 bits when stored"
+)]
+pub(super) fn mean(sum: i32, count: u32) -> u16 {
+    (sum as f32 * per_tap(count)).round_ties_even() as u16
+}
+
+/// From the sum over `count` taps to the 16 bits of a stored channel.
+#[inline]
+pub(super) fn per_tap(count: u32) -> f32 {
+    1.0 / (count << SUM_SHIFT) as f32
 }
 
 /// `a b`, where `b` is a fraction of [`FRACTION_BITS`] bits, rounded to nearest.

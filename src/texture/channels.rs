@@ -6,7 +6,7 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, i16x16, i32x8, u8x16, u8x32, u16x16, u32x4, u32x8, u64x4};
+use fearless_simd::{Simd, f32x8, i16x16, i32x8, u8x16, u8x32, u16x16, u32x4, u32x8, u64x4};
 
 use super::cell::SUM_SHIFT;
 use crate::color::Premultiplied16;
@@ -91,6 +91,18 @@ pub(super) fn round<S: Simd>(simd: S, low: i32x8<S>, high: i32x8<S>) -> u16x16<S
     let low: u32x8<S> = ((low + half) >> SUM_SHIFT).bitcast();
     let high: u32x8<S> = ((high + half) >> SUM_SHIFT).bitcast();
     low.relaxed_narrow(high)
+}
+
+/// Scales the sums of four samples to the bits that are stored, rounding to nearest; see `cell::mean`.
+#[inline(always)]
+pub(super) fn mean<S: Simd>(simd: S, low: i32x8<S>, high: i32x8<S>, scale: f32) -> u16x16<S> {
+    /// Adding this to a 32-bit float rounds it to a whole number, which then stands in the lower bits.
+    const WHOLE: f32 = 8_388_608.0;
+    let scaled = |sums: i32x8<S>| -> u32x8<S> {
+        let whole = f32x8::float_from(sums) * f32x8::splat(simd, scale) + f32x8::splat(simd, WHOLE);
+        whole.bitcast::<u32x8<S>>() & u32x8::splat(simd, 0xFFFF)
+    };
+    scaled(low).relaxed_narrow(scaled(high))
 }
 
 impl FromColors for Premultiplied16 {

@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use super::sampler::{LevelChoice, mass};
-use super::{LevelSampling, MipLevel, MipPyramid, PixelSampling, UvMap};
+use super::sampler::mass;
+use super::{MipLevel, MipPyramid, PixelSampling, Reading, SamplingSettings, Taps, UvMap};
 use super::{cell, points, sums};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
@@ -23,6 +23,9 @@ const MAX_SIDE: u32 = 16;
 pub struct Filter<'a> {
     pixel: PixelSampling,
     pivot: DVec2,
+    taps: Taps,
+    /// Length of the side that taps lie along, in steps of the map.
+    tap_steps: f64,
     finer: FilterLevel<'a>,
     /// The next coarser level, when two are mixed.
     coarser: Option<FilterLevel<'a>>,
@@ -82,22 +85,32 @@ pub(super) struct Axis {
     pub(super) last: f64,
 }
 
+/// The taps of each sample, as the lists of one call see them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TapLine {
+    pub(super) taps: Taps,
+    /// Length of the line that they are spread over, in steps from sample to sample.
+    steps: f64,
+}
+
 /// All that a kernel needs for the lists of one call.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan<'a> {
     pub(super) pixel: PixelSampling,
     /// Sample `[0, 0]` relative to the pivot, in samples.
     pub(super) first: DVec2,
+    pub(super) line: TapLine,
     pub(super) finer: GridLevel<'a>,
     pub(super) coarser: Option<GridLevel<'a>>,
 }
 
 impl<'a> Filter<'a> {
-    /// Prepares reading `pyramid` through `map`.
-    pub fn new(pyramid: &'a MipPyramid, map: &UvMap, pixel: PixelSampling, level: LevelSampling) -> Self {
+    /// Prepares reading `pyramid` through `map` as the settings say; their rules count as the standard ones.
+    pub fn new(pyramid: &'a MipPyramid, map: &UvMap, settings: &SamplingSettings) -> Self {
         let levels = pyramid.levels();
-        let size = DVec2::new(f64::from(levels[0].width()), f64::from(levels[0].height()));
-        let choice = LevelChoice::new(&map.footprint(), size, pyramid.last_level(), level);
+        let reading = Reading::new(&map.footprint(), pyramid, settings);
+        let choice = reading.levels;
+        let pixel = settings.pixel;
         let mass = mass(choice.next_weight);
         let near = map.pivot.is_finite() && map.pivot.abs().max_element() < FARTHEST;
         let prepare = |number: usize, mass| {
@@ -115,6 +128,8 @@ impl<'a> Filter<'a> {
         Self {
             pixel,
             pivot: if near { map.pivot } else { DVec2::ZERO },
+            taps: reading.taps,
+            tap_steps: settings.detail.derivatives.step(settings.sample_step),
             finer,
             coarser,
         }
@@ -159,6 +174,10 @@ impl<'a> Filter<'a> {
         Plan {
             pixel: self.pixel,
             first: origin * side + 0.5 - pivot,
+            line: TapLine {
+                taps: self.taps,
+                steps: self.tap_steps * side,
+            },
             finer: self.finer.on_grid(1.0 / side),
             coarser: self.coarser.map(|level| level.on_grid(1.0 / side)),
         }
@@ -211,8 +230,17 @@ impl<'a> FilterLevel<'a> {
     }
 }
 
+impl Axis {
+    /// How far tap `i` lies from its sample, in texels.
+    pub(super) fn tap(&self, line: &TapLine, i: u32) -> f64 {
+        let step = if line.taps.along_x { self.right } else { self.down };
+        step * line.steps * line.taps.place(i)
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::{Anisotropy, LevelSampling};
     use super::*;
     use crate::simd;
 
@@ -231,8 +259,14 @@ mod tests {
             origin: [-2, 1],
         };
         for pixel in PixelSampling::ALL {
-            for level in LevelSampling::ALL {
-                let filter = Filter::new(&pyramid, &map, pixel, level);
+            for (level, taps) in LevelSampling::ALL.into_iter().zip([1, 2, 64]) {
+                let settings = SamplingSettings {
+                    pixel,
+                    level,
+                    anisotropy: Anisotropy::new(taps).expect("a maximum"),
+                    ..SamplingSettings::default()
+                };
+                let filter = Filter::new(&pyramid, &map, &settings);
                 for (name, simd) in simd::tested() {
                     let expected = Premultiplied16(texel.map(|channel| u16::from(channel) * 256));
                     let points: Vec<_> = (0..50).map(|i| [i * 7, i * 3]).collect();

@@ -1,5 +1,6 @@
 //! Where the samples of a pixel stand in a level: the same for all pixels of a triangle, but for where the pixel is.
 
+use super::PixelSampling;
 use super::cell::{MASS, MASS_BITS};
 use super::filter::{Axis, GridLevel, Plan};
 
@@ -69,8 +70,12 @@ impl Scale {
 }
 
 impl<'a> Footing<'a> {
-    /// The level or levels of a plan; `None` where samples are too far apart, so that each must be filtered.
+    /// The level or levels of a plan; `None` where each sample must be filtered: where samples are too far apart, have
+    /// several taps, or read single texels.
     pub(super) fn of_plan(plan: &Plan<'a>, scale: Scale) -> Option<(Self, Option<Self>)> {
+        if plan.pixel == PixelSampling::Nearest || plan.line.taps.count > 1 {
+            return None;
+        }
         let finer = Self::new(&plan.finer, scale)?;
         match &plan.coarser {
             None => Some((finer, None)),

@@ -12,6 +12,15 @@ pub struct Footprint {
 }
 
 impl Footprint {
+    /// That of steps which are `factor` times as long.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            dx: self.dx * factor,
+            dy: self.dy * factor,
+        }
+    }
+
     /// Level of detail `log2(max(|d(uv size)/dx|, |d(uv size)/dy|))`, where `size` is the base level's in texels.
     ///
     /// Not clamped: below zero under magnification, minus infinity for a constant `(u, v)`. See OpenGL 4.6, section

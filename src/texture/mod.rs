@@ -1,8 +1,10 @@
 //! Images to colours: decoding, pyramid, level of detail, sampling.
 
+mod anisotropy;
 mod cell;
 mod channels;
 mod decode;
+mod detail;
 mod filter;
 mod footing;
 mod footprint;
@@ -14,13 +16,16 @@ mod pyramid;
 mod sampler;
 mod sums;
 mod tails;
+mod taps;
 mod uv_map;
 
+pub use anisotropy::{Anisotropy, Taps};
 pub use decode::DecodeError;
+pub use detail::{Derivatives, FixedLevel, LevelChoice, LevelOfDetail, LodBias, Reading};
 pub use filter::{Filter, PixelList, SampleGrid};
 pub use footprint::Footprint;
 pub use pyramid::{MAX_SIDE, MipLevel, MipPyramid};
-pub use sampler::{LevelChoice, Sampler, SamplingSettings};
+pub use sampler::{Sampler, SamplingSettings};
 pub use uv_map::UvMap;
 
 /// How a colour is found inside one mip level.
@@ -36,7 +41,7 @@ pub enum PixelSampling {
 /// Which mip level, or levels, are read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LevelSampling {
-    /// Level 0, however small the picture.
+    /// Level 0, however small the picture; unless a user fixes another level.
     #[default]
     Zero,
     /// The level nearest to the level of detail.

@@ -11,41 +11,54 @@
 use arbtest::arbitrary::{Result, Unstructured};
 use glam::DVec2;
 
-use super::filter::Plan;
+use super::filter::{Axis, Plan};
 use super::footing::{Footing, Scale};
-use super::{Filter, LevelSampling, MipLevel, MipPyramid, PixelSampling, SampleGrid, UvMap, cell};
+use super::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
+use super::{Filter, MipLevel, MipPyramid, SampleGrid, SamplingSettings, UvMap, cell};
 use crate::color::Premultiplied16;
 
 /// The colour at one sample: what the kernels do for many.
 pub(super) fn point(plan: &Plan<'_>, point: [u32; 2]) -> Premultiplied16 {
     let from_pivot = plan.first + DVec2::new(f64::from(point[0]), f64::from(point[1]));
+    let count = plan.line.taps.count;
     let mut sums = [0; 4];
     for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
-        let at = [&level.x, &level.y].map(|axis| {
-            let at = (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
-            cell::to_fixed(at, axis.last)
-        });
-        cell::add(level.level, plan.pixel, at, level.mass, &mut sums);
+        let at = |axis: &Axis| (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
+        let axes = [&level.x, &level.y];
+        for tap in 0..count {
+            let place = axes.map(|axis| match count {
+                1 => cell::to_fixed(at(axis), axis.last),
+                _ => cell::tap(at(axis), axis.tap(&plan.line, tap), axis.last),
+            });
+            cell::add(level.level, plan.pixel, place, level.mass, &mut sums);
+        }
     }
-    Premultiplied16(sums.map(cell::to_channel))
+    Premultiplied16(match count {
+        1 => sums.map(cell::to_channel),
+        _ => sums.map(|sum| cell::mean(sum, count)),
+    })
 }
 
 /// The colour at one sample by the definition, channels in `0.0..=255.0`.
 pub(super) fn exact_point(plan: &Plan<'_>, point: [u32; 2]) -> [f64; 4] {
     let from_pivot = plan.first + DVec2::new(f64::from(point[0]), f64::from(point[1]));
+    let count = plan.line.taps.count;
     let mut sums = [0.0; 4];
     for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
-        let [x, y] = [&level.x, &level.y].map(|axis| {
-            let at = axis.at_pivot + from_pivot.x * axis.right + from_pivot.y * axis.down;
-            at.clamp(0.0, axis.last)
-        });
-        let mass = f64::from(level.mass) / f64::from(cell::MASS);
-        for (column, row) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
-            let (column, row) = (x.floor() + column, y.floor() + row);
-            let weight = (1.0 - (x - column).abs()) * (1.0 - (y - row).abs());
-            let texel = level.level.texel(column as i32, row as i32);
-            for (sum, channel) in sums.iter_mut().zip(texel) {
-                *sum += f64::from(channel) * weight * mass;
+        let mass = f64::from(level.mass) / f64::from(cell::MASS) / f64::from(count);
+        for tap in 0..count {
+            let [x, y] = [&level.x, &level.y].map(|axis| {
+                let at = axis.at_pivot + from_pivot.x * axis.right + from_pivot.y * axis.down;
+                let offset = axis.tap(&plan.line, tap).clamp(-cell::REACH, cell::REACH);
+                (at.clamp(-cell::REACH, axis.last + cell::REACH) + offset).clamp(0.0, axis.last)
+            });
+            for (column, row) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+                let (column, row) = (x.floor() + column, y.floor() + row);
+                let weight = (1.0 - (x - column).abs()) * (1.0 - (y - row).abs());
+                let texel = level.level.texel(column as i32, row as i32);
+                for (sum, channel) in sums.iter_mut().zip(texel) {
+                    *sum += f64::from(channel) * weight * mass;
+                }
             }
         }
     }
@@ -59,11 +72,7 @@ pub(super) fn pixel_sum(plan: &Plan<'_>, side: u32, pixel: [u32; 2], covered: im
         .map(|j| [j % side, j / side])
         .collect();
     let scale = Scale::new(side);
-    let footings = match plan.pixel {
-        PixelSampling::Bilinear => Footing::of_plan(plan, scale),
-        PixelSampling::Nearest => None,
-    };
-    let Some((finer, coarser)) = footings else {
+    let Some((finer, coarser)) = Footing::of_plan(plan, scale) else {
         let mut sums = [0; 4];
         for sample in samples {
             let color = point(plan, [pixel[0] * side + sample[0], pixel[1] * side + sample[1]]);
@@ -219,6 +228,37 @@ pub(super) fn grid(u: &mut Unstructured<'_>, map: &UvMap) -> Result<SampleGrid> 
 }
 
 pub(super) fn filter<'a>(u: &mut Unstructured<'_>, pyramid: &'a MipPyramid, map: &UvMap) -> Result<Filter<'a>> {
-    let (pixel, level) = (*u.choose(&PixelSampling::ALL)?, *u.choose(&LevelSampling::ALL)?);
-    Ok(Filter::new(pyramid, map, pixel, level))
+    Ok(Filter::new(pyramid, map, &settings(u)?))
+}
+
+/// Any way to read a texture under the standard rules; half of them with one tap and no more than the footprint says.
+pub(super) fn settings(u: &mut Unstructured<'_>) -> Result<SamplingSettings> {
+    let plain = SamplingSettings {
+        pixel: *u.choose(&PixelSampling::ALL)?,
+        level: *u.choose(&LevelSampling::ALL)?,
+        ..SamplingSettings::default()
+    };
+    if u.arbitrary()? {
+        return Ok(plain);
+    }
+    let quarters = |u: &mut Unstructured<'_>, least: i32| Ok(f64::from(u.int_in_range(least..=64)?) / 4.0);
+    let detail = LevelOfDetail {
+        bias: if u.arbitrary()? {
+            LodBias::new(quarters(u, -64)?).unwrap_or_default()
+        } else {
+            LodBias::default()
+        },
+        fixed: if u.int_in_range(0..=3)? == 0 {
+            FixedLevel::new(quarters(u, 0)?)
+        } else {
+            None
+        },
+        derivatives: *u.choose(&Derivatives::ALL)?,
+    };
+    Ok(SamplingSettings {
+        anisotropy: Anisotropy::new(u.int_in_range(1..=Anisotropy::MAX)?).unwrap_or_default(),
+        detail,
+        sample_step: 1.0 / f64::from(u.int_in_range(1..=16)?),
+        ..plain
+    })
 }

@@ -14,15 +14,16 @@ use super::cell::FRACTION_BITS;
 use super::channels::{FromColors, Spread, both_columns, in_columns, round, widen};
 use super::filter::{GridLevel, Plan};
 use super::positions::{Positions, columns_and_rows};
+use super::taps;
 use crate::simd::Level;
 
 /// Samples that are prepared together; few, so that short lists do not pay for clearing memory.
-const BLOCK: usize = 16;
+pub(super) const BLOCK: usize = 16;
 /// The second factor of a pair that rounds a product to nearest before its fraction is cut off; its partner is 1.
 const ROUND: i32 = 1 << (FRACTION_BITS - 1 + 16);
 
 /// Where the samples of a block read one level.
-struct Cells {
+pub(super) struct Cells {
     /// The first of the four texels around each sample.
     offsets: [u32; BLOCK],
     /// Their weights, as [`Spread::columns`] takes them.
@@ -31,7 +32,7 @@ struct Cells {
 
 /// The texels of a level and where to read them.
 #[derive(Clone, Copy)]
-struct Source<'a> {
+pub(super) struct Source<'a> {
     /// The texels from the first one on, and from the second row on; equally many.
     upper: &'a [[u8; 4]],
     lower: &'a [[u8; 4]],
@@ -41,9 +42,14 @@ struct Source<'a> {
 
 /// See [`super::Filter::points`] and [`super::Filter::pixels`].
 pub(super) fn filter<C: FromColors>(level: Level, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
-    dispatch!(level, simd => filter_with(simd, plan, points, out));
+    if plan.line.taps.count == 1 {
+        dispatch!(level, simd => filter_with(simd, plan, points, out));
+    } else {
+        dispatch!(level, simd => taps::filter_with(simd, plan, points, out));
+    }
 }
 
+/// Filters samples of one tap each.
 #[inline(always)]
 pub(super) fn filter_with<S: Simd, C: FromColors>(simd: S, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
     let mut cells = [Cells::EMPTY; 2];
@@ -95,6 +101,7 @@ macro_rules! by_fours {
         }
     }};
 }
+pub(super) use by_fours;
 
 #[inline(always)]
 fn nearest<S: Simd, C: FromColors>(simd: S, texels: Source<'_>, out: &mut [C]) {
@@ -145,7 +152,7 @@ fn trilinear<S: Simd, C: FromColors>(simd: S, spread: Spread<S>, [finer, coarser
 }
 
 impl Cells {
-    const EMPTY: Self = Self {
+    pub(super) const EMPTY: Self = Self {
         offsets: [0; BLOCK],
         weights: [0; BLOCK],
     };
@@ -159,9 +166,21 @@ impl Cells {
         level: &GridLevel<'_>,
         (at, first): (&Positions<S>, usize),
     ) {
+        let (x, y) = (at.fixed(simd, &level.x), at.fixed(simd, &level.y));
+        self.note_fixed(simd, pixel, level, ([x, y], first));
+    }
+
+    /// As [`Cells::note`], for coordinates inside the level in fixed point.
+    #[inline(always)]
+    pub(super) fn note_fixed<S: Simd>(
+        &mut self,
+        simd: S,
+        pixel: PixelSampling,
+        level: &GridLevel<'_>,
+        ([x, y], first): ([S::i32s; 2], usize),
+    ) {
         let lanes = S::u32s::LEN;
         let number = |value| S::i32s::splat(simd, value);
-        let (x, y) = (at.fixed(simd, &level.x), at.fixed(simd, &level.y));
         let stride = number(level.level.stride().cast_signed());
         let offsets = (y >> FRACTION_BITS) * stride + (x >> FRACTION_BITS);
         let offsets: S::u32s = offsets.bitcast();
@@ -194,7 +213,7 @@ impl Cells {
 
 impl<'a> Source<'a> {
     #[inline(always)]
-    fn new(level: &GridLevel<'a>, cells: &'a Cells) -> Self {
+    pub(super) fn new(level: &GridLevel<'a>, cells: &'a Cells) -> Self {
         let (texels, stride) = (level.level.texels(), level.level.stride() as usize);
         let count = texels.len() - stride;
         Self {
@@ -214,7 +233,7 @@ impl<'a> Source<'a> {
 
     /// Red, green, blue and alpha of sample `i` in the units of the weights: the left column's sums, then the right's.
     #[inline(always)]
-    fn bilinear<S: Simd>(&self, simd: S, spread: Spread<S>, i: usize) -> i32x8<S> {
+    pub(super) fn bilinear<S: Simd>(&self, simd: S, spread: Spread<S>, i: usize) -> i32x8<S> {
         let i = i % BLOCK;
         let at = self.cells.offsets[i] as usize;
         let upper: u8x16<S> = u64x2::simd_from(simd, [row(self.upper, at), 0]).bitcast();
@@ -236,7 +255,7 @@ mod tests {
     use arbtest::arbitrary;
     use glam::DVec2;
 
-    use super::super::{Filter, LevelSampling, MipLevel, MipPyramid, SampleGrid, UvMap, oracle};
+    use super::super::{Filter, MipLevel, MipPyramid, SampleGrid, SamplingSettings, UvMap, oracle};
     use super::*;
     use crate::color::Premultiplied16;
     use crate::rules::Rules;
@@ -301,8 +320,11 @@ mod tests {
             let pyramid = oracle::pyramid(u)?;
             let map = oracle::map(u, &pyramid.levels()[0])?;
             let grid = oracle::grid(u, &map)?;
-            let level = *u.choose(&LevelSampling::ALL)?;
-            let filter = Filter::new(&pyramid, &map, PixelSampling::Bilinear, level);
+            let settings = SamplingSettings {
+                pixel: PixelSampling::Bilinear,
+                ..oracle::settings(u)?
+            };
+            let filter = Filter::new(&pyramid, &map, &settings);
             let plan = filter.plan(grid);
             for _ in 0..100 {
                 let at = [u.int_in_range(0..=1100)?, u.int_in_range(0..=1100)?];
@@ -328,11 +350,11 @@ mod tests {
             // A corner as the sub-pixel grid has it.
             let units = f64::from(grid.side * 1024);
             map.pivot = (map.pivot * units).round() / units;
-            let settings = (*u.choose(&PixelSampling::ALL)?, *u.choose(&LevelSampling::ALL)?);
+            let settings = oracle::settings(u)?;
             let points: Vec<[u16; 2]> = (0..64).map(|i| [i * 7 % 64, i]).collect();
             let colors = |map: &UvMap, grid: SampleGrid| {
                 let mut colors = [Premultiplied16::TRANSPARENT; 64];
-                Filter::new(&pyramid, map, settings.0, settings.1).points(simd::level(), grid, &points, &mut colors);
+                Filter::new(&pyramid, map, &settings).points(simd::level(), grid, &points, &mut colors);
                 colors
             };
             let here = colors(&map, grid);

@@ -9,7 +9,7 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 use glam::DVec2;
 
-use super::cell::TO_FIXED;
+use super::cell::{REACH, TO_FIXED};
 use super::filter::Axis;
 
 /// The most lanes of 32 bits that a vector has.
@@ -58,6 +58,12 @@ impl<S: Simd> Positions<S> {
     #[inline(always)]
     pub(super) fn fixed(&self, simd: S, axis: &Axis) -> S::i32s {
         self.round(simd, axis, (0.0, axis.last), TO_FIXED)
+    }
+
+    /// Where samples lie on an axis, at most [`REACH`] texels outside the level, in fixed point; see `cell::tap`.
+    #[inline(always)]
+    pub(super) fn far(&self, simd: S, axis: &Axis) -> S::i32s {
+        self.round(simd, axis, (-REACH, axis.last + REACH), 1.5 * TO_FIXED)
     }
 
     /// Where samples lie on an axis, at most two texels outside the level, with `bits` fractional bits.

@@ -2,28 +2,39 @@
 
 use glam::DVec2;
 
-use super::{Footprint, LevelSampling, MipLevel, MipPyramid, PixelSampling, cell};
+use super::{Anisotropy, Footprint, LevelOfDetail, LevelSampling, PixelSampling, Reading, Taps};
+use super::{MipLevel, MipPyramid, cell};
 use crate::color::Premultiplied16;
 use crate::rules::Rules;
 
-/// How textures are read: what a user chooses.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+/// How textures are read: what a user chooses, and how close samples are.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SamplingSettings {
     /// Inside a level.
     pub pixel: PixelSampling,
     /// Between levels.
     pub level: LevelSampling,
+    /// Along a footprint.
+    pub anisotropy: Anisotropy,
+    /// How large a footprint counts.
+    pub detail: LevelOfDetail,
+    /// Distance between samples in pixels, for [`super::Derivatives::Sample`].
+    pub sample_step: f64,
     /// How texels are addressed.
     pub rules: Rules,
 }
 
-/// Which levels a footprint reads: the finer one, and where two are mixed the next coarser and its weight.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LevelChoice {
-    /// Number of the (finer) level.
-    pub level: usize,
-    /// Weight of level `level + 1`; zero when only one level is read.
-    pub next_weight: f32,
+impl Default for SamplingSettings {
+    fn default() -> Self {
+        Self {
+            pixel: PixelSampling::default(),
+            level: LevelSampling::default(),
+            anisotropy: Anisotropy::OFF,
+            detail: LevelOfDetail::default(),
+            sample_step: 1.0,
+            rules: Rules::default(),
+        }
+    }
 }
 
 /// One texture read at one footprint.
@@ -32,32 +43,11 @@ pub struct Sampler<'a> {
     finer: &'a MipLevel,
     /// The next coarser level and its weight, when two are mixed.
     coarser: Option<(&'a MipLevel, f32)>,
+    taps: Taps,
+    /// The longer side of the footprint, in `(u, v)`.
+    along: DVec2,
     pixel: PixelSampling,
     rules: Rules,
-}
-
-impl LevelChoice {
-    /// The levels that `footprint` reads of a pyramid with levels `0..=last` over a base of `size` texels.
-    pub fn new(footprint: &Footprint, size: DVec2, last: usize, sampling: LevelSampling) -> Self {
-        let lod = footprint.level_of_detail(size).clamp(0.0, last as f64);
-        match sampling {
-            LevelSampling::Zero => Self {
-                level: 0,
-                next_weight: 0.0,
-            },
-            LevelSampling::Nearest => Self {
-                level: whole(lod + 0.5).min(last),
-                next_weight: 0.0,
-            },
-            LevelSampling::Linear => {
-                let level = whole(lod).min(last);
-                Self {
-                    level,
-                    next_weight: fraction(lod - level as f64),
-                }
-            }
-        }
-    }
 }
 
 /// The weight of the next level as a part of [`cell::MASS`].
@@ -66,32 +56,22 @@ pub(super) fn mass(weight: f32) -> i32 {
     (weight * cell::MASS as f32).round() as i32
 }
 
-/// The whole part of a clamped level of detail.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a level of detail is clamped to 0..=30"
-)]
-fn whole(lod: f64) -> usize {
-    lod as usize
-}
-
-/// The fractional part of a level of detail as a weight.
-#[expect(clippy::cast_possible_truncation, reason = "a weight in 0..1 loses only digits")]
-fn fraction(weight: f64) -> f32 {
-    weight as f32
-}
-
 impl<'a> Sampler<'a> {
-    /// Prepares reading `pyramid` at `footprint`.
-    pub fn new(pyramid: &'a MipPyramid, footprint: &Footprint, settings: SamplingSettings) -> Self {
+    /// Prepares reading `pyramid` where `(u, v)` changes by `footprint` from pixel to pixel.
+    pub fn new(pyramid: &'a MipPyramid, footprint: &Footprint, settings: &SamplingSettings) -> Self {
         let levels = pyramid.levels();
-        let size = DVec2::new(f64::from(levels[0].width()), f64::from(levels[0].height()));
-        let choice = LevelChoice::new(footprint, size, pyramid.last_level(), settings.level);
+        let Reading {
+            footprint,
+            taps,
+            levels: choice,
+            ..
+        } = Reading::new(footprint, pyramid, settings);
         let coarser = (choice.next_weight > 0.0).then(|| (&levels[choice.level + 1], choice.next_weight));
         Self {
             finer: &levels[choice.level],
             coarser,
+            taps,
+            along: if taps.along_x { footprint.dx } else { footprint.dy },
             pixel: settings.pixel,
             rules: settings.rules,
         }
@@ -99,25 +79,34 @@ impl<'a> Sampler<'a> {
 
     /// The premultiplied colour at `(u, v)`, channels in `0.0..=255.0`. Coordinates outside `0..=1` read the border.
     ///
-    /// Under the standard rules this is what [`super::Filter`] gives for a fragment there, to the last bit.
+    /// Under the standard rules this is what [`super::Filter`] gives for a fragment there, to the last bit. The course's
+    /// rules know no anisotropic filtering; there it is the mean of what they read at the taps.
     pub fn sample(&self, u: f32, v: f32) -> [f32; 4] {
+        let at = DVec2::new(f64::from(u), f64::from(v));
         match self.rules {
             Rules::Standard => {
-                let at = DVec2::new(f64::from(u), f64::from(v));
                 let mut sums = [0; 4];
                 let (level, mass) = self
                     .coarser
                     .map_or((self.finer, 0), |(level, weight)| (level, mass(weight)));
                 self.add(self.finer, at, cell::MASS - mass, &mut sums);
                 self.add(level, at, mass, &mut sums);
-                sums.map(|sum| f32::from(cell::to_channel(sum)) / f32::from(Premultiplied16::PER_BYTE))
+                let stored = match self.taps.count {
+                    1 => sums.map(cell::to_channel),
+                    count => sums.map(|sum| cell::mean(sum, count)),
+                };
+                stored.map(|channel| f32::from(channel) / f32::from(Premultiplied16::PER_BYTE))
             }
+            Rules::Course if self.taps.count == 1 => self.sample_levels(u, v),
             Rules::Course => {
-                let fine = self.sample_level(self.finer, u, v);
-                match self.coarser {
-                    None => fine,
-                    Some((level, weight)) => lerp(fine, self.sample_level(level, u, v), weight),
+                let mut sums = [0.0; 4];
+                for tap in 0..self.taps.count {
+                    let at = (at + self.along * self.taps.place(tap)).as_vec2();
+                    for (sum, channel) in sums.iter_mut().zip(self.sample_levels(at.x, at.y)) {
+                        *sum += channel;
+                    }
                 }
+                sums.map(|sum| sum / self.taps.count as f32)
             }
         }
     }
@@ -125,8 +114,25 @@ impl<'a> Sampler<'a> {
     fn add(&self, level: &MipLevel, at: DVec2, mass: i32, sums: &mut [i32; 4]) {
         let size = DVec2::new(f64::from(level.width()), f64::from(level.height()));
         let at = at * size - cell::first_centre(self.pixel);
-        let at = [cell::to_fixed(at.x, size.x - 1.0), cell::to_fixed(at.y, size.y - 1.0)];
-        cell::add(level, self.pixel, at, mass, sums);
+        let last = size - 1.0;
+        for tap in 0..self.taps.count {
+            let place = if self.taps.count == 1 {
+                [cell::to_fixed(at.x, last.x), cell::to_fixed(at.y, last.y)]
+            } else {
+                let offset = self.along * size * self.taps.place(tap);
+                [cell::tap(at.x, offset.x, last.x), cell::tap(at.y, offset.y, last.y)]
+            };
+            cell::add(level, self.pixel, place, mass, sums);
+        }
+    }
+
+    /// By the course's rules, with one tap.
+    fn sample_levels(&self, u: f32, v: f32) -> [f32; 4] {
+        let fine = self.sample_level(self.finer, u, v);
+        match self.coarser {
+            None => fine,
+            Some((level, weight)) => lerp(fine, self.sample_level(level, u, v), weight),
+        }
     }
 
     fn sample_level(&self, level: &MipLevel, u: f32, v: f32) -> [f32; 4] {
@@ -191,7 +197,7 @@ mod tests {
         SamplingSettings {
             pixel,
             level,
-            rules: Rules::Standard,
+            ..SamplingSettings::default()
         }
     }
 
@@ -220,10 +226,22 @@ mod tests {
                 Ok((u.int_in_range(-1_000_000..=1_000_000)? as f32) / 1e6 * range)
             };
             let (s, t, texels) = (number(3.0)?, number(3.0)?, f64::from(number(5.0)?.exp2()));
+            let most = Anisotropy::new(u.int_in_range(1..=64)?).expect("a maximum");
+            let print = Footprint {
+                dx: DVec2::new(texels, 0.3) / 37.0,
+                dy: DVec2::new(0.3, texels * 7.0) / 21.0,
+            };
             for (pixel, level) in ALL {
-                for rules in Rules::ALL {
-                    let settings = SamplingSettings { pixel, level, rules };
-                    let found = Sampler::new(&pyramid, &footprint(texels, 37.0), settings).sample(s, t);
+                for (rules, anisotropy) in Rules::ALL
+                    .into_iter()
+                    .flat_map(|rules| [(rules, Anisotropy::OFF), (rules, most)])
+                {
+                    let settings = SamplingSettings {
+                        anisotropy,
+                        rules,
+                        ..settings(pixel, level)
+                    };
+                    let found = Sampler::new(&pyramid, &print, &settings).sample(s, t);
                     assert_eq!(found, texel.map(f32::from), "{settings:?} at {s}, {t}");
                 }
             }
@@ -235,11 +253,10 @@ mod tests {
     /// Reads level 0.
     fn at(level: MipLevel, pixel: PixelSampling, rules: Rules, [u, v]: [f32; 2]) -> [f32; 4] {
         let settings = SamplingSettings {
-            pixel,
-            level: LevelSampling::Zero,
             rules,
+            ..settings(pixel, LevelSampling::Zero)
         };
-        Sampler::new(&MipPyramid::build(level), &footprint(1.0, 4.0), settings).sample(u, v)
+        Sampler::new(&MipPyramid::build(level), &footprint(1.0, 4.0), &settings).sample(u, v)
     }
 
     #[test]
@@ -295,11 +312,10 @@ mod tests {
                 let print = footprint(f64::from(1_u32 << level), 64.0);
                 let read = |level| {
                     let settings = SamplingSettings {
-                        pixel: PixelSampling::Bilinear,
-                        level,
                         rules,
+                        ..settings(PixelSampling::Bilinear, level)
                     };
-                    let sampler = Sampler::new(&pyramid, &print, settings);
+                    let sampler = Sampler::new(&pyramid, &print, &settings);
                     [(0.1, 0.9), (0.5, 0.5), (0.77, 0.13)].map(|(u, v)| sampler.sample(u, v))
                 };
                 let (mixed, alone) = (read(LevelSampling::Linear), read(LevelSampling::Nearest));
@@ -312,51 +328,27 @@ mod tests {
     fn single_points_are_fragments_of_a_filter() {
         let pyramid = ramp(64);
         for (pixel, level) in ALL {
-            let footprint = footprint(2.7, 64.0);
-            let map = UvMap {
-                pivot: DVec2::new(0.5, 0.5),
-                uv: DVec2::new(0.375, 0.8125),
-                dx: footprint.dx,
-                dy: footprint.dy,
-            };
-            let grid = SampleGrid {
-                side: 1,
-                origin: [0, 0],
-            };
-            let mut color = [Premultiplied16::TRANSPARENT];
-            Filter::new(&pyramid, &map, pixel, level).points(simd::level(), grid, &[[0, 0]], &mut color);
-            let alone = Sampler::new(&pyramid, &footprint, settings(pixel, level)).sample(0.375, 0.8125);
-            let stored = Premultiplied16::from_byte_range(alone, Rules::Standard);
-            assert_eq!(color, [stored], "{pixel:?} {level:?}");
+            for taps in [1, 2, 3, 64] {
+                let map = UvMap {
+                    pivot: DVec2::new(0.5, 0.5),
+                    uv: DVec2::new(0.375, 0.8125),
+                    dx: DVec2::new(2.7, 0.4) / 64.0,
+                    dy: DVec2::new(3.1, -17.0) / 64.0,
+                };
+                let grid = SampleGrid {
+                    side: 1,
+                    origin: [0, 0],
+                };
+                let settings = SamplingSettings {
+                    anisotropy: Anisotropy::new(taps).expect("a maximum"),
+                    ..settings(pixel, level)
+                };
+                let mut color = [Premultiplied16::TRANSPARENT];
+                Filter::new(&pyramid, &map, &settings).points(simd::level(), grid, &[[0, 0]], &mut color);
+                let alone = Sampler::new(&pyramid, &map.footprint(), &settings).sample(0.375, 0.8125);
+                let stored = Premultiplied16::from_byte_range(alone, Rules::Standard);
+                assert_eq!(color, [stored], "{pixel:?} {level:?} {taps}");
+            }
         }
-    }
-
-    #[test]
-    fn level_choice_follows_the_level_of_detail() {
-        let size = DVec2::splat(64.0);
-        let choose = |texels: f64, sampling| LevelChoice::new(&footprint(texels, 64.0), size, 6, sampling);
-        assert_eq!(choose(40.0, LevelSampling::Zero).level, 0, "zero is zero");
-        assert_eq!(
-            choose(2.0_f64.powf(1.49), LevelSampling::Nearest).level,
-            1,
-            "1.49 rounds down"
-        );
-        assert_eq!(
-            choose(2.0_f64.powf(1.51), LevelSampling::Nearest).level,
-            2,
-            "1.51 rounds up"
-        );
-        let mixed = choose(2.0_f64.powf(2.25), LevelSampling::Linear);
-        assert_eq!(mixed.level, 2, "between 2 and 3");
-        assert!((mixed.next_weight - 0.25).abs() < 1e-6, "a quarter of level 3");
-        let last = choose(1e9, LevelSampling::Linear);
-        assert_eq!(
-            last,
-            LevelChoice {
-                level: 6,
-                next_weight: 0.0
-            },
-            "never beyond the last"
-        );
     }
 }

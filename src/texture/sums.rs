@@ -10,14 +10,13 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, i32x8, u8x16};
 use glam::DVec2;
 
-use super::PixelSampling;
 use super::cell::{MASS, MASS_BITS};
 use super::channels::{self, Spread};
 use super::filter::{PixelList, Plan};
 use super::footing::{Footing, MAX_SIDE, Scale};
-use super::points;
 use super::positions::{MAX_LANES, Positions, columns_and_rows};
 use super::tails::{Covered, Weighed, weigh};
+use super::{points, taps};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
 
@@ -33,19 +32,23 @@ struct Blocks<S: Simd> {
 /// See [`super::Filter::sums`].
 pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
     let scale = Scale::new(side);
-    let footings = match plan.pixel {
-        PixelSampling::Nearest => None,
-        PixelSampling::Bilinear => Footing::of_plan(plan, scale),
-    };
-    match footings {
+    let taps = plan.line.taps.count;
+    match Footing::of_plan(plan, scale) {
         Some(footings) => dispatch!(level, simd => sum_texels(simd, plan, scale, &footings, (list, sums))),
-        None => dispatch!(level, simd => sum_samples(simd, plan, scale, list, sums)),
+        None if taps == 1 => dispatch!(level, simd => sum_samples::<_, false>(simd, plan, scale, list, sums)),
+        None => dispatch!(level, simd => sum_samples::<_, true>(simd, plan, scale, list, sums)),
     }
 }
 
-/// Filters every sample.
+/// Filters every sample, with one tap or several.
 #[inline(always)]
-fn sum_samples<S: Simd>(simd: S, plan: &Plan<'_>, scale: Scale, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
+fn sum_samples<S: Simd, const TAPS: bool>(
+    simd: S,
+    plan: &Plan<'_>,
+    scale: Scale,
+    list: PixelList<'_>,
+    sums: &mut [[u32; 4]],
+) {
     const MAX_SAMPLES: usize = MAX_SIDE * MAX_SIDE;
     let mut all = [[0; 2]; MAX_SAMPLES];
     let side = scale.side as usize;
@@ -71,9 +74,14 @@ fn sum_samples<S: Simd>(simd: S, plan: &Plan<'_>, scale: Scale, list: PixelList<
                 &some[..count]
             }
         };
-        points::filter_with(simd, &plan, samples, &mut colors[..samples.len()]);
+        let colors = &mut colors[..samples.len()];
+        if TAPS {
+            taps::filter_with(simd, &plan, samples, colors);
+        } else {
+            points::filter_with(simd, &plan, samples, colors);
+        }
         *sum = [0; 4];
-        for color in &colors[..samples.len()] {
+        for color in colors {
             for (sum, channel) in sum.iter_mut().zip(color.0) {
                 *sum += u32::from(channel);
             }
@@ -202,7 +210,7 @@ fn row<S: Simd>(simd: S, texels: &[[u8; 4]]) -> u8x16<S> {
 mod tests {
     use arbtest::arbitrary;
 
-    use super::super::{Filter, LevelSampling, oracle};
+    use super::super::{Filter, PixelSampling, SamplingSettings, oracle};
     use super::*;
     use crate::simd;
 
@@ -257,8 +265,11 @@ mod tests {
             let pyramid = oracle::pyramid(u)?;
             let map = oracle::map(u, &pyramid.levels()[0])?;
             let grid = oracle::grid(u, &map)?;
-            let level = *u.choose(&LevelSampling::ALL)?;
-            let filter = Filter::new(&pyramid, &map, PixelSampling::Bilinear, level);
+            let settings = SamplingSettings {
+                pixel: PixelSampling::Bilinear,
+                ..oracle::settings(u)?
+            };
+            let filter = Filter::new(&pyramid, &map, &settings);
             let plan = filter.plan(grid);
             let mask: u64 = if grid.side <= 8 && u.arbitrary()? {
                 u.arbitrary()?

@@ -13,7 +13,7 @@ use crate::raster::Region;
 use crate::render::RenderSettings;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
-use crate::texture::{LevelSampling, PixelSampling};
+use crate::texture::{Derivatives, FixedLevel, LevelSampling, PixelSampling};
 
 /// What one click of the wheel zooms by.
 const WHEEL_FACTOR: f64 = 1.25;
@@ -189,6 +189,16 @@ impl Viewer {
             Command::SetPixelSampling(sampling) => render.pixel_sampling = sampling,
             Command::NextLevelSampling => render.level_sampling = next_of(&LevelSampling::ALL, render.level_sampling),
             Command::SetLevelSampling(sampling) => render.level_sampling = sampling,
+            Command::NextAnisotropy => render.anisotropy = render.anisotropy.doubled(),
+            Command::SetAnisotropy(taps) => render.anisotropy = taps,
+            Command::SetLodBias(bias) => render.detail.bias = bias,
+            Command::StepLodBias(by) => render.detail.bias = render.detail.bias.stepped(by),
+            Command::NextFixedLevel => render.detail.fixed = FixedLevel::after(render.detail.fixed),
+            Command::SetFixedLevel(level) => render.detail.fixed = level,
+            Command::NextDerivatives => {
+                render.detail.derivatives = next_of(&Derivatives::ALL, render.detail.derivatives);
+            }
+            Command::SetDerivatives(derivatives) => render.detail.derivatives = derivatives,
             Command::NextRules => render.rules = next_of(&Rules::ALL, render.rules),
             Command::SetRules(rules) => render.rules = rules,
             Command::SetBackground(color) => render.background = color,

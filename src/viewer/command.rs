@@ -13,7 +13,7 @@ use crate::figure::PixelRect;
 use crate::raster::SampleRate;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
-use crate::texture::{LevelSampling, PixelSampling};
+use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
 
 /// One thing that a user can do.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,6 +88,22 @@ pub enum Command {
     NextLevelSampling,
     /// This level sampling.
     SetLevelSampling(LevelSampling),
+    /// Twice as many taps at most, up to 64; then one again.
+    NextAnisotropy,
+    /// So many taps at most.
+    SetAnisotropy(Anisotropy),
+    /// This bias of the level of detail.
+    SetLodBias(LodBias),
+    /// So many levels more, kept within the limits.
+    StepLodBias(f64),
+    /// The next whole level, from the footprint's own over 0 to 8 and round.
+    NextFixedLevel,
+    /// This level, or the one that fits the footprint.
+    SetFixedLevel(Option<FixedLevel>),
+    /// The other kind of derivatives.
+    NextDerivatives,
+    /// These derivatives.
+    SetDerivatives(Derivatives),
     /// The next rules, round and round.
     NextRules,
     /// These rules.

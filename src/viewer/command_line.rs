@@ -8,6 +8,7 @@ use crate::geometry::View;
 use crate::render::RenderSettings;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
+use crate::texture::FixedLevel;
 
 impl Viewer {
     pub(super) fn copy_pixel(&mut self) -> Vec<Effect> {
@@ -67,6 +68,14 @@ impl Viewer {
         option(rate != default.sample_rate, "sample-rate", &rate.samples().to_string());
         option(pixel != default.pixel_sampling, "pixel-sampling", pixel.name());
         option(level != default.level_sampling, "level-sampling", level.name());
+        let (taps, detail) = (render.anisotropy, render.detail);
+        option(taps != default.anisotropy, "anisotropy", &taps.taps().to_string());
+        let bias = detail.bias.levels().to_string();
+        option(detail.bias != default.detail.bias, "lod-bias", &bias);
+        let fixed = detail.fixed.map(FixedLevel::level).unwrap_or_default().to_string();
+        option(detail.fixed.is_some(), "lod-level", &fixed);
+        let per = detail.derivatives;
+        option(per != default.detail.derivatives, "lod-per", per.name());
         let background = background_name(render.background);
         option(
             render.background != default.background,

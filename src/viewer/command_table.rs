@@ -148,6 +148,59 @@ pub(super) static TABLE: &[CommandSpec] = &[
     .run(&Command::NextLevelSampling)
     .argument(typed::LEVEL_SAMPLING),
     spec(
+        "anisotropy",
+        "Anisotropy",
+        "Doubles the most texture taps along a footprint that is longer than wide: 1, which is off, to 64",
+        Group::Sampling,
+    )
+    .more("The level then fits the footprint's width, so that floors stay sharp towards the horizon")
+    .keys(&[Chord::char('t')])
+    .run(&Command::NextAnisotropy)
+    .argument(typed::ANISOTROPY),
+    spec(
+        "lod-bias",
+        "Level of detail bias",
+        "Adds to the level of detail of every texture",
+        Group::Sampling,
+    )
+    .more("Below zero textures are sharper and shimmer, above zero they are blurred; level sampling zero has no level to change")
+    .argument(typed::LOD_BIAS),
+    spec(
+        "sharper",
+        "Sharper textures",
+        "Lowers the bias of the level of detail by a half",
+        Group::Sampling,
+    )
+    .keys(&[Chord::char(',')])
+    .run(&Command::StepLodBias(-0.5)),
+    spec(
+        "softer",
+        "Softer textures",
+        "Raises the bias of the level of detail by a half",
+        Group::Sampling,
+    )
+    .keys(&[Chord::char('.')])
+    .run(&Command::StepLodBias(0.5)),
+    spec(
+        "lod-level",
+        "Fixed level",
+        "Reads every texture at one mip level instead of the one that fits: auto, 0, 1, 2 ... 8",
+        Group::Sampling,
+    )
+    .more("Level sampling linear also takes levels between two, up to 16; a texture with fewer levels shows its last")
+    .keys(&[Chord::char('m')])
+    .run(&Command::NextFixedLevel)
+    .argument(typed::LOD_LEVEL),
+    spec(
+        "lod-per",
+        "Level of detail per",
+        "Switches between the level of detail of a pixel's footprint and of a sample's",
+        Group::Sampling,
+    )
+    .more("Per sample, higher rates read finer levels and leave the averaging to the samples")
+    .run(&Command::NextDerivatives)
+    .argument(typed::LOD_PER),
+    spec(
         "rules",
         "Rules",
         "Switches between the standard rules of the picture and the course's",
@@ -424,6 +477,7 @@ const fn spec(id: &'static str, name: &'static str, help: &'static str, group: G
         id,
         name,
         help,
+        more: "",
         group,
         keys: &[],
         action: Action::NeedsArgument,
@@ -434,6 +488,10 @@ const fn spec(id: &'static str, name: &'static str, help: &'static str, group: G
 impl CommandSpec {
     const fn keys(self, keys: &'static [Chord]) -> Self {
         Self { keys, ..self }
+    }
+
+    const fn more(self, more: &'static str) -> Self {
+        Self { more, ..self }
     }
 
     const fn run(self, command: &'static Command) -> Self {

@@ -15,6 +15,8 @@ pub struct CommandSpec {
     pub name: &'static str,
     /// What it does, for help and tool tips: one sentence without a full stop.
     pub help: &'static str,
+    /// What else a tool tip says: one sentence without a full stop, or nothing.
+    pub more: &'static str,
     /// Under which heading it stands.
     pub group: Group,
     /// Its keys.
@@ -87,6 +89,18 @@ impl Group {
 }
 
 impl CommandSpec {
+    /// Help and whatever else there is to say, with full stops where it is more than one sentence; then the keys.
+    pub fn tip(&self) -> String {
+        let text = match self.more {
+            "" => self.help.to_owned(),
+            more => format!("{}. {more}.", self.help),
+        };
+        match self.keys_text() {
+            keys if keys.is_empty() => text,
+            keys => format!("{text} ({keys})"),
+        }
+    }
+
     /// The command without an argument; `None` where it needs one or depends on the key.
     pub fn command(&self) -> Option<&'static Command> {
         match self.action {

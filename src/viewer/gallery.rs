@@ -74,6 +74,8 @@ pub static SCENES: &[GalleryScene] = scenes![
     "study/08_checker_fan.svg",
     "study/09_mip_lanes.svg",
     "study/10_pixel_centres.svg",
+    "study/11_city_floor.svg",
+    "study/12_sharp_or_still.svg",
     "subdiv/triangle0.svg",
     "subdiv/triangle1.svg",
     "subdiv/triangle2.svg",

@@ -2,6 +2,7 @@
 
 use crate::render::RenderSettings;
 use crate::scene::DialectChoice;
+use crate::texture::{Anisotropy, LevelOfDetail};
 
 /// Everything about pictures that a user sets apart from scene and view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,6 +119,19 @@ impl Toggle {
             Self::Off => false,
         }
     }
+}
+
+/// How textures are read beyond pixel and level sampling, where it differs from the default: few words each, such as
+/// `anisotropy 16` or `level 2`.
+pub fn texture_words(render: &RenderSettings) -> Vec<String> {
+    let (taps, detail, default) = (render.anisotropy, render.detail, LevelOfDetail::default());
+    let words = [
+        (taps != Anisotropy::OFF).then(|| format!("anisotropy {}", taps.taps())),
+        detail.fixed.map(|level| format!("level {}", level.level())),
+        (detail.bias != default.bias).then(|| format!("bias {:+}", detail.bias.levels())),
+        (detail.derivatives != default.derivatives).then(|| format!("level per {}", detail.derivatives.name())),
+    ];
+    words.into_iter().flatten().collect()
 }
 
 /// The value after `current` in `all`, the first after the last.

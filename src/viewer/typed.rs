@@ -7,7 +7,7 @@ use crate::color::Rgba;
 use crate::raster::SampleRate;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
-use crate::texture::{LevelSampling, PixelSampling};
+use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
 
 /// What may follow a command's word.
 #[derive(Clone, Copy)]
@@ -79,6 +79,21 @@ pub(super) const PIXEL_SAMPLING: Argument = argument("nearest|bilinear", |text| 
 });
 pub(super) const LEVEL_SAMPLING: Argument = argument("zero|nearest|linear", |text| {
     named(&LevelSampling::ALL, LevelSampling::name, text).map(Command::SetLevelSampling)
+});
+pub(super) const ANISOTROPY: Argument = argument("a whole number from 1 to 64", |text| {
+    whole(text).and_then(Anisotropy::new).map(Command::SetAnisotropy)
+});
+pub(super) const LOD_BIAS: Argument = argument("a number of levels from -16 to 16", |text| {
+    number(text).and_then(LodBias::new).map(Command::SetLodBias)
+});
+pub(super) const LOD_LEVEL: Argument = argument("auto, or a number from 0 to 16", |text| match text {
+    "auto" => Some(Command::SetFixedLevel(None)),
+    _ => number(text)
+        .and_then(FixedLevel::new)
+        .map(|level| Command::SetFixedLevel(Some(level))),
+});
+pub(super) const LOD_PER: Argument = argument("pixel|sample", |text| {
+    named(&Derivatives::ALL, Derivatives::name, text).map(Command::SetDerivatives)
 });
 pub(super) const RULES: Argument = argument("standard|course", |text| {
     named(&Rules::ALL, Rules::name, text).map(Command::SetRules)
@@ -197,6 +212,12 @@ mod tests {
             (PAN, "1"),
             (VIEW, "0,0,0"),
             (SAMPLE_RATE, "5"),
+            (ANISOTROPY, "0"),
+            (ANISOTROPY, "65"),
+            (LOD_BIAS, "-17"),
+            (LOD_LEVEL, "-1"),
+            (LOD_LEVEL, "none"),
+            (LOD_PER, "texel"),
             (SCENE, "0"),
             (PIN, "1.5,2"),
             (BACKGROUND, "#+12345"),

@@ -340,6 +340,28 @@ fn cli_bench_times_several_scenes() {
 }
 
 #[test]
+fn cli_refuses_values_beyond_their_limits() {
+    let folder = folder_with(&[("a.svg", SCENE)]);
+    for (option, value, words) in [
+        ("--anisotropy", "0", "from 1, which is off, to 64"),
+        ("--anisotropy", "65", "to 64"),
+        ("--anisotropy", "-4", "to 64"),
+        ("--lod-bias", "17", "from -16 to 16"),
+        ("--lod-bias", "inf", "from -16 to 16"),
+        ("--lod-level", "-1", "from 0, the base, to 16"),
+        ("--lod-level", "17", "to 16"),
+        ("--lod-per", "texel", "pixel, sample"),
+    ] {
+        let option = format!("{option}={value}");
+        refused(
+            folder.path(),
+            &["render", "a.svg", "-o", "b.png", &option],
+            &[value, words],
+        );
+    }
+}
+
+#[test]
 fn cli_helps() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (arguments, word) in [

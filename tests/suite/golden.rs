@@ -8,7 +8,7 @@ use rasterscope::raster::SampleRate;
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 use rasterscope::scene::{DialectChoice, Paint, PrimitiveKind, Scene};
-use rasterscope::texture::{LevelSampling, PixelSampling};
+use rasterscope::texture::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
 use rasterscope::viewer::{SceneSource, list_scenes};
 use rayon::prelude::*;
 
@@ -40,6 +40,61 @@ fn all_settings() -> [(&'static str, RenderSettings); 4] {
         ("16spp", settings(16, PixelSampling::Bilinear, LevelSampling::Linear)),
         ("course", course),
     ]
+}
+
+/// What scenes about texture footprints are drawn with besides.
+fn further_settings(topic: &str) -> Vec<(&'static str, RenderSettings)> {
+    let trilinear = settings(1, PixelSampling::Bilinear, LevelSampling::Linear);
+    let detail = |detail: LevelOfDetail| RenderSettings { detail, ..trilinear };
+    match topic {
+        "study_11_city_floor" => [
+            ("trilinear", 1),
+            ("anisotropy4", 4),
+            ("anisotropy16", 16),
+            ("anisotropy64", 64),
+        ]
+        .map(|(name, taps)| {
+            let anisotropy = Anisotropy::new(taps).expect("a maximum");
+            let settings = RenderSettings {
+                anisotropy,
+                ..trilinear
+            };
+            (name, settings)
+        })
+        .to_vec(),
+        "study_12_sharp_or_still" => vec![
+            (
+                "sharper",
+                detail(LevelOfDetail {
+                    bias: LodBias::new(-1.0).expect("a bias"),
+                    ..LevelOfDetail::default()
+                }),
+            ),
+            (
+                "level2",
+                detail(LevelOfDetail {
+                    fixed: FixedLevel::new(2.0),
+                    ..LevelOfDetail::default()
+                }),
+            ),
+            (
+                "per_sample",
+                RenderSettings {
+                    sample_rate: SampleRate::new(16).expect("a square number"),
+                    ..detail(LevelOfDetail {
+                        derivatives: Derivatives::Sample,
+                        ..LevelOfDetail::default()
+                    })
+                },
+            ),
+        ],
+        _ => Vec::new(),
+    }
+}
+
+/// Everything that a scene is drawn with.
+fn settings_of(topic: &str) -> impl Iterator<Item = (&'static str, RenderSettings)> {
+    all_settings().into_iter().chain(further_settings(topic))
 }
 
 /// Flat scenes are integer arithmetic from end to end. Where levels of detail (a logarithm) and interpolated attributes
@@ -85,8 +140,7 @@ fn golden_pictures_of_every_own_scene() {
         .flat_map_iter(|path| {
             let scene = rasterscope::scene::load(path, DialectChoice::Auto).expect("our own scenes can be read");
             let view = View::Default.transform(scene.canvas, SIZE);
-            all_settings()
-                .into_iter()
+            settings_of(&topic(path))
                 .filter_map(|(name, settings)| {
                     let frame = drawn(&scene, &view, &settings, SIZE);
                     check(&format!("{}_{name}", topic(path)), &frame, tolerance(&scene)).err()
@@ -106,7 +160,12 @@ fn golden_pictures_of_every_own_scene() {
 fn golden_pictures_all_belong_to_a_scene() {
     let expected: BTreeSet<String> = own_scenes()
         .iter()
-        .flat_map(|path| all_settings().map(|(name, _)| format!("{}_{name}.png", topic(path))))
+        .flat_map(|path| {
+            let topic = topic(path);
+            settings_of(&topic)
+                .map(|(name, _)| format!("{topic}_{name}.png"))
+                .collect::<Vec<_>>()
+        })
         .collect();
     let entries = std::fs::read_dir(folder()).expect("golden pictures");
     let orphans: Vec<String> = entries

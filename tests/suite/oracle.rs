@@ -2,7 +2,7 @@
 
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::RenderSettings;
-use rasterscope::texture::{LevelSampling, PixelSampling};
+use rasterscope::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
 
 use crate::support::brute_force;
 use crate::support::scenes::{Fills, at_rate, drawn, one_to_one, random};
@@ -37,6 +37,14 @@ fn compare(fills: Fills, budget_ms: u64, mut judge: impl FnMut(&Framebuffer, &Fr
         let (scene, mut settings) = (random(u, SIDE, fills)?, rate(u)?);
         settings.pixel_sampling = *u.choose(&PixelSampling::ALL)?;
         settings.level_sampling = *u.choose(&LevelSampling::ALL)?;
+        settings.anisotropy = *u.choose(&Anisotropy::STEPS)?;
+        settings.detail.derivatives = *u.choose(&Derivatives::ALL)?;
+        let quarters = f64::from(u.int_in_range(-8..=8)?) / 4.0;
+        match u.int_in_range(0..=3)? {
+            0 => settings.detail.bias = LodBias::new(quarters).expect("a bias"),
+            1 => settings.detail.fixed = FixedLevel::new(quarters),
+            _ => {}
+        }
         let view = one_to_one(SIZE);
         let (fast, slow) = (
             drawn(&scene, &view, &settings, SIZE),

@@ -4,7 +4,7 @@ use glam::dvec2;
 use rasterscope::raster::SampleRate;
 use rasterscope::rules::Rules;
 use rasterscope::scene::DialectChoice;
-use rasterscope::texture::{LevelSampling, PixelSampling};
+use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
 use rasterscope::viewer::{Command, Dialog, Effect, MessageKind, PixelZoom, PointerButton, Toggle, ViewNumbers};
 
 use crate::support::session::{SQUARE, Session, TRIANGLES};
@@ -293,6 +293,22 @@ fn replay_copies() {
     let options = "--size 64x48 --view=-1.5,2.25,0.1,-30 --sample-rate 4 --pixel-sampling bilinear \
                    --level-sampling nearest --rules course";
     assert!(line.ends_with(options), "{line}");
+    session.keys(&["t", "t", "m", "m", "m", ",", ",", ","]);
+    session.run(Command::NextDerivatives);
+    let line = session.viewer.command_line().unwrap();
+    let options = "--anisotropy 4 --lod-bias -1.5 --lod-level 2 --lod-per sample --rules course";
+    assert!(line.ends_with(options), "{line}");
+    let title = session.viewer.title();
+    assert!(
+        title.contains("level sampling nearest, anisotropy 4, level 2, bias -1.5, level per sample - "),
+        "{title}"
+    );
+    session.keys(&[".", ".", "."]);
+    session.run(Command::SetFixedLevel(None));
+    session.run(Command::SetAnisotropy(Anisotropy::OFF));
+    session.run(Command::NextDerivatives);
+    let line = session.viewer.command_line().unwrap();
+    assert!(line.ends_with("--level-sampling nearest --rules course"), "{line}");
 }
 
 #[test]

@@ -26,6 +26,14 @@ pub(super) const SCENES: &[SceneFile] = &[
         path: "svg/study/09_mip_lanes.svg",
         make: mip_lanes,
     },
+    SceneFile {
+        path: "svg/study/11_city_floor.svg",
+        make: city_floor,
+    },
+    SceneFile {
+        path: "svg/study/12_sharp_or_still.svg",
+        make: sharp_or_still,
+    },
 ];
 
 const WHOLE: [DVec2; 4] = [dvec2(0.0, 0.0), dvec2(1.0, 0.0), dvec2(1.0, 1.0), dvec2(0.0, 1.0)];
@@ -229,5 +237,65 @@ fn mip_lanes() -> String {
         cells: 8,
     }
     .draw(&mut doc, "lanes");
+    doc.finish()
+}
+
+fn city_floor() -> String {
+    let mut doc = Document::new(
+        1000.0,
+        640.0,
+        &[
+            "A city plan on the ground, to the horizon: a pixel sees a piece of it that is up to 45 times as long as wide.",
+            "P, then L twice: far streets melt, because the mip level has to fit the length. T: 2, 4, 8, 16 taps along it, at",
+            "the level that fits its width. Street by street the plan comes back, and still nothing shimmers when it is dragged.",
+        ],
+    );
+    doc.rect(DVec2::ZERO, dvec2(1000.0, 640.0), Style::fill(SKY.mix(PAPER, 0.3)));
+    let horizon = 150.0;
+    doc.polygon(&regular(dvec2(240.0, 84.0), 44.0, 48, 0.0), Style::fill(CORAL));
+    doc.rect(
+        dvec2(0.0, horizon - 6.0),
+        dvec2(1000.0, 24.0),
+        Style::fill(SAND.mix(PAPER, 0.3)),
+    );
+    doc.texture("plan", "plan.png");
+    // A copy takes as much depth as keeps texels square for an eye 700 units before the picture.
+    let tile = 2400.0;
+    Floor {
+        sides: [0.0, 1000.0],
+        horizon,
+        bottom: 640.0,
+        tile,
+        shift: -0.16,
+        copies: 16,
+        depth: tile / 700.0 * 2160.0 / 3840.0,
+        cells: 12,
+    }
+    .draw(&mut doc, "plan");
+    doc.finish()
+}
+
+fn sharp_or_still() -> String {
+    let mut doc = Document::new(
+        1000.0,
+        520.0,
+        &[
+            "The title of a city plan at a half, 1, 1.5, 2, 3, 4, 6 and 8 texels a pixel (1024 x 1024, default view).",
+            "P, then L twice: the level whose texels are a pixel wide. Comma lowers it by a half: sharper, until letters and lines",
+            "shimmer when dragged; full stop raises it: soft. M fixes one level: it is right for one piece, too coarse or fine for others.",
+        ],
+    );
+    doc.rect(DVec2::ZERO, dvec2(1000.0, 520.0), Style::fill(NIGHT));
+    doc.texture("plan", "plan.png");
+    let (side, gap) = (220.0, 24.0);
+    for (k, texels) in [0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0].iter().enumerate() {
+        let corner = dvec2((k % 4) as f64, (k / 4) as f64) * (side + gap) + gap;
+        // At the default view a pixel is 1200 / 1024 units.
+        let half = dvec2(1.0 / 3840.0, 1.0 / 2160.0) * (side * 1024.0 / 1200.0 * texels / 2.0);
+        // The title, or as near to it as the plan reaches.
+        let middle = dvec2(0.15, 0.886).clamp(half, 1.0 - half);
+        let uv = WHOLE.map(|at| middle + (at * 2.0 - 1.0) * half);
+        doc.texture_quad("plan", square(corner, side), uv);
+    }
     doc.finish()
 }

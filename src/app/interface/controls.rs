@@ -3,7 +3,7 @@
 use egui::{Align, Button, Layout, Response, RichText, Ui, vec2};
 
 use super::look::CONTROL;
-use crate::viewer::commands;
+use crate::viewer::{CommandSpec, commands};
 
 /// Width of a row's label, in points.
 const LABEL_WIDTH: f32 = 78.0;
@@ -61,17 +61,9 @@ pub(super) fn choice<T: Copy + PartialEq>(
     chosen
 }
 
-/// The help line of the command `id` with its keys, for a tool tip.
+/// What the tool tip of the command `id` says.
 pub(super) fn tip(id: &str) -> String {
-    let Some(spec) = commands::find(id) else {
-        return String::new();
-    };
-    let keys = spec.keys_text();
-    if keys.is_empty() {
-        spec.help.to_owned()
-    } else {
-        format!("{} ({keys})", spec.help)
-    }
+    commands::find(id).map(CommandSpec::tip).unwrap_or_default()
 }
 
 /// A button for the command `id`: its tool tip and accessible name come from the table.

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use egui::{Align2, Area, Color32, FontId, Frame, Id, Order, Rect, RichText, Sense, Ui, Vec2, pos2, vec2};
 
-use crate::viewer::{Command, Message, MessageKind, PixelRect, Viewer};
+use crate::viewer::{Command, Message, MessageKind, PixelRect, Viewer, texture_words};
 
 /// Seconds that a message stays.
 const DONE_SECONDS: f64 = 5.0;
@@ -34,6 +34,10 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect])
             render.level_sampling.name()
         ),
     ];
+    let words = texture_words(render);
+    if !words.is_empty() {
+        lines.push(words.join(", "));
+    }
     if render.rules != crate::rules::Rules::default() {
         lines.push(format!("rules: {}", render.rules.name()));
     }

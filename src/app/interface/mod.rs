@@ -6,6 +6,7 @@
 //! it would reach into the canvas of the default view, and the inspector's inset is told what area is free.
 
 mod controls;
+mod detail;
 mod dialogs;
 mod document;
 mod floating;

@@ -3,6 +3,7 @@
 use egui::Ui;
 
 use super::controls::{choice, heading, row, tip};
+use super::detail;
 use crate::raster::SampleRate;
 use crate::rules::Rules;
 use crate::scene::{Dialect, DialectChoice};
@@ -40,6 +41,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         );
         commands.extend(chosen.map(Command::SetLevelSampling));
     });
+    detail::show(ui, viewer, commands);
     row(ui, "Rules", |ui| {
         let values = Rules::ALL.map(|value| (value, value.name().to_owned()));
         let chosen = choice(ui, "Rules", &tip("rules"), render.rules, &values);

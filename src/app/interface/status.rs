@@ -3,7 +3,7 @@
 use egui::{Align, Color32, CornerRadius, FontId, Layout, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::controls::tip;
-use crate::viewer::{Command, Status, Toggle, Viewer};
+use crate::viewer::{Command, Status, Toggle, Viewer, texture_words};
 
 /// Height of the line's contents, in points.
 const HEIGHT: f32 = 18.0;
@@ -114,6 +114,7 @@ fn picture(ui: &mut Ui, viewer: &Viewer) {
         render.pixel_sampling.name(),
         render.level_sampling.name()
     ));
+    words.extend(texture_words(render));
     for word in words {
         let font = FontId::proportional(11.0);
         let color = ui.visuals().weak_text_color();

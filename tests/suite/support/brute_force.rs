@@ -14,7 +14,7 @@ use rasterscope::geometry::ViewTransform;
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::RenderSettings;
 use rasterscope::scene::{Paint, PrimitiveKind, Scene};
-use rasterscope::texture::{LevelSampling, MipLevel, PixelSampling, Texture};
+use rasterscope::texture::{Derivatives, FixedLevel, LevelSampling, MipLevel, PixelSampling, Texture};
 
 /// Premultiplied, `0.0..=1.0`.
 type Color = [f64; 4];
@@ -170,33 +170,65 @@ impl Triangle<'_> {
                 let uv = uv.map(|uv| DVec2::new(f64::from(uv.x), f64::from(uv.y)));
                 let here = uv[0] * weights[0] + uv[1] * weights[1] + uv[2] * weights[2];
                 let texture = &scene.textures[texture.0 as usize];
-                let lod = self.level_of_detail(texture, uv, f64::from(side << bits));
-                filtered(texture, here, lod, settings).map(|channel| channel * f64::from(*opacity))
+                let per_pixel = self.uv_per_pixel(uv, f64::from(side << bits));
+                filtered(texture, here, per_pixel, settings).map(|channel| channel * f64::from(*opacity))
             }
         })
     }
 
-    /// From the change of barycentric weights per pixel.
-    fn level_of_detail(&self, texture: &Texture, uv: [DVec2; 3], units: f64) -> f64 {
+    /// `(u, v)` changes by this to the right and down: from the change of barycentric weights per pixel.
+    fn uv_per_pixel(&self, uv: [DVec2; 3], units: f64) -> [DVec2; 2] {
         let [a, b, c] = self.corners.map(|(x, y)| DVec2::new(x as f64, y as f64) / units);
         let area = (b - a).perp_dot(c - a);
-        let base = &texture.pyramid.levels()[0];
-        let size = DVec2::new(f64::from(base.width()), f64::from(base.height()));
         let per = |gradient: fn(DVec2) -> f64| {
-            (uv[0] * gradient(c - b) + uv[1] * gradient(a - c) + uv[2] * gradient(b - a)) / area * size
+            (uv[0] * gradient(c - b) + uv[1] * gradient(a - c) + uv[2] * gradient(b - a)) / area
         };
-        per(|edge| -edge.y).length().max(per(|edge| edge.x).length()).log2()
+        [per(|edge| -edge.y), per(|edge| edge.x)]
     }
 }
 
-fn filtered(texture: &Texture, uv: DVec2, lod: f64, settings: &RenderSettings) -> Color {
+/// The mean of the taps along the longer side of the footprint.
+fn filtered(texture: &Texture, uv: DVec2, per_pixel: [DVec2; 2], settings: &RenderSettings) -> Color {
+    let base = &texture.pyramid.levels()[0];
+    let size = DVec2::new(f64::from(base.width()), f64::from(base.height()));
+    let step = match settings.detail.derivatives {
+        Derivatives::Pixel => 1.0,
+        Derivatives::Sample => 1.0 / f64::from(settings.sample_rate.side()),
+    };
+    let [right, down] = per_pixel.map(|side| side * step);
+    let lengths = [right, down].map(|side| (side * size).length());
+    let (along, long, short) = if lengths[0] > lengths[1] {
+        (right, lengths[0], lengths[1])
+    } else {
+        (down, lengths[1], lengths[0])
+    };
+    let most = f64::from(settings.anisotropy.taps());
+    let ratio = (long / short).min(most).min(long);
+    let (taps, ratio) = if ratio > 1.001 {
+        ((ratio - 0.001).ceil() as u32, ratio)
+    } else {
+        (1, 1.0)
+    };
+    let fixed = settings.detail.fixed.map(FixedLevel::level);
+    let lod = fixed.unwrap_or((long / ratio).log2()) + settings.detail.bias.levels();
+    let mut sum = [0.0; 4];
+    for tap in 1..=taps {
+        let place = f64::from(tap) / f64::from(taps + 1) - 0.5;
+        for (sum, channel) in sum.iter_mut().zip(tapped(texture, uv + along * place, lod, settings)) {
+            *sum += channel / f64::from(taps);
+        }
+    }
+    sum
+}
+
+fn tapped(texture: &Texture, uv: DVec2, lod: f64, settings: &RenderSettings) -> Color {
     let levels = texture.pyramid.levels();
     let last = levels.len() - 1;
     let lod = lod.clamp(0.0, last as f64);
     let read = |level: usize| read_level(&levels[level.min(last)], uv, settings.pixel_sampling);
     match settings.level_sampling {
-        LevelSampling::Zero => read(0),
-        LevelSampling::Nearest => read((lod + 0.5).floor() as usize),
+        LevelSampling::Zero if settings.detail.fixed.is_none() => read(0),
+        LevelSampling::Zero | LevelSampling::Nearest => read((lod + 0.5).floor() as usize),
         LevelSampling::Linear => {
             let (fine, coarse) = (read(lod.floor() as usize), read(lod.floor() as usize + 1));
             std::array::from_fn(|k| fine[k] * (1.0 - lod.fract()) + coarse[k] * lod.fract())

@@ -245,7 +245,7 @@ fn city_floor() -> String {
         1000.0,
         640.0,
         &[
-            "A city plan on the ground, to the horizon: a pixel sees a piece of it that is up to 45 times as long as wide.",
+            "A city plan on the ground, to the horizon: a pixel sees a piece of it that is up to 35 times as long as wide.",
             "P, then L twice: far streets melt, because the mip level has to fit the length. T: 2, 4, 8, 16 taps along it, at",
             "the level that fits its width. Street by street the plan comes back, and still nothing shimmers when it is dragged.",
         ],
@@ -267,9 +267,9 @@ fn city_floor() -> String {
         bottom: 640.0,
         tile,
         shift: -0.16,
-        copies: 16,
+        copies: 12,
         depth: tile / 700.0 * 2160.0 / 3840.0,
-        cells: 12,
+        cells: 8,
     }
     .draw(&mut doc, "plan");
     doc.finish()

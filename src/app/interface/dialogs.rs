@@ -260,7 +260,9 @@ fn help(ctx: &Context, commands: &mut Vec<Command>) {
                                     help_group(column, *group);
                                 }
                             }
-                            help_gestures(&mut columns[0]);
+                            if let Some(column) = columns.last_mut() {
+                                help_gestures(column);
+                            }
                         });
                     });
                 false

@@ -255,7 +255,7 @@ fn city_floor() -> String {
     doc.polygon(&regular(dvec2(240.0, 84.0), 44.0, 48, 0.0), Style::fill(CORAL));
     doc.rect(
         dvec2(0.0, horizon - 6.0),
-        dvec2(1000.0, 24.0),
+        dvec2(1000.0, 30.0),
         Style::fill(SAND.mix(PAPER, 0.3)),
     );
     doc.texture("plan", "plan.png");

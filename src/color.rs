@@ -73,6 +73,24 @@ pub fn unit_to_byte(channel: f32, rules: Rules) -> u8 {
     }
 }
 
+/// The linear light of an sRGB-encoded channel; both in `0.0..=1.0` (IEC 61966-2-1).
+pub fn srgb_to_linear(stored: f32) -> f32 {
+    if stored <= 0.040_45 {
+        stored / 12.92
+    } else {
+        ((stored + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// The sRGB-encoded channel of linear light; the inverse of [`srgb_to_linear`].
+pub fn linear_to_srgb(light: f32) -> f32 {
+    if light <= 0.003_130_8 {
+        light * 12.92
+    } else {
+        1.055 * light.powf(1.0 / 2.4) - 0.055
+    }
+}
+
 /// A premultiplied sRGB-encoded colour as samples store it: 16 bits per channel, red green blue alpha.
 ///
 /// A byte `c` is stored as `256 c`, exactly, so that opaque flat colours come out of a frame as they went in, and so is

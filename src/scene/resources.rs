@@ -56,6 +56,14 @@ impl FolderResources {
     pub fn beside(document: &Path) -> Self {
         Self::new(document.parent().unwrap_or(Path::new("")))
     }
+
+    /// The bytes of the file `path` itself, by the same rules: a regular file below the same ceiling.
+    ///
+    /// # Errors
+    /// When there is no such file, or it is unfit to be read.
+    pub fn read_file(path: &Path) -> Result<Vec<u8>, ResourceError> {
+        read_file(path, MAX_RESOURCE_BYTES)
+    }
 }
 
 impl Resources for FolderResources {

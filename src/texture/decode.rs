@@ -31,6 +31,14 @@ pub(super) fn decode_opaque(bytes: &[u8]) -> Result<MipLevel, DecodeError> {
     decode_with(bytes, |[r, g, b, _]| [r, g, b, 255])
 }
 
+/// Decodes a PNG or JPEG, within the limits of textures, to straight 8-bit RGBA, row by row.
+///
+/// # Errors
+/// When the bytes are no such image, are damaged, or are larger than 16 384 texels a side.
+pub fn decode_straight(bytes: &[u8]) -> Result<Vec<u8>, DecodeError> {
+    Ok(reader(bytes)?.decode()?.into_rgba8().into_raw())
+}
+
 /// Width and height, from the header.
 pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
     Ok(reader(bytes)?.into_dimensions()?)

@@ -20,7 +20,7 @@ mod taps;
 mod uv_map;
 
 pub use anisotropy::{Anisotropy, Taps};
-pub use decode::DecodeError;
+pub use decode::{DecodeError, decode_straight};
 pub use detail::{Derivatives, FixedLevel, LevelChoice, LevelOfDetail, LodBias, Reading};
 pub use filter::{Filter, PixelList, SampleGrid};
 pub use footprint::Footprint;

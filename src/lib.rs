@@ -10,6 +10,7 @@
 //! | `app` (feature `window`) | window events | [`viewer::Command`]s, and a frame into a presented surface |
 //! | [`viewer`] | commands | state, a finished frame, saved files |
 //! | [`figure`] | frames | insets and figures |
+//! | [`compare`] | two frames | differences, error metrics, a guess at their cause |
 //! | [`inspect`] | one pixel | the samples that made it |
 //! | [`render`] | scene + view + settings | a [`raster::Framebuffer`] |
 //! | [`scene`] | documents | a [`scene::Scene`] with nothing left to interpret |
@@ -32,6 +33,7 @@
 pub mod app;
 pub mod cli;
 pub mod color;
+pub mod compare;
 pub mod figure;
 pub mod geometry;
 pub mod inspect;

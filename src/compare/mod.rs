@@ -1,0 +1,28 @@
+//! How far two pictures of one size are apart: difference pictures, error metrics, the places that differ most, and
+//! which known cause explains the rest.
+//!
+//! A [`Pair`] is the only way in; it holds two frames of equal size, A the reference and B the other. Its functions run
+//! on the current rayon pool, and their answers do not depend on the number of threads. Channels are compared as they
+//! are stored: straight sRGB-encoded bytes.
+
+mod cause;
+mod colormap;
+mod flip;
+mod hypotheses;
+mod levels;
+mod pair;
+mod picture;
+mod places;
+mod plane;
+mod show;
+mod ssim;
+mod tiles;
+
+pub use cause::Cause;
+pub use colormap::Colormap;
+pub use hypotheses::{Guess, guess};
+pub use levels::{Largest, Levels};
+pub use pair::{Pair, SizeMismatch};
+pub use picture::{decode_picture, encoded_size};
+pub use places::Place;
+pub use show::{DifferenceStyle, Gain, Measure};

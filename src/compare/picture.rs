@@ -1,0 +1,37 @@
+//! Pictures from outside as frames.
+
+use crate::raster::Framebuffer;
+use crate::texture::{self, DecodeError, Texture};
+
+/// Width and height in pixels of an encoded PNG or JPEG, from its header alone.
+///
+/// # Errors
+/// When the bytes are neither, or the picture is larger than a frame may be.
+pub fn encoded_size(bytes: &[u8]) -> Result<[u32; 2], DecodeError> {
+    Texture::size_of_encoded(bytes).map(|(width, height)| [width, height])
+}
+
+/// Decodes a PNG or JPEG to a frame. Channels of 16 bits are rounded to 8, grey becomes colour, and the hidden colour
+/// of a wholly transparent pixel becomes black, so that it counts nowhere.
+///
+/// # Errors
+/// When the bytes are neither, are damaged, or the picture is larger than a frame may be.
+pub fn decode_picture(bytes: &[u8]) -> Result<Framebuffer, DecodeError> {
+    let [width, height] = encoded_size(bytes)?;
+    let rgba = texture::decode_straight(bytes)?;
+    let mut frame = Framebuffer::new(width, height);
+    let (pixels, _) = rgba.as_chunks::<4>();
+    for (out, [r, g, b, a]) in frame.pixels_mut().iter_mut().zip(pixels) {
+        *out = if *a == 0 {
+            0
+        } else {
+            u32::from_be_bytes([*a, *r, *g, *b])
+        };
+    }
+    Ok(frame)
+}
+
+const _: () = assert!(
+    texture::MAX_SIDE <= Framebuffer::MAX_SIDE,
+    "whatever decodes fits a frame"
+);

@@ -1,0 +1,327 @@
+//! Differences as a picture.
+
+use rayon::prelude::*;
+
+use super::{Colormap, Pair};
+use crate::raster::Framebuffer;
+
+/// How the difference of a pixel is measured. A is the reference; channels run from 0 to 1. The pixel's number is that
+/// of the channel, red, green, blue or alpha, for which it is largest, so that no difference cancels another or hides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Measure {
+    /// `b - a`: blue where B is darker, orange where it is lighter.
+    Signed,
+    /// `|b - a|`.
+    #[default]
+    Absolute,
+    /// `|b - a| / (a + 0.01)`: the same step counts more in the dark; the hundredth keeps black finite.
+    Relative,
+    /// `(b - a)^2`: what RMSE and PSNR add up.
+    Squared,
+}
+
+/// How differences become colours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Gain {
+    /// Differences times this number, which is finite and above zero; 1 and more take the colour map's last colour.
+    Factor(f32),
+    /// The largest difference takes the colour map's last colour.
+    Normalize,
+}
+
+/// How a difference picture looks.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DifferenceStyle {
+    /// What is shown.
+    pub measure: Measure,
+    /// How bright.
+    pub gain: Gain,
+}
+
+impl Default for Gain {
+    fn default() -> Self {
+        Self::Factor(1.0)
+    }
+}
+
+impl Measure {
+    /// Every value, in the order of menus.
+    pub const ALL: [Self; 4] = [Self::Signed, Self::Absolute, Self::Relative, Self::Squared];
+
+    /// The name used in the command line and the interface.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Signed => "signed",
+            Self::Absolute => "absolute",
+            Self::Relative => "relative",
+            Self::Squared => "squared",
+        }
+    }
+
+    /// The colour map it is shown in; for legends.
+    pub const fn colormap(self) -> Colormap {
+        match self {
+            Self::Signed => Colormap::Diverging,
+            Self::Absolute | Self::Relative | Self::Squared => Colormap::Sequential,
+        }
+    }
+}
+
+/// Pixels that one thread colours at a time.
+const CHUNK: usize = 16_384;
+/// Colours that relative differences are rounded to.
+const STEPS: u16 = 1023;
+
+impl Pair<'_> {
+    /// Draws the difference into `out`, which takes the pair's size; no memory is taken where it has it already. Gives
+    /// the gain that the picture has: what it was asked for, or what makes the largest difference 1, and 1 for equal
+    /// pictures.
+    pub fn show(self, style: DifferenceStyle, out: &mut Framebuffer) -> f32 {
+        let [width, height] = self.size();
+        if [out.width(), out.height()] != [width, height] {
+            *out = Framebuffer::new(width, height);
+        }
+        let gain = match style.gain {
+            Gain::Factor(factor) => factor,
+            Gain::Normalize => match self.largest(style.measure) {
+                largest if largest > 0.0 => largest.recip(),
+                _ => 1.0,
+            },
+        };
+        match style.measure {
+            Measure::Relative => {
+                let colors: Vec<u32> = (0..=STEPS)
+                    .map(|step| Colormap::Sequential.color(f32::from(step) / f32::from(STEPS)))
+                    .collect();
+                let table = RelativeTable::new(gain * f32::from(STEPS));
+                self.fill(out, |a, b| {
+                    let step = step(table.difference(a, b).min(f32::from(STEPS)));
+                    colors.get(step).copied().unwrap_or_default()
+                });
+            }
+            measure => {
+                let colors = level_colors(measure, gain);
+                self.fill(out, |a, b| colors[(255 + signed_level(a, b)).unsigned_abs() as usize]);
+            }
+        }
+        gain
+    }
+
+    /// The largest difference of any pixel.
+    pub fn largest(self, measure: Measure) -> f32 {
+        let pixels = self.a.pixels().par_chunks(CHUNK).zip(self.b.pixels().par_chunks(CHUNK));
+        if measure == Measure::Relative {
+            let table = RelativeTable::new(1.0);
+            return pixels
+                .map(|(a, b)| {
+                    let unequal = a.iter().zip(b).filter(|(a, b)| a != b);
+                    unequal.fold(0.0, |most, (a, b)| table.difference(*a, *b).max(most))
+                })
+                .reduce(|| 0.0, f32::max);
+        }
+        let level = pixels
+            .map(|(a, b)| {
+                let unequal = a.iter().zip(b).filter(|(a, b)| a != b);
+                unequal.fold(0, |most, (a, b)| signed_level(*a, *b).abs().max(most))
+            })
+            .reduce(|| 0, i32::max);
+        measured_level(measure, level).abs()
+    }
+
+    /// Sets every pixel to what `color` makes of A's and B's.
+    fn fill(self, out: &mut Framebuffer, color: impl Fn(u32, u32) -> u32 + Sync) {
+        let equal = color(0, 0);
+        let outs = out.pixels_mut().par_chunks_mut(CHUNK);
+        let pixels = self.a.pixels().par_chunks(CHUNK).zip(self.b.pixels().par_chunks(CHUNK));
+        outs.zip(pixels).for_each(|(out, (a, b))| {
+            for (out, (a, b)) in out.iter_mut().zip(a.iter().zip(b)) {
+                *out = if a == b { equal } else { color(*a, *b) };
+            }
+        });
+    }
+}
+
+/// The difference `b - a` in levels of the channel that differs most; of equal ones red comes before green, blue, alpha.
+#[inline]
+fn signed_level(a: u32, b: u32) -> i32 {
+    let ([aa, ar, ag, ab], [ba, br, bg, bb]) = (a.to_be_bytes(), b.to_be_bytes());
+    let pairs = [(ar, br), (ag, bg), (ab, bb), (aa, ba)];
+    pairs.into_iter().fold(0, |most: i32, (a, b)| {
+        let level = i32::from(b) - i32::from(a);
+        if level.abs() > most.abs() { level } else { most }
+    })
+}
+
+/// What a difference of levels is worth; not for relative ones, which also depend on where they start.
+fn measured_level(measure: Measure, level: i32) -> f32 {
+    let difference = level as f32 / 255.0;
+    match measure {
+        Measure::Signed => difference,
+        Measure::Absolute | Measure::Relative => difference.abs(),
+        Measure::Squared => difference * difference,
+    }
+}
+
+/// The colours of the differences from -255 to 255 levels.
+fn level_colors(measure: Measure, gain: f32) -> Vec<u32> {
+    let color = |level| measure.colormap().color(measured_level(measure, level) * gain);
+    (-255..=255).map(color).collect()
+}
+
+/// `gain / (a + 0.01)` per level of difference, for every level of A.
+struct RelativeTable([f32; 256]);
+
+impl RelativeTable {
+    fn new(gain: f32) -> Self {
+        let mut level = 0.0;
+        Self([(); 256].map(|()| {
+            // The hundredth of white is 2.55 levels.
+            let scale = gain / (level + 2.55);
+            level += 1.0;
+            scale
+        }))
+    }
+
+    /// The largest relative difference among four channels, times the gain.
+    #[inline]
+    fn difference(&self, a: u32, b: u32) -> f32 {
+        a.to_be_bytes()
+            .into_iter()
+            .zip(b.to_be_bytes())
+            .fold(0.0, |most, (a, b)| {
+                let difference = f32::from(a.abs_diff(b)) * self.0[usize::from(a)];
+                difference.max(most)
+            })
+    }
+}
+
+/// A number from 0 to [`STEPS`] rounded to nearest, as an index.
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "`as` saturates at both ends of u16"
+)]
+fn step(value: f32) -> usize {
+    usize::from((value + 0.5) as u16)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const A: [u32; 4] = [0xFF64_6464, 0xFF64_6464, 0xFF64_6464, 0xFF00_0000];
+    const B: [u32; 4] = [0xFF64_6464, 0xFF97_6464, 0xFF64_3F69, 0xFF00_0001];
+
+    fn frame(pixels: &[u32]) -> Framebuffer {
+        let mut frame = Framebuffer::new(u32::try_from(pixels.len()).expect("few"), 1);
+        frame.pixels_mut().copy_from_slice(pixels);
+        frame
+    }
+
+    fn shown(measure: Measure, gain: Gain) -> (f32, Vec<u32>) {
+        let (a, b) = (frame(&A), frame(&B));
+        let mut out = Framebuffer::default();
+        let gain = Pair::new(&a, &b)
+            .expect("one size")
+            .show(DifferenceStyle { measure, gain }, &mut out);
+        (gain, out.pixels().to_vec())
+    }
+
+    #[test]
+    fn show_maps_each_measure_by_hand() {
+        let sequential = |value| Colormap::Sequential.color(value);
+        let diverging = |value| Colormap::Diverging.color(value);
+        let one = Gain::Factor(1.0);
+        assert_eq!(
+            shown(Measure::Signed, one).1,
+            [
+                diverging(0.0),
+                diverging(0.2),
+                diverging(-37.0 / 255.0),
+                diverging(1.0 / 255.0)
+            ],
+            "+51, -37 and +5, +1 level"
+        );
+        assert_eq!(
+            shown(Measure::Absolute, one).1,
+            [
+                sequential(0.0),
+                sequential(0.2),
+                sequential(37.0 / 255.0),
+                sequential(1.0 / 255.0)
+            ],
+            "the largest channel"
+        );
+        assert_eq!(
+            shown(Measure::Squared, Gain::Factor(5.0)).1[..2],
+            [sequential(0.0), sequential(0.2)],
+            "0.04 times five"
+        );
+        // 51 / (100 + 2.55) and 1 / 2.55.
+        let relative = shown(Measure::Relative, one).1;
+        for (pixel, value) in [(1, 0.497_318_4), (3, 0.392_156_9)] {
+            let close = [-0.5, 0.0, 0.5].map(|shift| sequential(value + shift / 1023.0));
+            assert!(
+                close.contains(&relative[pixel]),
+                "pixel {pixel}: {:08x}",
+                relative[pixel]
+            );
+        }
+    }
+
+    #[test]
+    fn show_normalizes_to_the_largest() {
+        for measure in Measure::ALL {
+            let (gain, pixels) = shown(measure, Gain::Normalize);
+            assert_eq!(
+                pixels[1],
+                measure.colormap().color(1.0),
+                "{measure:?}: the end of the map"
+            );
+            assert_eq!(pixels[0], measure.colormap().color(0.0), "{measure:?}: equal ones stay");
+            let largest = match measure {
+                Measure::Signed | Measure::Absolute => 0.2,
+                Measure::Squared => 0.04,
+                Measure::Relative => 51.0 / 102.55,
+            };
+            assert!((gain * largest - 1.0).abs() < 1e-5, "{measure:?}: gain {gain}");
+        }
+        let a = frame(&A);
+        let style = DifferenceStyle {
+            measure: Measure::Squared,
+            gain: Gain::Normalize,
+        };
+        let mut out = Framebuffer::new(9, 9);
+        let gain = Pair::new(&a, &a).expect("one size").show(style, &mut out);
+        assert_eq!((gain, out.width()), (1.0, 4), "equal pictures, another size");
+        assert_eq!(out.pixels(), [Colormap::Sequential.color(0.0); 4], "nothing to see");
+    }
+
+    #[test]
+    fn show_is_symmetric_but_for_the_sign() {
+        arbtest::arbtest(|u| {
+            let (a, b): ([u32; 8], [u32; 8]) = (u.arbitrary()?, u.arbitrary()?);
+            let (a, b) = (frame(&a), frame(&b));
+            let pair = Pair::new(&a, &b).expect("one size");
+            let show = |pair: Pair<'_>, measure| {
+                let mut out = Framebuffer::default();
+                pair.show(
+                    DifferenceStyle {
+                        measure,
+                        gain: Gain::Factor(3.0),
+                    },
+                    &mut out,
+                );
+                out
+            };
+            for measure in [Measure::Absolute, Measure::Squared] {
+                assert_eq!(show(pair, measure), show(pair.swapped(), measure), "{measure:?}");
+            }
+            for (a, b) in a.pixels().iter().zip(b.pixels()) {
+                assert_eq!(signed_level(*a, *b), -signed_level(*b, *a), "{a:08x} and {b:08x}");
+            }
+            Ok(())
+        });
+    }
+}

@@ -11,6 +11,7 @@ use super::failure::Failure;
 use super::size::FrameSize;
 use super::view_option;
 use crate::color::Rgba;
+use crate::compare::Measure;
 use crate::geometry::View;
 use crate::raster::SampleRate;
 use crate::render::RenderSettings;
@@ -38,9 +39,15 @@ pub(super) enum Verb {
     View(ViewerOptions),
     /// Draw a scene, or every scene in a folder, into PNG files, without a window
     Render(RenderOptions),
+    /// Compare two pictures, or a scene with a picture: how many pixels differ, by how much, where, perhaps why
+    #[command(after_help = DIFF_STATUS)]
+    Diff(DiffOptions),
     /// Time redraws of scenes: median, minimum, milliseconds per stage
     Bench(BenchOptions),
 }
+
+const DIFF_STATUS: &str = "Exit status: 0 the pictures agree within the tolerance, 1 they differ, 2 a file or an \
+                           argument is at fault.";
 
 #[derive(Debug, Args)]
 pub(super) struct ViewerOptions {
@@ -85,6 +92,36 @@ pub(super) struct RenderOptions {
 }
 
 #[derive(Debug, Args)]
+pub(super) struct DiffOptions {
+    /// The reference: a PNG or JPEG, or a scene (.svg, gallery:...) that is drawn at the size of B
+    pub(super) a: PathBuf,
+    /// What is compared with it: a PNG or JPEG of the same size
+    pub(super) b: PathBuf,
+    /// A PNG file to write the difference into, as a picture
+    #[arg(short, long, value_name = "DIFF.png")]
+    pub(super) output: Option<PathBuf>,
+    /// Which difference the picture shows
+    #[arg(long, default_value = Measure::default().name(), value_enum)]
+    pub(super) mode: Measure,
+    /// What the shown difference is multiplied with
+    #[arg(long, default_value = "1", value_name = "G", value_parser = gain, allow_negative_numbers = true)]
+    pub(super) gain: f32,
+    /// Choose the gain that makes the largest difference the last colour
+    #[arg(long, conflicts_with = "gain")]
+    pub(super) normalize: bool,
+    /// Levels of 255 that a channel may differ by without an exit status of 1
+    #[arg(long, default_value_t = 0, value_name = "T")]
+    pub(super) tolerance: u8,
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub(super) json: bool,
+    #[command(flatten, next_help_heading = "How a scene is drawn")]
+    pub(super) sampling: SamplingOptions,
+    #[command(flatten)]
+    pub(super) framing: FramingOptions,
+}
+
+#[derive(Debug, Args)]
 pub(super) struct BenchOptions {
     /// SVG files, or scenes of the gallery such as gallery:basic/test4.svg
     #[arg(required = true, value_name = "SCENE")]
@@ -112,18 +149,18 @@ pub(super) struct PictureOptions {
 }
 
 /// What part of a scene is drawn, and on how many threads.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct FramingOptions {
     /// Which part of the scene: a name, or centre, pixels per user unit and degrees
     #[arg(long, default_value = "default", value_name = "default|canvas|CX,CY,SCALE[,ROTATION]", value_parser = view_option::parse, allow_hyphen_values = true)]
     pub(super) view: View,
-    /// Threads that draw [default: one per core]
+    /// Threads that draw or compare [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(super) threads: Option<u16>,
 }
 
 /// How a scene is read and sampled.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct SamplingOptions {
     /// Samples per pixel: a square number up to 256
     #[arg(long, default_value = "1", value_name = "N", value_parser = sample_rate)]
@@ -195,7 +232,15 @@ macro_rules! named_values {
     )*};
 }
 
-named_values!(PixelSampling, LevelSampling, Derivatives, Rules, DialectChoice, Theme);
+named_values!(
+    PixelSampling,
+    LevelSampling,
+    Derivatives,
+    Rules,
+    DialectChoice,
+    Theme,
+    Measure
+);
 
 fn sample_rate(text: &str) -> Result<SampleRate, String> {
     let rate = text.parse().ok().and_then(SampleRate::new);
@@ -215,6 +260,11 @@ fn lod_bias(text: &str) -> Result<LodBias, String> {
 fn lod_level(text: &str) -> Result<FixedLevel, String> {
     let level = text.parse().ok().and_then(FixedLevel::new);
     level.ok_or_else(|| "a fixed level is a number from 0, the base, to 16".to_owned())
+}
+
+fn gain(text: &str) -> Result<f32, String> {
+    let gain = text.parse().ok().filter(|gain| (1e-6..=1e6).contains(gain));
+    gain.ok_or_else(|| "the gain is a number from 0.000001 to 1000000".to_owned())
 }
 
 fn scale(text: &str) -> Result<f32, String> {
@@ -349,6 +399,12 @@ mod tests {
             "rasterscope render a.svg -o b.png --lod-level 1e9",
             "rasterscope render a.svg -o b.png --lod-per texel",
             "rasterscope render a.svg -o b.png --unknown",
+            "rasterscope diff a.png",
+            "rasterscope diff a.png b.png --gain 0",
+            "rasterscope diff a.png b.png --gain nan",
+            "rasterscope diff a.png b.png --gain 2 --normalize",
+            "rasterscope diff a.png b.png --tolerance 256",
+            "rasterscope diff a.png b.png --mode other",
             "rasterscope bench",
             "rasterscope bench a.svg --frames 0",
             "rasterscope bench a.svg --threads 0",

@@ -55,7 +55,7 @@ struct Stages {
 
 /// Draws each scene as often as asked and prints what it took, when all are done.
 pub(super) fn run(options: &BenchOptions) -> Result<(), Failure> {
-    let reports = on_threads(&options.picture, || -> Result<Vec<Report>, Failure> {
+    let reports = on_threads(options.picture.framing.threads, || -> Result<Vec<Report>, Failure> {
         options.scenes.iter().map(|scene| measure(scene, options)).collect()
     })??;
     if options.json {

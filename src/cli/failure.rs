@@ -12,6 +12,8 @@ pub(super) enum Failure {
     Other(String),
     /// Not a failure: a text that was asked for, such as the help.
     Text(String),
+    /// Not a failure either: pictures that were compared differ, which the exit status says.
+    Different,
 }
 
 impl Failure {
@@ -36,6 +38,7 @@ impl Failure {
                 print_error(line);
                 ExitCode::from(1)
             }
+            Self::Different => ExitCode::from(1),
             Self::Text(text) => match print(text.trim_end()) {
                 Ok(()) => ExitCode::SUCCESS,
                 Err(failure) => failure.report(),

@@ -1,9 +1,11 @@
 //! The command line: one file per command.
 //!
-//! Exit status 0: done. 2: the input or the arguments are at fault, said in one line on stderr. 1: everything else.
+//! Exit status 0: done. 2: the input or the arguments are at fault, said in one line on stderr. 1: everything else,
+//! and `diff` of pictures that differ.
 
 mod arguments;
 mod bench;
+mod diff;
 mod failure;
 mod picture;
 mod render;
@@ -45,6 +47,7 @@ fn execute(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.verb {
         Verb::View(options) => view::run(options),
         Verb::Render(options) => render::run(options),
+        Verb::Diff(options) => diff::run(options),
         Verb::Bench(options) => bench::run(options),
     }
 }

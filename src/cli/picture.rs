@@ -4,7 +4,7 @@ use super::arguments::PictureOptions;
 use super::failure::{Failure, print_error};
 use crate::geometry::ViewTransform;
 use crate::raster::Framebuffer;
-use crate::render::{self, FrameStats, RenderSettings};
+use crate::render::{self, FrameStats, RenderSettings, Subject};
 use crate::scene::Scene;
 use crate::viewer::SceneSource;
 
@@ -37,15 +37,24 @@ impl Picture {
         render::draw(&self.scene, &self.view, &self.settings, &mut self.frame)
     }
 
+    /// What the picture is of.
+    pub(super) fn subject(&self) -> Subject<'_> {
+        Subject {
+            scene: &self.scene,
+            view: &self.view,
+            settings: &self.settings,
+        }
+    }
+
     /// What was drawn last.
     pub(super) fn frame(&self) -> &Framebuffer {
         &self.frame
     }
 }
 
-/// Runs `work` on a pool of as many threads as the options say.
-pub(super) fn on_threads<T: Send>(options: &PictureOptions, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
-    let threads = options.framing.threads.map_or(0, usize::from);
+/// Runs `work` on a pool of as many threads as the option says, or one per core.
+pub(super) fn on_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    let threads = threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()

@@ -14,21 +14,12 @@ use crate::viewer::{SceneEntry, SceneSource, list_scenes};
 
 /// Draws what the options ask for.
 pub(super) fn run(options: &RenderOptions) -> Result<(), Failure> {
-    on_threads(&options.picture, || {
+    on_threads(options.picture.framing.threads, || {
         if options.scene.is_dir() {
             folder(options)
         } else {
-            let output = &options.output;
-            if !output
-                .extension()
-                .is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
-            {
-                let output = output.display();
-                return Err(Failure::input(format!(
-                    "{output}: pictures are written as PNG; give a name that ends in .png"
-                )));
-            }
-            one(&SceneSource::from_address(&options.scene), output, options)
+            name_for_png(&options.output)?;
+            one(&SceneSource::from_address(&options.scene), &options.output, options)
         }
     })?
 }
@@ -101,7 +92,22 @@ fn folder_to_make(output: &Path, options: &RenderOptions) -> Option<PathBuf> {
         .flatten()
 }
 
-fn unwritable(path: &Path, error: &io::Error) -> Failure {
+/// Says before anything is drawn that a name is none for a PNG.
+pub(super) fn name_for_png(output: &Path) -> Result<(), Failure> {
+    if output
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
+    {
+        return Ok(());
+    }
+    Err(Failure::input(format!(
+        "{}: pictures are written as PNG; give a name that ends in .png",
+        output.display()
+    )))
+}
+
+/// A picture could not be written.
+pub(super) fn unwritable(path: &Path, error: &io::Error) -> Failure {
     Failure::input(format!(
         "{}: cannot write here: {error}; choose another place with -o",
         path.display()

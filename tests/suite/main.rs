@@ -8,6 +8,7 @@
 mod architecture;
 mod cli;
 mod coverage;
+mod diff;
 mod gallery;
 mod golden;
 mod instruction_guard;

@@ -1,0 +1,359 @@
+//! `rasterscope diff`: how far two pictures, or our drawing of a scene and a picture, are apart.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::arguments::{DiffOptions, PictureOptions};
+use super::failure::{Failure, print};
+use super::picture::{Picture, on_threads};
+use super::render::{name_for_png, unwritable};
+use super::size::FrameSize;
+use crate::compare::{self, DifferenceStyle, Gain, Guess, Levels, Pair, Place};
+use crate::figure::save_png;
+use crate::raster::Framebuffer;
+use crate::render::CancelToken;
+use crate::scene::FolderResources;
+use crate::viewer::SceneSource;
+
+/// Version of the JSON's shape; a field that changes its meaning raises it, a new one does not.
+const SHAPE: u32 = 1;
+/// How many of the places that differ most are told.
+const PLACES: usize = 5;
+
+/// What `diff` answers; with `--json` in this shape. Differences are levels of 255.
+#[derive(Debug, Serialize)]
+struct Report {
+    version: u32,
+    a: String,
+    b: String,
+    width: u32,
+    height: u32,
+    /// Channels that count: 3, or 4 where a picture is not opaque.
+    channels: u8,
+    tolerance: u8,
+    /// Whether no channel of any pixel differs by more than the tolerance; the exit status says the same.
+    within_tolerance: bool,
+    differing_pixels: u64,
+    pixels_beyond_tolerance: u64,
+    /// The largest difference of each channel; `null` where it is equal everywhere.
+    largest: Channels,
+    mae: f64,
+    rmse: f64,
+    /// In decibels; `null` for equal pictures, whose ratio is infinite.
+    psnr: Option<f64>,
+    ssim: f64,
+    flip: f64,
+    /// Pixels that differ most, the largest first, at most one from each block of 16 x 16 pixels.
+    places: Vec<PlaceReport>,
+    /// The difference picture; `null` where none was asked for.
+    picture: Option<PictureReport>,
+    /// Why a scene's drawing differs from the picture; `null` for two pictures, and where nothing differs.
+    guess: Option<GuessReport>,
+}
+
+#[derive(Debug, Serialize)]
+struct GuessReport {
+    /// In words, the weightiest first; empty where nothing known makes the pictures more alike.
+    causes: Vec<String>,
+    /// The share of the squared difference that they explain together, from 0 to 1.
+    explained: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Channels {
+    red: Option<LargestReport>,
+    green: Option<LargestReport>,
+    blue: Option<LargestReport>,
+    alpha: Option<LargestReport>,
+}
+
+#[derive(Clone, Copy, Debug, Serialize)]
+struct LargestReport {
+    level: u8,
+    x: u32,
+    y: u32,
+}
+
+#[derive(Debug, Serialize)]
+struct PlaceReport {
+    x: u32,
+    y: u32,
+    /// Of red, green, blue, alpha.
+    levels: [u8; 4],
+}
+
+#[derive(Debug, Serialize)]
+struct PictureReport {
+    file: String,
+    mode: &'static str,
+    gain: f32,
+}
+
+/// Compares the pictures, prints what was found, and fails where they differ.
+pub(super) fn run(options: &DiffOptions) -> Result<(), Failure> {
+    if let Some(output) = &options.output {
+        name_for_png(output)?;
+    }
+    let report = on_threads(options.framing.threads, || measure(options))??;
+    if options.json {
+        print(&serde_json::to_string(&report).map_err(Failure::other)?)?;
+    } else {
+        print(&report.text())?;
+    }
+    if report.within_tolerance {
+        Ok(())
+    } else {
+        Err(Failure::Different)
+    }
+}
+
+fn measure(options: &DiffOptions) -> Result<Report, Failure> {
+    let [first, second] = [&options.a, &options.b];
+    if is_scene(second) {
+        return Err(Failure::input(format!(
+            "{}: a scene can be the first of the two only; draw this one with `rasterscope render`",
+            second.display()
+        )));
+    }
+    if is_scene(first) {
+        return measure_scene(options);
+    }
+    let (a, b) = (Encoded::read(first)?, Encoded::read(second)?);
+    if a.size != b.size {
+        let (ours, theirs) = (b.size, a.size);
+        return Err(Failure::input(format!(
+            "{}: {} x {} pixels, but {} has {} x {}; compare pictures of one size",
+            second.display(),
+            ours[0],
+            ours[1],
+            first.display(),
+            theirs[0],
+            theirs[1]
+        )));
+    }
+    let (a, b) = (a.decode(first)?, b.decode(second)?);
+    let pair = Pair::new(&a, &b).map_err(Failure::input)?;
+    report(pair, options)
+}
+
+/// Our drawing of a scene against a picture of it from elsewhere, with a guess at why they differ.
+fn measure_scene(options: &DiffOptions) -> Result<Report, Failure> {
+    let encoded = Encoded::read(&options.b)?;
+    let drawing = PictureOptions {
+        size: FrameSize(encoded.size),
+        sampling: options.sampling.clone(),
+        framing: options.framing.clone(),
+    };
+    let mut ours = Picture::read(&SceneSource::from_address(&options.a), &drawing)?;
+    let theirs = encoded.decode(&options.b)?;
+    ours.draw();
+    let pair = Pair::new(ours.frame(), &theirs).map_err(Failure::input)?;
+    let mut report = report(pair, options)?;
+    if report.differing_pixels > 0 {
+        let guess = compare::guess(&ours.subject(), &theirs, &CancelToken::default());
+        report.guess = guess.map(|guess| GuessReport::new(&guess));
+    }
+    Ok(report)
+}
+
+/// Whether a path names a scene and no picture.
+fn is_scene(path: &Path) -> bool {
+    matches!(SceneSource::from_address(path), SceneSource::Gallery(_))
+        || path
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("svg"))
+}
+
+/// The numbers, and the picture where one is asked for.
+fn report(pair: Pair<'_>, options: &DiffOptions) -> Result<Report, Failure> {
+    let mut report = Report::new(pair, options);
+    if let Some(output) = &options.output {
+        report.picture = Some(draw(pair, output, options)?);
+    }
+    Ok(report)
+}
+
+/// The bytes of a picture that is not decoded yet, and its size.
+struct Encoded {
+    bytes: Vec<u8>,
+    size: [u32; 2],
+}
+
+impl Encoded {
+    fn read(path: &Path) -> Result<Self, Failure> {
+        let bytes = FolderResources::read_file(path)
+            .map_err(|error| Failure::input(format!("{}: {error}; give a PNG or JPEG picture", path.display())))?;
+        let size = compare::encoded_size(&bytes).map_err(|error| unreadable(path, &error))?;
+        Ok(Self { bytes, size })
+    }
+
+    fn decode(self, path: &Path) -> Result<Framebuffer, Failure> {
+        compare::decode_picture(&self.bytes).map_err(|error| unreadable(path, &error))
+    }
+}
+
+fn unreadable(path: &Path, error: &dyn std::fmt::Display) -> Failure {
+    Failure::input(format!(
+        "{}: cannot be read as a picture: {error}; give a whole PNG or JPEG",
+        path.display()
+    ))
+}
+
+/// Saves the difference picture.
+fn draw(pair: Pair<'_>, output: &Path, options: &DiffOptions) -> Result<PictureReport, Failure> {
+    let style = DifferenceStyle {
+        measure: options.mode,
+        gain: if options.normalize {
+            Gain::Normalize
+        } else {
+            Gain::Factor(options.gain)
+        },
+    };
+    let mut frame = Framebuffer::default();
+    let gain = pair.show(style, &mut frame);
+    save_png(&frame, output).map_err(|error| unwritable(output, &error))?;
+    Ok(PictureReport {
+        file: output.display().to_string(),
+        mode: options.mode.name(),
+        gain,
+    })
+}
+
+impl Report {
+    fn new(pair: Pair<'_>, options: &DiffOptions) -> Self {
+        let levels: Levels = pair.levels();
+        let never = CancelToken::default();
+        let [red, green, blue, alpha] = levels.largest.map(|largest| {
+            largest.map(|largest| LargestReport {
+                level: largest.level,
+                x: largest.at[0],
+                y: largest.at[1],
+            })
+        });
+        let beyond = levels.beyond(options.tolerance);
+        Self {
+            version: SHAPE,
+            a: options.a.display().to_string(),
+            b: options.b.display().to_string(),
+            width: pair.size()[0],
+            height: pair.size()[1],
+            channels: levels.channels,
+            tolerance: options.tolerance,
+            within_tolerance: beyond == 0,
+            differing_pixels: levels.differing(),
+            pixels_beyond_tolerance: beyond,
+            largest: Channels {
+                red,
+                green,
+                blue,
+                alpha,
+            },
+            mae: levels.mae(),
+            rmse: levels.rmse(),
+            psnr: Some(levels.psnr()).filter(|ratio| ratio.is_finite()),
+            // Nobody cancels, so that both are there.
+            ssim: pair.ssim(&never).unwrap_or_default(),
+            flip: pair.flip(&never).unwrap_or_default(),
+            places: pair.places(PLACES).into_iter().map(PlaceReport::new).collect(),
+            picture: None,
+            guess: None,
+        }
+    }
+
+    fn text(&self) -> String {
+        let pixels = u64::from(self.width) * u64::from(self.height);
+        let share = |count: u64| match count as f64 * 100.0 / pixels as f64 {
+            share if count > 0 && share < 0.01 => "under 0.01 %".to_owned(),
+            share => format!("{share:.2} %"),
+        };
+        let mut lines = vec![
+            format!("A  {}\nB  {}", self.a, self.b),
+            format!("{} x {} pixels", self.width, self.height),
+        ];
+        if self.differing_pixels == 0 {
+            lines.push("The pictures are equal: all pixels, byte for byte.".to_owned());
+        }
+        let count = |count| format!("{count} of {pixels} ({})", share(count));
+        lines.push(format!("differing pixels   {}", count(self.differing_pixels)));
+        if self.tolerance > 0 {
+            let counted = count(self.pixels_beyond_tolerance);
+            lines.push(format!("beyond {:3} levels  {counted}", self.tolerance));
+        }
+        lines.extend(self.largest.lines());
+        let psnr = self
+            .psnr
+            .map_or("infinite".to_owned(), |ratio| format!("{ratio:.2} dB"));
+        lines.push(format!("mean error         {:.4} levels of 255 (MAE)", self.mae));
+        lines.push(format!("root mean square   {:.4} levels of 255 (RMSE)", self.rmse));
+        lines.push(format!("PSNR               {psnr}"));
+        lines.push(format!("SSIM               {:.6} (1: same structure)", self.ssim));
+        lines.push(format!(
+            "FLIP               {:.6} (0: nobody sees a difference)",
+            self.flip
+        ));
+        if !self.places.is_empty() {
+            let places: Vec<String> = self
+                .places
+                .iter()
+                .map(|place| format!("({}, {})", place.x, place.y))
+                .collect();
+            lines.push(format!("differ most at     {}", places.join("\n                   ")));
+        }
+        if let Some(picture) = &self.picture {
+            lines.push(format!(
+                "{}: {} difference x {}",
+                picture.file, picture.mode, picture.gain
+            ));
+        }
+        lines.extend(self.guess.as_ref().map(GuessReport::text));
+        lines.join("\n")
+    }
+}
+
+impl GuessReport {
+    fn new(guess: &Guess) -> Self {
+        Self {
+            causes: guess.causes.iter().map(ToString::to_string).collect(),
+            explained: guess.explained(),
+        }
+    }
+
+    fn text(&self) -> String {
+        if self.causes.is_empty() {
+            return "guess at the cause none: nothing known makes the pictures more alike".to_owned();
+        }
+        // Rounded down, so that 100 % means all of it.
+        let percent = (self.explained * 1000.0).floor() / 10.0;
+        format!(
+            "guess at the cause explains {percent} % of the squared difference:\n  {}",
+            self.causes.join("\n  and ")
+        )
+    }
+}
+
+impl Channels {
+    /// One line for each channel that differs.
+    fn lines(&self) -> impl Iterator<Item = String> {
+        let named = [
+            ("red", self.red),
+            ("green", self.green),
+            ("blue", self.blue),
+            ("alpha", self.alpha),
+        ];
+        named.into_iter().filter_map(|(name, largest)| {
+            let LargestReport { level, x, y } = largest?;
+            Some(format!("largest in {name:5}   {level} levels, first at ({x}, {y})"))
+        })
+    }
+}
+
+impl PlaceReport {
+    fn new(place: Place) -> Self {
+        Self {
+            x: place.at[0],
+            y: place.at[1],
+            levels: place.levels,
+        }
+    }
+}

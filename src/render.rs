@@ -200,6 +200,17 @@ fn number(index: usize) -> u32 {
 fn add(builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, kind: &PrimitiveKind) {
     match kind {
         PrimitiveKind::Triangle { points, paint } => builder.triangle(points.map(|p| screen.place(p)), &fill(paint)),
+        PrimitiveKind::Polygon { polygon, color } => {
+            match polygon.triangles().filter(|_| screen.rules == Rules::Course) {
+                // The course knows triangles only, whose edges it counts twice.
+                Some(triangles) => {
+                    for points in triangles {
+                        builder.triangle(points.map(|p| screen.place(p)), &Fill::Solid(*color));
+                    }
+                }
+                None => builder.polygon(polygon, |p| screen.place(p), *color),
+            }
+        }
         PrimitiveKind::Hairline { ends, color } => builder.hairline(ends.map(|p| screen.place(p)), *color),
         PrimitiveKind::Point { at, color } => builder.point(screen.place(*at), *color),
         PrimitiveKind::BeginLayer => builder.begin_layer(),

@@ -1,4 +1,4 @@
-//! Clipping triangles to the guard band, so that finite geometry of any size becomes grid coordinates.
+//! Clipping triangles and edges to the guard band, so that finite geometry of any size becomes grid coordinates.
 //!
 //! Sutherland and Hodgman, "Reentrant polygon clipping" (CACM 17, 1974). A cut point depends only on the edge it cuts,
 //! never on its direction, so two triangles that share an edge still share it after clipping.
@@ -158,9 +158,72 @@ impl Bound {
     }
 }
 
+/// What of a polygon's edge decides which points inside the guard band the polygon encloses, in the edge's direction.
+///
+/// What lies left of the band still winds around points inside: it comes back upright on the band's left side. What lies
+/// above, below or to the right winds around none. Cut points are those of triangles with the same edge.
+pub fn clip_edge(ends: [DVec2; 2]) -> impl Iterator<Item = [DVec2; 2]> {
+    let [left, right, top, bottom] = BOUNDS;
+    let upright = |ends: [DVec2; 2]| ends.map(|end| DVec2::new(left.at, end.y));
+    let (inner, outer) = left.cut_edge(ends);
+    let inner = inner.and_then(|ends| right.cut_edge(ends).0);
+    let parts = if outer.is_some_and(|outer| outer[0] == ends[0]) {
+        [outer.map(upright), inner]
+    } else {
+        [inner, outer.map(upright)]
+    };
+    let between = move |part| bottom.cut_edge(top.cut_edge(part).0?).0;
+    parts.into_iter().flatten().filter_map(between)
+}
+
+impl Bound {
+    /// The parts of an edge that are kept and that are not.
+    fn cut_edge(self, ends: [DVec2; 2]) -> (Option<[DVec2; 2]>, Option<[DVec2; 2]>) {
+        let weights = [0.0; 3];
+        let [a, b] = ends.map(|point| ClipVertex { point, weights });
+        match (self.keeps(&a), self.keeps(&b)) {
+            (true, true) => (Some(ends), None),
+            (false, false) => (None, Some(ends)),
+            (keeps_first, _) => {
+                let at = self.cut(&a, &b).point;
+                let (first, second) = ([ends[0], at], [at, ends[1]]);
+                if keeps_first {
+                    (Some(first), Some(second))
+                } else {
+                    (Some(second), Some(first))
+                }
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn clip_edge_keeps_what_winds_around_the_band() {
+        let (low, high) = GUARD;
+        let parts = |a: [f64; 2], b: [f64; 2]| -> Vec<[DVec2; 2]> { clip_edge([a.into(), b.into()]).collect() };
+        let inside = [[0.0, 5.0], [70.0, -3.0]];
+        assert_eq!(parts(inside[0], inside[1]), [inside.map(DVec2::from)], "untouched");
+        assert_eq!(parts([1e6, 0.0], [1e6, 9.0]), [[DVec2::ZERO; 2]; 0], "to the right");
+        assert_eq!(parts([0.0, -1e6], [9.0, -1e6]), [[DVec2::ZERO; 2]; 0], "above");
+        let upright = [DVec2::new(low, high), DVec2::new(low, 7.0)];
+        assert_eq!(parts([-1e6, 1e9], [-1e30, 7.0]), [upright], "to the left");
+        let around = parts([-1e6, 0.0], [1e6, 2e3]);
+        let [[a, b], [c, d]] = around[..] else {
+            panic!("two parts, not {around:?}");
+        };
+        assert_eq!(
+            (a, b.x, b),
+            (DVec2::new(low, 0.0), low, c),
+            "first upright, then along the edge"
+        );
+        assert!((d.x - high).abs() < 1e-6 && d.y > c.y, "up to the right side: {d}");
+        let back = parts([1e6, 2e3], [-1e6, 0.0]);
+        assert_eq!(back, [[d, c], [b, a]], "the same parts backwards");
+    }
 
     #[test]
     fn clip_keeps_the_near_corner_of_a_far_triangle() {

@@ -1,14 +1,16 @@
-//! Numbers about shapes: views, sub-pixel grid, clipping, outlines, triangulation.
+//! Numbers about shapes: views, sub-pixel grid, clipping, outlines, polygons, triangulation.
 //!
 //! Knows no XML, file, clock or window. User space and screen space are both y down.
 
 pub mod clip;
 pub mod edge;
+mod polygon;
 mod stroke;
 pub mod subpixel;
 mod triangulate;
 mod view;
 
+pub use polygon::Polygon;
 pub use stroke::{LineCap, LineJoin, StrokeStyle, stroke_outline};
 pub use triangulate::{FillRule, estimate_crossings, triangulate};
 pub use view::{View, ViewTransform};

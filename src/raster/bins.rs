@@ -1,14 +1,15 @@
 //! Which ops touch which tile, in painter's order.
 //!
 //! Two walks over the ops of a chunk: the first counts the entries of each tile, the second writes them where they
-//! belong. Nothing is allocated per op or per tile. A stamp goes to the tiles of its bits, cut to each. A triangle is
-//! followed row of tiles by row of tiles: a tile that it covers is marked, so that painting it needs no coverage at
-//! all. An opaque triangle that covers a tile hides everything painted there before.
+//! belong. Nothing is allocated per op or per tile. A stamp goes to the tiles of its bits, cut to each. A triangle or
+//! outline is followed row of tiles by row of tiles: a tile that it covers is marked, so that painting it needs no
+//! coverage at all. An opaque one that covers a tile hides everything painted there before.
 
 use rayon::prelude::*;
 
 use super::display_list::{Chunk, ListContext, Op, Paint};
 use super::entry::Entry;
+use super::outline_tiles::{OutlineTiles, Reach};
 use super::rows::Span;
 use super::shade::Shader;
 use super::small::{SampleBox, SmallCoverage};
@@ -203,6 +204,7 @@ impl<'a> Walk<'a> {
     /// Calls `visit` with every entry of the chunk and the number of its tile, counted from the first row's first.
     fn each(&self, textures: &[&Texture], mut visit: impl FnMut(usize, Entry)) {
         let mut depth = self.chunk.layers_open;
+        let mut tiles = OutlineTiles::default();
         for (i, op) in self.chunk.ops.iter().enumerate() {
             match *op {
                 Op::Samples(index) => {
@@ -232,6 +234,10 @@ impl<'a> Walk<'a> {
                     let opaque = Shader::is_opaque(paint, textures);
                     let entry = Entry::triangle(i, index, flat, opaque);
                     self.triangle(triangle.corners, entry, depth == 0, &mut visit);
+                }
+                Op::Outline(index) => {
+                    let entry = Entry::outline(i, index, self.chunk.outline_colors[index as usize]);
+                    self.outline(&mut tiles, (index, entry), depth == 0, &mut visit);
                 }
                 Op::BeginLayer(index) | Op::EndLayer(index) => {
                     depth = match op {
@@ -279,6 +285,55 @@ impl<'a> Walk<'a> {
         }
     }
 
+    /// An outline in each tile it touches; `base` says that it is in no layer.
+    fn outline(
+        &self,
+        tiles: &mut OutlineTiles,
+        (index, entry): (u32, Entry),
+        base: bool,
+        visit: &mut impl FnMut(usize, Entry),
+    ) {
+        let (grid, sides) = (self.context.grid, self.samples);
+        let outline = &self.chunk.outlines[index as usize];
+        let SampleBox { columns, rows } = outline.samples;
+        let in_row = Span {
+            start: sides.column(columns.start),
+            end: sides.column(columns.end - 1) + 1,
+        };
+        let (top, bottom) = (sides.row(rows.start), sides.row(rows.end - 1));
+        let bands = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
+        let (width, height) = (sides.width.cast_signed(), sides.height.cast_signed());
+        let few = (in_row.end - in_row.start) * (bottom - top + 1) <= 2;
+        if few && (self.covers_no_tile(columns, width, 0) || self.covers_no_tile(rows, height, 1)) {
+            for row in bands {
+                (in_row.start..in_row.end).for_each(|column| visit(self.tile(column, row), entry));
+            }
+            return;
+        }
+        let unit_width = f64::from(width << grid.bits());
+        for row in bands {
+            let band = Span {
+                start: row * height,
+                end: ((row + 1) * height).min(self.frame.rows.end),
+            };
+            let outline = (outline, self.chunk.outline_edges.as_slice());
+            tiles.each(outline, grid, (band, in_row, unit_width), |column, reach| {
+                let entry = match reach {
+                    Reach::Part => entry,
+                    Reach::All => entry.covering(base && entry.is_opaque()),
+                };
+                visit(self.tile(column, row), entry);
+            });
+        }
+    }
+
+    /// Whether samples of that many columns or rows, `axis` 0 or 1, are too few to cover a tile.
+    #[inline]
+    fn covers_no_tile(&self, span: Span, side: i32, axis: usize) -> bool {
+        let frame = [self.frame.columns, self.frame.rows][axis];
+        span.end - span.start < side.min(frame.end)
+    }
+
     /// A triangle in each tile it touches; `base` says that it is in no layer.
     fn triangle(&self, corners: [GridPoint; 3], entry: Entry, base: bool, visit: &mut impl FnMut(usize, Entry)) {
         let (grid, sides) = (self.context.grid, self.samples);
@@ -293,11 +348,9 @@ impl<'a> Walk<'a> {
         let (top, bottom) = (sides.row(samples.rows.start), sides.row(samples.rows.end - 1));
         let band_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
         let height = sides.height.cast_signed();
-        let covers_none =
-            |span: Span, side: u32, frame: Span| span.end - span.start < side.cast_signed().min(frame.end);
         if (right - left + 1) * (bottom - top + 1) <= 2
-            && (covers_none(samples.columns, sides.width, self.frame.columns)
-                || covers_none(samples.rows, sides.height, self.frame.rows))
+            && (self.covers_no_tile(samples.columns, sides.width.cast_signed(), 0)
+                || self.covers_no_tile(samples.rows, height, 1))
         {
             for row in band_rows {
                 (left..=right).for_each(|column| visit(self.tile(column, row), entry));

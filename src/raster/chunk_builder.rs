@@ -4,9 +4,11 @@ use glam::DVec2;
 
 use super::display_list::{Chunk, Fill, LayerMark, ListContext, Op, Paint, ScreenTriangle, Stamp};
 use super::hairline::Hairline;
+use super::outline::{OutlineBuilder, RowScanner, SpanStore};
 use super::small::{SampleBox, SmallCoverage};
 use super::tile::PixelRect;
 use crate::color::{Premultiplied16, Rgba, unit_to_16};
+use crate::geometry::Polygon;
 use crate::geometry::clip::{ClipVertex, ClippedTriangle, in_guard};
 use crate::geometry::edge::doubled_area;
 use crate::geometry::subpixel::floor_to_i32;
@@ -21,6 +23,8 @@ pub struct ChunkBuilder<'a> {
     source: u32,
     /// The colour used last, as given and as stored.
     color: (Rgba, Premultiplied16),
+    /// Memory for the spans of small polygons.
+    scanner: (RowScanner, SpanStore),
 }
 
 impl<'a> ChunkBuilder<'a> {
@@ -37,6 +41,7 @@ impl<'a> ChunkBuilder<'a> {
             },
             source: 0,
             color: (Rgba::BLACK, stored),
+            scanner: Default::default(),
         }
     }
 
@@ -69,6 +74,33 @@ impl<'a> ChunkBuilder<'a> {
         for corners in ClippedTriangle::new(points).triangles() {
             self.snapped(corners.map(|corner| corner.point), &fill.at(&corners));
         }
+    }
+
+    /// Adds a polygon of one colour, its points brought to screen space by `place`; nothing where any of them is not
+    /// finite there.
+    pub fn polygon(&mut self, polygon: &Polygon, place: impl Fn(DVec2) -> DVec2, color: Rgba) {
+        let (grid, frame) = (self.context.grid, self.frame);
+        let mut builder = OutlineBuilder::new(grid, frame, &mut self.chunk.outline_edges);
+        for contour in polygon.contours() {
+            builder.contour(contour.iter().map(|point| place(*point)));
+        }
+        let Some(outline) = builder.finish(polygon.rule()) else {
+            return;
+        };
+        if let Some(coverage) = outline.small_coverage(&self.chunk.outline_edges, grid, &mut self.scanner) {
+            outline.drop_edges(&mut self.chunk.outline_edges);
+            if coverage.mask != 0 {
+                self.stamp(coverage, color, Op::Samples);
+                self.chunk.triangle_count += 1;
+            }
+            return;
+        }
+        let index = index(self.chunk.outlines.len());
+        let color = self.color(color);
+        self.chunk.outlines.push(outline);
+        self.chunk.outline_colors.push(color);
+        self.push(Op::Outline(index));
+        self.chunk.triangle_count += 1;
     }
 
     /// Adds a line one pixel wide; any finite coordinates.

@@ -6,18 +6,18 @@
 
 use std::time::{Duration, Instant};
 
+use super::band_spans::{BandSpans, Shape};
 use super::display_list::Chunk;
 use super::entry::{Entry, Work};
 use super::fragments::{Fragment, Part, Unresolved};
 use super::pixel_block::PixelBlock;
-use super::pixel_row::{each_pixel_row, each_pixel_row_of_few};
+use super::pixel_row::each_pixel_row_of_few;
 use super::shade::{Pixels, ShadeContext, Shader};
 use super::slots::{Shaded, SlotColor, Slots, Spread};
 use super::small::SmallCoverage;
 use super::tile::PixelRect;
 use super::visibility::{MAX_SLOTS, Run, Slot, VisibilityTile, lanes, splat};
 use crate::color::{Premultiplied16, Resolver};
-use crate::geometry::subpixel::GridPoint;
 use crate::texture::SampleGrid;
 
 /// Paints tiles in which only opaque primitives are shaded, one after the other, reusing its memory.
@@ -72,20 +72,20 @@ impl<'a> DeferredPainter<'a> {
     }
 
     /// Paints the ops of one chunk that touch the tile.
-    pub(crate) fn paint(&mut self, chunk: &'a Chunk, entries: &[Entry]) {
+    pub(crate) fn paint(&mut self, chunk: &'a Chunk, entries: &[Entry], bands: &mut BandSpans) {
         for entry in entries {
             self.make_room();
             match entry.work(chunk) {
                 Work::Samples(coverage, color) => self.samples(coverage, color),
                 Work::Pixels(coverage, color) => self.pixels(coverage, color),
-                Work::Flat(corners, color) if entry.is_opaque() => {
+                Work::Flat(shape, color) if entry.is_opaque() => {
                     let slot = self.slots.flat(color);
-                    self.opaque(corners, slot, *entry);
+                    self.opaque((shape, *entry), slot, bands);
                 }
-                Work::Flat(corners, color) => self.translucent(corners, color, *entry),
+                Work::Flat(shape, color) => self.translucent((shape, *entry), color, bands),
                 Work::Shaded(triangle, paint) => {
                     let slot = self.slots.shaded(triangle, paint);
-                    self.opaque(&triangle.corners, slot, *entry);
+                    self.opaque((Shape::Triangle(&triangle.corners), *entry), slot, bands);
                 }
                 Work::BeginLayer => self.begin_layer(),
                 Work::EndLayer(opacity) => self.end_layer(opacity),
@@ -114,24 +114,22 @@ impl<'a> DeferredPainter<'a> {
     }
 
     #[inline]
-    fn opaque(&mut self, corners: &[GridPoint; 3], slot: Slot, entry: Entry) {
+    fn opaque(&mut self, (shape, entry): (Shape<'_>, Entry), slot: Slot, bands: &mut BandSpans) {
         let tile = &mut self.layers[self.depth - 1];
         if entry.covers_tile() {
             tile.cover(slot);
         } else {
-            let settings = (self.context.grid, self.context.sampling.rules);
-            each_pixel_row(*corners, settings, tile.rect, |row| tile.paint(row, slot));
+            bands.each_pixel_row(shape, tile.rect, |row| tile.paint(row, slot));
         }
     }
 
-    fn translucent(&mut self, corners: &[GridPoint; 3], color: Premultiplied16, entry: Entry) {
+    fn translucent(&mut self, (shape, entry): (Shape<'_>, Entry), color: Premultiplied16, bands: &mut BandSpans) {
         let (tile, slots) = (&mut self.layers[self.depth - 1], &mut self.slots);
         slots.next_paint();
         if entry.covers_tile() {
             tile.change_all(|slot| slots.under(slot, color));
         } else {
-            let settings = (self.context.grid, self.context.sampling.rules);
-            each_pixel_row(*corners, settings, tile.rect, |row| {
+            bands.each_pixel_row(shape, tile.rect, |row| {
                 tile.change(row, |slot| slots.under(slot, color));
             });
         }
@@ -227,6 +225,25 @@ impl<'a> DeferredPainter<'a> {
                         line[range].fill(shown.pixel);
                     } else {
                         columns.for_each(|x| unresolved.whole(slot, [x, row]));
+                    }
+                }
+                Run::Pairs => {
+                    let pairs = tile.pairs(range, y);
+                    for (pair, x) in pairs.iter().zip(columns) {
+                        let (first, second) = (slots.get(pair.first), slots.get(pair.second));
+                        if first.shaded.is_none() && second.shaded.is_none() {
+                            let count = pair.mask.count_ones();
+                            let mut sum = Spread::default();
+                            sum.add(first.spread, self.resolver.count() - count);
+                            sum.add(second.spread, count);
+                            line[usize::from(x)] = self.resolver.pixel(sum.channels());
+                        } else {
+                            let parts = [(pair.first, 0, tile.all() & !pair.mask), (pair.second, 0, pair.mask)];
+                            unresolved.parts([x, row], parts.into_iter(), |slot| {
+                                let shown = slots.get(slot);
+                                shown.shaded.is_none().then(|| shown.sum(1))
+                            });
+                        }
                     }
                 }
                 Run::Split => {

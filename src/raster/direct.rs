@@ -1,13 +1,12 @@
 //! Tiles of opaque primitives at one sample per pixel: painted straight into the frame.
 
+use super::band_spans::{BandSpans, Shape};
 use super::display_list::{Chunk, Paint, ScreenTriangle};
 use super::entry::{Entry, Work};
 use super::pixel_block::PixelBlock;
-use super::pixel_row::each_pixel_row;
 use super::rows::Span;
 use super::shade::{Pixels, ShadeContext, Shader};
 use super::tile::PixelRect;
-use crate::geometry::subpixel::GridPoint;
 
 /// Paints opaque primitives at one sample per pixel.
 #[derive(Debug)]
@@ -32,7 +31,12 @@ impl<'a> DirectPainter<'a> {
     }
 
     /// Paints the ops of one chunk that touch the tile; all must be opaque.
-    pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[Entry], block: &mut PixelBlock<'_>) {
+    pub(crate) fn paint(
+        &mut self,
+        (chunk, entries): (&Chunk, &[Entry]),
+        bands: &mut BandSpans,
+        block: &mut PixelBlock<'_>,
+    ) {
         let rules = self.context.sampling.rules;
         for entry in entries {
             match entry.work(chunk) {
@@ -42,59 +46,71 @@ impl<'a> DirectPainter<'a> {
                     let coverage = coverage.moved(block.rect.x.start, block.rect.y.start);
                     coverage.each_run(|y, xs| block.span(y, xs).fill(pixel));
                 }
-                Work::Flat(corners, color) => {
+                Work::Flat(shape, color) => {
                     let pixel = color.to_pixel(rules);
-                    self.covered(corners, *entry, block, |y, xs, block| block.span(y, xs).fill(pixel));
+                    covered((shape, *entry), bands, block, |y, xs, block| {
+                        block.span(y, xs).fill(pixel)
+                    });
                 }
-                Work::Shaded(triangle, paint) => self.shaded(triangle, paint, *entry, block),
+                Work::Shaded(triangle, paint) => {
+                    let mut places = std::mem::take(&mut self.places);
+                    places.clear();
+                    let PixelRect { x: left, y: top } = block.rect;
+                    let inside = |from: i32, to: i32| u16::try_from(to - from).unwrap_or(u16::MAX);
+                    covered(
+                        (Shape::Triangle(&triangle.corners), *entry),
+                        bands,
+                        block,
+                        |y, xs, _| {
+                            let row = inside(top.start, y);
+                            places.extend(
+                                (inside(left.start, xs.start)..inside(left.start, xs.end)).map(|column| [column, row]),
+                            );
+                        },
+                    );
+                    self.shaded(triangle, paint, &places, block);
+                    self.places = places;
+                }
                 // Whoever chose this painter has found no layers.
                 Work::BeginLayer | Work::EndLayer(_) => {}
             }
         }
     }
 
-    /// Calls `paint` with every span of pixels that a triangle covers.
-    #[inline]
-    fn covered(
-        &self,
-        corners: &[GridPoint; 3],
-        entry: Entry,
-        block: &mut PixelBlock<'_>,
-        mut paint: impl FnMut(i32, Span, &mut PixelBlock<'_>),
-    ) {
-        let rect = block.rect;
-        if entry.covers_tile() {
-            for y in rect.y.start..rect.y.end {
-                paint(y, rect.x, block);
-            }
+    /// Shades pixels, counted from the tile's first.
+    fn shaded(&mut self, triangle: &ScreenTriangle, paint: &Paint, places: &[[u16; 2]], block: &mut PixelBlock<'_>) {
+        if places.is_empty() {
             return;
         }
-        let settings = (self.context.grid, self.context.sampling.rules);
-        each_pixel_row(*corners, settings, rect, |row| paint(row.y, row.full, block));
-    }
-
-    fn shaded(&mut self, triangle: &ScreenTriangle, paint: &Paint, entry: Entry, block: &mut PixelBlock<'_>) {
-        let mut places = std::mem::take(&mut self.places);
-        places.clear();
-        let PixelRect { x: left, y: top } = block.rect;
-        let inside = |from: i32, to: i32| u16::try_from(to - from).unwrap_or(u16::MAX);
-        self.covered(&triangle.corners, entry, block, |y, xs, _| {
-            let row = inside(top.start, y);
-            places.extend((inside(left.start, xs.start)..inside(left.start, xs.end)).map(|column| [column, row]));
-        });
-        if !places.is_empty() {
-            self.samples_shaded += places.len() as u64;
-            self.shaded.resize(self.shaded.len().max(places.len()), 0);
-            let values = &mut self.shaded[..places.len()];
-            let pixels = Pixels {
-                grid: self.context.samples_from([left.start, top.start]),
-                places: &places,
-            };
-            Shader::new(&self.context, triangle, paint).pixels(pixels, values);
-            for (place, value) in places.iter().zip(values) {
-                block.put(*place, *value);
-            }
+        self.samples_shaded += places.len() as u64;
+        self.shaded.resize(self.shaded.len().max(places.len()), 0);
+        let values = &mut self.shaded[..places.len()];
+        let PixelRect { x, y } = block.rect;
+        let pixels = Pixels {
+            grid: self.context.samples_from([x.start, y.start]),
+            places,
+        };
+        Shader::new(&self.context, triangle, paint).pixels(pixels, values);
+        for (place, value) in places.iter().zip(values) {
+            block.put(*place, *value);
         }
-        self.places = places;
     }
+}
+
+/// Calls `paint` with every span of pixels that a shape covers.
+#[inline]
+fn covered(
+    (shape, entry): (Shape<'_>, Entry),
+    bands: &mut BandSpans,
+    block: &mut PixelBlock<'_>,
+    mut paint: impl FnMut(i32, Span, &mut PixelBlock<'_>),
+) {
+    let rect = block.rect;
+    if entry.covers_tile() {
+        for y in rect.y.start..rect.y.end {
+            paint(y, rect.x, block);
+        }
+        return;
+    }
+    bands.each_pixel_row(shape, rect, |row| paint(row.y, row.full, block));
 }

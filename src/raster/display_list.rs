@@ -1,4 +1,5 @@
-//! What is to be painted on the screen, in painter's order: screen-space triangles, hairlines, points and layers.
+//! What is to be painted on the screen, in painter's order: screen-space triangles, polygons, hairlines, points
+//! and layers.
 //!
 //! The list is built in chunks that many threads fill at once; order inside and between chunks is painter's order. A
 //! chunk is a handful of plain arrays. What covers a few samples only, which in a scene of a million primitives is
@@ -6,6 +7,7 @@
 //! again.
 
 use super::hairline::Hairline;
+use super::outline::{Outline, OutlineEdge};
 use super::rows::Span;
 use super::small::{SampleBox, SmallCoverage};
 use super::tile::{PixelRect, TileLayout};
@@ -71,6 +73,8 @@ pub(crate) struct LayerMark {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Op {
     Triangle(u32),
+    /// A polygon of one colour.
+    Outline(u32),
     /// A stamp of samples.
     Samples(u32),
     /// A stamp of whole pixels.
@@ -89,9 +93,15 @@ pub struct Chunk {
     pub(crate) stamps: Vec<Stamp>,
     pub(crate) triangles: Vec<ScreenTriangle>,
     pub(crate) paints: Vec<Paint>,
+    pub(crate) outlines: Vec<Outline>,
+    /// The colour of each outline.
+    pub(crate) outline_colors: Vec<Premultiplied16>,
+    pub(crate) outline_edges: Vec<OutlineEdge>,
+    /// Outlines in the chunks before this one.
+    pub(crate) first_outline: usize,
     pub(crate) hairlines: Vec<Hairline>,
     pub(crate) layers: Vec<LayerMark>,
-    /// How many triangles became ops.
+    /// How many triangles and polygons became ops.
     pub(crate) triangle_count: u64,
     /// Layers that earlier chunks have left open.
     pub(crate) layers_open: u32,
@@ -153,6 +163,7 @@ impl Chunk {
                 let corners = self.triangles[index as usize].corners;
                 context.pixels_of(SampleBox::new(corners, context.grid, context.rules))
             }
+            Op::Outline(index) => context.pixels_of(self.outlines[index as usize].samples),
             Op::Samples(index) => {
                 let coverage = self.stamps[index as usize].coverage;
                 context.pixels_of(SampleBox {

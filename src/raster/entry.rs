@@ -1,11 +1,11 @@
 //! One op in one tile, as the painters of tiles read it: everything about a small primitive, in painter's order.
 
+use super::band_spans::Shape;
 use super::display_list::{Chunk, Op, Paint, ScreenTriangle};
 use super::small::SmallCoverage;
 use crate::color::Premultiplied16;
-use crate::geometry::subpixel::GridPoint;
 
-/// One op in one tile. A stamp is held whole, the colour of a flat triangle too, so that painting these does not jump
+/// One op in one tile. A stamp is held whole, the colour of a flat shape too, so that painting these does not jump
 /// around in memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Entry {
@@ -13,7 +13,7 @@ pub(crate) struct Entry {
     head: u32,
     /// Column and row of a stamp's lowest bit, counted from the tile's first: samples or pixels.
     at: [u16; 2],
-    /// The bits of a stamp, or the index of a triangle, or of a layer mark.
+    /// The bits of a stamp, or the index of a triangle or outline, or of a layer mark.
     bits: u64,
     color: Premultiplied16,
 }
@@ -25,8 +25,8 @@ pub(crate) enum Work<'c> {
     Samples(SmallCoverage, Premultiplied16),
     /// Pixels of one colour, counted from the tile's first; all lie in the tile.
     Pixels(SmallCoverage, Premultiplied16),
-    /// A triangle of one colour.
-    Flat(&'c [GridPoint; 3], Premultiplied16),
+    /// A triangle or polygon of one colour.
+    Flat(Shape<'c>, Premultiplied16),
     /// A triangle of any other paint.
     Shaded(&'c ScreenTriangle, &'c Paint),
     BeginLayer,
@@ -41,8 +41,9 @@ impl Entry {
     const FLAT: u32 = 1 << 28;
     const SAMPLES: u32 = 1 << 27;
     const PIXELS: u32 = 1 << 26;
+    const OUTLINE: u32 = 1 << 25;
     /// The largest index of an op; a chunk is made from at most 65 536 primitives, which become five ops each at most.
-    const MAX_OP: u32 = Self::PIXELS - 1;
+    const MAX_OP: u32 = Self::OUTLINE - 1;
 
     /// A triangle that touches the tile, number `triangle` of its chunk; `flat` is its colour, if it has just one.
     pub(crate) fn triangle(op: usize, triangle: u32, flat: Option<Premultiplied16>, opaque: bool) -> Self {
@@ -52,6 +53,17 @@ impl Entry {
             at: [0; 2],
             bits: u64::from(triangle),
             color: flat.unwrap_or_default(),
+        }
+    }
+
+    /// A polygon that touches the tile, outline number `outline` of its chunk.
+    pub(crate) fn outline(op: usize, outline: u32, color: Premultiplied16) -> Self {
+        let opaque = if color.is_opaque() { Self::OPAQUE } else { 0 };
+        Self {
+            head: Self::number(op) | Self::OUTLINE | opaque,
+            at: [0; 2],
+            bits: u64::from(outline),
+            color,
         }
     }
 
@@ -102,7 +114,7 @@ impl Entry {
         }
     }
 
-    /// The same triangle where it covers every sample of the tile; `hides` says whether nothing painted in the tile
+    /// The same shape where it covers every sample of the tile; `hides` says whether nothing painted in the tile
     /// before can be seen.
     #[inline]
     pub(crate) fn covering(self, hides: bool) -> Self {
@@ -119,7 +131,7 @@ impl Entry {
         (self.head & Self::MAX_OP) as usize
     }
 
-    /// Whether the op is a triangle that covers every sample of the tile.
+    /// Whether the op is a triangle or polygon that covers every sample of the tile.
     #[inline]
     pub(crate) fn covers_tile(self) -> bool {
         self.head & Self::COVERS != 0
@@ -153,7 +165,11 @@ impl Entry {
         }
         if self.head & Self::FLAT != 0 {
             let index = usize::try_from(self.bits).unwrap_or(usize::MAX);
-            return Work::Flat(&chunk.triangles[index].corners, self.color);
+            return Work::Flat(Shape::Triangle(&chunk.triangles[index].corners), self.color);
+        }
+        if self.head & Self::OUTLINE != 0 {
+            let index = u32::try_from(self.bits).unwrap_or(u32::MAX);
+            return Work::Flat(Shape::Outline(chunk, index), self.color);
         }
         match chunk.ops[self.op()] {
             Op::Triangle(index) => {
@@ -161,8 +177,8 @@ impl Entry {
                 Work::Shaded(triangle, &chunk.paints[triangle.paint as usize])
             }
             Op::EndLayer(index) => Work::EndLayer(chunk.layers[index as usize].opacity),
-            // Stamps and hairlines have returned above.
-            Op::BeginLayer(_) | Op::Samples(_) | Op::Pixels(_) | Op::Hairline(_) => Work::BeginLayer,
+            // Stamps, outlines and hairlines have returned above.
+            Op::BeginLayer(_) | Op::Outline(_) | Op::Samples(_) | Op::Pixels(_) | Op::Hairline(_) => Work::BeginLayer,
         }
     }
 }

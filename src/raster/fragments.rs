@@ -64,7 +64,7 @@ impl Unresolved {
         self.found.push(Fragment { slot, part });
     }
 
-    /// The samples of the pixel at `place` show these slots; those with a colour in `flat` are known already.
+    /// The samples of the pixel at `place` show these slots, row by row; those with a colour in `flat` are known already.
     #[inline]
     pub(crate) fn split(
         &mut self,
@@ -72,7 +72,7 @@ impl Unresolved {
         samples: impl Iterator<Item = Slot>,
         flat: impl Fn(Slot) -> Option<[u32; 4]>,
     ) {
-        let parts = &mut self.parts;
+        let mut parts = std::mem::take(&mut self.parts);
         parts.clear();
         for (i, slot) in samples.enumerate() {
             let (first, bit) = (i / MASK_BITS * MASK_BITS, 1 << (i % MASK_BITS));
@@ -82,10 +82,22 @@ impl Unresolved {
                 None => parts.push((slot, first, bit)),
             }
         }
+        self.parts(place, parts.iter().copied(), flat);
+        self.parts = parts;
+    }
+
+    /// The samples of the pixel at `place` show these slots: for each part the slot, the sample that the lowest bit of the
+    /// mask stands for, and the mask.
+    #[inline]
+    pub(crate) fn parts(
+        &mut self,
+        place: [u16; 2],
+        parts: impl Iterator<Item = (Slot, u16, u64)>,
+        flat: impl Fn(Slot) -> Option<[u32; 4]>,
+    ) {
         let pixel = u32::try_from(self.places.len()).unwrap_or(u32::MAX);
         let mut sums = [0; 4];
         for (slot, first, mask) in parts {
-            let (slot, first, mask) = (*slot, *first, *mask);
             match flat(slot) {
                 None => self.found.push(Fragment {
                     slot,

@@ -5,6 +5,7 @@
 //! resolved at once and written to the [`Framebuffer`]. Tiles are independent, so they run on all threads, and every
 //! sample depends on its own position only, so neither threads nor tiles show in the result.
 
+mod band_spans;
 mod bins;
 mod chunk_builder;
 mod deferred;
@@ -14,6 +15,8 @@ mod entry;
 mod fragments;
 mod framebuffer;
 mod hairline;
+mod outline;
+mod outline_tiles;
 mod paint;
 mod pixel_block;
 mod pixel_row;

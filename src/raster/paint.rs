@@ -1,15 +1,15 @@
 //! Painting one tile: every op of the display list that touches it, in painter's order.
 
 use super::SampleHit;
+use super::band_spans::{BandSpans, Shape};
 use super::display_list::Chunk;
 use super::entry::{Entry, Work};
-use super::pixel_row::{PixelRow, each_pixel_row, each_pixel_row_of_few, scaled};
+use super::pixel_row::{PixelRow, each_pixel_row_of_few, scaled};
 use super::rows::Span;
 use super::shade::{ShadeContext, Shader, ShaderKind};
 use super::small::SmallCoverage;
 use super::tile::{PixelRect, Tile};
 use crate::color::Premultiplied16;
-use crate::geometry::subpixel::GridPoint;
 
 /// Paints tiles, one after the other, reusing its memory.
 #[derive(Debug)]
@@ -56,7 +56,7 @@ impl<'a> TilePainter<'a> {
     }
 
     /// Paints the ops of one chunk that touch the tile.
-    pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[Entry]) {
+    pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[Entry], bands: &mut BandSpans) {
         for entry in entries {
             if let Some(probe) = &mut self.probe {
                 probe.source = chunk.sources[entry.op()];
@@ -69,11 +69,10 @@ impl<'a> TilePainter<'a> {
                         .moved(x.start, y.start)
                         .each_run(|row, xs| self.fill(xs, row, color));
                 }
-                Work::Flat(corners, color) => self.triangle(*entry, corners, |_| Shader::flat(color)),
+                Work::Flat(shape, color) => self.covered((shape, *entry), bands, |_| Shader::flat(color)),
                 Work::Shaded(triangle, paint) => {
-                    self.triangle(*entry, &triangle.corners, |context| {
-                        Shader::new(context, triangle, paint)
-                    });
+                    let shape = Shape::Triangle(&triangle.corners);
+                    self.covered((shape, *entry), bands, |context| Shader::new(context, triangle, paint));
                 }
                 Work::BeginLayer => self.push_layer(self.layers[0].rect, Premultiplied16::TRANSPARENT),
                 Work::EndLayer(opacity) => self.pop_layer(opacity),
@@ -90,8 +89,8 @@ impl<'a> TilePainter<'a> {
     pub(crate) fn probe(
         &mut self,
         chunks: &[(&Chunk, &[Entry])],
-        pixel: [i32; 2],
-        background: Premultiplied16,
+        (pixel, background): ([i32; 2], Premultiplied16),
+        bands: &mut BandSpans,
     ) -> Vec<SampleHit> {
         let one = |start: i32| Span { start, end: start + 1 };
         let side = self.context.grid.side().cast_unsigned() as usize;
@@ -107,7 +106,7 @@ impl<'a> TilePainter<'a> {
             background,
         );
         for (chunk, entries) in chunks {
-            self.paint(chunk, entries);
+            self.paint(chunk, entries, bands);
         }
         let hits = self.probe.take().map(|probe| probe.hits).unwrap_or_default();
         let place = |index: usize| (index as f64 + 0.5) / side as f64;
@@ -158,15 +157,19 @@ impl<'a> TilePainter<'a> {
         }
     }
 
-    /// A triangle, shaded by what `shader` makes once it is needed.
-    fn triangle(&mut self, entry: Entry, corners: &[GridPoint; 3], shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>) {
+    /// A shape, shaded by what `shader` makes once it is needed.
+    fn covered(
+        &mut self,
+        (shape, entry): (Shape<'_>, Entry),
+        bands: &mut BandSpans,
+        shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>,
+    ) {
         if entry.covers_tile() {
             return self.whole_tile(&shader(&self.context));
         }
-        let settings = (self.context.grid, self.context.sampling.rules);
         let rect = self.layers[0].rect;
         let mut prepared = None;
-        each_pixel_row(*corners, settings, rect, |row| {
+        bands.each_pixel_row(shape, rect, |row| {
             let shader = prepared.get_or_insert_with(|| shader(&self.context));
             self.pixel_row(shader, row);
         });

@@ -1,5 +1,6 @@
-//! A triangle's coverage of a rectangle of pixels, one row of pixels at a time.
+//! The coverage of a rectangle of pixels, one row of pixels at a time.
 
+use super::outline::RowSpans;
 use super::rows::{SortedTriangle, Span};
 use super::sample_rate::SampleRate;
 use super::small::{SmallCoverage, small_coverage};
@@ -10,7 +11,7 @@ use crate::rules::Rules;
 /// Most samples along one side of a pixel.
 const MAX_SIDE: usize = SampleRate::MAX_SIDE as usize;
 
-/// The samples of one row of pixels that a triangle covers.
+/// The samples of one row of pixels that a shape covers, or some of them.
 #[derive(Debug)]
 pub(crate) struct PixelRow {
     /// The row of pixels.
@@ -52,6 +53,58 @@ pub(crate) fn each_pixel_row_of_few(coverage: SmallCoverage, side: i32, rect: Pi
     if coverage.mask != 0 {
         let span = |line, columns| coverage.span(line).intersection(columns);
         each_row(side, rect, coverage.rows(), span, paint);
+    }
+}
+
+/// As [`each_pixel_row`] for an outline. A row of pixels in which a sample row has several spans comes several times, each
+/// time with one of them.
+#[inline]
+pub(crate) fn each_pixel_row_of_spans(
+    spans: RowSpans<'_>,
+    side: i32,
+    rect: PixelRect,
+    mut paint: impl FnMut(&PixelRow),
+) {
+    if spans.single {
+        let only = |line, columns| {
+            spans
+                .of_row(line)
+                .first()
+                .map_or(Span::default(), |span| span.intersection(columns))
+        };
+        return each_row(side, rect, spans.rows, only, paint);
+    }
+    let columns = scaled(rect.x, side);
+    let rows = spans.rows.intersection(scaled(rect.y, side));
+    // For each sample row of a row of pixels, the spans that reach into the rectangle and have not come yet.
+    let mut left: [&[Span]; MAX_SIDE] = [&[]; MAX_SIDE];
+    let mut line = rows.start;
+    while line < rows.end {
+        let y = line.div_euclid(side);
+        let lines = Span {
+            start: y * side,
+            end: (y + 1) * side,
+        }
+        .intersection(rows);
+        for (left, line) in left.iter_mut().zip(lines.start..lines.end) {
+            let all = spans.of_row(line);
+            let first = all.partition_point(|span| span.end <= columns.start);
+            let end = first + all[first..].partition_point(|span| span.start < columns.end);
+            *left = &all[first..end];
+        }
+        let of_lines = &mut left[..(lines.end - lines.start).cast_unsigned() as usize];
+        while of_lines.iter().any(|spans| !spans.is_empty()) {
+            let next = |line: i32, columns: Span| {
+                let spans = &mut of_lines[(line - lines.start).cast_unsigned() as usize];
+                let Some((first, rest)) = spans.split_first() else {
+                    return Span::default();
+                };
+                *spans = rest;
+                first.intersection(columns)
+            };
+            each_row(side, rect, lines, next, &mut paint);
+        }
+        line = lines.end;
     }
 }
 

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
+use super::band_spans::BandSpans;
 use super::bins::{Bins, Plan, entries_of_tile};
 use super::deferred::DeferredPainter;
 use super::direct::DirectPainter;
@@ -112,6 +113,7 @@ pub(super) struct Painters<'a> {
     direct: DirectPainter<'a>,
     deferred: DeferredPainter<'a>,
     blended: TilePainter<'a>,
+    bands: BandSpans,
     pub(super) tally: Tally,
 }
 
@@ -173,6 +175,11 @@ impl<'a> DisplayList<'a> {
         textures: Vec<&'a Texture>,
     ) -> Self {
         measure_layers(&mut chunks, &context);
+        let mut outlines = 0;
+        for chunk in &mut chunks {
+            chunk.first_outline = outlines;
+            outlines += chunk.outlines.len();
+        }
         let kinds = Kinds::of(&chunks, &textures, settings.sampling.rules);
         Self {
             context,
@@ -248,7 +255,7 @@ impl<'a> DisplayList<'a> {
             .map(|chunk| entries_of_tile(chunk, &context, &self.textures, pixel))
             .collect();
         let chunks: Vec<(&Chunk, &[Entry])> = self.chunks.iter().zip(touching.iter().map(Vec::as_slice)).collect();
-        Some(TilePainter::new(self.shade_context()).probe(&chunks, pixel, self.background()))
+        Some(TilePainter::new(self.shade_context()).probe(&chunks, (pixel, self.background()), &mut self.bands()))
     }
 
     fn background(&self) -> Premultiplied16 {
@@ -278,12 +285,19 @@ impl<'a> DisplayList<'a> {
         }
     }
 
+    fn bands(&self) -> BandSpans {
+        let outlines = self.chunks.iter().map(|chunk| chunk.outlines.len()).sum();
+        let columns = self.context.samples().columns.end;
+        BandSpans::new((self.context.grid, self.context.rules), columns, outlines)
+    }
+
     /// Painters for one thread.
     pub(super) fn painters(&self) -> Painters<'_> {
         Painters {
             direct: DirectPainter::new(self.shade_context()),
             deferred: DeferredPainter::new(self.shade_context()),
             blended: TilePainter::new(self.shade_context()),
+            bands: self.bands(),
             tally: Tally::default(),
         }
     }
@@ -350,14 +364,18 @@ impl<'a> DisplayList<'a> {
                     block.fill(background.to_pixel(rules));
                 }
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
-                    painters.direct.paint(&self.chunks[chunk], entries, block);
+                    painters
+                        .direct
+                        .paint((&self.chunks[chunk], entries), &mut painters.bands, block);
                 }
                 painters.tally.counters.samples_shaded += std::mem::take(&mut painters.direct.samples_shaded);
             }
             Method::Deferred => {
                 painters.deferred.begin(block.rect, background);
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
-                    painters.deferred.paint(&self.chunks[chunk], entries);
+                    painters
+                        .deferred
+                        .paint(&self.chunks[chunk], entries, &mut painters.bands);
                 }
                 resolving = start.map(|_| Instant::now());
                 // Shading comes in between, and is none of it.
@@ -368,7 +386,9 @@ impl<'a> DisplayList<'a> {
             Method::Blended => {
                 painters.blended.begin(block.rect, background);
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
-                    painters.blended.paint(&self.chunks[chunk], entries);
+                    painters
+                        .blended
+                        .paint(&self.chunks[chunk], entries, &mut painters.bands);
                 }
                 resolving = start.map(|_| Instant::now());
                 for y in block.rect.y.start..block.rect.y.end {
@@ -384,7 +404,7 @@ impl<'a> DisplayList<'a> {
     }
 }
 
-/// The chunk and the entry in it that painting a tile may start with: the last opaque triangle that covers it wholly.
+/// The chunk and the entry in it that painting a tile may start with: the last opaque shape that covers it wholly.
 fn first_visible(bins: &[Bins], tile: usize) -> (usize, usize) {
     for (chunk, bins) in bins.iter().enumerate().rev() {
         if let Some(entry) = bins.of_tile(tile).iter().rposition(|entry| entry.hides_tile()) {

@@ -184,7 +184,7 @@ impl SmallCoverage {
         }
     }
 
-    /// The covered columns of one of [`SmallCoverage::rows`]: a triangle is convex, so they lie side by side.
+    /// The covered columns of one of [`SmallCoverage::rows`]: they lie side by side.
     pub(crate) fn span(self, row: i32) -> Span {
         let [bits, ..] = (self.mask >> (SMALL * (row - self.row))).to_le_bytes();
         let start = self.column + bits.trailing_zeros().cast_signed();

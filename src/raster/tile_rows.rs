@@ -10,7 +10,7 @@ use crate::geometry::edge::doubled_area;
 use crate::geometry::subpixel::GridPoint;
 
 /// What may be wrong with a column, in units of the sub-pixel grid.
-const MARGIN: f64 = 1.0;
+pub(crate) const MARGIN: f64 = 1.0;
 
 /// The edges of a triangle with an area.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +31,7 @@ pub(crate) struct Band {
 
 /// The line of an edge that is not horizontal.
 #[derive(Clone, Copy, Debug, Default)]
-struct Line {
+pub(crate) struct Line {
     x: f64,
     y: f64,
     slope: f64,
@@ -39,7 +39,7 @@ struct Line {
 
 impl Line {
     #[inline]
-    fn new(from: GridPoint, to: GridPoint) -> Self {
+    pub(crate) fn new(from: GridPoint, to: GridPoint) -> Self {
         let [x, y] = [from.x, from.y].map(f64::from);
         Self {
             x,
@@ -49,7 +49,7 @@ impl Line {
     }
 
     #[inline]
-    fn at(self, y: f64) -> f64 {
+    pub(crate) fn at(self, y: f64) -> f64 {
         self.x + (y - self.y) * self.slope
     }
 }

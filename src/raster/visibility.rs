@@ -2,9 +2,10 @@
 //!
 //! # Compressed samples
 //!
-//! A pixel whose samples all show the same primitive stores that once. The first edge that crosses it splits it into
-//! one number per sample; a primitive that covers it wholly makes it one again. So flat areas cost one store per pixel
-//! at every sample rate, and nothing is shaded before it is known to be seen.
+//! A pixel whose samples all show the same primitive stores that once. The first edge that crosses it makes it a pair:
+//! two primitives, and one bit per sample that says which of them it shows. Only what a third one shares is split into a
+//! number per sample. A primitive that covers a pixel wholly makes it one again. So flat areas cost one store per pixel
+//! at every sample rate, most edges a few bits, and nothing is shaded before it is known to be seen.
 
 use std::ops::Range;
 
@@ -18,8 +19,14 @@ pub(crate) type Slot = u16;
 /// Stands for a pixel that is split.
 const SPLIT: Slot = Slot::MAX;
 
+/// Stands for a pixel that shows a [`Pair`].
+const PAIR: Slot = Slot::MAX - 1;
+
 /// Most slots of a tile.
-pub(crate) const MAX_SLOTS: usize = SPLIT as usize;
+pub(crate) const MAX_SLOTS: usize = PAIR as usize;
+
+/// Most samples along the side of a pixel that may be a pair.
+const MAX_PAIR_SIDE: usize = 8;
 
 /// Samples of a sample row in one word.
 const PER_WORD: usize = 4;
@@ -38,10 +45,23 @@ pub(crate) struct VisibilityTile {
     words: usize,
     /// How many samples each of these words holds.
     used: Vec<u32>,
-    /// One slot per pixel, or [`SPLIT`].
+    /// The bits of all samples of a pixel; none where there are too many for pairs.
+    all: u64,
+    /// One slot per pixel, or [`PAIR`], or [`SPLIT`].
     whole: Vec<Slot>,
+    /// What pairs show, pixel by pixel. Allocated with the first pair.
+    pairs: Vec<Pair>,
     /// The slots of split pixels, pixel by pixel. Allocated with the first split.
     samples: Vec<u64>,
+}
+
+/// Two slots that share the samples of a pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Pair {
+    /// Bit `side * row + column` for each sample that shows `second`; neither all are set nor none.
+    pub(crate) mask: u64,
+    pub(crate) first: Slot,
+    pub(crate) second: Slot,
 }
 
 /// Pixels side by side in a row that show the same.
@@ -49,6 +69,8 @@ pub(crate) struct VisibilityTile {
 pub(crate) enum Run {
     /// All samples of these pixels show one slot.
     Whole(Slot),
+    /// The samples of these pixels show two slots each.
+    Pairs,
     /// The samples of these pixels differ.
     Split,
 }
@@ -66,7 +88,13 @@ impl VisibilityTile {
                 .step_by(PER_WORD)
                 .map(|at| u32::try_from((side - at).min(PER_WORD)).unwrap_or(0))
                 .collect(),
+            all: if side <= MAX_PAIR_SIDE {
+                u64::MAX >> (64 - side * side)
+            } else {
+                0
+            },
             whole: Vec::new(),
+            pairs: Vec::new(),
             samples: Vec::new(),
         }
     }
@@ -105,31 +133,84 @@ impl VisibilityTile {
         if shown == slot {
             return;
         }
-        let painted = splat(slot);
-        if self.words > 1 {
-            if shown != SPLIT {
-                self.split(pixel, shown);
+        if shown != SPLIT && self.all != 0 {
+            let covered = self.mask(x, spans);
+            if covered == 0 || self.paint_pair(pixel, covered, slot) {
+                return;
             }
-            self.each_covered_word(pixel, x, spans, |word, mask| *word = *word & !mask | painted & mask);
-            return;
         }
-        if shown != SPLIT {
-            self.make_room();
-            self.whole[pixel] = SPLIT;
+        self.split(pixel);
+        let painted = splat(slot);
+        self.each_covered_word(pixel, x, spans, |word, mask| *word = *word & !mask | painted & mask);
+    }
+
+    /// The bits of the samples that `spans` cover in the pixel in column `x` of the frame.
+    #[inline]
+    fn mask(&self, x: i32, spans: &[Span]) -> u64 {
+        match self.side {
+            // Known to the compiler, the commonest one is a third faster.
+            4 => mask(4, x, spans),
+            side => mask(side, x, spans),
         }
-        let samples = &mut self.samples[pixel * self.side..][..self.side];
-        let left = x * i32::try_from(self.side).unwrap_or(1);
-        if shown == SPLIT {
-            for (word, span) in samples.iter_mut().zip(spans) {
-                let mask = covered(*span, left);
-                *word = *word & !mask | painted & mask;
+    }
+
+    /// Lets samples of a pixel that is not split show `slot`; false, and nothing done, where it would show three.
+    #[inline]
+    fn paint_pair(&mut self, pixel: usize, covered: u64, slot: Slot) -> bool {
+        let shown = self.whole[pixel];
+        let Pair { mask, first, second } = if shown == PAIR {
+            self.pairs[pixel]
+        } else {
+            Pair {
+                mask: 0,
+                first: shown,
+                second: slot,
+            }
+        };
+        let pair = if second == slot {
+            Pair {
+                mask: mask | covered,
+                first,
+                second,
+            }
+        } else if first == slot {
+            Pair {
+                mask: mask & !covered,
+                first,
+                second,
+            }
+        } else if mask & !covered == 0 {
+            Pair {
+                mask: covered,
+                first,
+                second: slot,
+            }
+        } else if self.all & !mask & !covered == 0 {
+            Pair {
+                mask: covered,
+                first: second,
+                second: slot,
             }
         } else {
-            let below = splat(shown);
-            for (word, span) in samples.iter_mut().zip(spans) {
-                let mask = covered(*span, left);
-                *word = below & !mask | painted & mask;
+            return false;
+        };
+        self.set_pair(pixel, pair);
+        true
+    }
+
+    /// Lets a pixel show two slots, or the one that is left of them.
+    #[inline]
+    fn set_pair(&mut self, pixel: usize, pair: Pair) {
+        if pair.mask == 0 {
+            self.whole[pixel] = pair.first;
+        } else if pair.mask == self.all {
+            self.whole[pixel] = pair.second;
+        } else {
+            if self.pairs.len() < self.whole.len() {
+                self.pairs.resize(self.whole.len(), Pair::default());
             }
+            self.whole[pixel] = PAIR;
+            self.pairs[pixel] = pair;
         }
     }
 
@@ -143,16 +224,50 @@ impl VisibilityTile {
         );
         for x in row.partial() {
             let pixel = line + offset(left, x);
-            let shown = self.whole[pixel];
-            if shown != SPLIT {
-                self.split(pixel, shown);
+            if self.whole[pixel] != SPLIT && self.all != 0 {
+                let covered = self.mask(x, row.spans());
+                if covered == 0 || self.change_pair(pixel, covered, &mut change) {
+                    continue;
+                }
             }
+            self.split(pixel);
             self.each_covered_word(pixel, x, row.spans(), |word, mask| {
                 if mask != 0 {
                     *word = *word & !mask | changed(*word, mask, &mut change) & mask;
                 }
             });
         }
+    }
+
+    /// Lets samples of a pixel that is not split show what `change` makes of what they show; false, and nothing done,
+    /// where the pixel would show three slots or more.
+    fn change_pair(&mut self, pixel: usize, covered: u64, change: &mut impl FnMut(Slot) -> Slot) -> bool {
+        let shown = self.whole[pixel];
+        let pair = if shown == PAIR {
+            let Pair { mask, first, second } = self.pairs[pixel];
+            let (of_first, of_second) = (self.all & !mask, mask);
+            // Each is covered as a whole or not at all.
+            if [of_first, of_second]
+                .iter()
+                .any(|part| part & covered != 0 && part & !covered != 0)
+            {
+                return false;
+            }
+            let mut changed = |part: u64, slot| if part & covered == 0 { slot } else { change(slot) };
+            Pair {
+                mask,
+                first: changed(of_first, first),
+                second: changed(of_second, second),
+            }
+        } else {
+            Pair {
+                mask: covered,
+                first: shown,
+                second: change(shown),
+            }
+        };
+        self.set_pair(pixel, pair);
+        true
     }
 
     /// As [`VisibilityTile::change`] for all samples.
@@ -186,12 +301,18 @@ impl VisibilityTile {
         while start < pixels.end {
             let shown = self.whole[start];
             let end = start + run_length(&self.whole[start..pixels.end], shown);
-            if shown == SPLIT {
-                for word in &mut self.samples[start * per_pixel..end * per_pixel] {
-                    *word = changed(*word, u64::MAX, change);
+            match shown {
+                SPLIT => {
+                    for word in &mut self.samples[start * per_pixel..end * per_pixel] {
+                        *word = changed(*word, u64::MAX, change);
+                    }
                 }
-            } else {
-                self.whole[start..end].fill(change(shown));
+                PAIR => {
+                    for pair in &mut self.pairs[start..end] {
+                        (pair.first, pair.second) = (change(pair.first), change(pair.second));
+                    }
+                }
+                _ => self.whole[start..end].fill(change(shown)),
             }
             start = end;
         }
@@ -201,25 +322,50 @@ impl VisibilityTile {
     pub(crate) fn composite(&mut self, layer: &Self, mut mix: impl FnMut(Slot, Slot) -> Slot) {
         let per_pixel = self.side * self.words;
         for pixel in 0..self.whole.len() {
-            let (below, above) = (self.whole[pixel], layer.whole[pixel]);
-            if below != SPLIT && above != SPLIT {
-                self.whole[pixel] = mix(below, above);
+            if let (Some(below), Some(above)) = (self.pair(pixel), layer.pair(pixel))
+                && (below.mask == 0 || above.mask == 0 || below.mask == above.mask)
+            {
+                let pair = Pair {
+                    mask: below.mask | above.mask,
+                    first: mix(below.first, above.first),
+                    second: mix(below.second, above.second),
+                };
+                self.set_pair(pixel, pair);
                 continue;
             }
-            if below != SPLIT {
-                self.split(pixel, below);
-            }
-            for word in pixel * per_pixel..(pixel + 1) * per_pixel {
-                let above = if above == SPLIT {
-                    layer.samples[word]
-                } else {
-                    splat(above)
+            self.split(pixel);
+            for i in 0..per_pixel {
+                let above = match layer.pair(pixel) {
+                    None => layer.samples[pixel * per_pixel + i],
+                    Some(pair) => layer.word(pair, i),
                 };
+                let word = pixel * per_pixel + i;
                 let (below, above) = (lanes(self.samples[word]), lanes(above));
                 let mixed = [0, 1, 2, 3].map(|i| mix(below[i], above[i]));
                 self.samples[word] = joined(mixed);
             }
         }
+    }
+
+    /// What a pixel shows that is not split; a single slot twice, with no bit set.
+    #[inline]
+    fn pair(&self, pixel: usize) -> Option<Pair> {
+        match self.whole[pixel] {
+            SPLIT => None,
+            PAIR => Some(self.pairs[pixel]),
+            slot => Some(Pair {
+                mask: 0,
+                first: slot,
+                second: slot,
+            }),
+        }
+    }
+
+    /// Four samples of a pixel that shows a pair, as word `i` of the split pixel.
+    fn word(&self, pair: Pair, i: usize) -> u64 {
+        let (row, column) = (i / self.words, i % self.words * PER_WORD);
+        let bits = pair.mask.checked_shr((row * self.side + column) as u32).unwrap_or(0);
+        joined([0, 1, 2, 3].map(|lane| if bits >> lane & 1 == 0 { pair.first } else { pair.second }))
     }
 
     /// Calls `paint` for every word of a split pixel with the bits of the samples that `spans` cover; `x` is the pixel's
@@ -243,13 +389,22 @@ impl VisibilityTile {
         }
     }
 
-    /// Gives a pixel one slot per sample.
+    /// Gives a pixel one slot per sample, if it is not split yet.
     #[inline]
-    fn split(&mut self, pixel: usize, shown: Slot) {
+    fn split(&mut self, pixel: usize) {
+        let Some(pair) = self.pair(pixel) else {
+            return;
+        };
         self.make_room();
         let per_pixel = self.side * self.words;
         self.whole[pixel] = SPLIT;
-        self.samples[pixel * per_pixel..][..per_pixel].fill(splat(shown));
+        for i in 0..per_pixel {
+            self.samples[pixel * per_pixel + i] = if pair.mask == 0 {
+                splat(pair.first)
+            } else {
+                self.word(pair, i)
+            };
+        }
     }
 
     /// Makes sure that there is room for the samples of all pixels.
@@ -271,9 +426,25 @@ impl VisibilityTile {
             let end = start + run_length(&line[start..], slot);
             let range = start..end;
             start = end;
-            let run = if slot == SPLIT { Run::Split } else { Run::Whole(slot) };
+            let run = match slot {
+                SPLIT => Run::Split,
+                PAIR => Run::Pairs,
+                slot => Run::Whole(slot),
+            };
             Some((run, range))
         })
+    }
+
+    /// What the pixels `xs` of row `y` show, which must be pairs; columns count from the tile's left side.
+    #[inline]
+    pub(crate) fn pairs(&self, xs: Range<usize>, y: i32) -> &[Pair] {
+        let line = offset(self.rect.y.start, y) * self.width;
+        &self.pairs[line + xs.start..line + xs.end]
+    }
+
+    /// The bits of all samples of a pixel that may be a pair.
+    pub(crate) fn all(&self) -> u64 {
+        self.all
     }
 
     /// The slots of a split pixel's samples, row by row; `x` counts from the tile's left side.
@@ -311,9 +482,17 @@ impl VisibilityTile {
     pub(crate) fn renumber(&mut self, renumber: impl Fn(Slot) -> Slot) {
         let per_pixel = self.side * self.words;
         for (pixel, slot) in self.whole.iter_mut().enumerate() {
-            if *slot != SPLIT {
-                *slot = renumber(*slot);
-                continue;
+            match *slot {
+                PAIR => {
+                    let pair = &mut self.pairs[pixel];
+                    (pair.first, pair.second) = (renumber(pair.first), renumber(pair.second));
+                    continue;
+                }
+                SPLIT => {}
+                whole => {
+                    *slot = renumber(whole);
+                    continue;
+                }
             }
             for word in &mut self.samples[pixel * per_pixel..][..per_pixel] {
                 *word = joined(lanes(*word).map(&renumber));
@@ -325,12 +504,17 @@ impl VisibilityTile {
     pub(crate) fn each_slot(&self, mut seen: impl FnMut(Slot)) {
         let per_pixel = self.side * self.words;
         for (pixel, slot) in self.whole.iter().enumerate() {
-            if *slot == SPLIT {
-                for word in &self.samples[pixel * per_pixel..][..per_pixel] {
-                    lanes(*word).into_iter().for_each(&mut seen);
+            match *slot {
+                SPLIT => {
+                    for word in &self.samples[pixel * per_pixel..][..per_pixel] {
+                        lanes(*word).into_iter().for_each(&mut seen);
+                    }
                 }
-            } else {
-                seen(*slot);
+                PAIR => {
+                    let pair = self.pairs[pixel];
+                    [pair.first, pair.second].into_iter().for_each(&mut seen);
+                }
+                whole => seen(whole),
             }
         }
     }
@@ -349,6 +533,20 @@ fn run_length(line: &[Slot], slot: Slot) -> usize {
         length += BLOCK;
     }
     length + line[length..].iter().take_while(|found| **found == slot).count()
+}
+
+/// The bits of the samples that `spans` cover in a pixel with `side` samples a row; `x` is its column in the frame.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "faster where `side` is known")]
+fn mask(side: usize, x: i32, spans: &[Span]) -> u64 {
+    let width = i32::try_from(side).unwrap_or(1);
+    let left = x * width;
+    let up_to = |column: i32| (1_u64 << (column - left).clamp(0, width)) - 1;
+    let mut mask = 0;
+    for span in spans[..side].iter().rev() {
+        mask = mask << width | up_to(span.end) & !up_to(span.start);
+    }
+    mask
 }
 
 /// The bits of the four samples from column `left` on that a span covers. Bits beyond a pixel's last column are of no

@@ -1,5 +1,7 @@
 //! The scene while it grows: shapes, primitives, textures and report, with their ceilings.
 
+use std::sync::Arc;
+
 use glam::{DAffine2, DVec2, Vec2};
 use roxmltree::Node;
 
@@ -10,13 +12,12 @@ use super::{
     Dialect, Paint, Primitive, PrimitiveKind, Problem, Report, Scene, Shape, ShapeId, SkippedKind, SourceLocation,
 };
 use crate::color::Rgba;
-use crate::geometry::{self, FillRule};
+use crate::geometry::{FillRule, Polygon};
 
 /// Most primitives of a scene, about 400 MB.
 const MAX_PRIMITIVES: usize = 4_000_000;
-/// Most crossings that the edges of all polygons together may have, as estimated before each is triangulated.
-const MAX_CROSSINGS: usize = 4_000_000;
-
+/// Most points of all polygons together, about 400 MB with the frame's copy.
+const MAX_POINTS: usize = 10_000_000;
 /// Most layers inside each other: each takes memory in every tile.
 const MAX_LAYERS: usize = 32;
 
@@ -29,7 +30,7 @@ pub(super) struct Builder<'doc> {
     pub(super) primitives: Vec<Primitive>,
     pub(super) textures: TextureTable<'doc>,
     pub(super) report: Report,
-    crossings_left: usize,
+    points_left: usize,
     open_layers: usize,
 }
 
@@ -42,7 +43,7 @@ impl<'doc> Builder<'doc> {
             primitives: Vec::new(),
             textures,
             report: Report::default(),
-            crossings_left: MAX_CROSSINGS,
+            points_left: MAX_POINTS,
             open_layers: 0,
         }
     }
@@ -97,6 +98,7 @@ impl<'doc> Builder<'doc> {
         }
         let points = match &kind {
             PrimitiveKind::Triangle { points, .. } => points.as_slice(),
+            PrimitiveKind::Polygon { polygon, .. } => polygon.points(),
             PrimitiveKind::Hairline { ends, .. } => ends.as_slice(),
             PrimitiveKind::Point { at, .. } => std::slice::from_ref(at),
             PrimitiveKind::BeginLayer | PrimitiveKind::EndLayer { .. } => &[],
@@ -153,22 +155,29 @@ impl<'doc> Builder<'doc> {
             return Ok(());
         }
         let place = |point: &DVec2| area.to_user.transform_point2(*point);
-        let mut points = area.contours.iter().flatten();
-        if !points.all(|point| within_reach(*point) && within_reach(place(point))) {
-            return Err(self.fault(shape, Problem::TooFar));
+        if let [contour] = area.contours
+            && let [a, b, c, closing @ ..] = contour.as_slice()
+            && (closing.is_empty() || closing == [*a])
+        {
+            return self.triangle(shape, [a, b, c].map(place), Paint::Solid(color));
         }
-        let crossings = geometry::estimate_crossings(area.contours);
-        let Some(left) = self.crossings_left.checked_sub(crossings) else {
-            let location = self.shapes[shape.0 as usize].location;
-            let message = format!("not filled: its edges cross about {crossings} times; split it");
-            self.report.warn(location, message);
+        let polygon = Polygon::new(area.contours.iter().map(|contour| contour.iter().map(place)), area.rule);
+        if polygon.points().is_empty() {
             return Ok(());
-        };
-        self.crossings_left = left;
-        for points in geometry::triangulate(area.contours, area.rule) {
-            self.triangle(shape, points.each_ref().map(place), Paint::Solid(color))?;
         }
-        Ok(())
+        let Some(left) = self.points_left.checked_sub(polygon.points().len()) else {
+            let what = "points of polygons";
+            return Err(self.fault(
+                shape,
+                Problem::TooMany {
+                    what,
+                    limit: MAX_POINTS,
+                },
+            ));
+        };
+        self.points_left = left;
+        let polygon = Arc::new(polygon);
+        self.push(shape, PrimitiveKind::Polygon { polygon, color })
     }
 
     /// The scene, once its textures are loaded.
@@ -194,8 +203,7 @@ impl<'doc> Builder<'doc> {
 
 /// What a fill covers.
 pub(super) struct Area<'a> {
-    /// Closed contours in the shape's own coordinates. They are cut into triangles there: a transform that flattens
-    /// them to almost nothing would make edges that cross everywhere.
+    /// Closed contours in the shape's own coordinates.
     pub(super) contours: &'a [Vec<DVec2>],
     /// Which regions lie inside.
     pub(super) rule: FillRule,

@@ -154,12 +154,13 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
         let far = (corner.as_vec2() + size.as_vec2()).as_dvec2();
         let [p00, p11] = [corner, far];
         let [p10, p01] = [DVec2::new(far.x, corner.y), DVec2::new(corner.x, far.y)];
-        if fill.a > 0.0 {
-            for corners in [[p00, p10, p01], [p01, p10, p11]] {
-                let points = corners.map(|point| to_user.transform_point2(point));
-                self.builder.triangle(shape, points, Paint::Solid(fill))?;
-            }
-        }
+        let area = Area {
+            // From here, so that its triangles meet where the course's do.
+            contours: &[vec![p10, p11, p01, p00]],
+            rule: FillRule::NonZero,
+            to_user,
+        };
+        self.builder.fill(shape, &area, fill)?;
         self.outline(element, &[p00, p10, p11, p01, p00], stroke)
     }
 

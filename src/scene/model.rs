@@ -6,6 +6,7 @@ use glam::{DVec2, Vec2};
 
 use super::Report;
 use crate::color::Rgba;
+use crate::geometry::Polygon;
 use crate::texture::Texture;
 
 /// Which reading of a document is in force.
@@ -94,6 +95,13 @@ pub enum PrimitiveKind {
         points: [DVec2; 3],
         /// What fills it.
         paint: Paint,
+    },
+    /// A filled area of one colour.
+    Polygon {
+        /// Which.
+        polygon: Arc<Polygon>,
+        /// Its colour.
+        color: Rgba,
     },
     /// A line as wide as one pixel at every zoom (course dialect).
     Hairline {

@@ -1,9 +1,11 @@
 //! Who owns a sample: shared edges, handedness, shifts, huge geometry.
 
+use std::sync::Arc;
+
 use arbtest::arbitrary::{Result, Unstructured};
 use glam::DVec2;
 use rasterscope::color::Rgba;
-use rasterscope::geometry::View;
+use rasterscope::geometry::{FillRule, Polygon, View};
 use rasterscope::raster::Framebuffer;
 use rasterscope::rules::Rules;
 use rasterscope::scene::{Paint, PrimitiveKind};
@@ -177,6 +179,12 @@ fn coverage_moves_by_whole_pixels_with_the_scene() {
         for primitive in &mut after.primitives {
             match &mut primitive.kind {
                 PrimitiveKind::Triangle { points, .. } => *points = points.map(|point| point + shift),
+                PrimitiveKind::Polygon { polygon, .. } => {
+                    let contours = polygon
+                        .contours()
+                        .map(|contour| contour.iter().map(|point| *point + shift));
+                    *polygon = Arc::new(Polygon::new(contours, polygon.rule()));
+                }
                 PrimitiveKind::Point { at, .. } => *at += shift,
                 _ => {}
             }
@@ -222,4 +230,52 @@ fn coverage_of_huge_geometry_is_clipped_never_wrapped() {
         frame.pixels().iter().all(|pixel| *pixel == 0xFFFF_FFFF),
         "nothing wraps into the frame"
     );
+}
+
+#[test]
+fn coverage_of_a_polygon_is_that_of_its_triangles() {
+    let mut inked = 0;
+    arbtest::arbtest(|u| {
+        // Corners of a star on a lattice full of ties: simple, so that its triangles have no corners of their own.
+        let corners = u.int_in_range(3..=14)?;
+        let mut contour = Vec::new();
+        for i in 0..corners {
+            let angle = f64::from(i) / f64::from(corners) * std::f64::consts::TAU;
+            let radius = f64::from(u.int_in_range(4..=40)?) / 2.0;
+            let corner = DVec2::splat(20.0) + DVec2::from_angle(angle) * radius;
+            contour.push((corner * 4.0).round() / 4.0);
+        }
+        let polygon = Polygon::new([contour], FillRule::EvenOdd);
+        let color = Rgba::BLACK.faded(0.5);
+        let whole = vec![PrimitiveKind::Polygon {
+            polygon: Arc::new(polygon),
+            color,
+        }];
+        let PrimitiveKind::Polygon { polygon, .. } = &whole[0] else {
+            return Ok(());
+        };
+        let triangles = polygon.triangles().expect("few crossings").to_vec();
+        let lattice = |points: &[DVec2; 3]| points.iter().all(|point| (*point * 4.0).fract() == DVec2::ZERO);
+        if !triangles.iter().all(lattice) {
+            // Rounding made the star cross itself.
+            return Ok(());
+        }
+        let paint = Paint::Solid(color);
+        let cut = triangles
+            .into_iter()
+            .map(|points| PrimitiveKind::Triangle { points, paint });
+        let (whole, cut) = (scene(40.0, whole), scene(40.0, cut.collect()));
+        let settings = at_rate(*u.choose(&[1, 4, 16, 25])?);
+        let view = one_to_one([40, 40]);
+        let found = drawn(&whole, &view, &settings, [40, 40]);
+        assert!(
+            found == drawn(&cut, &view, &settings, [40, 40]),
+            "{:?}",
+            whole.primitives
+        );
+        inked += found.pixels().iter().filter(|pixel| **pixel & 0xFF < 255).count();
+        Ok(())
+    })
+    .budget_ms(500);
+    assert!(inked > 10_000, "{inked} pixels");
 }

@@ -50,6 +50,7 @@ fn survive(document: &[u8], what: &str) -> Vec<String> {
                 for primitive in &scene.primitives {
                     let points: &[_] = match &primitive.kind {
                         PrimitiveKind::Triangle { points, .. } => points,
+                        PrimitiveKind::Polygon { polygon, .. } => polygon.points(),
                         PrimitiveKind::Hairline { ends, .. } => ends,
                         PrimitiveKind::Point { at, .. } => std::slice::from_ref(at),
                         PrimitiveKind::BeginLayer | PrimitiveKind::EndLayer { .. } => &[],

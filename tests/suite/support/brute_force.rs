@@ -10,7 +10,7 @@
 
 use glam::DVec2;
 use rasterscope::color::Rgba;
-use rasterscope::geometry::ViewTransform;
+use rasterscope::geometry::{FillRule, ViewTransform};
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::RenderSettings;
 use rasterscope::scene::{Paint, PrimitiveKind, Scene};
@@ -19,6 +19,13 @@ use rasterscope::texture::{Derivatives, FixedLevel, LevelSampling, MipLevel, Pix
 /// Premultiplied, `0.0..=1.0`.
 type Color = [f64; 4];
 
+/// The edges of a polygon.
+struct Outline {
+    edges: Vec<[(i128, i128); 2]>,
+    rule: FillRule,
+    color: Rgba,
+}
+
 struct Triangle<'a> {
     corners: [(i128, i128); 3],
     paint: &'a Paint,
@@ -26,6 +33,7 @@ struct Triangle<'a> {
 
 enum Step<'a> {
     Triangle(Triangle<'a>),
+    Outline(Outline),
     Pixels(Vec<(i64, i64)>, Rgba),
     BeginLayer,
     EndLayer(f64),
@@ -59,13 +67,26 @@ pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSetting
 }
 
 fn step<'a>(kind: &'a PrimitiveKind, view: &ViewTransform, units: f64) -> Step<'a> {
+    let snap = |point: DVec2| {
+        let scaled = (view.to_pixels(point) * units + 0.5).floor();
+        (scaled.x as i128, scaled.y as i128)
+    };
     match kind {
-        PrimitiveKind::Triangle { points, paint } => {
-            let corners = points.map(|point| {
-                let scaled = (view.to_pixels(point) * units + 0.5).floor();
-                (scaled.x as i128, scaled.y as i128)
-            });
-            Step::Triangle(Triangle { corners, paint })
+        PrimitiveKind::Triangle { points, paint } => Step::Triangle(Triangle {
+            corners: points.map(snap),
+            paint,
+        }),
+        PrimitiveKind::Polygon { polygon, color } => {
+            let mut edges = Vec::new();
+            for contour in polygon.contours() {
+                let next = contour.iter().cycle().skip(1);
+                edges.extend(contour.iter().zip(next).map(|(from, to)| [snap(*from), snap(*to)]));
+            }
+            Step::Outline(Outline {
+                edges,
+                rule: polygon.rule(),
+                color: *color,
+            })
         }
         PrimitiveKind::Point { at, color } => {
             let at = view.to_pixels(*at).floor();
@@ -124,6 +145,7 @@ fn sample_color(
                 let here = (i64::from(i / side), i64::from(j / side));
                 pixels.contains(&here).then(|| premultiply(*color))
             }
+            Step::Outline(outline) => outline.encloses([i, j], bits).then(|| premultiply(outline.color)),
             Step::Triangle(triangle) => triangle.color(scene, settings, [i, j], (side, bits)),
         };
         if let (Some(above), Some(below)) = (painted, layers.last_mut()) {
@@ -131,6 +153,27 @@ fn sample_color(
         }
     }
     layers[0]
+}
+
+impl Outline {
+    /// Whether a sample lies inside: how often the edges left of it wind around it. An edge counts in the rows from its
+    /// top up to its bottom, and to the right of itself.
+    fn encloses(&self, [i, j]: [u32; 2], bits: u32) -> bool {
+        let at = |index: u32| (i128::from(index) << bits) + (1 << (bits - 1));
+        let (x, y) = (at(i), at(j));
+        let mut winding = 0;
+        for [from, to] in &self.edges {
+            let (top, bottom, around) = if from.1 < to.1 { (from, to, 1) } else { (to, from, -1) };
+            let left_of_sample = (bottom.0 - top.0) * (y - top.1) <= (bottom.1 - top.1) * (x - top.0);
+            if top.1 <= y && y < bottom.1 && left_of_sample {
+                winding += around;
+            }
+        }
+        match self.rule {
+            FillRule::NonZero => winding != 0,
+            FillRule::EvenOdd => winding % 2 != 0,
+        }
+    }
 }
 
 impl Triangle<'_> {

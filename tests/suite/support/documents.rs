@@ -31,10 +31,11 @@ pub(crate) fn lines(scene: &Scene) -> Vec<String> {
     scene.report.lines().collect()
 }
 
-/// The sum of the areas of all triangles.
+/// The sum of the areas of all triangles and polygons.
 pub(crate) fn area(scene: &Scene) -> f64 {
     let of_one = |kind: &PrimitiveKind| match kind {
         PrimitiveKind::Triangle { points: [a, b, c], .. } => (b - a).perp_dot(c - a).abs() / 2.0,
+        PrimitiveKind::Polygon { polygon, .. } => polygon.area().expect("few crossings"),
         _ => 0.0,
     };
     scene.primitives.iter().map(|primitive| of_one(&primitive.kind)).sum()

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use arbtest::arbitrary::{Result, Unstructured};
 use glam::{DVec2, Vec2};
 use rasterscope::color::Rgba;
-use rasterscope::geometry::{View, ViewTransform};
+
+use rasterscope::geometry::{FillRule, Polygon, View, ViewTransform};
 use rasterscope::raster::{Framebuffer, SampleRate};
 use rasterscope::render::{RenderSettings, draw};
 use rasterscope::scene::{Dialect, Paint, Primitive, PrimitiveKind, Scene, Shape, ShapeId, SourceLocation, TextureId};
@@ -114,7 +115,7 @@ pub(crate) enum Fills {
     Everything,
 }
 
-/// Random triangles, hairlines, points and layers on a canvas of `side` pixels.
+/// Random triangles, polygons, hairlines, points and layers on a canvas of `side` pixels.
 pub(crate) fn random(u: &mut Unstructured<'_>, side: i32, fills: Fills) -> Result<Scene> {
     let mut kinds = Vec::new();
     let mut open = 0;
@@ -138,6 +139,10 @@ pub(crate) fn random(u: &mut Unstructured<'_>, side: i32, fills: Fills) -> Resul
                     opacity: f32::from(u.arbitrary::<u8>()?) / 255.0,
                 }
             }
+            4 | 5 => PrimitiveKind::Polygon {
+                polygon: Arc::new(polygon(u, side)?),
+                color: color(u, fills != Fills::Flat)?,
+            },
             _ => {
                 let points = [point(u, side)?, point(u, side)?, point(u, side)?];
                 PrimitiveKind::Triangle {
@@ -154,6 +159,21 @@ pub(crate) fn random(u: &mut Unstructured<'_>, side: i32, fills: Fills) -> Resul
         Arc::new(busy_texture(9, 5, false)),
     ];
     Ok(scene)
+}
+
+/// One or two contours that cross themselves and each other, large or of a few samples, some far beyond the canvas.
+pub(crate) fn polygon(u: &mut Unstructured<'_>, side: i32) -> Result<Polygon> {
+    let (scale, corner) = (*u.choose(&[1.0, 1.0, 1.0, 0.1, 40.0])?, point(u, side)?);
+    let mut contours = Vec::new();
+    for _ in 0..u.int_in_range(1..=2)? {
+        let mut contour = Vec::new();
+        for _ in 0..u.int_in_range(3..=12)? {
+            contour.push(corner + (point(u, side)? - corner) * scale);
+        }
+        contours.push(contour);
+    }
+    let rule = *u.choose(&[FillRule::NonZero, FillRule::EvenOdd])?;
+    Ok(Polygon::new(contours, rule))
 }
 
 fn paint(u: &mut Unstructured<'_>, fills: Fills) -> Result<Paint> {

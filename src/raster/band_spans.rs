@@ -1,0 +1,89 @@
+//! What outlines enclose in one row of tiles, found once for all its tiles.
+
+use super::display_list::Chunk;
+use super::outline::{RowScanner, RowSpans, SpanStore, Stored};
+use super::pixel_row::{PixelRow, each_pixel_row, each_pixel_row_of_spans, scaled};
+use super::rows::Span;
+use super::tile::PixelRect;
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::rules::Rules;
+
+/// Spans that are remembered at most, about 8 MB.
+const MAX_SPANS: usize = 1 << 20;
+
+/// What covers samples.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Shape<'c> {
+    /// The corners of a triangle.
+    Triangle(&'c [GridPoint; 3]),
+    /// An outline of a chunk, by its index.
+    Outline(&'c Chunk, u32),
+}
+
+/// Remembers the spans of outlines in the tile row at work.
+#[derive(Debug)]
+pub(crate) struct BandSpans {
+    /// By whose rules triangles cover samples.
+    settings: (SubpixelGrid, Rules),
+    /// Columns of samples in the frame.
+    columns: i32,
+    /// The rows of pixels at work.
+    band: Span,
+    /// For each outline of the drawing when it was last found, and what.
+    known: Vec<(u32, Stored)>,
+    /// Counts how often everything was forgotten.
+    age: u32,
+    scanner: RowScanner,
+    store: SpanStore,
+}
+
+impl BandSpans {
+    /// For a drawing of `outlines` outlines in a frame with `columns` columns of samples.
+    pub(crate) fn new(settings: (SubpixelGrid, Rules), columns: i32, outlines: usize) -> Self {
+        Self {
+            settings,
+            columns,
+            band: Span::default(),
+            known: vec![(0, Stored::default()); outlines],
+            age: 0,
+            scanner: RowScanner::default(),
+            store: SpanStore::default(),
+        }
+    }
+
+    /// Calls `paint` for every row of pixels of the tile `rect` of which the shape covers any sample, from top to bottom;
+    /// a row may come several times, with other samples each time.
+    #[inline]
+    pub(crate) fn each_pixel_row(&mut self, shape: Shape<'_>, rect: PixelRect, paint: impl FnMut(&PixelRow)) {
+        match shape {
+            Shape::Triangle(corners) => each_pixel_row(*corners, self.settings, rect, paint),
+            Shape::Outline(chunk, index) => {
+                let side = self.settings.0.side();
+                each_pixel_row_of_spans(self.of_outline(chunk, index, rect.y), side, rect, paint);
+            }
+        }
+    }
+
+    fn of_outline(&mut self, chunk: &Chunk, index: u32, band: Span) -> RowSpans<'_> {
+        if self.band != band || self.age == 0 || self.store.len() > MAX_SPANS {
+            self.band = band;
+            self.age += 1;
+            self.store.clear();
+        }
+        let (age, stored) = &mut self.known[chunk.first_outline + index as usize];
+        if *age != self.age {
+            let grid = self.settings.0;
+            let outline = &chunk.outlines[index as usize];
+            let rows = scaled(band, grid.side());
+            *age = self.age;
+            *stored = self.scanner.scan(
+                outline,
+                (&chunk.outline_edges, grid),
+                rows,
+                self.columns,
+                &mut self.store,
+            );
+        }
+        self.store.get(*stored)
+    }
+}

@@ -276,6 +276,26 @@ impl Resolver {
         self.count
     }
 
+    /// As [`Resolver::pixel`] for sums in pairs: red and green, blue and alpha, the former in the lower 32 bits of each.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
+    pub fn pixel_of_halves(&self, [red_green, blue_alpha]: [u64; 2]) -> u32 {
+        match self.shift {
+            Some(shift) if (blue_alpha >> 32) == u64::from(self.opaque) => {
+                // Neither half of a number overflows, and no mean exceeds 255.
+                let half = u64::from(self.half);
+                let red_green = (red_green + (half | half << 32)) >> shift;
+                let blue = (blue_alpha + half) >> shift & 0xFF;
+                let green_red = (red_green & 0xFF) << 16 | red_green >> 32 << 8 & 0xFF00;
+                0xFF00_0000 | (green_red | blue) as u32
+            }
+            _ => {
+                let [low, high] = [red_green, blue_alpha].map(|sums| sums as u32);
+                self.pixel([low, (red_green >> 32) as u32, high, (blue_alpha >> 32) as u32])
+            }
+        }
+    }
+
     /// The straight 8-bit pixel `0xAARRGGBB` that is the mean of samples with these channel sums.
     #[inline]
     pub fn pixel(&self, sums: [u32; 4]) -> u32 {

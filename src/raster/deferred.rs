@@ -16,7 +16,7 @@ use super::shade::{Pixels, ShadeContext, Shader};
 use super::slots::{Shaded, SlotColor, Slots, Spread};
 use super::small::SmallCoverage;
 use super::tile::PixelRect;
-use super::visibility::{MAX_SLOTS, Run, Slot, VisibilityTile, lanes, splat};
+use super::visibility::{MAX_SLOTS, PAIR, Pair, Run, Slot, VisibilityTile, lanes, splat};
 use crate::color::{Premultiplied16, Resolver};
 use crate::texture::SampleGrid;
 
@@ -97,6 +97,12 @@ impl<'a> DeferredPainter<'a> {
     pub(crate) fn resolve(&mut self, block: &mut PixelBlock<'_>, timed: bool) -> Duration {
         self.unresolved.clear();
         let PixelRect { x, y } = self.layers[0].rect;
+        if !self.slots.any_shaded {
+            for y in y.start..y.end {
+                self.resolve_flat_row(y, block.line(y));
+            }
+            return Duration::ZERO;
+        }
         for (y, row) in (y.start..y.end).zip(0..) {
             self.resolve_row(y, row, block.line(y));
         }
@@ -212,6 +218,41 @@ impl<'a> DeferredPainter<'a> {
         }
     }
 
+    /// Resolves a row in which nothing is to be shaded.
+    fn resolve_flat_row(&self, y: i32, line: &mut [u32]) {
+        const BLOCK: usize = 8;
+        let (shown, pairs) = (self.layers[0].row(y), self.layers[0].pairs(y));
+        let pixel = |slot: Slot, x: usize| {
+            if usize::from(slot) < MAX_SLOTS {
+                return self.slots.get(slot).pixel;
+            }
+            match pairs.get(x) {
+                Some(pair) if slot == PAIR => {
+                    self.resolver
+                        .pixel_of_halves(pair_sum(*pair, &self.slots, self.resolver.count()))
+                }
+                _ => self
+                    .resolver
+                    .pixel_of_halves(flat_sum(&self.layers[0], &self.slots, x, y)),
+            }
+        };
+        let (blocks, rest) = shown.as_chunks::<BLOCK>();
+        let (pixels, rest_of_line) = line.as_chunks_mut::<BLOCK>();
+        for ((block, pixels), x) in blocks.iter().zip(pixels).zip((0..).step_by(BLOCK)) {
+            let first = block[0];
+            if usize::from(first) < MAX_SLOTS && *block == [first; BLOCK] {
+                *pixels = [self.slots.get(first).pixel; BLOCK];
+            } else {
+                for (i, slot) in block.iter().enumerate() {
+                    pixels[i] = pixel(*slot, x + i);
+                }
+            }
+        }
+        for ((slot, target), x) in rest.iter().zip(rest_of_line).zip(shown.len() - rest.len()..) {
+            *target = pixel(*slot, x);
+        }
+    }
+
     /// Resolves what is flat, and notes what is to be shaded.
     fn resolve_row(&mut self, y: i32, row: u16, line: &mut [u32]) {
         let (tile, slots) = (&self.layers[0], &self.slots);
@@ -228,15 +269,14 @@ impl<'a> DeferredPainter<'a> {
                     }
                 }
                 Run::Pairs => {
-                    let pairs = tile.pairs(range, y);
+                    let pairs = &tile.pairs(y)[range];
                     for (pair, x) in pairs.iter().zip(columns) {
-                        let (first, second) = (slots.get(pair.first), slots.get(pair.second));
-                        if first.shaded.is_none() && second.shaded.is_none() {
-                            let count = pair.mask.count_ones();
-                            let mut sum = Spread::default();
-                            sum.add(first.spread, self.resolver.count() - count);
-                            sum.add(second.spread, count);
-                            line[usize::from(x)] = self.resolver.pixel(sum.channels());
+                        if [pair.first, pair.second]
+                            .iter()
+                            .all(|slot| slots.get(*slot).shaded.is_none())
+                        {
+                            let sum = pair_sum(*pair, slots, self.resolver.count());
+                            line[usize::from(x)] = self.resolver.pixel_of_halves(sum);
                         } else {
                             let parts = [(pair.first, 0, tile.all() & !pair.mask), (pair.second, 0, pair.mask)];
                             unresolved.parts([x, row], parts.into_iter(), |slot| {
@@ -247,17 +287,11 @@ impl<'a> DeferredPainter<'a> {
                     }
                 }
                 Run::Split => {
-                    if slots.any_shaded {
-                        for x in columns {
-                            unresolved.split([x, row], tile.samples(usize::from(x), y), |slot| {
-                                let shown = slots.get(slot);
-                                shown.shaded.is_none().then(|| shown.sum(1))
-                            });
-                        }
-                    } else {
-                        for x in range {
-                            line[x] = self.resolver.pixel(flat_sum(tile, slots, x, y));
-                        }
+                    for x in columns {
+                        unresolved.split([x, row], tile.samples(usize::from(x), y), |slot| {
+                            let shown = slots.get(slot);
+                            shown.shaded.is_none().then(|| shown.sum(1))
+                        });
                     }
                 }
             }
@@ -368,9 +402,37 @@ impl Shading {
     }
 }
 
+/// The sum of the `count` samples of a pixel that shows two flat colours.
+#[inline]
+fn pair_sum(pair: Pair, slots: &Slots<'_>, count: u32) -> [u64; 2] {
+    let of_second = match u16::try_from(pair.mask) {
+        // Faster than counting bits, for which not every machine has an instruction.
+        Ok(mask) => {
+            let [low, high] = mask.to_le_bytes();
+            u32::from(ONES[usize::from(low)] + ONES[usize::from(high)])
+        }
+        Err(_) => pair.mask.count_ones(),
+    };
+    let mut sum = Spread::default();
+    sum.add(slots.get(pair.first).spread, count - of_second);
+    sum.add(slots.get(pair.second).spread, of_second);
+    sum.halves()
+}
+
+/// How many bits of each byte are set.
+const ONES: [u8; 256] = {
+    let mut ones = [0; 256];
+    let mut byte = 1;
+    while byte < ones.len() {
+        ones[byte] = ones[byte / 2] + (byte % 2) as u8;
+        byte += 1;
+    }
+    ones
+};
+
 /// The sum of a split pixel's samples where all of them are flat.
 #[inline]
-fn flat_sum(tile: &VisibilityTile, slots: &Slots<'_>, x: usize, y: i32) -> [u32; 4] {
+fn flat_sum(tile: &VisibilityTile, slots: &Slots<'_>, x: usize, y: i32) -> [u64; 2] {
     let mut sum = Spread::default();
     tile.each_sample_word(x, y, |word, used| {
         let shown = lanes(word);
@@ -382,5 +444,5 @@ fn flat_sum(tile: &VisibilityTile, slots: &Slots<'_>, x: usize, y: i32) -> [u32;
             }
         }
     });
-    sum.channels()
+    sum.halves()
 }

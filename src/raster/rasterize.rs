@@ -318,6 +318,20 @@ impl<'a> DisplayList<'a> {
         }
     }
 
+    /// The colour of a tile in which nothing else is to be seen, of the ops from `first` on.
+    fn only_color(&self, pass: &Pass<'_>, tile: usize, first: (usize, usize)) -> Option<Premultiplied16> {
+        let mut entries = visible(&pass.bins, tile, first)
+            .flat_map(|(chunk, entries)| entries.iter().map(move |entry| (chunk, entry)));
+        let (chunk, only) = entries.next()?;
+        if !only.hides_tile() || entries.next().is_some() {
+            return None;
+        }
+        match only.work(&self.chunks[chunk]) {
+            Work::Flat(_, color) => Some(color),
+            _ => None,
+        }
+    }
+
     /// Paints and resolves the tiles of one row.
     fn tile_row<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, row: u32, pixels: &mut [u32]) {
         let stride = self.context.size[0] as usize;
@@ -353,6 +367,10 @@ impl<'a> DisplayList<'a> {
             let whole = entries.iter().filter(|entry| entry.covers_tile()).count() as u64;
             painters.tally.counters.blocks_whole += whole;
             painters.tally.counters.blocks_split += entries.len() as u64 - whole;
+        }
+        if let Some(color) = self.only_color(pass, tile, first) {
+            block.fill(color.to_pixel(rules));
+            return;
         }
         // Looking at the clock costs as much as resolving a few rows.
         let start = tile.is_multiple_of(TIMED).then(Instant::now);

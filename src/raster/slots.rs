@@ -194,6 +194,12 @@ impl Spread {
         self.0[1] += color.0[1];
     }
 
+    /// Red and green, blue and alpha; the former in the lower 32 bits of each.
+    #[inline]
+    pub(crate) fn halves(self) -> [u64; 2] {
+        self.0
+    }
+
     /// Red, green, blue, alpha.
     #[inline]
     pub(crate) fn channels(self) -> [u32; 4] {

@@ -20,7 +20,7 @@ pub(crate) type Slot = u16;
 const SPLIT: Slot = Slot::MAX;
 
 /// Stands for a pixel that shows a [`Pair`].
-const PAIR: Slot = Slot::MAX - 1;
+pub(crate) const PAIR: Slot = Slot::MAX - 1;
 
 /// Most slots of a tile.
 pub(crate) const MAX_SLOTS: usize = PAIR as usize;
@@ -33,6 +33,23 @@ const PER_WORD: usize = 4;
 
 /// The bits of the first `i` samples of a word.
 const FIRST: [u64; PER_WORD + 1] = [0, 0xFFFF, 0xFFFF_FFFF, 0xFFFF_FFFF_FFFF, u64::MAX];
+
+/// For four bits the sixteen bits of a word that belong to each.
+const SPREAD_BITS: [u64; 16] = {
+    let mut spread = [0; 16];
+    let mut bits = 0;
+    while bits < 16 {
+        let mut lane = 0;
+        while lane < PER_WORD {
+            if bits >> lane & 1 != 0 {
+                spread[bits] |= 0xFFFF << (16 * lane);
+            }
+            lane += 1;
+        }
+        bits += 1;
+    }
+    spread
+};
 
 /// The slots of a rectangle of pixels.
 #[derive(Debug)]
@@ -49,7 +66,7 @@ pub(crate) struct VisibilityTile {
     all: u64,
     /// One slot per pixel, or [`PAIR`], or [`SPLIT`].
     whole: Vec<Slot>,
-    /// What pairs show, pixel by pixel. Allocated with the first pair.
+    /// What pairs show, pixel by pixel.
     pairs: Vec<Pair>,
     /// The slots of split pixels, pixel by pixel. Allocated with the first split.
     samples: Vec<u64>,
@@ -62,6 +79,14 @@ pub(crate) struct Pair {
     pub(crate) mask: u64,
     pub(crate) first: Slot,
     pub(crate) second: Slot,
+}
+
+/// Which ends of spans may lie in a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sides {
+    Left,
+    Right,
+    Both,
 }
 
 /// Pixels side by side in a row that show the same.
@@ -106,6 +131,9 @@ impl VisibilityTile {
         self.width = length(rect.x);
         self.whole.clear();
         self.whole.resize(self.width * length(rect.y), slot);
+        if self.all != 0 && self.pairs.len() < self.whole.len() {
+            self.pairs.resize(self.whole.len(), Pair::default());
+        }
     }
 
     /// Lets every sample show `slot`.
@@ -121,52 +149,102 @@ impl VisibilityTile {
         if !row.full.is_empty() {
             self.whole[line + offset(left, row.full.start)..line + offset(left, row.full.end)].fill(slot);
         }
-        for x in row.partial() {
-            self.paint_part(line + offset(left, x), x, row.spans(), slot);
+        if self.all == 0 {
+            for x in row.partial() {
+                let pixel = line + offset(left, x);
+                self.split(pixel);
+                let painted = splat(slot);
+                self.each_covered_word(pixel, x, row.spans(), |word, mask| {
+                    *word = *word & !mask | painted & mask
+                });
+            }
+            return;
+        }
+        match self.side {
+            // Known to the compiler, the commonest one is a third faster.
+            4 => self.paint_partial(4, row, line, slot),
+            side => self.paint_partial(side, row, line, slot),
         }
     }
 
-    /// Lets the samples of one pixel that `spans` cover show `slot`; `x` is the pixel's column in the frame.
+    /// Lets the samples of a row of pixels that is covered in part show `slot`; `line` is the index of its first pixel.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "faster where `side` is known")]
+    fn paint_partial(&mut self, side: usize, row: &PixelRow, line: usize, slot: Slot) {
+        let (left, spans) = (self.rect.x.start, row.spans());
+        if row.full.is_empty() {
+            for x in row.touched.start..row.touched.end {
+                let covered = mask(side, x, spans, Sides::Both);
+                if covered != 0 {
+                    self.paint_samples(line + offset(left, x), covered, slot);
+                }
+            }
+            return;
+        }
+        // Beside pixels that are full, each holds some covered samples, and none holds all.
+        for x in row.touched.start..row.full.start {
+            self.paint_samples(line + offset(left, x), mask(side, x, spans, Sides::Left), slot);
+        }
+        for x in row.full.end..row.touched.end {
+            self.paint_samples(line + offset(left, x), mask(side, x, spans, Sides::Right), slot);
+        }
+    }
+
+    /// Lets some samples of a pixel show `slot`, at least one and not all.
     #[inline]
-    fn paint_part(&mut self, pixel: usize, x: i32, spans: &[Span], slot: Slot) {
+    fn paint_samples(&mut self, pixel: usize, covered: u64, slot: Slot) {
         let shown = self.whole[pixel];
         if shown == slot {
             return;
         }
-        if shown != SPLIT && self.all != 0 {
-            let covered = self.mask(x, spans);
-            if covered == 0 || self.paint_pair(pixel, covered, slot) {
-                return;
-            }
+        if shown >= PAIR {
+            return self.paint_shared(pixel, covered, slot);
+        }
+        self.whole[pixel] = PAIR;
+        self.pairs[pixel] = Pair {
+            mask: covered,
+            first: shown,
+            second: slot,
+        };
+    }
+
+    /// As [`VisibilityTile::paint_samples`] where samples differ already.
+    fn paint_shared(&mut self, pixel: usize, covered: u64, slot: Slot) {
+        if self.whole[pixel] == PAIR && self.paint_pair(pixel, covered, slot) {
+            return;
         }
         self.split(pixel);
         let painted = splat(slot);
-        self.each_covered_word(pixel, x, spans, |word, mask| *word = *word & !mask | painted & mask);
+        let (side, words) = (self.side, self.words);
+        let samples = &mut self.samples[pixel * side * words..][..side * words];
+        if words == 1 {
+            for (word, shift) in samples.iter_mut().zip((0..).step_by(side)) {
+                let mask = SPREAD_BITS[(covered >> shift & 0xF) as usize];
+                *word = *word & !mask | painted & mask;
+            }
+            return;
+        }
+        for (row, of_row) in samples.chunks_exact_mut(words).enumerate() {
+            for (word, shift) in of_row.iter_mut().zip((row * side..).step_by(PER_WORD)) {
+                let mask = SPREAD_BITS[(covered >> shift & 0xF) as usize];
+                *word = *word & !mask | painted & mask;
+            }
+        }
     }
 
     /// The bits of the samples that `spans` cover in the pixel in column `x` of the frame.
     #[inline]
     fn mask(&self, x: i32, spans: &[Span]) -> u64 {
         match self.side {
-            // Known to the compiler, the commonest one is a third faster.
-            4 => mask(4, x, spans),
-            side => mask(side, x, spans),
+            4 => mask(4, x, spans, Sides::Both),
+            side => mask(side, x, spans, Sides::Both),
         }
     }
 
-    /// Lets samples of a pixel that is not split show `slot`; false, and nothing done, where it would show three.
+    /// Lets samples of a pixel that is a pair show `slot`; false, and nothing done, where it would show three.
     #[inline]
     fn paint_pair(&mut self, pixel: usize, covered: u64, slot: Slot) -> bool {
-        let shown = self.whole[pixel];
-        let Pair { mask, first, second } = if shown == PAIR {
-            self.pairs[pixel]
-        } else {
-            Pair {
-                mask: 0,
-                first: shown,
-                second: slot,
-            }
-        };
+        let Pair { mask, first, second } = self.pairs[pixel];
         let pair = if second == slot {
             Pair {
                 mask: mask | covered,
@@ -206,9 +284,6 @@ impl VisibilityTile {
         } else if pair.mask == self.all {
             self.whole[pixel] = pair.second;
         } else {
-            if self.pairs.len() < self.whole.len() {
-                self.pairs.resize(self.whole.len(), Pair::default());
-            }
             self.whole[pixel] = PAIR;
             self.pairs[pixel] = pair;
         }
@@ -362,10 +437,15 @@ impl VisibilityTile {
     }
 
     /// Four samples of a pixel that shows a pair, as word `i` of the split pixel.
+    #[inline]
     fn word(&self, pair: Pair, i: usize) -> u64 {
-        let (row, column) = (i / self.words, i % self.words * PER_WORD);
-        let bits = pair.mask.checked_shr((row * self.side + column) as u32).unwrap_or(0);
-        joined([0, 1, 2, 3].map(|lane| if bits >> lane & 1 == 0 { pair.first } else { pair.second }))
+        let (row, column) = if self.words == 1 {
+            (i, 0)
+        } else {
+            (i / self.words, i % self.words * PER_WORD)
+        };
+        let second = SPREAD_BITS[(pair.mask >> (row * self.side + column) & 0xF) as usize];
+        splat(pair.first) & !second | splat(pair.second) & second
     }
 
     /// Calls `paint` for every word of a split pixel with the bits of the samples that `spans` cover; `x` is the pixel's
@@ -416,10 +496,16 @@ impl VisibilityTile {
         }
     }
 
+    /// What each pixel of row `y` shows.
+    #[inline]
+    pub(crate) fn row(&self, y: i32) -> &[Slot] {
+        &self.whole[offset(self.rect.y.start, y) * self.width..][..self.width]
+    }
+
     /// The runs of row `y` from left to right, each with its range of pixels counted from the tile's left side.
     #[inline]
     pub(crate) fn runs(&self, y: i32) -> impl Iterator<Item = (Run, Range<usize>)> + '_ {
-        let line = &self.whole[offset(self.rect.y.start, y) * self.width..][..self.width];
+        let line = self.row(y);
         let mut start = 0;
         std::iter::from_fn(move || {
             let slot = *line.get(start)?;
@@ -435,11 +521,13 @@ impl VisibilityTile {
         })
     }
 
-    /// What the pixels `xs` of row `y` show, which must be pairs; columns count from the tile's left side.
+    /// What the pixels of row `y` show that are pairs; of no account for others. Empty where none may be.
     #[inline]
-    pub(crate) fn pairs(&self, xs: Range<usize>, y: i32) -> &[Pair] {
-        let line = offset(self.rect.y.start, y) * self.width;
-        &self.pairs[line + xs.start..line + xs.end]
+    pub(crate) fn pairs(&self, y: i32) -> &[Pair] {
+        if self.all == 0 {
+            return &[];
+        }
+        &self.pairs[offset(self.rect.y.start, y) * self.width..][..self.width]
     }
 
     /// The bits of all samples of a pixel that may be a pair.
@@ -538,13 +626,19 @@ fn run_length(line: &[Slot], slot: Slot) -> usize {
 /// The bits of the samples that `spans` cover in a pixel with `side` samples a row; `x` is its column in the frame.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "faster where `side` is known")]
-fn mask(side: usize, x: i32, spans: &[Span]) -> u64 {
+fn mask(side: usize, x: i32, spans: &[Span], sides: Sides) -> u64 {
     let width = i32::try_from(side).unwrap_or(1);
     let left = x * width;
+    let all = (1_u64 << width) - 1;
     let up_to = |column: i32| (1_u64 << (column - left).clamp(0, width)) - 1;
     let mut mask = 0;
     for span in spans[..side].iter().rev() {
-        mask = mask << width | up_to(span.end) & !up_to(span.start);
+        let of_row = match sides {
+            Sides::Left => all & !up_to(span.start),
+            Sides::Right => up_to(span.end),
+            Sides::Both => up_to(span.end) & !up_to(span.start),
+        };
+        mask = mask << width | of_row;
     }
     mask
 }

@@ -66,7 +66,7 @@ pub struct FrameStats {
     pub raster: Duration,
     /// Samples to pixels, tile by tile.
     pub resolve: Duration,
-    /// Triangles that reached the tiles.
+    /// Triangles and polygons that reached the tiles.
     pub triangles: u64,
     /// What was done in the tiles.
     pub counters: Counters,

@@ -107,7 +107,7 @@ fn measure(scene: &Path, options: &BenchOptions) -> Result<Report, Failure> {
 impl Report {
     fn text(&self) -> String {
         format!(
-            "{}\n{} x {} pixels, {} samples per pixel, {} threads, {} frames, {} triangles\n\
+            "{}\n{} x {} pixels, {} samples per pixel, {} threads, {} frames, {} triangles and polygons\n\
              median     {:9.3} ms\nminimum    {:9.3} ms\ntransform  {:9.3} ms\nbin        {:9.3} ms\nraster     {:9.3} ms\n\
              resolve    {:9.3} ms\npresent         none\n\
              blocks covered whole {}, blocks split {}, samples shaded {}",

@@ -60,12 +60,14 @@ impl EdgeWalker {
     #[inline]
     pub fn step(&mut self) {
         // Beyond the end of the edge, where nobody looks any more, the column may wrap.
-        self.column = self.column.wrapping_add(self.column_step);
-        self.excess -= self.excess_step;
-        if self.excess < 0 {
-            self.column = self.column.wrapping_add(1);
-            self.excess += self.divisor;
-        }
+        let excess = self.excess - self.excess_step;
+        // All ones where it fell below zero, which no branch can foresee.
+        let borrow = excess >> 63;
+        self.excess = excess + (self.divisor & borrow);
+        self.column = self
+            .column
+            .wrapping_add(self.column_step)
+            .wrapping_sub(low_half(borrow));
     }
 }
 

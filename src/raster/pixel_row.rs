@@ -43,7 +43,13 @@ pub(crate) fn each_pixel_row(
     let rows = sorted.rows(grid).intersection(scaled(rect.y, grid.side()));
     if !rows.is_empty() {
         let mut walker = sorted.walk_from(grid, rows.start);
-        each_row(grid.side(), rect, rows, |_, columns| walker.next_span(columns), paint);
+        each_row(
+            grid.side(),
+            rect,
+            rows,
+            |_, columns, spans| walker.next_spans(spans, columns),
+            paint,
+        );
     }
 }
 
@@ -51,8 +57,12 @@ pub(crate) fn each_pixel_row(
 #[inline]
 pub(crate) fn each_pixel_row_of_few(coverage: SmallCoverage, side: i32, rect: PixelRect, paint: impl FnMut(&PixelRow)) {
     if coverage.mask != 0 {
-        let span = |line, columns| coverage.span(line).intersection(columns);
-        each_row(side, rect, coverage.rows(), span, paint);
+        let next = |first: i32, columns: Span, spans: &mut [Span]| {
+            for (span, line) in spans.iter_mut().zip(first..) {
+                *span = coverage.span(line).intersection(columns);
+            }
+        };
+        each_row(side, rect, coverage.rows(), next, paint);
     }
 }
 
@@ -66,13 +76,15 @@ pub(crate) fn each_pixel_row_of_spans(
     mut paint: impl FnMut(&PixelRow),
 ) {
     if spans.single {
-        let only = |line, columns| {
-            spans
-                .of_row(line)
-                .first()
-                .map_or(Span::default(), |span| span.intersection(columns))
+        let next = |first: i32, columns: Span, of_rows: &mut [Span]| {
+            for (span, line) in of_rows.iter_mut().zip(first..) {
+                *span = spans
+                    .of_row(line)
+                    .first()
+                    .map_or(Span::default(), |span| span.intersection(columns));
+            }
         };
-        return each_row(side, rect, spans.rows, only, paint);
+        return each_row(side, rect, spans.rows, next, paint);
     }
     let columns = scaled(rect.x, side);
     let rows = spans.rows.intersection(scaled(rect.y, side));
@@ -94,13 +106,13 @@ pub(crate) fn each_pixel_row_of_spans(
         }
         let of_lines = &mut left[..(lines.end - lines.start).cast_unsigned() as usize];
         while of_lines.iter().any(|spans| !spans.is_empty()) {
-            let next = |line: i32, columns: Span| {
-                let spans = &mut of_lines[(line - lines.start).cast_unsigned() as usize];
-                let Some((first, rest)) = spans.split_first() else {
-                    return Span::default();
-                };
-                *spans = rest;
-                first.intersection(columns)
+            let next = |first: i32, columns: Span, of_rows: &mut [Span]| {
+                let left = &mut of_lines[(first - lines.start).cast_unsigned() as usize..];
+                for (span, left) in of_rows.iter_mut().zip(left) {
+                    *span = left
+                        .split_off_first()
+                        .map_or(Span::default(), |span| span.intersection(columns));
+                }
             };
             each_row(side, rect, lines, next, &mut paint);
         }
@@ -108,14 +120,14 @@ pub(crate) fn each_pixel_row_of_spans(
     }
 }
 
-/// Gathers the spans of sample rows into rows of pixels; `next_span` is asked for the part of each of `rows` in `rect`,
-/// from top to bottom.
+/// Gathers the spans of sample rows into rows of pixels; `next_spans` is asked for the parts of `rows` in `rect`, some
+/// rows at a time from top to bottom: the first of them, the columns, and where to put the spans.
 #[inline]
 fn each_row(
     side: i32,
     rect: PixelRect,
     rows: Span,
-    mut next_span: impl FnMut(i32, Span) -> Span,
+    mut next_spans: impl FnMut(i32, Span, &mut [Span]),
     mut paint: impl FnMut(&PixelRow),
 ) {
     let columns = scaled(rect.x, side);
@@ -129,7 +141,7 @@ fn each_row(
     };
     if side == 1 {
         for y in rows.start..rows.end {
-            row.spans[0] = next_span(y, columns);
+            next_spans(y, columns, &mut row.spans[..1]);
             if !row.spans[0].is_empty() {
                 (row.y, row.touched, row.full) = (y, row.spans[0], row.spans[0]);
                 paint(&row);
@@ -138,8 +150,20 @@ fn each_row(
         return;
     }
     match side {
-        4 => gather_rows(4, rows, &mut row, |line| next_span(line, columns), paint),
-        _ => gather_rows(side, rows, &mut row, |line| next_span(line, columns), paint),
+        4 => gather_rows(
+            4,
+            rows,
+            &mut row,
+            |first, spans| next_spans(first, columns, spans),
+            paint,
+        ),
+        _ => gather_rows(
+            side,
+            rows,
+            &mut row,
+            |first, spans| next_spans(first, columns, spans),
+            paint,
+        ),
     }
 }
 
@@ -151,7 +175,7 @@ fn gather_rows(
     side: i32,
     rows: Span,
     row: &mut PixelRow,
-    mut next_span: impl FnMut(i32) -> Span,
+    mut next_spans: impl FnMut(i32, &mut [Span]),
     mut paint: impl FnMut(&PixelRow),
 ) {
     let mut line = rows.start;
@@ -161,14 +185,11 @@ fn gather_rows(
         let top = row.y * side;
         let spans = &mut row.spans[..side.cast_unsigned() as usize];
         if rows.start <= top && top + side <= rows.end {
-            for (span, line) in spans.iter_mut().zip(top..) {
-                *span = next_span(line);
-            }
+            next_spans(top, spans);
         } else {
             spans.fill(Span::default());
-            for line in line..rows.end.min(top + side) {
-                spans[(line - top).cast_unsigned() as usize] = next_span(line);
-            }
+            let inside = |line: i32| (line - top).cast_unsigned() as usize;
+            next_spans(line, &mut spans[inside(line)..inside(rows.end.min(top + side))]);
         }
         row.measure(side);
         if !row.touched.is_empty() {
@@ -203,25 +224,21 @@ impl PixelRow {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "divisions by a known side are shifts")]
     fn measure(&mut self, side: i32) {
-        let (mut outer, mut inner) = (
-            Span {
-                start: i32::MAX,
-                end: 0,
-            },
-            Span {
-                start: 0,
-                end: i32::MAX,
-            },
-        );
-        for span in &self.spans[..side.cast_unsigned() as usize] {
-            // A sample row without samples leaves no pixel full.
+        let spans = &self.spans[..side.cast_unsigned() as usize];
+        let first = spans[0];
+        let (mut outer, mut inner, mut any_empty) = (first, first, first.is_empty());
+        for span in &spans[1..] {
+            any_empty |= span.is_empty();
             inner = inner.intersection(*span);
-            if !span.is_empty() {
-                outer = Span {
-                    start: outer.start.min(span.start),
-                    end: outer.end.max(span.end),
-                };
-            }
+            outer = outer.union(*span);
+        }
+        if any_empty {
+            // A sample row without samples leaves no pixel full.
+            inner = Span::default();
+            outer = spans
+                .iter()
+                .filter(|span| !span.is_empty())
+                .fold(Span::NOTHING, |outer, span| outer.union(*span));
         }
         if outer.is_empty() {
             (self.touched, self.full) = (Span::default(), Span::default());

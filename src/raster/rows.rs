@@ -46,6 +46,20 @@ impl Span {
         self.start >= self.end
     }
 
+    /// The seed of a union.
+    pub(crate) const NOTHING: Self = Self {
+        start: i32::MAX,
+        end: i32::MIN,
+    };
+
+    /// The smallest span that holds both.
+    pub(crate) fn union(self, other: Self) -> Self {
+        Self {
+            start: self.start.min(other.start),
+            end: self.end.max(other.end),
+        }
+    }
+
     /// What lies in both.
     pub(crate) fn intersection(self, other: Self) -> Self {
         Self {
@@ -119,6 +133,28 @@ impl SortedTriangle {
 }
 
 impl RowWalker {
+    /// As [`RowWalker::next_span`] for as many rows as there is room in `spans`.
+    #[inline]
+    pub(crate) fn next_spans(&mut self, spans: &mut [Span], columns: Span) {
+        let end = self.row + i32::try_from(spans.len()).unwrap_or(i32::MAX);
+        if (self.row..end).contains(&self.switch) || self.rules == Rules::Course {
+            for span in spans {
+                *span = self.next_span(columns);
+            }
+            return;
+        }
+        let (mut left, mut right) = (self.left, self.right);
+        for span in spans {
+            *span = Span {
+                start: left.at_or_after().max(columns.start),
+                end: right.at_or_after().min(columns.end),
+            };
+            left.step();
+            right.step();
+        }
+        (self.left, self.right, self.row) = (left, right, end);
+    }
+
     /// The covered columns of the current row, clipped to `columns`; then goes down one row.
     #[inline]
     pub(crate) fn next_span(&mut self, columns: Span) -> Span {

@@ -32,25 +32,15 @@ pub(crate) struct PixelRect {
 impl PixelRect {
     /// No pixels: the seed of a union.
     pub(crate) const NOTHING: Self = Self {
-        x: Span {
-            start: i32::MAX,
-            end: i32::MIN,
-        },
-        y: Span {
-            start: i32::MAX,
-            end: i32::MIN,
-        },
+        x: Span::NOTHING,
+        y: Span::NOTHING,
     };
 
     /// The smallest rectangle that holds both.
     pub(crate) fn union(self, other: Self) -> Self {
-        let join = |a: Span, b: Span| Span {
-            start: a.start.min(b.start),
-            end: a.end.max(b.end),
-        };
         Self {
-            x: join(self.x, other.x),
-            y: join(self.y, other.y),
+            x: self.x.union(other.x),
+            y: self.y.union(other.y),
         }
     }
 }

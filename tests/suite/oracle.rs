@@ -32,7 +32,7 @@ fn rate(u: &mut arbtest::arbitrary::Unstructured<'_>) -> arbtest::arbitrary::Res
 }
 
 /// Draws random scenes in both renderers for a while; `judge` looks at each pair.
-fn compare(fills: Fills, budget_ms: u64, mut judge: impl FnMut(&Framebuffer, &Framebuffer, &str)) {
+fn compare(fills: Fills, budget_ms: u64, mut judge: impl FnMut(&Framebuffer, &Framebuffer, &(RenderSettings, String))) {
     arbtest::arbtest(|u| {
         let (scene, mut settings) = (random(u, SIDE, fills)?, rate(u)?);
         settings.pixel_sampling = *u.choose(&PixelSampling::ALL)?;
@@ -50,7 +50,11 @@ fn compare(fills: Fills, budget_ms: u64, mut judge: impl FnMut(&Framebuffer, &Fr
             drawn(&scene, &view, &settings, SIZE),
             brute_force::draw(&scene, &view, &settings, SIZE),
         );
-        judge(&fast, &slow, &format!("{settings:?}: {:#?}", scene.primitives));
+        judge(
+            &fast,
+            &slow,
+            &(settings, format!("{settings:?}: {:#?}", scene.primitives)),
+        );
         Ok(())
     })
     .budget_ms(budget_ms);
@@ -58,7 +62,7 @@ fn compare(fills: Fills, budget_ms: u64, mut judge: impl FnMut(&Framebuffer, &Fr
 
 #[test]
 fn oracle_agrees_on_flat_opaque_scenes_to_the_byte() {
-    compare(Fills::Flat, 1500, |fast, slow, what| {
+    compare(Fills::Flat, 1500, |fast, slow, (_, what)| {
         assert_eq!(difference(fast, slow, 0), (0, 0), "{what}");
     });
 }
@@ -66,7 +70,7 @@ fn oracle_agrees_on_flat_opaque_scenes_to_the_byte() {
 #[test]
 fn oracle_agrees_on_translucent_layers_within_one_level() {
     // Every blend of the engine rounds to 1/65280; several of them may carry a byte over a rounding boundary.
-    compare(Fills::Translucent, 1500, |fast, slow, what| {
+    compare(Fills::Translucent, 1500, |fast, slow, (_, what)| {
         assert_eq!(difference(fast, slow, 1).1, 0, "{what}");
     });
 }
@@ -75,9 +79,11 @@ fn oracle_agrees_on_translucent_layers_within_one_level() {
 fn oracle_agrees_on_colours_and_textures_within_one_level() {
     // 32-bit interpolation may land on the other side of a texel's border: a sample in thousands, never a pattern.
     let (mut pixels, mut different) = (0, 0);
-    compare(Fills::Everything, 2500, |fast, slow, what| {
+    compare(Fills::Everything, 2500, |fast, slow, (settings, what)| {
         let (largest, count) = difference(fast, slow, 1);
-        assert!(count < 8, "{count} pixels, largest {largest}, {what}");
+        // Every tap may land there; it weighs less for that.
+        let most = 8 * settings.anisotropy.taps().min(4);
+        assert!(count < most as usize, "{count} pixels, largest {largest}, {what}");
         pixels += fast.pixels().len();
         different += count;
     });

@@ -34,7 +34,7 @@ pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
 }
 
 /// Time of the last redraw and its stages, as numbers and as a bar, unless pictures must not depend on time; and how
-/// many triangles it drew.
+/// much it filled.
 pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
     let Some(frame) = viewer.frame() else {
         return;
@@ -53,18 +53,18 @@ pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
     } else {
         ui.add_space(4.0);
     }
-    // Points and hairlines are no triangles.
-    if let Some(text) = triangles(stats.triangles) {
+    // Points and hairlines fill nothing.
+    if let Some(text) = filled(stats.triangles) {
         ui.label(RichText::new(text).small().weak());
     }
 }
 
-/// So many triangles in words; nothing where there are none.
-fn triangles(count: u64) -> Option<String> {
+/// So many triangles and polygons in words; nothing where there are none.
+fn filled(count: u64) -> Option<String> {
     match count {
         0 => None,
-        1 => Some("1 triangle".to_owned()),
-        _ => Some(format!("{} triangles", grouped(count))),
+        1 => Some("1 triangle or polygon".to_owned()),
+        _ => Some(format!("{} triangles and polygons", grouped(count))),
     }
 }
 
@@ -114,12 +114,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn triangles_in_words() {
-        assert_eq!(triangles(0), None, "a scene of points");
-        assert_eq!(triangles(1).as_deref(), Some("1 triangle"));
+    fn fills_in_words() {
+        assert_eq!(filled(0), None, "a scene of points");
+        assert_eq!(filled(1).as_deref(), Some("1 triangle or polygon"));
         assert_eq!(
-            triangles(1_234_567).as_deref(),
-            Some("1\u{2009}234\u{2009}567 triangles")
+            filled(1_234_567).as_deref(),
+            Some("1\u{2009}234\u{2009}567 triangles and polygons")
         );
     }
 }

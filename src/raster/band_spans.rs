@@ -54,7 +54,7 @@ impl BandSpans {
     /// Calls `paint` for every row of pixels of the tile `rect` of which the shape covers any sample, from top to bottom;
     /// a row may come several times, with other samples each time.
     #[inline]
-    pub(crate) fn each_pixel_row(&mut self, shape: Shape<'_>, rect: PixelRect, paint: impl FnMut(&PixelRow)) {
+    pub(crate) fn each_pixel_row(&mut self, shape: Shape<'_>, rect: PixelRect, paint: impl FnMut(&PixelRow<'_>)) {
         match shape {
             Shape::Triangle(corners) => each_pixel_row(*corners, self.settings, rect, paint),
             Shape::Outline(chunk, index) => {

@@ -185,7 +185,7 @@ impl<'a> TilePainter<'a> {
     }
 
     /// Paints one row of pixels: solid colours pixel by pixel, shaded ones by sample rows.
-    fn pixel_row(&mut self, shader: &Shader<'_>, pixels: &PixelRow) {
+    fn pixel_row(&mut self, shader: &Shader<'_>, pixels: &PixelRow<'_>) {
         let (side, row) = (self.context.grid.side(), pixels.y);
         if let ShaderKind::Solid(color) = &shader.kind {
             self.fill(pixels.full, row, *color);

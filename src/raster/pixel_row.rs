@@ -13,13 +13,11 @@ const MAX_SIDE: usize = SampleRate::MAX_SIDE as usize;
 
 /// The samples of one row of pixels that a shape covers, or some of them.
 #[derive(Debug)]
-pub(crate) struct PixelRow {
+pub(crate) struct PixelRow<'a> {
     /// The row of pixels.
     pub(crate) y: i32,
     /// Covered sample columns per sample row.
-    spans: [Span; MAX_SIDE],
-    /// Sample rows in use.
-    side: usize,
+    spans: &'a [Span],
     /// Pixels of which any sample is covered, and among them those of which all are; where these are none, they are an
     /// empty span at the end.
     pub(crate) touched: Span,
@@ -32,7 +30,7 @@ pub(crate) fn each_pixel_row(
     corners: [GridPoint; 3],
     (grid, rules): (SubpixelGrid, Rules),
     rect: PixelRect,
-    paint: impl FnMut(&PixelRow),
+    paint: impl FnMut(&PixelRow<'_>),
 ) {
     if let Some(coverage) = small_coverage(corners, grid, rules) {
         return each_pixel_row_of_few(coverage, grid.side(), rect, paint);
@@ -55,7 +53,12 @@ pub(crate) fn each_pixel_row(
 
 /// As [`each_pixel_row`] for samples that are known.
 #[inline]
-pub(crate) fn each_pixel_row_of_few(coverage: SmallCoverage, side: i32, rect: PixelRect, paint: impl FnMut(&PixelRow)) {
+pub(crate) fn each_pixel_row_of_few(
+    coverage: SmallCoverage,
+    side: i32,
+    rect: PixelRect,
+    paint: impl FnMut(&PixelRow<'_>),
+) {
     if coverage.mask != 0 {
         let next = |first: i32, columns: Span, spans: &mut [Span]| {
             for (span, line) in spans.iter_mut().zip(first..) {
@@ -73,7 +76,7 @@ pub(crate) fn each_pixel_row_of_spans(
     spans: RowSpans<'_>,
     side: i32,
     rect: PixelRect,
-    mut paint: impl FnMut(&PixelRow),
+    mut paint: impl FnMut(&PixelRow<'_>),
 ) {
     if spans.single {
         let next = |first: i32, columns: Span, of_rows: &mut [Span]| {
@@ -128,42 +131,15 @@ fn each_row(
     rect: PixelRect,
     rows: Span,
     mut next_spans: impl FnMut(i32, Span, &mut [Span]),
-    mut paint: impl FnMut(&PixelRow),
+    mut paint: impl FnMut(&PixelRow<'_>),
 ) {
     let columns = scaled(rect.x, side);
     let rows = rows.intersection(scaled(rect.y, side));
-    let mut row = PixelRow {
-        y: 0,
-        spans: [Span::default(); MAX_SIDE],
-        side: side.cast_unsigned() as usize,
-        touched: Span::default(),
-        full: Span::default(),
-    };
-    if side == 1 {
-        for y in rows.start..rows.end {
-            next_spans(y, columns, &mut row.spans[..1]);
-            if !row.spans[0].is_empty() {
-                (row.y, row.touched, row.full) = (y, row.spans[0], row.spans[0]);
-                paint(&row);
-            }
-        }
-        return;
-    }
+    let next_spans = |first, spans: &mut [Span]| next_spans(first, columns, spans);
     match side {
-        4 => gather_rows(
-            4,
-            rows,
-            &mut row,
-            |first, spans| next_spans(first, columns, spans),
-            paint,
-        ),
-        _ => gather_rows(
-            side,
-            rows,
-            &mut row,
-            |first, spans| next_spans(first, columns, spans),
-            paint,
-        ),
+        1 => gather_rows(1, rows, next_spans, paint),
+        4 => gather_rows(4, rows, next_spans, paint),
+        _ => gather_rows(side, rows, next_spans, paint),
     }
 }
 
@@ -174,28 +150,30 @@ fn each_row(
 fn gather_rows(
     side: i32,
     rows: Span,
-    row: &mut PixelRow,
     mut next_spans: impl FnMut(i32, &mut [Span]),
-    mut paint: impl FnMut(&PixelRow),
+    mut paint: impl FnMut(&PixelRow<'_>),
 ) {
+    let mut lines = [Span::default(); MAX_SIDE];
+    let side = side.cast_unsigned() as usize;
+    let pixel_rows = MAX_SIDE / side;
     let mut line = rows.start;
     while line < rows.end {
         // Rows of a frame are never negative.
-        row.y = (line.cast_unsigned() / side.cast_unsigned()).cast_signed();
-        let top = row.y * side;
-        let spans = &mut row.spans[..side.cast_unsigned() as usize];
-        if rows.start <= top && top + side <= rows.end {
-            next_spans(top, spans);
-        } else {
-            spans.fill(Span::default());
-            let inside = |line: i32| (line - top).cast_unsigned() as usize;
-            next_spans(line, &mut spans[inside(line)..inside(rows.end.min(top + side))]);
+        let first = line.cast_unsigned() as usize / side;
+        let top = (first * side) as i32;
+        let end = rows.end.min(top + (pixel_rows * side) as i32);
+        let inside = |line: i32| (line - top).cast_unsigned() as usize;
+        lines[..inside(line)].fill(Span::default());
+        next_spans(line, &mut lines[inside(line)..inside(end)]);
+        let last = inside(end).next_multiple_of(side);
+        lines[inside(end)..last].fill(Span::default());
+        for (spans, y) in lines[..last].chunks_exact(side).zip(first as i32..) {
+            let row = PixelRow::new(y, spans);
+            if !row.touched.is_empty() {
+                paint(&row);
+            }
         }
-        row.measure(side);
-        if !row.touched.is_empty() {
-            paint(row);
-        }
-        line = top + side;
+        line = end;
     }
 }
 
@@ -207,24 +185,21 @@ pub(crate) fn scaled(pixels: Span, side: i32) -> Span {
     }
 }
 
-impl PixelRow {
-    /// Covered sample columns for each sample row of the row of pixels.
-    #[inline]
-    pub(crate) fn spans(&self) -> &[Span] {
-        &self.spans[..self.side]
-    }
-
-    /// The pixels that are covered in part.
-    #[inline]
-    pub(crate) fn partial(&self) -> impl Iterator<Item = i32> + use<> {
-        (self.touched.start..self.full.start).chain(self.full.end..self.touched.end)
-    }
-
-    /// Finds out which pixels are touched and which are full.
+impl<'a> PixelRow<'a> {
+    /// The row `y` of pixels with these spans, one for each sample row.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "divisions by a known side are shifts")]
-    fn measure(&mut self, side: i32) {
-        let spans = &self.spans[..side.cast_unsigned() as usize];
+    fn new(y: i32, spans: &'a [Span]) -> Self {
+        let nothing = Span::default();
+        if let [only] = *spans {
+            let touched = if only.is_empty() { nothing } else { only };
+            return Self {
+                y,
+                spans,
+                touched,
+                full: touched,
+            };
+        }
         let first = spans[0];
         let (mut outer, mut inner, mut any_empty) = (first, first, first.is_empty());
         for span in &spans[1..] {
@@ -240,31 +215,47 @@ impl PixelRow {
                 .filter(|span| !span.is_empty())
                 .fold(Span::NOTHING, |outer, span| outer.union(*span));
         }
+        let mut row = Self {
+            y,
+            spans,
+            touched: nothing,
+            full: nothing,
+        };
         if outer.is_empty() {
-            (self.touched, self.full) = (Span::default(), Span::default());
-            return;
+            return row;
         }
         // Columns of a frame are never negative, so that division rounds down.
-        let side = side.cast_unsigned();
+        let side = spans.len() as u32;
         let down = |column: i32| (column.cast_unsigned() / side).cast_signed();
         let up = |column: i32| (column.cast_unsigned().saturating_add(side - 1) / side).cast_signed();
-        self.touched = Span {
+        row.touched = Span {
             start: down(outer.start),
             end: up(outer.end),
         };
-        self.full = if inner.is_empty() {
-            Span::default()
-        } else {
-            Span {
+        if !inner.is_empty() {
+            row.full = Span {
                 start: up(inner.start),
                 end: down(inner.end),
-            }
-        };
-        if self.full.is_empty() {
-            self.full = Span {
-                start: self.touched.end,
-                end: self.touched.end,
             };
         }
+        if row.full.is_empty() {
+            row.full = Span {
+                start: row.touched.end,
+                end: row.touched.end,
+            };
+        }
+        row
+    }
+
+    /// Covered sample columns for each sample row of the row of pixels.
+    #[inline]
+    pub(crate) fn spans(&self) -> &'a [Span] {
+        self.spans
+    }
+
+    /// The pixels that are covered in part.
+    #[inline]
+    pub(crate) fn partial(&self) -> impl Iterator<Item = i32> + use<> {
+        (self.touched.start..self.full.start).chain(self.full.end..self.touched.end)
     }
 }

@@ -143,7 +143,7 @@ impl VisibilityTile {
 
     /// Lets the samples that a row of pixels covers show `slot`.
     #[inline]
-    pub(crate) fn paint(&mut self, row: &PixelRow, slot: Slot) {
+    pub(crate) fn paint(&mut self, row: &PixelRow<'_>, slot: Slot) {
         let left = self.rect.x.start;
         let line = offset(self.rect.y.start, row.y) * self.width;
         if !row.full.is_empty() {
@@ -170,7 +170,7 @@ impl VisibilityTile {
     /// Lets the samples of a row of pixels that is covered in part show `slot`; `line` is the index of its first pixel.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "faster where `side` is known")]
-    fn paint_partial(&mut self, side: usize, row: &PixelRow, line: usize, slot: Slot) {
+    fn paint_partial(&mut self, side: usize, row: &PixelRow<'_>, line: usize, slot: Slot) {
         let (left, spans) = (self.rect.x.start, row.spans());
         if row.full.is_empty() {
             for x in row.touched.start..row.touched.end {
@@ -290,7 +290,7 @@ impl VisibilityTile {
     }
 
     /// Lets the samples that a row of pixels covers show what `change` makes of what they show.
-    pub(crate) fn change(&mut self, row: &PixelRow, mut change: impl FnMut(Slot) -> Slot) {
+    pub(crate) fn change(&mut self, row: &PixelRow<'_>, mut change: impl FnMut(Slot) -> Slot) {
         let left = self.rect.x.start;
         let line = offset(self.rect.y.start, row.y) * self.width;
         self.change_whole(

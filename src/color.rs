@@ -279,6 +279,7 @@ impl Resolver {
     /// As [`Resolver::pixel`] for sums in pairs: red and green, blue and alpha, the former in the lower 32 bits of each.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
+    #[expect(clippy::cast_possible_truncation, reason = "halves of numbers")]
     pub fn pixel_of_halves(&self, [red_green, blue_alpha]: [u64; 2]) -> u32 {
         match self.shift {
             Some(shift) if (blue_alpha >> 32) == u64::from(self.opaque) => {

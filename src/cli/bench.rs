@@ -1,7 +1,7 @@
 //! `rasterscope bench`: how long redraws take, as median and minimum, in total and per stage.
 
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
@@ -53,6 +53,9 @@ struct Stages {
     present: Option<f64>,
 }
 
+/// For so long frames are drawn that do not count.
+const WARM_UP: Duration = Duration::from_millis(100);
+
 /// Draws each scene as often as asked and prints what it took, when all are done.
 pub(super) fn run(options: &BenchOptions) -> Result<(), Failure> {
     let reports = on_threads(options.picture.framing.threads, || -> Result<Vec<Report>, Failure> {
@@ -74,6 +77,11 @@ fn measure(scene: &Path, options: &BenchOptions) -> Result<Report, Failure> {
     let mut picture = Picture::read(&SceneSource::from_address(scene), &options.picture)?;
     // The first frame pays for memory that later ones find in place.
     picture.draw();
+    // It takes the system a while to give every thread a core of its own.
+    let start = Instant::now();
+    while rayon::current_num_threads() > 1 && start.elapsed() < WARM_UP {
+        picture.draw();
+    }
     let frames: Vec<FrameStats> = (0..options.frames).map(|_| picture.draw()).collect();
     let stage = |time: fn(&FrameStats) -> Duration| median(frames.iter().map(time).collect());
     let last = frames.last().copied().unwrap_or_default();

@@ -79,8 +79,7 @@ impl BandSpans {
             *stored = self.scanner.scan(
                 outline,
                 (&chunk.outline_edges, grid),
-                rows,
-                self.columns,
+                (rows, self.columns),
                 &mut self.store,
             );
         }

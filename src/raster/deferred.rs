@@ -222,34 +222,33 @@ impl<'a> DeferredPainter<'a> {
     fn resolve_flat_row(&self, y: i32, line: &mut [u32]) {
         const BLOCK: usize = 8;
         let (shown, pairs) = (self.layers[0].row(y), self.layers[0].pairs(y));
-        let pixel = |slot: Slot, x: usize| {
-            if usize::from(slot) < MAX_SLOTS {
-                return self.slots.get(slot).pixel;
-            }
-            match pairs.get(x) {
-                Some(pair) if slot == PAIR => {
-                    self.resolver
-                        .pixel_of_halves(pair_sum(*pair, &self.slots, self.resolver.count()))
-                }
-                _ => self
-                    .resolver
-                    .pixel_of_halves(flat_sum(&self.layers[0], &self.slots, x, y)),
-            }
+        let shared = |slot: Slot, x: usize| match pairs.get(x) {
+            Some(pair) if slot == PAIR => pair_sum(*pair, &self.slots, self.resolver.count()),
+            _ => flat_sum(&self.layers[0], &self.slots, x, y),
         };
-        let (blocks, rest) = shown.as_chunks::<BLOCK>();
-        let (pixels, rest_of_line) = line.as_chunks_mut::<BLOCK>();
-        for ((block, pixels), x) in blocks.iter().zip(pixels).zip((0..).step_by(BLOCK)) {
-            let first = block[0];
-            if usize::from(first) < MAX_SLOTS && *block == [first; BLOCK] {
+        for ((shown, pixels), x) in shown
+            .chunks(BLOCK)
+            .zip(line.chunks_mut(BLOCK))
+            .zip((0..).step_by(BLOCK))
+        {
+            let first = shown[0];
+            if let Ok(pixels) = <&mut [u32; BLOCK]>::try_from(&mut *pixels)
+                && usize::from(first) < MAX_SLOTS
+                && *shown == [first; BLOCK]
+            {
                 *pixels = [self.slots.get(first).pixel; BLOCK];
-            } else {
-                for (i, slot) in block.iter().enumerate() {
-                    pixels[i] = pixel(*slot, x + i);
-                }
+                continue;
             }
-        }
-        for ((slot, target), x) in rest.iter().zip(rest_of_line).zip(shown.len() - rest.len()..) {
-            *target = pixel(*slot, x);
+            // Which pixels are shared nobody can foresee, so that a branch for each would cost more than the rest.
+            let (mut later, mut count) = ([0; BLOCK], 0);
+            for (i, (slot, pixel)) in shown.iter().zip(&mut *pixels).enumerate() {
+                *pixel = self.slots.get_or_last(*slot).pixel;
+                later[count] = i;
+                count += usize::from(usize::from(*slot) >= MAX_SLOTS);
+            }
+            for i in &later[..count] {
+                pixels[*i] = self.resolver.pixel_of_halves(shared(shown[*i], x + i));
+            }
         }
     }
 
@@ -409,7 +408,7 @@ fn pair_sum(pair: Pair, slots: &Slots<'_>, count: u32) -> [u64; 2] {
         // Faster than counting bits, for which not every machine has an instruction.
         Ok(mask) => {
             let [low, high] = mask.to_le_bytes();
-            u32::from(ONES[usize::from(low)] + ONES[usize::from(high)])
+            ONES[usize::from(low)] + ONES[usize::from(high)]
         }
         Err(_) => pair.mask.count_ones(),
     };
@@ -420,11 +419,11 @@ fn pair_sum(pair: Pair, slots: &Slots<'_>, count: u32) -> [u64; 2] {
 }
 
 /// How many bits of each byte are set.
-const ONES: [u8; 256] = {
+const ONES: [u32; 256] = {
     let mut ones = [0; 256];
     let mut byte = 1;
     while byte < ones.len() {
-        ones[byte] = ones[byte / 2] + (byte % 2) as u8;
+        ones[byte] = (byte as u64).count_ones();
         byte += 1;
     }
     ones

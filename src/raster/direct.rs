@@ -49,7 +49,7 @@ impl<'a> DirectPainter<'a> {
                 Work::Flat(shape, color) => {
                     let pixel = color.to_pixel(rules);
                     covered((shape, *entry), bands, block, |y, xs, block| {
-                        block.span(y, xs).fill(pixel)
+                        block.span(y, xs).fill(pixel);
                     });
                 }
                 Work::Shaded(triangle, paint) => {

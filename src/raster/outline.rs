@@ -247,7 +247,7 @@ impl Outline {
         let (scanner, store) = scanner;
         store.clear();
         let SampleBox { columns, rows } = self.samples;
-        let stored = scanner.scan(self, (all, grid), rows, columns.end, store);
+        let stored = scanner.scan(self, (all, grid), (rows, columns.end), store);
         let found = store.get(stored);
         if !found.single {
             return None;
@@ -277,8 +277,7 @@ impl RowScanner {
         &mut self,
         outline: &Outline,
         (all, grid): (&[OutlineEdge], SubpixelGrid),
-        rows: Span,
-        end: i32,
+        (rows, end): (Span, i32),
         store: &mut SpanStore,
     ) -> Stored {
         let rows = rows.intersection(outline.samples.rows);

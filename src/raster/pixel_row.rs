@@ -131,7 +131,7 @@ fn each_row(
     rect: PixelRect,
     rows: Span,
     mut next_spans: impl FnMut(i32, Span, &mut [Span]),
-    mut paint: impl FnMut(&PixelRow<'_>),
+    paint: impl FnMut(&PixelRow<'_>),
 ) {
     let columns = scaled(rect.x, side);
     let rows = rows.intersection(scaled(rect.y, side));
@@ -154,20 +154,21 @@ fn gather_rows(
     mut paint: impl FnMut(&PixelRow<'_>),
 ) {
     let mut lines = [Span::default(); MAX_SIDE];
-    let side = side.cast_unsigned() as usize;
-    let pixel_rows = MAX_SIDE / side;
+    let in_pixel = side.cast_unsigned() as usize;
+    // Sample rows of as many pixels as there is room for.
+    let batch = i32::try_from(MAX_SIDE / in_pixel * in_pixel).unwrap_or(side);
     let mut line = rows.start;
     while line < rows.end {
         // Rows of a frame are never negative.
-        let first = line.cast_unsigned() as usize / side;
-        let top = (first * side) as i32;
-        let end = rows.end.min(top + (pixel_rows * side) as i32);
+        let first = (line.cast_unsigned() / side.cast_unsigned()).cast_signed();
+        let top = first * side;
+        let end = rows.end.min(top + batch);
         let inside = |line: i32| (line - top).cast_unsigned() as usize;
         lines[..inside(line)].fill(Span::default());
         next_spans(line, &mut lines[inside(line)..inside(end)]);
-        let last = inside(end).next_multiple_of(side);
+        let last = inside(end).next_multiple_of(in_pixel);
         lines[inside(end)..last].fill(Span::default());
-        for (spans, y) in lines[..last].chunks_exact(side).zip(first as i32..) {
+        for (spans, y) in lines[..last].chunks_exact(in_pixel).zip(first..) {
             let row = PixelRow::new(y, spans);
             if !row.touched.is_empty() {
                 paint(&row);
@@ -225,7 +226,7 @@ impl<'a> PixelRow<'a> {
             return row;
         }
         // Columns of a frame are never negative, so that division rounds down.
-        let side = spans.len() as u32;
+        let side = u32::try_from(spans.len()).unwrap_or(1);
         let down = |column: i32| (column.cast_unsigned() / side).cast_signed();
         let up = |column: i32| (column.cast_unsigned().saturating_add(side - 1) / side).cast_signed();
         row.touched = Span {

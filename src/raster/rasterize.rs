@@ -452,6 +452,7 @@ mod tests {
     use super::super::chunk_builder::ChunkBuilder;
     use super::super::display_list::Fill;
     use super::*;
+    use crate::geometry::{FillRule, Polygon};
     use crate::texture::{LevelSampling, MipLevel, MipPyramid, PixelSampling};
 
     const SIZE: [u32; 2] = [70, 50];
@@ -475,7 +476,21 @@ mod tests {
                 Ok(DVec2::new(at(70)?, at(50)?))
             };
             let points = [point()?, point()?, point()?];
-            match u.int_in_range(0..=4)? {
+            match u.int_in_range(0..=6)? {
+                4 | 5 => {
+                    let scale = *u.choose(&[0.1, 1.0, 4.0])?;
+                    let mut contours = Vec::new();
+                    for _ in 0..u.int_in_range(1..=2)? {
+                        let mut contour = Vec::new();
+                        for _ in 0..u.int_in_range(3..=20)? {
+                            let offset = DVec2::new(unit(u)?.into(), unit(u)?.into()) - 0.5;
+                            contour.push(points[0] + offset * 60.0 * scale);
+                        }
+                        contours.push(contour);
+                    }
+                    let rule = *u.choose(&[FillRule::NonZero, FillRule::EvenOdd])?;
+                    builder.polygon(&Polygon::new(contours, rule), |point| point, color(u)?);
+                }
                 0 => builder.hairline([points[0], points[1]], color(u)?),
                 1 => builder.triangle(points, &Fill::Vertex([color(u)?, color(u)?, color(u)?])),
                 2 => {
@@ -523,13 +538,13 @@ mod tests {
             ..SamplingSettings::default()
         };
         arbtest::arbtest(|u| {
-            let rate = SampleRate::new(*u.choose(&[1, 4, 9, 64])?).expect("a square number");
+            let rate = SampleRate::new(*u.choose(&[1, 4, 9, 16, 64, 100])?).expect("a square number");
             let settings = RasterSettings {
                 rate,
                 sampling,
                 background: Rgba::WHITE,
             };
-            let seed: Vec<u8> = (0..400).map(|_| u.arbitrary()).collect::<Result<_>>()?;
+            let seed: Vec<u8> = (0..1500).map(|_| u.arbitrary()).collect::<Result<_>>()?;
             let draw = |tiles: TileLayout| -> Result<Framebuffer> {
                 let context = ListContext::with_tiles(SIZE, &settings, tiles);
                 let mut builder = ChunkBuilder::new(&context, 12);

@@ -76,6 +76,12 @@ impl<'a> Slots<'a> {
         &self.all[usize::from(slot)]
     }
 
+    /// As [`Slots::get`], or the newest where there is no such slot.
+    #[inline]
+    pub(crate) fn get_or_last(&self, slot: Slot) -> &SlotColor<'a> {
+        &self.all[usize::from(slot).min(self.all.len() - 1)]
+    }
+
     /// Whether each slot in use may become another one, and one more may come, without running out of numbers.
     pub(crate) fn is_full(&self) -> bool {
         self.all.len() > MAX_SLOTS / 2 - 1

@@ -155,7 +155,7 @@ impl VisibilityTile {
                 self.split(pixel);
                 let painted = splat(slot);
                 self.each_covered_word(pixel, x, row.spans(), |word, mask| {
-                    *word = *word & !mask | painted & mask
+                    *word = *word & !mask | painted & mask;
                 });
             }
             return;
@@ -439,6 +439,9 @@ impl VisibilityTile {
     /// Four samples of a pixel that shows a pair, as word `i` of the split pixel.
     #[inline]
     fn word(&self, pair: Pair, i: usize) -> u64 {
+        if pair.mask == 0 {
+            return splat(pair.first);
+        }
         let (row, column) = if self.words == 1 {
             (i, 0)
         } else {
@@ -479,11 +482,7 @@ impl VisibilityTile {
         let per_pixel = self.side * self.words;
         self.whole[pixel] = SPLIT;
         for i in 0..per_pixel {
-            self.samples[pixel * per_pixel + i] = if pair.mask == 0 {
-                splat(pair.first)
-            } else {
-                self.word(pair, i)
-            };
+            self.samples[pixel * per_pixel + i] = self.word(pair, i);
         }
     }
 

@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_are_within_a_seventh_of_a_byte_of_the_definition() {
+    fn sums_are_within_a_quarter_of_a_byte_of_the_definition() {
         arbtest::arbtest(|u| {
             let pyramid = oracle::pyramid(u)?;
             let map = oracle::map(u, &pyramid.levels()[0])?;
@@ -291,7 +291,7 @@ mod tests {
                 for (found, exact) in found.iter().zip(exact) {
                     let error = (f64::from(*found) / 256.0 - exact).abs() / count.max(1) as f64;
                     assert!(
-                        error < 0.15,
+                        error < 0.25,
                         "{error}: {found} / 256 is not {exact}: {filter:?} {grid:?} {at:?} {mask:x}"
                     );
                 }

@@ -69,10 +69,15 @@ impl Export<'_> {
         let view = *ours[0].view();
         let (mut points, mut attributes, mut translucent) = (Vec::new(), Vec::new(), false);
         for primitive in &scene.primitives {
-            let PrimitiveKind::Triangle { points: corners, paint } = &primitive.kind else {
-                continue;
+            let (triangles, paint) = match &primitive.kind {
+                PrimitiveKind::Triangle { points, paint } => (std::slice::from_ref(points), *paint),
+                PrimitiveKind::Polygon { polygon, color } => {
+                    let triangles = polygon.triangles().expect("few crossings");
+                    (triangles, Paint::Solid(*color))
+                }
+                _ => continue,
             };
-            for (i, corner) in corners.iter().enumerate() {
+            for (i, corner) in triangles.iter().flat_map(|corners| corners.iter().enumerate()) {
                 let place = view.to_pixels(*corner).as_vec2();
                 points.extend([place.x, place.y].map(f32::to_le_bytes).concat());
                 match paint {

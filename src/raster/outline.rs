@@ -16,6 +16,9 @@ use crate::geometry::clip::{clip_edge, in_guard};
 use crate::geometry::edge::EdgeWalker;
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 
+/// Most crossings of edges and rows that are held at once, where a row has no more: 16 MB.
+const MAX_CROSSINGS: usize = 1 << 22;
+
 /// A polygon in a chunk.
 #[derive(Clone, Debug)]
 pub(crate) struct Outline {
@@ -281,9 +284,27 @@ impl RowScanner {
         store: &mut SpanStore,
     ) -> Stored {
         let rows = rows.intersection(outline.samples.rows);
-        let edges = outline.edges_in(all, rows);
-        self.sort_crossings(edges, grid, rows, end);
         let first = store.starts.len();
+        let mut single = true;
+        let edges = outline.edges_in(all, rows).count();
+        // All rows at once, unless so many edges cross them that nobody would want to hold it.
+        let step = i32::try_from(MAX_CROSSINGS / edges.max(1)).unwrap_or(i32::MAX).max(1);
+        let mut start = rows.start;
+        while start < rows.end {
+            let some = Span {
+                start,
+                end: rows.end.min(start.saturating_add(step)),
+            };
+            self.sort_crossings(outline.edges_in(all, some), grid, some, end);
+            single &= self.spans_of_rows(outline.rule, end, store);
+            start = some.end;
+        }
+        store.starts.push(index(store.spans.len()));
+        Stored { rows, first, single }
+    }
+
+    /// Adds the spans of the rows whose crossings were found; whether no row has more than one.
+    fn spans_of_rows(&mut self, rule: FillRule, end: i32, store: &mut SpanStore) -> bool {
         let mut single = true;
         let mut from = 0;
         for to in &self.next {
@@ -306,11 +327,10 @@ impl RowScanner {
                 }
             }
             crossings.sort_unstable();
-            enclosed(crossings, outline.rule, end, &mut store.spans);
+            enclosed(crossings, rule, end, &mut store.spans);
             single &= store.spans.len() - before <= 1;
         }
-        store.starts.push(index(store.spans.len()));
-        Stored { rows, first, single }
+        single
     }
 
     /// Finds where edges cross `rows`: after that `next` holds where the crossings of each row end.

@@ -121,15 +121,14 @@ fn mesh(u: &mut Unstructured<'_>, paint: Paint) -> Result<Vec<PrimitiveKind>> {
                 corners[j + 1][i],
                 corners[j + 1][i + 1],
             );
-            // A diagonal only where it lies inside its cell, or triangles would overlap.
-            let convex = |p: DVec2, q: DVec2, from: DVec2, to: DVec2| {
-                ((to - from).perp_dot(p - from) > 0.0) != ((to - from).perp_dot(q - from) > 0.0)
+            // Of the two diagonals the one that lies well inside the cell. A triangle without area could turn over when its
+            // corners are snapped, and lie on its neighbours.
+            let least = |halves: [[DVec2; 3]; 2]| {
+                let area = |[p, q, r]: [DVec2; 3]| (q - p).perp_dot(r - p);
+                halves.map(area).into_iter().fold(f64::INFINITY, f64::min)
             };
-            let halves = if convex(a, d, b, c) {
-                [[a, b, c], [b, d, c]]
-            } else {
-                [[a, b, d], [a, d, c]]
-            };
+            let (across, along) = ([[a, b, c], [b, d, c]], [[a, b, d], [a, d, c]]);
+            let halves = if least(across) > least(along) { across } else { along };
             kinds.extend(halves.map(|points| PrimitiveKind::Triangle { points, paint }));
         }
     }

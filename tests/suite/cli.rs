@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use crate::support::refusal::assert_refused;
 use crate::support::scenes::{at_rate, drawn};
 use rasterscope::geometry::View;
 use rasterscope::render::RenderSettings;
@@ -21,20 +22,9 @@ fn run(folder: &Path, arguments: &[&str]) -> Output {
     command.output().expect("the program starts")
 }
 
-/// The answer to a mistake: exit status 2, nothing on stdout, one line on stderr that holds all of `words`.
+/// Runs the program, which must refuse.
 fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
-    let output = run(folder, arguments);
-    let stderr = String::from_utf8(output.stderr).expect("text");
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {stderr}");
-    assert!(output.stdout.is_empty(), "{arguments:?} prints nothing else");
-    assert_eq!(
-        stderr.trim_end().lines().count(),
-        1,
-        "{arguments:?}: one line: {stderr}"
-    );
-    for word in words {
-        assert!(stderr.contains(word), "{arguments:?} says {word}: {stderr}");
-    }
+    assert_refused(&run(folder, arguments), arguments, words);
 }
 
 fn folder_with(files: &[(&str, &str)]) -> tempfile::TempDir {

@@ -8,6 +8,8 @@ use rasterscope::compare::{decode_picture, encoded_size};
 use rasterscope::figure::save_png;
 use rasterscope::raster::Framebuffer;
 
+use crate::support::refusal::assert_refused;
+
 fn run(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_rasterscope"))
         .current_dir(folder)
@@ -250,17 +252,6 @@ fn diff_answers_mistakes_in_one_line() {
         (&["a.png"], &["<B>"]),
         (&["a.png", "b.png", "--gain", "-1"], &["gain"]),
     ] {
-        let output = run(folder.path(), arguments);
-        let stderr = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {stderr}");
-        assert!(output.stdout.is_empty(), "{arguments:?} prints nothing else");
-        assert_eq!(
-            stderr.trim_end().lines().count(),
-            1,
-            "{arguments:?}: one line: {stderr}"
-        );
-        for word in words {
-            assert!(stderr.contains(word), "{arguments:?} says {word}: {stderr}");
-        }
+        assert_refused(&run(folder.path(), arguments), arguments, words);
     }
 }

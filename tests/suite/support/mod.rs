@@ -3,5 +3,6 @@
 pub(crate) mod brute_force;
 pub(crate) mod documents;
 pub(crate) mod golden;
+pub(crate) mod refusal;
 pub(crate) mod scenes;
 pub(crate) mod session;

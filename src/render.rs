@@ -1,6 +1,7 @@
 //! The only place where scene meets raster: transforms a scene's primitives and draws them into a frame.
 
 mod regions;
+mod replay;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -11,13 +12,14 @@ use rayon::prelude::*;
 use crate::color::Rgba;
 use crate::geometry::ViewTransform;
 use crate::raster::{
-    Chunk, ChunkBuilder, Counters, DisplayList, Fill, Framebuffer, ListContext, RasterSettings, SampleHit, SampleRate,
+    Chunk, ChunkBuilder, Counters, DisplayList, Fill, Framebuffer, ListContext, RasterSettings, SampleRate,
 };
 use crate::rules::Rules;
 use crate::scene::{Paint, PrimitiveKind, Scene};
 use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, SamplingSettings};
 
 pub use regions::{Subject, draw_regions, refine};
+pub use replay::{Explainer, replay};
 
 /// Everything about a picture that is neither scene nor view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,19 +124,6 @@ pub fn draw_cancellable(
     })
 }
 
-/// What each sample of pixel `(x, y)` of a frame of `size` pixels holds, painted by the same code as the frame; the
-/// source of a sample is an index into [`Scene::primitives`], or the number of primitives for the canvas outline.
-/// `None` outside the frame.
-pub fn probe(
-    scene: &Scene,
-    view: &ViewTransform,
-    settings: &RenderSettings,
-    size: [u32; 2],
-    [x, y]: [u32; 2],
-) -> Option<Vec<SampleHit>> {
-    display_list(scene, view, settings, size).probe(x, y)
-}
-
 /// Fewest and most primitives that one thread transforms at a time.
 const CHUNK: (usize, usize) = (1024, 65_536);
 
@@ -145,18 +134,7 @@ fn display_list<'a>(
     settings: &RenderSettings,
     size: [u32; 2],
 ) -> DisplayList<'a> {
-    let raster = RasterSettings {
-        rate: settings.sample_rate,
-        sampling: SamplingSettings {
-            pixel: settings.pixel_sampling,
-            level: settings.level_sampling,
-            anisotropy: settings.anisotropy,
-            detail: settings.detail,
-            sample_step: 1.0 / f64::from(settings.sample_rate.side()),
-            rules: settings.rules,
-        },
-        background: settings.background,
-    };
+    let raster = raster_settings(settings);
     let context = ListContext::new(size, &raster);
     let screen = Screen {
         view,
@@ -190,6 +168,22 @@ fn display_list<'a>(
         chunks,
         scene.textures.iter().map(AsRef::as_ref).collect(),
     )
+}
+
+/// What the settings mean to the rasterizer.
+fn raster_settings(settings: &RenderSettings) -> RasterSettings {
+    RasterSettings {
+        rate: settings.sample_rate,
+        sampling: SamplingSettings {
+            pixel: settings.pixel_sampling,
+            level: settings.level_sampling,
+            anisotropy: settings.anisotropy,
+            detail: settings.detail,
+            sample_step: 1.0 / f64::from(settings.sample_rate.side()),
+            rules: settings.rules,
+        },
+        background: settings.background,
+    }
 }
 
 /// The number of a primitive; the reader refuses scenes of more than `2^32`.

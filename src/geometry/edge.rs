@@ -5,6 +5,7 @@
 //! triangles that share an edge compute the very same columns, and each sample between them belongs to one.
 
 use super::subpixel::{GridPoint, SubpixelGrid};
+use crate::rules::Rules;
 
 /// The columns at which one edge crosses successive sample rows.
 #[derive(Clone, Copy, Debug)]
@@ -101,6 +102,56 @@ pub fn edge_value(a: GridPoint, b: GridPoint, point: GridPoint) -> i64 {
     let (abx, aby) = (i64::from(b.x) - i64::from(a.x), i64::from(b.y) - i64::from(a.y));
     let (apx, apy) = (i64::from(point.x) - i64::from(a.x), i64::from(point.y) - i64::from(a.y));
     abx * apy - aby * apx
+}
+
+/// What the top-left rule says of a triangle's edge: who owns the samples on its line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EdgeKind {
+    /// Level, with the triangle below it: its samples belong to the triangle.
+    Top,
+    /// With the triangle on its right: its samples belong to the triangle.
+    Left,
+    /// A right or bottom edge: its samples belong to the neighbour.
+    Other,
+}
+
+/// One edge of a triangle tested at one point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EdgeTest {
+    /// The edge function in square units of the grid: above zero on the triangle's side, zero on the edge's line.
+    pub value: i64,
+    /// Who owns the points on the line.
+    pub kind: EdgeKind,
+}
+
+impl EdgeTest {
+    /// The edges from the first corner to the second, from the second to the third and from the third to the first, at
+    /// `point`; the triangle may have either winding.
+    pub fn of_triangle(corners: [GridPoint; 3], point: GridPoint) -> [Self; 3] {
+        let clockwise = doubled_area(corners) >= 0;
+        [0, 1, 2].map(|i| {
+            let (from, to) = (corners[i], corners[(i + 1) % 3]);
+            let (from, to) = if clockwise { (from, to) } else { (to, from) };
+            // Clockwise on the screen a top edge runs right and a left edge runs up.
+            let kind = if to.y < from.y {
+                EdgeKind::Left
+            } else if to.y == from.y && to.x > from.x {
+                EdgeKind::Top
+            } else {
+                EdgeKind::Other
+            };
+            Self {
+                value: edge_value(from, to, point),
+                kind,
+            }
+        })
+    }
+
+    /// Whether the point lies on the triangle's side of the edge, or on its line and belongs to the triangle. By the
+    /// course's rules every edge owns its line.
+    pub fn is_inside(self, rules: Rules) -> bool {
+        self.value > 0 || self.value == 0 && (rules == Rules::Course || self.kind != EdgeKind::Other)
+    }
 }
 
 #[cfg(test)]

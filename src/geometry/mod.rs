@@ -2,6 +2,7 @@
 //!
 //! Knows no XML, file, clock or window. User space and screen space are both y down.
 
+mod area;
 pub mod clip;
 pub mod edge;
 mod polygon;
@@ -10,6 +11,7 @@ pub mod subpixel;
 mod triangulate;
 mod view;
 
+pub use area::area_in_pixel;
 pub use polygon::Polygon;
 pub use stroke::{LineCap, LineJoin, StrokeStyle, stroke_outline};
 pub use triangulate::{FillRule, estimate_crossings, triangulate};

@@ -161,6 +161,15 @@ impl Bins {
         Self { entries, starts }
     }
 
+    /// All entries of a single tile.
+    pub(crate) fn of_one_tile(entries: Vec<Entry>) -> Self {
+        let end = u32::try_from(entries.len()).unwrap_or(u32::MAX);
+        Self {
+            entries,
+            starts: vec![0, end],
+        }
+    }
+
     /// The entries of a tile, counted row by row from the first tile row that was asked for.
     pub(crate) fn of_tile(&self, tile: usize) -> &[Entry] {
         &self.entries[self.starts[tile] as usize..self.starts[tile + 1] as usize]

@@ -25,6 +25,8 @@ pub struct ChunkBuilder<'a> {
     color: (Rgba, Premultiplied16),
     /// Memory for the spans of small polygons.
     scanner: (RowScanner, SpanStore),
+    /// Whether small shapes become stamps.
+    stamps: bool,
 }
 
 impl<'a> ChunkBuilder<'a> {
@@ -42,7 +44,15 @@ impl<'a> ChunkBuilder<'a> {
             source: 0,
             color: (Rgba::BLACK, stored),
             scanner: Default::default(),
+            stamps: true,
         }
+    }
+
+    /// Keeps small triangles and polygons as they are, rather than reduced to the samples that they cover.
+    #[must_use]
+    pub fn with_all_shapes(mut self) -> Self {
+        self.stamps = false;
+        self
     }
 
     /// Everything added from here on comes from the caller's primitive number `source`.
@@ -87,7 +97,9 @@ impl<'a> ChunkBuilder<'a> {
         let Some(outline) = builder.finish(polygon.rule()) else {
             return;
         };
-        if let Some(coverage) = outline.small_coverage(&self.chunk.outline_edges, grid, &mut self.scanner) {
+        if self.stamps
+            && let Some(coverage) = outline.small_coverage(&self.chunk.outline_edges, grid, &mut self.scanner)
+        {
             outline.drop_edges(&mut self.chunk.outline_edges);
             if coverage.mask != 0 {
                 self.stamp(coverage, color, Op::Samples);
@@ -175,7 +187,9 @@ impl<'a> ChunkBuilder<'a> {
             if coverage.mask == 0 {
                 return;
             }
-            if let Fill::Solid(color) = *fill {
+            if let Fill::Solid(color) = *fill
+                && self.stamps
+            {
                 self.stamp(coverage, color, Op::Samples);
                 self.chunk.triangle_count += 1;
                 return;

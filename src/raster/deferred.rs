@@ -111,12 +111,29 @@ impl<'a> DeferredPainter<'a> {
         }
         let start = timed.then(Instant::now);
         self.unresolved.sort(self.slots.len());
-        self.shade([x.start, y.start], block);
+        let resolver = self.resolver;
+        self.shade([x.start, y.start], &mut |place, sums| {
+            block.put(place, resolver.pixel(sums));
+        });
         let shading = start.map(|start| start.elapsed()).unwrap_or_default();
         for (place, sums) in self.unresolved.places.iter().zip(&self.unresolved.sums) {
             block.put(*place, self.resolver.pixel(*sums));
         }
         shading
+    }
+
+    /// After a tile of a single pixel was resolved: the sums of its samples' channels, if any of them was shaded.
+    pub(crate) fn shaded_sums(&mut self) -> Option<[u32; 4]> {
+        if self.unresolved.is_empty() {
+            return None;
+        }
+        self.unresolved.clear();
+        let PixelRect { x, y } = self.layers[0].rect;
+        self.resolve_row(y.start, 0, &mut [0]);
+        self.unresolved.sort(self.slots.len());
+        let mut whole = None;
+        self.shade([x.start, y.start], &mut |_, sums| whole = Some(sums));
+        whole.or_else(|| self.unresolved.sums.first().copied())
     }
 
     #[inline]
@@ -297,9 +314,10 @@ impl<'a> DeferredPainter<'a> {
         }
     }
 
-    /// Shades all fragments: whole pixels are done then, others have the colours added to their sums. `origin` is the
-    /// tile's first pixel.
-    fn shade(&mut self, origin: [i32; 2], block: &mut PixelBlock<'_>) {
+    /// Shades all fragments: the sums of whole pixels go to `put`, others have the colours added to theirs. `origin` is
+    /// the tile's first pixel.
+    #[inline]
+    fn shade(&mut self, origin: [i32; 2], put: &mut impl FnMut([u16; 2], [u32; 4])) {
         let (context, resolver, slots, shading) = (&self.context, self.resolver, &self.slots, &mut self.shading);
         let Unresolved {
             places, sums, sorted, ..
@@ -314,7 +332,7 @@ impl<'a> DeferredPainter<'a> {
             let whole = shading.shade_whole(fragments, grid, &shader);
             self.samples_shaded += whole * u64::from(grid.side * grid.side);
             for (place, sum) in shading.places.iter().zip(&shading.sums) {
-                block.put(*place, resolver.pixel(shown.over_shaded(*sum, kept, resolver.count())));
+                put(*place, shown.over_shaded(*sum, kept, resolver.count()));
             }
             for first in (0..resolver.count()).step_by(64) {
                 shading.gather(fragments, places, first);

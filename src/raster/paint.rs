@@ -1,10 +1,10 @@
 //! Painting one tile: every op of the display list that touches it, in painter's order.
 
-use super::SampleHit;
 use super::band_spans::{BandSpans, Shape};
 use super::display_list::Chunk;
 use super::entry::{Entry, Work};
 use super::pixel_row::{PixelRow, each_pixel_row_of_few, scaled};
+use super::recorder::{PaintedKind, PaintedOp, Recorder};
 use super::rows::Span;
 use super::shade::{ShadeContext, Shader, ShaderKind};
 use super::small::SmallCoverage;
@@ -24,15 +24,8 @@ pub(crate) struct TilePainter<'a> {
     colors: Vec<Premultiplied16>,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
-    /// When a pixel is probed: which source painted each sample last.
-    probe: Option<Probe>,
-}
-
-/// Follows the samples of a single-pixel tile.
-#[derive(Debug)]
-struct Probe {
-    source: u32,
-    hits: Vec<Option<u32>>,
+    /// When a single pixel is replayed: what was painted.
+    recorder: Option<Recorder>,
 }
 
 impl<'a> TilePainter<'a> {
@@ -45,7 +38,7 @@ impl<'a> TilePainter<'a> {
             points: Vec::new(),
             colors: Vec::new(),
             samples_shaded: 0,
-            probe: None,
+            recorder: None,
         }
     }
 
@@ -58,8 +51,8 @@ impl<'a> TilePainter<'a> {
     /// Paints the ops of one chunk that touch the tile.
     pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[Entry], bands: &mut BandSpans) {
         for entry in entries {
-            if let Some(probe) = &mut self.probe {
-                probe.source = chunk.sources[entry.op()];
+            if self.recorder.is_some() {
+                self.record(chunk, *entry);
             }
             match entry.work(chunk) {
                 Work::Samples(coverage, color) => self.samples(coverage, color),
@@ -85,39 +78,63 @@ impl<'a> TilePainter<'a> {
         self.layers[0].resolve(y, pixels);
     }
 
-    /// Paints a tile of a single pixel and says what each of its samples holds.
-    pub(crate) fn probe(
+    /// Paints a tile of a single pixel and says what each op did there, and what its samples hold then.
+    pub(crate) fn replay(
         &mut self,
         chunks: &[(&Chunk, &[Entry])],
         (pixel, background): ([i32; 2], Premultiplied16),
         bands: &mut BandSpans,
-    ) -> Vec<SampleHit> {
+    ) -> (Vec<PaintedOp>, Vec<Premultiplied16>) {
         let one = |start: i32| Span { start, end: start + 1 };
-        let side = self.context.grid.side().cast_unsigned() as usize;
-        self.probe = Some(Probe {
-            source: 0,
-            hits: vec![None; side * side],
-        });
-        self.begin(
-            PixelRect {
-                x: one(pixel[0]),
-                y: one(pixel[1]),
-            },
-            background,
-        );
+        self.recorder = Some(Recorder::new(self.samples_per_pixel()));
+        let rect = PixelRect {
+            x: one(pixel[0]),
+            y: one(pixel[1]),
+        };
+        self.begin(rect, background);
         for (chunk, entries) in chunks {
             self.paint(chunk, entries, bands);
         }
-        let hits = self.probe.take().map(|probe| probe.hits).unwrap_or_default();
-        let place = |index: usize| (index as f64 + 0.5) / side as f64;
-        hits.into_iter()
-            .enumerate()
-            .map(|(i, source)| SampleHit {
-                position: [place(i % side), place(i / side)],
-                color: self.layers[0].sample(pixel[0], pixel[1], i),
-                source,
-            })
-            .collect()
+        let samples = self.pixel_samples(0);
+        let painted = self.recorder.take().map(|recorder| recorder.finish(&samples));
+        (painted.unwrap_or_default(), samples)
+    }
+
+    fn samples_per_pixel(&self) -> usize {
+        let side = self.context.grid.side().cast_unsigned() as usize;
+        side * side
+    }
+
+    /// The samples of a layer's first pixel.
+    fn pixel_samples(&self, layer: usize) -> Vec<Premultiplied16> {
+        let PixelRect { x, y } = self.layers[0].rect;
+        let sample = |i| self.layers[layer].sample(x.start, y.start, i);
+        (0..self.samples_per_pixel()).map(sample).collect()
+    }
+
+    /// Tells the recorder which op comes next.
+    fn record(&mut self, chunk: &Chunk, entry: Entry) {
+        let now = self.pixel_samples(self.depth - 1);
+        let work = entry.work(chunk);
+        // The end of a layer paints on what lies below it.
+        let (on, layer) = match work {
+            Work::EndLayer(opacity) if self.depth > 1 => {
+                let layer = now.iter().map(|color| color.faded(opacity)).collect();
+                (self.pixel_samples(self.depth - 2), Some(layer))
+            }
+            _ => (now.clone(), None),
+        };
+        if let Some(recorder) = &mut self.recorder {
+            recorder.next(
+                (chunk.sources[entry.op()], entry.op()),
+                PaintedKind::of(&work),
+                &now,
+                on,
+            );
+            if let Some(colors) = layer {
+                recorder.paint_all(colors);
+            }
+        }
     }
 
     fn push_layer(&mut self, rect: PixelRect, color: Premultiplied16) {
@@ -192,9 +209,9 @@ impl<'a> TilePainter<'a> {
             for x in pixels.partial() {
                 self.layers[self.depth - 1].fill_part(x, row, pixels.spans(), *color);
             }
-            if self.probe.is_some() {
+            if let Some(recorder) = &mut self.recorder {
                 for (span, line) in pixels.spans().iter().zip(row * side..) {
-                    self.note(*span, line);
+                    recorder.paint(*span, line, side, |_| *color);
                 }
             }
         } else {
@@ -209,10 +226,10 @@ impl<'a> TilePainter<'a> {
 
     fn fill(&mut self, xs: Span, y: i32, color: Premultiplied16) {
         self.layers[self.depth - 1].fill(xs, y, color);
-        if let Some(probe) = &mut self.probe
+        if let Some(recorder) = &mut self.recorder
             && !xs.is_empty()
         {
-            probe.hits.fill(Some(probe.source));
+            recorder.fill(color);
         }
     }
 
@@ -235,17 +252,8 @@ impl<'a> TilePainter<'a> {
             .extend((inside(x.start, columns.start)..inside(x.start, columns.end)).map(|column| [column, row]));
         shader.points(self.context.samples_from([x.start, y.start]), &self.points, colors);
         self.layers[self.depth - 1].write_samples(columns, line, colors, shader.opaque);
-        self.note(columns, line);
-    }
-
-    /// Tells the probe that samples were painted.
-    fn note(&mut self, columns: Span, line: i32) {
-        let side = self.context.grid.side();
-        if let Some(probe) = &mut self.probe {
-            for column in columns.start..columns.end {
-                let sample = line.rem_euclid(side) * side + column.rem_euclid(side);
-                probe.hits[sample.cast_unsigned() as usize] = Some(probe.source);
-            }
+        if let Some(recorder) = &mut self.recorder {
+            recorder.paint(columns, line, side, |i| colors[i]);
         }
     }
 }

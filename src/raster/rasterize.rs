@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 
 use super::band_spans::BandSpans;
-use super::bins::{Bins, Plan, entries_of_tile};
+use super::bins::{Bins, Plan};
 use super::deferred::DeferredPainter;
 use super::direct::DirectPainter;
 use super::display_list::{Chunk, ListContext, Paint, measure_layers};
@@ -41,9 +41,9 @@ pub struct RasterSettings {
 #[derive(Debug)]
 pub struct DisplayList<'a> {
     pub(super) context: ListContext,
-    settings: RasterSettings,
+    pub(super) settings: RasterSettings,
     pub(super) chunks: Vec<Chunk>,
-    textures: Vec<&'a Texture>,
+    pub(super) textures: Vec<&'a Texture>,
     kinds: Kinds,
 }
 
@@ -72,17 +72,6 @@ impl RasterTimes {
     }
 }
 
-/// What one sample of a pixel holds when everything is painted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SampleHit {
-    /// Its place in the pixel, `(0, 0)` the top left corner, `(1, 1)` the bottom right.
-    pub position: [f64; 2],
-    /// Its colour.
-    pub color: Premultiplied16,
-    /// The source of what painted it last; `None` for the background.
-    pub source: Option<u32>,
-}
-
 /// What the primitives of a list are like.
 #[derive(Clone, Copy, Debug)]
 struct Kinds {
@@ -98,7 +87,7 @@ struct Kinds {
 /// fastest. Where samples are shaded, the deferred method rounds once per primitive and pixel, blending once per
 /// sample: tiles that shade anything take the one or the other for the whole list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Method {
+pub(super) enum Method {
     /// Opaque primitives straight into the frame.
     Direct,
     /// What each sample shows, then its colour.
@@ -111,17 +100,17 @@ enum Method {
 #[derive(Debug)]
 pub(super) struct Painters<'a> {
     direct: DirectPainter<'a>,
-    deferred: DeferredPainter<'a>,
-    blended: TilePainter<'a>,
-    bands: BandSpans,
+    pub(super) deferred: DeferredPainter<'a>,
+    pub(super) blended: TilePainter<'a>,
+    pub(super) bands: BandSpans,
     pub(super) tally: Tally,
 }
 
 /// One group of tile rows on its way to the frame.
 pub(super) struct Pass<'a> {
     /// The entries of each chunk.
-    bins: Vec<Bins>,
-    first_row: u32,
+    pub(super) bins: Vec<Bins>,
+    pub(super) first_row: u32,
     pub(super) cancelled: &'a AtomicBool,
     pub(super) tally: SharedTally,
 }
@@ -239,26 +228,7 @@ impl<'a> DisplayList<'a> {
         Some(times)
     }
 
-    /// What each sample of one pixel holds: painted by the same code as a frame. `None` outside the frame.
-    pub fn probe(&self, x: u32, y: u32) -> Option<Vec<SampleHit>> {
-        if x >= self.context.size[0] || y >= self.context.size[1] {
-            return None;
-        }
-        let pixel = [x.cast_signed(), y.cast_signed()];
-        let context = ListContext {
-            tiles: TileLayout::new((0, 0), self.context.size),
-            ..self.context
-        };
-        let touching: Vec<Vec<Entry>> = self
-            .chunks
-            .par_iter()
-            .map(|chunk| entries_of_tile(chunk, &context, &self.textures, pixel))
-            .collect();
-        let chunks: Vec<(&Chunk, &[Entry])> = self.chunks.iter().zip(touching.iter().map(Vec::as_slice)).collect();
-        Some(TilePainter::new(self.shade_context()).probe(&chunks, (pixel, self.background()), &mut self.bands()))
-    }
-
-    fn background(&self) -> Premultiplied16 {
+    pub(super) fn background(&self) -> Premultiplied16 {
         Premultiplied16::from_straight(self.settings.background, self.settings.sampling.rules)
     }
 
@@ -277,7 +247,7 @@ impl<'a> DisplayList<'a> {
         }
     }
 
-    fn shade_context(&self) -> ShadeContext<'_> {
+    pub(super) fn shade_context(&self) -> ShadeContext<'_> {
         ShadeContext {
             grid: self.context.grid,
             sampling: self.settings.sampling,
@@ -285,7 +255,7 @@ impl<'a> DisplayList<'a> {
         }
     }
 
-    fn bands(&self) -> BandSpans {
+    pub(super) fn bands(&self) -> BandSpans {
         let outlines = self.chunks.iter().map(|chunk| chunk.outlines.len()).sum();
         let columns = self.context.samples().columns.end;
         BandSpans::new((self.context.grid, self.context.rules), columns, outlines)
@@ -303,7 +273,7 @@ impl<'a> DisplayList<'a> {
     }
 
     /// How a tile is painted, of which the ops from `first` on are to be seen: see [`Method`].
-    fn method(&self, pass: &Pass<'_>, tile: usize, first: (usize, usize)) -> Method {
+    pub(super) fn method(&self, pass: &Pass<'_>, tile: usize, first: (usize, usize)) -> Method {
         let all = |kind: fn(&Entry, &Chunk) -> bool| {
             visible(&pass.bins, tile, first)
                 .all(|(chunk, entries)| entries.iter().all(|entry| kind(entry, &self.chunks[chunk])))
@@ -355,7 +325,18 @@ impl<'a> DisplayList<'a> {
         [column, row]: [u32; 2],
         block: &mut PixelBlock<'_>,
     ) {
-        let tile = ((row - pass.first_row) * self.context.tiles.columns + column) as usize;
+        let tile = (row - pass.first_row) * self.context.tiles.columns + column;
+        self.numbered_tile(pass, painters, tile as usize, block);
+    }
+
+    /// As [`DisplayList::tile`], for a tile counted from the first one of the pass.
+    pub(super) fn numbered_tile<'s>(
+        &'s self,
+        pass: &Pass<'_>,
+        painters: &mut Painters<'s>,
+        tile: usize,
+        block: &mut PixelBlock<'_>,
+    ) {
         let background = self.background();
         let rules = self.settings.sampling.rules;
         if pass.bins.iter().all(|bins| bins.of_tile(tile).is_empty()) {
@@ -423,7 +404,7 @@ impl<'a> DisplayList<'a> {
 }
 
 /// The chunk and the entry in it that painting a tile may start with: the last opaque shape that covers it wholly.
-fn first_visible(bins: &[Bins], tile: usize) -> (usize, usize) {
+pub(super) fn first_visible(bins: &[Bins], tile: usize) -> (usize, usize) {
     for (chunk, bins) in bins.iter().enumerate().rev() {
         if let Some(entry) = bins.of_tile(tile).iter().rposition(|entry| entry.hides_tile()) {
             return (chunk, entry);

@@ -199,25 +199,12 @@ mod tests {
     use arbtest::arbitrary;
 
     use super::*;
-    use crate::geometry::edge::edge_value;
+    use crate::geometry::edge::EdgeTest;
 
     /// Coverage by definition: Pineda's edge functions, ties by the kind of edge.
-    fn covers([a, b, c]: [GridPoint; 3], sample: GridPoint, rules: Rules) -> bool {
-        let corners = if doubled_area([a, b, c]) < 0 {
-            [a, c, b]
-        } else {
-            [a, b, c]
-        };
-        if doubled_area(corners) == 0 {
-            return false;
-        }
-        (0..3).all(|i| {
-            let (from, to) = (corners[i], corners[(i + 1) % 3]);
-            let value = edge_value(from, to, sample);
-            // Clockwise on the screen: a top edge runs right, a left edge runs up.
-            let top_left = to.y < from.y || (to.y == from.y && to.x > from.x);
-            value > 0 || (value == 0 && (rules == Rules::Course || top_left))
-        })
+    fn covers(corners: [GridPoint; 3], sample: GridPoint, rules: Rules) -> bool {
+        let tests = EdgeTest::of_triangle(corners, sample);
+        doubled_area(corners) != 0 && tests.iter().all(|test| test.is_inside(rules))
     }
 
     #[test]

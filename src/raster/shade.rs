@@ -222,7 +222,7 @@ impl<'a> Shader<'a> {
 }
 
 /// The planes of `(u, v)` in pixels.
-fn uv_map(grid: SubpixelGrid, uv: &Planes<2>) -> UvMap {
+pub(super) fn uv_map(grid: SubpixelGrid, uv: &Planes<2>) -> UvMap {
     let side = f64::from(grid.side());
     UvMap {
         pivot: DVec2::from_array(uv.pivot) / side,
@@ -238,7 +238,7 @@ fn uv_map(grid: SubpixelGrid, uv: &Planes<2>) -> UvMap {
     clippy::cast_possible_truncation,
     reason = "the course reads textures at 32-bit floats"
 )]
-fn course_uv(uv: &Planes<2>, side: i32, [column, row]: [i32; 2]) -> [f32; 2] {
+pub(super) fn course_uv(uv: &Planes<2>, side: i32, [column, row]: [i32; 2]) -> [f32; 2] {
     let anchor = column.div_euclid(8 * side) * 8 * side;
     let at_anchor = uv.at(f64::from(anchor), f64::from(row) + 0.5);
     let pixels = ((column - anchor) as f32 + 0.5) * (1.0 / side as f32);

@@ -190,6 +190,7 @@ impl<'doc> Builder<'doc> {
             primitives: self.primitives,
             textures,
             report: self.report,
+            document: None,
         }
     }
 

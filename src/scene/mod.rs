@@ -37,6 +37,9 @@ pub use resources::{FolderResources, NoResources, ResourceError, Resources};
 /// Largest scene file, in bytes.
 const MAX_DOCUMENT_BYTES: u64 = 256 << 20;
 
+/// Largest document whose text is kept to be quoted, in bytes.
+const MAX_KEPT_DOCUMENT: usize = 32 << 20;
+
 /// Reads the scene in the file `path`; textures are looked for relative to its folder.
 ///
 /// # Errors
@@ -88,5 +91,7 @@ fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> 
         let (width, height) = (canvas.x, canvas.y);
         return Err(Problem::Canvas { width, height }.at(builder.locate(root)));
     }
-    Ok(builder.finish(dialect, canvas))
+    let mut scene = builder.finish(dialect, canvas);
+    scene.document = (text.len() <= MAX_KEPT_DOCUMENT).then(|| text.as_ref().into());
+    Ok(scene)
 }

@@ -33,6 +33,9 @@ pub struct Scene {
     pub textures: Vec<Arc<Texture>>,
     /// What the document asks for and the picture lacks.
     pub report: Report,
+    /// The document itself, for [`Scene::source_line`]; not kept when it is larger than 32 MB or the scene was made in
+    /// code.
+    pub document: Option<Arc<str>>,
 }
 
 impl Scene {
@@ -45,7 +48,15 @@ impl Scene {
             primitives: Vec::new(),
             textures: Vec::new(),
             report: Report::default(),
+            document: None,
         }
+    }
+
+    /// A line of the document, counted from 1, without spaces around it.
+    pub fn source_line(&self, line: u32) -> Option<&str> {
+        let before = usize::try_from(line).ok()?.checked_sub(1)?;
+        // Lines end where those that locations count do.
+        self.document.as_deref()?.split('\n').nth(before).map(str::trim)
     }
 }
 

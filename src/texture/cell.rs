@@ -100,22 +100,28 @@ pub(super) fn weights(x: i32, y: i32, mass: i32) -> [i32; 4] {
 
 /// Adds the texels around the point `(x, y)`, in fixed point, to `sums`, with weights that sum to `mass`.
 #[inline]
-pub(super) fn add(level: &MipLevel, pixel: PixelSampling, [x, y]: [u32; 2], mass: i32, sums: &mut [i32; 4]) {
-    const FRACTION: u32 = (1 << FRACTION_BITS) - 1;
-    let (column, row) = ((x >> FRACTION_BITS).cast_signed(), (y >> FRACTION_BITS).cast_signed());
-    let mut add = |x, y, weight: i32| {
+pub(super) fn add(level: &MipLevel, pixel: PixelSampling, at: [u32; 2], mass: i32, sums: &mut [i32; 4]) {
+    each(pixel, at, mass, |x, y, weight| {
         for (sum, channel) in sums.iter_mut().zip(level.texel(x, y)) {
             *sum += i32::from(channel) * weight;
         }
-    };
+    });
+}
+
+/// Calls `read` with column, row and weight of each texel around the point `(x, y)`, in fixed point; the weights sum to
+/// `mass`. A texel beyond the level, which weighs nothing then, may be among them.
+#[inline]
+pub(super) fn each(pixel: PixelSampling, [x, y]: [u32; 2], mass: i32, mut read: impl FnMut(i32, i32, i32)) {
+    const FRACTION: u32 = (1 << FRACTION_BITS) - 1;
+    let (column, row) = ((x >> FRACTION_BITS).cast_signed(), (y >> FRACTION_BITS).cast_signed());
     match pixel {
-        PixelSampling::Nearest => add(column, row, mass),
+        PixelSampling::Nearest => read(column, row, mass),
         PixelSampling::Bilinear => {
             let weights = weights((x & FRACTION).cast_signed(), (y & FRACTION).cast_signed(), mass);
-            add(column, row, weights[0]);
-            add(column + 1, row, weights[1]);
-            add(column, row + 1, weights[2]);
-            add(column + 1, row + 1, weights[3]);
+            read(column, row, weights[0]);
+            read(column + 1, row, weights[1]);
+            read(column, row + 1, weights[2]);
+            read(column + 1, row + 1, weights[3]);
         }
     }
 }

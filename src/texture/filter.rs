@@ -54,6 +54,8 @@ pub struct PixelList<'a> {
 #[derive(Clone, Copy, Debug)]
 struct FilterLevel<'a> {
     level: &'a MipLevel,
+    /// Its number in the pyramid.
+    number: usize,
     /// Its part of [`cell::MASS`].
     mass: i32,
     /// Coordinates at the pivot, in texels; whole numbers are corners of texels for [`PixelSampling::Nearest`], their
@@ -68,6 +70,8 @@ struct FilterLevel<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GridLevel<'a> {
     pub(super) level: &'a MipLevel,
+    /// Its number in the pyramid.
+    pub(super) number: usize,
     /// Its part of [`cell::MASS`].
     pub(super) mass: i32,
     pub(super) x: Axis,
@@ -114,7 +118,7 @@ impl<'a> Filter<'a> {
         let mass = mass(choice.next_weight);
         let near = map.pivot.is_finite() && map.pivot.abs().max_element() < FARTHEST;
         let prepare = |number: usize, mass| {
-            let level = FilterLevel::new(&levels[number], mass, map, pixel);
+            let level = FilterLevel::new((&levels[number], number), mass, map, pixel);
             if near { level } else { level.flat() }
         };
         let (finer, coarser) = match mass {
@@ -185,13 +189,14 @@ impl<'a> Filter<'a> {
 }
 
 impl<'a> FilterLevel<'a> {
-    fn new(level: &'a MipLevel, mass: i32, map: &UvMap, pixel: PixelSampling) -> Self {
+    fn new((level, number): (&'a MipLevel, usize), mass: i32, map: &UvMap, pixel: PixelSampling) -> Self {
         let size = DVec2::new(f64::from(level.width()), f64::from(level.height()));
         let at_pivot = map.uv * size - cell::first_centre(pixel);
         let (dx, dy) = (map.dx * size, map.dy * size);
         let usable = |vector: DVec2| vector.is_finite() && vector.abs().max_element() < LARGEST;
         let map = Self {
             level,
+            number,
             mass,
             at_pivot,
             dx,
@@ -223,6 +228,7 @@ impl<'a> FilterLevel<'a> {
         };
         GridLevel {
             level: self.level,
+            number: self.number,
             mass: self.mass,
             x: axis(self.at_pivot.x, self.dx.x, self.dy.x, self.level.width()),
             y: axis(self.at_pivot.y, self.dx.y, self.dy.y, self.level.height()),

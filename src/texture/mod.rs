@@ -13,6 +13,7 @@ mod oracle;
 mod points;
 mod positions;
 mod pyramid;
+mod reads;
 mod sampler;
 mod sums;
 mod tails;
@@ -25,6 +26,7 @@ pub use detail::{Derivatives, FixedLevel, LevelChoice, LevelOfDetail, LodBias, R
 pub use filter::{Filter, PixelList, SampleGrid};
 pub use footprint::Footprint;
 pub use pyramid::{MAX_SIDE, MipLevel, MipPyramid};
+pub use reads::{TapRead, TexelRead, TextureReads};
 pub use sampler::{Sampler, SamplingSettings};
 pub use uv_map::UvMap;
 

@@ -11,25 +11,20 @@
 use arbtest::arbitrary::{Result, Unstructured};
 use glam::DVec2;
 
-use super::filter::{Axis, Plan};
+use super::filter::Plan;
 use super::footing::{Footing, Scale};
 use super::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
-use super::{Filter, MipLevel, MipPyramid, SampleGrid, SamplingSettings, UvMap, cell};
+use super::{Filter, MipLevel, MipPyramid, SampleGrid, SamplingSettings, UvMap, cell, reads};
 use crate::color::Premultiplied16;
 
 /// The colour at one sample: what the kernels do for many.
 pub(super) fn point(plan: &Plan<'_>, point: [u32; 2]) -> Premultiplied16 {
-    let from_pivot = plan.first + DVec2::new(f64::from(point[0]), f64::from(point[1]));
+    let point = point.map(|at| at as u16);
     let count = plan.line.taps.count;
     let mut sums = [0; 4];
     for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
-        let at = |axis: &Axis| (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
-        let axes = [&level.x, &level.y];
         for tap in 0..count {
-            let place = axes.map(|axis| match count {
-                1 => cell::to_fixed(at(axis), axis.last),
-                _ => cell::tap(at(axis), axis.tap(&plan.line, tap), axis.last),
-            });
+            let place = reads::place(plan, level, point, tap);
             cell::add(level.level, plan.pixel, place, level.mass, &mut sums);
         }
     }

@@ -40,13 +40,15 @@ impl Default for SamplingSettings {
 /// One texture read at one footprint.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler<'a> {
-    finer: &'a MipLevel,
+    pub(super) finer: &'a MipLevel,
+    /// Its number in the pyramid.
+    pub(super) number: usize,
     /// The next coarser level and its weight, when two are mixed.
-    coarser: Option<(&'a MipLevel, f32)>,
-    taps: Taps,
+    pub(super) coarser: Option<(&'a MipLevel, f32)>,
+    pub(super) taps: Taps,
     /// The longer side of the footprint, in `(u, v)`.
-    along: DVec2,
-    pixel: PixelSampling,
+    pub(super) along: DVec2,
+    pub(super) pixel: PixelSampling,
     rules: Rules,
 }
 
@@ -69,6 +71,7 @@ impl<'a> Sampler<'a> {
         let coarser = (choice.next_weight > 0.0).then(|| (&levels[choice.level + 1], choice.next_weight));
         Self {
             finer: &levels[choice.level],
+            number: choice.level,
             coarser,
             taps,
             along: if taps.along_x { footprint.dx } else { footprint.dy },
@@ -128,36 +131,40 @@ impl<'a> Sampler<'a> {
 
     /// By the course's rules, with one tap.
     fn sample_levels(&self, u: f32, v: f32) -> [f32; 4] {
-        let fine = self.sample_level(self.finer, u, v);
+        let fine = course_level(self.finer, self.pixel, [u, v]);
         match self.coarser {
             None => fine,
-            Some((level, weight)) => lerp(fine, self.sample_level(level, u, v), weight),
-        }
-    }
-
-    fn sample_level(&self, level: &MipLevel, u: f32, v: f32) -> [f32; 4] {
-        match self.pixel {
-            PixelSampling::Nearest => course_nearest(level, u, v),
-            PixelSampling::Bilinear => course_bilinear(level, u, v),
+            Some((level, weight)) => lerp(fine, course_level(level, self.pixel, [u, v]), weight),
         }
     }
 }
 
-/// Texel `round(u (w - 1)), round(v (h - 1))`.
-fn course_nearest(level: &MipLevel, u: f32, v: f32) -> [f32; 4] {
-    let (width, height) = (level.width() as f32, level.height() as f32);
-    let (x, y) = (u * (width - 1.0) + 0.5, v * (height - 1.0) + 0.5);
-    level.texel(truncate(x.max(0.0)), truncate(y.max(0.0))).map(f32::from)
-}
-
-/// The four texels around the point, weighted by distance, where texel centres lie at whole multiples of `1 / (w - 1)`.
-fn course_bilinear(level: &MipLevel, u: f32, v: f32) -> [f32; 4] {
+/// Where `(u, v)` lies in a level: the texel, `round(u (w - 1)), round(v (h - 1))`, for [`PixelSampling::Nearest`]; the
+/// upper left of the four around the point and how far right and down from its centre the point is, in texels, for
+/// [`PixelSampling::Bilinear`], where texel centres lie at whole multiples of `1 / (w - 1)`.
+pub(super) fn course_place(level: &MipLevel, pixel: PixelSampling, [u, v]: [f32; 2]) -> ([i32; 2], [f32; 2]) {
     let (right, bottom) = (level.width() as f32 - 1.0, level.height() as f32 - 1.0);
-    // Beyond the outermost centres the border texel goes on, so clamping the point is clamping the texels.
-    let (x, y) = ((u * right).max(0.0).min(right), (v * bottom).max(0.0).min(bottom));
-    let (left, top) = (truncate(x), truncate(y));
-    let (s, t) = (x - left as f32, y - top as f32);
+    match pixel {
+        PixelSampling::Nearest => {
+            let (x, y) = (u * right + 0.5, v * bottom + 0.5);
+            ([truncate(x.max(0.0)), truncate(y.max(0.0))], [0.0; 2])
+        }
+        PixelSampling::Bilinear => {
+            // Beyond the outermost centres the border texel goes on, so clamping the point is clamping the texels.
+            let (x, y) = ((u * right).max(0.0).min(right), (v * bottom).max(0.0).min(bottom));
+            let (left, top) = (truncate(x), truncate(y));
+            ([left, top], [x - left as f32, y - top as f32])
+        }
+    }
+}
+
+/// The texel there, or the four texels around the point, weighted by distance.
+fn course_level(level: &MipLevel, pixel: PixelSampling, uv: [f32; 2]) -> [f32; 4] {
+    let ([left, top], [s, t]) = course_place(level, pixel, uv);
     let texel = |x, y| level.texel(x, y).map(f32::from);
+    if pixel == PixelSampling::Nearest {
+        return texel(left, top);
+    }
     let upper = lerp(texel(left, top), texel(left + 1, top), s);
     let lower = lerp(texel(left, top + 1), texel(left + 1, top + 1), s);
     lerp(upper, lower, t)

@@ -63,7 +63,7 @@ const ROOMS: &[Room] = &[
         rooms: &[
             "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
         ],
-        crates: &[],
+        crates: &["serde"],
     },
     Room {
         name: "render",

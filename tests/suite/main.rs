@@ -11,6 +11,7 @@ mod coverage;
 mod diff;
 mod gallery;
 mod golden;
+mod inspect;
 mod instruction_guard;
 mod oracle;
 #[cfg(feature = "window")]

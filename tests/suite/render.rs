@@ -4,7 +4,7 @@ use glam::DVec2;
 use rasterscope::color::Rgba;
 use rasterscope::geometry::View;
 use rasterscope::raster::Framebuffer;
-use rasterscope::render::{CancelToken, RenderSettings, draw_cancellable, probe};
+use rasterscope::render::{CancelToken, RenderSettings, Subject, draw_cancellable, replay};
 use rasterscope::scene::PrimitiveKind;
 
 use crate::support::scenes::{Fills, at_rate, drawn, one_to_one, random, scene, triangle};
@@ -188,7 +188,7 @@ fn render_of_nothing_is_no_crash() {
 }
 
 #[test]
-fn probe_tells_the_samples_that_make_the_pixel() {
+fn replay_tells_the_samples_that_make_the_pixel() {
     arbtest::arbtest(|u| {
         // What is shaded is summed over the samples of a pixel before it is rounded, here each sample is.
         let (fills, rounding) = *u.choose(&[(Fills::Translucent, 1e-9), (Fills::Everything, 0.25)])?;
@@ -196,11 +196,22 @@ fn probe_tells_the_samples_that_make_the_pixel() {
         let view = one_to_one([12, 12]);
         let frame = drawn(&scene, &view, &settings, [12, 12]);
         let (x, y) = (u.int_in_range(0..=11)?, u.int_in_range(0..=11)?);
-        let samples = probe(&scene, &view, &settings, [12, 12], [x, y]).expect("inside the frame");
+        let subject = Subject {
+            scene: &scene,
+            view: &view,
+            settings: &settings,
+        };
+        let replayed = replay(&subject, [12, 12], [x, y]).expect("inside the frame");
+        assert_eq!(
+            replayed.pixel,
+            frame.pixels()[(y * 12 + x) as usize],
+            "the frame's pixel"
+        );
+        let samples = &replayed.samples;
         assert_eq!(
             samples.len(),
             settings.sample_rate.samples() as usize,
-            "one hit per sample"
+            "one colour per sample"
         );
         let sum = samples.iter().map(|sample| u32::from(sample.color.0[0])).sum::<u32>();
         let mean = f64::from(sum) / (256.0 * samples.len() as f64);
@@ -211,7 +222,7 @@ fn probe_tells_the_samples_that_make_the_pixel() {
         );
         let known = |source: u32| (source as usize) < scene.primitives.len();
         assert!(
-            samples.iter().all(|sample| sample.source.is_none_or(known)),
+            replayed.sources().into_iter().all(|source| source.is_none_or(known)),
             "sources are primitives"
         );
         Ok(())
@@ -219,12 +230,17 @@ fn probe_tells_the_samples_that_make_the_pixel() {
     .budget_ms(500);
     let scene = scene(4.0, vec![triangle([(0.0, 0.0), (2.0, 0.0), (0.0, 4.0)], Rgba::BLACK)]);
     let view = one_to_one([4, 4]);
-    let hits = probe(&scene, &view, &at_rate(4), [4, 4], [1, 0]).expect("inside the frame");
-    let sources: Vec<_> = hits.iter().map(|hit| hit.source).collect();
+    let settings = at_rate(4);
+    let subject = Subject {
+        scene: &scene,
+        view: &view,
+        settings: &settings,
+    };
+    let replayed = replay(&subject, [4, 4], [1, 0]).expect("inside the frame");
     assert_eq!(
-        sources,
+        replayed.sources(),
         [Some(0), Some(0), Some(0), None],
         "the slanted edge leaves the lower right sample white"
     );
-    assert!(probe(&scene, &view, &at_rate(4), [4, 4], [4, 0]).is_none(), "outside");
+    assert!(replay(&subject, [4, 4], [4, 0]).is_none(), "outside");
 }

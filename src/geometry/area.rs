@@ -1,0 +1,93 @@
+//! How much of a pixel an area covers, exactly: what more and more samples come closer to.
+//!
+//! A polygon is cut by the pixel's four sides one after the other (Sutherland and Hodgman, "Reentrant polygon clipping",
+//! 1974), and what is left is measured by the shoelace formula.
+
+use glam::DVec2;
+
+/// The area that a triangle and pixel `[x, y]` have in common, `0.0..=1.0`; corners in pixels, anything else than a finite
+/// number counts as no triangle.
+pub fn area_in_pixel(corners: [DVec2; 3], pixel: [u32; 2]) -> f64 {
+    let origin = DVec2::new(f64::from(pixel[0]), f64::from(pixel[1]));
+    let mut polygon: Vec<DVec2> = corners.iter().map(|corner| *corner - origin).collect();
+    if !polygon.iter().all(|corner| corner.is_finite()) {
+        return 0.0;
+    }
+    for axis in [0, 1] {
+        polygon = cut(&polygon, |point| point[axis]);
+        polygon = cut(&polygon, |point| 1.0 - point[axis]);
+    }
+    area(&polygon).clamp(0.0, 1.0)
+}
+
+/// The part of a convex polygon where `distance` is not below zero; `distance` is an affine function.
+fn cut(polygon: &[DVec2], distance: impl Fn(DVec2) -> f64) -> Vec<DVec2> {
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    let next = polygon.iter().cycle().skip(1);
+    for (from, to) in polygon.iter().zip(next) {
+        let (here, there) = (distance(*from), distance(*to));
+        if here >= 0.0 {
+            kept.push(*from);
+        }
+        if (here < 0.0) != (there < 0.0) {
+            kept.push(from.lerp(*to, here / (here - there)));
+        }
+    }
+    kept
+}
+
+fn area(polygon: &[DVec2]) -> f64 {
+    let Some(first) = polygon.first() else {
+        return 0.0;
+    };
+    let doubled: f64 = polygon
+        .windows(2)
+        .map(|side| (side[0] - *first).perp_dot(side[1] - *first))
+        .sum();
+    doubled.abs() / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn areas_of_known_triangles() {
+        let at = |x: f64, y: f64| DVec2::new(x, y);
+        let cases = [
+            (
+                [at(-100.0, -100.0), at(300.0, -100.0), at(-100.0, 300.0)],
+                1.0,
+                "all of it",
+            ),
+            (
+                [at(3.0, 4.0), at(4.0, 4.0), at(3.0, 5.0)],
+                0.5,
+                "half along the diagonal",
+            ),
+            ([at(3.25, 4.25), at(3.25, 4.75), at(3.75, 4.25)], 0.125, "inside"),
+            ([at(5.0, 4.0), at(6.0, 4.0), at(5.0, 5.0)], 0.0, "beside it"),
+            ([at(3.5, -1e9), at(3.5, 1e9), at(1e9, 0.0)], 0.5, "the right half"),
+            ([at(3.0, 4.0), at(9.0, 10.0), at(6.0, 7.0)], 0.0, "a line"),
+            ([at(f64::NAN, 4.0), at(9.0, 10.0), at(6.0, 7.0)], 0.0, "no triangle"),
+        ];
+        for (corners, expected, what) in cases {
+            let found = area_in_pixel(corners, [3, 4]);
+            assert!((found - expected).abs() < 1e-6, "{what}: {found}");
+        }
+    }
+
+    #[test]
+    fn areas_of_all_pixels_sum_to_the_triangle() {
+        arbtest::arbtest(|u| {
+            let mut at = || Ok(f64::from(u.int_in_range(0..=80_000)?) / 1e4);
+            let mut point = || -> arbtest::arbitrary::Result<DVec2> { Ok(DVec2::new(at()?, at()?)) };
+            let corners = [point()?, point()?, point()?];
+            let whole = (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]).abs() / 2.0;
+            let sum: f64 = (0..64).map(|i| area_in_pixel(corners, [i % 8, i / 8])).sum();
+            assert!((sum - whole).abs() < 1e-9, "{corners:?}: {sum} of {whole}");
+            Ok(())
+        })
+        .budget_ms(100);
+    }
+}

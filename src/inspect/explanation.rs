@@ -1,0 +1,356 @@
+//! Finding out why a pixel has its colour.
+
+use glam::DVec2;
+
+use super::model::{
+    Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Resolve, Rounding, Sample, Shape, Source, Tap,
+    Texel, Texture, VERSION, Verdict, View,
+};
+use super::samples::{SampleHit, shape_of, straight};
+use crate::color::Premultiplied16;
+use crate::geometry::FillRule;
+use crate::geometry::edge::{EdgeKind, EdgeTest};
+use crate::raster::{Attributes, PaintedKind, PaintedOp, Piece, PieceShape, PixelReplay, SampleOfTriangle, TextureUse};
+use crate::render::{self, Explainer, RenderSettings, Subject};
+use crate::rules::Rules;
+
+/// Primitives between the samples that are told at most.
+const MOST_MISSED: usize = 100;
+
+/// What is explained, and for whom.
+#[derive(Clone, Copy, Debug)]
+pub struct Question<'a> {
+    /// Scene, view and settings of the picture.
+    pub subject: Subject<'a>,
+    /// The scene's file or address, for quotations.
+    pub file: &'a str,
+    /// Width and height of the picture in pixels.
+    pub size: [u32; 2],
+    /// The pixel, `[x, y]`.
+    pub pixel: [u32; 2],
+}
+
+impl Explanation {
+    /// Why a pixel has its colour; `None` outside the picture.
+    pub fn new(question: &Question<'_>) -> Option<Self> {
+        let Question {
+            subject, size, pixel, ..
+        } = *question;
+        let replay = render::replay(&subject, size, pixel)?;
+        let explainer = Explainer::new(subject, size, pixel);
+        let pieces = explainer.pieces(&replay.painted);
+        let seen = seen_fragments(&replay);
+        let rules = subject.settings.rules;
+        let paints: Vec<Paint> = replay
+            .painted
+            .iter()
+            .zip(pieces)
+            .zip(&seen)
+            .map(|((op, piece), seen)| question.paint(op, piece, seen, &explainer))
+            .collect();
+        let [a, r, g, b] = replay.pixel.to_be_bytes();
+        let center = DVec2::new(f64::from(pixel[0]), f64::from(pixel[1])) + 0.5;
+        let missed = explainer.missed(&replay.painted, MOST_MISSED);
+        Some(Self {
+            version: VERSION,
+            pixel,
+            size,
+            user: subject.view.to_scene(center).to_array(),
+            color: [r, g, b, a],
+            hex: hex([r, g, b, a]),
+            resolve: resolve(&replay, rules),
+            samples: samples(&replay, &paints, rules),
+            paints,
+            missed: missed
+                .into_iter()
+                .filter_map(|(primitive, area)| {
+                    let source = question.source(primitive)?;
+                    Some(Missed {
+                        source,
+                        primitive,
+                        area,
+                    })
+                })
+                .collect(),
+        })
+    }
+}
+
+impl Question<'_> {
+    fn paint(&self, op: &PaintedOp, piece: Option<Piece>, seen: &[bool], explainer: &Explainer<'_>) -> Paint {
+        let rules = self.subject.settings.rules;
+        let source = self.source(op.source);
+        let (mut views, mut texture) = (Vec::new(), None);
+        let shape = match (op.kind, piece.map(|piece| piece.shape)) {
+            (PaintedKind::BeginLayer, _) => Shape::BeginLayer,
+            (PaintedKind::EndLayer(opacity), _) => Shape::EndLayer {
+                opacity: f64::from(opacity) / f64::from(Premultiplied16::ONE),
+            },
+            (
+                PaintedKind::Primitive,
+                Some(PieceShape::Triangle {
+                    corners,
+                    samples,
+                    texture: usage,
+                }),
+            ) => {
+                texture = usage.map(|usage| self.texture(&usage));
+                let view = |sample: &SampleOfTriangle| triangle_view(sample, &corners, rules);
+                views = samples.iter().map(view).collect();
+                Shape::Triangle {
+                    corners: corners.map(|corner| corner.to_array()),
+                }
+            }
+            (PaintedKind::Primitive, Some(PieceShape::Outline { rule, windings })) => {
+                views = windings.into_iter().map(|winding| View::Polygon { winding }).collect();
+                Shape::Polygon {
+                    rule: match rule {
+                        FillRule::NonZero => "nonzero",
+                        FillRule::EvenOdd => "evenodd",
+                    },
+                }
+            }
+            (PaintedKind::Primitive, _) if source.is_none() => Shape::CanvasOutline,
+            (PaintedKind::Primitive, _) => Shape::WholePixel,
+        };
+        Paint {
+            area: (op.kind == PaintedKind::Primitive)
+                .then(|| explainer.area(op.source))
+                .flatten(),
+            shape,
+            source,
+            primitive: op.source,
+            layers: op.layers,
+            fragments: op
+                .fragments
+                .iter()
+                .zip(seen)
+                .map(|(fragment, seen)| Fragment {
+                    sample: fragment.sample,
+                    color: levels(fragment.color),
+                    before: levels(fragment.before),
+                    after: levels(fragment.after),
+                    seen: *seen,
+                })
+                .collect(),
+            views,
+            texture,
+        }
+    }
+
+    /// Where a primitive stands in the document.
+    fn source(&self, primitive: u32) -> Option<Source> {
+        let scene = self.subject.scene;
+        let SampleHit::Shape(shape) = shape_of(scene, primitive) else {
+            return None;
+        };
+        Some(Source {
+            element: shape.element.to_string(),
+            id: shape.id.as_deref().map(str::to_owned),
+            file: self.file.to_owned(),
+            line: shape.location.line,
+            column: shape.location.column,
+            text: scene.source_line(shape.location.line).map(str::to_owned),
+        })
+    }
+
+    fn texture(&self, usage: &TextureUse) -> Texture {
+        let RenderSettings {
+            pixel_sampling,
+            level_sampling,
+            detail,
+            ..
+        } = self.subject.settings;
+        let texture = &self.subject.scene.textures[usage.texture as usize];
+        let levels = texture.pyramid.levels();
+        let size = [levels[0].width(), levels[0].height()];
+        let texels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
+        let reading = &usage.reading;
+        let (right, down) = (reading.footprint.dx * texels, reading.footprint.dy * texels);
+        let next = f64::from(reading.levels.next_weight);
+        let level = |number: usize, weight| {
+            levels.get(number).filter(|_| weight > 0.0).map(|level| Level {
+                number,
+                size: [level.width(), level.height()],
+                weight,
+            })
+        };
+        let read = [
+            level(reading.levels.level, 1.0 - next),
+            level(reading.levels.level + 1, next),
+        ];
+        Texture {
+            name: texture.name.clone(),
+            index: usage.texture,
+            size,
+            pixel_sampling: pixel_sampling.name(),
+            level_sampling: level_sampling.name(),
+            right: right.to_array(),
+            down: down.to_array(),
+            step: detail.derivatives.name(),
+            major: right.length().max(down.length()),
+            minor: right.length().min(down.length()),
+            taps: reading.taps.count,
+            level_of_detail: Some(reading.lod).filter(|lod| lod.is_finite()),
+            clamped: reading.lod.clamp(0.0, texture.pyramid.last_level() as f64),
+            levels: read.into_iter().flatten().collect(),
+            opacity: f64::from(usage.opacity),
+        }
+    }
+}
+
+/// For each op and each of its fragments whether anything of it is seen: painted over by nothing opaque.
+fn seen_fragments(replay: &PixelReplay) -> Vec<Vec<bool>> {
+    let mut seen: Vec<Vec<bool>> = replay
+        .painted
+        .iter()
+        .map(|op| vec![false; op.fragments.len()])
+        .collect();
+    // From the last to the first: which samples are hidden in each layer that is open there.
+    let mut hidden = vec![vec![false; replay.samples.len()]];
+    for (op, seen) in replay.painted.iter().zip(&mut seen).rev() {
+        let above = hidden.last().cloned().unwrap_or_default();
+        if let Some(hidden) = hidden.last_mut() {
+            for (fragment, seen) in op.fragments.iter().zip(seen) {
+                let sample = &mut hidden[fragment.sample];
+                *seen = !*sample && fragment.color != Premultiplied16::TRANSPARENT;
+                *sample |= fragment.color.is_opaque();
+            }
+        }
+        match op.kind {
+            PaintedKind::Primitive => {}
+            // What is hidden around a layer is hidden in it.
+            PaintedKind::EndLayer(_) => hidden.push(above),
+            PaintedKind::BeginLayer => {
+                hidden.pop();
+            }
+        }
+    }
+    seen
+}
+
+fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> {
+    let mut samples: Vec<Sample> = replay
+        .samples
+        .iter()
+        .map(|sample| Sample {
+            position: sample.position,
+            color: levels(sample.color),
+            bytes: straight(sample.color, rules),
+            stack: Vec::new(),
+            seen: None,
+        })
+        .collect();
+    for (number, paint) in paints.iter().enumerate() {
+        let is_primitive = !matches!(paint.shape, Shape::BeginLayer | Shape::EndLayer { .. });
+        for fragment in &paint.fragments {
+            let sample = &mut samples[fragment.sample];
+            sample.stack.push(number);
+            if fragment.seen && is_primitive {
+                sample.seen = Some(number);
+            }
+        }
+    }
+    samples
+}
+
+fn resolve(replay: &PixelReplay, rules: Rules) -> Resolve {
+    let samples = replay.samples.len();
+    let weight = 1.0 / samples as f64;
+    let sums = replay
+        .sums
+        .map(|sum| f64::from(sum) / f64::from(Premultiplied16::PER_BYTE));
+    Resolve {
+        sums,
+        samples,
+        weight,
+        mean: sums.map(|sum| sum * weight),
+        rounding: match rules {
+            Rules::Standard => Rounding::Nearest,
+            Rules::Course => Rounding::Truncated,
+        },
+        summed_exactly: replay.summed_exactly,
+    }
+}
+
+fn triangle_view(sample: &SampleOfTriangle, corners: &[DVec2; 3], rules: Rules) -> View {
+    let mut edges = sample.edges.iter().zip(0..).map(|(test, i)| {
+        let length = corners[i].distance(corners[(i + 1) % 3]);
+        edge(*test, length, sample.units_per_pixel, rules)
+    });
+    // There are three.
+    let mut next = || {
+        edges.next().unwrap_or(Edge {
+            value: 0,
+            distance: 0.0,
+            verdict: Verdict::Outside,
+        })
+    };
+    View::Triangle {
+        edges: [next(), next(), next()],
+        weights: sample.weights,
+        value: interpolated(&sample.attributes),
+    }
+}
+
+/// `length` is the edge's, in pixels.
+fn edge(test: EdgeTest, length: f64, units_per_pixel: f64, rules: Rules) -> Edge {
+    let square_pixels = test.value as f64 / (units_per_pixel * units_per_pixel);
+    let verdict = match (test.value.signum(), rules, test.kind) {
+        (1, ..) => Verdict::Inside,
+        (-1, ..) => Verdict::Outside,
+        (_, Rules::Course, _) => Verdict::TieInclusive,
+        (_, Rules::Standard, EdgeKind::Top) => Verdict::TieTop,
+        (_, Rules::Standard, EdgeKind::Left) => Verdict::TieLeft,
+        (_, Rules::Standard, EdgeKind::Other) => Verdict::TieNeither,
+    };
+    Edge {
+        value: test.value,
+        distance: if length > 0.0 { square_pixels / length } else { 0.0 },
+        verdict,
+    }
+}
+
+fn interpolated(attributes: &Attributes) -> Interpolated {
+    match attributes {
+        Attributes::None => Interpolated::Flat,
+        Attributes::Color(rgba) => Interpolated::Color { rgba: *rgba },
+        Attributes::Texture { uv, reads } => Interpolated::Texture {
+            uv: *uv,
+            taps: reads
+                .taps
+                .iter()
+                .map(|tap| Tap {
+                    level: tap.level,
+                    at: tap.at.to_array(),
+                })
+                .collect(),
+            texels: reads
+                .texels
+                .iter()
+                .map(|texel| Texel {
+                    level: texel.level,
+                    at: texel.at,
+                    color: texel.color,
+                    weight: texel.weight,
+                })
+                .collect(),
+        },
+    }
+}
+
+/// A stored colour in levels of a byte.
+fn levels(color: Premultiplied16) -> [f64; 4] {
+    color
+        .0
+        .map(|channel| f64::from(channel) / f64::from(Premultiplied16::PER_BYTE))
+}
+
+/// As style sheets write it.
+pub(super) fn hex([r, g, b, a]: [u8; 4]) -> String {
+    if a == 255 {
+        format!("#{r:02X}{g:02X}{b:02X}")
+    } else {
+        format!("#{r:02X}{g:02X}{b:02X}{a:02X}")
+    }
+}

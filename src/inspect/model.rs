@@ -1,0 +1,321 @@
+//! The report on a pixel, in numbers: what [`super::Explanation::new`] finds out.
+//!
+//! Colours are premultiplied `[red, green, blue, alpha]` in `0.0..=255.0`, as samples store them (in steps of 1/256),
+//! unless a field says otherwise. Samples are numbered from 0 in the order of their pattern, paints from 0 in painter's
+//! order. `rasterscope inspect --json` prints these types as they are: a change of any name or meaning is another
+//! [`VERSION`].
+
+use serde::Serialize;
+
+/// The version of the shape of the report.
+pub const VERSION: u32 = 1;
+
+/// Why one pixel has its colour.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Explanation {
+    /// [`VERSION`].
+    pub version: u32,
+    /// The pixel, `[x, y]` in the frame.
+    pub pixel: [u32; 2],
+    /// Width and height of the frame in pixels.
+    pub size: [u32; 2],
+    /// The pixel's centre in user coordinates.
+    pub user: [f64; 2],
+    /// Its colour: straight red, green, blue, alpha.
+    pub color: [u8; 4],
+    /// The same in hexadecimal, `#RRGGBB`, or `#RRGGBBAA` where it is not opaque.
+    pub hex: String,
+    /// How its samples became this colour.
+    pub resolve: Resolve,
+    /// Its samples when everything is painted.
+    pub samples: Vec<Sample>,
+    /// Everything that painted any of them, first to last.
+    pub paints: Vec<Paint>,
+    /// What passes through the pixel and misses every sample.
+    pub missed: Vec<Missed>,
+}
+
+/// How samples became a pixel.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Resolve {
+    /// The sums of the samples' channels.
+    pub sums: [f64; 4],
+    /// Of how many samples.
+    pub samples: usize,
+    /// What each sample weighs.
+    pub weight: f64,
+    /// Sums times weight.
+    pub mean: [f64; 4],
+    /// What was done with fractions.
+    pub rounding: Rounding,
+    /// Whether shaded samples were summed before they were rounded to 1/256, so that the sums may differ a little from
+    /// those of [`Explanation::samples`].
+    pub summed_exactly: bool,
+}
+
+/// How fractions of a level become whole ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rounding {
+    /// To the nearest level.
+    Nearest,
+    /// Down, by the course's rules.
+    Truncated,
+}
+
+/// One sample.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Sample {
+    /// Its place in the pixel, `[0, 0]` the top left corner, `[1, 1]` the bottom right.
+    pub position: [f64; 2],
+    /// Its colour after all painting.
+    pub color: [f64; 4],
+    /// The same as a pixel would have it: straight red, green, blue, alpha.
+    pub bytes: [u8; 4],
+    /// The paints that touched it, first to last.
+    pub stack: Vec<usize>,
+    /// The primitive that is seen there; on top where several shine through. `None` where it is the background.
+    pub seen: Option<usize>,
+}
+
+/// A primitive that painted samples, or the beginning or end of a layer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Paint {
+    /// What it is.
+    pub shape: Shape,
+    /// Where it stands in the document; `None` for the outline around the canvas.
+    pub source: Option<Source>,
+    /// Index into the scene's primitives; one beyond the last for the outline.
+    pub primitive: u32,
+    /// How many layers it lies in.
+    pub layers: usize,
+    /// The samples that it painted.
+    pub fragments: Vec<Fragment>,
+    /// What every sample of the pixel sees of it, in the order of samples; empty for what has neither edges nor windings.
+    pub views: Vec<View>,
+    /// How it reads its texture.
+    pub texture: Option<Texture>,
+    /// The part of the pixel that it covers in truth, `0.0..=1.0`.
+    pub area: Option<f64>,
+}
+
+/// What paints.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Shape {
+    /// A triangle, or what clipping left of one.
+    Triangle {
+        /// Its corners as snapped to the sub-pixel grid, in pixels of the frame.
+        corners: [[f64; 2]; 3],
+    },
+    /// A polygon of one colour.
+    Polygon {
+        /// The fill rule: `nonzero` or `evenodd`.
+        rule: &'static str,
+    },
+    /// A line one pixel wide, or a point: whole pixels, whatever the samples.
+    WholePixel,
+    /// The outline around the canvas: whole pixels too.
+    CanvasOutline,
+    /// The beginning of a layer, which is transparent.
+    BeginLayer,
+    /// The end of a layer, which is painted over what lies below it.
+    EndLayer {
+        /// `0.0..=1.0`.
+        opacity: f64,
+    },
+}
+
+/// A place in the document.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Source {
+    /// The element's name.
+    pub element: String,
+    /// Its `id`.
+    pub id: Option<String>,
+    /// The scene's file or address.
+    pub file: String,
+    /// Line and column of its start tag, from 1.
+    pub line: u32,
+    /// See `line`.
+    pub column: u32,
+    /// The line itself, where the document was kept.
+    pub text: Option<String>,
+}
+
+/// What a paint did to one sample.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Fragment {
+    /// Number of the sample.
+    pub sample: usize,
+    /// What was painted.
+    pub color: [f64; 4],
+    /// What the sample held before.
+    pub before: [f64; 4],
+    /// What it holds then.
+    pub after: [f64; 4],
+    /// Whether anything of it is seen in the end.
+    pub seen: bool,
+}
+
+/// What one sample sees of a primitive.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum View {
+    /// Of a triangle.
+    Triangle {
+        /// The edges from corner A to B, B to C, C to A.
+        edges: [Edge; 3],
+        /// Barycentric weights of A, B and C; below zero outside.
+        weights: [f64; 3],
+        /// What is interpolated there.
+        value: Interpolated,
+    },
+    /// Of a polygon.
+    Polygon {
+        /// How often its contours run clockwise around the sample.
+        winding: i32,
+    },
+}
+
+/// An edge function at a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Edge {
+    /// In square units of the sub-pixel grid: exact. Above zero on the triangle's side.
+    pub value: i64,
+    /// The distance from the edge's line in pixels, with the same sign.
+    pub distance: f64,
+    /// What follows.
+    pub verdict: Verdict,
+}
+
+/// What an edge says of a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// On the triangle's side.
+    Inside,
+    /// On the other side.
+    Outside,
+    /// On the line of a top edge, which owns it.
+    TieTop,
+    /// On the line of a left edge, which owns it.
+    TieLeft,
+    /// On the line of a right or bottom edge: the neighbour owns it.
+    TieNeither,
+    /// On the line, and the course's rules count every line as inside.
+    TieInclusive,
+}
+
+/// What a triangle interpolates at a sample.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Interpolated {
+    /// Nothing: one colour.
+    Flat,
+    /// The colours of the corners.
+    Color {
+        /// Straight red, green, blue, alpha, `0.0..=1.0`.
+        rgba: [f64; 4],
+    },
+    /// Texture coordinates.
+    Texture {
+        /// `[u, v]`.
+        uv: [f64; 2],
+        /// The points around which texels were read.
+        taps: Vec<Tap>,
+        /// The texels read there.
+        texels: Vec<Texel>,
+    },
+}
+
+/// A point of a mip level around which texels were read.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Tap {
+    /// Number of the level.
+    pub level: usize,
+    /// In texels from the corner of the level's first texel.
+    pub at: [f64; 2],
+}
+
+/// A texel that was read.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Texel {
+    /// Number of its level.
+    pub level: usize,
+    /// Column and row.
+    pub at: [u32; 2],
+    /// Premultiplied red, green, blue, alpha.
+    pub color: [u8; 4],
+    /// Its part of the colour that was read, `0.0..=1.0`.
+    pub weight: f64,
+}
+
+/// How a triangle reads its texture: the same at all its samples.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Texture {
+    /// Its name in the document, or its file.
+    pub name: String,
+    /// Index into the scene's textures.
+    pub index: u32,
+    /// Width and height of the base level, in texels.
+    pub size: [u32; 2],
+    /// How it is read inside a level: `nearest` or `bilinear`.
+    pub pixel_sampling: &'static str,
+    /// How levels are chosen: `zero`, `nearest` or `linear`.
+    pub level_sampling: &'static str,
+    /// The way in base texels of one step to the right; a pixel, or a sample.
+    pub right: [f64; 2],
+    /// The same of one step down.
+    pub down: [f64; 2],
+    /// What a step is: `pixel` or `sample`.
+    pub step: &'static str,
+    /// The longer of the two, in texels, and the shorter.
+    pub major: f64,
+    /// See `major`.
+    pub minor: f64,
+    /// Taps along the longer one.
+    pub taps: u32,
+    /// The level of detail as computed; `None` where it is infinite, as for a constant `(u, v)`.
+    pub level_of_detail: Option<f64>,
+    /// The same clamped to the levels that there are.
+    pub clamped: f64,
+    /// The levels that are read.
+    pub levels: Vec<Level>,
+    /// Multiplies what is read, `0.0..=1.0`.
+    pub opacity: f64,
+}
+
+/// A mip level that is read.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Level {
+    /// Its number; 0 is the base.
+    pub number: usize,
+    /// Width and height in texels.
+    pub size: [u32; 2],
+    /// Its part of the colour, `0.0..=1.0`.
+    pub weight: f64,
+}
+
+/// A primitive that passes between the samples.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Missed {
+    /// Where it stands in the document.
+    pub source: Source,
+    /// Index into the scene's primitives.
+    pub primitive: u32,
+    /// The part of the pixel that it covers in truth, `0.0..=1.0`.
+    pub area: f64,
+}
+
+impl Verdict {
+    /// Whether the sample is the triangle's, as far as this edge is concerned.
+    pub fn is_inside(self) -> bool {
+        !matches!(self, Self::Outside | Self::TieNeither)
+    }
+
+    /// Whether the sample lies on the line.
+    pub fn is_tie(self) -> bool {
+        !matches!(self, Self::Inside | Self::Outside)
+    }
+}

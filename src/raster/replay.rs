@@ -1,0 +1,134 @@
+//! One pixel painted again, with everything noted that was done to it.
+//!
+//! The painters are those of frames. What the pixel becomes is painted as its tile is, and what each op does to each
+//! sample by the painter that blends op by op: hidden fragments appear too, which frames leave out.
+
+use std::sync::atomic::AtomicBool;
+
+use super::DisplayList;
+use super::bins::{Bins, entries_of_tile};
+use super::display_list::{Chunk, ListContext};
+use super::entry::Entry;
+use super::pixel_block::PixelBlock;
+use super::rasterize::{Method, Pass, first_visible};
+use super::recorder::{PaintedKind, PaintedOp};
+use super::rows::Span;
+use super::tally::SharedTally;
+use super::tile::{PixelRect, TileLayout};
+use crate::color::Premultiplied16;
+
+/// How a pixel came about.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelReplay {
+    /// Its samples when everything is painted, in the order of the pattern.
+    pub samples: Vec<ReplayedSample>,
+    /// What painted it, in painter's order; ops that touch none of its samples may be among it.
+    pub painted: Vec<PaintedOp>,
+    /// The sums of the samples' channels that are resolved.
+    pub sums: [u32; 4],
+    /// Whether the sums were taken before shaded samples were rounded to 16 bits, and so may differ from those of
+    /// `samples` in the last bits.
+    pub summed_exactly: bool,
+    /// What they resolve to: `0xAARRGGBB`, as in the frame.
+    pub pixel: u32,
+}
+
+/// What one sample of a pixel holds when everything is painted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReplayedSample {
+    /// Its place in the pixel, `(0, 0)` the top left corner, `(1, 1)` the bottom right.
+    pub position: [f64; 2],
+    /// Its colour.
+    pub color: Premultiplied16,
+}
+
+impl PixelReplay {
+    /// What painted each sample last; `None` for the background.
+    pub fn sources(&self) -> Vec<Option<u32>> {
+        let mut sources = vec![None; self.samples.len()];
+        for op in &self.painted {
+            for fragment in op.fragments.iter().filter(|_| op.kind == PaintedKind::Primitive) {
+                sources[fragment.sample] = Some(op.source);
+            }
+        }
+        sources
+    }
+}
+
+impl DisplayList<'_> {
+    /// Paints pixel `(x, y)` again; `None` outside the frame.
+    pub fn replay(&self, x: u32, y: u32) -> Option<PixelReplay> {
+        if x >= self.context.size[0] || y >= self.context.size[1] {
+            return None;
+        }
+        let at = [x.cast_signed(), y.cast_signed()];
+        let bins = self.bins_of_pixel(at);
+        let chunks: Vec<(&Chunk, &[Entry])> = self
+            .chunks
+            .iter()
+            .zip(&bins)
+            .map(|(chunk, bins)| (chunk, bins.of_tile(0)))
+            .collect();
+        let mut painters = self.painters();
+        let (painted, samples) = painters
+            .blended
+            .replay(&chunks, (at, self.background()), &mut painters.bands);
+        let mut pixel = [0];
+        let one = |start: i32| Span { start, end: start + 1 };
+        let rect = PixelRect {
+            x: one(at[0]),
+            y: one(at[1]),
+        };
+        let cancelled = AtomicBool::new(false);
+        let pass = Pass {
+            bins,
+            first_row: y,
+            cancelled: &cancelled,
+            tally: SharedTally::default(),
+        };
+        self.numbered_tile(&pass, &mut painters, 0, &mut PixelBlock::new(rect, &mut pixel, 1));
+        let deferred = self.method(&pass, 0, first_visible(&pass.bins, 0)) == Method::Deferred;
+        let shaded = deferred.then(|| painters.deferred.shaded_sums()).flatten();
+        let positions = self.positions();
+        Some(PixelReplay {
+            sums: shaded.unwrap_or_else(|| sums(&samples)),
+            summed_exactly: shaded.is_some(),
+            samples: positions
+                .into_iter()
+                .zip(samples)
+                .map(|(position, color)| ReplayedSample { position, color })
+                .collect(),
+            painted,
+            pixel: pixel[0],
+        })
+    }
+
+    /// The ops that touch a pixel of the frame.
+    fn bins_of_pixel(&self, pixel: [i32; 2]) -> Vec<Bins> {
+        let context = ListContext {
+            tiles: TileLayout::new((0, 0), self.context.size),
+            ..self.context
+        };
+        let bins = |chunk| Bins::of_one_tile(entries_of_tile(chunk, &context, &self.textures, pixel));
+        self.chunks.iter().map(bins).collect()
+    }
+
+    /// Where samples lie in a pixel.
+    pub(super) fn positions(&self) -> Vec<[f64; 2]> {
+        let grid = self.context.grid;
+        let place = |index| grid.sample_position(index);
+        let side = grid.side();
+        (0..side * side).map(|i| [place(i % side), place(i / side)]).collect()
+    }
+}
+
+/// The sums of colours, channel by channel.
+fn sums(samples: &[Premultiplied16]) -> [u32; 4] {
+    let mut sums = [0; 4];
+    for sample in samples {
+        for (sum, channel) in sums.iter_mut().zip(sample.0) {
+            *sum += u32::from(channel);
+        }
+    }
+    sums
+}

@@ -1,0 +1,198 @@
+//! One pixel drawn again: what painted it, op by op, and the shapes that did.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::{Screen, Subject, add, display_list, number, raster_settings};
+use crate::color::Rgba;
+use crate::geometry::area_in_pixel;
+use crate::raster::{
+    ChunkBuilder, DisplayList, ListContext, PaintedKind, PaintedOp, Piece, PixelReplay, RasterSettings,
+};
+use crate::scene::{Paint, Primitive, PrimitiveKind};
+
+/// Draws pixel `(x, y)` of a frame of `size` pixels again, by the same code as the frame; `None` outside the frame.
+///
+/// Sources are indices into [`crate::scene::Scene::primitives`], or the number of primitives for the canvas outline. Only
+/// ops that touch samples of the pixel are told, and the layers that hold any of them.
+pub fn replay(subject: &Subject<'_>, size: [u32; 2], [x, y]: [u32; 2]) -> Option<PixelReplay> {
+    let list = display_list(subject.scene, subject.view, subject.settings, size);
+    let mut pixel = list.replay(x, y)?;
+    drop_what_paints_nothing(&mut pixel.painted);
+    Some(pixel)
+}
+
+/// Keeps the ops that paint samples, and the beginning of each layer whose end does.
+fn drop_what_paints_nothing(painted: &mut Vec<PaintedOp>) {
+    let mut kept = vec![true; painted.len()];
+    let mut open: Vec<(usize, bool)> = Vec::new();
+    for (i, op) in painted.iter().enumerate() {
+        let used = match op.kind {
+            PaintedKind::Primitive => {
+                kept[i] = !op.fragments.is_empty();
+                kept[i]
+            }
+            PaintedKind::BeginLayer => {
+                open.push((i, false));
+                false
+            }
+            PaintedKind::EndLayer(_) => match open.pop() {
+                Some((begin, used)) => {
+                    (kept[begin], kept[i]) = (used, used);
+                    used
+                }
+                None => false,
+            },
+        };
+        if let Some((_, any)) = open.last_mut() {
+            *any |= used;
+        }
+    }
+    let mut kept = kept.into_iter();
+    painted.retain(|_| kept.next().unwrap_or(true));
+}
+
+/// Looks at single primitives from one pixel: builds them anew, with all that a display list of many drops.
+#[derive(Debug)]
+pub struct Explainer<'a> {
+    subject: Subject<'a>,
+    context: ListContext,
+    raster: RasterSettings,
+    pixel: [u32; 2],
+}
+
+impl<'a> Explainer<'a> {
+    /// For a pixel of a frame of `size` pixels, which must lie in it.
+    pub fn new(subject: Subject<'a>, size: [u32; 2], pixel: [u32; 2]) -> Self {
+        let raster = raster_settings(subject.settings);
+        Self {
+            subject,
+            context: ListContext::new(size, &raster),
+            raster,
+            pixel,
+        }
+    }
+
+    /// For each op that was painted the shape that did, as the samples see it; `None` for layers and the outline of the
+    /// canvas.
+    pub fn pieces(&self, painted: &[PaintedOp]) -> Vec<Option<Piece>> {
+        let mut pieces = Vec::new().into_iter();
+        let mut source = None;
+        let piece = |op: &PaintedOp| {
+            if op.kind != PaintedKind::Primitive {
+                source = None;
+                return None;
+            }
+            // The ops of one primitive come one after the other.
+            if source != Some(op.source) {
+                source = Some(op.source);
+                pieces = self.pieces_of(op.source).into_iter();
+            }
+            pieces.next()
+        };
+        painted.iter().map(piece).collect()
+    }
+
+    /// The parts of a primitive that touch samples of the pixel, in painter's order.
+    fn pieces_of(&self, source: u32) -> Vec<Piece> {
+        let scene = self.subject.scene;
+        let Some(primitive) = scene.primitives.get(source as usize) else {
+            return Vec::new();
+        };
+        let chunk = |primitive: &Primitive| {
+            let mut builder = ChunkBuilder::new(&self.context, 1).with_all_shapes();
+            builder.set_source(number(0));
+            add(&mut builder, &self.screen(), &primitive.kind);
+            builder.finish()
+        };
+        let weights = chunk(&weighted(primitive));
+        let textures = scene.textures.iter().map(AsRef::as_ref).collect();
+        let list = DisplayList::new(self.context, self.raster, vec![chunk(primitive)], textures);
+        let [x, y] = self.pixel;
+        let painted = list.replay(x, y).map(|replay| replay.painted).unwrap_or_default();
+        let touched = |piece: &Piece| painted.iter().any(|op| piece.is_of(op) && !op.fragments.is_empty());
+        let mut pieces = list.pieces(self.pixel, &weights);
+        pieces.retain(touched);
+        pieces
+    }
+
+    fn screen(&self) -> Screen<'_> {
+        Screen {
+            view: self.subject.view,
+            rules: self.subject.settings.rules,
+        }
+    }
+
+    /// The part of the pixel that a primitive covers in truth, `0.0..=1.0`, before it is snapped and sampled; `None` for
+    /// primitives that have no area of their own, and polygons too tangled to be measured.
+    pub fn area(&self, source: u32) -> Option<f64> {
+        self.area_of(&self.subject.scene.primitives.get(source as usize)?.kind)
+    }
+
+    fn area_of(&self, kind: &PrimitiveKind) -> Option<f64> {
+        let screen = self.screen();
+        let area = |points: &[DVec2; 3]| area_in_pixel(points.map(|point| screen.place(point)), self.pixel);
+        match kind {
+            PrimitiveKind::Triangle { points, .. } => Some(area(points)),
+            PrimitiveKind::Polygon { polygon, .. } => Some(polygon.triangles()?.iter().map(area).sum()),
+            PrimitiveKind::Hairline { .. }
+            | PrimitiveKind::Point { .. }
+            | PrimitiveKind::BeginLayer
+            | PrimitiveKind::EndLayer { .. } => None,
+        }
+    }
+
+    /// Primitives that pass through the pixel between its samples: by their indices, with the part of the pixel that they
+    /// cover in truth. At most `most` of them.
+    pub fn missed(&self, painted: &[PaintedOp], most: usize) -> Vec<(u32, f64)> {
+        /// Less than this is rounding.
+        const LEAST: f64 = 1e-9;
+        let primitives = self.subject.scene.primitives.par_iter().enumerate();
+        let near = primitives.filter(|(_, primitive)| self.is_near(&primitive.kind));
+        let mut missed: Vec<(u32, f64)> = near
+            .filter_map(|(index, primitive)| {
+                let source = number(index);
+                let hit = painted.iter().any(|op| op.source == source && !op.fragments.is_empty());
+                let area = if hit { None } else { self.area_of(&primitive.kind) };
+                area.filter(|area| *area > LEAST).map(|area| (source, area))
+            })
+            .collect();
+        missed.truncate(most);
+        missed
+    }
+
+    /// Whether the box around a primitive touches the pixel.
+    fn is_near(&self, kind: &PrimitiveKind) -> bool {
+        let points: &[DVec2] = match kind {
+            PrimitiveKind::Triangle { points, .. } => points,
+            PrimitiveKind::Polygon { polygon, .. } => polygon.points(),
+            _ => return false,
+        };
+        let screen = self.screen();
+        let mut low = DVec2::INFINITY;
+        let mut high = DVec2::NEG_INFINITY;
+        for point in points {
+            let point = screen.place(*point);
+            low = low.min(point);
+            high = high.max(point);
+        }
+        let pixel = DVec2::new(f64::from(self.pixel[0]), f64::from(self.pixel[1]));
+        low.cmplt(pixel + 1.0).all() && high.cmpgt(pixel).all()
+    }
+}
+
+/// The same triangle with red, green and blue at its corners: colours that are barycentric weights.
+fn weighted(primitive: &Primitive) -> Primitive {
+    let corner = |r, g, b| Rgba::opaque(r, g, b);
+    let kind = match primitive.kind {
+        PrimitiveKind::Triangle { points, .. } => PrimitiveKind::Triangle {
+            points,
+            paint: Paint::Vertex([corner(1.0, 0.0, 0.0), corner(0.0, 1.0, 0.0), corner(0.0, 0.0, 1.0)]),
+        },
+        ref other => other.clone(),
+    };
+    Primitive {
+        shape: primitive.shape,
+        kind,
+    }
+}

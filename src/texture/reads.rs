@@ -1,0 +1,255 @@
+//! Which texels one sample reads, and what each weighs: the arithmetic of filtering, noted down instead of summed up.
+//!
+//! For explanations, not for pictures. The weights are those of `cell`, which the kernels share, so that the texels times
+//! their weights are the filter's colour to the last bit.
+
+use glam::DVec2;
+
+use super::filter::{Axis, Filter, GridLevel, Plan, SampleGrid};
+use super::sampler::{Sampler, course_place};
+use super::{MipLevel, PixelSampling, cell};
+use crate::color::Premultiplied16;
+
+/// A texel that a sample read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TexelRead {
+    /// Number of its mip level.
+    pub level: usize,
+    /// Column and row in the level, inside it.
+    pub at: [u32; 2],
+    /// Premultiplied red, green, blue, alpha.
+    pub color: [u8; 4],
+    /// Its part of the colour, `0.0..=1.0`; the parts of a sample sum to one.
+    pub weight: f64,
+}
+
+/// A point of a level around which texels were read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TapRead {
+    /// Number of the mip level.
+    pub level: usize,
+    /// In texels from the corner of the level's first texel; clamped as the filter clamps.
+    pub at: DVec2,
+}
+
+/// What one sample read.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TextureReads {
+    /// Each texel once, by level, row and column; none that weighs nothing.
+    pub texels: Vec<TexelRead>,
+    /// One per level and tap.
+    pub taps: Vec<TapRead>,
+}
+
+/// Gathers what is read.
+struct Notes {
+    reads: TextureReads,
+    /// What all weights together are.
+    total: f64,
+}
+
+impl Filter<'_> {
+    /// What the sample in column and row `point`, counted from the first sample of the grid's origin, reads.
+    pub fn reads(&self, grid: SampleGrid, point: [u16; 2]) -> TextureReads {
+        let plan = self.plan(grid);
+        let count = plan.line.taps.count;
+        let mut notes = Notes::new(f64::from(cell::MASS) * f64::from(count));
+        for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
+            for tap in 0..count {
+                let place = place(&plan, level, point, tap);
+                notes.tap(level.number, place, plan.pixel);
+                cell::each(plan.pixel, place, level.mass, |x, y, weight| {
+                    notes.texel((level.level, level.number), [x, y], f64::from(weight));
+                });
+            }
+        }
+        notes.finish()
+    }
+}
+
+/// Where a tap of a sample lies in a level, in fixed point.
+pub(super) fn place(plan: &Plan<'_>, level: &GridLevel<'_>, point: [u16; 2], tap: u32) -> [u32; 2] {
+    let from_pivot = plan.first + DVec2::new(f64::from(point[0]), f64::from(point[1]));
+    let at = |axis: &Axis| (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
+    [&level.x, &level.y].map(|axis| match plan.line.taps.count {
+        1 => cell::to_fixed(at(axis), axis.last),
+        _ => cell::tap(at(axis), axis.tap(&plan.line, tap), axis.last),
+    })
+}
+
+impl Sampler<'_> {
+    /// What the course's rules read at `(u, v)`.
+    pub fn course_reads(&self, u: f32, v: f32) -> TextureReads {
+        let mut notes = Notes::new(f64::from(self.taps.count));
+        let at = DVec2::new(f64::from(u), f64::from(v));
+        for tap in 0..self.taps.count {
+            let place = match self.taps.count {
+                1 => [u, v],
+                _ => (at + self.along * self.taps.place(tap)).as_vec2().to_array(),
+            };
+            match self.coarser {
+                None => notes.course((self.finer, self.number), self.pixel, place, 1.0),
+                Some((coarser, weight)) => {
+                    notes.course((self.finer, self.number), self.pixel, place, 1.0 - weight);
+                    notes.course((coarser, self.number + 1), self.pixel, place, weight);
+                }
+            }
+        }
+        notes.finish()
+    }
+}
+
+impl Notes {
+    fn new(total: f64) -> Self {
+        Self {
+            reads: TextureReads::default(),
+            total,
+        }
+    }
+
+    fn tap(&mut self, level: usize, place: [u32; 2], pixel: PixelSampling) {
+        let one = f64::from(1_u32 << cell::FRACTION_BITS);
+        let at = DVec2::new(f64::from(place[0]), f64::from(place[1])) / one + cell::first_centre(pixel);
+        self.reads.taps.push(TapRead { level, at });
+    }
+
+    fn texel(&mut self, (level, number): (&MipLevel, usize), [x, y]: [i32; 2], weight: f64) {
+        if weight <= 0.0 {
+            return;
+        }
+        let inside = |at: i32, size: u32| at.max(0).cast_unsigned().min(size - 1);
+        self.reads.texels.push(TexelRead {
+            level: number,
+            at: [inside(x, level.width()), inside(y, level.height())],
+            color: level.texel(x, y),
+            weight: weight / self.total,
+        });
+    }
+
+    fn course(&mut self, level: (&MipLevel, usize), pixel: PixelSampling, uv: [f32; 2], weight: f32) {
+        let ([left, top], [s, t]) = course_place(level.0, pixel, uv);
+        let at = DVec2::new(f64::from(left), f64::from(top)) + DVec2::new(f64::from(s), f64::from(t)) + 0.5;
+        self.reads.taps.push(TapRead { level: level.1, at });
+        // A nearest texel far beyond the level has no neighbour to its right, and reads none.
+        let (right, bottom) = (left.saturating_add(1), top.saturating_add(1));
+        let mut read = |x, y, part: f32| self.texel(level, [x, y], f64::from(part * weight));
+        read(left, top, (1.0 - s) * (1.0 - t));
+        read(right, top, s * (1.0 - t));
+        read(left, bottom, (1.0 - s) * t);
+        read(right, bottom, s * t);
+    }
+
+    /// Adds up what was read several times.
+    fn finish(self) -> TextureReads {
+        let TextureReads { mut texels, taps } = self.reads;
+        texels.sort_by_key(|texel| (texel.level, texel.at[1], texel.at[0]));
+        texels.dedup_by(|next, kept| {
+            let same = (next.level, next.at) == (kept.level, kept.at);
+            if same {
+                kept.weight += next.weight;
+            }
+            same
+        });
+        TextureReads { texels, taps }
+    }
+}
+
+impl TextureReads {
+    /// The texels times their weights: the colour that was read, premultiplied, channels in `0.0..=255.0`.
+    pub fn mean(&self) -> [f64; 4] {
+        let mut mean = [0.0; 4];
+        for texel in &self.texels {
+            for (mean, channel) in mean.iter_mut().zip(texel.color) {
+                *mean += f64::from(channel) * texel.weight;
+            }
+        }
+        mean
+    }
+
+    /// The mean as a sample stores it.
+    pub fn color(&self) -> Premultiplied16 {
+        let per_byte = f64::from(Premultiplied16::PER_BYTE);
+        Premultiplied16(self.mean().map(|channel| whole(channel * per_byte)))
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a weighted mean of bytes is a byte, which is 16 bits when stored"
+)]
+fn whole(channel: f64) -> u16 {
+    (channel + 0.5) as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Anisotropy, SamplingSettings, oracle};
+    use super::*;
+    use crate::rules::Rules;
+    use crate::simd;
+
+    #[test]
+    fn texels_times_weights_are_the_filtered_colour() {
+        arbtest::arbtest(|u| {
+            let pyramid = oracle::pyramid(u)?;
+            let map = oracle::map(u, &pyramid.levels()[0])?;
+            let grid = oracle::grid(u, &map)?;
+            let filter = oracle::filter(u, &pyramid, &map)?;
+            for _ in 0..20 {
+                let point = [u.int_in_range(0..=1100)?, u.int_in_range(0..=1100)?];
+                let mut color = [Premultiplied16::TRANSPARENT];
+                filter.points(simd::level(), grid, &[point], &mut color);
+                let reads = filter.reads(grid, point);
+                for (found, drawn) in reads.color().0.iter().zip(color[0].0) {
+                    // Several taps are scaled in 32 bits: the last bit may differ.
+                    assert!(found.abs_diff(drawn) <= 1, "{reads:?} is not {color:?}");
+                }
+                let weights: f64 = reads.texels.iter().map(|texel| texel.weight).sum();
+                assert!((weights - 1.0).abs() < 1e-9, "weights sum to {weights}");
+                for texel in &reads.texels {
+                    let level = &pyramid.levels()[texel.level];
+                    let [x, y] = texel.at.map(u32::cast_signed);
+                    assert!(texel.at[0] < level.width() && texel.at[1] < level.height(), "inside");
+                    assert_eq!(level.texel(x, y), texel.color, "the texel of that place");
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(400);
+    }
+
+    #[test]
+    fn course_weighs_texels_as_it_mixes_them() {
+        arbtest::arbtest(|u| {
+            let pyramid = oracle::pyramid(u)?;
+            let map = oracle::map(u, &pyramid.levels()[0])?;
+            let settings = SamplingSettings {
+                rules: Rules::Course,
+                anisotropy: Anisotropy::new(u.int_in_range(1..=5)?).unwrap_or_default(),
+                ..oracle::settings(u)?
+            };
+            let footprint = map.footprint();
+            if !(footprint.dx.is_finite() && footprint.dy.is_finite()) {
+                return Ok(());
+            }
+            let sampler = Sampler::new(&pyramid, &footprint, &settings);
+            for _ in 0..20 {
+                let uv = [
+                    u.int_in_range(-200..=1200)? as f32 / 1e3,
+                    u.int_in_range(-200..=1200)? as f32 / 1e3,
+                ];
+                let drawn = sampler.sample(uv[0], uv[1]);
+                let reads = sampler.course_reads(uv[0], uv[1]);
+                for (found, drawn) in reads.mean().iter().zip(drawn) {
+                    assert!(
+                        (found - f64::from(drawn)).abs() < 0.01,
+                        "{reads:?} is not {drawn} at {uv:?}"
+                    );
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(200);
+    }
+}

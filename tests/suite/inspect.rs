@@ -1,0 +1,251 @@
+//! Explanations of pixels: each is the frame's pixel, byte for byte, and every number in it leads to the next.
+
+#![expect(
+    clippy::float_cmp,
+    reason = "stored colours are multiples of 1/256, which floats hold exactly"
+)]
+
+use rasterscope::geometry::View as SceneView;
+use rasterscope::inspect::{Explanation, Fragment, Interpolated, Paint, Question, Shape, View};
+use rasterscope::raster::{Framebuffer, SampleRate};
+use rasterscope::render::{RenderSettings, Subject, draw};
+use rasterscope::rules::Rules;
+use rasterscope::scene::{self, DialectChoice, ReadOptions, Scene};
+use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
+use rasterscope::viewer::gallery::{SCENES, Textures};
+use rayon::prelude::*;
+
+/// What pictures are drawn with.
+fn settings() -> [RenderSettings; 5] {
+    let rate = |samples| SampleRate::new(samples).unwrap();
+    let plain = RenderSettings::default();
+    [
+        plain,
+        RenderSettings {
+            sample_rate: rate(4),
+            pixel_sampling: PixelSampling::Bilinear,
+            level_sampling: LevelSampling::Linear,
+            ..plain
+        },
+        RenderSettings {
+            sample_rate: rate(16),
+            pixel_sampling: PixelSampling::Bilinear,
+            level_sampling: LevelSampling::Nearest,
+            anisotropy: Anisotropy::new(8).unwrap(),
+            outline: false,
+            ..plain
+        },
+        RenderSettings {
+            sample_rate: rate(4),
+            pixel_sampling: PixelSampling::Bilinear,
+            level_sampling: LevelSampling::Linear,
+            rules: Rules::Course,
+            ..plain
+        },
+        RenderSettings {
+            sample_rate: rate(9),
+            level_sampling: LevelSampling::Linear,
+            background: rasterscope::color::Rgba::TRANSPARENT,
+            ..plain
+        },
+    ]
+}
+
+fn read(name: &str, document: &str) -> Scene {
+    let options = ReadOptions {
+        dialect: DialectChoice::Auto,
+    };
+    scene::read(document.as_bytes(), name, options, &Textures).unwrap()
+}
+
+/// Explains every pixel of a small picture and hands each explanation to `check`, with the frame's pixel.
+fn every_pixel(scene: &Scene, settings: &RenderSettings, size: [u32; 2], check: impl Fn(&Explanation, u32) + Sync) {
+    let view = SceneView::Default.transform(scene.canvas, size);
+    let mut frame = Framebuffer::new(size[0], size[1]);
+    draw(scene, &view, settings, &mut frame);
+    let subject = Subject {
+        scene,
+        view: &view,
+        settings,
+    };
+    (0..size[0] * size[1]).into_par_iter().for_each(|i| {
+        let question = Question {
+            subject,
+            file: "scene.svg",
+            size,
+            pixel: [i % size[0], i / size[0]],
+        };
+        let explanation = Explanation::new(&question).unwrap();
+        check(&explanation, frame.pixels()[i as usize]);
+    });
+}
+
+#[test]
+fn every_explanation_of_every_scene_ends_in_the_frames_bytes() {
+    for scene in SCENES {
+        let read = read(scene.name, scene.document);
+        for settings in settings() {
+            every_pixel(&read, &settings, [17, 13], |found, pixel| {
+                let [a, r, g, b] = pixel.to_be_bytes();
+                let at = (scene.name, &settings, found.pixel);
+                assert_eq!(found.color, [r, g, b, a], "{at:?}");
+                check_resolve(found, settings.rules);
+                check_samples(found);
+                for paint in &found.paints {
+                    check_coverage(paint, found.samples.len(), settings.rules);
+                    check_colors(paint, settings.rules);
+                }
+            });
+        }
+    }
+}
+
+/// Sums, mean and rounding lead to the colour.
+fn check_resolve(found: &Explanation, rules: Rules) {
+    let resolve = &found.resolve;
+    let total: [f64; 4] = found.samples.iter().fold([0.0; 4], |sum, sample| {
+        std::array::from_fn(|i| sum[i] + sample.color[i])
+    });
+    for (sum, total) in resolve.sums.iter().zip(total) {
+        // Up to a quarter of a level per sample where shaded samples are rounded last.
+        let tolerance = if resolve.summed_exactly {
+            0.26 * resolve.samples as f64
+        } else {
+            1e-9
+        };
+        assert!(
+            (sum - total).abs() <= tolerance,
+            "{sum} is the sum of samples, not {total}: {found:?}"
+        );
+    }
+    let alpha = resolve.mean[3];
+    for (i, byte) in found.color.iter().enumerate() {
+        let exact = match i {
+            3 => alpha,
+            _ if alpha > 0.0 => resolve.mean[i] * 255.0 / alpha,
+            _ => 0.0,
+        };
+        let byte = f64::from(*byte);
+        let right = match rules {
+            Rules::Standard => (byte - exact).abs() <= 0.5 + 1e-9,
+            Rules::Course => byte <= exact + 1e-9 && exact < byte + 1.0 + 1e-9,
+        };
+        assert!(right, "{exact} is rounded to {byte}: {found:?}");
+    }
+}
+
+/// Stacks and fragments tell the same story, and it ends with the sample's colour.
+fn check_samples(found: &Explanation) {
+    for (number, sample) in found.samples.iter().enumerate() {
+        let touched: Vec<(usize, &Fragment)> = found
+            .paints
+            .iter()
+            .enumerate()
+            .flat_map(|(i, paint)| paint.fragments.iter().map(move |fragment| (i, fragment)))
+            .filter(|(_, fragment)| fragment.sample == number)
+            .collect();
+        let stack: Vec<usize> = touched.iter().map(|(i, _)| *i).collect();
+        assert_eq!(sample.stack, stack, "in painter's order");
+        let on_base = touched.iter().rev().find(|(i, _)| match found.paints[*i].shape {
+            Shape::EndLayer { .. } => found.paints[*i].layers == 1,
+            _ => found.paints[*i].layers == 0,
+        });
+        if let Some((_, last)) = on_base {
+            assert_eq!(last.after, sample.color, "what the last fragment left: {found:?}");
+        }
+        if let Some(seen) = sample.seen {
+            assert!(stack.contains(&seen), "what is seen touched it");
+        }
+        for pair in touched.windows(2) {
+            let same_layer = found.paints[pair[0].0].layers == found.paints[pair[1].0].layers;
+            let marks = |i: usize| matches!(found.paints[i].shape, Shape::BeginLayer | Shape::EndLayer { .. });
+            if same_layer && !marks(pair[0].0) && !marks(pair[1].0) && found.paints[pair[0].0].layers == 0 {
+                assert_eq!(pair[0].1.after, pair[1].1.before, "one after the other: {found:?}");
+            }
+        }
+    }
+}
+
+/// Edges and windings say what the painter painted.
+fn check_coverage(paint: &Paint, samples: usize, rules: Rules) {
+    let painted = |number: usize| paint.fragments.iter().any(|fragment| fragment.sample == number);
+    match &paint.shape {
+        Shape::Triangle { .. } | Shape::Polygon { .. } => assert_eq!(paint.views.len(), samples, "{paint:?}"),
+        Shape::WholePixel | Shape::CanvasOutline => assert_eq!(paint.fragments.len(), samples, "{paint:?}"),
+        Shape::BeginLayer | Shape::EndLayer { .. } => {}
+    }
+    for (number, view) in paint.views.iter().enumerate() {
+        let inside = match (view, &paint.shape) {
+            (View::Triangle { edges, weights, .. }, _) => {
+                assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-6, "{weights:?}");
+                for (edge, weight) in edges.iter().zip([weights[2], weights[0], weights[1]]) {
+                    assert_eq!(edge.value > 0, edge.distance > 0.0, "{edge:?}");
+                    assert!(
+                        rules == Rules::Course
+                            || edge.value == 0
+                            || weight.abs() < 1e-6
+                            || paint_is_clipped(paint)
+                            || (edge.value > 0) == (weight > 0.0),
+                        "{edge:?} {weight}"
+                    );
+                }
+                edges.iter().all(|edge| edge.verdict.is_inside())
+            }
+            (View::Polygon { winding }, Shape::Polygon { rule }) if *rule == "evenodd" => winding % 2 != 0,
+            (View::Polygon { winding }, _) => *winding != 0,
+        };
+        assert_eq!(painted(number), inside, "sample {number} of {paint:?}");
+    }
+}
+
+/// Whether the corners lie where only clipping puts them.
+fn paint_is_clipped(paint: &Paint) -> bool {
+    let Shape::Triangle { corners } = &paint.shape else {
+        return false;
+    };
+    corners.iter().flatten().any(|at| at.abs() > 20_000.0)
+}
+
+/// Interpolated colours and texels are the fragments' colours.
+fn check_colors(paint: &Paint, rules: Rules) {
+    for fragment in &paint.fragments {
+        let Some(View::Triangle { value, .. }) = paint.views.get(fragment.sample) else {
+            continue;
+        };
+        let expected = match value {
+            Interpolated::Flat => continue,
+            Interpolated::Color { rgba } => {
+                let alpha = rgba[3].clamp(0.0, 1.0);
+                let channel = |i: usize| rgba[i].clamp(0.0, 1.0) * alpha * 255.0;
+                [channel(0), channel(1), channel(2), alpha * 255.0]
+            }
+            Interpolated::Texture { texels, taps, .. } => {
+                let weights: f64 = texels.iter().map(|texel| texel.weight).sum();
+                assert!((weights - 1.0).abs() < 1e-5, "weights sum to {weights}");
+                let texture = paint.texture.as_ref().unwrap();
+                assert_eq!(taps.len() % texture.taps as usize, 0, "taps per level");
+                for texel in texels {
+                    assert!(
+                        texture.levels.iter().any(|level| level.number == texel.level),
+                        "{texture:?}"
+                    );
+                }
+                std::array::from_fn(|i| {
+                    let read = texels.iter().map(|texel| f64::from(texel.color[i]) * texel.weight);
+                    read.sum::<f64>() * texture.opacity
+                })
+            }
+        };
+        for (found, expected) in fragment.color.iter().zip(expected) {
+            let right = match rules {
+                Rules::Standard => (found - expected).abs() < 0.01,
+                Rules::Course => *found < expected + 0.01 && expected < found + 1.01,
+            };
+            assert!(
+                right,
+                "{expected} became {found}: {fragment:?} {value:?} {:?}",
+                paint.texture
+            );
+        }
+    }
+}

@@ -12,7 +12,8 @@ use rayon::prelude::*;
 use crate::color::Rgba;
 use crate::geometry::ViewTransform;
 use crate::raster::{
-    Chunk, ChunkBuilder, Counters, DisplayList, Fill, Framebuffer, ListContext, RasterSettings, SampleRate,
+    Chunk, ChunkBuilder, Counters, DisplayList, Fill, Framebuffer, ListContext, RasterSettings, SamplePattern,
+    SampleRate,
 };
 use crate::rules::Rules;
 use crate::scene::{Paint, PrimitiveKind, Scene};
@@ -26,6 +27,8 @@ pub use replay::{Explainer, replay};
 pub struct RenderSettings {
     /// Samples per pixel.
     pub sample_rate: SampleRate,
+    /// Where they lie. A rate that the pattern does not take is drawn as the nearest one that it takes.
+    pub pattern: SamplePattern,
     /// Inside a mip level.
     pub pixel_sampling: PixelSampling,
     /// Between mip levels.
@@ -46,6 +49,7 @@ impl Default for RenderSettings {
     fn default() -> Self {
         Self {
             sample_rate: SampleRate::ONE,
+            pattern: SamplePattern::default(),
             pixel_sampling: PixelSampling::default(),
             level_sampling: LevelSampling::default(),
             anisotropy: Anisotropy::default(),
@@ -174,12 +178,13 @@ fn display_list<'a>(
 fn raster_settings(settings: &RenderSettings) -> RasterSettings {
     RasterSettings {
         rate: settings.sample_rate,
+        pattern: settings.pattern,
         sampling: SamplingSettings {
             pixel: settings.pixel_sampling,
             level: settings.level_sampling,
             anisotropy: settings.anisotropy,
             detail: settings.detail,
-            sample_step: 1.0 / f64::from(settings.sample_rate.side()),
+            sample_step: settings.pattern.nearest(settings.sample_rate).step(),
             rules: settings.rules,
         },
         background: settings.background,

@@ -13,7 +13,7 @@ use super::view_option;
 use crate::color::Rgba;
 use crate::compare::Measure;
 use crate::geometry::View;
-use crate::raster::SampleRate;
+use crate::raster::{SamplePattern, SampleRate};
 use crate::render::RenderSettings;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
@@ -44,6 +44,18 @@ pub(super) enum Verb {
     Diff(DiffOptions),
     /// Time redraws of scenes: median, minimum, milliseconds per stage
     Bench(BenchOptions),
+}
+
+impl Verb {
+    /// How it reads and samples scenes.
+    fn sampling(&self) -> &SamplingOptions {
+        match self {
+            Self::View(options) => &options.sampling,
+            Self::Render(options) => &options.picture.sampling,
+            Self::Diff(options) => &options.sampling,
+            Self::Bench(options) => &options.picture.sampling,
+        }
+    }
 }
 
 const DIFF_STATUS: &str = "Exit status: 0 the pictures agree within the tolerance, 1 they differ, 2 a file or an \
@@ -162,12 +174,12 @@ pub(super) struct FramingOptions {
 /// How a scene is read and sampled.
 #[derive(Clone, Debug, Args)]
 pub(super) struct SamplingOptions {
-    /// Samples per pixel: a square number up to 256
+    /// Samples per pixel: a square number up to 256; with the patterns halton and r2 any number up to that
     #[arg(long, default_value = "1", value_name = "N", value_parser = sample_rate)]
     pub(super) sample_rate: SampleRate,
     /// Where the samples of a pixel lie
-    #[arg(long, default_value = "grid", value_parser = ["grid"])]
-    pub(super) pattern: String,
+    #[arg(long, default_value = SamplePattern::default().name(), value_enum)]
+    pub(super) pattern: SamplePattern,
     /// How a texture is read inside a mip level
     #[arg(long, default_value = PixelSampling::default().name(), value_enum)]
     pub(super) pixel_sampling: PixelSampling,
@@ -198,10 +210,17 @@ pub(super) struct SamplingOptions {
 }
 
 impl SamplingOptions {
+    /// Which options do not go together, and the cure.
+    fn refusal(&self) -> Option<String> {
+        let refusal = self.pattern.refusal(self.sample_rate)?;
+        Some(format!("--sample-rate {}: {refusal}", self.sample_rate.samples()))
+    }
+
     /// The same as settings of the engine; the outline belongs to every view but the canvas view.
     pub(super) fn settings(&self, view: View) -> RenderSettings {
         RenderSettings {
             sample_rate: self.sample_rate,
+            pattern: self.pattern,
             pixel_sampling: self.pixel_sampling,
             level_sampling: self.level_sampling,
             anisotropy: self.anisotropy,
@@ -233,6 +252,7 @@ macro_rules! named_values {
 }
 
 named_values!(
+    SamplePattern,
     PixelSampling,
     LevelSampling,
     Derivatives,
@@ -244,7 +264,7 @@ named_values!(
 
 fn sample_rate(text: &str) -> Result<SampleRate, String> {
     let rate = text.parse().ok().and_then(SampleRate::new);
-    rate.ok_or_else(|| "the sample rate is a square number: 1, 4, 9, 16, 25, 36, 49, 64 ... 256".to_owned())
+    rate.ok_or_else(|| "the sample rate is a whole number from 1 to 256".to_owned())
 }
 
 fn anisotropy(text: &str) -> Result<Anisotropy, String> {
@@ -296,12 +316,16 @@ fn background(text: &str) -> Result<Rgba, String> {
 /// Reads the arguments, the program's name first.
 pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments, Failure> {
     let arguments = with_default_command(arguments.into_iter().collect());
-    Arguments::try_parse_from(arguments).map_err(|error| match error.kind() {
+    let arguments = Arguments::try_parse_from(arguments).map_err(|error| match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             Failure::Text(error.to_string())
         }
         _ => Failure::Input(one_line(&error.to_string())),
-    })
+    })?;
+    match arguments.verb.sampling().refusal() {
+        Some(refusal) => Err(Failure::Input(one_line(&refusal))),
+        None => Ok(arguments),
+    }
 }
 
 /// `rasterscope PATH` means `rasterscope view PATH`.
@@ -349,7 +373,7 @@ mod tests {
     #[test]
     fn arguments_of_render_become_settings() {
         let line = "rasterscope render a.svg -o b.png --size 300x200 --sample-rate 16 --pixel-sampling bilinear \
-                    --level-sampling linear --anisotropy 16 --lod-bias -1.5 --lod-level 2.25 --lod-per sample \
+                    --pattern jittered-same --level-sampling linear --anisotropy 16 --lod-bias -1.5 --lod-level 2.25 --lod-per sample \
                     --view=-5,10,2.5,-90 --background #ff8000 --dialect course --rules course --threads 2";
         let Ok(Arguments {
             verb: Verb::Render(options),
@@ -360,6 +384,7 @@ mod tests {
         let settings = options.picture.sampling.settings(options.picture.framing.view);
         assert_eq!(options.picture.size, FrameSize([300, 200]), "size");
         assert_eq!(settings.sample_rate.samples(), 16, "rate");
+        assert_eq!(settings.pattern, SamplePattern::JitteredSame, "pattern");
         assert_eq!(settings.pixel_sampling, PixelSampling::Bilinear, "pixel sampling");
         assert_eq!(settings.level_sampling, LevelSampling::Linear, "level sampling");
         assert_eq!(settings.anisotropy.taps(), 16, "anisotropy");
@@ -386,6 +411,11 @@ mod tests {
             "rasterscope render",
             "rasterscope render a.svg -o b.png --sample-rate 5",
             "rasterscope render a.svg -o b.png --sample-rate 289",
+            "rasterscope bench a.svg --sample-rate 5 --pattern rotated",
+            "rasterscope diff a.svg b.png --sample-rate 12 --pattern jittered",
+            "rasterscope a.svg --sample-rate 2 --pattern jittered-same",
+            "rasterscope render a.svg -o b.png --sample-rate 257 --pattern r2",
+            "rasterscope render a.svg -o b.png --pattern poisson",
             "rasterscope render a.svg -o b.png --size 0x5",
             "rasterscope render a.svg -o b.png --background red",
             "rasterscope render a.svg -o b.png --background #ff80é",

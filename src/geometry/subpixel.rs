@@ -32,9 +32,22 @@ pub struct SubpixelGrid {
 }
 
 impl SubpixelGrid {
+    /// Samples along one side of a pixel that [`SubpixelGrid::fine`] has.
+    pub const FINE_SIDE: u32 = 256;
+
     /// The grid for `side x side` samples per pixel, `1..=16`.
     pub fn new(side: u32) -> Self {
         assert!((1..=16).contains(&side), "{side} x {side} samples are not supported");
+        Self::of_side(side)
+    }
+
+    /// The grid for samples that may lie anywhere in a pixel: as if it had 256 x 256 of them, of which a pattern takes
+    /// some.
+    pub fn fine() -> Self {
+        Self::of_side(Self::FINE_SIDE)
+    }
+
+    fn of_side(side: u32) -> Self {
         let bits = BITS_PER_PIXEL - side.next_power_of_two().trailing_zeros();
         Self {
             side: side.cast_signed(),

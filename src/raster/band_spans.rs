@@ -9,7 +9,7 @@ use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::rules::Rules;
 
 /// Spans that are remembered at most, about 8 MB.
-const MAX_SPANS: usize = 1 << 20;
+pub(super) const MAX_SPANS: usize = 1 << 20;
 
 /// What covers samples.
 #[derive(Clone, Copy, Debug)]

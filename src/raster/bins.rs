@@ -63,8 +63,8 @@ impl Sides {
     const SHIFT: u32 = 40;
 
     fn new(width: u32, height: u32) -> Self {
-        // Rounded up, it is too large by less than one in `2^SHIFT`; no coordinate of a frame reaches `2^20`, so the
-        // error of a quotient stays below `2^-20`, too little to carry it over a whole number.
+        // Rounded up, it is too large by less than one in `2^SHIFT`; no coordinate of a frame exceeds `2^22`, and no side
+        // `2^14`. So the error of a quotient stays below `2^-17`, too little to carry it over a whole number.
         let inverse = |side: u32| (1_u64 << Self::SHIFT).div_ceil(u64::from(side));
         Self {
             width,
@@ -88,7 +88,7 @@ impl Sides {
 
 #[inline]
 fn quotient(coordinate: i32, inverse: u64) -> i32 {
-    debug_assert!((0..1 << 20).contains(&coordinate), "{coordinate} lies in the frame");
+    debug_assert!((0..=1 << 22).contains(&coordinate), "{coordinate} lies in the frame");
     ((u64::from(coordinate.cast_unsigned()) * inverse) >> Sides::SHIFT) as i32
 }
 
@@ -474,7 +474,7 @@ mod tests {
     use super::super::entry::Work;
     use super::super::rows::SortedTriangle;
     use super::super::tile::TileLayout;
-    use super::super::{RasterSettings, SampleRate};
+    use super::super::{RasterSettings, SamplePattern, SampleRate};
     use super::*;
     use crate::color::Rgba;
     use crate::rules::Rules;
@@ -485,6 +485,7 @@ mod tests {
     fn settings(side: u32, rules: Rules) -> RasterSettings {
         RasterSettings {
             rate: SampleRate::new(side * side).expect("a square number"),
+            pattern: SamplePattern::Grid,
             sampling: SamplingSettings {
                 rules,
                 ..SamplingSettings::default()

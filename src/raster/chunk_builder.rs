@@ -44,7 +44,8 @@ impl<'a> ChunkBuilder<'a> {
             source: 0,
             color: (Rgba::BLACK, stored),
             scanner: Default::default(),
-            stamps: true,
+            // A few points of a finer lattice need not be samples.
+            stamps: context.is_grid(),
         }
     }
 

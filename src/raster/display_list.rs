@@ -11,6 +11,7 @@ use super::outline::{Outline, OutlineEdge};
 use super::rows::Span;
 use super::small::{SampleBox, SmallCoverage};
 use super::tile::{PixelRect, TileLayout};
+use super::{SamplePattern, SampleRate};
 use crate::color::{Premultiplied16, Rgba};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::rules::Rules;
@@ -112,7 +113,11 @@ pub struct Chunk {
 /// What a chunk needs to know about the drawing.
 #[derive(Clone, Copy, Debug)]
 pub struct ListContext {
+    /// Where vertices and samples may lie.
     pub(crate) grid: SubpixelGrid,
+    /// Where samples do, and how many there are: a rate that the pattern takes.
+    pub(crate) pattern: SamplePattern,
+    pub(crate) rate: SampleRate,
     pub(crate) rules: Rules,
     /// Pixels in a row, rows.
     pub(crate) size: [u32; 2],
@@ -120,6 +125,11 @@ pub struct ListContext {
 }
 
 impl ListContext {
+    /// Whether samples are all those of the grid.
+    pub(crate) fn is_grid(&self) -> bool {
+        self.pattern == SamplePattern::Grid
+    }
+
     /// The samples of the frame.
     pub(crate) fn samples(&self) -> SampleBox {
         let all = |pixels: u32| Span {

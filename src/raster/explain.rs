@@ -6,6 +6,7 @@ use glam::DVec2;
 use super::DisplayList;
 use super::display_list::{Chunk, Op, Paint, ScreenTriangle};
 use super::outline::Outline;
+use super::places::Place;
 use super::planes::Planes;
 use super::recorder::PaintedOp;
 use super::rows::Span;
@@ -104,9 +105,11 @@ impl DisplayList<'_> {
         let Some(chunk) = self.chunks.first() else {
             return Vec::new();
         };
+        let pixel = pixel.map(u32::cast_signed);
         let seen = SeenFrom {
             context: self.shade_context(),
-            pixel: pixel.map(u32::cast_signed),
+            pixel,
+            places: self.places().of_pixel(pixel, &mut Vec::new()).to_vec(),
         };
         let shape = |op: &Op| match *op {
             Op::Triangle(index) => {
@@ -129,6 +132,8 @@ impl DisplayList<'_> {
 struct SeenFrom<'a> {
     context: ShadeContext<'a>,
     pixel: [i32; 2],
+    /// Where they lie in it.
+    places: Vec<Place>,
 }
 
 impl SeenFrom<'_> {
@@ -137,10 +142,10 @@ impl SeenFrom<'_> {
     }
 
     /// Column and row of each sample in the frame.
-    fn samples(&self) -> impl Iterator<Item = [i32; 2]> + use<> {
-        let side = self.grid().side();
-        let [x, y] = self.pixel;
-        (0..side * side).map(move |i| [x * side + i % side, y * side + i / side])
+    fn samples(&self) -> impl Iterator<Item = [i32; 2]> {
+        let first = self.pixel.map(|at| at * self.grid().side());
+        let place = move |place: &Place| [first[0] + i32::from(place[0]), first[1] + i32::from(place[1])];
+        self.places.iter().map(place)
     }
 
     fn triangle(&self, triangle: &ScreenTriangle, paint: &Paint, weights: Option<&Paint>) -> PieceShape {

@@ -6,6 +6,8 @@ use super::entry::{Entry, Work};
 use super::pixel_row::{PixelRow, each_pixel_row_of_few, scaled};
 use super::recorder::{PaintedKind, PaintedOp, Recorder};
 use super::rows::Span;
+use super::sample_mask::SampleMask;
+use super::scattered::{Covered, Scatter};
 use super::shade::{ShadeContext, Shader, ShaderKind};
 use super::small::SmallCoverage;
 use super::tile::{PixelRect, Tile};
@@ -22,6 +24,9 @@ pub(crate) struct TilePainter<'a> {
     /// The samples at work and their colours.
     points: Vec<[u16; 2]>,
     colors: Vec<Premultiplied16>,
+    /// Finds coverage where samples are not those of the grid, and the parts of pixels at work there.
+    scatter: Option<Box<Scatter>>,
+    parts: Vec<([i32; 2], SampleMask)>,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
     /// When a single pixel is replayed: what was painted.
@@ -29,14 +34,16 @@ pub(crate) struct TilePainter<'a> {
 }
 
 impl<'a> TilePainter<'a> {
-    /// A painter for one drawing.
-    pub(crate) fn new(context: ShadeContext<'a>) -> Self {
+    /// A painter for one drawing; `scatter` where samples are not those of the grid.
+    pub(crate) fn new(context: ShadeContext<'a>, scatter: Option<Scatter>) -> Self {
         Self {
             context,
             layers: Vec::new(),
             depth: 0,
             points: Vec::new(),
             colors: Vec::new(),
+            scatter: scatter.map(Box::new),
+            parts: Vec::new(),
             samples_shaded: 0,
             recorder: None,
         }
@@ -101,8 +108,7 @@ impl<'a> TilePainter<'a> {
     }
 
     fn samples_per_pixel(&self) -> usize {
-        let side = self.context.grid.side().cast_unsigned() as usize;
-        side * side
+        self.context.rate.samples() as usize
     }
 
     /// The samples of a layer's first pixel.
@@ -139,8 +145,11 @@ impl<'a> TilePainter<'a> {
 
     fn push_layer(&mut self, rect: PixelRect, color: Premultiplied16) {
         if self.layers.len() == self.depth {
-            self.layers
-                .push(Tile::new(self.context.grid.side(), self.context.sampling.rules));
+            self.layers.push(Tile::new(
+                self.context.rate,
+                self.context.grid.side(),
+                self.context.sampling.rules,
+            ));
         }
         self.layers[self.depth].reset(rect, color);
         self.depth += 1;
@@ -163,6 +172,8 @@ impl<'a> TilePainter<'a> {
         for row in y.start..y.end {
             if let ShaderKind::Solid(color) = shader.kind {
                 self.fill(x, row, color);
+            } else if self.scatter.is_some() {
+                self.gather(row, Covered::Whole(x));
             } else {
                 if shader.opaque {
                     self.layers[self.depth - 1].split_unfilled(x, row);
@@ -172,6 +183,7 @@ impl<'a> TilePainter<'a> {
                 }
             }
         }
+        self.shade_parts(shader);
     }
 
     /// A shape, shaded by what `shader` makes once it is needed.
@@ -184,12 +196,89 @@ impl<'a> TilePainter<'a> {
         if entry.covers_tile() {
             return self.whole_tile(&shader(&self.context));
         }
+        if self.scatter.is_some() {
+            return self.scattered(shape, shader);
+        }
         let rect = self.layers[0].rect;
         let mut prepared = None;
         bands.each_pixel_row(shape, rect, |row| {
             let shader = prepared.get_or_insert_with(|| shader(&self.context));
             self.pixel_row(shader, row);
         });
+    }
+
+    /// A shape whose samples are not those of the grid.
+    fn scattered(&mut self, shape: Shape<'_>, shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>) {
+        let Some(mut scatter) = self.scatter.take() else {
+            return;
+        };
+        let mut prepared = None;
+        scatter.each(shape, self.layers[0].rect, |y, covered| {
+            let shader = prepared.get_or_insert_with(|| shader(&self.context));
+            match (&shader.kind, covered) {
+                (ShaderKind::Solid(color), Covered::Whole(xs)) => self.fill(xs, y, *color),
+                (ShaderKind::Solid(color), Covered::Part(x, mask)) => {
+                    self.layers[self.depth - 1].fill_mask(x, y, mask, *color);
+                    if let Some(recorder) = &mut self.recorder {
+                        recorder.paint_mask(mask, |_| *color);
+                    }
+                }
+                _ => self.gather(y, covered),
+            }
+        });
+        self.scatter = Some(scatter);
+        if let Some(shader) = prepared {
+            self.shade_parts(&shader);
+        }
+    }
+
+    /// Notes what is to be shaded.
+    fn gather(&mut self, y: i32, covered: Covered) {
+        match covered {
+            Covered::Whole(xs) => {
+                let all = SampleMask::all(self.samples_per_pixel());
+                self.parts.extend((xs.start..xs.end).map(|x| ([x, y], all)));
+            }
+            Covered::Part(x, mask) => self.parts.push(([x, y], mask)),
+        }
+    }
+
+    /// Shades what was noted, all samples together.
+    fn shade_parts(&mut self, shader: &Shader<'_>) {
+        let Some(scatter) = &mut self.scatter else {
+            return;
+        };
+        let PixelRect { x, y } = self.layers[0].rect;
+        let side = self.context.grid.side();
+        self.points.clear();
+        for (pixel, mask) in &self.parts {
+            let first = [(pixel[0] - x.start) * side, (pixel[1] - y.start) * side];
+            let places = scatter.places(*pixel);
+            // No tile has more than `2^14` points of a lattice along a side.
+            let at = |sample: usize, i: usize| {
+                u16::try_from(first[i])
+                    .unwrap_or(u16::MAX)
+                    .saturating_add(places[sample][i].into())
+            };
+            self.points
+                .extend(mask.iter().map(|sample| [at(sample, 0), at(sample, 1)]));
+        }
+        let count = self.points.len();
+        if self.colors.len() < count {
+            self.colors.resize(count, Premultiplied16::TRANSPARENT);
+        }
+        self.samples_shaded += count as u64;
+        let grid = self.context.samples_from([x.start, y.start]);
+        shader.points(grid, &self.points, &mut self.colors[..count]);
+        let mut first = 0;
+        for ([x, y], mask) in std::mem::take(&mut self.parts) {
+            let colors = &self.colors[first..first + mask.count()];
+            first += colors.len();
+            self.layers[self.depth - 1].write_mask((x, y), mask, colors, shader.opaque);
+            if let Some(recorder) = &mut self.recorder {
+                recorder.paint_mask(mask, |i| colors[i]);
+            }
+        }
     }
 
     /// Samples of one colour, counted from the tile's first.

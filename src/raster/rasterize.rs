@@ -13,13 +13,14 @@ use super::display_list::{Chunk, ListContext, Paint, measure_layers};
 use super::entry::{Entry, Work};
 use super::paint::TilePainter;
 use super::pixel_block::PixelBlock;
+use super::places::lattice;
 use super::rows::Span;
+use super::scattered::Scatter;
 use super::shade::{ShadeContext, Shader};
 use super::tally::{Counters, SharedTally, Tally};
 use super::tile::TileLayout;
-use super::{Framebuffer, SampleRate};
+use super::{Framebuffer, SamplePattern, SampleRate};
 use crate::color::{Premultiplied16, Rgba};
-use crate::geometry::subpixel::SubpixelGrid;
 use crate::rules::Rules;
 use crate::texture::{SamplingSettings, Texture};
 
@@ -31,6 +32,8 @@ const TIMED: usize = 7;
 pub struct RasterSettings {
     /// Samples per pixel.
     pub rate: SampleRate,
+    /// Where they lie; where the pattern does not take the rate, it has the nearest one that it takes.
+    pub pattern: SamplePattern,
     /// How textures are read, and by whose rules.
     pub sampling: SamplingSettings,
     /// What lies below the first primitive.
@@ -118,12 +121,20 @@ pub(super) struct Pass<'a> {
 impl ListContext {
     /// For a frame of `size` pixels.
     pub fn new(size: [u32; 2], settings: &RasterSettings) -> Self {
-        Self::with_tiles(size, settings, TileLayout::for_rate(settings.rate, size))
+        Self::with_tiles(
+            size,
+            settings,
+            TileLayout::for_rate(settings.pattern.nearest(settings.rate), size),
+        )
     }
 
     pub(crate) fn with_tiles(size: [u32; 2], settings: &RasterSettings, tiles: TileLayout) -> Self {
+        let rate = settings.pattern.nearest(settings.rate);
+        let pattern = settings.pattern.simplest(rate);
         Self {
-            grid: SubpixelGrid::new(settings.rate.side()),
+            grid: lattice(pattern, rate),
+            pattern,
+            rate,
             rules: settings.sampling.rules,
             size,
             tiles,
@@ -250,23 +261,41 @@ impl<'a> DisplayList<'a> {
     pub(super) fn shade_context(&self) -> ShadeContext<'_> {
         ShadeContext {
             grid: self.context.grid,
+            rate: self.context.rate,
             sampling: self.settings.sampling,
             textures: &self.textures,
         }
     }
 
+    /// What finds coverage in some columns of pixels where samples are not those of the grid.
+    fn scatter(&self, columns: Span) -> Option<Scatter> {
+        (!self.context.is_grid()).then(|| Scatter::new(&self.context, self.outlines(), columns))
+    }
+
+    /// How many outlines there are.
+    pub(super) fn outlines(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.outlines.len()).sum()
+    }
+
     pub(super) fn bands(&self) -> BandSpans {
-        let outlines = self.chunks.iter().map(|chunk| chunk.outlines.len()).sum();
         let columns = self.context.samples().columns.end;
-        BandSpans::new((self.context.grid, self.context.rules), columns, outlines)
+        BandSpans::new((self.context.grid, self.context.rules), columns, self.outlines())
     }
 
     /// Painters for one thread.
     pub(super) fn painters(&self) -> Painters<'_> {
+        self.painters_of(Span {
+            start: 0,
+            end: self.context.size[0].cast_signed(),
+        })
+    }
+
+    /// Painters of tiles in these columns of pixels.
+    pub(super) fn painters_of(&self, columns: Span) -> Painters<'_> {
         Painters {
             direct: DirectPainter::new(self.shade_context()),
             deferred: DeferredPainter::new(self.shade_context()),
-            blended: TilePainter::new(self.shade_context()),
+            blended: TilePainter::new(self.shade_context(), self.scatter(columns)),
             bands: self.bands(),
             tally: Tally::default(),
         }
@@ -278,7 +307,10 @@ impl<'a> DisplayList<'a> {
             visible(&pass.bins, tile, first)
                 .all(|(chunk, entries)| entries.iter().all(|entry| kind(entry, &self.chunks[chunk])))
         };
-        let rate_one = self.settings.rate == SampleRate::ONE;
+        if !self.context.is_grid() {
+            return Method::Blended;
+        }
+        let rate_one = self.context.rate == SampleRate::ONE;
         if rate_one && (self.kinds.opaque || all(|entry, _| entry.is_opaque())) {
             Method::Direct
         } else if !self.kinds.blended || all(|entry, chunk| !matches!(entry.work(chunk), Work::Shaded(..))) {
@@ -428,100 +460,28 @@ fn visible(
 #[cfg(test)]
 mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
-    use glam::DVec2;
 
     use super::super::chunk_builder::ChunkBuilder;
-    use super::super::display_list::Fill;
+    use super::super::random::{fill, noise};
     use super::*;
-    use crate::geometry::{FillRule, Polygon};
-    use crate::texture::{LevelSampling, MipLevel, MipPyramid, PixelSampling};
+    use crate::texture::{LevelSampling, PixelSampling};
 
     const SIZE: [u32; 2] = [70, 50];
 
-    fn fill(builder: &mut ChunkBuilder<'_>, u: &mut Unstructured<'_>) -> Result<()> {
-        fn unit(u: &mut Unstructured<'_>) -> Result<f32> {
-            Ok(f32::from(u.arbitrary::<u8>()?) / 255.0)
-        }
-        fn color(u: &mut Unstructured<'_>) -> Result<Rgba> {
-            let alpha = if u.arbitrary()? { 1.0 } else { unit(u)? };
-            Ok(Rgba {
-                r: unit(u)?,
-                g: unit(u)?,
-                b: unit(u)?,
-                a: alpha,
-            })
-        }
-        for _ in 0..u.int_in_range(1..=12)? {
-            let mut point = || -> Result<DVec2> {
-                let mut at = |side: i32| Ok(f64::from(u.int_in_range(-side..=3 * side)?) / 2.0);
-                Ok(DVec2::new(at(70)?, at(50)?))
-            };
-            let points = [point()?, point()?, point()?];
-            match u.int_in_range(0..=6)? {
-                4 | 5 => {
-                    let scale = *u.choose(&[0.1, 1.0, 4.0])?;
-                    let mut contours = Vec::new();
-                    for _ in 0..u.int_in_range(1..=2)? {
-                        let mut contour = Vec::new();
-                        for _ in 0..u.int_in_range(3..=20)? {
-                            let offset = DVec2::new(unit(u)?.into(), unit(u)?.into()) - 0.5;
-                            contour.push(points[0] + offset * 60.0 * scale);
-                        }
-                        contours.push(contour);
-                    }
-                    let rule = *u.choose(&[FillRule::NonZero, FillRule::EvenOdd])?;
-                    builder.polygon(&Polygon::new(contours, rule), |point| point, color(u)?);
-                }
-                0 => builder.hairline([points[0], points[1]], color(u)?),
-                1 => builder.triangle(points, &Fill::Vertex([color(u)?, color(u)?, color(u)?])),
-                2 => {
-                    let uv = [[0.0, 0.1], [unit(u)?, 1.0], [unit(u)?, unit(u)?]];
-                    builder.triangle(
-                        points,
-                        &Fill::Texture {
-                            texture: 0,
-                            uv,
-                            opacity: unit(u)?,
-                        },
-                    );
-                }
-                3 => {
-                    builder.begin_layer();
-                    builder.triangle(points, &Fill::Solid(color(u)?));
-                    builder.end_layer(unit(u)?);
-                }
-                _ => builder.triangle(points, &Fill::Solid(color(u)?)),
-            }
-        }
-        Ok(())
-    }
-
     #[test]
     fn tiles_of_any_size_make_the_same_bytes() {
-        let texels = (0..32 * 32_u32)
-            .map(|i| {
-                [
-                    (i * 7).to_le_bytes()[0],
-                    (i * 13).to_le_bytes()[0],
-                    (i / 4).to_le_bytes()[0],
-                    255,
-                ]
-            })
-            .collect();
-        let pyramid = MipPyramid::build(MipLevel::new(32, 32, texels));
-        let texture = Texture {
-            name: "noise".to_owned(),
-            pyramid,
-        };
+        let texture = noise();
         let sampling = SamplingSettings {
             pixel: PixelSampling::Bilinear,
             level: LevelSampling::Linear,
             ..SamplingSettings::default()
         };
         arbtest::arbtest(|u| {
-            let rate = SampleRate::new(*u.choose(&[1, 4, 9, 16, 64, 100])?).expect("a square number");
+            let pattern = *u.choose(&SamplePattern::ALL)?;
+            let rate = SampleRate::new(*u.choose(&[1, 4, 5, 9, 16, 64, 100])?).expect("a rate");
             let settings = RasterSettings {
                 rate,
+                pattern,
                 sampling,
                 background: Rgba::WHITE,
             };
@@ -536,11 +496,11 @@ mod tests {
                     .expect("not cancelled");
                 Ok(frame)
             };
-            let expected = draw(TileLayout::for_rate(rate, SIZE))?;
+            let expected = draw(TileLayout::for_rate(pattern.nearest(rate), SIZE))?;
             for sides in [(0, 0), (3, 3), (2, 4), (5, 1), (7, 7)] {
                 assert!(
                     draw(TileLayout::new(sides, SIZE))? == expected,
-                    "tiles of 2^{sides:?} pixels, {rate:?}"
+                    "tiles of 2^{sides:?} pixels, {pattern:?} {rate:?}"
                 );
             }
             Ok(())

@@ -2,6 +2,7 @@
 
 use super::entry::Work;
 use super::rows::Span;
+use super::sample_mask::SampleMask;
 use crate::color::Premultiplied16;
 
 /// What one op did to a pixel.
@@ -132,6 +133,13 @@ impl Recorder {
         for (i, column) in (columns.start..columns.end).enumerate() {
             let sample = line.rem_euclid(side) * side + column.rem_euclid(side);
             self.colors[sample.cast_unsigned() as usize] = Some(color(i));
+        }
+    }
+
+    /// The op paints some samples; `color` is asked for those counted from the first of them.
+    pub(super) fn paint_mask(&mut self, mask: SampleMask, color: impl Fn(usize) -> Premultiplied16) {
+        for (i, sample) in mask.iter().enumerate() {
+            self.colors[sample] = Some(color(i));
         }
     }
 

@@ -10,6 +10,7 @@ use super::bins::{Bins, entries_of_tile};
 use super::display_list::{Chunk, ListContext};
 use super::entry::Entry;
 use super::pixel_block::PixelBlock;
+use super::places::{Place, SamplePlaces};
 use super::rasterize::{Method, Pass, first_visible};
 use super::recorder::{PaintedKind, PaintedOp};
 use super::rows::Span;
@@ -69,7 +70,10 @@ impl DisplayList<'_> {
             .zip(&bins)
             .map(|(chunk, bins)| (chunk, bins.of_tile(0)))
             .collect();
-        let mut painters = self.painters();
+        let mut painters = self.painters_of(Span {
+            start: at[0],
+            end: at[0] + 1,
+        });
         let (painted, samples) = painters
             .blended
             .replay(&chunks, (at, self.background()), &mut painters.bands);
@@ -89,7 +93,7 @@ impl DisplayList<'_> {
         self.numbered_tile(&pass, &mut painters, 0, &mut PixelBlock::new(rect, &mut pixel, 1));
         let deferred = self.method(&pass, 0, first_visible(&pass.bins, 0)) == Method::Deferred;
         let shaded = deferred.then(|| painters.deferred.shaded_sums()).flatten();
-        let positions = self.positions();
+        let positions = self.positions(at);
         Some(PixelReplay {
             sums: shaded.unwrap_or_else(|| sums(&samples)),
             summed_exactly: shaded.is_some(),
@@ -104,7 +108,7 @@ impl DisplayList<'_> {
     }
 
     /// The ops that touch a pixel of the frame.
-    fn bins_of_pixel(&self, pixel: [i32; 2]) -> Vec<Bins> {
+    pub(super) fn bins_of_pixel(&self, pixel: [i32; 2]) -> Vec<Bins> {
         let context = ListContext {
             tiles: TileLayout::new((0, 0), self.context.size),
             ..self.context
@@ -114,11 +118,17 @@ impl DisplayList<'_> {
     }
 
     /// Where samples lie in a pixel.
-    pub(super) fn positions(&self) -> Vec<[f64; 2]> {
+    fn positions(&self, pixel: [i32; 2]) -> Vec<[f64; 2]> {
         let grid = self.context.grid;
-        let place = |index| grid.sample_position(index);
-        let side = grid.side();
-        (0..side * side).map(|i| [place(i % side), place(i / side)]).collect()
+        let mut memory = Vec::new();
+        let places = self.places();
+        let position = |place: &Place| place.map(|at| grid.sample_position(at.into()));
+        places.of_pixel(pixel, &mut memory).iter().map(position).collect()
+    }
+
+    /// Where samples lie, on the lattice of the grid.
+    pub(super) fn places(&self) -> SamplePlaces {
+        SamplePlaces::new(self.context.pattern, self.context.rate)
     }
 }
 

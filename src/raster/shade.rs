@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::SampleRate;
 use super::display_list::{Paint, ScreenTriangle};
 use super::planes::Planes;
 use super::vertex::VertexColors;
@@ -48,6 +49,8 @@ pub(crate) struct Pixels<'p> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShadeContext<'a> {
     pub(crate) grid: SubpixelGrid,
+    /// Samples per pixel.
+    pub(crate) rate: SampleRate,
     pub(crate) sampling: SamplingSettings,
     pub(crate) textures: &'a [&'a Texture],
 }

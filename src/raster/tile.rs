@@ -7,6 +7,7 @@
 //! one store per pixel at every sample rate, and memory is touched only where samples differ.
 
 use super::rows::Span;
+use super::sample_mask::SampleMask;
 use crate::color::Premultiplied16;
 use crate::raster::SampleRate;
 use crate::rules::Rules;
@@ -110,7 +111,7 @@ impl TileLayout {
 pub(crate) struct Tile {
     pub(crate) rect: PixelRect,
     width: usize,
-    /// Samples along one side of a pixel, and per pixel.
+    /// Samples along one side of a pixel where they lie in rows, and per pixel.
     side: usize,
     per_pixel: usize,
     rules: Rules,
@@ -124,14 +125,13 @@ pub(crate) struct Tile {
 }
 
 impl Tile {
-    /// A tile of no pixels.
-    pub(crate) fn new(side: i32, rules: Rules) -> Self {
-        let side = usize::try_from(side).unwrap_or(1);
+    /// A tile of no pixels; `side` is how many samples of a pixel lie in a row, where they do.
+    pub(crate) fn new(rate: SampleRate, side: i32, rules: Rules) -> Self {
         Self {
             rect: PixelRect::NOTHING,
             width: 0,
-            side,
-            per_pixel: side * side,
+            side: usize::try_from(side).unwrap_or(1),
+            per_pixel: rate.samples() as usize,
             rules,
             whole: Vec::new(),
             split: Vec::new(),
@@ -235,6 +235,52 @@ impl Tile {
         });
     }
 
+    /// Paints some samples of pixel `x` in row `y` with one colour.
+    #[inline]
+    pub(crate) fn fill_mask(&mut self, x: i32, y: i32, mask: SampleMask, color: Premultiplied16) {
+        let rules = self.rules;
+        let opaque = color.is_opaque();
+        let samples = self.samples_of(x, y);
+        for sample in mask.iter() {
+            samples[sample] = if opaque {
+                color
+            } else {
+                color.over(samples[sample], rules)
+            };
+        }
+    }
+
+    /// Paints some samples of pixel `x` in row `y` with a colour each; `opaque` says that all of these are.
+    #[inline]
+    pub(crate) fn write_mask(
+        &mut self,
+        (x, y): (i32, i32),
+        mask: SampleMask,
+        colors: &[Premultiplied16],
+        opaque: bool,
+    ) {
+        let rules = self.rules;
+        let samples = self.samples_of(x, y);
+        for (sample, color) in mask.iter().zip(colors) {
+            samples[sample] = if opaque || color.is_opaque() {
+                *color
+            } else {
+                color.over(samples[sample], rules)
+            };
+        }
+    }
+
+    /// All samples of a pixel, which is split unless it has just one.
+    #[inline]
+    fn samples_of(&mut self, x: i32, y: i32) -> &mut [Premultiplied16] {
+        let pixel = self.index(x, y);
+        if self.per_pixel == 1 {
+            return &mut self.whole[pixel..=pixel];
+        }
+        self.ensure_split(pixel);
+        &mut self.samples[pixel * self.per_pixel..][..self.per_pixel]
+    }
+
     /// Splits the pixels `xs` of row `y` for a painter that will overwrite all their samples.
     #[inline]
     pub(crate) fn split_unfilled(&mut self, xs: Span, y: i32) {
@@ -316,7 +362,7 @@ impl Tile {
         }
     }
 
-    /// The colour of one sample of a pixel, counted row by row inside it.
+    /// The colour of one sample of a pixel.
     pub(crate) fn sample(&self, x: i32, y: i32, sample: usize) -> Premultiplied16 {
         let pixel = self.index(x, y);
         if self.split[pixel] {

@@ -12,8 +12,8 @@ use crate::simd::Level;
 const LARGEST: f64 = 1e200;
 /// Pivots beyond this, in pixels, are nowhere near a frame.
 const FARTHEST: f64 = 1e9;
-/// The most samples along one side of a pixel.
-const MAX_SIDE: u32 = 16;
+/// The most samples along one side of a pixel; those of scattered patterns are points of so fine a grid.
+const MAX_SIDE: u32 = 256;
 
 /// One texture read at the fragments of one triangle, under the standard rules.
 ///
@@ -34,7 +34,7 @@ pub struct Filter<'a> {
 /// What the positions of samples or pixels in a list are counted from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SampleGrid {
-    /// Samples along one side of a pixel, `1..=16`.
+    /// Samples along one side of a pixel, `1..=16`; up to 256 where each is filtered alone.
     pub side: u32,
     /// Column and row of the pixel whose first sample is sample `[0, 0]` of a list, and which is pixel `[0, 0]`.
     pub origin: [i32; 2],

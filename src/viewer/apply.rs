@@ -9,7 +9,7 @@ use super::settings::next_of;
 use super::state::Finished;
 use super::{Camera, Command, Effect, PixelRect, PixelZoom, Sight, Theme, Viewer, library};
 use crate::geometry::View;
-use crate::raster::Region;
+use crate::raster::{Region, SamplePattern, SampleRate};
 use crate::render::RenderSettings;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
@@ -184,7 +184,18 @@ impl Viewer {
         match command {
             Command::SampleRateUp => render.sample_rate = render.sample_rate.higher(),
             Command::SampleRateDown => render.sample_rate = render.sample_rate.lower(),
-            Command::SetSampleRate(rate) => render.sample_rate = rate,
+            Command::SetSampleRate(rate) => {
+                let pattern = render.pattern;
+                self.set_samples(pattern, rate);
+            }
+            Command::NextPattern => {
+                let (pattern, rate) = (next_of(&SamplePattern::ALL, render.pattern), render.sample_rate);
+                self.set_samples(pattern, rate);
+            }
+            Command::SetPattern(pattern) => {
+                let rate = render.sample_rate;
+                self.set_samples(pattern, rate);
+            }
             Command::NextPixelSampling => render.pixel_sampling = next_of(&PixelSampling::ALL, render.pixel_sampling),
             Command::SetPixelSampling(sampling) => render.pixel_sampling = sampling,
             Command::NextLevelSampling => render.level_sampling = next_of(&LevelSampling::ALL, render.level_sampling),
@@ -210,6 +221,15 @@ impl Viewer {
             }
             command => self.change_inspector(command),
         }
+    }
+
+    /// A pattern and as many samples as it takes; where those are others than asked for, the user is told.
+    fn set_samples(&mut self, pattern: SamplePattern, rate: SampleRate) {
+        if let Some(refusal) = pattern.refusal(rate) {
+            self.messages.error(refusal);
+        }
+        self.settings.render.pattern = pattern;
+        self.settings.render.sample_rate = pattern.nearest(rate);
     }
 
     fn change_inspector(&mut self, command: Command) {

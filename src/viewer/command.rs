@@ -10,7 +10,7 @@ use glam::DVec2;
 use super::{PixelZoom, Theme, Toggle, ViewNumbers};
 use crate::color::Rgba;
 use crate::figure::PixelRect;
-use crate::raster::SampleRate;
+use crate::raster::{SamplePattern, SampleRate};
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
@@ -78,8 +78,12 @@ pub enum Command {
     SampleRateUp,
     /// The next lower sample rate.
     SampleRateDown,
-    /// This sample rate.
+    /// This sample rate, or the nearest one that the pattern takes.
     SetSampleRate(SampleRate),
+    /// The next sample pattern, round and round.
+    NextPattern,
+    /// This sample pattern. A sample rate that it does not take becomes the nearest one that it takes.
+    SetPattern(SamplePattern),
     /// The next pixel sampling, round and round.
     NextPixelSampling,
     /// This pixel sampling.

@@ -66,6 +66,7 @@ impl Viewer {
         };
         let (rate, pixel, level) = (render.sample_rate, render.pixel_sampling, render.level_sampling);
         option(rate != default.sample_rate, "sample-rate", &rate.samples().to_string());
+        option(render.pattern != default.pattern, "pattern", render.pattern.name());
         option(pixel != default.pixel_sampling, "pixel-sampling", pixel.name());
         option(level != default.level_sampling, "level-sampling", level.name());
         let (taps, detail) = (render.anisotropy, render.detail);

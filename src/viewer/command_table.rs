@@ -125,10 +125,20 @@ pub(super) static TABLE: &[CommandSpec] = &[
     spec(
         "rate",
         "Sample rate",
-        "Sets the samples per pixel: 1, 4, 9, 16 ... 256",
+        "Sets the samples per pixel: 1, 4, 9, 16 ... 256; with the patterns halton and r2 any number",
         Group::Sampling,
     )
     .argument(typed::SAMPLE_RATE),
+    spec(
+        "pattern",
+        "Sample pattern",
+        "Moves the samples inside their pixels: a grid, a rotated grid, jitter in every pixel or the same in all, halton, r2",
+        Group::Sampling,
+    )
+    .more("Off the grid, edges that are nearly upright or level get more shades, and jitter turns aliases into noise")
+    .keys(&[Chord::char('a')])
+    .run(&Command::NextPattern)
+    .argument(typed::PATTERN),
     spec(
         "pixel-sampling",
         "Pixel sampling",

@@ -43,7 +43,7 @@ pub use library::{SceneEntry, SceneSource, SceneState, list_scenes};
 pub use messages::{Message, MessageKind};
 pub use present::WindowPixels;
 pub use probing::{Hit, ProbedSample};
-pub use settings::{PixelZoom, Settings, Theme, Toggle, texture_words};
+pub use settings::{PixelZoom, Settings, Theme, Toggle, pattern_words, texture_words};
 pub use state::{Viewer, ViewerOptions, Waker};
 pub use status::Status;
 pub use typed::Argument;

@@ -121,6 +121,12 @@ impl Toggle {
     }
 }
 
+/// Where samples lie, where that is not the default: few words such as `pattern halton`.
+pub fn pattern_words(render: &RenderSettings) -> Option<String> {
+    let other = render.pattern != RenderSettings::default().pattern;
+    other.then(|| format!("pattern {}", render.pattern.name()))
+}
+
 /// How textures are read beyond pixel and level sampling, where it differs from the default: few words each, such as
 /// `anisotropy 16` or `level 2`.
 pub fn texture_words(render: &RenderSettings) -> Vec<String> {

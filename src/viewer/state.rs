@@ -14,7 +14,7 @@ use super::reading::{ReadScene, Readers, Thumbnail};
 use super::screenshot::{Saved, Saver};
 use super::{
     Camera, Dialog, Frame, Inspector, Message, PixelRect, PixelZoom, PlacedInset, SceneEntry, SceneSource, Settings,
-    Sight, Theme, ViewNumbers, library, texture_words,
+    Sight, Theme, ViewNumbers, library, pattern_words, texture_words,
 };
 use crate::geometry::View;
 
@@ -336,11 +336,12 @@ impl Viewer {
     pub fn title(&self) -> String {
         let name = self.current().map_or("no scene", |entry| entry.label.as_str());
         let render = &self.settings.render;
-        let mut words = vec![
-            format!("sample rate {}", render.sample_rate.samples()),
+        let mut words = vec![format!("sample rate {}", render.sample_rate.samples())];
+        words.extend(pattern_words(render));
+        words.extend([
             format!("pixel sampling {}", render.pixel_sampling.name()),
             format!("level sampling {}", render.level_sampling.name()),
-        ];
+        ]);
         words.extend(texture_words(render));
         format!("{name} - {} - Rasterscope", words.join(", "))
     }

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::{Command, PixelZoom, Theme, Toggle, ViewNumbers};
 use crate::color::Rgba;
-use crate::raster::SampleRate;
+use crate::raster::{SamplePattern, SampleRate};
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
@@ -71,8 +71,11 @@ pub(super) const VIEW: Argument = argument("default, or X,Y,SCALE[,DEGREES]", |t
 pub(super) const PIXEL_ZOOM: Argument = argument("1, 2, 3, 4, 6 or 8", |text| {
     whole(text).and_then(PixelZoom::new).map(Command::SetPixelZoom)
 });
-pub(super) const SAMPLE_RATE: Argument = argument("a square number from 1 to 256", |text| {
+pub(super) const SAMPLE_RATE: Argument = argument("a whole number from 1 to 256", |text| {
     whole(text).and_then(SampleRate::new).map(Command::SetSampleRate)
+});
+pub(super) const PATTERN: Argument = argument("grid|rotated|jittered|jittered-same|halton|r2", |text| {
+    named(&SamplePattern::ALL, SamplePattern::name, text).map(Command::SetPattern)
 });
 pub(super) const PIXEL_SAMPLING: Argument = argument("nearest|bilinear", |text| {
     named(&PixelSampling::ALL, PixelSampling::name, text).map(Command::SetPixelSampling)

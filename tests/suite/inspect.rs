@@ -7,7 +7,7 @@
 
 use rasterscope::geometry::View as SceneView;
 use rasterscope::inspect::{Explanation, Fragment, Interpolated, Paint, Question, Shape, View};
-use rasterscope::raster::{Framebuffer, SampleRate};
+use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{RenderSettings, Subject, draw};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, ReadOptions, Scene};
@@ -16,7 +16,7 @@ use rasterscope::viewer::gallery::{SCENES, Textures};
 use rayon::prelude::*;
 
 /// What pictures are drawn with.
-fn settings() -> [RenderSettings; 5] {
+fn settings() -> [RenderSettings; 7] {
     let rate = |samples| SampleRate::new(samples).unwrap();
     let plain = RenderSettings::default();
     [
@@ -46,6 +46,19 @@ fn settings() -> [RenderSettings; 5] {
             sample_rate: rate(9),
             level_sampling: LevelSampling::Linear,
             background: rasterscope::color::Rgba::TRANSPARENT,
+            ..plain
+        },
+        RenderSettings {
+            sample_rate: rate(4),
+            pattern: SamplePattern::Jittered,
+            level_sampling: LevelSampling::Linear,
+            ..plain
+        },
+        RenderSettings {
+            sample_rate: rate(5),
+            pattern: SamplePattern::Halton,
+            pixel_sampling: PixelSampling::Bilinear,
+            rules: Rules::Course,
             ..plain
         },
     ]

@@ -20,6 +20,7 @@ mod overlay_goldens;
 mod overlay_painter;
 #[cfg(feature = "window")]
 mod overlay_repaints;
+mod patterns;
 mod readme;
 mod regions;
 mod render;

@@ -1,6 +1,6 @@
 //! The engine against the brute-force renderer, on random scenes full of ties.
 
-use rasterscope::raster::Framebuffer;
+use rasterscope::raster::{Framebuffer, SamplePattern};
 use rasterscope::render::RenderSettings;
 use rasterscope::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
 
@@ -27,14 +27,22 @@ fn difference(a: &Framebuffer, b: &Framebuffer, level: u8) -> (u8, usize) {
     )
 }
 
-fn rate(u: &mut arbtest::arbitrary::Unstructured<'_>) -> arbtest::arbitrary::Result<RenderSettings> {
-    Ok(at_rate(*u.choose(&[1, 4, 9, 16, 25])?))
+fn samples(u: &mut arbtest::arbitrary::Unstructured<'_>) -> arbtest::arbitrary::Result<RenderSettings> {
+    // As often on the grid as off it.
+    let scattered = *u.choose(&SamplePattern::ALL)?;
+    let pattern = *u.choose(&[SamplePattern::Grid, scattered])?;
+    let rates = [1, 4, 9, 16, 25, 2, 3, 5, 7, 17];
+    let rates = if pattern.needs_square() { &rates[..5] } else { &rates };
+    Ok(RenderSettings {
+        pattern,
+        ..at_rate(*u.choose(rates)?)
+    })
 }
 
 /// Draws random scenes in both renderers for a while; `judge` looks at each pair.
 fn compare(fills: Fills, budget_ms: u64, mut judge: impl FnMut(&Framebuffer, &Framebuffer, &(RenderSettings, String))) {
     arbtest::arbtest(|u| {
-        let (scene, mut settings) = (random(u, SIDE, fills)?, rate(u)?);
+        let (scene, mut settings) = (random(u, SIDE, fills)?, samples(u)?);
         settings.pixel_sampling = *u.choose(&PixelSampling::ALL)?;
         settings.level_sampling = *u.choose(&LevelSampling::ALL)?;
         settings.anisotropy = *u.choose(&Anisotropy::STEPS)?;

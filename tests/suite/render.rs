@@ -3,7 +3,7 @@
 use glam::DVec2;
 use rasterscope::color::Rgba;
 use rasterscope::geometry::View;
-use rasterscope::raster::Framebuffer;
+use rasterscope::raster::{Framebuffer, SamplePattern};
 use rasterscope::render::{CancelToken, RenderSettings, Subject, draw_cancellable, replay};
 use rasterscope::scene::PrimitiveKind;
 
@@ -192,7 +192,8 @@ fn replay_tells_the_samples_that_make_the_pixel() {
     arbtest::arbtest(|u| {
         // What is shaded is summed over the samples of a pixel before it is rounded, here each sample is.
         let (fills, rounding) = *u.choose(&[(Fills::Translucent, 1e-9), (Fills::Everything, 0.25)])?;
-        let (scene, settings) = (random(u, 12, fills)?, at_rate(*u.choose(&[1, 4, 9])?));
+        let (scene, mut settings) = (random(u, 12, fills)?, at_rate(*u.choose(&[1, 4, 9])?));
+        settings.pattern = *u.choose(&SamplePattern::ALL)?;
         let view = one_to_one([12, 12]);
         let frame = drawn(&scene, &view, &settings, [12, 12]);
         let (x, y) = (u.int_in_range(0..=11)?, u.int_in_range(0..=11)?);

@@ -1,7 +1,7 @@
 //! Commands replayed without a window: state and pixels.
 
 use glam::dvec2;
-use rasterscope::raster::SampleRate;
+use rasterscope::raster::{SamplePattern, SampleRate};
 use rasterscope::rules::Rules;
 use rasterscope::scene::DialectChoice;
 use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
@@ -309,6 +309,51 @@ fn replay_copies() {
     session.run(Command::NextDerivatives);
     let line = session.viewer.command_line().unwrap();
     assert!(line.ends_with("--level-sampling nearest --rules course"), "{line}");
+}
+
+#[test]
+fn replay_steps_through_patterns_and_tells_which_rates_they_refuse() {
+    let mut session = Session::open(&[TRIANGLES], [64, 48]);
+    session.keys(&["=", "a", "a"]);
+    let render = |session: &Session| session.viewer.settings().render;
+    assert_eq!(render(&session).pattern, SamplePattern::Jittered, "the third");
+    assert!(
+        session
+            .viewer
+            .title()
+            .contains("sample rate 4, pattern jittered, pixel"),
+        "{}",
+        session.viewer.title()
+    );
+    let line = session.viewer.command_line().unwrap();
+    assert!(line.contains(" --sample-rate 4 --pattern jittered"), "{line}");
+    session.assert_frame_is_current();
+    session.keys(&["a", "a"]);
+    session.run(Command::SetSampleRate(SampleRate::new(5).unwrap()));
+    assert_eq!(render(&session).sample_rate.samples(), 5, "halton takes any number");
+    assert!(session.viewer.messages().is_empty(), "nothing to tell");
+    session.assert_frame_is_current();
+    session.keys(&["a", "a"]);
+    assert_eq!(render(&session).pattern, SamplePattern::Grid, "round and round");
+    assert_eq!(
+        render(&session).sample_rate.samples(),
+        4,
+        "the nearest that a grid takes"
+    );
+    let told = session.viewer.messages()[0].text.clone();
+    assert_eq!(
+        told, "pattern grid takes a square number of samples, not 5; 4 is nearest, and halton and r2 take any",
+        "in one line"
+    );
+    session.run(Command::SetSampleRate(SampleRate::new(8).unwrap()));
+    assert_eq!(render(&session).sample_rate.samples(), 9, "also when typed");
+    session.keys(&["a"]);
+    let (rotated, rate) = (render(&session).pattern, render(&session).sample_rate.samples());
+    assert_eq!(
+        (rotated, rate),
+        (SamplePattern::Rotated, 9),
+        "keys keep a rate that fits"
+    );
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use egui::{Align2, Area, Color32, FontId, Frame, Id, Order, Rect, RichText, Sense, Ui, Vec2, pos2, vec2};
 
+use crate::raster::SamplePattern;
 use crate::viewer::{Command, Message, MessageKind, PixelRect, Viewer, texture_words};
 
 /// Seconds that a message stays.
@@ -25,9 +26,16 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect])
     };
     let render = &viewer.settings().render;
     let count = render.sample_rate.samples();
+    let pattern = match render.pattern {
+        SamplePattern::Grid => String::new(),
+        other => format!(", {}", other.name()),
+    };
     let mut lines = vec![
         entry.label.clone(),
-        format!("{count} {} per pixel", if count == 1 { "sample" } else { "samples" }),
+        format!(
+            "{count} {} per pixel{pattern}",
+            if count == 1 { "sample" } else { "samples" }
+        ),
         format!(
             "pixel {}, level {}",
             render.pixel_sampling.name(),

@@ -4,7 +4,7 @@ use egui::Ui;
 
 use super::controls::{choice, heading, row, tip};
 use super::detail;
-use crate::raster::SampleRate;
+use crate::raster::{SamplePattern, SampleRate};
 use crate::rules::Rules;
 use crate::scene::{Dialect, DialectChoice};
 use crate::texture::{LevelSampling, PixelSampling};
@@ -19,6 +19,12 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     ui.label(egui::RichText::new("Samples per pixel").weak());
     let keys = format!("{}; {}", tip("rate-down"), tip("rate-up"));
     commands.extend(choice(ui, "Samples per pixel", &keys, render.sample_rate, &rates).map(Command::SetSampleRate));
+    ui.label(egui::RichText::new("Sample pattern").weak());
+    for patterns in SamplePattern::ALL.chunks(3) {
+        let values: Vec<_> = patterns.iter().map(|value| (*value, value.name().to_owned())).collect();
+        let chosen = choice(ui, "Sample pattern", &tip("pattern"), render.pattern, &values);
+        commands.extend(chosen.map(Command::SetPattern));
+    }
     row(ui, "Pixel", |ui| {
         let values = PixelSampling::ALL.map(|value| (value, value.name().to_owned()));
         let chosen = choice(

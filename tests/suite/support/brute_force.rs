@@ -10,10 +10,10 @@
 
 use glam::DVec2;
 use rasterscope::color::Rgba;
-use rasterscope::geometry::{FillRule, ViewTransform};
-use rasterscope::raster::Framebuffer;
-use rasterscope::render::RenderSettings;
-use rasterscope::scene::{Paint, PrimitiveKind, Scene};
+use rasterscope::geometry::{FillRule, View, ViewTransform};
+use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
+use rasterscope::render::{RenderSettings, Subject, replay};
+use rasterscope::scene::{Dialect, Paint, PrimitiveKind, Scene};
 use rasterscope::texture::{Derivatives, FixedLevel, LevelSampling, MipLevel, PixelSampling, Texture};
 
 /// Premultiplied, `0.0..=1.0`.
@@ -41,8 +41,7 @@ enum Step<'a> {
 
 /// Draws a scene under the standard rules. Coordinates must stay small.
 pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSettings, size: [u32; 2]) -> Framebuffer {
-    let side = settings.sample_rate.side();
-    let bits = 14 - side.next_power_of_two().trailing_zeros();
+    let (side, bits) = lattice(settings);
     let units = f64::from(side << bits);
     let steps: Vec<Step<'_>> = scene
         .primitives
@@ -53,17 +52,74 @@ pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSetting
     for y in 0..size[1] {
         for x in 0..size[0] {
             let mut sum = [0.0; 4];
-            for sample in 0..side * side {
-                let (i, j) = (x * side + sample % side, y * side + sample / side);
+            let places = places(settings, [x, y]);
+            for [right, down] in &places {
+                let (i, j) = (x * side + right, y * side + down);
                 let color = sample_color(&steps, scene, settings, [i, j], (side, bits));
                 for (sum, channel) in sum.iter_mut().zip(color) {
-                    *sum += channel / f64::from(side * side);
+                    *sum += channel / places.len() as f64;
                 }
             }
             frame.pixels_mut()[(y * size[0] + x) as usize] = to_pixel(sum);
         }
     }
     frame
+}
+
+/// Points of the lattice that samples lie on along one side of a pixel, and fractional bits between two of them.
+fn lattice(settings: &RenderSettings) -> (u32, u32) {
+    let side = settings.sample_rate.side();
+    match settings.pattern {
+        SamplePattern::Grid => (side, 14 - side.next_power_of_two().trailing_zeros()),
+        // One sample in the middle is a grid.
+        SamplePattern::Rotated | SamplePattern::R2 if settings.sample_rate == SampleRate::ONE => (1, 14),
+        _ => (256, 6),
+    }
+}
+
+/// The samples of a pixel as points of the lattice, counted from the pixel's first.
+fn places(settings: &RenderSettings, pixel: [u32; 2]) -> Vec<[u32; 2]> {
+    let (count, n) = (settings.sample_rate.samples(), settings.sample_rate.side());
+    let side = f64::from(lattice(settings).0);
+    let on_lattice = |place: [f64; 2]| place.map(|at| (at * side + 1e-9).floor() as u32);
+    let cell = |i: u32| [f64::from(i % n), f64::from(i / n)];
+    let of = |place: &dyn Fn(u32) -> [f64; 2]| (0..count).map(|i| on_lattice(place(i))).collect();
+    let n = f64::from(n);
+    match settings.pattern {
+        SamplePattern::Grid => of(&|i| cell(i).map(|at| (at + 0.5) / n)),
+        SamplePattern::Rotated => of(&|i| {
+            let [column, row] = cell(i);
+            [(column + (row + 0.5) / n) / n, (row + (n - 1.0 - column + 0.5) / n) / n]
+        }),
+        SamplePattern::Halton => of(&|i| [2, 3].map(|base| radical_inverse(i + 1, base))),
+        SamplePattern::R2 => of(&|i| {
+            let g = 1.324_717_957_244_746_f64;
+            [g, g * g].map(|step| (0.5 + f64::from(i) / step).fract())
+        }),
+        // Where they lie is nobody else's business: tests about cells look at them.
+        SamplePattern::Jittered | SamplePattern::JitteredSame => {
+            let empty = Scene::empty(DVec2::ONE, Dialect::Svg);
+            let view = View::Default.transform(DVec2::ONE, [64, 64]);
+            let subject = Subject {
+                scene: &empty,
+                view: &view,
+                settings,
+            };
+            let found = replay(&subject, [64, 64], pixel).expect("a small frame");
+            found.samples.iter().map(|sample| on_lattice(sample.position)).collect()
+        }
+    }
+}
+
+/// The digits of a number, mirrored at the point.
+fn radical_inverse(number: u32, base: u32) -> f64 {
+    let (mut rest, mut weight, mut sum) = (number, 1.0, 0.0);
+    while rest > 0 {
+        weight /= f64::from(base);
+        sum += f64::from(rest % base) * weight;
+        rest /= base;
+    }
+    sum
 }
 
 fn step<'a>(kind: &'a PrimitiveKind, view: &ViewTransform, units: f64) -> Step<'a> {
@@ -236,7 +292,7 @@ fn filtered(texture: &Texture, uv: DVec2, per_pixel: [DVec2; 2], settings: &Rend
     let size = DVec2::new(f64::from(base.width()), f64::from(base.height()));
     let step = match settings.detail.derivatives {
         Derivatives::Pixel => 1.0,
-        Derivatives::Sample => 1.0 / f64::from(settings.sample_rate.side()),
+        Derivatives::Sample => 1.0 / f64::from(settings.sample_rate.samples()).sqrt(),
     };
     let [right, down] = per_pixel.map(|side| side * step);
     let lengths = [right, down].map(|side| (side * size).length());

@@ -1,0 +1,359 @@
+//! The coverage of samples that lie anywhere in their pixels: pixel by pixel, exactly.
+//!
+//! Samples are points of a lattice so fine that a pixel has 256 x 256 of it, and the lattice is that of an ordinary
+//! grid of samples: so everything that leads to a tile, and the rule for ties, is the grid's. What remains to be found
+//! here is which of its lattice points a pixel's samples are. Where no edge crosses a pixel, its corners decide at once.
+
+use super::SampleRate;
+use super::band_spans::Shape;
+use super::display_list::ListContext;
+use super::outline::Outline;
+use super::places::{Place, SamplePlaces};
+use super::rows::Span;
+use super::sample_mask::SampleMask;
+use super::scattered_outline::OutlineScatter;
+use super::small::SampleBox;
+use super::tile::PixelRect;
+use super::tile_rows::TileRows;
+use crate::geometry::edge::{doubled_area, edge_value};
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::rules::Rules;
+
+/// What a shape covers in a row of pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Covered {
+    /// All samples of these pixels.
+    Whole(Span),
+    /// Some samples of the pixel in this column: neither none nor all.
+    Part(i32, SampleMask),
+}
+
+/// Finds the samples that shapes cover, for one drawing.
+#[derive(Debug)]
+pub(crate) struct Scatter {
+    grid: SubpixelGrid,
+    rules: Rules,
+    places: SamplePlaces,
+    memory: Vec<Place>,
+    outlines: OutlineScatter,
+}
+
+/// An edge function divided by the distance of two lattice points: below zero at those outside.
+#[derive(Clone, Copy, Debug, Default)]
+struct LatticeEdge {
+    /// At the frame's first point.
+    value: i64,
+    /// What it gains one point to the right, and down.
+    right: i64,
+    down: i64,
+}
+
+impl Scatter {
+    /// For a drawing of `outlines` outlines; of these only the pixel columns `columns` are ever asked for.
+    pub(crate) fn new(context: &ListContext, outlines: usize, columns: Span) -> Self {
+        Self {
+            grid: context.grid,
+            rules: context.rules,
+            places: SamplePlaces::new(context.pattern, context.rate),
+            memory: Vec::with_capacity(SampleRate::MAX as usize),
+            outlines: OutlineScatter::new(outlines, columns),
+        }
+    }
+
+    /// Where the samples of a pixel lie, in points of the lattice from its first.
+    pub(crate) fn places(&mut self, pixel: [i32; 2]) -> &[Place] {
+        self.places.of_pixel(pixel, &mut self.memory)
+    }
+
+    /// Calls `visit` for every row of the tile `rect` with what the shape covers there, from top to bottom; no sample
+    /// comes twice.
+    pub(crate) fn each(&mut self, shape: Shape<'_>, rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
+        match shape {
+            Shape::Triangle(corners) => self.triangle(*corners, rect, visit),
+            Shape::Outline(chunk, index) => {
+                let outline: &Outline = &chunk.outlines[index as usize];
+                let number = chunk.first_outline + index as usize;
+                self.outlines.find(
+                    (outline, &chunk.outline_edges),
+                    number,
+                    (self.grid, &self.places),
+                    rect.y,
+                );
+                for y in rect.y.start..rect.y.end {
+                    self.outlines.each(number, y, rect.x, |covered| visit(y, covered));
+                }
+            }
+        }
+    }
+
+    fn triangle(&mut self, corners: [GridPoint; 3], rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
+        let area = doubled_area(corners);
+        if area == 0 {
+            return;
+        }
+        let side = self.grid.side();
+        let samples = SampleBox::new(corners, self.grid, self.rules);
+        let pixels = |span: Span, within: Span| {
+            Span {
+                start: span.start.div_euclid(side),
+                end: (span.end - 1).div_euclid(side) + 1,
+            }
+            .intersection(within)
+        };
+        let (columns, rows) = (pixels(samples.columns, rect.x), pixels(samples.rows, rect.y));
+        if columns.is_empty() || rows.is_empty() || samples.columns.is_empty() || samples.rows.is_empty() {
+            return;
+        }
+        let edges = LatticeEdge::of_triangle(corners, area, self.grid, self.rules);
+        // Where there are few columns, looking at each pixel costs less than finding out which to look at.
+        let lines = (columns.end - columns.start > 2).then(|| TileRows::new(corners));
+        for y in rows.start..rows.end {
+            let (touched, inside) = match &lines {
+                Some(lines) => self.row_of(lines, (columns, samples.rows), y),
+                None => (columns, Span::default()),
+            };
+            if inside.is_empty() {
+                self.pixels(&edges, touched, y, &mut visit);
+                continue;
+            }
+            let before = Span {
+                start: touched.start,
+                end: inside.start,
+            };
+            let after = Span {
+                start: inside.end,
+                end: touched.end,
+            };
+            self.pixels(&edges, before, y, &mut visit);
+            visit(y, Covered::Whole(inside));
+            self.pixels(&edges, after, y, &mut visit);
+        }
+    }
+
+    /// The pixels of row `y` that a triangle may touch, and those of them that it covers for certain, of `columns`.
+    #[expect(clippy::cast_possible_truncation, reason = "clamped to columns of a frame")]
+    fn row_of(&self, lines: &TileRows, (columns, rows): (Span, Span), y: i32) -> (Span, Span) {
+        let side = self.grid.side();
+        let all = Span {
+            start: y * side,
+            end: (y + 1) * side,
+        };
+        let inside = all.intersection(rows);
+        let at = |row| self.grid.sample_coordinate(row);
+        let band = lines.band(at(inside.start), at(inside.end - 1));
+        let (least, most) = (f64::from(columns.start), f64::from(columns.end));
+        let per_unit = 1.0 / self.grid.units_per_pixel();
+        // No column of a frame is negative.
+        let floor = |units: f64| (units * per_unit).clamp(least, most) as i32;
+        let touched = Span {
+            start: floor(band.touched[0]),
+            end: floor(band.touched[1]).saturating_add(1).min(columns.end),
+        };
+        if inside != all || band.covered[0] > band.covered[1] {
+            return (touched, Span::default());
+        }
+        let covered = Span {
+            start: (band.covered[0] * per_unit).clamp(least, most).ceil() as i32,
+            end: floor(band.covered[1]),
+        };
+        (touched, covered)
+    }
+
+    /// The pixels `xs` of row `y`, one by one.
+    #[inline]
+    fn pixels(&mut self, edges: &[LatticeEdge; 3], xs: Span, y: i32, visit: &mut impl FnMut(i32, Covered)) {
+        for x in xs.start..xs.end {
+            if let Some(covered) = self.pixel(edges, x, y) {
+                visit(y, covered);
+            }
+        }
+    }
+
+    #[inline]
+    fn pixel(&mut self, edges: &[LatticeEdge; 3], x: i32, y: i32) -> Option<Covered> {
+        let (mut crossing, mut count) = ([LatticeEdge::default(); 3], 0);
+        for edge in edges {
+            let edge = edge.at_pixel(self.grid.side(), x, y);
+            let [least, most] = edge.range(self.grid.side());
+            if most < 0 {
+                return None;
+            }
+            crossing[count] = edge;
+            count += usize::from(least < 0);
+        }
+        let whole = Covered::Whole(Span { start: x, end: x + 1 });
+        let places = self.places.of_pixel([x, y], &mut self.memory);
+        let mask = match count {
+            0 => return Some(whole),
+            1 => inside([crossing[0]], places),
+            2 => inside([crossing[0], crossing[1]], places),
+            _ => inside(crossing, places),
+        };
+        match mask.count() {
+            0 => None,
+            all if all == places.len() => Some(whole),
+            _ => Some(Covered::Part(x, mask)),
+        }
+    }
+}
+
+impl LatticeEdge {
+    /// The edges of a triangle with an area, clockwise.
+    fn of_triangle([a, b, c]: [GridPoint; 3], area: i64, grid: SubpixelGrid, rules: Rules) -> [Self; 3] {
+        let [b, c] = if area < 0 { [c, b] } else { [b, c] };
+        [(a, b), (b, c), (c, a)].map(|(from, to)| {
+            let first = grid.sample_coordinate(0);
+            let (dx, dy) = (to.x - from.x, to.y - from.y);
+            // Clockwise on the screen: a left edge runs up, a top edge runs right.
+            let owns_ties = rules == Rules::Course || dy < 0 || (dy == 0 && dx > 0);
+            let exact = edge_value(from, to, GridPoint { x: first, y: first }) - i64::from(!owns_ties);
+            Self {
+                value: exact >> grid.bits(),
+                right: i64::from(-dy),
+                down: i64::from(dx),
+            }
+        })
+    }
+
+    /// The same, standing at a pixel's first point.
+    #[inline]
+    fn at_pixel(self, side: i32, x: i32, y: i32) -> Self {
+        let (column, row) = (i64::from(x) * i64::from(side), i64::from(y) * i64::from(side));
+        Self {
+            value: self.value + self.right * column + self.down * row,
+            ..self
+        }
+    }
+
+    /// The least and the greatest value in the pixel that it stands at.
+    #[inline]
+    fn range(&self, side: i32) -> [i64; 2] {
+        let last = i64::from(side - 1);
+        let (right, down) = (self.right * last, self.down * last);
+        [
+            self.value + right.min(0) + down.min(0),
+            self.value + right.max(0) + down.max(0),
+        ]
+    }
+}
+
+/// The samples at which no edge is below zero.
+#[inline]
+fn inside<const K: usize>(edges: [LatticeEdge; K], places: &[Place]) -> SampleMask {
+    SampleMask::from_bits(places.len(), |sample| {
+        let [column, row] = places[sample].map(i64::from);
+        let mut signs = 0;
+        for edge in &edges {
+            signs |= edge.value + edge.right * column + edge.down * row;
+        }
+        signs >= 0
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::AtomicBool;
+
+    use arbtest::arbitrary::{Result, Unstructured};
+
+    use super::super::chunk_builder::ChunkBuilder;
+    use super::super::paint::TilePainter;
+    use super::super::random::{fill, noise};
+    use super::super::recorder::PaintedOp;
+    use super::super::{DisplayList, Framebuffer, RasterSettings, SamplePattern};
+    use super::*;
+    use crate::color::{Premultiplied16, Rgba};
+    use crate::texture::{PixelSampling, SamplingSettings, Texture};
+
+    const SIZE: [u32; 2] = [70, 50];
+
+    fn settings(pattern: SamplePattern, samples: u32, rules: Rules) -> RasterSettings {
+        RasterSettings {
+            rate: SampleRate::new(samples).expect("a rate"),
+            pattern,
+            sampling: SamplingSettings {
+                pixel: PixelSampling::Bilinear,
+                rules,
+                ..SamplingSettings::default()
+            },
+            background: Rgba::WHITE,
+        }
+    }
+
+    fn list<'t>(u: &mut Unstructured<'_>, settings: RasterSettings, texture: &'t Texture) -> Result<DisplayList<'t>> {
+        let context = ListContext::new(SIZE, &settings);
+        let mut builder = ChunkBuilder::new(&context, 12);
+        fill(&mut builder, u)?;
+        Ok(DisplayList::new(
+            context,
+            settings,
+            vec![builder.finish()],
+            vec![texture],
+        ))
+    }
+
+    /// What each op paints in a pixel, and what its samples hold then; `scattered` says that samples are looked at one by
+    /// one, also those of the grid.
+    fn painted(list: &DisplayList<'_>, [x, y]: [u32; 2], scattered: bool) -> (Vec<PaintedOp>, Vec<Premultiplied16>) {
+        let pixel = [x, y].map(u32::cast_signed);
+        let column = Span {
+            start: pixel[0],
+            end: pixel[0] + 1,
+        };
+        let bins = list.bins_of_pixel(pixel);
+        let chunks: Vec<_> = list
+            .chunks
+            .iter()
+            .zip(bins.iter().map(|bins| bins.of_tile(0)))
+            .collect();
+        let scatter = scattered.then(|| Scatter::new(&list.context, list.outlines(), column));
+        let mut painter = TilePainter::new(list.shade_context(), scatter);
+        painter.replay(&chunks, (pixel, list.background()), &mut list.bands())
+    }
+
+    #[test]
+    fn samples_of_the_grid_are_covered_as_spans_say() {
+        let texture = noise();
+        arbtest::arbtest(|u| {
+            let rules = *u.choose(&Rules::ALL)?;
+            let side = u.int_in_range(1..=6)?;
+            let list = list(u, settings(SamplePattern::Grid, side * side, rules), &texture)?;
+            for _ in 0..40 {
+                let (x, y) = (u.int_in_range(0..=SIZE[0] - 1)?, u.int_in_range(0..=SIZE[1] - 1)?);
+                let (spans, one_by_one) = (painted(&list, [x, y], false), painted(&list, [x, y], true));
+                assert_eq!(one_by_one, spans, "pixel {x}, {y}, {rules:?}, {side} x {side}");
+            }
+            Ok(())
+        })
+        .budget_ms(1000);
+    }
+
+    #[test]
+    fn frames_hold_the_means_of_what_probes_find() {
+        let texture = noise();
+        arbtest::arbtest(|u| {
+            let pattern = *u.choose(&SamplePattern::ALL[1..])?;
+            let samples = *u.choose(if pattern.needs_square() {
+                &[1, 4, 9, 16][..]
+            } else {
+                &[1, 2, 5, 16, 70]
+            })?;
+            let settings = settings(pattern, samples, *u.choose(&Rules::ALL)?);
+            let list = list(u, settings, &texture)?;
+            let mut frame = Framebuffer::new(SIZE[0], SIZE[1]);
+            list.rasterize(&mut frame, &AtomicBool::new(false))
+                .expect("not cancelled");
+            for _ in 0..60 {
+                let (x, y) = (u.int_in_range(0..=SIZE[0] - 1)?, u.int_in_range(0..=SIZE[1] - 1)?);
+                let colors = painted(&list, [x, y], true).1;
+                assert_eq!(colors.len(), samples as usize, "all samples");
+                let sum = |k: usize| colors.iter().map(|color| u32::from(color.0[k])).sum::<u32>();
+                let mean = Premultiplied16::resolve([sum(0), sum(1), sum(2), sum(3)], samples, settings.sampling.rules);
+                let found = frame.pixels()[(y * SIZE[0] + x) as usize];
+                assert_eq!(found, mean, "pixel {x}, {y} of {pattern:?} {samples}");
+            }
+            Ok(())
+        })
+        .budget_ms(1000);
+    }
+}

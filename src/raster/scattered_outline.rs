@@ -1,0 +1,325 @@
+//! What outlines enclose in one row of tiles, where samples lie anywhere in their pixels.
+//!
+//! A row of pixels is swept from left to right. Pixels that an edge may cross are looked at sample by sample: an edge
+//! winds around a sample between its ends that does not lie left of it, by the integer edge function, exactly as the
+//! grid's crossings are rounded. To the right of all it crosses, an edge winds around each of its rows alike. So between
+//! edges whole runs of pixels are inside or outside; all rows of lattice points agree, but where an edge ends in between.
+
+use std::ops::Range;
+
+use super::SampleRate;
+use super::band_spans::MAX_SPANS;
+use super::outline::{Outline, OutlineEdge};
+use super::places::{Place, SamplePlaces};
+use super::rows::Span;
+use super::sample_mask::SampleMask;
+use super::scattered::Covered;
+use super::tile::PixelRect;
+use super::tile_rows::{Line, MARGIN};
+use crate::geometry::FillRule;
+use crate::geometry::edge::edge_value;
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+
+/// Remembers what outlines enclose in the tile row at work.
+#[derive(Debug)]
+pub(super) struct OutlineScatter {
+    /// The pixel columns at work, and the rows.
+    columns: Span,
+    band: Span,
+    /// For each outline of the drawing when it was last found, and what.
+    known: Vec<(u32, Stored)>,
+    /// Counts how often everything was forgotten.
+    age: u32,
+    /// Where the runs of each row begin, and one more.
+    starts: Vec<usize>,
+    runs: Vec<Run>,
+    masks: Vec<SampleMask>,
+    sweep: Sweep,
+    windings: RowWindings,
+    memory: Vec<Place>,
+}
+
+/// What was found for one outline.
+#[derive(Clone, Copy, Debug, Default)]
+struct Stored {
+    rows: Span,
+    first: usize,
+}
+
+/// Some pixels side by side.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    pixels: Span,
+    /// The mask of a pixel that is enclosed in part.
+    mask: Option<u32>,
+}
+
+/// Edges of an outline in one row of pixels, reusing its memory.
+#[derive(Debug, Default)]
+struct Sweep {
+    /// Pixels that an edge may cross, and the edge.
+    crossings: Vec<(i32, LocalEdge)>,
+    /// Pixels from which on an edge winds around all samples of some rows, those rows, and how.
+    passed: Vec<(i32, Span, i32)>,
+    /// How often each sample of a pixel is wound around.
+    around: Vec<i32>,
+}
+
+/// An edge and the lattice rows of a pixel that it crosses.
+#[derive(Clone, Copy, Debug)]
+struct LocalEdge {
+    top: GridPoint,
+    bottom: GridPoint,
+    rows: Span,
+    winding: i32,
+}
+
+/// How often the edges that were passed wind around each lattice row of a pixel.
+#[derive(Debug, Default)]
+struct RowWindings {
+    /// How each row differs from the one above; one more than there are rows.
+    steps: Vec<i32>,
+    /// How many rows do.
+    uneven: u32,
+}
+
+impl OutlineScatter {
+    pub(super) fn new(outlines: usize, columns: Span) -> Self {
+        Self {
+            columns,
+            band: Span::default(),
+            known: vec![(0, Stored::default()); outlines],
+            age: 0,
+            starts: Vec::new(),
+            runs: Vec::new(),
+            masks: Vec::new(),
+            sweep: Sweep::default(),
+            windings: RowWindings::default(),
+            memory: Vec::with_capacity(SampleRate::MAX as usize),
+        }
+    }
+
+    /// Makes sure that outline `number` of the drawing is known in the rows of pixels `band`.
+    pub(super) fn find(
+        &mut self,
+        outline: (&Outline, &[OutlineEdge]),
+        number: usize,
+        (grid, places): (SubpixelGrid, &SamplePlaces),
+        band: Span,
+    ) {
+        if self.band != band || self.age == 0 || self.runs.len() > MAX_SPANS / 4 {
+            self.band = band;
+            self.age += 1;
+            self.starts.clear();
+            self.runs.clear();
+            self.masks.clear();
+        }
+        let (age, stored) = &mut self.known[number];
+        if *age == self.age {
+            return;
+        }
+        let side = grid.side();
+        let pixels = |span: Span| Span {
+            start: span.start.div_euclid(side),
+            end: (span.end - 1).div_euclid(side) + 1,
+        };
+        let area = PixelRect {
+            x: pixels(outline.0.samples.columns).intersection(self.columns),
+            y: pixels(outline.0.samples.rows).intersection(band),
+        };
+        *age = self.age;
+        *stored = Stored {
+            rows: area.y,
+            first: self.starts.len(),
+        };
+        for y in area.y.start..area.y.end {
+            self.starts.push(self.runs.len());
+            self.sweep.gather(outline, grid, area.x, y);
+            self.row(outline.0.rule, (grid, places), area.x, y);
+        }
+        self.starts.push(self.runs.len());
+    }
+
+    /// Calls `visit` with what outline `number`, which must be known, encloses of the pixels `xs` in row `y`.
+    pub(super) fn each(&self, number: usize, y: i32, xs: Span, mut visit: impl FnMut(Covered)) {
+        let (_, Stored { rows, first }) = self.known[number];
+        if y < rows.start || y >= rows.end {
+            return;
+        }
+        let row = first + usize::try_from(y - rows.start).unwrap_or(0);
+        let runs = &self.runs[self.starts[row]..self.starts[row + 1]];
+        let skipped = runs.partition_point(|run| run.pixels.end <= xs.start);
+        for run in runs[skipped..].iter().take_while(|run| run.pixels.start < xs.end) {
+            visit(match run.mask {
+                None => Covered::Whole(run.pixels.intersection(xs)),
+                Some(mask) => Covered::Part(run.pixels.start, self.masks[mask as usize]),
+            });
+        }
+    }
+
+    /// Adds the runs of row `y`, whose edges were gathered.
+    fn row(&mut self, rule: FillRule, (grid, places): (SubpixelGrid, &SamplePlaces), columns: Span, y: i32) {
+        let first_run = self.runs.len();
+        self.windings.begin(grid.side());
+        let (mut crossings, mut passed) = (0, 0);
+        let mut x = columns.start;
+        while x < columns.end {
+            while let Some((from, rows, winding)) = self.sweep.passed.get(passed)
+                && *from <= x
+            {
+                self.windings.add(*rows, *winding);
+                passed += 1;
+            }
+            let here = crossings..crossings + self.sweep.crossings[crossings..].partition_point(|(at, _)| *at <= x);
+            crossings = here.end;
+            if here.is_empty() && self.windings.uneven == 0 {
+                let next = [
+                    self.sweep.passed.get(passed).map(|edge| edge.0),
+                    self.sweep.crossings.get(crossings).map(|edge| edge.0),
+                ];
+                let end = next.into_iter().flatten().fold(columns.end, i32::min);
+                if rule.encloses(self.windings.steps[0]) {
+                    self.push(first_run, Span { start: x, end }, None);
+                }
+                x = end;
+                continue;
+            }
+            let mask = {
+                let places = places.of_pixel([x, y], &mut self.memory);
+                self.sweep
+                    .enclosed((rule, &self.windings), here, (grid, [x, y]), places)
+            };
+            let pixel = Span { start: x, end: x + 1 };
+            match mask.count() {
+                0 => {}
+                all if all == places.count() => self.push(first_run, pixel, None),
+                _ => self.push(first_run, pixel, Some(mask)),
+            }
+            x += 1;
+        }
+        self.windings.forget(&self.sweep.passed[..passed]);
+    }
+
+    #[inline]
+    fn push(&mut self, first_run: usize, pixels: Span, mask: Option<SampleMask>) {
+        let mask = mask.map(|mask| {
+            self.masks.push(mask);
+            u32::try_from(self.masks.len() - 1).unwrap_or(u32::MAX)
+        });
+        match self.runs[first_run..].last_mut() {
+            Some(last) if mask.is_none() && last.mask.is_none() && last.pixels.end == pixels.start => {
+                last.pixels.end = pixels.end;
+            }
+            _ => self.runs.push(Run { pixels, mask }),
+        }
+    }
+}
+
+impl Sweep {
+    /// Finds where the edges of an outline lie in row `y` of pixels, of which only `columns` count.
+    fn gather(&mut self, (outline, all): (&Outline, &[OutlineEdge]), grid: SubpixelGrid, columns: Span, y: i32) {
+        self.crossings.clear();
+        self.passed.clear();
+        let (top, width) = (y * grid.side(), grid.units_per_pixel());
+        let rows = Span {
+            start: top,
+            end: top + grid.side(),
+        };
+        for (edge, inside) in outline.edges_in(all, rows) {
+            let line = Line::new(edge.top, edge.bottom);
+            let at = |row| line.at(f64::from(grid.sample_coordinate(row)));
+            let (first, last) = (at(inside.start), at(inside.end - 1));
+            let from = pixel((first.min(last) - MARGIN) / width, columns);
+            let to = pixel((first.max(last) + MARGIN) / width, columns);
+            let rows = Span {
+                start: inside.start - top,
+                end: inside.end - top,
+            };
+            let local = LocalEdge {
+                top: edge.top,
+                bottom: edge.bottom,
+                rows,
+                winding: edge.winding,
+            };
+            let crossed = from.max(columns.start)..(to + 1).min(columns.end);
+            self.crossings.extend(crossed.map(|x| (x, local)));
+            self.passed.push((to + 1, rows, edge.winding));
+        }
+        self.crossings.sort_unstable_by_key(|(x, _)| *x);
+        self.passed.sort_unstable_by_key(|(x, ..)| *x);
+    }
+
+    /// The samples of a pixel that are inside, where the edges `here` may cross it.
+    fn enclosed(
+        &mut self,
+        (rule, windings): (FillRule, &RowWindings),
+        here: Range<usize>,
+        (grid, pixel): (SubpixelGrid, [i32; 2]),
+        places: &[Place],
+    ) -> SampleMask {
+        self.around.clear();
+        if windings.uneven == 0 {
+            self.around.resize(places.len(), windings.steps[0]);
+        } else {
+            let of_row = |row: u8| windings.steps[..=usize::from(row)].iter().sum::<i32>();
+            self.around.extend(places.iter().map(|place| of_row(place[1])));
+        }
+        let [x, y] = pixel.map(|pixel| grid.sample_coordinate(pixel * grid.side()));
+        for (_, edge) in &self.crossings[here] {
+            let value = edge_value(edge.top, edge.bottom, GridPoint { x, y });
+            let [dx, dy] = [edge.bottom.x - edge.top.x, edge.bottom.y - edge.top.y];
+            let [right, down] = [-i64::from(dy), i64::from(dx)].map(|step| step << grid.bits());
+            for (around, [column, row]) in self.around.iter_mut().zip(places) {
+                let in_rows = edge.rows.start <= i32::from(*row) && i32::from(*row) < edge.rows.end;
+                // Downwards, the right of the edge on the screen is where the edge function is negative.
+                let left_of_sample = value + right * i64::from(*column) + down * i64::from(*row) <= 0;
+                *around += edge.winding * i32::from(in_rows & left_of_sample);
+            }
+        }
+        SampleMask::from_bits(places.len(), |sample| rule.encloses(self.around[sample]))
+    }
+}
+
+impl RowWindings {
+    /// Nothing was passed yet, in pixels of `rows` rows.
+    fn begin(&mut self, rows: i32) {
+        self.steps.resize(place(rows) + 1, 0);
+        self.uneven = 0;
+    }
+
+    fn add(&mut self, rows: Span, winding: i32) {
+        let last = self.steps.len() - 1;
+        for (row, change) in [(place(rows.start), winding), (place(rows.end), -winding)] {
+            let step = &mut self.steps[row];
+            let before = u32::from(*step != 0);
+            *step += change;
+            // The first row has none above, and the last none below.
+            if row > 0 && row < last {
+                self.uneven = self.uneven + u32::from(*step != 0) - before;
+            }
+        }
+    }
+
+    /// Takes back everything that was passed.
+    fn forget(&mut self, passed: &[(i32, Span, i32)]) {
+        for (_, rows, _) in passed {
+            self.steps[place(rows.start)] = 0;
+            self.steps[place(rows.end)] = 0;
+        }
+    }
+}
+
+/// The pixel that holds a column; just before the first of `columns` or just after the last at most.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "clamped to the pixels of a frame")]
+fn pixel(column: f64, columns: Span) -> i32 {
+    let pixel = column.clamp(f64::from(columns.start) - 1.0, f64::from(columns.end));
+    // Rounded down: `floor` is not a single instruction on every machine.
+    (pixel + 1.0) as i32 - 1
+}
+
+/// A row inside a pixel, never negative.
+#[inline]
+fn place(row: i32) -> usize {
+    row.max(0).cast_unsigned() as usize
+}

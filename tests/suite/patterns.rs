@@ -1,0 +1,271 @@
+//! Sample patterns: where samples lie, that each is covered once, and what a pattern is good for.
+
+use std::collections::BTreeSet;
+
+use glam::DVec2;
+use rasterscope::color::Rgba;
+use rasterscope::geometry::{FillRule, Polygon, View};
+use rasterscope::raster::{SamplePattern, SampleRate};
+use rasterscope::render::{RenderSettings, Subject, replay};
+use rasterscope::rules::Rules;
+use rasterscope::scene::{Dialect, Paint, PrimitiveKind, Scene};
+
+use crate::support::scenes::{drawn, one_to_one, scene};
+
+/// Points of the lattice that samples are snapped to, along one side of a pixel.
+const LATTICE: f64 = 256.0;
+
+fn settings(pattern: SamplePattern, samples: u32) -> RenderSettings {
+    RenderSettings {
+        sample_rate: SampleRate::new(samples).expect("a rate"),
+        pattern,
+        outline: false,
+        ..RenderSettings::default()
+    }
+}
+
+/// Where the samples of a pixel lie.
+fn positions(pattern: SamplePattern, samples: u32, pixel: [u32; 2]) -> Vec<[f64; 2]> {
+    let empty = Scene::empty(DVec2::ONE, Dialect::Svg);
+    let view = View::Default.transform(DVec2::ONE, [64, 64]);
+    let subject = Subject {
+        scene: &empty,
+        view: &view,
+        settings: &settings(pattern, samples),
+    };
+    let found = replay(&subject, [64, 64], pixel).expect("inside");
+    found.samples.into_iter().map(|sample| sample.position).collect()
+}
+
+/// The cell of an `n x n` division that holds a position.
+fn cell(position: [f64; 2], n: u32) -> [u32; 2] {
+    position.map(|at| (0..n).rfind(|k| f64::from(*k) <= at * f64::from(n)).unwrap_or(0))
+}
+
+/// The star discrepancy of a set of points: how far the share of points in any box from the corner is from its area. A
+/// box ends at points' coordinates; from the brute-force definition (Niederreiter, "Random Number Generation and
+/// Quasi-Monte Carlo Methods", 1992, chapter 2).
+fn discrepancy(points: &[[f64; 2]]) -> f64 {
+    let ends = |axis: usize| points.iter().map(move |point| point[axis]).chain([1.0]);
+    let mut worst = 0.0_f64;
+    for x in ends(0) {
+        for y in ends(1) {
+            let share = |inside: &dyn Fn(&[f64; 2]) -> bool| {
+                points.iter().filter(|point| inside(point)).count() as f64 / points.len() as f64
+            };
+            let open = share(&|point| point[0] < x && point[1] < y);
+            let closed = share(&|point| point[0] <= x && point[1] <= y);
+            worst = worst.max(x * y - open).max(closed - x * y);
+        }
+    }
+    worst
+}
+
+#[test]
+fn patterns_with_cells_have_one_sample_in_each() {
+    for pattern in SamplePattern::ALL.into_iter().filter(|pattern| pattern.needs_square()) {
+        for n in 1..=16 {
+            for pixel in [[0, 0], [1, 0], [17, 40], [63, 63]] {
+                let samples = positions(pattern, n * n, pixel);
+                let cells: Vec<[u32; 2]> = samples.iter().map(|position| cell(*position, n)).collect();
+                let row_by_row: Vec<[u32; 2]> = (0..n * n).map(|i| [i % n, i / n]).collect();
+                assert_eq!(cells, row_by_row, "{pattern:?} {n} x {n} in {pixel:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn rotated_grid_has_as_many_columns_and_rows_as_samples() {
+    for n in 1..=16 {
+        let samples = positions(SamplePattern::Rotated, n * n, [3, 4]);
+        for axis in [0, 1] {
+            let places: BTreeSet<u64> = samples.iter().map(|position| position[axis].to_bits()).collect();
+            assert_eq!(places.len(), (n * n) as usize, "axis {axis} of {n} x {n}");
+        }
+    }
+    let four = positions(SamplePattern::Rotated, 4, [0, 0]);
+    let expected = [[0.125, 0.375], [0.625, 0.125], [0.375, 0.875], [0.875, 0.625]];
+    for (found, expected) in four.iter().zip(expected) {
+        let near = (0..2).all(|axis| (found[axis] - expected[axis]).abs() < 1.0 / LATTICE);
+        assert!(near, "{found:?} is the hardware's {expected:?}");
+    }
+}
+
+#[test]
+fn halton_and_r2_are_more_even_than_random_points() {
+    for samples in [5, 16, 37, 64, 128] {
+        // The jitter of one sample per pixel is a random point.
+        let random: f64 = (0..20)
+            .map(|set| {
+                let points: Vec<[f64; 2]> = (0..samples)
+                    .map(|i| positions(SamplePattern::Jittered, 1, [i % 64, set * 2 + i / 64])[0])
+                    .collect();
+                discrepancy(&points)
+            })
+            .sum::<f64>()
+            / 20.0;
+        for pattern in [SamplePattern::Halton, SamplePattern::R2] {
+            let found = discrepancy(&positions(pattern, samples, [5, 5]));
+            assert!(found < 0.8 * random, "{pattern:?} {samples}: {found} against {random}");
+        }
+    }
+}
+
+#[test]
+fn jitter_fills_its_cells_evenly_and_differs_from_pixel_to_pixel() {
+    // A histogram of 16 bins over all jitters of a 2 x 2 pattern, per axis and cell.
+    let mut bins = [[0_u32; 16]; 8];
+    let mut seen = BTreeSet::new();
+    for pixel in (0..64 * 64).map(|i| [i % 64, i / 64]) {
+        let samples = positions(SamplePattern::Jittered, 4, pixel);
+        seen.insert(samples.iter().flatten().map(|at| at.to_bits()).collect::<Vec<u64>>());
+        for (i, position) in samples.iter().enumerate() {
+            for axis in [0, 1] {
+                let inside = position[axis] * 2.0 - f64::from(cell(*position, 2)[axis]);
+                let bin = (0..16).rfind(|bin| f64::from(*bin) <= inside * 16.0).unwrap_or(0);
+                bins[i * 2 + axis][usize::try_from(bin).expect("small")] += 1;
+            }
+        }
+    }
+    assert!(seen.len() > 4000, "{} of 4096 pixels differ", seen.len());
+    for bin in bins.as_flattened() {
+        // 256 are expected; five standard deviations are 77.
+        assert!(bin.abs_diff(256) < 77, "{bins:?}");
+    }
+    let same = positions(SamplePattern::JitteredSame, 16, [0, 0]);
+    assert_eq!(
+        positions(SamplePattern::JitteredSame, 16, [40, 7]),
+        same,
+        "alike in every pixel"
+    );
+}
+
+/// A fan of triangles about a point, which together fill a square; all of them translucent, so that a sample painted
+/// twice shows, and so does one that is left out.
+fn fan(corners: &[DVec2], middle: DVec2, as_polygons: bool) -> Scene {
+    let color = Rgba::from_bytes([0, 0, 0, 128]);
+    let kinds = corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| {
+        let points = [middle, *a, *b];
+        if as_polygons {
+            let polygon = Polygon::new(vec![points.to_vec()], FillRule::NonZero);
+            return PrimitiveKind::Polygon {
+                polygon: polygon.into(),
+                color,
+            };
+        }
+        let paint = Paint::Solid(color);
+        PrimitiveKind::Triangle { points, paint }
+    });
+    scene(30.0, kinds.collect())
+}
+
+#[test]
+fn shared_edges_cover_each_sample_once_in_every_pattern() {
+    const SIZE: [u32; 2] = [30, 30];
+    arbtest::arbtest(|u| {
+        let pattern = *u.choose(&SamplePattern::ALL)?;
+        let samples = *u.choose(if pattern.needs_square() {
+            &[1, 4, 9, 16][..]
+        } else {
+            &[1, 3, 5, 16]
+        })?;
+        // On points of the lattice, where ties are, or anywhere.
+        let unit = *u.choose(&[1.0, 0.5, 1.0 / LATTICE, 0.013])?;
+        let mut inside = || -> arbtest::arbitrary::Result<f64> {
+            let steps: u16 = u.int_in_range(0..=1000)?;
+            Ok((f64::from(steps) / 1000.0 * 28.0 / unit).round() * unit + 1.0 + 0.5 / LATTICE)
+        };
+        let middle = DVec2::new(inside()?, inside()?);
+        let mut corners = Vec::new();
+        for side in 0..4 {
+            // Along one side of a frame that holds everything, clockwise.
+            let mut along = [inside()?, inside()?];
+            along.sort_by(f64::total_cmp);
+            corners.extend(along.map(|at| match side {
+                0 => DVec2::new(at, -2.0),
+                1 => DVec2::new(32.0, at),
+                2 => DVec2::new(31.0 - at, 32.0),
+                _ => DVec2::new(-2.0, 31.0 - at),
+            }));
+        }
+        // The square's own corners, so that the fan covers the frame.
+        let (low, high) = (-2.0, 32.0);
+        corners.insert(6, DVec2::new(low, high));
+        corners.insert(4, DVec2::new(high, high));
+        corners.insert(2, DVec2::new(high, low));
+        corners.insert(0, DVec2::new(low, low));
+        let once = 0xFF7F_7F7F;
+        for as_polygons in [false, true] {
+            let frame = drawn(
+                &fan(&corners, middle, as_polygons),
+                &one_to_one(SIZE),
+                &settings(pattern, samples),
+                SIZE,
+            );
+            let wrong = frame.pixels().iter().position(|pixel| *pixel != once);
+            assert_eq!(
+                wrong, None,
+                "{pattern:?} {samples} {as_polygons} about {middle}: {corners:?}"
+            );
+        }
+        Ok(())
+    })
+    .budget_ms(1500);
+}
+
+#[test]
+fn patterns_that_are_the_same_in_every_pixel_move_with_the_scene() {
+    const SIZE: [u32; 2] = [40, 30];
+    let points = [DVec2::new(3.2, 1.7), DVec2::new(17.9, 6.1), DVec2::new(6.3, 18.4)];
+    let colors = [Rgba::BLACK, Rgba::opaque(1.0, 0.5, 0.0), Rgba::opaque(0.0, 0.5, 1.0)];
+    let triangle = |by: DVec2| {
+        let points = points.map(|point| point + by);
+        scene(
+            40.0,
+            vec![PrimitiveKind::Triangle {
+                points,
+                paint: Paint::Vertex(colors),
+            }],
+        )
+    };
+    for pattern in SamplePattern::ALL {
+        let settings = settings(pattern, 16);
+        let picture = |by| drawn(&triangle(by), &one_to_one(SIZE), &settings, SIZE);
+        let (here, there) = (picture(DVec2::ZERO), picture(DVec2::new(9.0, 5.0)));
+        let moved = (0..22).all(|y| (0..22).all(|x| here.rgba(x, y) == there.rgba(x + 9, y + 5)));
+        assert_eq!(moved, pattern != SamplePattern::Jittered, "{pattern:?}");
+    }
+}
+
+#[test]
+fn pictures_of_every_pattern_are_those_of_one_thread() {
+    const SIZE: [u32; 2] = [150, 90];
+    let corners: Vec<DVec2> = (0..40)
+        .map(|i| {
+            DVec2::from_angle(f64::from(i) * 0.157) * if i % 2 == 0 { 70.0 } else { 25.0 } + DVec2::new(75.0, 45.0)
+        })
+        .collect();
+    let star = Polygon::new(vec![corners], FillRule::EvenOdd);
+    let kind = PrimitiveKind::Polygon {
+        polygon: star.into(),
+        color: Rgba::from_bytes([20, 60, 200, 170]),
+    };
+    let scene = scene(150.0, vec![kind]);
+    for pattern in SamplePattern::ALL {
+        for rules in Rules::ALL {
+            let settings = RenderSettings {
+                rules,
+                ..settings(pattern, 9)
+            };
+            let on = |threads: usize| {
+                let pool = rayon::ThreadPoolBuilder::new()
+                    .num_threads(threads)
+                    .build()
+                    .expect("threads");
+                pool.install(|| drawn(&scene, &one_to_one(SIZE), &settings, SIZE))
+            };
+            assert!(on(1) == on(3), "{pattern:?} {rules:?}");
+        }
+    }
+}

@@ -25,4 +25,4 @@ pub use levels::{Largest, Levels};
 pub use pair::{Pair, SizeMismatch};
 pub use picture::{decode_picture, encoded_size};
 pub use places::Place;
-pub use show::{DifferenceStyle, Gain, Measure};
+pub use show::{DifferencePaint, DifferenceStyle, Gain, Measure};

@@ -69,8 +69,82 @@ impl Measure {
 
 /// Pixels that one thread colours at a time.
 const CHUNK: usize = 16_384;
+/// Pixels that are compared at once before any of them is coloured.
+const BLOCK: usize = 64;
 /// Colours that relative differences are rounded to.
 const STEPS: u16 = 1023;
+
+/// The colours of differences in one style: what a picture that is put together row by row needs.
+#[derive(Clone, Debug)]
+pub struct DifferencePaint {
+    measure: Measure,
+    gain: f32,
+    /// Of the differences from -255 to 255 levels; for relative ones, of `STEPS + 1` steps from 0 to 1.
+    colors: Vec<u32>,
+    relative: RelativeTable,
+}
+
+impl DifferencePaint {
+    /// Differences times `gain`, which is finite and above zero.
+    pub fn new(measure: Measure, gain: f32) -> Self {
+        let colors = if measure == Measure::Relative {
+            let last = f32::from(STEPS);
+            (0..=STEPS)
+                .map(|step| Colormap::Sequential.color(f32::from(step) / last))
+                .collect()
+        } else {
+            level_colors(measure, gain)
+        };
+        Self {
+            measure,
+            gain,
+            colors,
+            relative: RelativeTable::new(gain * f32::from(STEPS)),
+        }
+    }
+
+    /// What differences are multiplied with.
+    pub fn gain(&self) -> f32 {
+        self.gain
+    }
+
+    /// What is shown.
+    pub fn measure(&self) -> Measure {
+        self.measure
+    }
+
+    /// The colour of a pixel, `0xAARRGGBB` all three.
+    #[inline]
+    pub fn pixel(&self, a: u32, b: u32) -> u32 {
+        let index = if self.measure == Measure::Relative {
+            step(self.relative.difference(a, b).min(f32::from(STEPS)))
+        } else {
+            level_index(signed_level(a, b))
+        };
+        self.colors.get(index).copied().unwrap_or_default()
+    }
+
+    /// The colours of pixels of A and B, as many as all three have.
+    pub fn row(&self, a: &[u32], b: &[u32], out: &mut [u32]) {
+        let equal = self.pixel(0, 0);
+        let blocks = a.chunks(BLOCK).zip(b.chunks(BLOCK)).zip(out.chunks_mut(BLOCK));
+        for ((a, b), out) in blocks {
+            if a == b {
+                out.fill(equal);
+            } else if self.measure == Measure::Relative {
+                for (out, (a, b)) in out.iter_mut().zip(a.iter().zip(b)) {
+                    *out = if a == b { equal } else { self.pixel(*a, *b) };
+                }
+            } else {
+                let mut levels = [0; BLOCK];
+                signed_levels(a, b, &mut levels);
+                for (out, level) in out.iter_mut().zip(levels) {
+                    *out = self.colors[level_index(level)];
+                }
+            }
+        }
+    }
+}
 
 impl Pair<'_> {
     /// Draws the difference into `out`, which takes the pair's size; no memory is taken where it has it already. Gives
@@ -81,6 +155,15 @@ impl Pair<'_> {
         if [out.width(), out.height()] != [width, height] {
             *out = Framebuffer::new(width, height);
         }
+        let paint = self.paint(style);
+        let pixels = self.a.pixels().par_chunks(CHUNK).zip(self.b.pixels().par_chunks(CHUNK));
+        let outs = out.pixels_mut().par_chunks_mut(CHUNK);
+        outs.zip(pixels).for_each(|(out, (a, b))| paint.row(a, b, out));
+        paint.gain()
+    }
+
+    /// The colours of this pair's differences, which normalised ones depend on.
+    pub fn paint(self, style: DifferenceStyle) -> DifferencePaint {
         let gain = match style.gain {
             Gain::Factor(factor) => factor,
             Gain::Normalize => match self.largest(style.measure) {
@@ -88,23 +171,7 @@ impl Pair<'_> {
                 _ => 1.0,
             },
         };
-        match style.measure {
-            Measure::Relative => {
-                let colors: Vec<u32> = (0..=STEPS)
-                    .map(|step| Colormap::Sequential.color(f32::from(step) / f32::from(STEPS)))
-                    .collect();
-                let table = RelativeTable::new(gain * f32::from(STEPS));
-                self.fill(out, |a, b| {
-                    let step = step(table.difference(a, b).min(f32::from(STEPS)));
-                    colors.get(step).copied().unwrap_or_default()
-                });
-            }
-            measure => {
-                let colors = level_colors(measure, gain);
-                self.fill(out, |a, b| colors[(255 + signed_level(a, b)).unsigned_abs() as usize]);
-            }
-        }
-        gain
+        DifferencePaint::new(style.measure, gain)
     }
 
     /// The largest difference of any pixel.
@@ -121,24 +188,42 @@ impl Pair<'_> {
         }
         let level = pixels
             .map(|(a, b)| {
-                let unequal = a.iter().zip(b).filter(|(a, b)| a != b);
-                unequal.fold(0, |most, (a, b)| signed_level(*a, *b).abs().max(most))
+                let blocks = a.chunks(BLOCK).zip(b.chunks(BLOCK)).filter(|(a, b)| a != b);
+                blocks.fold(0, |most, (a, b)| {
+                    let mut levels = [0; BLOCK];
+                    signed_levels(a, b, &mut levels);
+                    levels.iter().fold(most, |most: i32, level| most.max(level.abs()))
+                })
             })
             .reduce(|| 0, i32::max);
         measured_level(measure, level).abs()
     }
+}
 
-    /// Sets every pixel to what `color` makes of A's and B's.
-    fn fill(self, out: &mut Framebuffer, color: impl Fn(u32, u32) -> u32 + Sync) {
-        let equal = color(0, 0);
-        let outs = out.pixels_mut().par_chunks_mut(CHUNK);
-        let pixels = self.a.pixels().par_chunks(CHUNK).zip(self.b.pixels().par_chunks(CHUNK));
-        outs.zip(pixels).for_each(|(out, (a, b))| {
-            for (out, (a, b)) in out.iter_mut().zip(a.iter().zip(b)) {
-                *out = if a == b { equal } else { color(*a, *b) };
-            }
-        });
+/// [`signed_level`] of up to [`BLOCK`] pixels, in loops that compilers turn into vector code.
+#[inline]
+fn signed_levels(a: &[u32], b: &[u32], levels: &mut [i32; BLOCK]) {
+    let mut ties = false;
+    for (level, (a, b)) in levels.iter_mut().zip(a.iter().zip(b)) {
+        let channel = |shift: u32| (b >> shift & 0xff).cast_signed() - (a >> shift & 0xff).cast_signed();
+        let [one, two, three, four] = [16, 8, 0, 24].map(channel);
+        let most = one.max(two).max(three.max(four));
+        let least = one.min(two).min(three.min(four));
+        *level = if most >= -least { most } else { least };
+        ties |= most == -least && most != 0;
     }
+    if ties {
+        // Which of two channels comes first decides the sign.
+        for (level, (a, b)) in levels.iter_mut().zip(a.iter().zip(b)) {
+            *level = signed_level(*a, *b);
+        }
+    }
+}
+
+/// The index of a difference of levels among the colours of all.
+#[inline]
+fn level_index(level: i32) -> usize {
+    (255 + level).unsigned_abs() as usize
 }
 
 /// The difference `b - a` in levels of the channel that differs most; of equal ones red comes before green, blue, alpha.
@@ -169,6 +254,7 @@ fn level_colors(measure: Measure, gain: f32) -> Vec<u32> {
 }
 
 /// `gain / (a + 0.01)` per level of difference, for every level of A.
+#[derive(Clone, Debug)]
 struct RelativeTable([f32; 256]);
 
 impl RelativeTable {
@@ -296,6 +382,41 @@ mod tests {
         let gain = Pair::new(&a, &a).expect("one size").show(style, &mut out);
         assert_eq!((gain, out.width()), (1.0, 4), "equal pictures, another size");
         assert_eq!(out.pixels(), [Colormap::Sequential.color(0.0); 4], "nothing to see");
+    }
+
+    #[test]
+    fn show_rows_are_their_pixels() {
+        arbtest::arbtest(|u| {
+            let mut a: Vec<u32> = Vec::new();
+            let mut b: Vec<u32> = Vec::new();
+            for _ in 0..u.int_in_range(0..=3 * BLOCK)? {
+                let pixel: u32 = u.arbitrary()?;
+                a.push(pixel);
+                // Equal ones, ties between channels, anything.
+                b.push(match u.int_in_range(0..=3)? {
+                    0 => pixel,
+                    1 => pixel ^ 0x0080_0080,
+                    2 => pixel.rotate_left(8),
+                    _ => u.arbitrary()?,
+                });
+            }
+            for measure in Measure::ALL {
+                let paint = DifferencePaint::new(measure, 2.5);
+                let mut out = vec![0; a.len()];
+                paint.row(&a, &b, &mut out);
+                let pixels: Vec<u32> = a.iter().zip(&b).map(|(a, b)| paint.pixel(*a, *b)).collect();
+                assert_eq!(out, pixels, "{measure:?}");
+            }
+            if !a.is_empty() {
+                let (a, b) = (frame(&a), frame(&b));
+                let pair = Pair::new(&a, &b).expect("one size");
+                let pixels = || a.pixels().iter().zip(b.pixels());
+                let level = pixels().map(|(a, b)| signed_level(*a, *b).abs()).max();
+                let expected = measured_level(Measure::Absolute, level.unwrap_or(0));
+                assert!((pair.largest(Measure::Absolute) - expected).abs() < 1e-9, "the largest");
+            }
+            Ok(())
+        });
     }
 
     #[test]

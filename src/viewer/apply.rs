@@ -42,7 +42,7 @@ impl Viewer {
             any = true;
         }
         if self.due().is_some_and(|due| due <= Instant::now()) {
-            self.drawing.look();
+            self.look_at_drawings();
             any = true;
         }
         if any {
@@ -56,16 +56,17 @@ impl Viewer {
         self.is_final() && self.saver.is_idle()
     }
 
-    /// Whether the final frame of the current state is there, and what the inspector says about it.
+    /// Whether the final frame of the current state is there, and what the inspector and a comparison say about it.
     pub fn is_final(&self) -> bool {
         let reading = self.current().is_some_and(super::SceneEntry::is_reading);
-        !reading && self.drawing.is_current() && self.probing.is_current()
+        let drawn = self.drawing.is_current() && self.comparison.is_current();
+        !reading && drawn && self.probing.is_current() && self.is_measured()
     }
 
     /// When to call [`Viewer::poll`] even if nothing wakes the event loop: then the hand rests, and the preview on the
     /// screen is to be refined. `None` while there is nothing to wait for.
     pub fn due(&self) -> Option<Instant> {
-        self.drawing.due()
+        [self.drawing.due(), self.comparison_due()].into_iter().flatten().min()
     }
 
     /// Waits until [`Viewer::is_settled`]: for scripts, tests and pictures without a window.
@@ -80,27 +81,40 @@ impl Viewer {
 
     fn finish_until(&mut self, done: fn(&Self) -> bool) {
         self.poll();
-        self.drawing.set_hurry(true);
+        self.set_hurry(true);
         while !done(self) {
             // Every pending piece of work sends its result, even when it fails; without threads there is none left.
             let Ok(finished) = self.results.recv() else { break };
             self.take_in(finished);
             self.update();
         }
-        self.drawing.set_hurry(self.saver.is_waiting());
+        self.set_hurry(self.saver.is_waiting());
+    }
+
+    /// Starts what is due.
+    fn look_at_drawings(&mut self) {
+        self.drawing.look();
+        if let Some(drawing) = self.comparison.drawing_mut() {
+            drawing.look();
+        }
     }
 
     fn take_in(&mut self, finished: Finished) {
         match finished {
             Finished::Read(read) => self.scene_read(read),
-            Finished::Drawn(drawn) => {
-                if self.drawing.finished(drawn) && self.drawing.has_failed() {
+            Finished::Drawn(id, drawn) => {
+                self.hold_pair();
+                let drawing = self.drawing_of(id);
+                let failed = drawing.is_some_and(|drawing| drawing.finished(drawn) && drawing.has_failed());
+                self.release_pair();
+                if failed {
                     let name = self.current().map_or(String::new(), |entry| entry.label.clone());
                     self.messages.error(format!(
                         "{name}: drawing this view failed inside the program; please report it with the file"
                     ));
                 }
             }
+            Finished::Measured(measured) => self.measured(measured),
             Finished::Probed(probed) => self.probing.finished(probed),
             Finished::Thumbnail(thumbnail) => self.thumbnail_drawn(thumbnail),
             Finished::Saved(saved) => self.picture_saved(saved),
@@ -113,6 +127,7 @@ impl Viewer {
         self.want_scene();
         self.place_inset();
         self.want_frame();
+        self.update_comparison();
         self.want_samples();
         let drawn = self.drawn_state();
         if self.last_drawn != Some(drawn) {
@@ -156,7 +171,9 @@ impl Viewer {
             Command::PointerMoved { at } => self.pointer_moved(at),
             Command::PointerLeft => self.pointer.at = None,
             Command::PointerPressed(button) => self.pointer_pressed(button),
-            Command::PointerReleased(super::PointerButton::Primary) => self.pointer.dragging = false,
+            Command::PointerReleased(super::PointerButton::Primary) => {
+                (self.pointer.dragging, self.comparison.drags_line) = (false, false);
+            }
             Command::Wheel { clicks } => self.wheel(clicks),
             Command::Pinch { factor } => self.zoom(self.pointer.at, factor),
             Command::PanBy { by } => self.pan(by),
@@ -180,6 +197,9 @@ impl Viewer {
     }
 
     fn change_sampling(&mut self, command: Command) {
+        let Some(command) = self.change_comparison(command) else {
+            return;
+        };
         let render = &mut self.settings.render;
         match command {
             Command::SampleRateUp => render.sample_rate = render.sample_rate.higher(),
@@ -218,6 +238,9 @@ impl Viewer {
             Command::Progressive(toggle) => {
                 self.settings.progressive = toggle.of(self.settings.progressive);
                 self.drawing.set_progressive(self.settings.progressive);
+                if let Some(drawing) = self.comparison.drawing_mut() {
+                    drawing.set_progressive(self.settings.progressive);
+                }
             }
             command => self.change_inspector(command),
         }
@@ -277,10 +300,13 @@ impl Viewer {
     /// Closes or unpins what is open, the latest first; quits when nothing is.
     fn escape(&mut self) -> Vec<Effect> {
         let had_dialog = self.screen.dialog.take().is_some();
-        if had_dialog || std::mem::take(&mut self.screen.hidden) || self.inspector.pin.take().is_some() {
+        if had_dialog || std::mem::take(&mut self.screen.hidden) || self.escape_arrangement() {
             return Vec::new();
         }
-        if std::mem::take(&mut self.inspector.open) {
+        if self.inspector.pin.take().is_some() || std::mem::take(&mut self.inspector.open) {
+            return Vec::new();
+        }
+        if self.escape_comparison() {
             return Vec::new();
         }
         vec![Effect::Quit]
@@ -307,8 +333,13 @@ impl Viewer {
         let zoom = f64::from(self.settings.pixel_zoom.factor());
         let window = PixelRect::of_size(self.screen.window);
         let free = self.screen.free_area.map_or(window, |free| free.intersection(&window));
-        let corner = DVec2::new(free.x as f64, free.y as f64) / zoom;
-        let size = DVec2::new(f64::from(free.width), f64::from(free.height)) / zoom;
+        let panes = self.panes();
+        let (corner, size) = if panes.second.is_some() {
+            (DVec2::ZERO, DVec2::from(panes.frame.map(f64::from)))
+        } else {
+            let corner = DVec2::new(free.x as f64, free.y as f64) / zoom;
+            (corner, DVec2::new(f64::from(free.width), f64::from(free.height)) / zoom)
+        };
         self.look(|camera, sight| camera.fit([corner, size], sight));
     }
 
@@ -328,8 +359,7 @@ impl Viewer {
 
     /// About the centre of a window pixel, so that the status line goes on telling the same place.
     fn zoom(&mut self, at: Option<DVec2>, factor: f64) {
-        let zoom = f64::from(self.settings.pixel_zoom.factor());
-        let at = at.map_or(self.middle(), |at| (at.floor() + 0.5) / zoom);
+        let at = at.map_or(self.middle(), |at| self.frame_position(at.floor() + 0.5));
         self.look(|camera, sight| camera.zoom(at, factor, sight));
     }
 
@@ -362,10 +392,10 @@ impl Viewer {
     fn want_frame(&mut self) {
         let size = self.frame_size();
         let Some(entry) = self.scenes.get(self.current) else {
-            return self.drawing.clear();
+            return self.clear_frames();
         };
         if entry.failure().is_some() {
-            return self.drawing.clear();
+            return self.clear_frames();
         }
         let Some((scene, sight)) = entry.scene().cloned().zip(self.sight()) else {
             // Being read for the first time: the old picture stays until the new one is there.
@@ -383,9 +413,23 @@ impl Viewer {
             },
             size,
         };
+        if self.lags_behind(&picture) {
+            return;
+        }
         let from = self.attention();
         let focus = self.inset.map(|placed| in_frame(&placed.inset.source(), size));
-        self.drawing.want(Wish::new(picture, from, focus));
+        let wish = Wish::new(picture, from, focus);
+        self.drawing.want(wish.clone());
+        self.want_other(&wish);
+        self.release_pair();
+    }
+
+    fn clear_frames(&mut self) {
+        self.drawing.clear();
+        if let Some(drawing) = self.comparison.drawing_mut() {
+            drawing.clear();
+        }
+        self.release_pair();
     }
 
     /// The frame pixel that is to be final first: the one that the inspector shows, or under the pointer, or in the

@@ -7,8 +7,9 @@ use std::path::PathBuf;
 
 use glam::DVec2;
 
-use super::{PixelZoom, Theme, Toggle, ViewNumbers};
+use super::{Against, Arrangement, PixelZoom, Theme, Toggle, ViewNumbers};
 use crate::color::Rgba;
+use crate::compare::Measure;
 use crate::figure::PixelRect;
 use crate::raster::{SamplePattern, SampleRate};
 use crate::rules::Rules;
@@ -120,6 +121,28 @@ pub enum Command {
     SetBackground(Rgba),
     /// Whether coarse pictures may stand in for slow ones while the view moves.
     Progressive(Toggle),
+
+    // A against B.
+    /// A and B change places; without B it becomes a copy of A.
+    SwapAb,
+    /// Compares A with this.
+    Compare(Against),
+    /// A and B share the window so; without B it becomes a copy of A.
+    Arrange(Arrangement),
+    /// The same, or A alone where they share it so already.
+    ToggleArrangement(Arrangement),
+    /// The line of the wipe: the part of the frame's width that is A's, kept within 0 and 1.
+    SetWipe(f64),
+    /// Shows this difference.
+    SetMeasure(Measure),
+    /// Shows differences times this, kept above zero.
+    SetGain(f32),
+    /// Doubles (above zero) or halves the gain so many times.
+    StepGain(i32),
+    /// Pins the pixel that differs most; from there the next.
+    NextDifference,
+    /// Whether the largest difference takes the last colour.
+    Normalize(Toggle),
 
     // Scenes.
     /// The scene after the current one, round and round.

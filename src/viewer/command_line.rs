@@ -2,11 +2,10 @@
 
 use std::fmt::Write as _;
 
+use super::settings::background_name;
 use super::{Effect, Viewer};
-use crate::color::Rgba;
 use crate::geometry::View;
 use crate::render::RenderSettings;
-use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::FixedLevel;
 
@@ -95,17 +94,6 @@ fn output_name(label: &str) -> String {
     let file = label.rsplit(['/', '\\']).next().unwrap_or(label);
     let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
     format!("{}.png", if stem.is_empty() { "picture" } else { stem })
-}
-
-/// As `--background` takes it.
-fn background_name(color: Rgba) -> String {
-    if color == Rgba::WHITE {
-        return "white".to_owned();
-    }
-    match color.to_bytes(Rules::Standard) {
-        [_, _, _, 0] => "transparent".to_owned(),
-        [r, g, b, _] => format!("#{r:02x}{g:02x}{b:02x}"),
-    }
 }
 
 /// `word` as one word of a POSIX shell. A leading dash becomes `./-`, since it is a path.

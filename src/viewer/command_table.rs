@@ -3,7 +3,7 @@
 use super::commands::{Action, CommandSpec, Group};
 use super::key::{Chord, Key, Modifiers};
 use super::typed::{self, Argument};
-use super::{Command, Dialog, Toggle};
+use super::{Arrangement, Command, Dialog, Toggle};
 
 /// Degrees that one press of a key turns the picture.
 const TURN: f64 = 5.0;
@@ -233,6 +233,108 @@ pub(super) static TABLE: &[CommandSpec] = &[
     )
     .run(&Command::Progressive(Toggle::Flip))
     .argument(typed::PROGRESSIVE),
+    // A against B.
+    spec(
+        "swap",
+        "Swap A and B",
+        "Swaps A, the settings that keys change, with B",
+        Group::Compare,
+    )
+    .more("The first press keeps the settings of now as B")
+    .keys(&[Chord::char('r')])
+    .run(&Command::SwapAb),
+    spec(
+        "wipe",
+        "Wipe",
+        "Shows A on the left of a line and B on its right",
+        Group::Compare,
+    )
+    .more("Drag the line to move it")
+    .keys(&[Chord::char('w')])
+    .run(&Command::ToggleArrangement(Arrangement::Wipe))
+    .argument(typed::WIPE),
+    spec(
+        "difference",
+        "Difference",
+        "Shows in colours how far A and B are apart",
+        Group::Compare,
+    )
+    .more("Every pixel has the number of its channel that differs most")
+    .keys(&[Chord::char('d')])
+    .run(&Command::ToggleArrangement(Arrangement::Difference))
+    .argument(typed::DIFFERENCE),
+    spec(
+        "normalize",
+        "Normalise difference",
+        "Gives the largest difference the last colour",
+        Group::Compare,
+    )
+    .more("Else colours stand for the same numbers in every picture")
+    .keys(&[Chord::new(Key::Char('d'), Modifiers::SHIFT)])
+    .run(&Command::Normalize(Toggle::Flip))
+    .argument(typed::NORMALIZE),
+    spec(
+        "next-difference",
+        "Next difference",
+        "Pins the pixel where A and B differ most; again, the next",
+        Group::Compare,
+    )
+    .more("One pixel of each block of 16 x 16 pixels counts, up to 64 of them")
+    .keys(&[Chord::char('n')])
+    .run(&Command::NextDifference),
+    spec(
+        "gain",
+        "Difference gain",
+        "Multiplies the difference that is shown",
+        Group::Compare,
+    )
+    .more("A gain of 8 gives an eighth of full scale the last colour")
+    .argument(typed::GAIN),
+    spec(
+        "stronger-difference",
+        "Stronger difference",
+        "Doubles the gain of the difference",
+        Group::Compare,
+    )
+    .run(&Command::StepGain(1)),
+    spec(
+        "weaker-difference",
+        "Weaker difference",
+        "Halves the gain of the difference",
+        Group::Compare,
+    )
+    .run(&Command::StepGain(-1)),
+    spec(
+        "side",
+        "Side by side",
+        "Shows A in the left half of the window and B in the right",
+        Group::Compare,
+    )
+    .more("Panning and zooming move both")
+    .run(&Command::ToggleArrangement(Arrangement::SideBySide)),
+    spec(
+        "flip",
+        "Flip",
+        "Shows A and B in turn",
+        Group::Compare,
+    )
+    .more("What differs then jumps to the eye")
+    .run(&Command::ToggleArrangement(Arrangement::Flip)),
+    spec(
+        "arrange",
+        "Arrange A and B",
+        "Sets how A and B share the window",
+        Group::Compare,
+    )
+    .argument(typed::ARRANGE),
+    spec(
+        "against",
+        "Compare with",
+        "Sets what A is compared with",
+        Group::Compare,
+    )
+    .more("Settings: a copy of those of now; none: nothing, which closes the comparison")
+    .argument(typed::AGAINST),
     // Scenes.
     spec("scene", "Scene", "Shows the scene with this number", Group::Scenes)
         .keys(&DIGITS)

@@ -34,6 +34,8 @@ pub enum Group {
     View,
     /// How samples become pixels.
     Sampling,
+    /// A against B.
+    Compare,
     /// Which document.
     Scenes,
     /// The microscope.
@@ -66,9 +68,10 @@ pub struct Gesture {
 
 impl Group {
     /// Every heading, in the order of help and menus.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::View,
         Self::Sampling,
+        Self::Compare,
         Self::Scenes,
         Self::Inspector,
         Self::Save,
@@ -80,6 +83,7 @@ impl Group {
         match self {
             Self::View => "View",
             Self::Sampling => "Sampling",
+            Self::Compare => "A against B",
             Self::Scenes => "Scenes",
             Self::Inspector => "Pixel inspector",
             Self::Save => "Save and copy",

@@ -76,15 +76,17 @@ impl Picture {
             settings: &self.settings,
         }
     }
+
+    /// Whether both show the same scene from the same place in the same size: then their pixels can be compared.
+    pub(super) fn is_seen_as(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.scene, &other.scene) && self.view == other.view && self.size == other.size
+    }
 }
 
 impl PartialEq for Picture {
     /// Scenes are never changed, so the same scene is the same memory.
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.scene, &other.scene)
-            && self.view == other.view
-            && self.settings == other.settings
-            && self.size == other.size
+        self.is_seen_as(other) && self.settings == other.settings
     }
 }
 

@@ -17,6 +17,8 @@ const LEAST: f64 = 48.0;
 const LABEL_LINES: f32 = 3.0;
 /// Characters of a label's longest line.
 const LABEL_CHARACTERS: f32 = 3.0;
+/// Pixels between the inset of A and that of B.
+const BETWEEN: u32 = 4;
 /// Free pixels around a label.
 const LABEL_MARGIN: f32 = 2.0;
 
@@ -121,17 +123,43 @@ impl Inspector {
         self.magnification = limits.magnification;
     }
 
-    /// Where the inset for the frame pixel `center` goes: inside `area`, never over that pixel as the window shows it
-    /// with `zoom` window pixels per side, and never most of the area. In a tight window the large pixel goes first, then the
-    /// region shrinks, then the magnification. Remembers the corner, so that the inset only moves when it must.
-    pub(super) fn place(&mut self, center: [u32; 2], zoom: u32, area: &PixelRect) -> Option<PlacedInset> {
-        let center = center.map(i64::from);
-        let shown = PixelRect {
-            x: center[0] * i64::from(zoom),
-            y: center[1] * i64::from(zoom),
-            width: zoom,
-            height: zoom,
+    /// Where the inset for the frame pixel `center` goes: inside `area`, never over that pixel as the window shows it in
+    /// `shown`, and never most of the area. In a tight window the large pixel goes first, then the region shrinks, then the
+    /// magnification. Remembers the corner, so that the inset only moves when it must.
+    pub(super) fn place(&mut self, center: [u32; 2], shown: &PixelRect, area: &PixelRect) -> Option<PlacedInset> {
+        self.place_stack(center, shown, area, Inset::size)
+    }
+
+    /// As [`Inspector::place`] for two insets of the same pixel, one above the other; the lower has no large pixel.
+    pub(super) fn place_both(
+        &mut self,
+        center: [u32; 2],
+        shown: &PixelRect,
+        area: &PixelRect,
+    ) -> Option<[PlacedInset; 2]> {
+        let height = |inset: &Inset| inset.size()[1];
+        let upper = self.place_stack(center, shown, area, |inset| {
+            let both = height(inset) + BETWEEN + height(&inset.without_detail());
+            [inset.size()[0], both]
+        })?;
+        let inset = upper.inset.without_detail();
+        let rect = PixelRect {
+            y: upper.rect.bottom() + i64::from(BETWEEN),
+            height: height(&inset),
+            ..upper.rect
         };
+        Some([upper, PlacedInset { inset, rect }])
+    }
+
+    /// Places what is as large as `size` says for an inset, which stands at its upper end.
+    fn place_stack(
+        &mut self,
+        center: [u32; 2],
+        shown: &PixelRect,
+        area: &PixelRect,
+        size: impl Fn(&Inset) -> [u32; 2],
+    ) -> Option<PlacedInset> {
+        let center = center.map(i64::from);
         let longest = (f64::from(area.width.min(area.height)) * SHARE).max(LEAST);
         let smallest = *Inset::REGION.start();
         let regions = (smallest..=self.region)
@@ -143,12 +171,14 @@ impl Inspector {
         for (region, magnification) in regions.chain(magnifications) {
             let inset = Inset::new(center, region, magnification);
             for inset in [inset, inset.without_detail()] {
-                let size = inset.size();
-                if f64::from(size[0].max(size[1])) > longest {
+                let whole = size(&inset);
+                if f64::from(whole[0].max(whole[1])) > longest {
                     continue;
                 }
-                if let Some((corner, rect)) = place(area, size, &shown, self.corner) {
+                if let Some((corner, rect)) = place(area, whole, shown, self.corner) {
                     self.corner = corner;
+                    let height = inset.size()[1];
+                    let rect = PixelRect { height, ..rect };
                     return Some(PlacedInset { inset, rect });
                 }
             }
@@ -219,21 +249,45 @@ mod tests {
     fn place_gives_way_and_shrinks() {
         let mut inspector = Inspector::default();
         let area = PixelRect::of_size([800, 600]);
-        let far = inspector.place([10, 500], 1, &area).expect("there is room");
+        let mut place = |at: [u32; 2], area: &PixelRect| inspector.place(at, &pixel(at), area);
+        let far = place([10, 500], &area).expect("there is room");
         assert_eq!(far.inset.region, 15, "as chosen");
-        let near = inspector.place([700, 100], 1, &area).expect("there is room");
+        let near = place([700, 100], &area).expect("there is room");
         assert_ne!(near.rect, far.rect, "it moved away");
-        let back = inspector.place([10, 300], 1, &area).expect("there is room");
+        let back = place([10, 300], &area).expect("there is room");
         assert_eq!(back.rect, near.rect, "it only moves when it must");
-        let tight = inspector
-            .place([60, 60], 1, &PixelRect::of_size([120, 120]))
-            .expect("a small one fits");
+        let tight = place([60, 60], &PixelRect::of_size([120, 120])).expect("a small one fits");
         assert!(tight.rect.width <= 90, "{tight:?}");
-        assert_eq!(
-            inspector.place([0, 0], 1, &PixelRect::of_size([20, 20])),
-            None,
-            "no room at all"
-        );
-        assert_eq!(inspector.place([0, 0], 1, &PixelRect::default()), None, "nor here");
+        assert_eq!(place([0, 0], &PixelRect::of_size([20, 20])), None, "no room at all");
+        assert_eq!(place([0, 0], &PixelRect::default()), None, "nor here");
+    }
+
+    fn pixel(at: [u32; 2]) -> PixelRect {
+        let [x, y] = at.map(i64::from);
+        PixelRect {
+            x,
+            y,
+            width: 1,
+            height: 1,
+        }
+    }
+
+    #[test]
+    fn place_both_stacks_them_in_the_free_area() {
+        let mut inspector = Inspector::default();
+        for (size, at) in [([800, 600], [700, 100]), ([1280, 1000], [5, 5]), ([300, 260], [40, 40])] {
+            let area = PixelRect::of_size(size);
+            let [a, b] = inspector.place_both(at, &pixel(at), &area).expect("there is room");
+            for placed in [&a, &b] {
+                assert_eq!(placed.rect.intersection(&area), placed.rect, "inside {size:?}");
+                assert!(!placed.rect.overlaps(&pixel(at)), "beside the pixel");
+                assert_eq!([placed.rect.width, placed.rect.height], placed.inset.size(), "its size");
+            }
+            assert!(
+                a.rect.bottom() < b.rect.y && a.rect.x == b.rect.x,
+                "one above the other"
+            );
+            assert_eq!(a.inset.source(), b.inset.source(), "the same pixels");
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{PixelLabel, PixelRect, PointerButton, Status, Viewer};
+use super::{Frame, PixelLabel, PixelRect, PlacedInset, PointerButton, Status, Viewer};
 use crate::figure::is_dark;
 
 /// Where the pointer is and what it does.
@@ -22,8 +22,15 @@ impl Viewer {
 
     /// Whether the pointer is over the inspector's inset.
     pub fn pointer_over_inset(&self) -> bool {
-        let inside = |at| self.inset.is_some_and(|inset| inset.rect.contains(window_pixel(at)));
-        self.pointer.at.is_some_and(inside)
+        self.pointer
+            .at
+            .is_some_and(|at| self.inset_at(window_pixel(at)).is_some())
+    }
+
+    /// The inset that lies over a window pixel, A's or B's.
+    fn inset_at(&self, at: [i64; 2]) -> Option<PlacedInset> {
+        let mut insets = self.inset.into_iter().chain(self.other_inset);
+        insets.find(|placed| placed.rect.contains(at))
     }
 
     /// Whether a drag is moving the picture.
@@ -34,9 +41,9 @@ impl Viewer {
     /// The frame pixel under the pointer: over the inset the magnified one.
     pub fn hovered_pixel(&self) -> Option<[u32; 2]> {
         let at = window_pixel(self.pointer.at?);
-        let pixel = match self.inset.filter(|inset| inset.rect.contains(at)) {
+        let pixel = match self.inset_at(at) {
             Some(inset) => inset.pixel_at(at)?,
-            None => at.map(|side| side.div_euclid(i64::from(self.settings.pixel_zoom.factor()))),
+            None => self.frame_pixel(at),
         };
         self.in_frame(pixel)
     }
@@ -73,17 +80,40 @@ impl Viewer {
         })
     }
 
+    /// The same pixel of B in numbers; `None` without B.
+    pub fn other_status_of(&self, pixel: [u32; 2]) -> Option<Status> {
+        let [x, y] = pixel;
+        Some(Status {
+            rgba: self.other_frame()?.final_rgba(x, y),
+            ..self.status_of(pixel)?
+        })
+    }
+
     /// The numbers to write on the inset's pixels when a character is `[width, height]` window pixels; none where
     /// they do not fit, and none on the pixel in the middle where its samples are drawn there.
     pub fn pixel_labels(&self, character: [f32; 2]) -> Vec<PixelLabel> {
-        let Some((placed, frame)) = self.inset.zip(self.frame()) else {
-            return Vec::new();
-        };
+        let has_marks = !self.pixel_samples().is_empty();
+        let own = self.inset.zip(self.frame());
+        let other = self.other_inset.zip(self.other_frame());
+        let labels = own.map(|(placed, frame)| {
+            let has_marks = has_marks && !placed.inset.has_detail();
+            self.labels_of(&placed, frame, (character, has_marks))
+        });
+        let others = other.map(|(placed, frame)| self.labels_of(&placed, frame, (character, false)));
+        labels.into_iter().chain(others).flatten().collect()
+    }
+
+    /// The numbers on one inset's pixels, but on the pixel in the middle where it has marks.
+    fn labels_of(
+        &self,
+        placed: &PlacedInset,
+        frame: &Frame,
+        (character, has_marks): ([f32; 2], bool),
+    ) -> Vec<PixelLabel> {
         if !placed.labels_fit(character) {
             return Vec::new();
         }
         let source = placed.inset.source();
-        let has_marks = !placed.inset.has_detail() && !self.pixel_samples().is_empty();
         let marked = Some(placed.inset.center).filter(|_| has_marks);
         let all = (source.y..source.bottom()).flat_map(|y| (source.x..source.right()).map(move |x| [x, y]));
         let label = |pixel: [i64; 2]| {
@@ -105,7 +135,9 @@ impl Viewer {
             return;
         }
         let from = self.pointer.at.replace(to);
-        if let Some(from) = from.filter(|_| self.pointer.dragging) {
+        if self.comparison.drags_line {
+            self.drag_line(to.x);
+        } else if let Some(from) = from.filter(|_| self.pointer.dragging) {
             self.pan(to - from);
         }
         self.follow_pointer();
@@ -118,15 +150,31 @@ impl Viewer {
             return;
         }
         let Some(at) = self.pointer.at else { return };
-        let zoom = i64::from(self.settings.pixel_zoom.factor());
-        let pixel = window_pixel(at).map(|side| side.div_euclid(zoom));
+        let pixel = self.frame_pixel(window_pixel(at));
         self.inspector.last = self.in_frame(pixel).or(self.inspector.last);
+    }
+
+    /// The frame pixel at a window pixel; it may lie outside the frame.
+    fn frame_pixel(&self, at: [i64; 2]) -> [i64; 2] {
+        let zoom = i64::from(self.settings.pixel_zoom.factor());
+        let screen = at.map(|side| side.div_euclid(zoom));
+        let corner = self.panes().at(screen).corner;
+        [screen[0] - corner[0], screen[1] - corner[1]]
+    }
+
+    /// The place in the frame, in frame pixels, of a place in the window.
+    pub(super) fn frame_position(&self, at: DVec2) -> DVec2 {
+        let zoom = f64::from(self.settings.pixel_zoom.factor());
+        let screen = at / zoom;
+        let [x, y] = self.panes().at(window_pixel(screen)).corner;
+        screen - DVec2::new(x as f64, y as f64)
     }
 
     pub(super) fn pointer_pressed(&mut self, button: PointerButton) {
         match button {
             PointerButton::Primary => {
-                self.pointer.dragging = self.pointer.at.is_some() && !self.pointer_over_inset();
+                let on_line = self.take_line();
+                self.pointer.dragging = self.pointer.at.is_some() && !on_line && !self.pointer_over_inset();
             }
             PointerButton::Secondary => self.pin_under_pointer(),
         }
@@ -168,8 +216,28 @@ impl Viewer {
         let center = self.inspected_pixel().filter(|_| to_be_seen);
         let window = PixelRect::of_size(self.screen.window);
         let area = self.screen.free_area.map_or(window, |free| free.intersection(&window));
+        (self.inset, self.other_inset) = (None, None);
+        let Some(center) = center else { return };
+        let shown = self.shown_at(center);
+        if self.comparison.shows_both() {
+            let both = self.inspector.place_both(center, &shown, &area);
+            (self.inset, self.other_inset) = both.map_or((None, None), |[a, b]| (Some(a), Some(b)));
+        } else {
+            self.inset = self.inspector.place(center, &shown, &area);
+        }
+    }
+
+    /// Where a frame pixel is to be seen, in window pixels.
+    fn shown_at(&self, pixel: [u32; 2]) -> PixelRect {
         let zoom = self.settings.pixel_zoom.factor();
-        self.inset = center.and_then(|center| self.inspector.place(center, zoom, &area));
+        let [x, y] = pixel.map(i64::from);
+        let [left, top] = self.panes().first.corner;
+        PixelRect {
+            x: (left + x) * i64::from(zoom),
+            y: (top + y) * i64::from(zoom),
+            width: zoom,
+            height: zoom,
+        }
     }
 
     /// The pixel, if the frame has it.

@@ -1,6 +1,7 @@
 //! A frame on the window's pixels: magnified by the pixel zoom, transparency over a checker.
 
 use super::PixelZoom;
+use super::comparison::{BEYOND, Composite};
 use crate::figure::PixelRect;
 use crate::raster::Framebuffer;
 
@@ -8,8 +9,6 @@ use crate::raster::Framebuffer;
 const SQUARE: usize = 8;
 /// The checker below transparent pixels.
 const CHECKER: [u32; 2] = [0x00ff_ffff, 0x00dd_dddd];
-/// Where the frame does not reach, before a resized window has its new frame.
-const BEYOND: u32 = 0xff80_8080;
 
 /// A window's pixels, rows from the top.
 #[derive(Debug)]
@@ -43,7 +42,34 @@ impl<'a> WindowPixels<'a> {
 
 /// Writes `frame` into a `part` of the window, each frame pixel as an exact square of `zoom` window pixels. The result
 /// is opaque. Where the window is larger than the frame it is grey: a picture is never stretched.
-pub(super) fn show(frame: &Framebuffer, zoom: PixelZoom, window: &mut WindowPixels<'_>, part: &PixelRect) {
+pub(super) fn show(picture: &Composite<'_>, zoom: PixelZoom, window: &mut WindowPixels<'_>, part: &PixelRect) {
+    match picture.plain() {
+        Some(frame) => show_frame(frame, zoom, window, part),
+        None => show_rows(picture, zoom, window, part),
+    }
+}
+
+/// What is put together row by row.
+fn show_rows(picture: &Composite<'_>, zoom: PixelZoom, window: &mut WindowPixels<'_>, part: &PixelRect) {
+    let factor = zoom.factor() as usize;
+    let mut line = vec![BEYOND; (window.size[0] as usize).div_ceil(factor)];
+    let left = usize::try_from(part.x.max(0)).unwrap_or(0);
+    let mut last = None;
+    for (y, row) in window.rows(part) {
+        if row.is_empty() {
+            continue;
+        }
+        let columns = left / factor..(left + row.len()).div_ceil(factor);
+        // The rows of a magnified pixel are alike.
+        if last.replace(y / factor) != Some(y / factor) {
+            picture.row(y / factor, columns.clone(), &mut line[columns]);
+        }
+        show_row(&line, factor, [left, y], row);
+    }
+}
+
+/// One frame that fills the window.
+pub(super) fn show_frame(frame: &Framebuffer, zoom: PixelZoom, window: &mut WindowPixels<'_>, part: &PixelRect) {
     let factor = zoom.factor() as usize;
     let frame_width = frame.width() as usize;
     let left = usize::try_from(part.x.max(0)).unwrap_or(0);
@@ -121,7 +147,7 @@ mod tests {
     /// The whole of a window of this size.
     fn shown(frame: &Framebuffer, zoom: PixelZoom, [width, height]: [u32; 2]) -> Framebuffer {
         let mut window = Framebuffer::new(width, height);
-        show(
+        show_frame(
             frame,
             zoom,
             &mut WindowPixels::of(&mut window),
@@ -185,7 +211,7 @@ mod tests {
             };
             let whole = shown(&frame, zoom, size);
             let mut window = Framebuffer::new(size[0], size[1]);
-            show(&frame, zoom, &mut WindowPixels::of(&mut window), &part);
+            show_frame(&frame, zoom, &mut WindowPixels::of(&mut window), &part);
             for (y, row) in (0..).zip(window.pixels().chunks(size[0] as usize)) {
                 for (x, pixel) in (0..).zip(row) {
                     let expected = if part.contains([i64::from(x), i64::from(y)]) {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::background::{AtEnd, Crew, Mailbox, guarded};
-use super::present::{paste, show};
+use super::present::{paste, show_frame};
 use super::state::Finished;
 use super::{Frame, PixelRect, PixelZoom, PlacedInset, Viewer, WindowPixels};
 use crate::figure::{SampleMark, encode_png};
@@ -41,8 +41,8 @@ enum Shot {
         frame: Arc<Frame>,
         inset: Option<(PlacedInset, PixelZoom, Vec<SampleMark>)>,
     },
-    /// The whole window.
-    Window(Framebuffer),
+    /// A picture that is put together already.
+    Ready(Framebuffer),
 }
 
 /// What became of a picture.
@@ -88,7 +88,7 @@ impl Viewer {
             self.messages
                 .error("nothing to save: the window has no pixels; make it larger".to_owned());
         } else {
-            self.saver.push(Shot::Window(window));
+            self.saver.push(Shot::Ready(window));
         }
         self.update();
     }
@@ -97,7 +97,12 @@ impl Viewer {
         self.saver.waiting = self.saver.waiting.saturating_add(1);
         self.saver.since = self.drawing.newest_wish();
         // No preview, and no rest: the picture of this moment, even if the view goes on moving.
-        self.drawing.set_hurry(true);
+        self.set_hurry(true);
+    }
+
+    /// The picture that screenshots wait for is another one now.
+    pub(super) fn wait_for_newest_frame(&mut self) {
+        self.saver.since = self.drawing.newest_wish();
     }
 
     /// Saves the screenshots that wait, as soon as there is a final frame of the state when they were asked for, or of
@@ -112,12 +117,24 @@ impl Viewer {
                 return;
             }
             self.saver.waiting = 0;
-            self.drawing.set_hurry(false);
+            self.set_hurry(false);
             self.messages
                 .error("nothing to save: there is no picture; open a scene first".to_owned());
             return;
         };
+        if self.comparison.shows_both() && !self.comparison.is_current() {
+            return;
+        }
+        let both = self.comparison.shows_both().then(|| match self.inset {
+            // The inset is in window pixels.
+            Some(_) => self.window_picture(),
+            None => self.composite().picture(),
+        });
         for _ in 0..std::mem::take(&mut self.saver.waiting) {
+            if let Some(both) = &both {
+                self.saver.push(Shot::Ready(both.clone()));
+                continue;
+            }
             let inset = self
                 .inset
                 .map(|inset| (inset, self.settings.pixel_zoom, self.sample_marks()));
@@ -126,7 +143,7 @@ impl Viewer {
                 inset,
             });
         }
-        self.drawing.set_hurry(false);
+        self.set_hurry(false);
     }
 
     pub(super) fn picture_saved(&mut self, Saved(saved): Saved) {
@@ -149,7 +166,7 @@ impl Job {
                 frame,
                 inset: Some((placed, zoom, marks)),
             } => with_inset(&frame.pixels, &placed, zoom, &marks),
-            Shot::Window(picture) => picture,
+            Shot::Ready(picture) => picture,
         };
         save_new(&self.folder, &picture)
     }
@@ -164,7 +181,7 @@ fn with_inset(frame: &Framebuffer, placed: &PlacedInset, zoom: PixelZoom, marks:
     if zoom == PixelZoom::ONE {
         picture.pixels_mut().copy_from_slice(frame.pixels());
     } else {
-        show(frame, zoom, &mut WindowPixels::of(&mut picture), &all);
+        show_frame(frame, zoom, &mut WindowPixels::of(&mut picture), &all);
     }
     let inset = placed.inset.draw(frame, marks);
     paste(

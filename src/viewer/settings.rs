@@ -1,6 +1,8 @@
 //! What a user sets: small types with their names in menus, scripts and the command line.
 
+use crate::color::Rgba;
 use crate::render::RenderSettings;
+use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{Anisotropy, LevelOfDetail};
 
@@ -138,6 +140,49 @@ pub fn texture_words(render: &RenderSettings) -> Vec<String> {
         (detail.derivatives != default.derivatives).then(|| format!("level per {}", detail.derivatives.name())),
     ];
     words.into_iter().flatten().collect()
+}
+
+/// Every setting by its name, with its value in words, always in the same order: what tells two pictures apart.
+pub(super) fn settings_words(render: &RenderSettings) -> Vec<(&'static str, String)> {
+    // Named one by one, so that no setting that is added can be forgotten here. The outline follows the view.
+    let RenderSettings {
+        sample_rate,
+        pixel_sampling,
+        level_sampling,
+        anisotropy,
+        detail,
+        rules,
+        background,
+        outline: _,
+    } = render;
+    let LevelOfDetail {
+        bias,
+        fixed,
+        derivatives,
+    } = detail;
+    let level = fixed.map_or("auto".to_owned(), |level| level.level().to_string());
+    vec![
+        ("sample rate", sample_rate.samples().to_string()),
+        ("pixel sampling", pixel_sampling.name().to_owned()),
+        ("level sampling", level_sampling.name().to_owned()),
+        ("anisotropy", anisotropy.taps().to_string()),
+        ("level", level),
+        ("bias", format!("{:+}", bias.levels())),
+        ("level per", derivatives.name().to_owned()),
+        ("rules", rules.name().to_owned()),
+        ("background", background_name(*background)),
+    ]
+}
+
+/// As `--background` takes it.
+pub(super) fn background_name(color: Rgba) -> String {
+    if color == Rgba::WHITE {
+        return "white".to_owned();
+    }
+    match color.to_bytes(Rules::Standard) {
+        [_, _, _, 0] => "transparent".to_owned(),
+        [r, g, b, _] => format!("#{r:02x}{g:02x}{b:02x}"),
+    }
 }
 
 /// The value after `current` in `all`, the first after the last.

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use super::background::Mailbox;
-use super::drawing::{Drawing, Drawn};
+use super::comparison::{Comparison, Measured, Panes};
+use super::drawing::{Drawing, DrawingId, Drawn};
 use super::messages::Messages;
 use super::pointer::Pointer;
 use super::probing::{Probed, Probing};
@@ -56,8 +57,11 @@ pub struct Viewer {
     pub(super) pointer: Pointer,
     pub(super) inspector: Inspector,
     pub(super) inset: Option<PlacedInset>,
+    /// B's, below A's, where both share the window.
+    pub(super) other_inset: Option<PlacedInset>,
     pub(super) messages: Messages,
     pub(super) drawing: Drawing,
+    pub(super) comparison: Comparison,
     pub(super) probing: Probing,
     pub(super) readers: Readers,
     pub(super) saver: Saver,
@@ -93,8 +97,11 @@ pub(super) struct Shown {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct DrawnState {
     pub(super) frame: u64,
+    pub(super) comparison: [u64; 2],
+    pub(super) panes: Panes,
     pub(super) samples: u64,
     pub(super) inset: Option<PlacedInset>,
+    pub(super) other_inset: Option<PlacedInset>,
     pub(super) pixel_zoom: PixelZoom,
     pub(super) window: [u32; 2],
 }
@@ -103,8 +110,9 @@ pub(super) struct DrawnState {
 #[derive(Debug)]
 pub(super) enum Finished {
     Read(ReadScene),
-    Drawn(Drawn),
+    Drawn(DrawingId, Drawn),
     Probed(Probed),
+    Measured(Measured),
     Thumbnail(Thumbnail),
     Saved(Saved),
 }
@@ -163,8 +171,10 @@ impl Viewer {
             pointer: Pointer::default(),
             inspector: Inspector::default(),
             inset: None,
+            other_inset: None,
             messages: Messages::default(),
-            drawing: Drawing::start(&mailbox)?,
+            drawing: Drawing::start(&mailbox, DrawingId::First)?,
+            comparison: Comparison::new(mailbox.clone()),
             probing: Probing::start(&mailbox)?,
             readers: Readers::start(&mailbox)?,
             saver: Saver::start(&mailbox, options.screenshot_dir)?,
@@ -249,8 +259,11 @@ impl Viewer {
     pub(super) fn drawn_state(&self) -> DrawnState {
         DrawnState {
             frame: self.drawing.number(),
+            comparison: self.comparison.state(),
+            panes: self.panes(),
             samples: self.probing.number(),
             inset: self.inset,
+            other_inset: self.other_inset,
             pixel_zoom: self.settings.pixel_zoom,
             window: self.screen.window,
         }
@@ -292,9 +305,9 @@ impl Viewer {
         self.screen.window
     }
 
-    /// The frame that belongs to the window's size and the pixel zoom.
+    /// The size of A's frame, and of B's: that of the window divided by the pixel zoom, unless both lie side by side.
     pub fn frame_size(&self) -> [u32; 2] {
-        self.settings.pixel_zoom.frame_size(self.screen.window)
+        self.panes().frame
     }
 
     /// The dialog that is open.
@@ -332,9 +345,17 @@ impl Viewer {
         self.inset
     }
 
-    /// The window's title: scene, settings, program.
+    /// The inset of the same pixel of B, where A and B share the window.
+    pub fn other_inset(&self) -> Option<PlacedInset> {
+        self.other_inset
+    }
+
+    /// The window's title: scene, settings or what of them differs between A and B, program.
     pub fn title(&self) -> String {
         let name = self.current().map_or("no scene", |entry| entry.label.as_str());
+        if let Some(words) = self.comparison_title() {
+            return format!("{name} - {words} - Rasterscope");
+        }
         let render = &self.settings.render;
         let mut words = vec![format!("sample rate {}", render.sample_rate.samples())];
         words.extend(pattern_words(render));

@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 
-use super::{Command, PixelZoom, Theme, Toggle, ViewNumbers};
+use super::{Against, Arrangement, Command, PixelZoom, Theme, Toggle, ViewNumbers};
 use crate::color::Rgba;
+use crate::compare::Measure;
 use crate::raster::{SamplePattern, SampleRate};
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
@@ -105,6 +106,27 @@ pub(super) const BACKGROUND: Argument = argument("white|transparent|#RRGGBB", |t
     background(text).map(Command::SetBackground)
 });
 pub(super) const PROGRESSIVE: Argument = argument("on|off|flip", |text| toggle(text).map(Command::Progressive));
+pub(super) const WIPE: Argument = argument("a part of the width from 0 to 1", |text| {
+    number(text)
+        .filter(|part| (0.0..=1.0).contains(part))
+        .map(Command::SetWipe)
+});
+pub(super) const DIFFERENCE: Argument = argument("signed|absolute|relative|squared", |text| {
+    named(&Measure::ALL, Measure::name, text).map(Command::SetMeasure)
+});
+pub(super) const NORMALIZE: Argument = argument("on|off|flip", |text| toggle(text).map(Command::Normalize));
+pub(super) const GAIN: Argument = argument("a number from 0.000001 to 1000000", |text| {
+    let gain = text.trim().parse().ok().filter(|gain| (1e-6..=1e6).contains(gain));
+    gain.map(Command::SetGain)
+});
+pub(super) const ARRANGE: Argument = argument("alone|wipe|side|difference|flip", |text| {
+    named(&Arrangement::ALL, Arrangement::name, text).map(Command::Arrange)
+});
+pub(super) const AGAINST: Argument = argument("settings|none", |text| match text {
+    "settings" => Some(Command::Compare(Against::Settings)),
+    "none" => Some(Command::Compare(Against::Nothing)),
+    _ => None,
+});
 pub(super) const SCENE: Argument = argument("a scene's number, from 1", |text| {
     let index = usize::try_from(whole(text)?).ok()?.checked_sub(1)?;
     Some(Command::Scene(index))
@@ -221,6 +243,12 @@ mod tests {
             (LOD_LEVEL, "-1"),
             (LOD_LEVEL, "none"),
             (LOD_PER, "texel"),
+            (WIPE, "1.5"),
+            (DIFFERENCE, "other"),
+            (GAIN, "0"),
+            (GAIN, "nan"),
+            (ARRANGE, "both"),
+            (AGAINST, ""),
             (SCENE, "0"),
             (PIN, "1.5,2"),
             (BACKGROUND, "#+12345"),

@@ -2,7 +2,8 @@
 
 use super::drawing::Changes;
 use super::present::{paste, show};
-use super::{PixelRect, PlacedInset, Viewer, WindowPixels};
+use super::{Frame, PixelRect, PlacedInset, Viewer, WindowPixels};
+use crate::figure::SampleMark;
 use crate::raster::{Framebuffer, Region};
 
 impl Viewer {
@@ -22,23 +23,15 @@ impl Viewer {
 
     /// As [`Viewer::draw_window`], but only the pixels in `parts`.
     pub fn draw_parts(&self, parts: &[PixelRect], window: &mut WindowPixels<'_>) {
-        let empty = Framebuffer::default();
-        let pixels = self.frame().map_or(&empty, |frame| &frame.pixels);
+        let composite = self.composite();
         for part in parts {
-            show(pixels, self.settings.pixel_zoom, window, part);
+            show(&composite, self.settings.pixel_zoom, window, part);
         }
-        let Some((placed, frame)) = self.inset.zip(self.frame()) else {
-            return;
-        };
-        let mut inset = None;
-        for part in parts.iter().filter(|part| part.overlaps(&placed.rect)) {
-            // What is not final yet is hatched: the inspector shows nothing that is not so.
-            let inset = inset.get_or_insert_with(|| {
-                placed
-                    .inset
-                    .draw_pixels(&|x, y| frame.final_rgba(x, y), &self.sample_marks())
-            });
-            paste(inset, [placed.rect.x, placed.rect.y], window, part);
+        if let Some(shown) = self.inset.zip(self.frame()) {
+            draw_inset(shown, &self.sample_marks(), parts, window);
+        }
+        if let Some(shown) = self.other_inset.zip(self.other_frame()) {
+            draw_inset(shown, &[], parts, window);
         }
     }
 
@@ -46,30 +39,73 @@ impl Viewer {
     /// `None` stands for all of it.
     pub fn take_damage(&mut self) -> Option<Vec<PixelRect>> {
         let (now, changes) = (self.drawn_state(), self.drawing.take_changes());
+        let others = self.comparison.take_changes();
         let before = self.last_shown.replace(now)?;
-        if before.pixel_zoom != now.pixel_zoom || before.window != now.window {
+        let same_place = before.pixel_zoom == now.pixel_zoom && before.window == now.window;
+        let same_comparison = before.comparison[0] == now.comparison[0] && before.panes == now.panes;
+        if !same_place || !same_comparison {
             return None;
         }
-        let Changes::Regions(regions) = changes else {
+        let Changes::Regions(mut regions) = changes else {
             return None;
         };
-        let zoom = self.settings.pixel_zoom.factor();
-        let mut parts: Vec<PixelRect> = regions.into_iter().map(|region| magnified(region, zoom)).collect();
-        let inset_changed = before.inset != now.inset || before.samples != now.samples || before.frame != now.frame;
+        if self.comparison.shows_both() {
+            match others {
+                Changes::All => return None,
+                Changes::Regions(others) => regions.extend(others),
+            }
+        }
+        let mut parts: Vec<PixelRect> = regions.into_iter().flat_map(|region| self.in_window(region)).collect();
+        let frame_changed = before.frame != now.frame || before.comparison != now.comparison;
+        let inset_changed = before.inset != now.inset
+            || before.other_inset != now.other_inset
+            || before.samples != now.samples
+            || frame_changed;
         if inset_changed {
-            let rect = |placed: Option<PlacedInset>| placed.map(|placed| placed.rect);
-            parts.extend(rect(before.inset).into_iter().chain(rect(now.inset)));
+            let insets = [before.inset, now.inset, before.other_inset, now.other_inset];
+            parts.extend(insets.into_iter().flatten().map(|placed| placed.rect));
         }
         Some(parts)
     }
+
+    /// Where frame pixels are to be seen in the window: in every pane.
+    fn in_window(&self, region: Region) -> Vec<PixelRect> {
+        let (zoom, panes) = (self.settings.pixel_zoom.factor(), self.panes());
+        let shown = std::iter::once(panes.first).chain(panes.second);
+        let places = shown.map(|pane| {
+            let moved = PixelRect {
+                x: i64::from(region.x) + pane.corner[0],
+                y: i64::from(region.y) + pane.corner[1],
+                width: region.width,
+                height: region.height,
+            };
+            magnified(&moved.intersection(&pane.area), zoom)
+        });
+        places.collect()
+    }
 }
 
-/// Frame pixels as window pixels.
-fn magnified(region: Region, zoom: u32) -> PixelRect {
+/// Draws an inset with `marks` as far as it lies in `parts`.
+fn draw_inset(
+    (placed, frame): (PlacedInset, &Frame),
+    marks: &[SampleMark],
+    parts: &[PixelRect],
+    window: &mut WindowPixels<'_>,
+) {
+    let mut inset = None;
+    for part in parts.iter().filter(|part| part.overlaps(&placed.rect)) {
+        // What is not final yet is hatched: the inspector shows nothing that is not so.
+        let inset = inset.get_or_insert_with(|| placed.inset.draw_pixels(&|x, y| frame.final_rgba(x, y), marks));
+        paste(inset, [placed.rect.x, placed.rect.y], window, part);
+    }
+}
+
+/// Screen pixels as window pixels.
+fn magnified(rect: &PixelRect, zoom: u32) -> PixelRect {
     PixelRect {
-        x: i64::from(region.x) * i64::from(zoom),
-        y: i64::from(region.y) * i64::from(zoom),
-        width: region.width.saturating_mul(zoom),
-        height: region.height.saturating_mul(zoom),
+        x: rect.x * i64::from(zoom),
+        y: rect.y * i64::from(zoom),
+        width: rect.width.saturating_mul(zoom),
+        height: rect.height.saturating_mul(zoom),
     }
 }

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use egui::{Align2, Area, Color32, FontId, Frame, Id, Order, Rect, RichText, Sense, Ui, Vec2, pos2, vec2};
 
 use crate::raster::SamplePattern;
-use crate::viewer::{Command, Message, MessageKind, PixelRect, Viewer, texture_words};
+use crate::viewer::{Arrangement, Command, Message, MessageKind, PixelRect, Viewer, texture_words};
 
 /// Seconds that a message stays.
 const DONE_SECONDS: f64 = 5.0;
@@ -24,6 +24,33 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect])
     let Some(entry) = viewer.current() else {
         return;
     };
+    let mut lines = vec![entry.label.clone()];
+    lines.extend(overlay_words(viewer));
+    if entry.is_reading() {
+        lines.push("reading …".to_owned());
+    }
+    let text = lines.join("\n");
+    let galley = ui.painter().layout(
+        text,
+        FontId::proportional(12.0),
+        Color32::WHITE,
+        (free.width() - 40.0).max(60.0),
+    );
+    let insets = viewer.inset().into_iter().chain(viewer.other_inset());
+    let insets = insets.map(|placed| points(&placed.rect, ui.pixels_per_point()));
+    let taken: Vec<Rect> = taken.iter().copied().chain(insets).collect();
+    let Some(back) = free_corner(free, galley.size() + vec2(16.0, 10.0), &taken) else {
+        return;
+    };
+    ui.painter().rect_filled(back, 5.0, Color32::from_black_alpha(170));
+    ui.painter().galley(back.min + vec2(8.0, 5.0), galley, Color32::WHITE);
+}
+
+/// The settings; none while A and B share the window, where tags tell them.
+fn overlay_words(viewer: &Viewer) -> Vec<String> {
+    if viewer.arrangement() != Arrangement::Alone {
+        return Vec::new();
+    }
     let render = &viewer.settings().render;
     let count = render.sample_rate.samples();
     let pattern = match render.pattern {
@@ -31,7 +58,6 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect])
         other => format!(", {}", other.name()),
     };
     let mut lines = vec![
-        entry.label.clone(),
         format!(
             "{count} {} per pixel{pattern}",
             if count == 1 { "sample" } else { "samples" }
@@ -49,23 +75,7 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect])
     if render.rules != crate::rules::Rules::default() {
         lines.push(format!("rules: {}", render.rules.name()));
     }
-    if entry.is_reading() {
-        lines.push("reading …".to_owned());
-    }
-    let text = lines.join("\n");
-    let galley = ui.painter().layout(
-        text,
-        FontId::proportional(12.0),
-        Color32::WHITE,
-        (free.width() - 40.0).max(60.0),
-    );
-    let inset = viewer.inset().map(|placed| points(&placed.rect, ui.pixels_per_point()));
-    let taken: Vec<Rect> = taken.iter().copied().chain(inset).collect();
-    let Some(back) = free_corner(free, galley.size() + vec2(16.0, 10.0), &taken) else {
-        return;
-    };
-    ui.painter().rect_filled(back, 5.0, Color32::from_black_alpha(170));
-    ui.painter().galley(back.min + vec2(8.0, 5.0), galley, Color32::WHITE);
+    lines
 }
 
 /// A thin bar along the picture's upper edge: how far a refinement is that takes long.

@@ -5,6 +5,8 @@
 //! depends on panels. The panels lie over it. Lest they hide the canvas unasked, the side panel starts folded where
 //! it would reach into the canvas of the default view, and the inspector's inset is told what area is free.
 
+mod compare;
+mod compare_marks;
 mod controls;
 mod detail;
 mod dialogs;
@@ -134,6 +136,9 @@ impl Interface {
             self.covered.push(line.response.rect);
             if viewer.panel() {
                 self.side_panel(ui, viewer, asked);
+                if viewer.other().is_some() {
+                    self.compare_panel(ui, viewer, asked);
+                }
             }
         }
         let free = ui.available_rect_before_wrap().intersect(whole);
@@ -146,12 +151,28 @@ impl Interface {
         floating::pixel_labels(ui, viewer);
         hits::hits(ui, viewer);
         let messages = self.clock.show(ui, viewer, free, &mut asked.commands);
-        if viewer.overlay_text() && !hidden {
-            floating::overlay_text(ui, viewer, free, &messages);
+        if !hidden {
+            let mut taken = compare_marks::show(ui, viewer, free, &messages);
+            taken.extend(&messages);
+            if viewer.overlay_text() {
+                floating::overlay_text(ui, viewer, free, &taken);
+            }
         }
         self.covered.extend(messages);
         let ctx = self.ctx.clone();
         self.dialogs.show(&ctx, viewer, &mut asked.commands);
+    }
+
+    fn compare_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
+        let panel = Panel::left("compare panel")
+            .resizable(false)
+            .exact_size(look::PANEL_WIDTH)
+            .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 4)))
+            .show(ui, |ui| {
+                let area = ScrollArea::vertical().id_salt("compare").auto_shrink(false);
+                area.show(ui, |ui| compare::show(ui, viewer, &mut asked.commands));
+            });
+        self.covered.push(panel.response.rect);
     }
 
     fn side_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {

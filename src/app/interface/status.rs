@@ -72,7 +72,13 @@ fn pixel(ui: &mut Ui, viewer: &Viewer, status: &Status) {
             .rect_stroke(swatch, CornerRadius::same(3), line, StrokeKind::Inside);
         response.accessible_name(format!("Colour {hex}"));
         word(ui, &decimal, numbers(), false);
-        word(ui, &hex, numbers(), false);
+        match viewer
+            .other_status_of(status.pixel)
+            .and_then(|other| other.decimal_text())
+        {
+            Some(other) => field(ui, "B", &other),
+            None => word(ui, &hex, numbers(), false),
+        }
         ui.add_space(4.0);
     } else if viewer.preview().is_some() {
         // No number comes from a pixel that is not final.

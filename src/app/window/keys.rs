@@ -43,6 +43,8 @@ pub(super) fn repeats(command: &Command) -> bool {
             | Command::NextScene
             | Command::PreviousScene
             | Command::StepMagnification(_)
+            | Command::StepGain(_)
+            | Command::NextDifference
     )
 }
 

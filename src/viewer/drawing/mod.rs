@@ -34,9 +34,19 @@ const PATIENCE: Duration = Duration::from_secs(2);
 /// So long after the last wish the hand counts as resting.
 const REST: Duration = Duration::from_millis(100);
 
+/// Which of the viewer's drawings: the results of all arrive in one channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum DrawingId {
+    /// There from the start.
+    First,
+    /// There since a comparison needed it.
+    Second,
+}
+
 /// The state of drawing.
 #[derive(Debug)]
 pub(super) struct Drawing {
+    id: DrawingId,
     crew: Crew<Job>,
     /// The frame on the screen, and the number of the wish that it came of.
     frame: Option<Arc<Frame>>,
@@ -113,10 +123,11 @@ impl Wish {
 }
 
 impl Drawing {
-    pub(super) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Self> {
+    pub(super) fn start(mailbox: &Mailbox<Finished>, id: DrawingId) -> io::Result<Self> {
         let mailbox = mailbox.clone();
-        let work = move |job: Job| job.draw(&|drawn| mailbox.post(Finished::Drawn(drawn)));
+        let work = move |job: Job| job.draw(&|drawn| mailbox.post(Finished::Drawn(id, drawn)));
         Ok(Self {
+            id,
             crew: Crew::start("draw", 1, AtEnd::Abandon, work)?,
             frame: None,
             frame_wish: 0,
@@ -134,8 +145,29 @@ impl Drawing {
         })
     }
 
+    pub(super) fn id(&self) -> DrawingId {
+        self.id
+    }
+
     pub(super) fn frame(&self) -> Option<&Frame> {
         self.frame.as_deref()
+    }
+
+    /// The frame for whoever keeps it longer than this state.
+    pub(super) fn shared_frame(&self) -> Option<&Arc<Frame>> {
+        self.frame.as_ref()
+    }
+
+    /// Whether the frame, final or not, shows the scene from where it is wanted, or never will.
+    pub(super) fn has_arrived(&self) -> bool {
+        let Some(wanted) = &self.wanted else { return true };
+        let arrived = |frame: &Frame| frame.picture.is_seen_as(&wanted.picture);
+        self.frame().is_some_and(arrived) || self.failed.as_ref() == Some(&wanted.picture)
+    }
+
+    /// What is wanted.
+    pub(super) fn wanted(&self) -> Option<&Picture> {
+        self.wanted.as_ref().map(|wish| &wish.picture)
     }
 
     /// Another number, another frame.
@@ -222,6 +254,12 @@ impl Drawing {
         if let Some(running) = &self.running {
             running.cancel.cancel();
         }
+    }
+
+    /// As [`Drawing::clear`], and keeps no memory for the next frame.
+    pub(super) fn close(&mut self) {
+        self.clear();
+        self.spare = None;
     }
 
     /// This is to be on the screen.

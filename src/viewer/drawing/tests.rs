@@ -50,7 +50,7 @@ fn scene() -> Arc<Scene> {
 impl Desk {
     fn new() -> Self {
         let (sender, messages) = channel();
-        let drawing = Drawing::start(&Mailbox::new(sender, Arc::new(|| {}))).expect("a thread");
+        let drawing = Drawing::start(&Mailbox::new(sender, Arc::new(|| {})), DrawingId::First).expect("a thread");
         let scene = scene();
         Self {
             drawing,
@@ -95,7 +95,7 @@ impl Desk {
 
     fn take_in(&mut self, message: Finished) {
         match message {
-            Finished::Drawn(drawn) => self.drawing.finished(drawn),
+            Finished::Drawn(DrawingId::First, drawn) => self.drawing.finished(drawn),
             other => panic!("{other:?} is not about drawing"),
         };
     }

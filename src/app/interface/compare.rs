@@ -1,0 +1,302 @@
+//! The panel of a comparison: what A and B are, how they share the window, how far they are apart.
+
+use egui::{Button, DragValue, Grid, Layout, RichText, Sense, Ui, pos2, vec2};
+
+use super::controls::{choice, command_button, heading, row, tip};
+use super::look::CONTROL;
+use crate::compare::{Colormap, Gain, Measure};
+use crate::viewer::{Action, Arrangement, Command, Measures, Toggle, Viewer, commands};
+
+/// Height of the legend's colours, in points.
+const LEGEND: f32 = 12.0;
+/// Colours that the legend shows.
+const LEGEND_STEPS: u16 = 120;
+
+/// Fills the panel.
+pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    what(ui, viewer, commands);
+    arrangement(ui, viewer, commands);
+    if viewer.arrangement() == Arrangement::Difference {
+        difference(ui, viewer, commands);
+    }
+    metrics(ui, viewer, commands);
+}
+
+/// What A and B are, and what can be done with them.
+fn what(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    heading(ui, "A against B");
+    for side in viewer.comparison_sides().into_iter().flatten() {
+        ui.label(RichText::new(side).small());
+    }
+    if viewer.comparison_words().is_some_and(|words| words.is_empty()) {
+        let hint = "Both have the same settings: change A with its keys.";
+        ui.label(RichText::new(hint).small().color(ui.visuals().warn_fg_color));
+    }
+    ui.add_space(2.0);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        for (id, text) in [("swap", "Swap")] {
+            if command_button(ui, id, text).clicked() {
+                run(id, commands);
+            }
+        }
+        let close = Button::new("Close").min_size(CONTROL);
+        let response = ui
+            .add(close)
+            .on_hover_text("Forgets B. The settings of A stay as they are.");
+        if response.accessible_name("Close comparison").clicked() {
+            commands.push(Command::Compare(crate::viewer::Against::Nothing));
+        }
+    });
+}
+
+/// Runs a command of the table.
+fn run(id: &str, commands: &mut Vec<Command>) {
+    if let Some(Action::Run(command)) = commands::find(id).map(|spec| spec.action) {
+        commands.push(command.clone());
+    }
+}
+
+fn arrangement(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    heading(ui, "Show");
+    let values = Arrangement::ALL.map(|value| {
+        let name = match value {
+            Arrangement::Alone => "A",
+            Arrangement::Difference => "diff",
+            other => other.name(),
+        };
+        (value, name.to_owned())
+    });
+    let tips = [tip("wipe"), tip("side"), tip("difference"), tip("flip")].join("\n");
+    commands.extend(choice(ui, "Show", &tips, viewer.arrangement(), &values).map(Command::Arrange));
+}
+
+/// Which difference, how strong, and what its colours mean.
+fn difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    heading(ui, "Difference");
+    let style = viewer.difference_style();
+    let values = Measure::ALL.map(|value| (value, value.name().to_owned()));
+    let chosen = choice(ui, "Difference", &tip("difference"), style.measure, &values);
+    commands.extend(chosen.map(Command::SetMeasure));
+    let gain = viewer.difference_gain().unwrap_or(1.0);
+    let normalized = style.gain == Gain::Normalize;
+    row(ui, "Gain", |ui| {
+        let mut value = gain;
+        let field = DragValue::new(&mut value)
+            .range(1e-6..=1e6)
+            .speed(f64::from(gain) * 0.01)
+            .max_decimals(3)
+            .prefix("× ");
+        let layout = Layout::centered_and_justified(ui.layout().main_dir());
+        let width = ui.available_width() - 2.0 * (CONTROL.x + 4.0);
+        ui.allocate_ui_with_layout(vec2(width, CONTROL.y), layout, |ui| {
+            let tip = format!("{}\ndrag, or click and type", tip("gain"));
+            ui.add(field.clip_text(true).update_while_editing(false))
+                .on_hover_text(tip)
+                .accessible_name("Gain");
+        });
+        #[expect(clippy::float_cmp, reason = "a number that nobody touched is the same one")]
+        if value != gain {
+            commands.push(Command::SetGain(value));
+        }
+        for (id, text) in [("weaker-difference", "÷2"), ("stronger-difference", "×2")] {
+            if command_button(ui, id, text).clicked() {
+                run(id, commands);
+            }
+        }
+    });
+    row(ui, "", |ui| {
+        let mut on = normalized;
+        let response = ui.checkbox(&mut on, "to the largest").on_hover_text(tip("normalize"));
+        if response.accessible_name("Normalise").changed() {
+            commands.push(Command::Normalize(if on { Toggle::On } else { Toggle::Off }));
+        }
+    });
+    legend(ui, style.measure, gain);
+}
+
+/// The colours from end to end with the numbers that they stand for.
+fn legend(ui: &mut Ui, measure: Measure, gain: f32) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), LEGEND), Sense::hover());
+    let map = measure.colormap();
+    let step = rect.width() / f32::from(LEGEND_STEPS);
+    for index in 0..LEGEND_STEPS {
+        let part = (f32::from(index) + 0.5) / f32::from(LEGEND_STEPS);
+        let value = match map {
+            Colormap::Diverging => 2.0 * part - 1.0,
+            Colormap::Sequential => part,
+        };
+        let [_, r, g, b] = map.color(value).to_be_bytes();
+        let left = rect.left() + f32::from(index) * step;
+        // Half a point more, so that no line is between two colours.
+        let piece = egui::Rect::from_min_max(pos2(left, rect.top()), pos2(left + step + 0.5, rect.bottom()));
+        let piece = piece.intersect(rect);
+        ui.painter().rect_filled(piece, 0.0, egui::Color32::from_rgb(r, g, b));
+    }
+    let end = 1.0 / f64::from(gain);
+    let numbers = match measure {
+        Measure::Signed => vec![
+            format!("−{} levels", levels(end)),
+            "0".to_owned(),
+            format!("+{} levels", levels(end)),
+        ],
+        Measure::Absolute => vec!["0".to_owned(), format!("{} levels and more", levels(end))],
+        Measure::Relative => vec!["0".to_owned(), format!("{} % of A and more", short(end * 100.0))],
+        Measure::Squared => vec![
+            "0".to_owned(),
+            format!("{} levels² and more", short(end * 255.0 * 255.0)),
+        ],
+    };
+    let ink = ui.visuals().weak_text_color();
+    let (row, _) = ui.allocate_exact_size(vec2(rect.width(), 14.0), Sense::hover());
+    let last = numbers.len() - 1;
+    for (index, text) in numbers.into_iter().enumerate() {
+        let (x, align) = match index {
+            0 => (row.left(), egui::Align2::LEFT_CENTER),
+            index if index == last => (row.right(), egui::Align2::RIGHT_CENTER),
+            _ => (row.center().x, egui::Align2::CENTER_CENTER),
+        };
+        let font = egui::FontId::proportional(11.0);
+        ui.painter().text(pos2(x, row.center().y), align, text, font, ink);
+    }
+    if measure == Measure::Signed {
+        ui.label(RichText::new("blue: B is darker; orange: B is lighter").small().weak());
+    }
+}
+
+/// A part of full scale as levels of 255.
+fn levels(part: f64) -> String {
+    short(part * 255.0)
+}
+
+/// A number with about three digits and no zeros behind the point.
+fn short(value: f64) -> String {
+    let decimals = match value {
+        v if v >= 100.0 => 0,
+        v if v >= 10.0 => 1,
+        v if v >= 1.0 => 2,
+        _ => 4,
+    };
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// The numbers; those of other pictures are marked.
+fn metrics(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let found = viewer.measures();
+    let title = match found {
+        Some((_, true)) | None => "How far apart",
+        Some((_, false)) => "How far apart (before the last change)",
+    };
+    heading(ui, title);
+    let Some((measures, is_current)) = found else {
+        ui.label(RichText::new("measuring …").weak());
+        return;
+    };
+    Grid::new("metrics")
+        .num_columns(2)
+        .spacing(vec2(8.0, 3.0))
+        .min_row_height(16.0)
+        .show(ui, |ui| {
+            for (name, value, tip) in lines(measures) {
+                ui.label(RichText::new(name).weak()).on_hover_text(tip);
+                let text = RichText::new(value).monospace();
+                let text = if is_current { text } else { text.weak().italics() };
+                ui.label(text).on_hover_text(tip);
+                ui.end_row();
+            }
+        });
+    ui.add_space(2.0);
+    ui.horizontal(|ui| {
+        let button = ui.add_enabled(
+            !measures.places.is_empty(),
+            Button::new("Next difference").min_size(CONTROL),
+        );
+        let button = button.on_hover_text(tip("next-difference"));
+        if button.accessible_name("Next difference").clicked() {
+            commands.push(Command::NextDifference);
+        }
+        if let Some(index) = viewer.pinned_place() {
+            let place = format!("{} of {}", index + 1, measures.places.len());
+            ui.label(RichText::new(place).small().weak());
+        }
+    });
+}
+
+/// Name, value, and what it is.
+fn lines(measures: &Measures) -> Vec<(&'static str, String, &'static str)> {
+    let levels = &measures.levels;
+    let share = levels.differing() as f64 * 100.0 / (levels.pixels as f64).max(1.0);
+    let share = match share {
+        share if levels.differing() > 0 && share < 0.01 => "< 0.01 %".to_owned(),
+        share => format!("{share:.2} %"),
+    };
+    let largest = match measures.places.first() {
+        Some(place) => format!("{} at {}, {}", place.largest(), place.at[0], place.at[1]),
+        None => "0".to_owned(),
+    };
+    let psnr = match levels.psnr() {
+        ratio if ratio.is_finite() => format!("{ratio:.2} dB"),
+        _ => "infinite".to_owned(),
+    };
+    let seen = |value: Option<f64>| value.map_or("…".to_owned(), |value| format!("{value:.5}"));
+    vec![
+        (
+            "Differing",
+            format!("{} ({share})", levels.differing()),
+            "Pixels of which any channel differs. In brackets their share of the picture.",
+        ),
+        (
+            "Largest",
+            largest,
+            "The largest difference of any channel, in levels of 255. Then its pixel.",
+        ),
+        (
+            "MAE",
+            format!("{:.4}", levels.mae()),
+            "Mean absolute error over pixels and channels, in levels of 255. 0 for equal pictures.",
+        ),
+        (
+            "RMSE",
+            format!("{:.4}", levels.rmse()),
+            "Root mean square error over pixels and channels, in levels of 255. Large differences weigh more.",
+        ),
+        (
+            "PSNR",
+            psnr,
+            "Peak signal-to-noise ratio, 20 log10(255 / RMSE). More is better; infinite for equal pictures.",
+        ),
+        (
+            "SSIM",
+            seen(measures.seen.map(|seen| seen.ssim)),
+            "Structural similarity of luma, Wang et al. 2004. 1 for equal pictures, less for others.",
+        ),
+        (
+            "FLIP",
+            seen(measures.seen.map(|seen| seen.flip)),
+            "What people see when they flip between both, Andersson et al. 2020. 0 when nobody sees a difference.",
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (255.0, "255"),
+            (31.875, "31.9"),
+            (2.5, "2.5"),
+            (0.25, "0.25"),
+            (1000.0, "1000"),
+        ] {
+            assert_eq!(short(value), text);
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! What lies over the picture while A and B share the window: the line of the wipe, and which picture is which.
+
+use egui::{Align2, Color32, CursorIcon, FontId, Rect, Stroke, Ui, Vec2, pos2, vec2};
+
+use super::floating::points;
+use crate::viewer::{Arrangement, Viewer};
+
+/// Free space between a tag and what is beside it, in points.
+const MARGIN: f32 = 10.0;
+/// Space inside a tag, in points.
+const PADDING: Vec2 = vec2(8.0, 4.0);
+/// Side of the letter beside an inset, in points.
+const LETTER: f32 = 20.0;
+/// Radius of the line's handle, in points.
+const HANDLE: f32 = 9.0;
+
+/// Draws line and tags inside `free`, the tags where nothing is `taken`. Returns where the tags are.
+pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<Rect> {
+    let Some([a, b]) = viewer.comparison_sides() else {
+        return Vec::new();
+    };
+    let scale = ui.pixels_per_point();
+    let insets = viewer.inset().into_iter().chain(viewer.other_inset());
+    let taken: Vec<Rect> = insets
+        .map(|placed| points(&placed.rect, scale))
+        .chain(taken.iter().copied())
+        .collect();
+    let left = free.left() + MARGIN;
+    let places: Vec<(String, f32, Align2)> = match viewer.arrangement() {
+        Arrangement::Alone => return Vec::new(),
+        Arrangement::Wipe => {
+            let Some(line) = viewer.wipe_line() else {
+                return Vec::new();
+            };
+            #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
+            let line = line as f32 / scale;
+            draw_line(ui, viewer, free, line);
+            vec![
+                (a, line - MARGIN, Align2::RIGHT_TOP),
+                (b, line + MARGIN, Align2::LEFT_TOP),
+            ]
+        }
+        Arrangement::SideBySide => {
+            let middle = free.center().x + MARGIN;
+            vec![(a, left, Align2::LEFT_TOP), (b, middle, Align2::LEFT_TOP)]
+        }
+        Arrangement::Difference => {
+            let what = format!("B \u{2212} A, {}", viewer.difference_style().measure.name());
+            vec![(what, left, Align2::LEFT_TOP)]
+        }
+        Arrangement::Flip => {
+            let seen = if viewer.flip_shows_b() { b } else { a };
+            vec![(seen, left, Align2::LEFT_TOP)]
+        }
+    };
+    let tags = places
+        .into_iter()
+        .filter_map(|(text, x, align)| tag(ui, free, &taken, (text, x, align)));
+    let tags = tags.collect();
+    letters(ui, viewer, free);
+    tags
+}
+
+/// Which inset is whose: a letter outside, where no magnified pixel is.
+fn letters(ui: &Ui, viewer: &Viewer, free: Rect) {
+    let Some(other) = viewer.other_inset() else { return };
+    for (letter, placed) in viewer.inset().map(|own| ("A", own)).into_iter().chain([("B", other)]) {
+        let inset = points(&placed.rect, ui.pixels_per_point());
+        let corner = if inset.left() - LETTER > free.left() {
+            inset.left_top() - vec2(LETTER, 0.0)
+        } else {
+            inset.right_top()
+        };
+        let place = Rect::from_min_size(corner, Vec2::splat(LETTER));
+        ui.painter().rect_filled(place, 0.0, Color32::from_black_alpha(190));
+        let font = FontId::proportional(13.0);
+        ui.painter()
+            .text(place.center(), Align2::CENTER_CENTER, letter, font, Color32::WHITE);
+    }
+}
+
+/// The line with its handle; the pointer tells that it can be dragged.
+fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, x: f32) {
+    if viewer.pointer_over_line() {
+        ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
+    }
+    if !free.x_range().contains(x) {
+        return;
+    }
+    let painter = ui.painter();
+    let middle = pos2(x, free.center().y);
+    for (width, color) in [(4.0, Color32::from_black_alpha(150)), (2.0, Color32::WHITE)] {
+        painter.vline(x, free.y_range(), Stroke::new(width, color));
+    }
+    painter.circle(
+        middle,
+        HANDLE,
+        Color32::WHITE,
+        Stroke::new(1.5, Color32::from_black_alpha(170)),
+    );
+    let ink = Stroke::new(1.5, Color32::from_gray(40));
+    for side in [-1.0, 1.0] {
+        let tip = middle + vec2(5.5 * side, 0.0);
+        for up in [-3.0, 3.0] {
+            painter.line_segment([tip, tip + vec2(-3.0 * side, up)], ink);
+        }
+    }
+}
+
+/// Words on a dark ground at `x`, as high up as nothing is in their way; none where they do not fit.
+fn tag(ui: &Ui, free: Rect, taken: &[Rect], (text, x, align): (String, f32, Align2)) -> Option<Rect> {
+    let wide = (free.width() / 2.0 - 2.0 * MARGIN).max(40.0);
+    let galley = ui
+        .painter()
+        .layout(text, FontId::proportional(12.0), Color32::WHITE, wide);
+    let size = galley.size() + 2.0 * PADDING;
+    let mut place = align.anchor_size(pos2(x, free.top() + MARGIN), size);
+    while let Some(other) = taken.iter().find(|other| other.intersects(place)) {
+        place = place.translate(vec2(0.0, other.bottom() + MARGIN - place.top()));
+    }
+    if !free.contains_rect(place) {
+        return None;
+    }
+    ui.painter().rect_filled(place, 5.0, Color32::from_black_alpha(190));
+    ui.painter().galley(place.min + PADDING, galley, Color32::WHITE);
+    Some(place)
+}

@@ -1,0 +1,113 @@
+//! A against B: what the picture that keys change (A) is compared with (B), and how both share the window.
+//!
+//! A and B show the same scene from the same place. A comparison that was closed costs nothing: B has no frame then, and
+//! its thread sleeps.
+
+mod change;
+mod composite;
+mod measuring;
+mod pair;
+mod words;
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::Frame;
+use super::background::Mailbox;
+use super::drawing::Drawing;
+use super::state::Finished;
+use crate::compare::{DifferencePaint, DifferenceStyle};
+use crate::render::RenderSettings;
+
+pub(super) use composite::{BEYOND, Composite};
+pub(super) use measuring::Measured;
+pub use measuring::{Measures, Seen};
+pub(super) use pair::Panes;
+
+use measuring::Measuring;
+
+/// How long each of both is to be seen while they flip.
+const FLIP: Duration = Duration::from_millis(700);
+
+/// What A is compared with.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Other {
+    /// The same scene under these settings.
+    Settings(RenderSettings),
+}
+
+/// What a command compares A with.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Against {
+    /// A copy of the settings of this moment.
+    Settings,
+    /// Nothing: the comparison is closed.
+    Nothing,
+}
+
+/// How A and B share the window.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Arrangement {
+    /// A alone.
+    #[default]
+    Alone,
+    /// A on the left of a line, B on its right.
+    Wipe,
+    /// The whole of both, each in its half.
+    SideBySide,
+    /// What differs, in colours.
+    Difference,
+    /// A and B in turn.
+    Flip,
+}
+
+/// The state of comparing.
+#[derive(Debug)]
+pub(super) struct Comparison {
+    pub(super) other: Option<Other>,
+    pub(super) arrangement: Arrangement,
+    pub(super) style: DifferenceStyle,
+    /// The gain that normalising goes back to.
+    gain: f32,
+    /// Where the line of the wipe is: the part of the frame's width that is A's, `0.0..=1.0`.
+    pub(super) wipe: f64,
+    /// Whether the pointer drags that line.
+    pub(super) drags_line: bool,
+    /// When both change places next, and whether B is to be seen now.
+    flip: Option<(Instant, bool)>,
+    mailbox: Mailbox<Finished>,
+    /// B's frames: started for the first B, and kept.
+    drawing: Option<Drawing>,
+    /// What is to be seen while one of both frames shows where the other was before.
+    held: Option<[Arc<Frame>; 2]>,
+    /// How differences are coloured, for the style and the frames that it was made for.
+    paint: Option<Paint>,
+    measuring: Measuring,
+    /// Grows with every change of what is to be seen that no frame's number tells.
+    number: u64,
+}
+
+/// Colours of differences.
+#[derive(Debug)]
+struct Paint {
+    colors: DifferencePaint,
+    style: DifferenceStyle,
+    /// The frames' numbers, where the colours depend on them.
+    frames: Option<[u64; 2]>,
+}
+
+impl Arrangement {
+    /// Every value, in the order of menus.
+    pub const ALL: [Self; 5] = [Self::Alone, Self::Wipe, Self::SideBySide, Self::Difference, Self::Flip];
+
+    /// The name used in the interface and in scripts.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Alone => "alone",
+            Self::Wipe => "wipe",
+            Self::SideBySide => "side",
+            Self::Difference => "difference",
+            Self::Flip => "flip",
+        }
+    }
+}

@@ -1,0 +1,503 @@
+//! A against B without a window: which settings each has, what the window shows of both, what Esc closes.
+
+use std::time::{Duration, Instant};
+
+use glam::dvec2;
+use rasterscope::compare::{DifferencePaint, DifferenceStyle, Gain, Measure, Pair};
+use rasterscope::raster::{Framebuffer, SampleRate};
+use rasterscope::render::CancelToken;
+use rasterscope::texture::PixelSampling;
+use rasterscope::viewer::{Against, Arrangement, Command, Effect, PixelRect, PixelZoom, PointerButton, Toggle};
+
+use crate::support::session::{SQUARE, Session, TRIANGLES};
+
+const WINDOW: [u32; 2] = [160, 120];
+
+/// A at rate 16, B at rate 1.
+fn sixteen_against_one(window: [u32; 2]) -> Session {
+    let mut session = Session::open(&[TRIANGLES, SQUARE], window);
+    session.keys(&["r"]);
+    session.run(Command::SetSampleRate(SampleRate::new(16).unwrap()));
+    session
+}
+
+/// Both frames.
+fn frames(session: &Session) -> [Framebuffer; 2] {
+    let other = session.viewer.other_frame().unwrap().pixels.clone();
+    [session.pixels().clone(), other]
+}
+
+#[test]
+fn comparison_swaps_settings_and_frames() {
+    let mut session = Session::open(&[TRIANGLES], WINDOW);
+    let one = session.pixels().clone();
+    session.keys(&["r"]);
+    assert_eq!(session.viewer.messages().len(), 1, "the first press says what it did");
+    assert!(
+        session.viewer.title().contains("A against B: the same settings"),
+        "{}",
+        session.viewer.title()
+    );
+    session.keys(&["=", "=", "=", "p"]);
+    let sixteen = session.pixels().clone();
+    assert!(sixteen != one, "keys change A");
+    let title = session.viewer.title();
+    assert!(
+        title.starts_with("1.svg - A against B: sample rate 16 | 1, pixel sampling bilinear | nearest - "),
+        "{title}"
+    );
+    for (front, back, rate) in [(&one, &sixteen, 1), (&sixteen, &one, 16), (&one, &sixteen, 1)] {
+        session.keys(&["r"]);
+        assert!(session.pixels() == front, "rate {rate} is on the screen");
+        assert!(session.viewer.window_picture() == *front, "all of the window is A's");
+        assert!(frames(&session)[1] == *back, "the other is B");
+        assert_eq!(
+            session.viewer.settings().render.sample_rate.samples(),
+            rate,
+            "its settings"
+        );
+        session.assert_frame_is_current();
+    }
+    assert_eq!(
+        session.viewer.settings().render.pixel_sampling,
+        PixelSampling::Nearest,
+        "all settings"
+    );
+}
+
+#[test]
+fn comparison_keeps_view_and_scene_together() {
+    let mut session = sixteen_against_one(WINDOW);
+    session.keys(&["w"]);
+    for command in [
+        Command::PanBy { by: dvec2(9.0, 4.0) },
+        Command::ZoomAt { at: None, factor: 1.7 },
+        Command::RotateBy { degrees: 20.0 },
+        Command::NextScene,
+        Command::Resize([200, 90]),
+        Command::SetPixelZoom(PixelZoom::new(2).unwrap()),
+    ] {
+        session.run(command.clone());
+        let [a, b] = frames(&session);
+        session.assert_frame_is_current();
+        session.keys(&["r"]);
+        session.assert_frame_is_current();
+        assert!(frames(&session) == [b, a], "B was as current as A after {command:?}");
+        session.keys(&["r"]);
+    }
+}
+
+#[test]
+fn comparison_wipe_is_pixel_exact() {
+    // A third of 160 window pixels are 54 frame pixels.
+    for (zoom, columns) in [(1, [80, 0, 160, 40]), (3, [27, 0, 54, 14])] {
+        let mut session = sixteen_against_one(WINDOW);
+        session.run(Command::SetPixelZoom(PixelZoom::new(zoom).unwrap()));
+        session.run(Command::Arrange(Arrangement::Wipe));
+        for (part, column) in [0.5, 0.0, 1.0, 0.25].into_iter().zip(columns) {
+            session.run(Command::SetWipe(part));
+            let [a, b] = frames(&session);
+            assert_eq!(session.viewer.wipe_line(), Some(f64::from(column * zoom)), "the line");
+            let window = session.viewer.window_picture();
+            for y in 0..WINDOW[1] {
+                for x in 0..WINDOW[0] {
+                    let from = if x / zoom < column { &a } else { &b };
+                    assert_eq!(
+                        window.rgba(x, y),
+                        from.rgba(x / zoom, y / zoom),
+                        "{x}, {y} at {part}, zoom {zoom}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn comparison_line_is_dragged() {
+    let mut session = sixteen_against_one(WINDOW);
+    session.keys(&["w"]);
+    let view = session.viewer.view_numbers();
+    for command in [
+        Command::PointerMoved { at: dvec2(82.0, 60.0) },
+        Command::PointerPressed(PointerButton::Primary),
+        Command::PointerMoved { at: dvec2(40.0, 70.0) },
+        Command::PointerReleased(PointerButton::Primary),
+        Command::PointerMoved { at: dvec2(100.0, 70.0) },
+    ] {
+        session.run(command);
+    }
+    assert_eq!(
+        session.viewer.wipe_line(),
+        Some(40.0),
+        "the line went with the pointer until the button went up"
+    );
+    assert_eq!(session.viewer.view_numbers(), view, "the picture stayed");
+    session.run(Command::PointerPressed(PointerButton::Primary));
+    session.run(Command::PointerMoved { at: dvec2(110.0, 70.0) });
+    assert_ne!(
+        session.viewer.view_numbers(),
+        view,
+        "away from the line a drag moves the picture"
+    );
+    assert_eq!(session.viewer.wipe_line(), Some(40.0), "and not the line");
+}
+
+#[test]
+fn comparison_difference_is_the_pairs_picture() {
+    let mut session = sixteen_against_one(WINDOW);
+    session.keys(&["d"]);
+    let shows = |session: &Session, style: DifferenceStyle, what: &str| {
+        let [a, b] = frames(session);
+        let mut expected = Framebuffer::default();
+        let gain = Pair::new(&a, &b).unwrap().show(style, &mut expected);
+        assert!(session.viewer.window_picture() == expected, "{what}");
+        assert_eq!(session.viewer.difference_gain(), Some(gain), "{what}: the gain");
+    };
+    let mut style = DifferenceStyle::default();
+    shows(&session, style, "absolute");
+    for measure in Measure::ALL {
+        style.measure = measure;
+        session.run(Command::SetMeasure(measure));
+        shows(&session, style, measure.name());
+    }
+    style.gain = Gain::Factor(8.0);
+    session.run(Command::SetGain(4.0));
+    session.run(Command::StepGain(1));
+    shows(&session, style, "a gain of 8");
+    style.gain = Gain::Normalize;
+    session.keys(&["Shift+D"]);
+    shows(&session, style, "normalised");
+    session.run(Command::ZoomAt { at: None, factor: 1.4 });
+    shows(&session, style, "normalised anew for another view");
+    session.keys(&["r"]);
+    shows(&session, style, "normalised anew for the swapped pair");
+    session.keys(&["Shift+D"]);
+    style.gain = Gain::Factor(8.0);
+    shows(&session, style, "back to the gain of before");
+    session.keys(&["d"]);
+    assert!(session.viewer.window_picture() == *session.pixels(), "A alone again");
+}
+
+#[test]
+fn comparison_side_by_side_shows_all_of_both() {
+    let mut session = sixteen_against_one([400, 200]);
+    session.run(Command::SetFreeArea(Some(PixelRect {
+        x: 40,
+        y: 10,
+        width: 301,
+        height: 180,
+    })));
+    session.run(Command::ToggleArrangement(Arrangement::SideBySide));
+    let [a, b] = frames(&session);
+    assert_eq!(
+        [a.width(), a.height()],
+        [149, 180],
+        "half of the free area less the gap"
+    );
+    session.assert_frame_is_current();
+    let window = session.viewer.window_picture();
+    for y in 0..180 {
+        for x in 0..149 {
+            assert_eq!(window.rgba(40 + x, 10 + y), a.rgba(x, y), "A at {x}, {y}");
+            assert_eq!(window.rgba(40 + 149 + 2 + x, 10 + y), b.rgba(x, y), "B at {x}, {y}");
+        }
+    }
+    for (at, pixel) in [([45.0, 12.0], [5, 2]), ([40.0 + 151.0 + 7.0, 13.0], [7, 3])] {
+        session.run(Command::PointerMoved { at: at.into() });
+        assert_eq!(
+            session.viewer.hovered_pixel(),
+            Some(pixel),
+            "the same pixel of both at {at:?}"
+        );
+    }
+    // Zooming about a place in B's half keeps what is there.
+    session.run(Command::PointerMoved { at: dvec2(260.5, 60.5) });
+    let before = session.viewer.status().unwrap().user;
+    session.run(Command::Wheel { clicks: 2.0 });
+    let after = session.viewer.status().unwrap().user;
+    assert!(after.abs_diff_eq(before, 1e-9), "{before} moved to {after}");
+    session.run(Command::Screenshot);
+    let saved = image::open(&session.pictures()[0]).unwrap().into_rgba8();
+    assert_eq!(
+        saved.dimensions(),
+        (300, 180),
+        "both and the gap, without what lies below the panels"
+    );
+}
+
+#[test]
+fn comparison_escape_leaves_the_mode_first_and_b_last() {
+    let mut session = sixteen_against_one([400, 300]);
+    session.run(Command::Pin([20, 30]));
+    session.keys(&["w", "d"]);
+    let state = |session: &Session| {
+        let viewer = &session.viewer;
+        (
+            viewer.arrangement(),
+            viewer.pinned_pixel().is_some(),
+            viewer.inspector().open,
+            viewer.other().is_some(),
+        )
+    };
+    assert_eq!(
+        state(&session),
+        (Arrangement::Difference, true, true, true),
+        "one arrangement at a time"
+    );
+    for expected in [
+        (Arrangement::Alone, true, true, true),
+        (Arrangement::Alone, false, true, true),
+        (Arrangement::Alone, false, false, true),
+        (Arrangement::Alone, false, false, false),
+    ] {
+        assert_eq!(session.run(Command::Escape), [], "not yet");
+        assert_eq!(state(&session), expected, "arrangement, pin, inspector, B");
+    }
+    assert!(session.viewer.other_frame().is_none(), "B's frame is let go");
+    assert_eq!(session.run(Command::Escape), [Effect::Quit], "nothing is open any more");
+}
+
+#[test]
+fn comparison_saves_what_is_on_the_screen() {
+    let mut session = sixteen_against_one(WINDOW);
+    session.keys(&["w", "s", "d"]);
+    let window = session.viewer.window_picture();
+    session.keys(&["s"]);
+    let [wipe, difference] = [0, 1].map(|i| image::open(&session.pictures()[i]).unwrap().into_rgba8());
+    let [a, b] = frames(&session);
+    for (x, y, pixel) in wipe.enumerate_pixels() {
+        let from = if x < 80 { &a } else { &b };
+        assert_eq!(Some(pixel.0), from.rgba(x, y), "{x}, {y} of the wipe");
+    }
+    for (x, y, pixel) in difference.enumerate_pixels() {
+        assert_eq!(Some(pixel.0), window.rgba(x, y), "{x}, {y} of the difference");
+    }
+}
+
+#[test]
+fn comparison_inspects_both_at_the_same_pixel() {
+    let mut session = sixteen_against_one([640, 480]);
+    let [x, y] = session.viewer.measures().unwrap().0.places[0].at;
+    session.run(Command::Pin([x.into(), y.into()]));
+    assert!(session.viewer.other_inset().is_none(), "A alone");
+    session.keys(&["d"]);
+    let (a, b) = (session.viewer.inset().unwrap(), session.viewer.other_inset().unwrap());
+    assert_eq!(a.inset.center, b.inset.center, "the same pixel");
+    let window = session.viewer.window_picture();
+    let frames = frames(&session);
+    let mut unequal = 0;
+    for (placed, frame) in [(a, &frames[0]), (b, &frames[1])] {
+        for x in x - 3..x + 3 {
+            // The pixel in the middle may have its samples drawn over it.
+            let y = y - 1;
+            let block = placed.block([x.into(), y.into()]).unwrap();
+            let middle = [
+                block.x + i64::from(block.width) / 2,
+                block.y + i64::from(block.height) / 2,
+            ];
+            let [u, v] = middle.map(|at| u32::try_from(at).unwrap());
+            assert_eq!(window.rgba(u, v), frame.rgba(x, y), "pixel {x}, {y}");
+            unequal += u32::from(frames[0].rgba(x, y + 1) != frames[1].rgba(x, y + 1));
+        }
+        let corner = placed.rect;
+        session.run(Command::PointerMoved {
+            at: dvec2((corner.x + 20) as f64, (corner.y + 20) as f64),
+        });
+        assert!(session.viewer.pointer_over_inset(), "both can be read");
+        assert!(session.viewer.hovered_pixel().is_some(), "magnified pixels");
+    }
+    assert!(unequal > 0, "an edge runs there");
+}
+
+#[test]
+fn comparison_draws_the_parts_that_changed() {
+    let mut session = sixteen_against_one(WINDOW);
+    let mut window = session.viewer.window_picture();
+    assert!(session.viewer.take_damage().is_none(), "at first everything");
+    for command in [
+        Command::Arrange(Arrangement::Wipe),
+        Command::SetWipe(0.3),
+        Command::SwapAb,
+        Command::SampleRateDown,
+        Command::Arrange(Arrangement::Difference),
+        Command::Normalize(Toggle::On),
+        Command::PanBy { by: dvec2(3.0, 0.0) },
+        Command::Compare(Against::Nothing),
+        Command::Compare(Against::Settings),
+        Command::Arrange(Arrangement::SideBySide),
+    ] {
+        session.run(command.clone());
+        let parts = session.viewer.take_damage();
+        let all = [PixelRect::of_size(WINDOW)];
+        let parts = parts.as_deref().unwrap_or(&all);
+        session
+            .viewer
+            .draw_parts(parts, &mut rasterscope::viewer::WindowPixels::of(&mut window));
+        assert!(window == session.viewer.window_picture(), "after {command:?}");
+    }
+}
+
+#[test]
+fn comparison_of_a_moving_view_never_mixes_two_views() {
+    let mut session = sixteen_against_one([400, 300]);
+    // Previews differ by more.
+    session.run(Command::Progressive(Toggle::Off));
+    session.run(Command::SetSampleRate(SampleRate::new(64).unwrap()));
+    session.keys(&["d"]);
+    // A difference of one view has few pixels that differ; one of two views differs along every edge by several pixels.
+    let black = DifferencePaint::new(Measure::Absolute, 1.0).pixel(0, 0);
+    let strong = |session: &Session| {
+        let picture = session.viewer.window_picture();
+        picture.pixels().iter().filter(|pixel| **pixel != black).count()
+    };
+    let calm = strong(&session);
+    for step in 0..60 {
+        let _ = session.viewer.apply(Command::PanBy {
+            by: dvec2(if step % 20 < 10 { 9.0 } else { -9.0 }, 0.0),
+        });
+        session.viewer.poll();
+        std::thread::sleep(Duration::from_millis(2));
+        session.viewer.poll();
+        let seen = strong(&session);
+        assert!(seen < calm * 2, "{seen} pixels differ in step {step}, {calm} at rest");
+    }
+}
+
+#[test]
+fn comparison_flips_in_time() {
+    let mut session = sixteen_against_one(WINDOW);
+    let [a, b] = frames(&session);
+    session.run(Command::ToggleArrangement(Arrangement::Flip));
+    assert!(session.viewer.window_picture() == a, "A first");
+    let due = session.viewer.due().expect("something is to happen");
+    std::thread::sleep(due.saturating_duration_since(Instant::now()));
+    assert!(session.viewer.poll(), "it is time");
+    assert!(session.viewer.window_picture() == b, "then B");
+    session.run(Command::Escape);
+    assert!(session.viewer.window_picture() == a, "A alone");
+    assert_eq!(session.viewer.due(), None, "nothing to wait for");
+}
+
+#[test]
+fn comparison_commands_open_b_by_themselves() {
+    for key in ["w", "d", "Shift+D", "r"] {
+        let mut session = Session::open(&[TRIANGLES], WINDOW);
+        assert!(session.viewer.other_frame().is_none(), "nothing is drawn for nobody");
+        session.keys(&[key]);
+        assert!(
+            session.viewer.other().is_some() && session.viewer.other_frame().is_some(),
+            "{key} opens B"
+        );
+    }
+}
+
+#[test]
+fn comparison_measures_are_the_pairs() {
+    let mut session = sixteen_against_one(WINDOW);
+    for key in ["r", "w", "d", "="] {
+        session.keys(&[key]);
+        let [a, b] = frames(&session);
+        let pair = Pair::new(&a, &b).unwrap();
+        let (measures, is_current) = session.viewer.measures().expect("measured");
+        assert!(is_current, "of the pictures after {key}");
+        assert_eq!(measures.levels, pair.levels(), "counts after {key}");
+        assert_eq!(measures.places, pair.places(64), "places after {key}");
+        let never = CancelToken::default();
+        let seen = measures.seen.unwrap();
+        assert_eq!(Some(seen.ssim), pair.ssim(&never), "SSIM after {key}");
+        assert_eq!(Some(seen.flip), pair.flip(&never), "FLIP after {key}");
+    }
+    // Numbers of an older picture say so.
+    let _ = session.viewer.apply(Command::PanBy { by: dvec2(5.0, 5.0) });
+    assert!(
+        session.viewer.measures().is_some_and(|(_, is_current)| !is_current),
+        "stale"
+    );
+    session.viewer.finish();
+    assert!(
+        session.viewer.measures().is_some_and(|(_, is_current)| is_current),
+        "found out anew"
+    );
+    session.run(Command::Compare(Against::Nothing));
+    assert!(session.viewer.measures().is_none(), "nothing is compared");
+}
+
+#[test]
+fn comparison_measures_wait_for_rest() {
+    let mut session = sixteen_against_one(WINDOW);
+    let _ = session.viewer.apply(Command::PanBy { by: dvec2(5.0, 5.0) });
+    let start = Instant::now();
+    while !session.viewer.measures().is_some_and(|(_, is_current)| is_current) {
+        let due = session.viewer.due();
+        assert!(
+            start.elapsed() < Duration::from_secs(20),
+            "somebody measures in the end"
+        );
+        let wait = due.map_or(Duration::from_millis(5), |due| {
+            due.saturating_duration_since(Instant::now())
+        });
+        std::thread::sleep(wait.min(Duration::from_millis(50)));
+        session.viewer.poll();
+    }
+    assert!(
+        start.elapsed() >= Duration::from_millis(100),
+        "not while the hand moves"
+    );
+    session.viewer.finish();
+    assert_eq!(session.viewer.due(), None, "nothing is left to wait for");
+}
+
+#[test]
+fn comparison_goes_from_difference_to_difference() {
+    let mut session = sixteen_against_one([320, 240]);
+    let places: Vec<[u32; 2]> = session
+        .viewer
+        .measures()
+        .unwrap()
+        .0
+        .places
+        .iter()
+        .map(|place| place.at)
+        .collect();
+    assert!(places.len() > 3, "{places:?}");
+    for place in places.iter().chain(places.first()) {
+        session.keys(&["n"]);
+        assert_eq!(session.viewer.pinned_pixel(), Some(*place), "the next, round and round");
+    }
+    // Asked for before anything is known of the new picture.
+    let _ = session.viewer.apply(Command::PanBy { by: dvec2(7.0, 2.0) });
+    let _ = session.viewer.apply(Command::NextDifference);
+    session.viewer.finish();
+    let first = session.viewer.measures().unwrap().0.places[0].at;
+    assert_eq!(
+        session.viewer.pinned_pixel(),
+        Some(first),
+        "the one that differs most of the new picture"
+    );
+    session.run(Command::Unpin);
+    session.run(Command::SetSampleRate(SampleRate::ONE));
+    session.keys(&["n"]);
+    assert_eq!(session.viewer.pinned_pixel(), None, "nothing differs");
+    let message = &session.viewer.messages().last().unwrap().text;
+    assert!(message.contains("equal"), "{message}");
+}
+
+#[test]
+fn comparison_without_a_window_or_a_scene_ends() {
+    let mut session = Session::open(&[TRIANGLES, "<svg"], WINDOW);
+    session.run(Command::Resize([0, 0]));
+    session.keys(&["r", "w", "n", "="]);
+    session.run(Command::Resize(WINDOW));
+    session.assert_frame_is_current();
+    assert!(session.viewer.other_frame().is_some(), "B too");
+    session.run(Command::NextScene);
+    session.keys(&["d", "r", "n", "w"]);
+    assert!(
+        session.viewer.other_frame().is_none(),
+        "no picture of a scene that cannot be read"
+    );
+    session.run(Command::PreviousScene);
+    session.keys(&["d"]);
+    session.assert_frame_is_current();
+}

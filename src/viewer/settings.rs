@@ -147,6 +147,7 @@ pub(super) fn settings_words(render: &RenderSettings) -> Vec<(&'static str, Stri
     // Named one by one, so that no setting that is added can be forgotten here. The outline follows the view.
     let RenderSettings {
         sample_rate,
+        pattern,
         pixel_sampling,
         level_sampling,
         anisotropy,
@@ -163,6 +164,7 @@ pub(super) fn settings_words(render: &RenderSettings) -> Vec<(&'static str, Stri
     let level = fixed.map_or("auto".to_owned(), |level| level.level().to_string());
     vec![
         ("sample rate", sample_rate.samples().to_string()),
+        ("pattern", pattern.name().to_owned()),
         ("pixel sampling", pixel_sampling.name().to_owned()),
         ("level sampling", level_sampling.name().to_owned()),
         ("anisotropy", anisotropy.taps().to_string()),

@@ -64,6 +64,7 @@ pub(super) fn viewer_options(
         paths: options.paths.clone(),
         settings: options.settings,
         view: options.view,
+        against: options.against.clone(),
         window,
         screenshot_dir: options.screenshot_dir.clone(),
         theme: options.theme.or(theme).unwrap_or_default(),

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::geometry::View;
-use crate::viewer::{Settings, Theme};
+use crate::viewer::{Against, Settings, Theme};
 
 /// How a session starts.
 #[derive(Clone, Debug, Default)]
@@ -14,6 +14,8 @@ pub struct ViewOptions {
     pub settings: Settings,
     /// The view of every scene.
     pub view: View,
+    /// What the picture is compared with at the start.
+    pub against: Option<Against>,
     /// The window's inner size in device pixels; `None` is 1280x800 points.
     pub size: Option<[u32; 2]>,
     /// Device pixels per point of the panels, without a window only; `None` is 1.

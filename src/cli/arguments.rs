@@ -18,7 +18,7 @@ use crate::render::RenderSettings;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
-use crate::viewer::Theme;
+use crate::viewer::{Against, Theme};
 
 /// See how a picture is sampled.
 #[derive(Debug, Parser)]
@@ -68,6 +68,9 @@ pub(super) struct ViewerOptions {
     /// The window's size in device pixels [default: 1280x800]
     #[arg(long, value_name = "WxH")]
     pub(super) size: Option<FrameSize>,
+    /// Compare with this from the start: `truth`, `settings`, or the file of a PNG or JPEG
+    #[arg(long, value_name = "FILE|truth|settings", value_parser = against)]
+    pub(super) against: Option<Against>,
     #[command(flatten)]
     pub(super) sampling: SamplingOptions,
     #[command(flatten)]
@@ -280,6 +283,11 @@ fn lod_bias(text: &str) -> Result<LodBias, String> {
 fn lod_level(text: &str) -> Result<FixedLevel, String> {
     let level = text.parse().ok().and_then(FixedLevel::new);
     level.ok_or_else(|| "a fixed level is a number from 0, the base, to 16".to_owned())
+}
+
+fn against(text: &str) -> Result<Against, String> {
+    let against = Against::from_text(text).filter(|against| *against != Against::Nothing);
+    against.ok_or_else(|| "compare with truth, settings, or the file of a PNG or JPEG".to_owned())
 }
 
 fn gain(text: &str) -> Result<f32, String> {

@@ -26,6 +26,7 @@ pub(super) fn run(options: &ViewerOptions) -> Result<(), Failure> {
         paths: options.paths.clone(),
         settings: settings(options),
         view: options.framing.view,
+        against: options.against.clone(),
         size: options.size.map(|size| size.0),
         scale: options.scale,
         theme: options.theme,

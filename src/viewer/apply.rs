@@ -115,6 +115,7 @@ impl Viewer {
                 }
             }
             Finished::Measured(measured) => self.measured(measured),
+            Finished::PictureRead(read) => self.picture_read(read),
             Finished::Probed(probed) => self.probing.finished(probed),
             Finished::Thumbnail(thumbnail) => self.thumbnail_drawn(thumbnail),
             Finished::Saved(saved) => self.picture_saved(saved),
@@ -334,7 +335,7 @@ impl Viewer {
         let window = PixelRect::of_size(self.screen.window);
         let free = self.screen.free_area.map_or(window, |free| free.intersection(&window));
         let panes = self.panes();
-        let (corner, size) = if panes.second.is_some() {
+        let (corner, size) = if panes.second.is_some() || self.fixed_size().is_some() {
             (DVec2::ZERO, DVec2::from(panes.frame.map(f64::from)))
         } else {
             let corner = DVec2::new(free.x as f64, free.y as f64) / zoom;
@@ -347,24 +348,31 @@ impl Viewer {
         if let Some(entry) = self.scenes.get_mut(self.current) {
             entry.camera = Camera::default();
         }
+        self.center_fixed();
     }
 
     /// By window pixels.
     pub(super) fn pan(&mut self, by: DVec2) {
         let zoom = f64::from(self.settings.pixel_zoom.factor());
-        if by.is_finite() {
+        if by.is_finite() && !self.move_fixed(by / zoom) {
             self.look(|camera, sight| camera.pan(by / zoom, sight));
         }
     }
 
     /// About the centre of a window pixel, so that the status line goes on telling the same place.
     fn zoom(&mut self, at: Option<DVec2>, factor: f64) {
+        if self.zoom_fixed(at, factor) {
+            return;
+        }
         let at = at.map_or(self.middle(), |at| self.frame_position(at.floor() + 0.5));
         self.look(|camera, sight| camera.zoom(at, factor, sight));
     }
 
     /// Frame pixels become larger or smaller: the views are adapted so that the window shows the same part.
     fn set_pixel_zoom(&mut self, zoom: PixelZoom) {
+        if self.fixed_size().is_some() {
+            return self.zoom_fixed_to(None, zoom);
+        }
         let factor = f64::from(self.settings.pixel_zoom.factor()) / f64::from(zoom.factor());
         self.settings.pixel_zoom = zoom;
         let frame = self.frame_size();

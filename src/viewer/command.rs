@@ -231,6 +231,8 @@ pub enum Dialog {
     Palette,
     /// Asks for a pixel.
     GoToPixel,
+    /// Asks for a picture's path.
+    ComparePicture,
 }
 
 /// What a command asks of the program around the viewer.

@@ -3,7 +3,7 @@
 use super::commands::{Action, CommandSpec, Group};
 use super::key::{Chord, Key, Modifiers};
 use super::typed::{self, Argument};
-use super::{Arrangement, Command, Dialog, Toggle};
+use super::{Against, Arrangement, Command, Dialog, Toggle};
 
 /// Degrees that one press of a key turns the picture.
 const TURN: f64 = 5.0;
@@ -296,6 +296,7 @@ pub(super) static TABLE: &[CommandSpec] = &[
         "Doubles the gain of the difference",
         Group::Compare,
     )
+    .more("Small differences come to light, large ones all take the last colour")
     .run(&Command::StepGain(1)),
     spec(
         "weaker-difference",
@@ -303,6 +304,7 @@ pub(super) static TABLE: &[CommandSpec] = &[
         "Halves the gain of the difference",
         Group::Compare,
     )
+    .more("Large differences can be told apart again")
     .run(&Command::StepGain(-1)),
     spec(
         "side",
@@ -321,19 +323,36 @@ pub(super) static TABLE: &[CommandSpec] = &[
     .more("What differs then jumps to the eye")
     .run(&Command::ToggleArrangement(Arrangement::Flip)),
     spec(
+        "truth",
+        "Compare with the truth",
+        "Compares A with the same scene at 256 samples per pixel",
+        Group::Compare,
+    )
+    .more("Each of them reads textures at level zero; rules, background and pixel sampling are those of A")
+    .run(&Command::Compare(Against::Truth)),
+    spec(
+        "compare-picture",
+        "Compare with a picture",
+        "Asks for a PNG or JPEG to compare A with, such as another renderer's",
+        Group::Compare,
+    )
+    .more("A is then drawn with its size; a picture can also be dropped on the window")
+    .run(&Command::ToggleDialog(Dialog::ComparePicture)),
+    spec(
         "arrange",
         "Arrange A and B",
         "Sets how A and B share the window",
         Group::Compare,
     )
+    .more("Alone: A fills it, and B stays in the back")
     .argument(typed::ARRANGE),
     spec(
         "against",
         "Compare with",
-        "Sets what A is compared with",
+        "Sets what A is compared with: a copy of its settings, the truth, a picture's file, or none",
         Group::Compare,
     )
-    .more("Settings: a copy of those of now; none: nothing, which closes the comparison")
+    .more("None closes the comparison")
     .argument(typed::AGAINST),
     // Scenes.
     spec("scene", "Scene", "Shows the scene with this number", Group::Scenes)

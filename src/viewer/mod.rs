@@ -37,7 +37,7 @@ mod window_picture;
 pub use camera::{Camera, Sight, ViewNumbers};
 pub use command::{Command, Dialog, Effect, PointerButton};
 pub use commands::{Action, CommandSpec, Gesture, Group};
-pub use comparison::{Against, Arrangement, Measures, Other, Seen};
+pub use comparison::{Against, Arrangement, Measures, Other, OutsidePicture, Seen};
 pub use frame::{Frame, Manner, Picture, Preview};
 pub use inspector::{Inspector, PixelLabel, PlacedInset};
 pub use key::{Chord, Key, KeyPress, Modifiers};

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Frame, PixelLabel, PixelRect, PlacedInset, PointerButton, Status, Viewer};
+use super::{PixelLabel, PixelRect, PlacedInset, PointerButton, Status, Viewer};
 use crate::figure::is_dark;
 
 /// Where the pointer is and what it does.
@@ -84,7 +84,7 @@ impl Viewer {
     pub fn other_status_of(&self, pixel: [u32; 2]) -> Option<Status> {
         let [x, y] = pixel;
         Some(Status {
-            rgba: self.other_frame()?.final_rgba(x, y),
+            rgba: Some(self.other_final_rgba(x, y)?),
             ..self.status_of(pixel)?
         })
     }
@@ -94,12 +94,14 @@ impl Viewer {
     pub fn pixel_labels(&self, character: [f32; 2]) -> Vec<PixelLabel> {
         let has_marks = !self.pixel_samples().is_empty();
         let own = self.inset.zip(self.frame());
-        let other = self.other_inset.zip(self.other_frame());
         let labels = own.map(|(placed, frame)| {
             let has_marks = has_marks && !placed.inset.has_detail();
-            self.labels_of(&placed, frame, (character, has_marks))
+            self.labels_of(&placed, &|x, y| frame.final_rgba(x, y), (character, has_marks))
         });
-        let others = other.map(|(placed, frame)| self.labels_of(&placed, frame, (character, false)));
+        let other = |x, y| self.other_final_rgba(x, y);
+        let others = self
+            .other_inset
+            .map(|placed| self.labels_of(&placed, &other, (character, false)));
         labels.into_iter().chain(others).flatten().collect()
     }
 
@@ -107,7 +109,7 @@ impl Viewer {
     fn labels_of(
         &self,
         placed: &PlacedInset,
-        frame: &Frame,
+        rgba: &dyn Fn(u32, u32) -> Option<[u8; 4]>,
         (character, has_marks): ([f32; 2], bool),
     ) -> Vec<PixelLabel> {
         if !placed.labels_fit(character) {
@@ -119,7 +121,7 @@ impl Viewer {
         let label = |pixel: [i64; 2]| {
             let block = placed.block(pixel)?;
             let pixel = self.in_frame(pixel)?;
-            let rgba = frame.final_rgba(pixel[0], pixel[1])?;
+            let rgba = rgba(pixel[0], pixel[1])?;
             Some(PixelLabel {
                 pixel,
                 block,

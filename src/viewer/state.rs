@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use super::background::Mailbox;
-use super::comparison::{Comparison, Measured, Panes};
+use super::comparison::{Against, Comparison, Measured, Panes, ReadPicture, is_picture};
 use super::drawing::{Drawing, DrawingId, Drawn};
 use super::messages::Messages;
 use super::pointer::Pointer;
@@ -15,7 +15,7 @@ use super::reading::{ReadScene, Readers, Thumbnail};
 use super::screenshot::{Saved, Saver};
 use super::{
     Camera, Dialog, Frame, Inspector, Message, PixelRect, PixelZoom, PlacedInset, SceneEntry, SceneSource, Settings,
-    Sight, Theme, ViewNumbers, library, pattern_words, texture_words,
+    Sight, Theme, ViewNumbers, library,
 };
 use crate::geometry::View;
 
@@ -31,6 +31,8 @@ pub struct ViewerOptions {
     pub settings: Settings,
     /// The view of every scene.
     pub view: View,
+    /// What the picture is compared with at the start.
+    pub against: Option<Against>,
     /// The window in device pixels.
     pub window: [u32; 2],
     /// Where screenshots go; `None` is the current folder.
@@ -113,6 +115,7 @@ pub(super) enum Finished {
     Drawn(DrawingId, Drawn),
     Probed(Probed),
     Measured(Measured),
+    PictureRead(ReadPicture),
     Thumbnail(Thumbnail),
     Saved(Saved),
 }
@@ -123,6 +126,7 @@ impl std::fmt::Debug for ViewerOptions {
             .field("paths", &self.paths)
             .field("settings", &self.settings)
             .field("view", &self.view)
+            .field("against", &self.against)
             .field("window", &self.window)
             .finish_non_exhaustive()
     }
@@ -134,6 +138,7 @@ impl Default for ViewerOptions {
             paths: Vec::new(),
             settings: Settings::default(),
             view: View::Default,
+            against: None,
             window: [1280, 800],
             screenshot_dir: None,
             theme: Theme::default(),
@@ -186,14 +191,24 @@ impl Viewer {
         };
         viewer.drawing.set_progressive(viewer.settings.progressive);
         viewer.open(&options.paths);
+        if let Some(against) = options.against {
+            viewer.compare_from_the_start(against);
+        }
         viewer.update();
         Ok(viewer)
     }
 
     /// Adds the scenes in `paths` to the list and shows the first of them; at the start they are the list, or the
-    /// gallery is where they hold none.
+    /// gallery is where they hold none. A PNG or JPEG becomes B.
     pub(super) fn open(&mut self, paths: &[PathBuf]) {
-        let (mut scenes, problems) = library::list_scenes(paths);
+        let (pictures, documents): (Vec<&PathBuf>, Vec<&PathBuf>) = paths.iter().partition(|path| is_picture(path));
+        let documents: Vec<PathBuf> = documents.into_iter().cloned().collect();
+        // A picture alone at the start is told that it is no scene.
+        let compares = !self.scenes.is_empty() || !documents.is_empty();
+        let (mut scenes, problems) = library::list_scenes(if compares { &documents } else { paths });
+        if let Some(picture) = pictures.last().filter(|_| compares) {
+            self.compare(Against::File((*picture).clone()));
+        }
         for problem in problems {
             self.messages.error(problem);
         }
@@ -353,18 +368,9 @@ impl Viewer {
     /// The window's title: scene, settings or what of them differs between A and B, program.
     pub fn title(&self) -> String {
         let name = self.current().map_or("no scene", |entry| entry.label.as_str());
-        if let Some(words) = self.comparison_title() {
-            return format!("{name} - {words} - Rasterscope");
-        }
-        let render = &self.settings.render;
-        let mut words = vec![format!("sample rate {}", render.sample_rate.samples())];
-        words.extend(pattern_words(render));
-        words.extend([
-            format!("pixel sampling {}", render.pixel_sampling.name()),
-            format!("level sampling {}", render.level_sampling.name()),
-        ]);
-        words.extend(texture_words(render));
-        format!("{name} - {} - Rasterscope", words.join(", "))
+        let words = self.comparison_title();
+        let words = words.unwrap_or_else(|| self.own_words().join(", "));
+        format!("{name} - {words} - Rasterscope")
     }
 
     /// What the current camera looks at; `None` before the scene was read.

@@ -2,7 +2,7 @@
 
 use super::drawing::Changes;
 use super::present::{paste, show};
-use super::{Frame, PixelRect, PlacedInset, Viewer, WindowPixels};
+use super::{PixelRect, PlacedInset, Viewer, WindowPixels};
 use crate::figure::SampleMark;
 use crate::raster::{Framebuffer, Region};
 
@@ -27,11 +27,13 @@ impl Viewer {
         for part in parts {
             show(&composite, self.settings.pixel_zoom, window, part);
         }
-        if let Some(shown) = self.inset.zip(self.frame()) {
-            draw_inset(shown, &self.sample_marks(), parts, window);
+        if let Some((placed, frame)) = self.inset.zip(self.frame()) {
+            let rgba = |x, y| frame.final_rgba(x, y);
+            draw_inset((placed, &rgba), &self.sample_marks(), parts, window);
         }
-        if let Some(shown) = self.other_inset.zip(self.other_frame()) {
-            draw_inset(shown, &[], parts, window);
+        if let Some(placed) = self.other_inset {
+            let rgba = |x, y| self.other_final_rgba(x, y);
+            draw_inset((placed, &rgba), &[], parts, window);
         }
     }
 
@@ -87,7 +89,7 @@ impl Viewer {
 
 /// Draws an inset with `marks` as far as it lies in `parts`.
 fn draw_inset(
-    (placed, frame): (PlacedInset, &Frame),
+    (placed, rgba): (PlacedInset, &dyn Fn(u32, u32) -> Option<[u8; 4]>),
     marks: &[SampleMark],
     parts: &[PixelRect],
     window: &mut WindowPixels<'_>,
@@ -95,7 +97,7 @@ fn draw_inset(
     let mut inset = None;
     for part in parts.iter().filter(|part| part.overlaps(&placed.rect)) {
         // What is not final yet is hatched: the inspector shows nothing that is not so.
-        let inset = inset.get_or_insert_with(|| placed.inset.draw_pixels(&|x, y| frame.final_rgba(x, y), marks));
+        let inset = inset.get_or_insert_with(|| placed.inset.draw_pixels(rgba, marks));
         paste(inset, [placed.rect.x, placed.rect.y], window, part);
     }
 }

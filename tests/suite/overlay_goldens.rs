@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rasterscope::app::{ScriptSource, ViewOptions, run};
 use rasterscope::raster::Framebuffer;
-use rasterscope::viewer::Theme;
+use rasterscope::viewer::{Against, Theme};
 
 use crate::support::golden;
 
@@ -183,6 +183,37 @@ fn overlay_palette_takes_an_argument_later() {
     let chosen = after("panel on; key Ctrl+Shift+P; type rate; key Down; key Down; key Enter; type 16; key Enter");
     assert!(chosen == after("panel on; rate 16"), "as if typed in one go");
     assert!(chosen != after("panel on"), "the rate is to be seen");
+}
+
+/// What the picture is compared with can be said at the start; a picture that cannot be read is the user's mistake.
+#[test]
+fn overlay_against_from_the_start() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/basic/test4.svg");
+    let file = folder.path().join("window.png");
+    let options = |against: Option<Against>, script: Option<String>| ViewOptions {
+        paths: vec![document.clone()],
+        size: Some([640, 480]),
+        against,
+        script: script.map(ScriptSource::Text),
+        screenshot_dir: Some(folder.path().to_owned()),
+        headless: true,
+        ..ViewOptions::default()
+    };
+    let shot = |against: Option<Against>, first: &str| {
+        let script = format!("{first}hide on; shot \"{}\"", file.display());
+        run(options(against, Some(script))).unwrap();
+        image::open(&file).unwrap().into_rgba8()
+    };
+    let truth = shot(Some(Against::Truth), "");
+    assert!(truth == shot(None, "truth; "), "as if the command had been given");
+    assert!(truth != shot(None, ""), "it is to be seen");
+    let error = run(options(Some(Against::File("/nowhere/theirs.png".into())), None)).unwrap_err();
+    let text = error.to_string();
+    assert!(
+        error.is_input() && text.contains("/nowhere/theirs.png") && !text.contains('\n'),
+        "{text}"
+    );
 }
 
 /// A mistake in a script is the user's, and told with its place.

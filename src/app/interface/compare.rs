@@ -5,7 +5,7 @@ use egui::{Button, DragValue, Grid, Layout, RichText, Sense, Ui, pos2, vec2};
 use super::controls::{choice, command_button, heading, row, tip};
 use super::look::CONTROL;
 use crate::compare::{Colormap, Gain, Measure};
-use crate::viewer::{Action, Arrangement, Command, Measures, Toggle, Viewer, commands};
+use crate::viewer::{Action, Arrangement, Command, Measures, Other, Toggle, Viewer, commands};
 
 /// Height of the legend's colours, in points.
 const LEGEND: f32 = 12.0;
@@ -20,6 +20,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         difference(ui, viewer, commands);
     }
     metrics(ui, viewer, commands);
+    guess(ui, viewer);
 }
 
 /// What A and B are, and what can be done with them.
@@ -28,6 +29,10 @@ fn what(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     for side in viewer.comparison_sides().into_iter().flatten() {
         ui.label(RichText::new(side).small());
     }
+    if let Some(path) = viewer.loading_picture() {
+        let text = format!("reading {} …", path.display());
+        ui.label(RichText::new(text).small().weak());
+    }
     if viewer.comparison_words().is_some_and(|words| words.is_empty()) {
         let hint = "Both have the same settings: change A with its keys.";
         ui.label(RichText::new(hint).small().color(ui.visuals().warn_fg_color));
@@ -35,7 +40,8 @@ fn what(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     ui.add_space(2.0);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        for (id, text) in [("swap", "Swap")] {
+        let others = [("swap", "Swap"), ("truth", "Truth"), ("compare-picture", "Picture …")];
+        for (id, text) in others {
             if command_button(ui, id, text).clicked() {
                 run(id, commands);
             }
@@ -225,6 +231,34 @@ fn metrics(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             ui.label(RichText::new(place).small().weak());
         }
     });
+}
+
+/// Why a picture from outside differs, as far as that can be told.
+fn guess(ui: &mut Ui, viewer: &Viewer) {
+    let Some((measures, is_current)) = viewer.measures() else {
+        return;
+    };
+    let is_outside = matches!(viewer.other(), Some(Other::Picture(_)));
+    if !is_outside || measures.levels.differing() == 0 {
+        return;
+    }
+    heading(ui, "Guess at the cause");
+    let Some(guess) = measures.guess.as_ref().filter(|_| is_current) else {
+        ui.label(RichText::new("trying …").weak());
+        return;
+    };
+    if guess.causes.is_empty() {
+        ui.label("none: nothing known makes the pictures more alike");
+        return;
+    }
+    for cause in &guess.causes {
+        ui.label(cause.to_string());
+    }
+    // Rounded down, so that 100 % means all of it.
+    let percent = (guess.explained() * 1000.0).floor() / 10.0;
+    let tip = "A was drawn under every known cause; these make it most like B.";
+    let text = format!("explains {percent} % of the squared difference");
+    ui.label(RichText::new(text).small().weak()).on_hover_text(tip);
 }
 
 /// Name, value, and what it is.

@@ -19,6 +19,7 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<
     let Some([a, b]) = viewer.comparison_sides() else {
         return Vec::new();
     };
+    let [front, back] = if viewer.is_swapped() { [b, a] } else { [a, b] };
     let scale = ui.pixels_per_point();
     let insets = viewer.inset().into_iter().chain(viewer.other_inset());
     let taken: Vec<Rect> = insets
@@ -27,7 +28,8 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<
         .collect();
     let left = free.left() + MARGIN;
     let places: Vec<(String, f32, Align2)> = match viewer.arrangement() {
-        Arrangement::Alone => return Vec::new(),
+        Arrangement::Alone if !viewer.is_swapped() => return Vec::new(),
+        Arrangement::Alone => vec![(front, left, Align2::LEFT_TOP)],
         Arrangement::Wipe => {
             let Some(line) = viewer.wipe_line() else {
                 return Vec::new();
@@ -36,20 +38,26 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<
             let line = line as f32 / scale;
             draw_line(ui, viewer, free, line);
             vec![
-                (a, line - MARGIN, Align2::RIGHT_TOP),
-                (b, line + MARGIN, Align2::LEFT_TOP),
+                (front, line - MARGIN, Align2::RIGHT_TOP),
+                (back, line + MARGIN, Align2::LEFT_TOP),
             ]
         }
         Arrangement::SideBySide => {
             let middle = free.center().x + MARGIN;
-            vec![(a, left, Align2::LEFT_TOP), (b, middle, Align2::LEFT_TOP)]
+            vec![(front, left, Align2::LEFT_TOP), (back, middle, Align2::LEFT_TOP)]
         }
         Arrangement::Difference => {
-            let what = format!("B \u{2212} A, {}", viewer.difference_style().measure.name());
+            let order = if viewer.is_swapped() {
+                "A \u{2212} B"
+            } else {
+                "B \u{2212} A"
+            };
+            let what = format!("{order}, {}", viewer.difference_style().measure.name());
             vec![(what, left, Align2::LEFT_TOP)]
         }
         Arrangement::Flip => {
-            let seen = if viewer.flip_shows_b() { b } else { a };
+            let is_front = viewer.shows_b() == viewer.is_swapped();
+            let seen = if is_front { front } else { back };
             vec![(seen, left, Align2::LEFT_TOP)]
         }
     };

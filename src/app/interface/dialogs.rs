@@ -19,6 +19,19 @@ pub(super) struct Dialogs {
     caret_to_end: bool,
 }
 
+/// A question for the argument of a command.
+struct Question {
+    title: &'static str,
+    /// What is asked for.
+    name: &'static str,
+    /// Its form.
+    hint: String,
+    /// The word on the button.
+    button: &'static str,
+    /// The command that takes the answer.
+    command: &'static str,
+}
+
 impl Dialogs {
     /// Shows the dialog that is open.
     pub(super) fn show(&mut self, ctx: &Context, viewer: &Viewer, commands: &mut Vec<Command>) {
@@ -32,7 +45,27 @@ impl Dialogs {
         match viewer.dialog() {
             Some(Dialog::Help) => help(ctx, commands),
             Some(Dialog::Palette) => self.palette(ctx, just_opened, commands),
-            Some(Dialog::GoToPixel) => self.go_to_pixel(ctx, viewer, just_opened, commands),
+            Some(Dialog::GoToPixel) => {
+                let [width, height] = viewer.frame_size();
+                let question = Question {
+                    title: "Go to pixel",
+                    name: "Pixel",
+                    hint: format!("x, y below {width}, {height}"),
+                    button: "Pin",
+                    command: "pin",
+                };
+                self.ask(ctx, &question, just_opened, commands);
+            }
+            Some(Dialog::ComparePicture) => {
+                let question = Question {
+                    title: "Compare with a picture",
+                    name: "Path",
+                    hint: "path of a PNG or JPEG; or drop it on the window".to_owned(),
+                    button: "Compare",
+                    command: "against",
+                };
+                self.ask(ctx, &question, just_opened, commands);
+            }
             None => {}
         }
     }
@@ -66,17 +99,16 @@ impl Dialogs {
         enter
     }
 
-    fn go_to_pixel(&mut self, ctx: &Context, viewer: &Viewer, just_opened: bool, commands: &mut Vec<Command>) {
-        let modal = modal("go to pixel").show(ctx, |ui| {
+    /// Asks for the argument of a command.
+    fn ask(&mut self, ctx: &Context, question: &Question, just_opened: bool, commands: &mut Vec<Command>) {
+        let modal = modal(question.title).show(ctx, |ui| {
             ui.set_width(300.0_f32.min(ctx.content_rect().width() - 40.0));
-            ui.heading("Go to pixel");
-            let [width, height] = viewer.frame_size();
-            let hint = format!("x, y below {width}, {height}");
-            let enter = self.line(ui, "Pixel", &hint, just_opened);
+            ui.heading(question.title);
+            let enter = self.line(ui, question.name, &question.hint, just_opened);
             self.problem_line(ui);
-            let pressed = buttons(ui, "Pin");
-            if enter || pressed == Some(true) {
-                self.run(commands::find("pin"), &self.text.clone(), commands);
+            let pressed = buttons(ui, question.button);
+            if (enter || pressed == Some(true)) && !self.text.trim().is_empty() {
+                self.run(commands::find(question.command), &self.text.clone(), commands);
             }
             pressed == Some(false)
         });

@@ -199,7 +199,10 @@ impl Session {
     pub(super) fn command_for(&self, press: &KeyPress) -> Option<Command> {
         let command = commands::for_key(press)?;
         let typing = self.interface.has_keyboard();
-        let asks = matches!(self.viewer.dialog(), Some(Dialog::Palette | Dialog::GoToPixel));
+        let asks = matches!(
+            self.viewer.dialog(),
+            Some(Dialog::Palette | Dialog::GoToPixel | Dialog::ComparePicture)
+        );
         let passes = match press.logical {
             _ if !typing && !asks => true,
             Some(Key::Escape) => asks,

@@ -1,7 +1,7 @@
 //! What commands do to a comparison.
 
 use super::super::{Command, Viewer};
-use super::{Against, Arrangement, Comparison, Measuring, Other};
+use super::{Against, Arrangement, Comparison, Measuring, Moved, Other};
 use crate::compare::{DifferenceStyle, Gain};
 use crate::viewer::background::Mailbox;
 use crate::viewer::state::Finished;
@@ -25,6 +25,11 @@ impl Comparison {
             drawing: None,
             held: None,
             paint: None,
+            swapped: false,
+            loading: None,
+            moved: Moved::default(),
+            others: 0,
+            swaps: 0,
             measuring: Measuring::default(),
             number: 0,
         }
@@ -50,6 +55,11 @@ impl Viewer {
         self.comparison.style
     }
 
+    /// Whether B stands where A else does.
+    pub fn is_swapped(&self) -> bool {
+        self.comparison.swapped
+    }
+
     /// What shown differences are multiplied with; `None` while they are not to be seen.
     pub fn difference_gain(&self) -> Option<f32> {
         Some(self.comparison.paint.as_ref()?.colors.gain())
@@ -59,7 +69,7 @@ impl Viewer {
     pub(in super::super) fn change_comparison(&mut self, command: Command) -> Option<Command> {
         match command {
             Command::SwapAb => self.swap_ab(),
-            Command::Compare(against) => self.compare(&against),
+            Command::Compare(against) => self.compare(against),
             Command::Arrange(arrangement) => self.arrange(arrangement),
             Command::ToggleArrangement(arrangement) => {
                 let shown = self.arrangement() == arrangement;
@@ -98,9 +108,10 @@ impl Viewer {
 
     /// Closes what both share the window in; true if there was such.
     pub(in super::super) fn escape_arrangement(&mut self) -> bool {
-        let shared = self.arrangement() != Arrangement::Alone;
+        let shared = self.comparison.shows_both();
         if shared {
             self.arrange(Arrangement::Alone);
+            self.comparison.swapped = false;
             self.comparison.touch();
         }
         shared
@@ -110,7 +121,7 @@ impl Viewer {
     pub(in super::super) fn escape_comparison(&mut self) -> bool {
         let open = self.comparison.other.is_some();
         if open {
-            self.compare(&Against::Nothing);
+            self.compare(Against::Nothing);
             self.comparison.touch();
         }
         open
@@ -122,30 +133,50 @@ impl Viewer {
                 std::mem::swap(&mut self.settings.render, settings);
                 self.swap_frames();
             }
-            None => self.compare(&Against::Settings),
+            Some(Other::Truth | Other::Picture(_)) => {
+                self.comparison.swapped = !self.comparison.swapped;
+                self.comparison.swaps += 1;
+            }
+            None => self.compare(Against::Settings),
         }
     }
 
-    pub(super) fn compare(&mut self, against: &Against) {
+    pub(in super::super) fn compare(&mut self, against: Against) {
+        // The newest wish counts.
+        self.comparison.loading = None;
         match against {
             Against::Settings => {
-                self.comparison.other = Some(Other::Settings(self.settings.render));
+                self.set_other(Some(Other::Settings(self.settings.render)));
                 self.messages.done(
                     "B keeps these settings; now change A with its keys. R swaps both, W wipes, D shows the difference"
                         .to_owned(),
                 );
             }
+            Against::Truth => {
+                self.set_other(Some(Other::Truth));
+                self.show_somehow();
+            }
+            Against::File(path) => self.load_picture(path),
             Against::Nothing => {
-                self.comparison.other = None;
+                self.set_other(None);
                 self.comparison.arrangement = Arrangement::Alone;
-                self.comparison.held = None;
             }
         }
     }
 
-    fn arrange(&mut self, arrangement: Arrangement) {
+    pub(super) fn set_other(&mut self, other: Option<Other>) {
+        self.comparison.other = other;
+        self.comparison.swapped = false;
+        self.comparison.held = None;
+        self.comparison.moved = Moved::default();
+        self.comparison.others += 1;
+        self.comparison.measuring.forget();
+        self.comparison.touch();
+    }
+
+    pub(super) fn arrange(&mut self, arrangement: Arrangement) {
         if arrangement != Arrangement::Alone && self.comparison.other.is_none() {
-            self.compare(&Against::Settings);
+            self.compare(Against::Settings);
         }
         self.comparison.arrangement = arrangement;
         self.comparison.flip = None;

@@ -4,14 +4,16 @@
 //! new ones, and say so.
 
 use std::io;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::super::background::{AtEnd, Crew, Mailbox, guarded};
 use super::super::drawing::{Drawing, DrawingId};
 use super::super::state::Finished;
-use super::super::{Frame, Viewer};
-use crate::compare::{Levels, Pair, Place};
+use super::super::{Frame, Picture, Viewer};
+use super::{Against, Other, ReadPicture};
+use crate::compare::{self, Guess, Levels, Pair, Place};
 use crate::raster::Framebuffer;
 use crate::render::CancelToken;
 
@@ -32,6 +34,8 @@ pub struct Measures {
     pub places: Vec<Place>,
     /// Structural similarity and FLIP; `None` until they are there.
     pub seen: Option<Seen>,
+    /// Why a picture from outside differs; `None` until that was guessed, and for other B.
+    pub guess: Option<Guess>,
 }
 
 /// What eyes make of the difference.
@@ -53,14 +57,17 @@ impl AsRef<Framebuffer> for Frame {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in super::super) struct Which {
     a: (DrawingId, u64),
-    b: (DrawingId, u64),
+    /// Nothing where B is a picture from outside.
+    b: Option<(DrawingId, u64)>,
+    /// Which B it is.
+    other: u64,
 }
 
 /// The state of measuring.
 #[derive(Debug, Default)]
 pub(in super::super) struct Measuring {
     /// Started with the first work.
-    crew: Option<Crew<Job>>,
+    crew: Option<Crew<Work>>,
     wanted: Option<(Which, Instant)>,
     running: Option<(Which, Arc<CancelToken>)>,
     found: Option<(Which, Measures)>,
@@ -72,9 +79,17 @@ pub(in super::super) struct Measuring {
     jumps: bool,
 }
 
+/// What the thread does.
+enum Work {
+    Measure(Job),
+    Read(PathBuf),
+}
+
 struct Job {
     which: Which,
     pictures: [SharedPicture; 2],
+    /// What A is, where the cause of the difference is to be guessed.
+    subject: Option<Picture>,
     cancel: Arc<CancelToken>,
 }
 
@@ -97,6 +112,23 @@ enum Stage {
 }
 
 impl Measuring {
+    /// Whether somebody waits.
+    pub(super) fn hurries(&self) -> bool {
+        self.hurry
+    }
+
+    /// Another B: what is known is of no use.
+    pub(super) fn forget(&mut self) {
+        self.cancel();
+        (self.wanted, self.found, self.complete) = (None, None, None);
+    }
+
+    /// Reads a picture, before anything else is measured.
+    pub(super) fn load(&mut self, mailbox: &Mailbox<Finished>, path: PathBuf) -> io::Result<()> {
+        self.cancel();
+        self.push(mailbox, Work::Read(path))
+    }
+
     /// Somebody waits, or waits no more.
     pub(super) fn set_hurry(&mut self, hurry: bool) {
         self.hurry = hurry;
@@ -110,8 +142,8 @@ impl Measuring {
 
     /// Nothing is compared any more.
     fn close(&mut self) {
-        self.cancel();
-        (self.wanted, self.found, self.complete, self.jumps) = (None, None, None, false);
+        self.forget();
+        self.jumps = false;
     }
 
     /// When the hand will have rested long enough.
@@ -123,14 +155,24 @@ impl Measuring {
     }
 
     fn start(&mut self, mailbox: &Mailbox<Finished>, job: Job) -> io::Result<()> {
+        let running = Some((job.which, Arc::clone(&job.cancel)));
+        self.push(mailbox, Work::Measure(job))?;
+        self.running = running;
+        Ok(())
+    }
+
+    /// Starts the thread with the first work.
+    fn push(&mut self, mailbox: &Mailbox<Finished>, work: Work) -> io::Result<()> {
         if self.crew.is_none() {
             let mailbox = mailbox.clone();
-            let work = move |job: Job| job.measure(&mailbox);
-            self.crew = Some(Crew::start("compare", 1, AtEnd::Detach, work)?);
+            let serve = move |work: Work| match work {
+                Work::Measure(job) => job.measure(&mailbox),
+                Work::Read(path) => mailbox.post(Finished::PictureRead(ReadPicture::read(path))),
+            };
+            self.crew = Some(Crew::start("compare", 1, AtEnd::Detach, serve)?);
         }
         if let Some(crew) = &self.crew {
-            self.running = Some((job.which, Arc::clone(&job.cancel)));
-            crew.push(job);
+            crew.push(work);
         }
         Ok(())
     }
@@ -164,10 +206,15 @@ impl Job {
             levels: pair.levels(),
             places: pair.places(PLACES),
             seen: None,
+            guess: None,
         };
         post(measures.clone());
         let (ssim, flip) = pair.ssim(&self.cancel).zip(pair.flip(&self.cancel))?;
         measures.seen = Some(Seen { ssim, flip });
+        if let Some(subject) = self.subject.as_ref().filter(|_| measures.levels.differing() > 0) {
+            post(measures.clone());
+            measures.guess = Some(compare::guess(&subject.subject(), b, &self.cancel)?);
+        }
         Some(measures)
     }
 }
@@ -199,7 +246,8 @@ impl Viewer {
         let number = |drawing: &Drawing| (drawing.id(), drawing.number());
         Some(Which {
             a: number(&self.drawing),
-            b: number(self.comparison.drawing()?),
+            b: self.comparison.drawn_other().map(number),
+            other: self.comparison.others,
         })
     }
 
@@ -225,14 +273,12 @@ impl Viewer {
         if measuring.running.is_some() || measuring.complete == Some(which) || !(waits || rests) {
             return;
         }
-        let pictures = self
-            .drawing
-            .shared_frame()
-            .zip(self.comparison.drawing().and_then(Drawing::shared_frame));
-        let Some((a, b)) = pictures else { return };
+        let Some(pictures) = self.shared_pair() else { return };
+        let is_outside = matches!(self.comparison.other, Some(Other::Picture(_)));
         let job = Job {
             which,
-            pictures: [Arc::clone(a) as SharedPicture, Arc::clone(b) as SharedPicture],
+            pictures,
+            subject: self.frame().filter(|_| is_outside).map(|frame| frame.picture.clone()),
             cancel: Arc::default(),
         };
         if let Err(error) = self.comparison.measuring.start(&self.comparison.mailbox, job) {
@@ -263,7 +309,7 @@ impl Viewer {
     /// Goes to the pixel that differs most, or from there to the next; at once, or when it is known.
     pub(super) fn next_difference(&mut self) {
         if self.comparison.other.is_none() {
-            self.compare(&super::Against::Settings);
+            self.compare(Against::Settings);
             return;
         }
         self.comparison.measuring.jumps = true;

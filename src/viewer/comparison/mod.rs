@@ -6,9 +6,13 @@
 mod change;
 mod composite;
 mod measuring;
+mod outside;
 mod pair;
+mod panes;
+mod showing;
 mod words;
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -22,7 +26,10 @@ use crate::render::RenderSettings;
 pub(super) use composite::{BEYOND, Composite};
 pub(super) use measuring::Measured;
 pub use measuring::{Measures, Seen};
-pub(super) use pair::Panes;
+pub use outside::OutsidePicture;
+pub(super) use outside::{ReadPicture, is_picture};
+use panes::Moved;
+pub(super) use panes::Panes;
 
 use measuring::Measuring;
 
@@ -34,6 +41,10 @@ const FLIP: Duration = Duration::from_millis(700);
 pub enum Other {
     /// The same scene under these settings.
     Settings(RenderSettings),
+    /// The same scene with 256 samples per pixel that read textures at level zero; else as A.
+    Truth,
+    /// A picture from outside: A then has its size.
+    Picture(Arc<OutsidePicture>),
 }
 
 /// What a command compares A with.
@@ -41,6 +52,10 @@ pub enum Other {
 pub enum Against {
     /// A copy of the settings of this moment.
     Settings,
+    /// The same scene with 256 samples per pixel.
+    Truth,
+    /// The PNG or JPEG in this file.
+    File(PathBuf),
     /// Nothing: the comparison is closed.
     Nothing,
 }
@@ -65,6 +80,8 @@ pub enum Arrangement {
 #[derive(Debug)]
 pub(super) struct Comparison {
     pub(super) other: Option<Other>,
+    /// Whether B stands where A else does; settings change places instead.
+    swapped: bool,
     pub(super) arrangement: Arrangement,
     pub(super) style: DifferenceStyle,
     /// The gain that normalising goes back to.
@@ -83,6 +100,14 @@ pub(super) struct Comparison {
     /// How differences are coloured, for the style and the frames that it was made for.
     paint: Option<Paint>,
     measuring: Measuring,
+    /// The picture that is being read.
+    loading: Option<PathBuf>,
+    /// Where pictures from outside are.
+    moved: Moved,
+    /// How many B there were.
+    others: u64,
+    /// How often both changed places.
+    swaps: u64,
     /// Grows with every change of what is to be seen that no frame's number tells.
     number: u64,
 }
@@ -92,8 +117,8 @@ pub(super) struct Comparison {
 struct Paint {
     colors: DifferencePaint,
     style: DifferenceStyle,
-    /// The frames' numbers, where the colours depend on them.
-    frames: Option<[u64; 2]>,
+    /// The frames' numbers and who is in front, where the colours depend on them.
+    frames: Option<[u64; 3]>,
 }
 
 impl Arrangement {

@@ -4,46 +4,39 @@
 //! slow B never makes a difference of two views. Where A alone is to be seen, B is drawn when A is finished.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use super::super::drawing::{Changes, Drawing, DrawingId, Wish};
-use super::super::{Frame, Picture, PixelRect, Viewer};
-use super::composite::{Composite, Content, Pane};
-use super::{Arrangement, Comparison, FLIP, Other, Paint};
-use crate::compare::{Gain, Pair};
-use crate::raster::Framebuffer;
+use super::super::{Picture, Viewer};
+use super::measuring::SharedPicture;
+use super::{Arrangement, Comparison, Other};
+use crate::raster::{Framebuffer, SamplePattern, SampleRate};
 use crate::render::RenderSettings;
+use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling};
 
-/// Screen pixels between two pictures side by side.
-const GAP: u32 = 2;
-
-/// Where frames lie in the screen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in super::super) struct Panes {
-    /// Width and height of every frame.
-    pub(in super::super) frame: [u32; 2],
-    /// Where the first lies.
-    pub(in super::super) first: Pane,
-    /// Where B lies, where it has a place of its own.
-    pub(in super::super) second: Option<Pane>,
-}
-
-impl Panes {
-    /// The pane that a screen pixel belongs to, the first where it belongs to none.
-    pub(in super::super) fn at(&self, pixel: [i64; 2]) -> Pane {
-        let in_second = self.second.filter(|pane| pane.area.contains(pixel));
-        in_second.unwrap_or(self.first)
+/// The truth about a picture: as many samples as there can be, each of which reads the texture itself. Rules, background
+/// and how a texture is continued between its texels are the picture's own.
+fn truth_of(settings: &RenderSettings) -> RenderSettings {
+    RenderSettings {
+        sample_rate: SampleRate::new(SampleRate::MAX).unwrap_or(settings.sample_rate),
+        pattern: SamplePattern::Grid,
+        level_sampling: LevelSampling::Zero,
+        anisotropy: Anisotropy::OFF,
+        detail: LevelOfDetail::default(),
+        ..*settings
     }
 }
 
 impl Comparison {
-    /// Whether both frames are needed on the screen.
+    /// Whether B is needed on the screen.
     pub(in super::super) fn shows_both(&self) -> bool {
-        self.other.is_some() && self.arrangement != Arrangement::Alone
+        self.other.is_some() && (self.arrangement != Arrangement::Alone || self.swapped)
     }
 
-    pub(in super::super) fn drawing(&self) -> Option<&Drawing> {
-        self.drawing.as_ref()
+    /// B's drawing, where B is drawn.
+    pub(super) fn drawn_other(&self) -> Option<&Drawing> {
+        self.drawing
+            .as_ref()
+            .filter(|_| matches!(self.other, Some(Other::Settings(_) | Other::Truth)))
     }
 
     pub(in super::super) fn drawing_mut(&mut self) -> Option<&mut Drawing> {
@@ -63,7 +56,7 @@ impl Comparison {
 
     /// Whether B is there, or nothing of it is wanted: no scene, or no window to show it in.
     pub(in super::super) fn is_current(&self) -> bool {
-        self.other.is_none() || self.drawing.as_ref().is_none_or(Drawing::is_current)
+        self.loading.is_none() && self.drawn_other().is_none_or(Drawing::is_current)
     }
 
     pub(in super::super) fn touch(&mut self) {
@@ -72,83 +65,62 @@ impl Comparison {
 }
 
 impl Viewer {
-    /// Where frames lie in the screen: the window's pixels divided by the pixel zoom.
-    pub(in super::super) fn panes(&self) -> Panes {
-        let screen = self.settings.pixel_zoom.frame_size(self.screen.window);
-        let whole = PixelRect::of_size(screen);
-        let pane = |area: PixelRect| Pane {
-            area,
-            corner: [area.x, area.y],
-        };
-        let alone = Panes {
-            frame: screen,
-            first: pane(whole),
-            second: None,
-        };
-        let halves = self.comparison.other.is_some() && self.comparison.arrangement == Arrangement::SideBySide;
-        let Some([left, right]) = halves.then(|| self.halves()).flatten() else {
-            return alone;
-        };
-        Panes {
-            frame: [left.width, left.height],
-            first: pane(left),
-            second: Some(pane(right)),
-        }
-    }
-
-    /// The free area's left and right half, of one size, in screen pixels; `None` where there is no room.
-    fn halves(&self) -> Option<[PixelRect; 2]> {
-        let window = PixelRect::of_size(self.screen.window);
-        let free = self.screen.free_area.map_or(window, |free| free.intersection(&window));
-        if free.width == 0 || free.height == 0 {
-            return None;
-        }
-        let zoom = i64::from(self.settings.pixel_zoom.factor());
-        let (left, top) = ((free.x + zoom - 1) / zoom, (free.y + zoom - 1) / zoom);
-        let side = |from: i64, to: i64| u32::try_from(to / zoom - from).ok();
-        let (width, height) = (side(left, free.right())?, side(top, free.bottom())?);
-        let width = width.checked_sub(GAP)? / 2;
-        let first = PixelRect {
-            x: left,
-            y: top,
-            width,
-            height,
-        };
-        let second = PixelRect {
-            x: left + i64::from(width + GAP),
-            ..first
-        };
-        (width > 0 && height > 0).then_some([first, second])
-    }
-
     /// B's settings, where it is drawn.
     pub fn other_settings(&self) -> Option<RenderSettings> {
         match self.comparison.other.as_ref()? {
             Other::Settings(settings) => Some(*settings),
+            Other::Truth => Some(truth_of(&self.settings.render)),
+            Other::Picture(_) => None,
         }
     }
 
-    /// Both frames on the screen, A's first; `None` while they cannot be compared.
-    pub(in super::super) fn pair(&self) -> Option<[&Frame; 2]> {
-        if let Some([a, b]) = &self.comparison.held {
-            return Some([a, b]);
-        }
-        self.pair_in_step()
+    /// Both pictures on the screen, the one in front first; `None` while they cannot be compared.
+    pub(in super::super) fn pair(&self) -> Option<[&Framebuffer; 2]> {
+        let [a, b] = match &self.comparison.held {
+            Some([a, b]) => [&a.pixels, &b.pixels],
+            None => self.pair_in_step()?,
+        };
+        Some(if self.comparison.swapped { [b, a] } else { [a, b] })
     }
 
-    /// B's frame as it is on the screen or would be; it may be a preview.
-    pub fn other_frame(&self) -> Option<&Frame> {
-        self.comparison.other.as_ref()?;
-        match &self.comparison.held {
-            Some([_, b]) => Some(b),
-            None => self.comparison.drawing.as_ref()?.frame(),
+    /// B's pixels as they are on the screen or would be; they may be a preview's.
+    pub fn other_pixels(&self) -> Option<&Framebuffer> {
+        match (self.comparison.other.as_ref()?, &self.comparison.held) {
+            (Other::Picture(picture), _) => Some(&picture.pixels),
+            (_, Some([_, b])) => Some(&b.pixels),
+            (_, None) => Some(&self.comparison.drawing.as_ref()?.frame()?.pixels),
         }
     }
 
-    pub(super) fn pair_in_step(&self) -> Option<[&Frame; 2]> {
-        let b = self.comparison.drawing.as_ref()?.frame()?;
+    /// A pixel of B, straight `[r, g, b, a]`, if it is final.
+    pub(in super::super) fn other_final_rgba(&self, x: u32, y: u32) -> Option<[u8; 4]> {
+        match (self.comparison.other.as_ref()?, &self.comparison.held) {
+            (Other::Picture(picture), _) => picture.pixels.rgba(x, y),
+            (_, Some([_, b])) => b.final_rgba(x, y),
+            (_, None) => self.comparison.drawing.as_ref()?.frame()?.final_rgba(x, y),
+        }
+    }
+
+    /// A's pixels and B's, where they show the scene from the same place.
+    pub(super) fn pair_in_step(&self) -> Option<[&Framebuffer; 2]> {
         let a = self.drawing.frame()?;
-        a.picture.is_seen_as(&b.picture).then_some([a, b])
+        if let Some(Other::Picture(picture)) = &self.comparison.other {
+            let size = [picture.pixels.width(), picture.pixels.height()];
+            return (a.picture.size == size).then_some([&a.pixels, &picture.pixels]);
+        }
+        let b = self.comparison.drawing.as_ref()?.frame()?;
+        a.picture.is_seen_as(&b.picture).then_some([&a.pixels, &b.pixels])
+    }
+
+    /// The same for threads.
+    pub(super) fn shared_pair(&self) -> Option<[SharedPicture; 2]> {
+        self.pair_in_step()?;
+        let a = Arc::clone(self.drawing.shared_frame()?) as SharedPicture;
+        let b = match self.comparison.other.as_ref()? {
+            Other::Picture(picture) => Arc::clone(picture) as SharedPicture,
+            _ => Arc::clone(self.comparison.drawing.as_ref()?.shared_frame()?) as SharedPicture,
+        };
+        Some([a, b])
     }
 
     /// To be called before another frame is taken in: both on the screen stay until both of the next are there.
@@ -156,7 +128,7 @@ impl Viewer {
         if !self.comparison.shows_both() || self.comparison.held.is_some() || self.pair_in_step().is_none() {
             return;
         }
-        let b = self.comparison.drawing.as_ref().and_then(Drawing::shared_frame);
+        let b = self.comparison.drawn_other().and_then(Drawing::shared_frame);
         if let Some((a, b)) = self.drawing.shared_frame().zip(b) {
             self.comparison.held = Some([Arc::clone(a), Arc::clone(b)]);
         }
@@ -166,7 +138,7 @@ impl Viewer {
     pub(in super::super) fn release_pair(&mut self) {
         let in_step = self.pair_in_step().is_some();
         // One that never comes is not waited for.
-        let other = self.comparison.drawing.as_ref();
+        let other = self.comparison.drawn_other();
         let coming = !self.drawing.has_arrived() || other.is_some_and(|drawing| !drawing.has_arrived());
         let needed = self.comparison.shows_both() && self.drawing.frame().is_some() && !in_step && coming;
         if self.comparison.held.is_some() && !needed {
@@ -177,12 +149,7 @@ impl Viewer {
 
     /// Whether `picture` must wait until both frames have come to the last view.
     pub(in super::super) fn lags_behind(&self, picture: &Picture) -> bool {
-        let Some(other) = self
-            .comparison
-            .drawing
-            .as_ref()
-            .filter(|_| self.comparison.shows_both())
-        else {
+        let Some(other) = self.comparison.drawn_other().filter(|_| self.comparison.shows_both()) else {
             return false;
         };
         let moves = self.drawing.wanted().is_some_and(|wanted| !wanted.is_seen_as(picture));
@@ -208,7 +175,7 @@ impl Viewer {
             match Drawing::start(&self.comparison.mailbox, DrawingId::Second) {
                 Ok(mut drawing) => {
                     drawing.set_progressive(self.settings.progressive);
-                    drawing.set_hurry(self.saver.is_waiting());
+                    drawing.set_hurry(self.comparison.measuring.hurries());
                     self.comparison.drawing = Some(drawing);
                 }
                 Err(error) => {
@@ -240,6 +207,7 @@ impl Viewer {
         if let Some([a, b]) = &mut self.comparison.held {
             std::mem::swap(a, b);
         }
+        self.comparison.swaps += 1;
         self.comparison.touch();
         self.wait_for_newest_frame();
     }
@@ -260,112 +228,5 @@ impl Viewer {
         }
         self.comparison.measuring.set_hurry(hurry);
         self.want_measures();
-    }
-
-    /// Brings the colours of differences and the flipping up to date.
-    pub(in super::super) fn update_comparison(&mut self) {
-        self.flip_when_due();
-        self.mix_paint();
-        self.want_measures();
-    }
-
-    fn flip_when_due(&mut self) {
-        let flips = self.comparison.other.is_some() && self.comparison.arrangement == Arrangement::Flip;
-        let now = Instant::now();
-        let next = now.checked_add(FLIP);
-        let comparison = &mut self.comparison;
-        match comparison.flip {
-            _ if !flips => comparison.flip = None,
-            None => comparison.flip = next.map(|next| (next, false)),
-            Some((due, shows_b)) if due <= now => {
-                comparison.flip = next.map(|next| (next, !shows_b));
-                comparison.touch();
-            }
-            Some(_) => {}
-        }
-    }
-
-    /// Whether B is to be seen of both that flip.
-    pub fn flip_shows_b(&self) -> bool {
-        matches!(self.comparison.flip, Some((_, true)))
-    }
-
-    /// When something about comparing is to be done: flipping, measuring, looking at B again.
-    pub(in super::super) fn comparison_due(&self) -> Option<Instant> {
-        let flip = self.comparison.flip.map(|(due, _)| due);
-        let drawing = self.comparison.drawing.as_ref().and_then(Drawing::due);
-        [flip, drawing, self.comparison.measuring.due()]
-            .into_iter()
-            .flatten()
-            .min()
-    }
-
-    /// Normalised colours follow the frames once both are final: until then they stay as they are.
-    fn mix_paint(&mut self) {
-        let style = self.comparison.style;
-        let shown = self.comparison.arrangement == Arrangement::Difference && self.comparison.other.is_some();
-        if !shown {
-            self.comparison.paint = None;
-            return;
-        }
-        let normalized = style.gain == Gain::Normalize;
-        let numbers = [self.drawing.number(), self.comparison.state()[1]];
-        let frames = normalized.then_some(numbers);
-        let known = self.comparison.paint.as_ref();
-        let is_right = known.is_some_and(|paint| paint.style == style && paint.frames == frames);
-        let settled = self.drawing.is_current() && self.comparison.is_current();
-        if is_right || (normalized && !settled && known.is_some_and(|paint| paint.style == style)) {
-            return;
-        }
-        let Some([a, b]) = self.pair() else { return };
-        let Ok(pair) = Pair::new(&a.pixels, &b.pixels) else {
-            return;
-        };
-        let colors = pair.paint(style);
-        self.comparison.paint = Some(Paint { colors, style, frames });
-        self.comparison.touch();
-    }
-
-    /// What the window shows below the panels.
-    pub(in super::super) fn composite(&self) -> Composite<'_> {
-        let Some(frame) = self.frame() else {
-            return Composite::default();
-        };
-        let panes = self.panes();
-        let comparison = &self.comparison;
-        let pair = self.pair().filter(|_| comparison.shows_both());
-        let Some([a, b]) = pair.map(|pair| pair.map(|frame| &frame.pixels)) else {
-            return Composite::new(vec![(panes.first, Content::One(&frame.pixels))]);
-        };
-        let content = match comparison.arrangement {
-            Arrangement::Alone | Arrangement::SideBySide => Content::One(a),
-            Arrangement::Flip => Content::One(if self.flip_shows_b() { b } else { a }),
-            Arrangement::Wipe => Content::Wipe([a, b], self.wipe_column(a)),
-            Arrangement::Difference => match &comparison.paint {
-                Some(paint) => Content::Difference([a, b], &paint.colors),
-                None => Content::One(a),
-            },
-        };
-        let second = panes.second.map(|pane| (pane, Content::One(b)));
-        Composite::new(std::iter::once((panes.first, content)).chain(second).collect())
-    }
-
-    /// The first column of B's part.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "between 0 and a frame's width"
-    )]
-    fn wipe_column(&self, frame: &Framebuffer) -> u32 {
-        (self.comparison.wipe.clamp(0.0, 1.0) * f64::from(frame.width())).round() as u32
-    }
-
-    /// Where the line of the wipe is, in window pixels from the left; `None` where there is none.
-    pub fn wipe_line(&self) -> Option<f64> {
-        let wipes = self.comparison.other.is_some() && self.comparison.arrangement == Arrangement::Wipe;
-        let frame = self.pair().filter(|_| wipes)?[0];
-        let column = i64::from(self.wipe_column(&frame.pixels)) + self.panes().first.corner[0];
-        let zoom = f64::from(self.settings.pixel_zoom.factor());
-        Some(column as f64 * zoom)
     }
 }

@@ -1,21 +1,13 @@
 //! A and B in words: which settings differ, and what each of both is.
 
 use super::super::Viewer;
-use super::super::settings::settings_words;
+use super::super::settings::{pattern_words, settings_words, texture_words};
 use super::Other;
 use crate::render::RenderSettings;
 
-impl Other {
-    /// What it is, in few words.
-    pub fn name(&self) -> &str {
-        match self {
-            Self::Settings(_) => "other settings",
-        }
-    }
-}
-
 impl Viewer {
-    /// Which settings of A and B differ, in words such as `sample rate 1 | 16`; `None` without B.
+    /// Which settings of A and B differ, in words such as `sample rate 1 | 16`; `None` without B, and for a picture from
+    /// outside, whose settings nobody knows.
     pub fn comparison_words(&self) -> Option<Vec<String>> {
         let words = self.differing_settings()?.into_iter();
         Some(words.map(|(name, a, b)| format!("{name} {a} | {b}")).collect())
@@ -23,22 +15,49 @@ impl Viewer {
 
     /// A against B in one line, for the window's title; `None` without B.
     pub fn comparison_title(&self) -> Option<String> {
-        let words = self.comparison_words()?;
-        if words.is_empty() {
-            return Some("A against B: the same settings".to_owned());
-        }
-        Some(format!("A against B: {}", words.join(", ")))
+        let other = match self.other()? {
+            Other::Settings(_) => "B".to_owned(),
+            Other::Truth => "the truth".to_owned(),
+            Other::Picture(picture) => picture.name(),
+        };
+        let words = match self.comparison_words() {
+            Some(words) if words.is_empty() => vec!["the same settings".to_owned()],
+            Some(words) => words,
+            None => self.own_words(),
+        };
+        Some(format!("A against {other}: {}", words.join(", ")))
     }
 
     /// What A is and what B is, each for itself, such as `A: sample rate 16`; `None` without B.
     pub fn comparison_sides(&self) -> Option<[String; 2]> {
-        let differing = self.differing_settings()?;
+        let differing = self.differing_settings().unwrap_or_default();
         let a: Vec<String> = differing.iter().map(|(name, a, _)| format!("{name} {a}")).collect();
         let b: Vec<String> = differing.iter().map(|(name, _, b)| format!("{name} {b}")).collect();
-        if differing.is_empty() {
-            return Some(["A", "B"].map(str::to_owned));
-        }
-        Some([format!("A: {}", a.join(", ")), format!("B: {}", b.join(", "))])
+        let a = match self.other()? {
+            Other::Picture(_) => "A: drawn here".to_owned(),
+            _ if a.is_empty() => "A".to_owned(),
+            _ => format!("A: {}", a.join(", ")),
+        };
+        let b = match self.other()? {
+            Other::Settings(_) if b.is_empty() => "B".to_owned(),
+            Other::Settings(_) => format!("B: {}", b.join(", ")),
+            Other::Truth => "B: the truth, 256 samples".to_owned(),
+            Other::Picture(picture) => format!("B: {}", picture.name()),
+        };
+        Some([a, b])
+    }
+
+    /// A's settings as the title tells them.
+    pub(in super::super) fn own_words(&self) -> Vec<String> {
+        let render = &self.settings.render;
+        let mut words = vec![format!("sample rate {}", render.sample_rate.samples())];
+        words.extend(pattern_words(render));
+        words.extend([
+            format!("pixel sampling {}", render.pixel_sampling.name()),
+            format!("level sampling {}", render.level_sampling.name()),
+        ]);
+        words.extend(texture_words(render));
+        words
     }
 
     fn differing_settings(&self) -> Option<Vec<Differing>> {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use rasterscope::geometry::View;
-use rasterscope::raster::SampleRate;
+use rasterscope::raster::{SamplePattern, SampleRate};
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 use rasterscope::scene::{DialectChoice, Paint, PrimitiveKind, Scene};
@@ -88,8 +88,20 @@ fn further_settings(topic: &str) -> Vec<(&'static str, RenderSettings)> {
                 },
             ),
         ],
+        "study_13_thin_rays" => patterns(),
         _ => Vec::new(),
     }
+}
+
+/// Every sample pattern but the grid, with a rate that only some take where they do.
+fn patterns() -> Vec<(&'static str, RenderSettings)> {
+    let others = SamplePattern::ALL.into_iter().skip(1);
+    let of_pattern = |pattern: SamplePattern| {
+        let samples = if pattern.needs_square() { 4 } else { 5 };
+        let settings = settings(samples, PixelSampling::Nearest, LevelSampling::Zero);
+        (pattern.name(), RenderSettings { pattern, ..settings })
+    };
+    others.map(of_pattern).collect()
 }
 
 /// Everything that a scene is drawn with.

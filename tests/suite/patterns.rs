@@ -5,10 +5,11 @@ use std::collections::BTreeSet;
 use glam::DVec2;
 use rasterscope::color::Rgba;
 use rasterscope::geometry::{FillRule, Polygon, View};
-use rasterscope::raster::{SamplePattern, SampleRate};
+use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{RenderSettings, Subject, replay};
 use rasterscope::rules::Rules;
-use rasterscope::scene::{Dialect, Paint, PrimitiveKind, Scene};
+use rasterscope::scene::{Dialect, DialectChoice, Paint, PrimitiveKind, ReadOptions, Scene, read};
+use rasterscope::viewer::gallery;
 
 use crate::support::scenes::{drawn, one_to_one, scene};
 
@@ -269,5 +270,99 @@ fn pictures_of_every_pattern_are_those_of_one_thread() {
             };
             assert!(on(1) == on(3), "{pattern:?} {rules:?}");
         }
+    }
+}
+
+const STUDY: [u32; 2] = [1024, 1024];
+
+/// A scene of the gallery, drawn at 1024 x 1024 in the default view.
+fn study(name: &str, pattern: SamplePattern, samples: u32) -> Framebuffer {
+    let scene = gallery::SCENES
+        .iter()
+        .find(|scene| scene.name == name)
+        .expect("a scene of the gallery");
+    let options = ReadOptions {
+        dialect: DialectChoice::Auto,
+    };
+    let scene = read(scene.document.as_bytes(), name, options, &gallery::Textures).expect("a good scene");
+    let view = View::Default.transform(scene.canvas, STUDY);
+    drawn(&scene, &view, &settings(pattern, samples), STUDY)
+}
+
+/// Red of a pixel.
+fn red(frame: &Framebuffer, x: u32, y: u32) -> f64 {
+    frame.rgba(x, y).expect("inside")[0].into()
+}
+
+/// Root mean square of the errors in red of means over blocks of `side x side` pixels.
+fn block_error(found: &Framebuffer, truth: &Framebuffer, side: u32) -> f64 {
+    let blocks = (STUDY[0] / side) * (STUDY[1] / side);
+    let of_block = |i: u32| {
+        let (left, top) = (i % (STUDY[0] / side) * side, i / (STUDY[0] / side) * side);
+        let pixels = (0..side * side).map(|i| (left + i % side, top + i / side));
+        let sum: f64 = pixels.map(|(x, y)| red(found, x, y) - red(truth, x, y)).sum();
+        sum / f64::from(side * side)
+    };
+    let squares: f64 = (0..blocks).map(|i| of_block(i).powi(2)).sum();
+    (squares / f64::from(blocks)).sqrt()
+}
+
+#[test]
+fn study_of_thin_rays_is_where_jitter_beats_the_grid() {
+    let name = "study/13_thin_rays.svg";
+    let truth = study(name, SamplePattern::Grid, 256);
+    for samples in [1, 4] {
+        // What is left from a step back, where grain is a shade and dashes are still dashes.
+        let error = |pattern| block_error(&study(name, pattern, samples), &truth, 8);
+        let (grid, jittered) = (error(SamplePattern::Grid), error(SamplePattern::Jittered));
+        assert!(
+            jittered < 0.8 * grid,
+            "rate {samples}: jittered {jittered}, grid {grid}"
+        );
+    }
+}
+
+#[test]
+fn study_of_one_edge_has_a_shade_for_every_column_of_samples() {
+    let shades = |pattern, samples| {
+        let frame = study("study/14_one_edge.svg", pattern, samples);
+        // Where nothing but the edge is.
+        let pixels = (490..534).flat_map(|x| (114..910).map(move |y| (x, y)));
+        pixels.map(|(x, y)| frame.rgba(x, y)).collect::<BTreeSet<_>>().len()
+    };
+    for (pattern, of_four, of_sixteen) in [
+        (SamplePattern::Grid, 3, 5),
+        (SamplePattern::Rotated, 5, 17),
+        (SamplePattern::Halton, 5, 17),
+        (SamplePattern::R2, 5, 17),
+    ] {
+        let found = (shades(pattern, 4), shades(pattern, 16));
+        assert_eq!(found, (of_four, of_sixteen), "{pattern:?} at 4 and at 16");
+    }
+    assert_eq!(shades(SamplePattern::Grid, 1), 2, "one sample, two colours");
+}
+
+#[test]
+fn study_of_upright_bars_is_where_jitter_loses() {
+    let name = "study/15_upright_bars.svg";
+    let truth = study(name, SamplePattern::Grid, 256);
+    let error = |pattern| block_error(&study(name, pattern, 1), &truth, 1);
+    let (grid, jittered) = (error(SamplePattern::Grid), error(SamplePattern::Jittered));
+    assert!(jittered > 1.2 * grid, "rate 1: jittered {jittered}, grid {grid}");
+    // How many columns change along the upright bars.
+    let ragged = |pattern, samples| {
+        let frame = study(name, pattern, samples);
+        let changes = |x: &u32| (131..450).any(|y| frame.rgba(*x, y) != frame.rgba(*x, 130));
+        (140..880).filter(changes).count()
+    };
+    for samples in [1, 4, 16] {
+        for straight in [SamplePattern::Grid, SamplePattern::JitteredSame, SamplePattern::R2] {
+            assert_eq!(ragged(straight, samples), 0, "{straight:?} {samples}");
+        }
+        let jittered = ragged(SamplePattern::Jittered, samples);
+        assert!(
+            jittered > 40,
+            "both edges of 24 bars are ragged: {jittered} columns at {samples}"
+        );
     }
 }

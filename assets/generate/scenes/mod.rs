@@ -8,6 +8,7 @@ mod locomotive;
 mod mesh;
 mod outline;
 mod study;
+mod study_patterns;
 mod study_textures;
 mod subdiv;
 mod texmap;
@@ -26,6 +27,7 @@ pub(crate) fn scenes() -> Vec<SceneFile> {
         subdiv::SCENES,
         study::SCENES,
         study_textures::SCENES,
+        study_patterns::SCENES,
     ]
     .concat()
 }

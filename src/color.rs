@@ -1,6 +1,10 @@
 //! Colours: straight and premultiplied, floats and bytes. The only file that knows gamma.
 
+mod resolve;
+
 use crate::rules::Rules;
+
+pub use resolve::ResolveSpace;
 
 /// A straight (not premultiplied) sRGB-encoded colour; each channel and alpha in `0.0..=1.0`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::color::Rgba;
+use crate::color::{ResolveSpace, Rgba};
 use crate::geometry::ViewTransform;
 use crate::raster::{
     Chunk, ChunkBuilder, Counters, DisplayList, Fill, Framebuffer, ListContext, RasterSettings, SamplePattern,
@@ -39,6 +39,8 @@ pub struct RenderSettings {
     pub detail: LevelOfDetail,
     /// Whose conventions.
     pub rules: Rules,
+    /// In which values the samples of a pixel are averaged.
+    pub resolve: ResolveSpace,
     /// What lies below the first primitive.
     pub background: Rgba,
     /// Whether a one-pixel black outline runs just outside the canvas.
@@ -55,6 +57,7 @@ impl Default for RenderSettings {
             anisotropy: Anisotropy::default(),
             detail: LevelOfDetail::default(),
             rules: Rules::default(),
+            resolve: ResolveSpace::default(),
             background: Rgba::WHITE,
             outline: true,
         }
@@ -187,6 +190,7 @@ fn raster_settings(settings: &RenderSettings) -> RasterSettings {
             sample_step: settings.pattern.nearest(settings.sample_rate).step(),
             rules: settings.rules,
         },
+        space: settings.resolve,
         background: settings.background,
     }
 }

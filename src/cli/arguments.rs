@@ -10,7 +10,7 @@ use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 use super::failure::Failure;
 use super::size::FrameSize;
 use super::view_option;
-use crate::color::Rgba;
+use crate::color::{ResolveSpace, Rgba};
 use crate::compare::Measure;
 use crate::geometry::View;
 use crate::raster::{SamplePattern, SampleRate};
@@ -207,6 +207,9 @@ pub(super) struct SamplingOptions {
     /// How documents are read
     #[arg(long, default_value = DialectChoice::default().name(), value_enum)]
     pub(super) dialect: DialectChoice,
+    /// In which values the samples of a pixel are averaged
+    #[arg(long, default_value = ResolveSpace::default().name(), value_enum)]
+    pub(super) resolve: ResolveSpace,
     /// Whose conventions decide edges, texels and bytes
     #[arg(long, default_value = Rules::default().name(), value_enum)]
     pub(super) rules: Rules,
@@ -233,6 +236,7 @@ impl SamplingOptions {
                 derivatives: self.lod_per,
             },
             rules: self.rules,
+            resolve: self.resolve,
             background: self.background,
             outline: view != View::Canvas,
         }
@@ -255,6 +259,7 @@ macro_rules! named_values {
 }
 
 named_values!(
+    ResolveSpace,
     SamplePattern,
     PixelSampling,
     LevelSampling,
@@ -382,7 +387,7 @@ mod tests {
     fn arguments_of_render_become_settings() {
         let line = "rasterscope render a.svg -o b.png --size 300x200 --sample-rate 16 --pixel-sampling bilinear \
                     --pattern jittered-same --level-sampling linear --anisotropy 16 --lod-bias -1.5 --lod-level 2.25 --lod-per sample \
-                    --view=-5,10,2.5,-90 --background #ff8000 --dialect course --rules course --threads 2";
+                    --view=-5,10,2.5,-90 --background #ff8000 --dialect course --rules course --resolve linear --threads 2";
         let Ok(Arguments {
             verb: Verb::Render(options),
         }) = parsed(&line.split_whitespace().collect::<Vec<_>>().join(" "))
@@ -408,6 +413,7 @@ mod tests {
             "background"
         );
         assert_eq!(settings.rules, Rules::Course, "rules");
+        assert_eq!(settings.resolve, ResolveSpace::Linear, "resolve");
         assert!(settings.outline, "a free view has the outline");
         assert_eq!(options.picture.framing.threads, Some(2), "threads");
     }
@@ -424,6 +430,7 @@ mod tests {
             "rasterscope a.svg --sample-rate 2 --pattern jittered-same",
             "rasterscope render a.svg -o b.png --sample-rate 257 --pattern r2",
             "rasterscope render a.svg -o b.png --pattern poisson",
+            "rasterscope render a.svg -o b.png --resolve gamma",
             "rasterscope render a.svg -o b.png --size 0x5",
             "rasterscope render a.svg -o b.png --background red",
             "rasterscope render a.svg -o b.png --background #ff80é",

@@ -7,7 +7,7 @@ use super::model::{
     Texel, Texture, VERSION, Verdict, View,
 };
 use super::samples::{SampleHit, shape_of, straight};
-use crate::color::Premultiplied16;
+use crate::color::{Premultiplied16, ResolveSpace};
 use crate::geometry::FillRule;
 use crate::geometry::edge::{EdgeKind, EdgeTest};
 use crate::raster::{Attributes, PaintedKind, PaintedOp, Piece, PieceShape, PixelReplay, SampleOfTriangle, TextureUse};
@@ -58,7 +58,7 @@ impl Explanation {
             user: subject.view.to_scene(center).to_array(),
             color: [r, g, b, a],
             hex: hex([r, g, b, a]),
-            resolve: resolve(&replay, rules),
+            resolve: resolve(&replay, (rules, subject.settings.resolve)),
             samples: samples(&replay, &paints, rules),
             paints,
             missed: missed
@@ -254,13 +254,20 @@ fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> 
     samples
 }
 
-fn resolve(replay: &PixelReplay, rules: Rules) -> Resolve {
+fn resolve(replay: &PixelReplay, (rules, space): (Rules, ResolveSpace)) -> Resolve {
     let samples = replay.samples.len();
     let weight = 1.0 / samples as f64;
-    let sums = replay
-        .sums
-        .map(|sum| f64::from(sum) / f64::from(Premultiplied16::PER_BYTE));
+    let sums = match space {
+        ResolveSpace::Stored => replay
+            .sums
+            .map(|sum| f64::from(sum) / f64::from(Premultiplied16::PER_BYTE)),
+        ResolveSpace::Linear => replay.samples.iter().fold([0.0; 4], |sums, sample| {
+            let light = sample.color.light();
+            [0, 1, 2, 3].map(|k| sums[k] + light[k])
+        }),
+    };
     Resolve {
+        space: space.name(),
         sums,
         samples,
         weight,

@@ -38,6 +38,9 @@ pub struct Explanation {
 /// How samples became a pixel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Resolve {
+    /// In which values samples are averaged: `stored`, or `linear` light. There red, green and blue of the sums and the mean
+    /// are light, weighted by alpha and scaled to `0.0..=255.0`; the colour is the mean divided by its alpha and encoded.
+    pub space: &'static str,
     /// The sums of the samples' channels.
     pub sums: [f64; 4],
     /// Of how many samples.

@@ -476,7 +476,7 @@ mod tests {
     use super::super::tile::TileLayout;
     use super::super::{RasterSettings, SamplePattern, SampleRate};
     use super::*;
-    use crate::color::Rgba;
+    use crate::color::{ResolveSpace, Rgba};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
 
@@ -490,6 +490,7 @@ mod tests {
                 rules,
                 ..SamplingSettings::default()
             },
+            space: ResolveSpace::Stored,
             background: Rgba::WHITE,
         }
     }

@@ -30,6 +30,7 @@ mod rasterize;
 mod recorder;
 mod regions;
 mod replay;
+mod row_windings;
 mod rows;
 mod sample_mask;
 mod sample_rate;

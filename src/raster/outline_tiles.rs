@@ -5,6 +5,7 @@
 //! is wound around alike everywhere, once each row counts the same edges left of it.
 
 use super::outline::{Outline, OutlineEdge};
+use super::row_windings::RowWindings;
 use super::rows::Span;
 use super::tile_rows::{Line, MARGIN};
 use crate::geometry::FillRule;
@@ -26,7 +27,7 @@ pub(crate) struct OutlineTiles {
     /// Edges that cross only some of the rows: the first tile column to their right, those rows, and the winding.
     partial: Vec<(i32, Span, i32)>,
     /// How often each row winds around the tile at work, beyond what all rows do.
-    rows: Vec<i32>,
+    rows: RowWindings,
 }
 
 /// What changes at a tile.
@@ -80,34 +81,32 @@ impl OutlineTiles {
         if !partial.is_empty() {
             self.partial.sort_unstable_by_key(|(column, ..)| *column);
             partial = self.partial.as_slice();
-            self.rows.clear();
-            self.rows.resize(place(band.end - band.start), 0);
         }
-        // What the partial edges add where they add the same to all rows.
-        let mut even = Some(0);
+        self.rows.begin(band.end - band.start);
+        let in_band = |rows: Span| Span {
+            start: rows.start - band.start,
+            end: rows.end - band.start,
+        };
         for (column, tile) in self.columns.iter().zip(tiles.start..tiles.end) {
             lying += column.lying;
             winding += column.winding;
-            let mut changed = false;
             while let Some(((at, inside, around), rest)) = partial.split_first()
                 && *at <= tile
             {
-                for row in &mut self.rows[place(inside.start - band.start)..place(inside.end - band.start)] {
-                    *row += around;
-                }
-                (changed, partial) = (true, rest);
+                self.rows.add(in_band(*inside), *around);
+                partial = rest;
             }
-            if changed {
-                let first = self.rows[0];
-                even = self.rows.iter().all(|row| *row == first).then_some(first);
-            }
-            match even {
+            // What the partial edges add where they add the same to all rows.
+            match self.rows.even() {
                 _ if lying > 0 => visit(tile, Reach::Part),
                 None => visit(tile, Reach::Part),
                 Some(even) if rule.encloses(winding + even) => visit(tile, Reach::All),
                 Some(_) => {}
             }
         }
+        let passed = self.partial.len() - partial.len();
+        self.rows
+            .forget(self.partial[..passed].iter().map(|(_, rows, _)| in_band(*rows)));
     }
 }
 

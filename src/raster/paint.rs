@@ -148,7 +148,7 @@ impl<'a> TilePainter<'a> {
             self.layers.push(Tile::new(
                 self.context.rate,
                 self.context.grid.side(),
-                self.context.sampling.rules,
+                (self.context.sampling.rules, self.context.space),
             ));
         }
         self.layers[self.depth].reset(rect, color);
@@ -255,13 +255,11 @@ impl<'a> TilePainter<'a> {
             let first = [(pixel[0] - x.start) * side, (pixel[1] - y.start) * side];
             let places = scatter.places(*pixel);
             // No tile has more than `2^14` points of a lattice along a side.
-            let at = |sample: usize, i: usize| {
-                u16::try_from(first[i])
-                    .unwrap_or(u16::MAX)
-                    .saturating_add(places[sample][i].into())
-            };
-            self.points
-                .extend(mask.iter().map(|sample| [at(sample, 0), at(sample, 1)]));
+            let [left, top] = first.map(|at| u16::try_from(at).unwrap_or(u16::MAX));
+            mask.each(|sample| {
+                let [column, row] = places[sample].map(u16::from);
+                self.points.push([left.saturating_add(column), top.saturating_add(row)]);
+            });
         }
         let count = self.points.len();
         if self.colors.len() < count {
@@ -271,14 +269,15 @@ impl<'a> TilePainter<'a> {
         let grid = self.context.samples_from([x.start, y.start]);
         shader.points(grid, &self.points, &mut self.colors[..count]);
         let mut first = 0;
-        for ([x, y], mask) in std::mem::take(&mut self.parts) {
+        for ([x, y], mask) in &self.parts {
             let colors = &self.colors[first..first + mask.count()];
             first += colors.len();
-            self.layers[self.depth - 1].write_mask((x, y), mask, colors, shader.opaque);
+            self.layers[self.depth - 1].write_mask((*x, *y), *mask, colors, shader.opaque);
             if let Some(recorder) = &mut self.recorder {
-                recorder.paint_mask(mask, |i| colors[i]);
+                recorder.paint_mask(*mask, |i| colors[i]);
             }
         }
+        self.parts.clear();
     }
 
     /// Samples of one colour, counted from the tile's first.

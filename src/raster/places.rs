@@ -16,8 +16,8 @@ pub(crate) struct SamplePlaces {
     count: usize,
     /// Where they lie in every pixel; empty where each pixel has its own.
     same: Vec<Place>,
-    /// Cells along one side of a pixel where each pixel has its own.
-    cells: u32,
+    /// The cells along one side of a pixel.
+    cells: Vec<[u32; 2]>,
 }
 
 /// The lattice that the samples of a pattern lie on.
@@ -33,24 +33,30 @@ impl SamplePlaces {
     pub(crate) fn new(pattern: SamplePattern, rate: SampleRate) -> Self {
         let (count, side) = (rate.samples(), rate.side());
         let of = |place: &dyn Fn(u32) -> [u32; 2]| (0..count).map(|sample| place(sample).map(byte)).collect();
+        let cells = cells(side);
         let same = match pattern {
             SamplePattern::Grid => of(&|i| [i % side, i / side]),
             SamplePattern::Rotated => of(&|i| rotated(i, side)),
             SamplePattern::Jittered => Vec::new(),
-            SamplePattern::JitteredSame => of(&|i| jittered(i, side, hash(SEED, i))),
+            SamplePattern::JitteredSame => jittered(&cells, SEED).collect(),
             SamplePattern::Halton => of(&|i| [halton(i + 1, 2), halton(i + 1, 3)]),
             SamplePattern::R2 => of(&r2),
         };
         Self {
             count: count as usize,
             same,
-            cells: side,
+            cells,
         }
     }
 
     /// How many samples a pixel has.
     pub(crate) fn count(&self) -> usize {
         self.count
+    }
+
+    /// Whether they lie at the same places in every pixel.
+    pub(crate) fn are_same(&self) -> bool {
+        !self.same.is_empty()
     }
 
     /// Where the samples of the pixel in column and row `pixel` of the frame lie; `memory` is overwritten.
@@ -61,7 +67,7 @@ impl SamplePlaces {
         }
         let pixel = mix((u64::from(x.cast_unsigned()) | u64::from(y.cast_unsigned()) << 32) ^ SEED);
         memory.clear();
-        memory.extend((0..self.cells * self.cells).map(|i| jittered(i, self.cells, hash(pixel, i)).map(byte)));
+        memory.extend(jittered(&self.cells, pixel));
         memory
     }
 }
@@ -74,15 +80,32 @@ fn rotated(sample: u32, n: u32) -> [u32; 2] {
     [at(i * n + j), at(j * n + n - 1 - i)]
 }
 
-/// Anywhere in the cell of a sample, as 64 random bits say.
-fn jittered(sample: u32, n: u32, random: u64) -> [u32; 2] {
+/// Where `n` cells begin along one side of a pixel, as ranges of points whose middles lie in them: start and length.
+fn cells(n: u32) -> Vec<[u32; 2]> {
     // The first point of the lattice whose middle lies in cell `k` or later.
     let first = |k: u32| (2 * k * SubpixelGrid::FINE_SIDE).saturating_sub(n).div_ceil(2 * n);
-    let inside = |cell: u32, bits: u64| {
-        let (start, end) = (first(cell), first(cell + 1));
-        start + (((bits & 0xFFFF_FFFF) * u64::from(end - start)) >> 32) as u32
-    };
-    [inside(sample % n, random), inside(sample / n, random >> 32)]
+    (0..n).map(|k| [first(k), first(k + 1) - first(k)]).collect()
+}
+
+/// A place anywhere in each of `n x n` cells, as a seed says.
+fn jittered(cells: &[[u32; 2]], seed: u64) -> impl Iterator<Item = Place> {
+    let along = |[start, length]: [u32; 2], random: u64| byte(start + ((low_quarter(random) * length) >> 16));
+    let rows = cells.iter().enumerate();
+    rows.flat_map(move |(j, row)| {
+        let first = j * cells.len();
+        cells.iter().zip(first..).map(move |(column, sample)| {
+            // 32 bits are enough for a sample.
+            let random = hash(seed, sample as u64 / 2) >> (sample % 2 * 32);
+            [along(*column, random), along(*row, random >> 16)]
+        })
+    })
+}
+
+/// The lowest 16 of some random bits.
+#[inline]
+fn low_quarter(random: u64) -> u32 {
+    let [low, high, ..] = random.to_le_bytes();
+    u16::from_le_bytes([low, high]).into()
 }
 
 /// The radical inverse of a number, in points of the lattice: its digits mirrored at the point.
@@ -106,10 +129,10 @@ fn r2(i: u32) -> [u32; 2] {
     })
 }
 
-/// Random bits for a sample of a pixel.
+/// Random bits, number by number, of a pixel.
 #[inline]
-fn hash(pixel: u64, sample: u32) -> u64 {
-    mix(pixel.wrapping_add(u64::from(sample + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15)))
+fn hash(pixel: u64, number: u64) -> u64 {
+    mix(pixel.wrapping_add((number + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15)))
 }
 
 /// The finaliser of `SplitMix` (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).

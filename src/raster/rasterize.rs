@@ -20,7 +20,7 @@ use super::shade::{ShadeContext, Shader};
 use super::tally::{Counters, SharedTally, Tally};
 use super::tile::TileLayout;
 use super::{Framebuffer, SamplePattern, SampleRate};
-use crate::color::{Premultiplied16, Rgba};
+use crate::color::{Premultiplied16, ResolveSpace, Rgba};
 use crate::rules::Rules;
 use crate::texture::{SamplingSettings, Texture};
 
@@ -36,6 +36,8 @@ pub struct RasterSettings {
     pub pattern: SamplePattern,
     /// How textures are read, and by whose rules.
     pub sampling: SamplingSettings,
+    /// In which values samples are averaged.
+    pub space: ResolveSpace,
     /// What lies below the first primitive.
     pub background: Rgba,
 }
@@ -262,6 +264,7 @@ impl<'a> DisplayList<'a> {
         ShadeContext {
             grid: self.context.grid,
             rate: self.context.rate,
+            space: self.settings.space,
             sampling: self.settings.sampling,
             textures: &self.textures,
         }
@@ -307,10 +310,11 @@ impl<'a> DisplayList<'a> {
             visible(&pass.bins, tile, first)
                 .all(|(chunk, entries)| entries.iter().all(|entry| kind(entry, &self.chunks[chunk])))
         };
-        if !self.context.is_grid() {
+        let rate_one = self.context.rate == SampleRate::ONE;
+        // Neither samples off the grid nor their light can be summed up before all are painted.
+        if !self.context.is_grid() || self.settings.space != ResolveSpace::Stored && !rate_one {
             return Method::Blended;
         }
-        let rate_one = self.context.rate == SampleRate::ONE;
         if rate_one && (self.kinds.opaque || all(|entry, _| entry.is_opaque())) {
             Method::Direct
         } else if !self.kinds.blended || all(|entry, chunk| !matches!(entry.work(chunk), Work::Shaded(..))) {
@@ -483,6 +487,7 @@ mod tests {
                 rate,
                 pattern,
                 sampling,
+                space: *u.choose(&ResolveSpace::ALL)?,
                 background: Rgba::WHITE,
             };
             let seed: Vec<u8> = (0..1500).map(|_| u.arbitrary()).collect::<Result<_>>()?;

@@ -138,9 +138,11 @@ impl Recorder {
 
     /// The op paints some samples; `color` is asked for those counted from the first of them.
     pub(super) fn paint_mask(&mut self, mask: SampleMask, color: impl Fn(usize) -> Premultiplied16) {
-        for (i, sample) in mask.iter().enumerate() {
+        let mut i = 0;
+        mask.each(|sample| {
             self.colors[sample] = Some(color(i));
-        }
+            i += 1;
+        });
     }
 
     /// What was painted, now that the samples hold `after`.

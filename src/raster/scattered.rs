@@ -34,7 +34,11 @@ pub(crate) struct Scatter {
     grid: SubpixelGrid,
     rules: Rules,
     places: SamplePlaces,
+    /// All samples of a pixel.
+    all: SampleMask,
     memory: Vec<Place>,
+    /// For each sample what the edges of the triangle at work gain from a pixel's first point to it.
+    gains: Vec<[i64; 3]>,
     outlines: OutlineScatter,
 }
 
@@ -51,12 +55,15 @@ struct LatticeEdge {
 impl Scatter {
     /// For a drawing of `outlines` outlines; of these only the pixel columns `columns` are ever asked for.
     pub(crate) fn new(context: &ListContext, outlines: usize, columns: Span) -> Self {
+        let places = SamplePlaces::new(context.pattern, context.rate);
         Self {
             grid: context.grid,
             rules: context.rules,
-            places: SamplePlaces::new(context.pattern, context.rate),
+            all: SampleMask::all(places.count()),
+            places,
+            gains: Vec::with_capacity(SampleRate::MAX as usize),
             memory: Vec::with_capacity(SampleRate::MAX as usize),
-            outlines: OutlineScatter::new(outlines, columns),
+            outlines: OutlineScatter::new(outlines, columns, context.rate.samples() as usize),
         }
     }
 
@@ -105,6 +112,7 @@ impl Scatter {
             return;
         }
         let edges = LatticeEdge::of_triangle(corners, area, self.grid, self.rules);
+        self.gains.clear();
         // Where there are few columns, looking at each pixel costs less than finding out which to look at.
         let lines = (columns.end - columns.start > 2).then(|| TileRows::new(corners));
         for y in rows.start..rows.end {
@@ -171,28 +179,40 @@ impl Scatter {
 
     #[inline]
     fn pixel(&mut self, edges: &[LatticeEdge; 3], x: i32, y: i32) -> Option<Covered> {
-        let (mut crossing, mut count) = ([LatticeEdge::default(); 3], 0);
-        for edge in edges {
+        // What is never below zero keeps nothing out.
+        let (mut values, mut crossed) = ([i64::MAX / 2; 3], false);
+        for (value, edge) in values.iter_mut().zip(edges) {
             let edge = edge.at_pixel(self.grid.side(), x, y);
             let [least, most] = edge.range(self.grid.side());
             if most < 0 {
                 return None;
             }
-            crossing[count] = edge;
-            count += usize::from(least < 0);
+            if least < 0 {
+                *value = edge.value;
+                crossed = true;
+            }
         }
         let whole = Covered::Whole(Span { start: x, end: x + 1 });
-        let places = self.places.of_pixel([x, y], &mut self.memory);
-        let mask = match count {
-            0 => return Some(whole),
-            1 => inside([crossing[0]], places),
-            2 => inside([crossing[0], crossing[1]], places),
-            _ => inside(crossing, places),
-        };
-        match mask.count() {
-            0 => None,
-            all if all == places.len() => Some(whole),
-            _ => Some(Covered::Part(x, mask)),
+        if !crossed {
+            return Some(whole);
+        }
+        if self.gains.is_empty() || !self.places.are_same() {
+            let places = self.places.of_pixel([x, y], &mut self.memory);
+            self.gains.clear();
+            self.gains
+                .extend(places.iter().map(|place| edges.map(|edge| edge.gain(*place))));
+        }
+        let mut mask = SampleMask::default();
+        mask.set_each(self.gains.len(), |sample| {
+            let [a, b, c] = self.gains[sample];
+            (values[0] + a) | (values[1] + b) | (values[2] + c) >= 0
+        });
+        if mask == self.all {
+            Some(whole)
+        } else if mask.is_empty() {
+            None
+        } else {
+            Some(Covered::Part(x, mask))
         }
     }
 }
@@ -225,6 +245,12 @@ impl LatticeEdge {
         }
     }
 
+    /// What it gains from a pixel's first point to another.
+    #[inline]
+    fn gain(&self, [column, row]: Place) -> i64 {
+        self.right * i64::from(column) + self.down * i64::from(row)
+    }
+
     /// The least and the greatest value in the pixel that it stands at.
     #[inline]
     fn range(&self, side: i32) -> [i64; 2] {
@@ -235,19 +261,6 @@ impl LatticeEdge {
             self.value + right.max(0) + down.max(0),
         ]
     }
-}
-
-/// The samples at which no edge is below zero.
-#[inline]
-fn inside<const K: usize>(edges: [LatticeEdge; K], places: &[Place]) -> SampleMask {
-    SampleMask::from_bits(places.len(), |sample| {
-        let [column, row] = places[sample].map(i64::from);
-        let mut signs = 0;
-        for edge in &edges {
-            signs |= edge.value + edge.right * column + edge.down * row;
-        }
-        signs >= 0
-    })
 }
 
 #[cfg(test)]
@@ -262,7 +275,7 @@ mod tests {
     use super::super::recorder::PaintedOp;
     use super::super::{DisplayList, Framebuffer, RasterSettings, SamplePattern};
     use super::*;
-    use crate::color::{Premultiplied16, Rgba};
+    use crate::color::{Premultiplied16, ResolveSpace, Rgba};
     use crate::texture::{PixelSampling, SamplingSettings, Texture};
 
     const SIZE: [u32; 2] = [70, 50];
@@ -276,6 +289,7 @@ mod tests {
                 rules,
                 ..SamplingSettings::default()
             },
+            space: ResolveSpace::Stored,
             background: Rgba::WHITE,
         }
     }

@@ -11,6 +11,7 @@ use super::SampleRate;
 use super::band_spans::MAX_SPANS;
 use super::outline::{Outline, OutlineEdge};
 use super::places::{Place, SamplePlaces};
+use super::row_windings::RowWindings;
 use super::rows::Span;
 use super::sample_mask::SampleMask;
 use super::scattered::Covered;
@@ -34,6 +35,8 @@ pub(super) struct OutlineScatter {
     starts: Vec<usize>,
     runs: Vec<Run>,
     masks: Vec<SampleMask>,
+    /// All samples of a pixel.
+    all: SampleMask,
     sweep: Sweep,
     windings: RowWindings,
     memory: Vec<Place>,
@@ -74,17 +77,9 @@ struct LocalEdge {
     winding: i32,
 }
 
-/// How often the edges that were passed wind around each lattice row of a pixel.
-#[derive(Debug, Default)]
-struct RowWindings {
-    /// How each row differs from the one above; one more than there are rows.
-    steps: Vec<i32>,
-    /// How many rows do.
-    uneven: u32,
-}
-
 impl OutlineScatter {
-    pub(super) fn new(outlines: usize, columns: Span) -> Self {
+    /// For a drawing of `outlines` outlines, in some columns of pixels with `count` samples each.
+    pub(super) fn new(outlines: usize, columns: Span, count: usize) -> Self {
         Self {
             columns,
             band: Span::default(),
@@ -93,6 +88,7 @@ impl OutlineScatter {
             starts: Vec::new(),
             runs: Vec::new(),
             masks: Vec::new(),
+            all: SampleMask::all(count),
             sweep: Sweep::default(),
             windings: RowWindings::default(),
             memory: Vec::with_capacity(SampleRate::MAX as usize),
@@ -172,13 +168,15 @@ impl OutlineScatter {
             }
             let here = crossings..crossings + self.sweep.crossings[crossings..].partition_point(|(at, _)| *at <= x);
             crossings = here.end;
-            if here.is_empty() && self.windings.uneven == 0 {
+            if here.is_empty()
+                && let Some(winding) = self.windings.even()
+            {
                 let next = [
                     self.sweep.passed.get(passed).map(|edge| edge.0),
                     self.sweep.crossings.get(crossings).map(|edge| edge.0),
                 ];
                 let end = next.into_iter().flatten().fold(columns.end, i32::min);
-                if rule.encloses(self.windings.steps[0]) {
+                if rule.encloses(winding) {
                     self.push(first_run, Span { start: x, end }, None);
                 }
                 x = end;
@@ -190,14 +188,15 @@ impl OutlineScatter {
                     .enclosed((rule, &self.windings), here, (grid, [x, y]), places)
             };
             let pixel = Span { start: x, end: x + 1 };
-            match mask.count() {
-                0 => {}
-                all if all == places.count() => self.push(first_run, pixel, None),
-                _ => self.push(first_run, pixel, Some(mask)),
+            if mask == self.all {
+                self.push(first_run, pixel, None);
+            } else if !mask.is_empty() {
+                self.push(first_run, pixel, Some(mask));
             }
             x += 1;
         }
-        self.windings.forget(&self.sweep.passed[..passed]);
+        self.windings
+            .forget(self.sweep.passed[..passed].iter().map(|(_, rows, _)| *rows));
     }
 
     #[inline]
@@ -258,54 +257,34 @@ impl Sweep {
         places: &[Place],
     ) -> SampleMask {
         self.around.clear();
-        if windings.uneven == 0 {
-            self.around.resize(places.len(), windings.steps[0]);
+        if let Some(winding) = windings.even() {
+            self.around.resize(places.len(), winding);
         } else {
-            let of_row = |row: u8| windings.steps[..=usize::from(row)].iter().sum::<i32>();
-            self.around.extend(places.iter().map(|place| of_row(place[1])));
+            let rows = places.iter().map(|place| usize::from(place[1]));
+            self.around.extend(rows.map(|row| windings.of_row(row)));
         }
         let [x, y] = pixel.map(|pixel| grid.sample_coordinate(pixel * grid.side()));
         for (_, edge) in &self.crossings[here] {
             let value = edge_value(edge.top, edge.bottom, GridPoint { x, y });
             let [dx, dy] = [edge.bottom.x - edge.top.x, edge.bottom.y - edge.top.y];
             let [right, down] = [-i64::from(dy), i64::from(dx)].map(|step| step << grid.bits());
+            let all_rows = edge.rows.end - edge.rows.start == grid.side();
             for (around, [column, row]) in self.around.iter_mut().zip(places) {
-                let in_rows = edge.rows.start <= i32::from(*row) && i32::from(*row) < edge.rows.end;
+                let (column, row) = (i64::from(*column), i64::from(*row));
                 // Downwards, the right of the edge on the screen is where the edge function is negative.
-                let left_of_sample = value + right * i64::from(*column) + down * i64::from(*row) <= 0;
+                let left_of_sample = value + right * column + down * row <= 0;
+                let in_rows = all_rows | (i64::from(edge.rows.start) <= row && row < i64::from(edge.rows.end));
                 *around += edge.winding * i32::from(in_rows & left_of_sample);
             }
         }
-        SampleMask::from_bits(places.len(), |sample| rule.encloses(self.around[sample]))
-    }
-}
-
-impl RowWindings {
-    /// Nothing was passed yet, in pixels of `rows` rows.
-    fn begin(&mut self, rows: i32) {
-        self.steps.resize(place(rows) + 1, 0);
-        self.uneven = 0;
-    }
-
-    fn add(&mut self, rows: Span, winding: i32) {
-        let last = self.steps.len() - 1;
-        for (row, change) in [(place(rows.start), winding), (place(rows.end), -winding)] {
-            let step = &mut self.steps[row];
-            let before = u32::from(*step != 0);
-            *step += change;
-            // The first row has none above, and the last none below.
-            if row > 0 && row < last {
-                self.uneven = self.uneven + u32::from(*step != 0) - before;
-            }
-        }
-    }
-
-    /// Takes back everything that was passed.
-    fn forget(&mut self, passed: &[(i32, Span, i32)]) {
-        for (_, rows, _) in passed {
-            self.steps[place(rows.start)] = 0;
-            self.steps[place(rows.end)] = 0;
-        }
+        // Of a winding number all bits count, or the lowest.
+        let counted = match rule {
+            FillRule::NonZero => -1,
+            FillRule::EvenOdd => 1,
+        };
+        let mut mask = SampleMask::default();
+        mask.set_each(places.len(), |sample| self.around[sample] & counted != 0);
+        mask
     }
 }
 
@@ -316,10 +295,4 @@ fn pixel(column: f64, columns: Span) -> i32 {
     let pixel = column.clamp(f64::from(columns.start) - 1.0, f64::from(columns.end));
     // Rounded down: `floor` is not a single instruction on every machine.
     (pixel + 1.0) as i32 - 1
-}
-
-/// A row inside a pixel, never negative.
-#[inline]
-fn place(row: i32) -> usize {
-    row.max(0).cast_unsigned() as usize
 }

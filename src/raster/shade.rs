@@ -6,7 +6,7 @@ use super::SampleRate;
 use super::display_list::{Paint, ScreenTriangle};
 use super::planes::Planes;
 use super::vertex::VertexColors;
-use crate::color::{Premultiplied16, unit_to_16};
+use crate::color::{Premultiplied16, ResolveSpace, unit_to_16};
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::rules::Rules;
 use crate::simd;
@@ -51,6 +51,8 @@ pub(crate) struct ShadeContext<'a> {
     pub(crate) grid: SubpixelGrid,
     /// Samples per pixel.
     pub(crate) rate: SampleRate,
+    /// In which values they are averaged.
+    pub(crate) space: ResolveSpace,
     pub(crate) sampling: SamplingSettings,
     pub(crate) textures: &'a [&'a Texture],
 }

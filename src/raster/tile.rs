@@ -8,7 +8,7 @@
 
 use super::rows::Span;
 use super::sample_mask::SampleMask;
-use crate::color::Premultiplied16;
+use crate::color::{Premultiplied16, ResolveSpace};
 use crate::raster::SampleRate;
 use crate::rules::Rules;
 
@@ -115,6 +115,7 @@ pub(crate) struct Tile {
     side: usize,
     per_pixel: usize,
     rules: Rules,
+    space: ResolveSpace,
     /// One colour per pixel, in force where the pixel is not split.
     whole: Vec<Premultiplied16>,
     split: Vec<bool>,
@@ -126,13 +127,14 @@ pub(crate) struct Tile {
 
 impl Tile {
     /// A tile of no pixels; `side` is how many samples of a pixel lie in a row, where they do.
-    pub(crate) fn new(rate: SampleRate, side: i32, rules: Rules) -> Self {
+    pub(crate) fn new(rate: SampleRate, side: i32, (rules, space): (Rules, ResolveSpace)) -> Self {
         Self {
             rect: PixelRect::NOTHING,
             width: 0,
             side: usize::try_from(side).unwrap_or(1),
             per_pixel: rate.samples() as usize,
             rules,
+            space,
             whole: Vec::new(),
             split: Vec::new(),
             opaque: false,
@@ -239,14 +241,11 @@ impl Tile {
     #[inline]
     pub(crate) fn fill_mask(&mut self, x: i32, y: i32, mask: SampleMask, color: Premultiplied16) {
         let rules = self.rules;
-        let opaque = color.is_opaque();
         let samples = self.samples_of(x, y);
-        for sample in mask.iter() {
-            samples[sample] = if opaque {
-                color
-            } else {
-                color.over(samples[sample], rules)
-            };
+        if color.is_opaque() {
+            mask.each(|sample| samples[sample] = color);
+        } else {
+            mask.each(|sample| samples[sample] = color.over(samples[sample], rules));
         }
     }
 
@@ -261,13 +260,16 @@ impl Tile {
     ) {
         let rules = self.rules;
         let samples = self.samples_of(x, y);
-        for (sample, color) in mask.iter().zip(colors) {
-            samples[sample] = if opaque || color.is_opaque() {
-                *color
-            } else {
-                color.over(samples[sample], rules)
-            };
-        }
+        let mut colors = colors.iter();
+        mask.each(|sample| {
+            if let Some(color) = colors.next() {
+                samples[sample] = if opaque || color.is_opaque() {
+                    *color
+                } else {
+                    color.over(samples[sample], rules)
+                };
+            }
+        });
     }
 
     /// All samples of a pixel, which is split unless it has just one.
@@ -387,16 +389,10 @@ impl Tile {
         if self.samples.is_empty() {
             return;
         }
-        let count = u32::try_from(self.per_pixel).unwrap_or(1);
         for (i, pixel) in pixels.iter_mut().enumerate() {
             if self.split[first + i] {
-                let mut sums = [0_u32; 4];
-                for sample in &self.samples[(first + i) * self.per_pixel..][..self.per_pixel] {
-                    for (sum, channel) in sums.iter_mut().zip(sample.0) {
-                        *sum += u32::from(channel);
-                    }
-                }
-                *pixel = Premultiplied16::resolve(sums, count, self.rules);
+                let samples = &self.samples[(first + i) * self.per_pixel..][..self.per_pixel];
+                *pixel = self.space.resolve(samples, self.rules);
             }
         }
     }

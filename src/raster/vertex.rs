@@ -10,6 +10,7 @@ use fearless_simd::{Level, Simd, dispatch};
 use super::planes::Planes;
 use crate::color::Premultiplied16;
 use crate::rules::Rules;
+use crate::simd;
 use crate::texture::SampleGrid;
 
 /// Samples that are shaded together.
@@ -48,15 +49,13 @@ impl VertexColors {
 
     /// The colours at samples, counted from the first sample of the grid's origin; opaque or not, by any rules.
     pub(crate) fn points(&self, grid: SampleGrid, rules: Rules, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
+        if self.is_opaque && rules == Rules::Standard {
+            return dispatch!(simd::level(), simd => point_kernel(simd, &self.opaque, grid, points, colors));
+        }
         let first = first_sample(grid);
         for ([x, y], color) in points.iter().zip(colors) {
             let (x, y) = (first[0] + f64::from(*x), first[1] + f64::from(*y));
-            *color = if self.is_opaque && rules == Rules::Standard {
-                let [r, g, b] = self.opaque.at(x, y).map(|channel| low_half(rounded(channel, ONE)));
-                Premultiplied16([r, g, b, Premultiplied16::ONE])
-            } else {
-                straight_color(self.straight.at(x, y), rules)
-            };
+            *color = straight_color(self.straight.at(x, y), rules);
         }
     }
 
@@ -171,6 +170,30 @@ fn channels(planes: &Planes<3>, [x, y]: &[[f64; LANES]; 2], count: f64) -> [[u32
     channels
 }
 
+/// Opaque colours at samples.
+#[inline(always)]
+fn point_kernel<S: Simd>(
+    _: S,
+    planes: &Planes<3>,
+    grid: SampleGrid,
+    points: &[[u16; 2]],
+    colors: &mut [Premultiplied16],
+) {
+    let first = first_sample(grid);
+    for (points, colors) in points.chunks(LANES).zip(colors.chunks_mut(LANES)) {
+        let mut places = [[0.0; LANES]; 2];
+        for (i, [x, y]) in points.iter().enumerate() {
+            places[0][i] = first[0] + f64::from(*x);
+            places[1][i] = first[1] + f64::from(*y);
+        }
+        let [r, g, b] = channels(planes, &places, 1.0);
+        for (i, color) in colors.iter_mut().enumerate() {
+            let [r, g, b] = [r[i], g[i], b[i]].map(low_half);
+            *color = Premultiplied16([r, g, b, Premultiplied16::ONE]);
+        }
+    }
+}
+
 #[inline(always)]
 fn pixel_kernel<S: Simd>(_: S, planes: &Planes<3>, grid: SampleGrid, pixels: &[[u16; 2]], values: &mut [u32]) {
     let half = u32::from(Premultiplied16::PER_BYTE) / 2;
@@ -201,7 +224,6 @@ fn sum_kernel<S: Simd>(_: S, planes: &Planes<3>, grid: SampleGrid, pixels: &[[u1
 mod tests {
     use super::*;
     use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-    use crate::simd;
 
     /// The colours of all samples of a pixel, one by one.
     fn samples(colors: &VertexColors, grid: SampleGrid, [x, y]: [u16; 2]) -> Vec<Premultiplied16> {

@@ -8,6 +8,7 @@ use super::drawing::Wish;
 use super::settings::next_of;
 use super::state::Finished;
 use super::{Camera, Command, Effect, PixelRect, PixelZoom, Sight, Theme, Viewer, library};
+use crate::color::ResolveSpace;
 use crate::geometry::View;
 use crate::raster::{Region, SamplePattern, SampleRate};
 use crate::render::RenderSettings;
@@ -231,6 +232,8 @@ impl Viewer {
                 render.detail.derivatives = next_of(&Derivatives::ALL, render.detail.derivatives);
             }
             Command::SetDerivatives(derivatives) => render.detail.derivatives = derivatives,
+            Command::NextResolveSpace => render.resolve = next_of(&ResolveSpace::ALL, render.resolve),
+            Command::SetResolveSpace(space) => render.resolve = space,
             Command::NextRules => render.rules = next_of(&Rules::ALL, render.rules),
             Command::SetRules(rules) => render.rules = rules,
             Command::SetBackground(color) => render.background = color,

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use glam::DVec2;
 
 use super::{Against, Arrangement, PixelZoom, Theme, Toggle, ViewNumbers};
-use crate::color::Rgba;
+use crate::color::{ResolveSpace, Rgba};
 use crate::compare::Measure;
 use crate::figure::PixelRect;
 use crate::raster::{SamplePattern, SampleRate};
@@ -109,6 +109,10 @@ pub enum Command {
     NextDerivatives,
     /// These derivatives.
     SetDerivatives(Derivatives),
+    /// The other resolve space.
+    NextResolveSpace,
+    /// Averages samples in these values.
+    SetResolveSpace(ResolveSpace),
     /// The next rules, round and round.
     NextRules,
     /// These rules.

@@ -84,6 +84,7 @@ impl Viewer {
         );
         let dialect = self.settings.dialect;
         option(dialect != DialectChoice::default(), "dialect", dialect.name());
+        option(render.resolve != default.resolve, "resolve", render.resolve.name());
         option(render.rules != default.rules, "rules", render.rules.name());
         Some(line)
     }

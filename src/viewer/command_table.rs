@@ -211,6 +211,15 @@ pub(super) static TABLE: &[CommandSpec] = &[
     .run(&Command::NextDerivatives)
     .argument(typed::LOD_PER),
     spec(
+        "resolve",
+        "Resolve space",
+        "Switches between averaging the samples of a pixel as stored and as the light that they stand for",
+        Group::Sampling,
+    )
+    .more("In linear light half black and half white is 188, which from afar looks like the pattern itself; stored it is 128 and looks darker")
+    .run(&Command::NextResolveSpace)
+    .argument(typed::RESOLVE),
+    spec(
         "rules",
         "Rules",
         "Switches between the standard rules of the picture and the course's",

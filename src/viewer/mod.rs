@@ -45,7 +45,7 @@ pub use library::{SceneEntry, SceneSource, SceneState, list_scenes};
 pub use messages::{Message, MessageKind};
 pub use present::WindowPixels;
 pub use probing::{Hit, ProbedSample};
-pub use settings::{PixelZoom, Settings, Theme, Toggle, pattern_words, texture_words};
+pub use settings::{PixelZoom, Settings, Theme, Toggle, sample_words, texture_words};
 pub use state::{Viewer, ViewerOptions, Waker};
 pub use status::Status;
 pub use typed::Argument;

@@ -123,10 +123,15 @@ impl Toggle {
     }
 }
 
-/// Where samples lie, where that is not the default: few words such as `pattern halton`.
-pub fn pattern_words(render: &RenderSettings) -> Option<String> {
-    let other = render.pattern != RenderSettings::default().pattern;
-    other.then(|| format!("pattern {}", render.pattern.name()))
+/// Where samples lie and how they are averaged, where that is not the default: few words each, such as `pattern halton` or
+/// `resolve linear`.
+pub fn sample_words(render: &RenderSettings) -> Vec<String> {
+    let default = RenderSettings::default();
+    let words = [
+        (render.pattern != default.pattern).then(|| format!("pattern {}", render.pattern.name())),
+        (render.resolve != default.resolve).then(|| format!("resolve {}", render.resolve.name())),
+    ];
+    words.into_iter().flatten().collect()
 }
 
 /// How textures are read beyond pixel and level sampling, where it differs from the default: few words each, such as
@@ -153,6 +158,7 @@ pub(super) fn settings_words(render: &RenderSettings) -> Vec<(&'static str, Stri
         anisotropy,
         detail,
         rules,
+        resolve,
         background,
         outline: _,
     } = render;
@@ -171,6 +177,7 @@ pub(super) fn settings_words(render: &RenderSettings) -> Vec<(&'static str, Stri
         ("level", level),
         ("bias", format!("{:+}", bias.levels())),
         ("level per", derivatives.name().to_owned()),
+        ("resolve", resolve.name().to_owned()),
         ("rules", rules.name().to_owned()),
         ("background", background_name(*background)),
     ]

@@ -85,6 +85,24 @@ impl Viewer {
         (Instant::now().saturating_duration_since(since) >= LONG).then_some(done)
     }
 
+    /// How many different colours the inspector's region shows: where that is an edge, its shades and both sides. `None`
+    /// while the inspector is closed or the frame is not final.
+    pub fn region_colors(&self) -> Option<usize> {
+        let (shown, frame) = (self.inset()?.inset.source(), self.frame()?);
+        if frame.preview.is_some() {
+            return None;
+        }
+        let place = |start: i64, offset: u32| u32::try_from(start + i64::from(offset)).ok();
+        let rows = (0..shown.height).filter_map(|row| place(shown.y, row));
+        let mut colors: Vec<_> = rows
+            .flat_map(|y| (0..shown.width).filter_map(move |column| Some((place(shown.x, column)?, y))))
+            .filter_map(|(x, y)| frame.pixels.rgba(x, y))
+            .collect();
+        colors.sort_unstable();
+        colors.dedup();
+        Some(colors.len())
+    }
+
     /// What the status line says about a frame that is not final, such as `preview, rate 1`.
     pub fn preview_text(&self) -> Option<String> {
         let preview = self.preview();

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::{Against, Arrangement, Command, PixelZoom, Theme, Toggle, ViewNumbers};
-use crate::color::Rgba;
+use crate::color::{ResolveSpace, Rgba};
 use crate::compare::Measure;
 use crate::raster::{SamplePattern, SampleRate};
 use crate::rules::Rules;
@@ -98,6 +98,9 @@ pub(super) const LOD_LEVEL: Argument = argument("auto, or a number from 0 to 16"
 });
 pub(super) const LOD_PER: Argument = argument("pixel|sample", |text| {
     named(&Derivatives::ALL, Derivatives::name, text).map(Command::SetDerivatives)
+});
+pub(super) const RESOLVE: Argument = argument("stored|linear", |text| {
+    named(&ResolveSpace::ALL, ResolveSpace::name, text).map(Command::SetResolveSpace)
 });
 pub(super) const RULES: Argument = argument("standard|course", |text| {
     named(&Rules::ALL, Rules::name, text).map(Command::SetRules)

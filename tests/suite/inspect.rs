@@ -5,6 +5,7 @@
     reason = "stored colours are multiples of 1/256, which floats hold exactly"
 )]
 
+use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::View as SceneView;
 use rasterscope::inspect::{Explanation, Fragment, Interpolated, Paint, Question, Shape, View};
 use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
@@ -16,7 +17,7 @@ use rasterscope::viewer::gallery::{SCENES, Textures};
 use rayon::prelude::*;
 
 /// What pictures are drawn with.
-fn settings() -> [RenderSettings; 7] {
+fn settings() -> [RenderSettings; 8] {
     let rate = |samples| SampleRate::new(samples).unwrap();
     let plain = RenderSettings::default();
     [
@@ -52,6 +53,12 @@ fn settings() -> [RenderSettings; 7] {
             sample_rate: rate(4),
             pattern: SamplePattern::Jittered,
             level_sampling: LevelSampling::Linear,
+            ..plain
+        },
+        RenderSettings {
+            sample_rate: rate(4),
+            resolve: ResolveSpace::Linear,
+            background: rasterscope::color::Rgba::TRANSPARENT,
             ..plain
         },
         RenderSettings {
@@ -116,15 +123,18 @@ fn every_explanation_of_every_scene_ends_in_the_frames_bytes() {
 /// Sums, mean and rounding lead to the colour.
 fn check_resolve(found: &Explanation, rules: Rules) {
     let resolve = &found.resolve;
+    let linear = resolve.space == "linear";
     let total: [f64; 4] = found.samples.iter().fold([0.0; 4], |sum, sample| {
-        std::array::from_fn(|i| sum[i] + sample.color[i])
+        let averaged = if linear { light(sample.color) } else { sample.color };
+        std::array::from_fn(|i| sum[i] + averaged[i])
     });
     for (sum, total) in resolve.sums.iter().zip(total) {
         // Up to a quarter of a level per sample where shaded samples are rounded last.
-        let tolerance = if resolve.summed_exactly {
-            0.26 * resolve.samples as f64
-        } else {
-            1e-9
+        let tolerance = match () {
+            () if resolve.summed_exactly => 0.26 * resolve.samples as f64,
+            // The straight value of what is translucent is rounded to 1/256.
+            () if linear => 0.02 * resolve.samples as f64,
+            () => 1e-9,
         };
         assert!(
             (sum - total).abs() <= tolerance,
@@ -135,15 +145,45 @@ fn check_resolve(found: &Explanation, rules: Rules) {
     for (i, byte) in found.color.iter().enumerate() {
         let exact = match i {
             3 => alpha,
+            _ if alpha > 0.0 && linear => stored(resolve.mean[i] / alpha) * 255.0,
             _ if alpha > 0.0 => resolve.mean[i] * 255.0 / alpha,
             _ => 0.0,
         };
+        // What a sample's straight value was rounded by counts most in the dark.
+        let slack = match () {
+            () if linear && alpha < 255.0 => 0.3,
+            () if linear => 1e-3,
+            () => 1e-9,
+        };
         let byte = f64::from(*byte);
         let right = match rules {
-            Rules::Standard => (byte - exact).abs() <= 0.5 + 1e-9,
-            Rules::Course => byte <= exact + 1e-9 && exact < byte + 1.0 + 1e-9,
+            Rules::Standard => (byte - exact).abs() <= 0.5 + slack,
+            Rules::Course => byte <= exact + slack && exact < byte + 1.0 + slack,
         };
         assert!(right, "{exact} is rounded to {byte}: {found:?}");
+    }
+}
+
+/// The light of a premultiplied colour, weighted by its alpha, by IEC 61966-2-1.
+fn light([r, g, b, alpha]: [f64; 4]) -> [f64; 4] {
+    let of = |channel: f64| {
+        let stored = if alpha > 0.0 { (channel / alpha).min(1.0) } else { 0.0 };
+        alpha
+            * if stored <= 0.040_45 {
+                stored / 12.92
+            } else {
+                ((stored + 0.055) / 1.055).powf(2.4)
+            }
+    };
+    [of(r), of(g), of(b), alpha]
+}
+
+/// The inverse of the curve.
+fn stored(light: f64) -> f64 {
+    if light <= 0.003_130_8 {
+        light * 12.92
+    } else {
+        1.055 * light.powf(1.0 / 2.4) - 0.055
     }
 }
 

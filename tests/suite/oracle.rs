@@ -1,5 +1,6 @@
 //! The engine against the brute-force renderer, on random scenes full of ties.
 
+use rasterscope::color::ResolveSpace;
 use rasterscope::raster::{Framebuffer, SamplePattern};
 use rasterscope::render::RenderSettings;
 use rasterscope::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
@@ -35,6 +36,7 @@ fn samples(u: &mut arbtest::arbitrary::Unstructured<'_>) -> arbtest::arbitrary::
     let rates = if pattern.needs_square() { &rates[..5] } else { &rates };
     Ok(RenderSettings {
         pattern,
+        resolve: *u.choose(&[ResolveSpace::Stored, ResolveSpace::Stored, ResolveSpace::Linear])?,
         ..at_rate(*u.choose(rates)?)
     })
 }

@@ -1,7 +1,7 @@
 //! The pixel inspector without a window: pin, inset, labels, samples.
 
 use glam::dvec2;
-use rasterscope::raster::SampleRate;
+use rasterscope::raster::{SamplePattern, SampleRate};
 use rasterscope::viewer::{Command, PixelRect, PixelZoom, Toggle, ViewNumbers};
 
 use crate::support::session::{Session, TRIANGLES};
@@ -167,4 +167,33 @@ fn inspector_samples_of_the_inspected_pixel() {
     }
     session.keys(&["Esc", "Esc"]);
     assert!(session.viewer.pixel_samples().is_empty(), "the inspector is closed");
+}
+
+#[test]
+fn inspector_counts_the_shades_of_an_edge() {
+    // Stairs, a pixel high each and 1/24 of a pixel wide, so that no stair has two shades.
+    let stair = |i: u32| {
+        let x = 49.01 + f64::from(i) / 24.0;
+        format!("{x:.4},{} {x:.4},{} ", 34 + i, 35 + i)
+    };
+    let stairs: String = (0..32).map(stair).collect();
+    let edge = format!(r#"<svg width="100" height="100"><polygon points="0,34 {stairs}0,66" fill="black"/></svg>"#);
+    let mut session = Session::open(&[&edge], [640, 480]);
+    session.run(Command::SetView(ViewNumbers {
+        center: dvec2(50.0, 50.0),
+        scale: 1.0,
+        rotation: 0.0,
+    }));
+    assert_eq!(session.viewer.region_colors(), None, "the inspector is closed");
+    session.run(Command::SetSampleRate(SampleRate::new(4).unwrap()));
+    session.run(Command::SetInspectorRegion(32));
+    session.run(Command::SetMagnification(6));
+    session.run(Command::Pin([320, 240]));
+    let found = session.viewer.region_colors();
+    session.run(Command::SetPattern(SamplePattern::Rotated));
+    assert_eq!(
+        (found, session.viewer.region_colors()),
+        (Some(3), Some(5)),
+        "grid and rotated grid"
+    );
 }

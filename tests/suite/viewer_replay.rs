@@ -1,6 +1,7 @@
 //! Commands replayed without a window: state and pixels.
 
 use glam::dvec2;
+use rasterscope::color::ResolveSpace;
 use rasterscope::raster::{SamplePattern, SampleRate};
 use rasterscope::rules::Rules;
 use rasterscope::scene::DialectChoice;
@@ -347,6 +348,17 @@ fn replay_steps_through_patterns_and_tells_which_rates_they_refuse() {
     );
     session.run(Command::SetSampleRate(SampleRate::new(8).unwrap()));
     assert_eq!(render(&session).sample_rate.samples(), 9, "also when typed");
+    session.run(Command::NextResolveSpace);
+    assert_eq!(render(&session).resolve, ResolveSpace::Linear, "the other one");
+    assert!(
+        session.viewer.title().contains("resolve linear"),
+        "{}",
+        session.viewer.title()
+    );
+    let line = session.viewer.command_line().unwrap();
+    assert!(line.ends_with(" --resolve linear"), "{line}");
+    session.assert_frame_is_current();
+    session.run(Command::SetResolveSpace(ResolveSpace::Stored));
     session.keys(&["a"]);
     let (rotated, rate) = (render(&session).pattern, render(&session).sample_rate.samples());
     assert_eq!(

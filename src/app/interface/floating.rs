@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use egui::{Align2, Area, Color32, FontId, Frame, Id, Order, Rect, RichText, Sense, Ui, Vec2, pos2, vec2};
 
+use crate::color::ResolveSpace;
 use crate::raster::SamplePattern;
 use crate::viewer::{Arrangement, Command, Message, MessageKind, PixelRect, Viewer, texture_words};
 
@@ -71,6 +72,9 @@ fn overlay_words(viewer: &Viewer) -> Vec<String> {
     let words = texture_words(render);
     if !words.is_empty() {
         lines.push(words.join(", "));
+    }
+    if render.resolve != ResolveSpace::default() {
+        lines.push(format!("resolve: {}", render.resolve.name()));
     }
     if render.rules != crate::rules::Rules::default() {
         lines.push(format!("rules: {}", render.rules.name()));

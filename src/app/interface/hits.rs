@@ -27,6 +27,7 @@ pub(super) fn hits(ui: &Ui, viewer: &Viewer) {
     let rect = points(&area, ui.pixels_per_point());
     let galleys = numbers(ui, &status, rect.width())
         .into_iter()
+        .chain(shades(ui, viewer, rect.width()))
         .chain(words(ui, viewer, rect.width()));
     let mut top = rect.top();
     for galley in galleys {
@@ -54,6 +55,14 @@ fn numbers(ui: &Ui, status: &Status, width: f32) -> Vec<Arc<Galley>> {
         }
     }
     lines.into_iter().flatten().collect()
+}
+
+/// How many colours the region has: along an edge, how well it is sampled.
+fn shades(ui: &Ui, viewer: &Viewer, width: f32) -> Option<Arc<Galley>> {
+    let colors = viewer.region_colors()?;
+    let text = format!("{colors} {} shown", if colors == 1 { "colour" } else { "colours" });
+    let galley = ui.painter().layout_no_wrap(text, FontId::proportional(SIZE), INK);
+    (galley.size().x <= width).then_some(galley)
 }
 
 /// What the samples hit: long lines break between words.

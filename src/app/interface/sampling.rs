@@ -4,6 +4,7 @@ use egui::Ui;
 
 use super::controls::{choice, heading, row, tip};
 use super::detail;
+use crate::color::ResolveSpace;
 use crate::raster::{SamplePattern, SampleRate};
 use crate::rules::Rules;
 use crate::scene::{Dialect, DialectChoice};
@@ -48,6 +49,11 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         commands.extend(chosen.map(Command::SetLevelSampling));
     });
     detail::show(ui, viewer, commands);
+    row(ui, "Resolve", |ui| {
+        let values = ResolveSpace::ALL.map(|value| (value, value.name().to_owned()));
+        let chosen = choice(ui, "Resolve space", &tip("resolve"), render.resolve, &values);
+        commands.extend(chosen.map(Command::SetResolveSpace));
+    });
     row(ui, "Rules", |ui| {
         let values = Rules::ALL.map(|value| (value, value.name().to_owned()));
         let chosen = choice(ui, "Rules", &tip("rules"), render.rules, &values);

@@ -3,7 +3,7 @@
 use egui::{Align, Color32, CornerRadius, FontId, Layout, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::controls::tip;
-use crate::viewer::{Command, Status, Toggle, Viewer, pattern_words, texture_words};
+use crate::viewer::{Command, Status, Toggle, Viewer, sample_words, texture_words};
 
 /// Height of the line's contents, in points.
 const HEIGHT: f32 = 18.0;
@@ -115,7 +115,7 @@ fn picture(ui: &mut Ui, viewer: &Viewer) {
         words.push(format!("{} px/unit", short(numbers.scale)));
     }
     words.push(format!("{}×", render.sample_rate.samples()));
-    words.extend(pattern_words(render));
+    words.extend(sample_words(render));
     words.push(format!(
         "{} / {}",
         render.pixel_sampling.name(),

@@ -1,7 +1,7 @@
 //! A and B in words: which settings differ, and what each of both is.
 
 use super::super::Viewer;
-use super::super::settings::{pattern_words, settings_words, texture_words};
+use super::super::settings::{sample_words, settings_words, texture_words};
 use super::Other;
 use crate::render::RenderSettings;
 
@@ -51,7 +51,7 @@ impl Viewer {
     pub(in super::super) fn own_words(&self) -> Vec<String> {
         let render = &self.settings.render;
         let mut words = vec![format!("sample rate {}", render.sample_rate.samples())];
-        words.extend(pattern_words(render));
+        words.extend(sample_words(render));
         words.extend([
             format!("pixel sampling {}", render.pixel_sampling.name()),
             format!("level sampling {}", render.level_sampling.name()),

@@ -9,7 +9,7 @@
 )]
 
 use glam::DVec2;
-use rasterscope::color::Rgba;
+use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::{FillRule, View, ViewTransform};
 use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{RenderSettings, Subject, replay};
@@ -56,14 +56,50 @@ pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSetting
             for [right, down] in &places {
                 let (i, j) = (x * side + right, y * side + down);
                 let color = sample_color(&steps, scene, settings, [i, j], (side, bits));
-                for (sum, channel) in sum.iter_mut().zip(color) {
+                let averaged = match settings.resolve {
+                    ResolveSpace::Stored => color,
+                    ResolveSpace::Linear => each_straight(color, to_light),
+                };
+                for (sum, channel) in sum.iter_mut().zip(averaged) {
                     *sum += channel / places.len() as f64;
                 }
+            }
+            if settings.resolve == ResolveSpace::Linear {
+                sum = each_straight(sum, to_stored);
             }
             frame.pixels_mut()[(y * size[0] + x) as usize] = to_pixel(sum);
         }
     }
     frame
+}
+
+/// A premultiplied colour whose straight channels, but for alpha, go through a curve.
+fn each_straight([r, g, b, alpha]: Color, curve: fn(f64) -> f64) -> Color {
+    let through = |channel: f64| {
+        if alpha > 0.0 {
+            curve(channel / alpha) * alpha
+        } else {
+            0.0
+        }
+    };
+    [through(r), through(g), through(b), alpha]
+}
+
+/// IEC 61966-2-1, and its inverse.
+fn to_light(stored: f64) -> f64 {
+    if stored <= 0.040_45 {
+        stored / 12.92
+    } else {
+        ((stored + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+fn to_stored(light: f64) -> f64 {
+    if light <= 0.003_130_8 {
+        light * 12.92
+    } else {
+        1.055 * light.powf(1.0 / 2.4) - 0.055
+    }
 }
 
 /// Points of the lattice that samples lie on along one side of a pixel, and fractional bits between two of them.

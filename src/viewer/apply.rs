@@ -400,7 +400,8 @@ impl Viewer {
     }
 
     /// Asks for the frame of the current state. A minimised window keeps the one it has.
-    fn want_frame(&mut self) {
+    pub(super) fn want_frame(&mut self) {
+        self.comparison.forget_postponed();
         let size = self.frame_size();
         let Some(entry) = self.scenes.get(self.current) else {
             return self.clear_frames();

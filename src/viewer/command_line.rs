@@ -16,7 +16,13 @@ impl Viewer {
         let pinned = in_inset.or(self.pinned_pixel());
         let pixel = pinned.or(self.hovered_pixel()).or(self.inspected_pixel());
         match pixel.and_then(|pixel| self.status_of(pixel)) {
-            Some(status) => self.copy(status.to_string()),
+            Some(status) => {
+                let other = self
+                    .other_status_of(status.pixel)
+                    .and_then(|other| other.decimal_text());
+                let other = other.map_or(String::new(), |other| format!("  B {other}"));
+                self.copy(format!("{status}{other}"))
+            }
             None => Vec::new(),
         }
     }

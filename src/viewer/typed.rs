@@ -237,7 +237,7 @@ mod tests {
             (ZOOM, "inf"),
             (PAN, "1"),
             (VIEW, "0,0,0"),
-            (SAMPLE_RATE, "5"),
+            (SAMPLE_RATE, "257"),
             (ANISOTROPY, "0"),
             (ANISOTROPY, "65"),
             (LOD_BIAS, "-17"),

@@ -20,7 +20,7 @@ struct Case {
     steps: &'static str,
 }
 
-const CASES: [Case; 9] = [
+const CASES: [Case; 12] = [
     Case {
         name: "overlay_panel_dark",
         size: [800, 600],
@@ -76,6 +76,27 @@ const CASES: [Case; 9] = [
         scale: 1.0,
         theme: Theme::Dark,
         steps: "panel on; view -512.3456789,433.987654,12345678900",
+    },
+    Case {
+        name: "overlay_compare_wipe",
+        size: [900, 600],
+        scale: 1.0,
+        theme: Theme::Dark,
+        steps: "panel on; key r; rate 16; key w; wait 6000",
+    },
+    Case {
+        name: "overlay_compare_difference_2x",
+        size: [1560, 1100],
+        scale: 2.0,
+        theme: Theme::Light,
+        steps: "panel on; key r; rate 16; difference signed; key Shift+D; region 9; magnification 12; key n; wait 6000",
+    },
+    Case {
+        name: "overlay_compare_side",
+        size: [620, 420],
+        scale: 1.0,
+        theme: Theme::Dark,
+        steps: "panel off; rate 4; side; rate 1; wait 6000",
     },
     Case {
         name: "overlay_go_to_pixel",
@@ -148,7 +169,7 @@ fn overlay_shows_all_notes() {
     std::fs::write(&document, text).unwrap();
     let case = Case {
         name: "notes",
-        size: [800, 1000],
+        size: [800, 1030],
         scale: 1.0,
         theme: Theme::Dark,
         steps: "panel on",

@@ -385,6 +385,42 @@ fn comparison_flips_in_time() {
     assert_eq!(session.viewer.due(), None, "nothing to wait for");
 }
 
+/// What nobody sees is drawn when the hand rests.
+#[test]
+fn comparison_draws_b_in_the_back_at_rest() {
+    let mut session = sixteen_against_one(WINDOW);
+    let view = session.viewer.frame().unwrap().picture.view;
+    let is_in_step = |session: &mut Session| {
+        session.viewer.poll();
+        let picture = &session.viewer.frame().unwrap().picture;
+        let mut expected = Framebuffer::new(WINDOW[0], WINDOW[1]);
+        let settings = session.viewer.other_settings().unwrap();
+        render::draw(&picture.scene, &picture.view, &settings, &mut expected);
+        picture.view != view && *session.viewer.other_pixels().unwrap() == expected
+    };
+    let start = Instant::now();
+    let _ = session.viewer.apply(Command::PanBy { by: dvec2(5.0, 5.0) });
+    while !is_in_step(&mut session) {
+        assert!(start.elapsed() < Duration::from_secs(20), "in the end");
+        assert!(!session.viewer.is_settled(), "there is something to wait for");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert!(start.elapsed() >= Duration::from_millis(90), "at rest");
+}
+
+#[test]
+fn comparison_copies_both_colours() {
+    let mut session = sixteen_against_one(WINDOW);
+    let [x, y] = session.viewer.measures().unwrap().0.places[0].at;
+    session.run(Command::Pin([x.into(), y.into()]));
+    let [r, g, b, _] = frames(&session)[1].rgba(x, y).unwrap();
+    let effects = session.run(Command::CopyPixel);
+    let [Effect::CopyText(text)] = effects.as_slice() else {
+        panic!("{effects:?}")
+    };
+    assert!(text.ends_with(&format!("  B {r} {g} {b}")), "{text}");
+}
+
 #[test]
 fn comparison_commands_open_b_by_themselves() {
     for key in ["w", "d", "Shift+D", "r"] {

@@ -23,6 +23,18 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     guess(ui, viewer);
 }
 
+/// The ways to a comparison, while there is none.
+pub(super) fn offer(ui: &mut Ui, commands: &mut Vec<Command>) {
+    row(ui, "Compare", |ui| {
+        let ways = [("swap", "keep"), ("truth", "truth"), ("compare-picture", "file")];
+        for (id, text) in ways {
+            if command_button(ui, id, text).clicked() {
+                run(id, commands);
+            }
+        }
+    });
+}
+
 /// What A and B are, and what can be done with them.
 fn what(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     heading(ui, "A against B");
@@ -67,6 +79,7 @@ fn arrangement(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     heading(ui, "Show");
     let values = Arrangement::ALL.map(|value| {
         let name = match value {
+            Arrangement::Alone if viewer.is_swapped() => "B",
             Arrangement::Alone => "A",
             Arrangement::Difference => "diff",
             other => other.name(),

@@ -27,6 +27,8 @@ use dialogs::Dialogs;
 use floating::MessageClock;
 use scenes::{Thumbnails, Wishes};
 
+/// Width of the picture that two panels leave at least, in points.
+const LEAST_PICTURE: f32 = 160.0;
 /// Height that the scenes need lest the whole panel scrolls instead of the list alone, in points.
 const LEAST_LIST: f32 = 170.0;
 /// The same for the reader's report.
@@ -136,7 +138,8 @@ impl Interface {
             self.covered.push(line.response.rect);
             if viewer.panel() {
                 self.side_panel(ui, viewer, asked);
-                if viewer.other().is_some() {
+                let fits = ui.available_width() >= look::PANEL_WIDTH + LEAST_PICTURE;
+                if viewer.other().is_some() && fits {
                     self.compare_panel(ui, viewer, asked);
                 }
             }
@@ -207,6 +210,9 @@ impl Interface {
     fn settings(&mut self, ui: &mut Ui, viewer: &Viewer, report_room: f32, asked: &mut Asked) {
         let top = ui.cursor().top();
         sampling::show(ui, viewer, &mut asked.commands);
+        if viewer.other().is_none() {
+            compare::offer(ui, &mut asked.commands);
+        }
         view_numbers::show(ui, viewer, &mut asked.commands);
         let report = ui.scope(|ui| {
             // A bar that is always to be seen tells that there is more.

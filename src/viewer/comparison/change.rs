@@ -26,6 +26,7 @@ impl Comparison {
             held: None,
             paint: None,
             swapped: false,
+            postponed: None,
             loading: None,
             moved: Moved::default(),
             others: 0,

@@ -100,6 +100,8 @@ pub(super) struct Comparison {
     /// How differences are coloured, for the style and the frames that it was made for.
     paint: Option<Paint>,
     measuring: Measuring,
+    /// When B, which nobody sees, is to be drawn.
+    postponed: Option<Instant>,
     /// The picture that is being read.
     loading: Option<PathBuf>,
     /// Where pictures from outside are.

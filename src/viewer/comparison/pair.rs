@@ -1,9 +1,11 @@
 //! Two frames that belong together: B is drawn beside A, and what is on the screen shows both from the same place.
 //!
 //! While the view moves, both are drawn in step: the next view is wanted once both have come to the last, so that a
-//! slow B never makes a difference of two views. Where A alone is to be seen, B is drawn when A is finished.
+//! slow B never makes a difference of two views. Where A alone is to be seen, B is drawn when A is finished and the hand
+//! rests.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use super::super::drawing::{Changes, Drawing, DrawingId, Wish};
 use super::super::{Picture, Viewer};
@@ -56,7 +58,13 @@ impl Comparison {
 
     /// Whether B is there, or nothing of it is wanted: no scene, or no window to show it in.
     pub(in super::super) fn is_current(&self) -> bool {
-        self.loading.is_none() && self.drawn_other().is_none_or(Drawing::is_current)
+        let waits = self.loading.is_some() || self.postponed.is_some();
+        !waits && self.drawn_other().is_none_or(Drawing::is_current)
+    }
+
+    /// What is to be drawn later is decided anew.
+    pub(in super::super) fn forget_postponed(&mut self) {
+        self.postponed = None;
     }
 
     pub(in super::super) fn touch(&mut self) {
@@ -168,8 +176,16 @@ impl Viewer {
             }
             return;
         };
-        if !self.comparison.shows_both() && !self.drawing.is_current() {
-            return;
+        if !self.comparison.shows_both() {
+            if !self.drawing.is_current() {
+                return;
+            }
+            // What nobody sees must not slow down the hand.
+            let rest = self.drawing.rest().filter(|rest| *rest > Instant::now());
+            if rest.is_some() && !self.comparison.measuring.hurries() {
+                self.comparison.postponed = rest;
+                return;
+            }
         }
         if self.comparison.drawing.is_none() {
             match Drawing::start(&self.comparison.mailbox, DrawingId::Second) {
@@ -227,6 +243,9 @@ impl Viewer {
             drawing.set_hurry(hurry);
         }
         self.comparison.measuring.set_hurry(hurry);
+        if hurry && self.comparison.postponed.is_some() {
+            self.want_frame();
+        }
         self.want_measures();
     }
 }

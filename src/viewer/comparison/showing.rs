@@ -48,7 +48,8 @@ impl Viewer {
     pub(in super::super) fn comparison_due(&self) -> Option<Instant> {
         let flip = self.comparison.flip.map(|(due, _)| due);
         let drawing = self.comparison.drawing.as_ref().and_then(Drawing::due);
-        [flip, drawing, self.comparison.measuring.due()]
+        let other = self.comparison.postponed.filter(|_| self.comparison.other.is_some());
+        [flip, drawing, other, self.comparison.measuring.due()]
             .into_iter()
             .flatten()
             .min()

@@ -224,6 +224,11 @@ impl Drawing {
         wanted.since.checked_add(REST)
     }
 
+    /// When the hand counts as resting, if nothing else is wanted until then.
+    pub(super) fn rest(&self) -> Option<Instant> {
+        self.wanted.as_ref()?.since.checked_add(REST)
+    }
+
     /// Starts what is due.
     pub(super) fn look(&mut self) {
         self.next();

@@ -300,8 +300,8 @@ mod tests {
         for (text, line, column, cure) in [
             ("key =\n  kye z", 2, 3, "write key"),
             ("key nothing", 1, 1, "PageUp"),
-            ("rate 5", 1, 1, "square number"),
-            ("rate", 1, 1, "square number"),
+            ("rate 257", 1, 1, "from 1 to 256"),
+            ("rate", 1, 1, "from 1 to 256"),
             ("reset-view 3", 1, 1, "alone"),
             ("é; pin a,b", 1, 1, "write key"),
             ("key é; pin a,b", 1, 8, "whole pixels"),

@@ -334,7 +334,7 @@ pub(super) static TABLE: &[CommandSpec] = &[
     spec(
         "truth",
         "Compare with the truth",
-        "Compares A with the same scene at 256 samples per pixel",
+        "Compares A with the same scene at 256 samples per pixel, averaged in linear light",
         Group::Compare,
     )
     .more("Each of them reads textures at level zero; rules, background and pixel sampling are those of A")

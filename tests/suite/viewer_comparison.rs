@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use glam::dvec2;
+use rasterscope::color::ResolveSpace;
 use rasterscope::compare::{Cause, DifferencePaint, DifferenceStyle, Gain, Measure, Pair};
 use rasterscope::figure::save_png;
 use rasterscope::geometry::View;
@@ -553,6 +554,7 @@ fn comparison_with_the_truth() {
     let truth = RenderSettings {
         sample_rate: SampleRate::new(256).unwrap(),
         pixel_sampling: PixelSampling::Bilinear,
+        resolve: ResolveSpace::Linear,
         ..RenderSettings::default()
     };
     assert_eq!(

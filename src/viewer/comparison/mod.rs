@@ -41,7 +41,8 @@ const FLIP: Duration = Duration::from_millis(700);
 pub enum Other {
     /// The same scene under these settings.
     Settings(RenderSettings),
-    /// The same scene with 256 samples per pixel that read textures at level zero; else as A.
+    /// The same scene with 256 samples per pixel that read textures at level zero and are averaged in linear light; else as
+    /// A.
     Truth,
     /// A picture from outside: A then has its size.
     Picture(Arc<OutsidePicture>),
@@ -52,7 +53,7 @@ pub enum Other {
 pub enum Against {
     /// A copy of the settings of this moment.
     Settings,
-    /// The same scene with 256 samples per pixel.
+    /// The same scene with 256 samples per pixel in linear light.
     Truth,
     /// The PNG or JPEG in this file.
     File(PathBuf),

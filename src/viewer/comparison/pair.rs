@@ -11,12 +11,13 @@ use super::super::drawing::{Changes, Drawing, DrawingId, Wish};
 use super::super::{Picture, Viewer};
 use super::measuring::SharedPicture;
 use super::{Arrangement, Comparison, Other};
+use crate::color::ResolveSpace;
 use crate::raster::{Framebuffer, SamplePattern, SampleRate};
 use crate::render::RenderSettings;
 use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling};
 
-/// The truth about a picture: as many samples as there can be, each of which reads the texture itself. Rules, background
-/// and how a texture is continued between its texels are the picture's own.
+/// The truth about a picture: as many samples as there can be, each of which reads the texture itself, averaged in linear
+/// light. Rules, background and how a texture is continued between its texels are the picture's own.
 fn truth_of(settings: &RenderSettings) -> RenderSettings {
     RenderSettings {
         sample_rate: SampleRate::new(SampleRate::MAX).unwrap_or(settings.sample_rate),
@@ -24,6 +25,7 @@ fn truth_of(settings: &RenderSettings) -> RenderSettings {
         level_sampling: LevelSampling::Zero,
         anisotropy: Anisotropy::OFF,
         detail: LevelOfDetail::default(),
+        resolve: ResolveSpace::Linear,
         ..*settings
     }
 }

@@ -39,6 +39,8 @@ pub(super) enum Verb {
     View(ViewerOptions),
     /// Draw a scene, or every scene in a folder, into PNG files, without a window
     Render(RenderOptions),
+    /// Explain why a pixel has its colour: samples, primitives, edges, weights, texels
+    Inspect(InspectOptions),
     /// Compare two pictures, or a scene with a picture: how many pixels differ, by how much, where, perhaps why
     #[command(after_help = DIFF_STATUS)]
     Diff(DiffOptions),
@@ -52,6 +54,7 @@ impl Verb {
         match self {
             Self::View(options) => &options.sampling,
             Self::Render(options) => &options.picture.sampling,
+            Self::Inspect(options) => &options.picture.sampling,
             Self::Diff(options) => &options.sampling,
             Self::Bench(options) => &options.picture.sampling,
         }
@@ -105,6 +108,27 @@ pub(super) struct RenderOptions {
     #[command(flatten)]
     pub(super) picture: PictureOptions,
 }
+
+#[derive(Debug, Args)]
+pub(super) struct InspectOptions {
+    /// An SVG file, or a scene of the gallery such as gallery:basic/test4.svg
+    pub(super) scene: PathBuf,
+    /// Column and row of the pixel, from 0
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    pub(super) pixel: PixelPlace,
+    /// The sample that is told in full of every primitive, from 1 [default: the most telling one]
+    #[arg(long, value_name = "K")]
+    pub(super) sample: Option<u32>,
+    /// Print JSON instead of text: everything about every sample
+    #[arg(long)]
+    pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) picture: PictureOptions,
+}
+
+/// Column and row of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct PixelPlace(pub(super) [u32; 2]);
 
 #[derive(Debug, Args)]
 pub(super) struct DiffOptions {
@@ -273,6 +297,13 @@ named_values!(
 fn sample_rate(text: &str) -> Result<SampleRate, String> {
     let rate = text.parse().ok().and_then(SampleRate::new);
     rate.ok_or_else(|| "the sample rate is a whole number from 1 to 256".to_owned())
+}
+
+fn pixel(text: &str) -> Result<PixelPlace, String> {
+    let place = text
+        .split_once(',')
+        .and_then(|(x, y)| Some(PixelPlace([x.trim().parse().ok()?, y.trim().parse().ok()?])));
+    place.ok_or_else(|| "a pixel is its column and row from 0, such as 300,200".to_owned())
 }
 
 fn anisotropy(text: &str) -> Result<Anisotropy, String> {

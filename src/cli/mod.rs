@@ -7,6 +7,7 @@ mod arguments;
 mod bench;
 mod diff;
 mod failure;
+mod inspect;
 mod picture;
 mod render;
 mod size;
@@ -47,6 +48,7 @@ fn execute(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.verb {
         Verb::View(options) => view::run(options),
         Verb::Render(options) => render::run(options),
+        Verb::Inspect(options) => inspect::run(options),
         Verb::Diff(options) => diff::run(options),
         Verb::Bench(options) => bench::run(options),
     }

@@ -3,13 +3,19 @@
 //! Replays for one pixel the very functions that draw frames; it has no arithmetic of its own. [`Explanation`] is the
 //! report, in numbers; [`Explanation::text`] says it in words, [`Explanation::markdown`] for a write-up.
 
+mod accumulation;
 mod explanation;
 mod model;
+mod numbers;
 mod samples;
+mod text;
+mod words;
 
+pub use accumulation::Convergence;
 pub use explanation::Question;
 pub use model::{
     Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Resolve, Rounding, Sample, Shape, Source, Tap,
     Texel, Texture, VERSION, Verdict, View,
 };
 pub use samples::{PixelSample, SampleHit, pixel_samples};
+pub use text::Detail;

@@ -61,7 +61,7 @@ impl Viewer {
     pub fn is_final(&self) -> bool {
         let reading = self.current().is_some_and(super::SceneEntry::is_reading);
         let drawn = self.drawing.is_current() && self.comparison.is_current();
-        !reading && drawn && self.probing.is_current() && self.is_measured()
+        !reading && drawn && self.probing.is_current() && self.explaining.is_current() && self.is_measured()
     }
 
     /// When to call [`Viewer::poll`] even if nothing wakes the event loop: then the hand rests, and the preview on the
@@ -117,7 +117,8 @@ impl Viewer {
             }
             Finished::Measured(measured) => self.measured(measured),
             Finished::PictureRead(read) => self.picture_read(read),
-            Finished::Probed(probed) => self.probing.finished(probed),
+            Finished::Probed(target, samples) => self.probing.finished(target, samples),
+            Finished::Explained(asked, explanation) => self.explaining.finished(asked, *explanation),
             Finished::Thumbnail(thumbnail) => self.thumbnail_drawn(thumbnail),
             Finished::Saved(saved) => self.picture_saved(saved),
         }
@@ -127,10 +128,12 @@ impl Viewer {
     pub(super) fn update(&mut self) {
         self.revision += 1;
         self.want_scene();
+        self.keep_pin_in_place();
         self.place_inset();
         self.want_frame();
         self.update_comparison();
         self.want_samples();
+        self.want_explanation();
         let drawn = self.drawn_state();
         if self.last_drawn != Some(drawn) {
             self.last_drawn = Some(drawn);
@@ -159,6 +162,7 @@ impl Viewer {
         match command {
             Command::CopyPixel => return self.copy_pixel(),
             Command::CopyCommandLine => return self.copy_command_line(),
+            Command::CopyExplanation => return self.copy_explanation(),
             Command::WindowScreenshot => return vec![Effect::PictureOfWindow],
             Command::Escape => return self.escape(),
             Command::Quit => return vec![Effect::Quit],
@@ -287,6 +291,7 @@ impl Viewer {
             Command::Resize(size) => screen.window = *size,
             Command::SetFreeArea(area) => screen.free_area = *area,
             Command::OverlayText(toggle) => screen.shown.text = toggle.of(screen.shown.text),
+            Command::Explanation(toggle) => screen.shown.explanation = toggle.of(screen.shown.explanation),
             Command::Panel(toggle) => screen.shown.panel = toggle.of(screen.shown.panel),
             Command::HideEverything(toggle) => screen.hidden = toggle.of(screen.hidden),
             Command::ToggleDialog(dialog) => {

@@ -179,8 +179,13 @@ pub enum Command {
     Nudge([i64; 2]),
     /// The inspector follows the pointer again.
     Unpin,
+    /// Shows or hides why the pinned pixel has its colour.
+    Explanation(Toggle),
     /// Copies place and colour of the inspected pixel.
     CopyPixel,
+
+    /// Copies why the inspected pixel has its colour, as Markdown.
+    CopyExplanation,
 
     // Out.
     /// Copies the command line that makes this picture.

@@ -481,6 +481,16 @@ pub(super) static TABLE: &[CommandSpec] = &[
     .keys(&[Chord::ctrl('g')])
     .run(&Command::ToggleDialog(Dialog::GoToPixel)),
     spec(
+        "explanation",
+        "Explanation",
+        "Shows or hides why the pinned pixel has its colour",
+        Group::Inspector,
+    )
+    .more("Samples, primitives, edges, weights and texels, from the sum back to the line of the document")
+    .keys(&[Chord::char('e')])
+    .run(&Command::Explanation(Toggle::Flip))
+    .argument(typed::EXPLANATION),
+    spec(
         "magnify-more",
         "Magnify more",
         "Shows fewer pixels larger in the inspector",
@@ -533,6 +543,13 @@ pub(super) static TABLE: &[CommandSpec] = &[
     )
     .keys(&[Chord::ctrl('c')])
     .run(&Command::CopyPixel),
+    spec(
+        "copy-explanation",
+        "Copy explanation",
+        "Copies why the inspected pixel has its colour, as Markdown",
+        Group::Save,
+    )
+    .run(&Command::CopyExplanation),
     spec(
         "copy-command-line",
         "Copy command line",

@@ -3,6 +3,8 @@
 //! It reads the frame, never the screen. Unpinned it follows the pointer and gives way to it; pinned it stays, so
 //! that the pointer can go into the inset and read the magnified pixels.
 
+use glam::DVec2;
+
 use crate::figure::{Corner, Inset, PixelRect, place};
 
 /// The magnifications that the wheel steps through.
@@ -31,8 +33,7 @@ pub struct Inspector {
     pub region: u32,
     /// Window pixels along each side of a magnified pixel.
     pub magnification: u32,
-    /// The pinned frame pixel as the user chose it; a smaller frame may not reach it.
-    pub(super) pin: Option<[u32; 2]>,
+    pub(super) pin: Option<Pin>,
     /// The pixel last under the pointer: shown while the pointer is elsewhere.
     pub(super) last: Option<[u32; 2]>,
     /// Region times pitch that the user chose; the wheel keeps it.
@@ -41,6 +42,15 @@ pub struct Inspector {
     corner: Corner,
     /// Turns of the wheel that did not make a whole step yet.
     rest: f64,
+}
+
+/// What is pinned: a place of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pin {
+    /// The frame pixel that the place falls in now; it may lie outside the frame.
+    pub(super) pixel: [i64; 2],
+    /// The place in user units, and the scene's number and generation; `None` until the scene was read.
+    pub(super) place: Option<(DVec2, (usize, u64))>,
 }
 
 /// The inset in the window.

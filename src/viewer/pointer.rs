@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::inspector::Pin;
 use super::{PixelLabel, PixelRect, PlacedInset, PointerButton, Status, Viewer};
 use crate::figure::is_dark;
 
@@ -48,10 +49,29 @@ impl Viewer {
         self.in_frame(pixel)
     }
 
-    /// The pinned pixel; `None` too while the frame has no pixels.
+    /// The pinned pixel; `None` too while the pinned place of the scene is outside the frame.
     pub fn pinned_pixel(&self) -> Option<[u32; 2]> {
-        let pin = self.inspector.pin?;
-        self.nearest_in_frame(pin.map(i64::from))
+        self.in_frame(self.inspector.pin?.pixel)
+    }
+
+    /// Keeps the pin at its place in the scene, whatever the view and the window do. Another scene has other places: there
+    /// it stays at its pixel.
+    pub(super) fn keep_pin_in_place(&mut self) {
+        let Some(mut pin) = self.inspector.pin else { return };
+        let Some(sight) = self.sight().filter(|sight| !sight.frame.contains(&0)) else {
+            return;
+        };
+        let Some(entry) = self.current() else { return };
+        let scene = (self.current, self.generation);
+        let view = entry.camera.transform(&sight);
+        match pin.place {
+            Some((place, of)) if of == scene => pin.pixel = window_pixel(view.to_pixels(place)),
+            _ => {
+                let centre = DVec2::new(pin.pixel[0] as f64, pin.pixel[1] as f64) + 0.5;
+                pin.place = Some((view.to_scene(centre), scene));
+            }
+        }
+        self.inspector.pin = Some(pin);
     }
 
     /// The pixel in the middle of the inspector: the pinned one, else the one last under the pointer, else the one in
@@ -197,7 +217,10 @@ impl Viewer {
     /// Pins the pixel, or the nearest in the frame, and shows the inspector.
     pub(super) fn pin(&mut self, pixel: [i64; 2]) {
         if let Some(pixel) = self.nearest_in_frame(pixel) {
-            self.inspector.pin = Some(pixel);
+            self.inspector.pin = Some(Pin {
+                pixel: pixel.map(i64::from),
+                place: None,
+            });
             self.inspector.open = true;
             self.screen.hidden = false;
         }

@@ -4,7 +4,8 @@
 use std::fmt;
 use std::io;
 
-use super::background::{AtEnd, Crew, Mailbox, guarded};
+use super::background::{Mailbox, guarded};
+use super::latest::Latest;
 use super::state::Finished;
 use super::{Picture, Viewer};
 use crate::figure::SampleMark;
@@ -35,28 +36,13 @@ pub enum Hit {
 }
 
 /// The state of probing.
-#[derive(Debug)]
-pub(super) struct Probing {
-    crew: Crew<Target>,
-    wanted: Option<Target>,
-    found: Option<Probed>,
-    is_running: bool,
-    /// Grows with every change of what [`Probing::samples`] answers.
-    number: u64,
-}
+pub(super) type Probing = Latest<Target, Vec<ProbedSample>>;
 
 /// A pixel of a frame.
 #[derive(Clone, Debug, PartialEq)]
-struct Target {
-    picture: Picture,
-    pixel: [u32; 2],
-}
-
-/// A pixel that was probed.
-#[derive(Debug)]
-pub(super) struct Probed {
-    target: Target,
-    samples: Vec<ProbedSample>,
+pub(super) struct Target {
+    pub(super) picture: Picture,
+    pub(super) pixel: [u32; 2],
 }
 
 impl fmt::Display for Hit {
@@ -76,72 +62,19 @@ impl fmt::Display for Hit {
     }
 }
 
-impl Probing {
-    pub(super) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Self> {
-        let mailbox = mailbox.clone();
-        let work = move |target: Target| mailbox.post(Finished::Probed(target.probe()));
-        Ok(Self {
-            crew: Crew::start("probe", 1, AtEnd::Detach, work)?,
-            wanted: None,
-            found: None,
-            is_running: false,
-            number: 0,
-        })
-    }
-
-    /// The samples that are wanted, once they are there.
-    fn samples(&self) -> &[ProbedSample] {
-        match (&self.found, &self.wanted) {
-            (Some(found), Some(wanted)) if found.target == *wanted => &found.samples,
-            _ => &[],
-        }
-    }
-
-    /// Another number, other samples.
-    pub(super) fn number(&self) -> u64 {
-        self.number
-    }
-
-    /// Whether what is wanted was found.
-    pub(super) fn is_current(&self) -> bool {
-        let found = self.found.as_ref().map(|found| &found.target);
-        self.wanted.is_none() || found == self.wanted.as_ref()
-    }
-
-    fn want(&mut self, target: Option<Target>) {
-        if self.wanted != target {
-            self.wanted = target;
-            self.number += 1;
-            self.next();
-        }
-    }
-
-    pub(super) fn finished(&mut self, probed: Probed) {
-        self.is_running = false;
-        self.found = Some(probed);
-        self.number += 1;
-        self.next();
-    }
-
-    fn next(&mut self) {
-        if self.is_running || self.is_current() {
-            return;
-        }
-        let Some(target) = self.wanted.clone() else { return };
-        if target.picture.scene.primitives.len() <= FEW {
-            self.found = Some(target.probe());
-        } else {
-            self.is_running = true;
-            self.crew.push(target);
-        }
-    }
+/// Starts the thread that probes.
+pub(super) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Probing> {
+    let mailbox = mailbox.clone();
+    Latest::start("probe", move |target: Target| {
+        let samples = target.probe();
+        mailbox.post(Finished::Probed(target, samples));
+    })
 }
 
 impl Target {
     /// A pixel that cannot be probed has no samples.
-    fn probe(self) -> Probed {
-        let samples = guarded(|| self.samples()).unwrap_or_default();
-        Probed { target: self, samples }
+    fn probe(&self) -> Vec<ProbedSample> {
+        guarded(|| self.samples()).unwrap_or_default()
     }
 
     fn samples(&self) -> Vec<ProbedSample> {
@@ -175,7 +108,7 @@ impl Viewer {
     /// The samples of the pixel in the middle of the open inspector, in the order of the sample pattern; empty until
     /// they were found out.
     pub fn pixel_samples(&self) -> &[ProbedSample] {
-        self.probing.samples()
+        self.probing.answer().map_or(&[], Vec::as_slice)
     }
 
     /// What the samples of the inspected pixel hit, and how many each, in the order of the samples.
@@ -203,6 +136,8 @@ impl Viewer {
             picture: frame.picture.clone(),
             pixel,
         });
-        self.probing.want(target);
+        self.probing.want(target, |target| {
+            (target.picture.scene.primitives.len() <= FEW).then(|| target.probe())
+        });
     }
 }

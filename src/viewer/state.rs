@@ -8,9 +8,10 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use super::background::Mailbox;
 use super::comparison::{Against, Comparison, Measured, Panes, ReadPicture, is_picture};
 use super::drawing::{Drawing, DrawingId, Drawn};
+use super::explaining::{self, Asked, Explaining};
 use super::messages::Messages;
 use super::pointer::Pointer;
-use super::probing::{Probed, Probing};
+use super::probing::{self, ProbedSample, Probing, Target};
 use super::reading::{ReadScene, Readers, Thumbnail};
 use super::screenshot::{Saved, Saver};
 use super::{
@@ -18,6 +19,7 @@ use super::{
     Sight, Theme, ViewNumbers, library,
 };
 use crate::geometry::View;
+use crate::inspect::Explanation;
 
 /// Called from other threads when [`Viewer::poll`] has something to take in.
 pub type Waker = Arc<dyn Fn() + Send + Sync>;
@@ -65,6 +67,7 @@ pub struct Viewer {
     pub(super) drawing: Drawing,
     pub(super) comparison: Comparison,
     pub(super) probing: Probing,
+    pub(super) explaining: Explaining,
     pub(super) readers: Readers,
     pub(super) saver: Saver,
     pub(super) results: Receiver<Finished>,
@@ -89,10 +92,16 @@ pub(super) struct Screen {
 }
 
 /// What of the overlay is shown.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "three things that are shown or not, each on its own"
+)]
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shown {
     pub(super) text: bool,
     pub(super) panel: bool,
+    /// Why the pinned pixel has its colour.
+    pub(super) explanation: bool,
 }
 
 /// What decides the pixels of [`Viewer::draw_window`]; a frame and probed samples by their numbers.
@@ -113,9 +122,10 @@ pub(super) struct DrawnState {
 pub(super) enum Finished {
     Read(ReadScene),
     Drawn(DrawingId, Drawn),
-    Probed(Probed),
     Measured(Measured),
     PictureRead(ReadPicture),
+    Probed(Target, Vec<ProbedSample>),
+    Explained(Asked, Box<Option<Explanation>>),
     Thumbnail(Thumbnail),
     Saved(Saved),
 }
@@ -171,6 +181,7 @@ impl Viewer {
                 shown: Shown {
                     text: true,
                     panel: true,
+                    explanation: true,
                 },
             },
             pointer: Pointer::default(),
@@ -180,7 +191,8 @@ impl Viewer {
             messages: Messages::default(),
             drawing: Drawing::start(&mailbox, DrawingId::First)?,
             comparison: Comparison::new(mailbox.clone()),
-            probing: Probing::start(&mailbox)?,
+            probing: probing::start(&mailbox)?,
+            explaining: explaining::start(&mailbox)?,
             readers: Readers::start(&mailbox)?,
             saver: Saver::start(&mailbox, options.screenshot_dir)?,
             results,

@@ -149,6 +149,7 @@ pub(super) const REGION: Argument = argument("a whole number from 8 to 64", |tex
 });
 pub(super) const OVERLAY: Argument = argument("on|off|flip", |text| toggle(text).map(Command::OverlayText));
 pub(super) const HIDE: Argument = argument("on|off|flip", |text| toggle(text).map(Command::HideEverything));
+pub(super) const EXPLANATION: Argument = argument("on|off|flip", |text| toggle(text).map(Command::Explanation));
 pub(super) const PANEL: Argument = argument("on|off|flip", |text| toggle(text).map(Command::Panel));
 pub(super) const THEME: Argument = argument("dark|light", |text| {
     named(&Theme::ALL, Theme::name, text).map(Command::SetTheme)

@@ -370,3 +370,67 @@ fn cli_helps() {
         );
     }
 }
+
+#[test]
+fn cli_inspect_explains_a_pixel_in_words_and_numbers() {
+    let document = "<svg width=\"4\" height=\"4\">\n<rect id=\"sky\" width=\"4\" height=\"4\" fill=\"#0000FF\"/>\n\
+                    <polygon id=\"tip\" points=\"0,0 2,0 0,4\" fill=\"#FF0000\"/>\n</svg>";
+    let folder = folder_with(&[("two.svg", document)]);
+    let inspect = |more: &[&str]| {
+        let options = ["--size", "4x4", "--sample-rate", "4", "--view", "canvas"];
+        let output = run(
+            folder.path(),
+            &[&["inspect", "two.svg", "--pixel", "1,0"], &options[..], more].concat(),
+        );
+        assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let text = inspect(&[]);
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "80 columns: {text}"
+    );
+    for expected in [
+        "Pixel (1, 0) of 4 x 4",
+        "colour      #BF0040",
+        "3 of 4 samples show 2 (triangle of polygon \"tip\", line 3), 1 1 (polygon of rect",
+        "(3 x 255 + 1 x 0) / 4 = 191.25, rounded to 191",
+        "two.svg:3:1",
+        "3 | <polygon id=\"tip\"",
+        "paints 3 of 4 samples: 1-3",
+        "covers 75 % of the pixel in truth, 75 % by its samples",
+    ] {
+        let joined = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let expected = expected.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(joined.contains(&expected), "{expected:?} is in {text}");
+    }
+    let outside = inspect(&["--sample", "4"]);
+    assert!(
+        outside.contains("outside") && outside.contains("leaves this sample as it was"),
+        "why not: {outside}"
+    );
+    let report: serde_json::Value = serde_json::from_str(&inspect(&["--json"])).expect("JSON");
+    assert_eq!(report["version"], 1, "the shape of the report");
+    assert_eq!(report["hex"], "#BF0040", "the pixel");
+    assert_eq!(report["samples"][3]["stack"], serde_json::json!([0]), "the last sample");
+    let tip = &report["paints"][1];
+    assert_eq!(tip["source"]["id"], "tip", "the primitive");
+    assert_eq!(tip["shape"]["kind"], "triangle", "its kind");
+    assert_eq!(tip["views"][3]["edges"][1]["verdict"], "outside", "why not: {tip}");
+}
+
+#[test]
+fn cli_inspect_refuses_what_is_not_there() {
+    let folder = folder_with(&[("a.svg", SCENE)]);
+    let refuse = |options: &[&str], words: &[&str]| {
+        refused(folder.path(), &[&["inspect", "a.svg"], options].concat(), words);
+    };
+    refuse(
+        &["--pixel", "1024,0"],
+        &["--pixel 1024,0", "1024x1024", "0,0 to 1023,1023"],
+    );
+    refuse(&["--pixel", "1"], &["a pixel is its column and row from 0"]);
+    refuse(&["--pixel", "1,-1"], &["a pixel is its column and row from 0"]);
+    refuse(&["--pixel", "1,1", "--sample", "2"], &["--sample 2", "samples 1 to 1"]);
+    refuse(&[], &["--pixel"]);
+}

@@ -20,7 +20,7 @@ struct Case {
     steps: &'static str,
 }
 
-const CASES: [Case; 12] = [
+const CASES: [Case; 14] = [
     Case {
         name: "overlay_panel_dark",
         size: [800, 600],
@@ -61,7 +61,21 @@ const CASES: [Case; 12] = [
         size: [800, 600],
         scale: 1.0,
         theme: Theme::Light,
-        steps: "rate 16; pin 277,178; magnification 24; region 12; panel off",
+        steps: "rate 16; pin 277,178; magnification 24; region 12; panel off; explanation off",
+    },
+    Case {
+        name: "overlay_explanation",
+        size: [900, 900],
+        scale: 1.0,
+        theme: Theme::Dark,
+        steps: "rate 16; pin 587,178; magnification 16; panel off; move 200,372",
+    },
+    Case {
+        name: "overlay_explanation_light_2x",
+        size: [1600, 1400],
+        scale: 2.0,
+        theme: Theme::Light,
+        steps: "rate 4; pin 300,640; panel off",
     },
     Case {
         name: "overlay_inspector_small",

@@ -2,7 +2,7 @@
 
 use glam::dvec2;
 use rasterscope::raster::{SamplePattern, SampleRate};
-use rasterscope::viewer::{Command, PixelRect, PixelZoom, Toggle, ViewNumbers};
+use rasterscope::viewer::{Command, Effect, PixelRect, PixelZoom, Toggle, ViewNumbers};
 
 use crate::support::session::{Session, TRIANGLES};
 
@@ -25,11 +25,86 @@ fn inspector_pin_and_nudge() {
     session.run(Command::Nudge([100_000, -100_000]));
     assert_eq!(session.viewer.pinned_pixel(), Some([399, 0]), "within the frame");
     session.run(Command::Resize([200, 300]));
-    assert_eq!(session.viewer.pinned_pixel(), Some([199, 0]), "in a smaller frame too");
+    assert_eq!(
+        session.viewer.pinned_pixel(),
+        None,
+        "a smaller frame does not reach the place"
+    );
     session.run(Command::Resize([0, 0]));
     assert_eq!(session.viewer.pinned_pixel(), None, "a minimised window has no pixels");
     session.run(Command::Resize([400, 300]));
     assert_eq!(session.viewer.pinned_pixel(), Some([399, 0]), "as the user chose it");
+}
+
+#[test]
+fn inspector_pin_stays_at_its_place_in_the_scene() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    session.run(Command::Pin([150, 120]));
+    let place = |session: &Session| {
+        let pixel = session.viewer.pinned_pixel().expect("in the frame");
+        session.viewer.status_of(pixel).expect("a scene").user
+    };
+    let (before, scale) = (place(&session), session.viewer.view_numbers().expect("a view").scale);
+    session.run(Command::ZoomAt {
+        at: Some(dvec2(130.0, 110.0)),
+        factor: 3.0,
+    });
+    assert_eq!(
+        session.viewer.pinned_pixel(),
+        Some([190, 140]),
+        "three times as far from what stays"
+    );
+    session.run(Command::PanBy { by: dvec2(-40.0, 25.0) });
+    assert_eq!(session.viewer.pinned_pixel(), Some([150, 165]), "with the picture");
+    for command in [
+        Command::RotateBy { degrees: 35.0 },
+        Command::Resize([500, 420]),
+        Command::SetPixelZoom(PixelZoom::ALL[1]),
+        Command::SetSampleRate(SampleRate::new(9).expect("a square number")),
+    ] {
+        session.run(command.clone());
+        let numbers = session.viewer.view_numbers().expect("a view");
+        assert!(
+            (place(&session) - before).length() < 1.0 / numbers.scale,
+            "{command:?}: less than a pixel away"
+        );
+    }
+    session.run(Command::PanBy { by: dvec2(9000.0, 0.0) });
+    assert_eq!(session.viewer.pinned_pixel(), None, "out of sight");
+    session.run(Command::ResetView);
+    assert!(
+        (place(&session) - before).length() < 1.0 / scale.min(1.0),
+        "and back: {:?}",
+        session.viewer.pinned_pixel()
+    );
+}
+
+#[test]
+fn inspector_explains_the_pinned_pixel() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    assert!(session.viewer.explanation().is_none(), "nothing is pinned");
+    session.run(Command::Inspector(Toggle::On));
+    assert!(session.viewer.explanation().is_none(), "the pointer is not followed");
+    session.run(Command::Pin([200, 150]));
+    let explained = session.viewer.explanation().expect("a pinned pixel").clone();
+    let frame = session.viewer.frame().expect("a frame");
+    assert_eq!(explained.pixel, [200, 150], "the pinned one");
+    assert_eq!(Some(explained.color), frame.final_rgba(200, 150), "as in the frame");
+    session.run(Command::SetSampleRate(SampleRate::new(4).expect("a square number")));
+    assert_eq!(
+        session.viewer.explanation().map(|explained| explained.samples.len()),
+        Some(4),
+        "for the new settings"
+    );
+    session.keys(&["e"]);
+    assert!(session.viewer.explanation().is_none(), "closed");
+    session.keys(&["e"]);
+    assert!(session.viewer.explanation().is_some(), "open again");
+    let copied = session.run(Command::CopyExplanation);
+    assert!(
+        matches!(copied.as_slice(), [Effect::CopyText(text)] if text.starts_with("## Pixel (200, 150)")),
+        "{copied:?}"
+    );
 }
 
 #[test]

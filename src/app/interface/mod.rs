@@ -11,12 +11,15 @@ mod controls;
 mod detail;
 mod dialogs;
 mod document;
+mod explanation;
 mod floating;
 mod hits;
 mod look;
 mod sampling;
 mod scenes;
+mod scrubber;
 mod status;
+mod twin;
 mod view_numbers;
 
 use egui::style::ScrollStyle;
@@ -24,6 +27,7 @@ use egui::{Context, Frame, Margin, Panel, Pos2, Rect, ScrollArea, Ui};
 
 use crate::viewer::{Command, PixelRect, Theme, Viewer};
 use dialogs::Dialogs;
+use explanation::{ExplanationPanel, Hovered};
 use floating::MessageClock;
 use scenes::{Thumbnails, Wishes};
 
@@ -45,6 +49,7 @@ pub(super) struct Interface {
     timed: bool,
     thumbnails: Thumbnails,
     dialogs: Dialogs,
+    explanation: ExplanationPanel,
     clock: MessageClock,
     /// What the panels covered in the last pass, in points.
     covered: Vec<Rect>,
@@ -82,6 +87,7 @@ impl Interface {
             timed,
             thumbnails: Thumbnails::default(),
             dialogs: Dialogs::default(),
+            explanation: ExplanationPanel::default(),
             clock: MessageClock::default(),
             covered: Vec::new(),
             heights: Heights {
@@ -144,7 +150,9 @@ impl Interface {
                 }
             }
         }
+        let hovered = self.explanation(ui, viewer, whole, asked);
         let free = ui.available_rect_before_wrap().intersect(whole);
+        hovered.outline(ui, viewer, free);
         asked
             .commands
             .push(Command::SetFreeArea(Some(device_rect(free, ui.pixels_per_point()))));
@@ -176,6 +184,24 @@ impl Interface {
                 area.show(ui, |ui| compare::show(ui, viewer, &mut asked.commands));
             });
         self.covered.push(panel.response.rect);
+    }
+
+    /// Why the pinned pixel has its colour, beside the picture.
+    fn explanation(&mut self, ui: &mut Ui, viewer: &Viewer, whole: Rect, asked: &mut Asked) -> Hovered {
+        let free = ui.available_rect_before_wrap().intersect(whole);
+        let panel = match explanation::side(viewer, free, ui.pixels_per_point()) {
+            None => return Hovered::default(),
+            Some(true) => Panel::left("explanation"),
+            Some(false) => Panel::right("explanation on the right"),
+        };
+        let memory = &mut self.explanation;
+        let panel = panel
+            .resizable(false)
+            .exact_size(explanation::WIDTH)
+            .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 8)))
+            .show(ui, |ui| memory.show(ui, viewer, &mut asked.commands));
+        self.covered.push(panel.response.rect);
+        panel.inner
     }
 
     fn side_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {

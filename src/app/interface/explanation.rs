@@ -1,0 +1,324 @@
+//! Why the pinned pixel has its colour: a tree beside the picture. What the pointer is over is outlined in the scene.
+
+use egui::text::{LayoutJob, TextFormat};
+use egui::{
+    CollapsingHeader, Color32, FontId, Pos2, Rect, Response, RichText, ScrollArea, Sense, Shape, Stroke, Ui, pos2, vec2,
+};
+
+use super::controls::command_button;
+use super::look;
+use super::{scrubber, twin};
+use crate::inspect::{Explanation, Paint};
+use crate::viewer::{Command, Toggle, Viewer};
+
+/// Width of the panel, in points, frame included.
+pub(super) const WIDTH: f32 = 348.0;
+/// Side of the magnified pixel with its samples, in points.
+const PIXEL_SIDE: f32 = 132.0;
+/// Letters of the report, in points.
+const SIZE: f32 = 12.0;
+/// What outlines are drawn with, over anything: a light line on a dark one.
+const OUTLINE: [(f32, Color32); 2] = [
+    (4.0, Color32::from_black_alpha(170)),
+    (1.5, Color32::from_rgb(255, 214, 10)),
+];
+
+/// What the panel remembers.
+#[derive(Debug, Default)]
+pub(super) struct ExplanationPanel {
+    /// The sample that is told in full, where the user chose one.
+    chosen: Option<usize>,
+    /// How many samples are accumulated; none are all.
+    accumulated: Option<usize>,
+    /// The pixel that these belong to.
+    pixel: Option<[u32; 2]>,
+}
+
+/// What the pointer is over.
+#[derive(Debug, Default)]
+pub(super) struct Hovered {
+    /// A primitive of the scene.
+    primitive: Option<u32>,
+    /// A sample.
+    sample: Option<usize>,
+}
+
+impl ExplanationPanel {
+    /// Fills the panel; what the pointer is over.
+    pub(super) fn show(&mut self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) -> Hovered {
+        let mut hovered = Hovered::default();
+        title(ui, viewer, commands);
+        let Some(explanation) = viewer.explanation() else {
+            ui.label(RichText::new("finding out …").weak());
+            return hovered;
+        };
+        if self.pixel != Some(explanation.pixel) {
+            *self = Self {
+                pixel: Some(explanation.pixel),
+                ..Self::default()
+            };
+        }
+        ScrollArea::vertical()
+            .id_salt("explanation")
+            .auto_shrink(false)
+            .show(ui, |ui| self.report(ui, viewer, explanation, &mut hovered));
+        hovered
+    }
+
+    fn report(&mut self, ui: &mut Ui, viewer: &Viewer, explanation: &Explanation, hovered: &mut Hovered) {
+        lines(ui, &explanation.pixel_lines());
+        section(ui, "resolve", "How samples became the colour", false, |ui| {
+            lines(ui, &explanation.resolve_lines());
+        });
+        let count = explanation.samples.len();
+        let heading = if count == 1 {
+            "The sample".to_owned()
+        } else {
+            format!("The {count} samples")
+        };
+        section(ui, "samples", &heading, true, |ui| {
+            self.samples(ui, explanation, hovered);
+        });
+        if count > 1 {
+            section(ui, "scrubber", "Sample by sample", false, |ui| {
+                scrubber::show(ui, explanation, &mut self.accumulated);
+            });
+        }
+        let over = hovered.sample.or(self.chosen);
+        let lit = over.and_then(|sample| explanation.samples.get(sample));
+        // The topmost first, as one sees them.
+        for paint in (0..explanation.paints.len()).rev() {
+            let is_lit = lit.is_some_and(|sample| sample.stack.contains(&paint));
+            self.paint(ui, viewer, (explanation, paint, is_lit), hovered);
+        }
+        if explanation.paints.is_empty() {
+            lines(
+                ui,
+                &["Nothing paints this pixel: every sample shows the background.".to_owned()],
+            );
+        }
+        missed(ui, explanation, hovered);
+    }
+
+    /// The pixel with its samples as dots in their own colours; a click chooses the one that is told in full.
+    fn samples(&mut self, ui: &mut Ui, explanation: &Explanation, hovered: &mut Hovered) {
+        ui.horizontal_top(|ui| {
+            let (rect, response) = ui.allocate_exact_size(vec2(PIXEL_SIDE, PIXEL_SIDE), Sense::click());
+            let place = |at: [f64; 2]| at_part(rect, at);
+            let nearest = response.hover_pos().and_then(|pointer| {
+                let distance = |i: usize| place(explanation.samples[i].position).distance_sq(pointer);
+                (0..explanation.samples.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+            });
+            if response.clicked() {
+                self.chosen = nearest.filter(|nearest| self.chosen != Some(*nearest));
+            }
+            hovered.sample = nearest;
+            let told = nearest.or(self.chosen);
+            draw_samples(ui, explanation, rect, told);
+            response.on_hover_text("Click a sample to read its edges, weights and texels below");
+            let words = match told {
+                Some(sample) => {
+                    let mut words = vec![explanation.sample_title(sample)];
+                    words.extend(explanation.sample_lines(sample));
+                    words
+                }
+                None => vec!["Point at a sample to light what it shows, click to choose it.".to_owned()],
+            };
+            ui.vertical(|ui| lines(ui, &words));
+        });
+    }
+
+    fn paint(
+        &mut self,
+        ui: &mut Ui,
+        viewer: &Viewer,
+        (explanation, number, is_lit): (&Explanation, usize, bool),
+        hovered: &mut Hovered,
+    ) {
+        let paint = &explanation.paints[number];
+        let title = explanation.paint_title(number);
+        let title = if is_lit { format!("{title}  \u{25C0}") } else { title };
+        let seen = paint.fragments.iter().any(|fragment| fragment.seen);
+        let text = RichText::new(title).size(12.0);
+        let text = match (is_lit, seen) {
+            (true, _) => text.strong(),
+            (false, true) => text,
+            (false, false) => text.weak(),
+        };
+        let sample = hovered
+            .sample
+            .or(self.chosen)
+            .or_else(|| explanation.telling_sample(number));
+        let header = CollapsingHeader::new(text)
+            .id_salt(("paint", number))
+            .default_open(is_topmost(explanation, number))
+            .show(ui, |ui| {
+                lines(ui, &explanation.paint_lines(number));
+                if let Some(sample) = sample {
+                    twin::show(ui, viewer, paint, sample);
+                    lines(ui, &[format!("At {}:", explanation.sample_title(sample))]);
+                    ui.indent("fragment", |ui| lines(ui, &explanation.fragment_lines(number, sample)));
+                }
+            });
+        let inside = header.body_response.as_ref().is_some_and(Response::contains_pointer);
+        if header.header_response.contains_pointer() || inside {
+            hovered.primitive = Some(paint.primitive);
+        }
+    }
+}
+
+fn missed(ui: &mut Ui, explanation: &Explanation, hovered: &mut Hovered) {
+    if explanation.missed.is_empty() {
+        return;
+    }
+    section(ui, "missed", "What passes between the samples", true, |ui| {
+        for (line, missed) in explanation.missed_lines().iter().zip(&explanation.missed) {
+            if lines(ui, std::slice::from_ref(line)).contains_pointer() {
+                hovered.primitive = Some(missed.primitive);
+            }
+        }
+        lines(ui, &["More samples, or another pattern, may find it.".to_owned()]);
+    });
+}
+
+/// Whether a paint is what most people ask about: the topmost one that is seen.
+fn is_topmost(explanation: &Explanation, paint: usize) -> bool {
+    let seen = |paint: &Paint| paint.fragments.iter().any(|fragment| fragment.seen);
+    explanation.paints.iter().rposition(seen) == Some(paint)
+}
+
+fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        let [x, y] = viewer.inspected_pixel().unwrap_or_default();
+        if let Some(color) = viewer.explanation().map(|explanation| explanation.color) {
+            let (rect, _) = ui.allocate_exact_size(vec2(16.0, 16.0), Sense::hover());
+            ui.painter().rect_filled(rect, 2.0, opaque(color));
+            ui.painter().rect_stroke(
+                rect,
+                2.0,
+                Stroke::new(1.0, ui.visuals().weak_text_color()),
+                egui::StrokeKind::Outside,
+            );
+        }
+        ui.label(RichText::new(format!("Pixel {x}, {y}")).strong().size(14.0));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if command_button(ui, "explanation", "Close").clicked() {
+                commands.push(Command::Explanation(Toggle::Off));
+            }
+            if command_button(ui, "copy-explanation", "Copy").clicked() {
+                commands.push(Command::CopyExplanation);
+            }
+        });
+    });
+    ui.add_space(2.0);
+}
+
+fn section(ui: &mut Ui, id: &str, title: &str, open: bool, contents: impl FnOnce(&mut Ui)) {
+    CollapsingHeader::new(RichText::new(title).size(12.0))
+        .id_salt(id)
+        .default_open(open)
+        .show(ui, contents);
+}
+
+/// Lines of the report. What stands before a gap is a name, and drawn weaker than what it names.
+fn lines(ui: &mut Ui, lines: &[String]) -> Response {
+    /// Longest name, in bytes.
+    const NAME: usize = 18;
+    let (weak, normal) = (ui.visuals().weak_text_color(), ui.visuals().text_color());
+    let mut job = LayoutJob::default();
+    let mut add = |text: &str, color| {
+        let format = TextFormat {
+            line_height: Some(SIZE + 4.5),
+            ..TextFormat::simple(FontId::proportional(SIZE), color)
+        };
+        job.append(text, 0.0, format);
+    };
+    for (i, line) in lines.iter().enumerate() {
+        if i > 0 {
+            add("\n", normal);
+        }
+        match line
+            .trim_start()
+            .split_once("  ")
+            .filter(|(name, _)| name.len() <= NAME)
+        {
+            Some((name, value)) => {
+                add(name, weak);
+                add("   ", weak);
+                add(value.trim_start(), normal);
+            }
+            None => add(line.trim_start(), normal),
+        }
+    }
+    ui.label(job)
+}
+
+fn draw_samples(ui: &Ui, explanation: &Explanation, rect: Rect, told: Option<usize>) {
+    let painter = ui.painter();
+    painter.rect_filled(rect, 0.0, opaque(explanation.color));
+    let side = (explanation.samples.len() as f32).sqrt().max(1.0);
+    let radius = (PIXEL_SIDE / side * 0.32).clamp(2.0, 14.0);
+    for (number, sample) in explanation.samples.iter().enumerate() {
+        let at = at_part(rect, sample.position);
+        painter.circle_filled(at, radius, opaque(sample.bytes));
+        let (width, color) = if told == Some(number) {
+            (2.5, OUTLINE[1].1)
+        } else {
+            (
+                1.0,
+                Color32::from_gray(if crate::figure::is_dark(sample.bytes) { 200 } else { 60 }),
+            )
+        };
+        painter.circle_stroke(at, radius, Stroke::new(width, color));
+    }
+    painter.rect_stroke(
+        rect,
+        0.0,
+        Stroke::new(1.0, ui.visuals().weak_text_color()),
+        egui::StrokeKind::Outside,
+    );
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "places on a screen")]
+fn at_part(rect: Rect, [x, y]: [f64; 2]) -> Pos2 {
+    rect.min + vec2(rect.width() * x as f32, rect.height() * y as f32)
+}
+
+/// A straight colour without its alpha: swatches are opaque.
+pub(super) fn opaque([r, g, b, _]: [u8; 4]) -> Color32 {
+    Color32::from_rgb(r, g, b)
+}
+
+impl Hovered {
+    /// Outlines the primitive that the pointer is over in the picture, where no panel covers it.
+    pub(super) fn outline(&self, ui: &Ui, viewer: &Viewer, free: Rect) {
+        let Some(primitive) = self.primitive else { return };
+        let scale = f64::from(ui.pixels_per_point());
+        let painter = ui.painter().with_clip_rect(free);
+        #[expect(clippy::cast_possible_truncation, reason = "what is far outside is clipped")]
+        let point = |[x, y]: [f64; 2]| {
+            let near = |at: f64| (at / scale).clamp(-1e5, 1e5) as f32;
+            pos2(near(x), near(y))
+        };
+        let contours = viewer.outline_of(primitive);
+        for (width, color) in OUTLINE {
+            for contour in &contours {
+                let points = contour.iter().map(|at| point(*at)).collect();
+                painter.add(Shape::closed_line(points, Stroke::new(width, color)));
+            }
+        }
+    }
+}
+
+/// Whether the panel goes on the left: unless the pinned pixel lies there. `None` where the window is too narrow.
+pub(super) fn side(viewer: &Viewer, free: Rect, pixels_per_point: f32) -> Option<bool> {
+    /// What of the picture must stay free beside the panel, in points.
+    const LEAST_REST: f32 = 300.0;
+    if !viewer.explains() || free.width() < WIDTH + LEAST_REST {
+        return None;
+    }
+    let pixel = viewer.pinned_pixel()?;
+    let zoom = viewer.settings().pixel_zoom.factor() as f32;
+    let x = pixel[0] as f32 * zoom / pixels_per_point;
+    Some(x > free.left() + WIDTH + look::PANEL_WIDTH / 8.0)
+}

@@ -1,0 +1,157 @@
+//! The texture's twin of a fragment: the mip level that it reads, with the footprint of its pixel and its taps.
+
+use egui::{Color32, Pos2, Rect, RichText, Sense, Shape, Stroke, Ui, vec2};
+
+use super::explanation::opaque;
+use crate::inspect::{Interpolated, Level, Paint, Tap, View};
+use crate::texture::MipLevel;
+use crate::viewer::Viewer;
+
+/// Sides of the view, in points.
+const SIZE: [f32; 2] = [290.0, 150.0];
+/// Texels that are shown across at least and at most.
+const TEXELS: (f64, f64) = (6.0, 64.0);
+const FOOTPRINT: Color32 = Color32::from_rgb(255, 214, 10);
+const TAP: Color32 = Color32::from_rgb(230, 60, 60);
+
+/// The part of a level that is shown: texels to points.
+struct Window {
+    rect: Rect,
+    /// The texel position in the middle.
+    middle: [f64; 2],
+    /// Points per texel.
+    scale: f64,
+}
+
+/// Draws the first level that the fragment of `paint` at `sample` reads; nothing where it reads no texture.
+pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) {
+    let (Some(texture), Some(View::Triangle { value, .. })) = (&paint.texture, paint.views.get(sample)) else {
+        return;
+    };
+    let Interpolated::Texture { uv, taps, texels } = value else {
+        return;
+    };
+    let Some(level) = texture.levels.iter().max_by(|a, b| a.weight.total_cmp(&b.weight)) else {
+        return;
+    };
+    let image = viewer
+        .frame()
+        .and_then(|frame| frame.picture.scene.textures.get(texture.index as usize))
+        .and_then(|image| image.pyramid.levels().get(level.number));
+    let Some(image) = image else { return };
+    let (rect, response) = ui.allocate_exact_size(vec2(SIZE[0], SIZE[1]), Sense::hover());
+    let scale = [0, 1].map(|i| f64::from(level.size[i]) / f64::from(texture.size[i]));
+    let steps = [texture.right, texture.down].map(|step| [step[0] * scale[0], step[1] * scale[1]]);
+    let centre = [uv[0] * f64::from(level.size[0]), uv[1] * f64::from(level.size[1])];
+    let across = steps.iter().flatten().fold(0.0_f64, |most, step| most.max(step.abs())) * 2.5;
+    let window = Window {
+        rect,
+        middle: centre,
+        scale: f64::from(SIZE[0]) / across.clamp(TEXELS.0, TEXELS.1),
+    };
+    window.texels(ui, image);
+    window.footprint(ui, centre, steps);
+    window.taps(ui, taps, level);
+    let under = response.hover_pos().map(|at| window.texel_at(at, level));
+    if let Some(at) = under.flatten() {
+        let weight: f64 = texels
+            .iter()
+            .filter(|texel| texel.level == level.number && texel.at == at)
+            .map(|texel| texel.weight)
+            .sum();
+        let [r, g, b, a] = image.texel(at[0].cast_signed(), at[1].cast_signed());
+        response.on_hover_text(format!(
+            "texel ({}, {}) of level {}: {r} {g} {b} {a}, {:.2} % of this sample",
+            at[0],
+            at[1],
+            level.number,
+            weight * 100.0
+        ));
+    }
+    let words = format!(
+        "level {} of {}: yellow the footprint of a {}, red the {}",
+        level.number,
+        short(&texture.name),
+        texture.step,
+        if texture.taps > 1 { "taps" } else { "point that is read" }
+    );
+    ui.label(RichText::new(words).size(11.0).weak());
+}
+
+/// The last part of a texture's address.
+fn short(name: &str) -> &str {
+    name.rsplit('/').next().unwrap_or(name)
+}
+
+impl Window {
+    #[expect(clippy::cast_possible_truncation, reason = "places on a screen")]
+    fn place(&self, texel: [f64; 2]) -> Pos2 {
+        let at = [0, 1].map(|i| ((texel[i] - self.middle[i]) * self.scale) as f32);
+        self.rect.center() + vec2(at[0], at[1])
+    }
+
+    /// The texels in sight.
+    fn texels(&self, ui: &Ui, image: &MipLevel) {
+        let painter = ui.painter().with_clip_rect(self.rect);
+        painter.rect_filled(self.rect, 0.0, ui.visuals().extreme_bg_color);
+        let range = |axis: usize, points: f32, size: u32| {
+            let half = f64::from(points) / 2.0 / self.scale;
+            let clamp = |at: f64| whole(at.clamp(0.0, f64::from(size)));
+            clamp((self.middle[axis] - half).floor())..clamp((self.middle[axis] + half).ceil())
+        };
+        let gap = if self.scale > 8.0 { 0.5 } else { 0.0 };
+        for y in range(1, SIZE[1], image.height()) {
+            for x in range(0, SIZE[0], image.width()) {
+                let corner = [f64::from(x), f64::from(y)];
+                let square = Rect::from_two_pos(self.place(corner), self.place([corner[0] + 1.0, corner[1] + 1.0]));
+                let color = opaque(image.texel(x.cast_signed(), y.cast_signed()));
+                painter.rect_filled(square.shrink(gap), 0.0, color);
+            }
+        }
+    }
+
+    /// The parallelogram of the two steps and the ellipse in it, about the point that a sample stands for.
+    fn footprint(&self, ui: &Ui, centre: [f64; 2], [right, down]: [[f64; 2]; 2]) {
+        let painter = ui.painter().with_clip_rect(self.rect);
+        let at = |a: f64, b: f64| self.place([0, 1].map(|i| centre[i] + right[i] * a + down[i] * b));
+        let corners = vec![at(-0.5, -0.5), at(0.5, -0.5), at(0.5, 0.5), at(-0.5, 0.5)];
+        let ellipse: Vec<Pos2> = (0..48)
+            .map(|i| {
+                let (sin, cos) = (f64::from(i) / 48.0 * std::f64::consts::TAU).sin_cos();
+                at(0.5 * cos, 0.5 * sin)
+            })
+            .collect();
+        for (width, color) in [(3.0, Color32::from_black_alpha(150)), (1.5, FOOTPRINT)] {
+            painter.add(Shape::closed_line(corners.clone(), Stroke::new(width, color)));
+            painter.add(Shape::closed_line(ellipse.clone(), Stroke::new(width, color)));
+        }
+    }
+
+    fn taps(&self, ui: &Ui, taps: &[Tap], level: &Level) {
+        let painter = ui.painter().with_clip_rect(self.rect);
+        for tap in taps.iter().filter(|tap| tap.level == level.number) {
+            let at = self.place(tap.at);
+            painter.circle_filled(at, 3.0, TAP);
+            painter.circle_stroke(at, 3.0, Stroke::new(1.0, Color32::WHITE));
+        }
+    }
+
+    /// The texel of the level under a point of the screen.
+    fn texel_at(&self, at: Pos2, level: &Level) -> Option<[u32; 2]> {
+        let from_middle = at - self.rect.center();
+        let texel = |axis: usize, points: f32| {
+            let at = self.middle[axis] + f64::from(points) / self.scale;
+            (at >= 0.0 && at < f64::from(level.size[axis])).then(|| whole(at))
+        };
+        Some([texel(0, from_middle.x)?, texel(1, from_middle.y)?])
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to a level's size, which is at most 16 384"
+)]
+fn whole(at: f64) -> u32 {
+    at as u32
+}

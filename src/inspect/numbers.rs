@@ -1,0 +1,117 @@
+//! Numbers and lists as people read them.
+
+/// Numbers of samples, from 1, as runs: `1-3, 5`.
+pub(super) fn runs(samples: &[usize]) -> String {
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for sample in samples.iter().map(|sample| sample + 1) {
+        match runs.last_mut() {
+            Some((_, last)) if *last + 1 == sample => *last = sample,
+            _ => runs.push((sample, sample)),
+        }
+    }
+    let words: Vec<String> = runs
+        .into_iter()
+        .map(|(first, last)| match last - first {
+            0 => first.to_string(),
+            1 => format!("{first}, {last}"),
+            _ => format!("{first}-{last}"),
+        })
+        .collect();
+    words.join(", ")
+}
+
+/// A part of a whole.
+pub(super) fn percent(part: f64) -> String {
+    let percent = part * 100.0;
+    if percent > 0.0 && percent < 0.01 {
+        return "under 0.01 %".to_owned();
+    }
+    format!("{percent:.2}")
+        .trim_end_matches('0')
+        .trim_end_matches('.')
+        .to_owned()
+        + " %"
+}
+
+/// With at most four digits after the point, and none that say nothing.
+pub(super) fn number(value: f64) -> String {
+    let text = format!("{value:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// With three significant digits.
+pub(super) fn significant(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let digits = 2.0 - value.abs().log10().floor().clamp(-12.0, 12.0);
+    if digits <= 0.0 {
+        return format!("{value:.0}");
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to 0..=14"
+    )]
+    let text = format!("{value:.*}", digits as usize);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// A line of a document, which may be megabytes long.
+pub(super) fn shortened(text: &str) -> String {
+    const MOST: usize = 60;
+    let mut characters = text.chars();
+    let mut kept: String = characters
+        .by_ref()
+        .take(MOST)
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
+    if characters.next().is_some() {
+        kept.push_str(" ...");
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_say_no_more_than_they_know() {
+        for (value, expected) in [
+            (255.0, "255"),
+            (127.5, "127.5"),
+            (0.123_456_7, "0.1235"),
+            (-0.00001, "0"),
+            (10.0, "10"),
+        ] {
+            assert_eq!(number(value), expected, "{value}");
+        }
+        for (value, expected) in [
+            (0.0, "0"),
+            (0.012_345, "0.0123"),
+            (123.45, "123"),
+            (-1.5, "-1.5"),
+            (1e9, "1000000000"),
+        ] {
+            assert_eq!(significant(value), expected, "{value}");
+        }
+        assert_eq!(percent(0.375), "37.5 %", "a part");
+        assert_eq!(percent(1e-7), "under 0.01 %", "a small part");
+    }
+
+    #[test]
+    fn runs_count_from_one() {
+        assert_eq!(runs(&[0, 1, 2, 4, 8, 9]), "1-3, 5, 9, 10", "runs");
+        assert_eq!(runs(&[]), "", "nothing");
+    }
+
+    #[test]
+    fn long_lines_are_cut() {
+        let long = "\u{e9}\t".repeat(10_000);
+        let cut = shortened(&long);
+        assert!(cut.chars().count() <= 64 && cut.ends_with("..."), "{cut}");
+        assert!(!cut.contains('\t'), "no control characters");
+    }
+}

@@ -1,0 +1,464 @@
+//! The report in words: one sentence per fact, as a teacher would say it. Text, Markdown and the window's tree are made of
+//! these lines.
+
+use super::model::{Edge, Explanation, Fragment, Interpolated, Paint, Resolve, Rounding, Shape, Source, Verdict, View};
+use super::numbers::{number, percent, runs, shortened, significant};
+
+/// Different colours that a sum is written out for at most.
+const MOST_TERMS: usize = 4;
+/// Texels that are listed at most, the heaviest first.
+const MOST_TEXELS: usize = 16;
+
+impl Explanation {
+    /// Where the pixel is, and its colour.
+    pub fn pixel_lines(&self) -> Vec<String> {
+        let [r, g, b, a] = self.color;
+        let seen = self.seen_words();
+        let unit = self.color.map(|byte| format!("{:.4}", f64::from(byte) / 255.0));
+        vec![
+            format!(
+                "user units  ({}, {}), the pixel's centre",
+                number(self.user[0]),
+                number(self.user[1])
+            ),
+            format!("colour      {}  red {r}, green {g}, blue {b}, alpha {a}", self.hex),
+            format!("as parts    {}", unit.join(" ")),
+            seen,
+        ]
+    }
+
+    /// What the samples show, in one sentence, such as `9 of 16 samples show 1 (polygon "left", line 3), 7 the background.`
+    fn seen_words(&self) -> String {
+        let mut seen: Vec<(Option<usize>, usize)> = Vec::new();
+        for sample in &self.samples {
+            match seen.iter().position(|(other, _)| *other == sample.seen) {
+                Some(known) => seen[known].1 += 1,
+                None => seen.push((sample.seen, 1)),
+            }
+        }
+        seen.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        let what = |seen: Option<usize>| match seen.and_then(|paint| Some((paint, self.paints.get(paint)?))) {
+            Some((paint, found)) => format!("{} ({})", paint + 1, found.name()),
+            None => "the background".to_owned(),
+        };
+        let all = self.samples.len();
+        match seen.as_slice() {
+            [(only, 1)] => format!("Its only sample shows {}.", what(*only)),
+            [(only, _)] => format!("All {all} samples show {}.", what(*only)),
+            several => {
+                let parts = several.iter().enumerate().map(|(i, (seen, count))| {
+                    let of = if i == 0 {
+                        format!(" of {all} samples show")
+                    } else {
+                        String::new()
+                    };
+                    format!("{count}{of} {}", what(*seen))
+                });
+                format!("{}.", parts.collect::<Vec<_>>().join(", "))
+            }
+        }
+    }
+
+    /// How the samples became the colour.
+    pub fn resolve_lines(&self) -> Vec<String> {
+        let resolve = &self.resolve;
+        let mut lines = Vec::new();
+        if resolve.samples == 1 {
+            lines.push("One sample is the pixel.".to_owned());
+        } else {
+            let weight = format!("1/{}", resolve.samples);
+            lines.push(format!(
+                "Each of the {} samples weighs {weight}; the pixel is their mean.",
+                resolve.samples
+            ));
+        }
+        if resolve.summed_exactly && resolve.samples > 1 {
+            lines.push("Shaded samples are summed before they are rounded to 1/256 of a level.".to_owned());
+        }
+        let names = ["red", "green", "blue", "alpha"];
+        // An opaque pixel's alpha has no story.
+        let channels = if self.color[3] == 255 { 0..3 } else { 0..4 };
+        for channel in channels {
+            lines.push(format!("{:5}  {}", names[channel], self.channel(channel)));
+        }
+        lines
+    }
+
+    /// A channel from its sum to its byte.
+    fn channel(&self, channel: usize) -> String {
+        let Resolve {
+            sums,
+            samples,
+            mean,
+            rounding,
+            ..
+        } = &self.resolve;
+        let terms = self.terms(channel).unwrap_or_else(|| number(sums[channel]));
+        let mean = mean[channel];
+        let alpha = self.resolve.mean[3];
+        let (shown, straight) = if channel < 3 && self.color[3] < 255 && alpha > 0.0 {
+            let straight = mean * 255.0 / alpha;
+            (format!("{} / alpha = {}", number(mean), number(straight)), straight)
+        } else {
+            (number(mean), mean)
+        };
+        let byte = self.color[channel];
+        let rounded = match rounding {
+            _ if (straight - f64::from(byte)).abs() < 1e-9 => String::new(),
+            Rounding::Nearest => format!(", rounded to {byte}"),
+            Rounding::Truncated => format!(", truncated to {byte}"),
+        };
+        if *samples == 1 {
+            return format!("{shown}{rounded}");
+        }
+        format!("{terms} / {samples} = {shown}{rounded}")
+    }
+
+    /// The sum of a channel over the samples, equal ones together; `None` where there are too many different ones.
+    fn terms(&self, channel: usize) -> Option<String> {
+        if self.resolve.summed_exactly {
+            return None;
+        }
+        let mut terms: Vec<(f64, usize)> = Vec::new();
+        for sample in &self.samples {
+            let value = sample.color[channel];
+            match terms.iter().position(|(other, _)| (other - value).abs() < 1e-9) {
+                Some(known) => terms[known].1 += 1,
+                None if terms.len() == MOST_TERMS => return None,
+                None => terms.push((value, 1)),
+            }
+        }
+        let words: Vec<String> = terms
+            .iter()
+            .map(|(value, count)| format!("{count} x {}", number(*value)))
+            .collect();
+        Some(if words.len() > 1 {
+            format!("({})", words.join(" + "))
+        } else {
+            words.concat()
+        })
+    }
+
+    /// Such as `sample 3 at (0.625, 0.125)`; samples are counted from 1 in words.
+    pub fn sample_title(&self, sample: usize) -> String {
+        let at = self
+            .samples
+            .get(sample)
+            .map(|sample| sample.position)
+            .unwrap_or_default();
+        format!("sample {} at ({}, {})", sample + 1, number(at[0]), number(at[1]))
+    }
+
+    /// The colour of a sample and what made it, from the top down.
+    pub fn sample_lines(&self, sample: usize) -> Vec<String> {
+        let Some(found) = self.samples.get(sample) else {
+            return Vec::new();
+        };
+        vec![
+            format!("colour  {}", color(found.color)),
+            format!("shows   {}", self.stack(sample)),
+        ]
+    }
+
+    /// The stack of a sample, from the top down, such as `2 over 1 over the background`.
+    pub fn stack(&self, sample: usize) -> String {
+        let Some(found) = self.samples.get(sample) else {
+            return String::new();
+        };
+        let mut words: Vec<String> = found
+            .stack
+            .iter()
+            .rev()
+            .map(|paint| {
+                let fragment = self.fragment(*paint, sample);
+                let hidden = fragment.is_some_and(|fragment| !fragment.seen);
+                format!("{}{}", paint + 1, if hidden { " (hidden)" } else { "" })
+            })
+            .collect();
+        words.push("the background".to_owned());
+        words.join(" over ")
+    }
+
+    /// The fragment that a paint left on a sample.
+    pub fn fragment(&self, paint: usize, sample: usize) -> Option<&Fragment> {
+        let fragments = &self.paints.get(paint)?.fragments;
+        fragments.iter().find(|fragment| fragment.sample == sample)
+    }
+
+    /// Such as `2  triangle of polygon "left", line 12`; paints are counted from 1 in words.
+    pub fn paint_title(&self, paint: usize) -> String {
+        let Some(found) = self.paints.get(paint) else {
+            return String::new();
+        };
+        format!("{}  {}", paint + 1, found.name())
+    }
+
+    /// Where a paint stands, what of the pixel it covers, how it reads its texture.
+    pub fn paint_lines(&self, paint: usize) -> Vec<String> {
+        let Some(found) = self.paints.get(paint) else {
+            return Vec::new();
+        };
+        let mut lines: Vec<String> = found.source.iter().flat_map(Source::lines).collect();
+        let all = self.samples.len();
+        let count = found.fragments.len();
+        let seen = found.fragments.iter().filter(|fragment| fragment.seen).count();
+        let painted = match &found.shape {
+            Shape::BeginLayer => "what follows is painted on a transparent layer".to_owned(),
+            Shape::EndLayer { opacity } => {
+                format!(
+                    "the layer is painted over what is below, at opacity {}",
+                    number(*opacity)
+                )
+            }
+            Shape::WholePixel | Shape::CanvasOutline => {
+                "one pixel wide at every zoom: paints whole pixels, whatever the samples".to_owned()
+            }
+            Shape::Triangle { .. } | Shape::Polygon { .. } => {
+                let hidden = if seen < count {
+                    format!(", {} of them hidden", count - seen)
+                } else {
+                    String::new()
+                };
+                format!("paints {count} of {all} samples{hidden}: {}", runs(&found.samples()))
+            }
+        };
+        lines.push(painted);
+        if let Some(area) = found.area {
+            lines.push(format!(
+                "covers {} of the pixel in truth, {} by its samples",
+                percent(area),
+                percent(count as f64 / all as f64)
+            ));
+        }
+        if let Shape::Triangle { corners } = &found.shape {
+            let corners = corners.map(|[x, y]| format!("({}, {})", number(x), number(y)));
+            lines.push(format!("corners A {}  B {}  C {}", corners[0], corners[1], corners[2]));
+        }
+        if let Some(texture) = &found.texture {
+            lines.extend(texture.lines());
+        }
+        lines
+    }
+
+    /// What a sample sees of a paint: edges, weights, texels, blending.
+    pub fn fragment_lines(&self, paint: usize, sample: usize) -> Vec<String> {
+        let Some(found) = self.paints.get(paint) else {
+            return Vec::new();
+        };
+        let mut lines = Vec::new();
+        match found.views.get(sample) {
+            Some(View::Triangle { edges, weights, value }) => {
+                for (name, edge) in ["AB", "BC", "CA"].iter().zip(edges) {
+                    lines.push(format!("edge {name}   {}", edge.words()));
+                }
+                let [a, b, c] = weights;
+                lines.push(format!("weights   A {a:.4}  B {b:.4}  C {c:.4}"));
+                lines.extend(value.lines());
+            }
+            Some(View::Polygon { winding }) => {
+                let rule = match &found.shape {
+                    Shape::Polygon { rule } => rule,
+                    _ => "nonzero",
+                };
+                let inside = self.fragment(paint, sample).is_some();
+                let verdict = if inside { "inside" } else { "outside" };
+                lines.push(format!("winding   {winding}: {verdict} by the rule {rule}"));
+            }
+            None => {}
+        }
+        match self.fragment(paint, sample) {
+            Some(fragment) => lines.extend(fragment.lines()),
+            None => lines.push("leaves this sample as it was".to_owned()),
+        }
+        lines
+    }
+
+    /// What passes between the samples.
+    pub fn missed_lines(&self) -> Vec<String> {
+        let line = |missed: &super::model::Missed| {
+            let Source { file, line, column, .. } = &missed.source;
+            let area = percent(missed.area);
+            format!(
+                "{} at {file}:{line}:{column} covers {area} of the pixel, and no sample",
+                missed.source.name()
+            )
+        };
+        self.missed.iter().map(line).collect()
+    }
+
+    /// The sample that explains a paint best: the first that is seen, else the first that it painted.
+    pub fn telling_sample(&self, paint: usize) -> Option<usize> {
+        let fragments = &self.paints.get(paint)?.fragments;
+        let seen = fragments.iter().find(|fragment| fragment.seen);
+        Some(seen.or(fragments.first())?.sample)
+    }
+}
+
+impl Paint {
+    /// Such as `triangle of polygon "left", line 12`.
+    pub fn name(&self) -> String {
+        let of = |kind: &str| match &self.source {
+            Some(source) if source.element == kind => format!("{}, line {}", source.name(), source.line),
+            Some(source) => format!("{kind} of {}, line {}", source.name(), source.line),
+            None => kind.to_owned(),
+        };
+        match &self.shape {
+            Shape::Triangle { .. } => of("triangle"),
+            Shape::Polygon { .. } => of("polygon"),
+            Shape::WholePixel => of("pixel"),
+            Shape::CanvasOutline => "outline of the canvas".to_owned(),
+            Shape::BeginLayer => of("layer"),
+            Shape::EndLayer { .. } => of("end of the layer"),
+        }
+    }
+
+    /// The samples that it painted.
+    pub fn samples(&self) -> Vec<usize> {
+        self.fragments.iter().map(|fragment| fragment.sample).collect()
+    }
+}
+
+impl Source {
+    /// Such as `polygon "left"`.
+    pub fn name(&self) -> String {
+        match &self.id {
+            Some(id) => format!("{} \"{id}\"", self.element),
+            None => self.element.clone(),
+        }
+    }
+
+    fn lines(&self) -> Vec<String> {
+        let mut lines = vec![format!("{}:{}:{}", self.file, self.line, self.column)];
+        lines.extend(
+            self.text
+                .iter()
+                .map(|text| format!("{} | {}", self.line, shortened(text))),
+        );
+        lines
+    }
+}
+
+impl Edge {
+    fn words(&self) -> String {
+        let verdict = match self.verdict {
+            Verdict::Inside => "inside",
+            Verdict::Outside => "outside",
+            Verdict::TieTop => "on the line: a top edge owns it, so inside",
+            Verdict::TieLeft => "on the line: a left edge owns it, so inside",
+            Verdict::TieNeither => "on the line: neither top nor left, so the neighbour's",
+            Verdict::TieInclusive => "on the line: inside by the course's rules",
+        };
+        if self.verdict.is_tie() {
+            return format!("{verdict} (edge function 0)");
+        }
+        let distance = significant(self.distance.abs());
+        format!("{distance} px {verdict} (edge function {:+})", self.value)
+    }
+}
+
+impl Fragment {
+    fn lines(&self) -> Vec<String> {
+        let mut lines = vec![format!("colour    {}", color(self.color))];
+        if self.color[3] >= 255.0 {
+            lines.push(format!("replaces  {}", color(self.before)));
+        } else {
+            lines.push(format!("over      {}", color(self.before)));
+            lines.push(format!("gives     {}", color(self.after)));
+        }
+        if !self.seen {
+            lines.push("and is hidden by what is painted later".to_owned());
+        }
+        lines
+    }
+}
+
+impl super::model::Texture {
+    fn lines(&self) -> Vec<String> {
+        let vector = |[x, y]: [f64; 2]| format!("({}, {})", significant(x), significant(y));
+        let [width, height] = self.size;
+        let mut lines = vec![
+            format!(
+                "texture {} of {width} x {height} texels, read {}",
+                self.name, self.pixel_sampling
+            ),
+            format!(
+                "one {} right is {} texels, down {}",
+                self.step,
+                vector(self.right),
+                vector(self.down)
+            ),
+            format!(
+                "footprint  {} texels long, {} wide",
+                significant(self.major),
+                significant(self.minor)
+            ),
+        ];
+        if self.taps > 1 {
+            lines.push(format!("anisotropy  {} taps along the longer side", self.taps));
+        }
+        let computed = self
+            .level_of_detail
+            .map_or("none (no change)".to_owned(), |lod| format!("{lod:.3}"));
+        lines.push(format!(
+            "level of detail  {computed}, clamped {:.3}; level sampling {}",
+            self.clamped, self.level_sampling
+        ));
+        let levels: Vec<String> = self
+            .levels
+            .iter()
+            .map(|level| {
+                let [width, height] = level.size;
+                format!(
+                    "{} of level {} ({width} x {height})",
+                    percent(level.weight),
+                    level.number
+                )
+            })
+            .collect();
+        lines.push(format!("reads  {}", levels.join(" and ")));
+        if self.opacity < 1.0 {
+            lines.push(format!("opacity  {}", number(self.opacity)));
+        }
+        lines
+    }
+}
+
+impl Interpolated {
+    fn lines(&self) -> Vec<String> {
+        match self {
+            Self::Flat => Vec::new(),
+            Self::Color { rgba: [r, g, b, a] } => {
+                vec![format!("mixed     red {r:.4}, green {g:.4}, blue {b:.4}, alpha {a:.4}")]
+            }
+            Self::Texture { uv: [u, v], texels, .. } => {
+                let mut lines = vec![format!("(u, v)    ({u:.5}, {v:.5})")];
+                let mut heaviest = texels.clone();
+                heaviest.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+                for texel in heaviest.iter().take(MOST_TEXELS) {
+                    let [x, y] = texel.at;
+                    let hex = super::explanation::hex(texel.color);
+                    lines.push(format!(
+                        "{:>10}  of texel ({x}, {y}) of level {}: {hex}",
+                        percent(texel.weight),
+                        texel.level
+                    ));
+                }
+                if let Some(rest) = heaviest.get(MOST_TEXELS..).filter(|rest| !rest.is_empty()) {
+                    let weight = rest.iter().map(|texel| texel.weight).sum();
+                    lines.push(format!("{:>10}  of {} more texels", percent(weight), rest.len()));
+                }
+                lines
+            }
+        }
+    }
+}
+
+/// A premultiplied colour in levels.
+fn color([r, g, b, a]: [f64; 4]) -> String {
+    let [r, g, b] = [r, g, b].map(number);
+    if a >= 255.0 {
+        format!("{r}, {g}, {b}")
+    } else {
+        format!("{r}, {g}, {b}, alpha {} (premultiplied)", number(a))
+    }
+}

@@ -1,0 +1,137 @@
+//! Why the pinned pixel has its colour: found out in a thread, while the explanation is to be seen.
+
+use std::io;
+
+use super::background::{Mailbox, guarded};
+use super::latest::Latest;
+use super::probing::Target;
+use super::state::Finished;
+use super::{Effect, Viewer};
+use crate::inspect::{Detail, Explanation, Question};
+use crate::render::Subject;
+use crate::scene::PrimitiveKind;
+
+/// The state of explaining; a pixel that cannot be explained has `None`.
+pub(super) type Explaining = Latest<Asked, Option<Explanation>>;
+
+/// Most points of an outline that are drawn over the picture.
+const MOST_POINTS: usize = 20_000;
+
+/// What is to be explained.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Asked {
+    target: Target,
+    /// The scene's address, for quotations.
+    file: String,
+}
+
+/// Starts the thread that explains.
+pub(super) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Explaining> {
+    let mailbox = mailbox.clone();
+    Latest::start("explain", move |asked: Asked| {
+        let explanation = guarded(|| asked.explain()).unwrap_or_default();
+        mailbox.post(Finished::Explained(asked, Box::new(explanation)));
+    })
+}
+
+impl Asked {
+    fn explain(&self) -> Option<Explanation> {
+        let picture = &self.target.picture;
+        Explanation::new(&Question {
+            subject: Subject {
+                scene: &picture.scene,
+                view: &picture.view,
+                settings: &picture.settings,
+            },
+            file: &self.file,
+            size: picture.size,
+            pixel: self.target.pixel,
+        })
+    }
+}
+
+impl Viewer {
+    /// Why the pinned pixel of the frame on the screen has its colour; `None` until it was found out, and while no pixel
+    /// is pinned or the explanation is closed.
+    pub fn explanation(&self) -> Option<&Explanation> {
+        self.explaining.answer()?.as_ref()
+    }
+
+    /// Whether there is to be an explanation in the window.
+    pub fn explains(&self) -> bool {
+        let is_open = self.inspector.open && !self.screen.hidden;
+        is_open && self.screen.shown.explanation && self.pinned_pixel().is_some()
+    }
+
+    /// Sees to it that what is to be explained is found out.
+    pub(super) fn want_explanation(&mut self) {
+        let pixel = self.pinned_pixel().filter(|_| self.explains());
+        let asked = pixel.and_then(|pixel| self.question(pixel));
+        self.explaining.want(asked, |_| None);
+    }
+
+    /// A pixel of the frame on the screen, as a question.
+    fn question(&self, pixel: [u32; 2]) -> Option<Asked> {
+        let target = Target {
+            picture: self.frame()?.picture.clone(),
+            pixel,
+        };
+        let file = self.current()?.source.address();
+        Some(Asked { target, file })
+    }
+
+    /// The explanation as Markdown; explained now if nobody did yet.
+    pub(super) fn copy_explanation(&mut self) -> Vec<Effect> {
+        let pixel = self.inspected_pixel().filter(|_| self.inspector.open);
+        let asked = pixel.and_then(|pixel| self.question(pixel));
+        let Some(explanation) = asked.and_then(|asked| asked.explain()) else {
+            let cure = "no pixel to explain: open the inspector with Z, or pin a pixel";
+            self.messages.error(cure.to_owned());
+            return Vec::new();
+        };
+        self.messages.done("copied the explanation as Markdown".to_owned());
+        vec![Effect::CopyText(explanation.markdown(Detail::Telling))]
+    }
+
+    /// The contours of a primitive of the frame on the screen, in window pixels; closed, but for a line of two points.
+    pub fn outline_of(&self, primitive: u32) -> Vec<Vec<[f64; 2]>> {
+        let Some(frame) = self.frame() else {
+            return Vec::new();
+        };
+        let picture = &frame.picture;
+        let Some(primitive) = picture.scene.primitives.get(primitive as usize) else {
+            return Vec::new();
+        };
+        let zoom = f64::from(self.settings.pixel_zoom.factor());
+        let place = |points: &[glam::DVec2]| -> Vec<[f64; 2]> {
+            let points = points.iter().take(MOST_POINTS);
+            points
+                .map(|point| (picture.view.to_pixels(*point) * zoom).to_array())
+                .collect()
+        };
+        match &primitive.kind {
+            PrimitiveKind::Triangle { points, .. } => vec![place(points)],
+            PrimitiveKind::Polygon { polygon, .. } => {
+                let mut room = MOST_POINTS;
+                let fits = |contour: &&[glam::DVec2]| {
+                    let fits = contour.len() <= room;
+                    room = room.saturating_sub(contour.len());
+                    fits
+                };
+                polygon.contours().take_while(fits).map(place).collect()
+            }
+            PrimitiveKind::Hairline { ends, .. } => vec![place(ends)],
+            PrimitiveKind::Point { at, .. } => {
+                let [x, y] = picture.view.to_pixels(*at).floor().to_array();
+                let corner = |dx: f64, dy: f64| [(x + dx) * zoom, (y + dy) * zoom];
+                vec![vec![
+                    corner(0.0, 0.0),
+                    corner(1.0, 0.0),
+                    corner(1.0, 1.0),
+                    corner(0.0, 1.0),
+                ]]
+            }
+            PrimitiveKind::BeginLayer | PrimitiveKind::EndLayer { .. } => Vec::new(),
+        }
+    }
+}

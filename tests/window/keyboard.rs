@@ -7,7 +7,7 @@ use rasterscope::viewer::{Command, Toggle};
 
 use super::desktop::keysym;
 use super::program::{
-    Program, SIZE, SMALL_INSET, SMALL_INSET_COMMANDS, flat, inset, rendered, textured, until, viewed,
+    Program, SIZE, SMALL_INSET, SMALL_INSET_COMMANDS, flat, inset, left_part, rendered, textured, until, viewed,
 };
 
 #[test]
@@ -105,6 +105,29 @@ fn keys_of_the_inspector() {
     program.desktop.press(keysym::ESCAPE, &[]);
     program.desktop.press(keysym::TAB, &[]);
     program.shows(&viewed(&path, &[]), "unpinned and closed");
+}
+
+#[test]
+fn keys_explain_the_pinned_pixel() {
+    const LARGE: [u32; 2] = [900, 700];
+    // The panel with its text, above the status line.
+    const PANEL: [u32; 2] = [340, 640];
+    let path = flat();
+    let program = Program::start_with(&path, &["--do", "panel off; theme dark"]);
+    program.resize(LARGE);
+    program.desktop.point(450, 300);
+    program.desktop.press(keysym::RETURN, &[]);
+    program.desktop.point(600, 660);
+    let steps = "panel off; theme dark; pin 450,300; move 600,660";
+    let explained = left_part(&path, LARGE, steps, PANEL);
+    program.shows_somewhere(&explained, "the explanation of the pinned pixel");
+    program.desktop.type_char('=', &[]);
+    let finer = left_part(&path, LARGE, &format!("{steps}; rate 4"), PANEL);
+    assert_ne!(finer.pixels(), explained.pixels(), "it tells other samples");
+    program.shows_somewhere(&finer, "the explanation of four samples");
+    program.desktop.type_char('e', &[]);
+    let closed = left_part(&path, LARGE, &format!("{steps}; rate 4; explanation off"), PANEL);
+    program.shows_somewhere(&closed, "the picture without the explanation");
 }
 
 #[test]

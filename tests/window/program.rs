@@ -223,6 +223,30 @@ pub(crate) fn inset(path: &Path, commands: &[Command]) -> Framebuffer {
     picture
 }
 
+/// The left part of the whole window, panels included, after a script: as many columns and rows as `part` says.
+pub(crate) fn left_part(path: &Path, size: [u32; 2], steps: &str, part: [u32; 2]) -> Framebuffer {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("window.png");
+    rasterscope::app::run(rasterscope::app::ViewOptions {
+        paths: vec![path.to_owned()],
+        size: Some(size),
+        script: Some(rasterscope::app::ScriptSource::Text(format!(
+            "{steps}; shot \"{}\"",
+            file.display()
+        ))),
+        headless: true,
+        ..rasterscope::app::ViewOptions::default()
+    })
+    .unwrap();
+    let image = image::open(&file).unwrap().into_rgba8();
+    let mut picture = Framebuffer::new(part[0], part[1]);
+    for (i, to) in (0..).zip(picture.pixels_mut()) {
+        let [r, g, b, a] = image.get_pixel(i % part[0], i / part[0]).0;
+        *to = u32::from_be_bytes([a, r, g, b]);
+    }
+    picture
+}
+
 fn viewer_after(path: &Path, commands: &[Command]) -> Viewer {
     let options = ViewerOptions {
         paths: vec![path.to_owned()],

@@ -4,6 +4,7 @@
 //! report, in numbers; [`Explanation::text`] says it in words, [`Explanation::markdown`] for a write-up.
 
 mod accumulation;
+mod differences;
 mod explanation;
 mod model;
 mod numbers;
@@ -12,6 +13,7 @@ mod text;
 mod words;
 
 pub use accumulation::Convergence;
+pub use differences::Difference;
 pub use explanation::Question;
 pub use model::{
     Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Resolve, Rounding, Sample, Shape, Source, Tap,

@@ -6,21 +6,30 @@ use super::background::{Mailbox, guarded};
 use super::latest::Latest;
 use super::probing::Target;
 use super::state::Finished;
-use super::{Effect, Viewer};
+use super::{Effect, Picture, Viewer};
 use crate::inspect::{Detail, Explanation, Question};
 use crate::render::Subject;
 use crate::scene::PrimitiveKind;
 
 /// The state of explaining; a pixel that cannot be explained has `None`.
-pub(super) type Explaining = Latest<Asked, Option<Explanation>>;
+pub(super) type Explaining = Latest<Asked, Option<Explained>>;
 
 /// Most points of an outline that are drawn over the picture.
 const MOST_POINTS: usize = 20_000;
+
+/// Why a pixel has its colour, and why it has B's.
+#[derive(Debug)]
+pub(super) struct Explained {
+    own: Explanation,
+    other: Option<Explanation>,
+}
 
 /// What is to be explained.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Asked {
     target: Target,
+    /// B, where it is drawn by us too.
+    other: Option<Picture>,
     /// The scene's address, for quotations.
     file: String,
 }
@@ -29,14 +38,20 @@ pub(super) struct Asked {
 pub(super) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Explaining> {
     let mailbox = mailbox.clone();
     Latest::start("explain", move |asked: Asked| {
-        let explanation = guarded(|| asked.explain()).unwrap_or_default();
-        mailbox.post(Finished::Explained(asked, Box::new(explanation)));
+        let explained = guarded(|| asked.explain()).unwrap_or_default();
+        mailbox.post(Finished::Explained(asked, Box::new(explained)));
     })
 }
 
 impl Asked {
-    fn explain(&self) -> Option<Explanation> {
-        let picture = &self.target.picture;
+    fn explain(&self) -> Option<Explained> {
+        Some(Explained {
+            own: self.explain_in(&self.target.picture)?,
+            other: self.other.as_ref().and_then(|other| self.explain_in(other)),
+        })
+    }
+
+    fn explain_in(&self, picture: &Picture) -> Option<Explanation> {
         Explanation::new(&Question {
             subject: Subject {
                 scene: &picture.scene,
@@ -54,7 +69,12 @@ impl Viewer {
     /// Why the pinned pixel of the frame on the screen has its colour; `None` until it was found out, and while no pixel
     /// is pinned or the explanation is closed.
     pub fn explanation(&self) -> Option<&Explanation> {
-        self.explaining.answer()?.as_ref()
+        Some(&self.explaining.answer()?.as_ref()?.own)
+    }
+
+    /// The same of B, where B is drawn by us too.
+    pub fn other_explanation(&self) -> Option<&Explanation> {
+        self.explaining.answer()?.as_ref()?.other.as_ref()
     }
 
     /// Whether there is to be an explanation in the window.
@@ -77,20 +97,21 @@ impl Viewer {
             pixel,
         };
         let file = self.current()?.source.address();
-        Some(Asked { target, file })
+        let other = self.other_frame().map(|frame| frame.picture.clone());
+        Some(Asked { target, other, file })
     }
 
     /// The explanation as Markdown; explained now if nobody did yet.
     pub(super) fn copy_explanation(&mut self) -> Vec<Effect> {
         let pixel = self.inspected_pixel().filter(|_| self.inspector.open);
         let asked = pixel.and_then(|pixel| self.question(pixel));
-        let Some(explanation) = asked.and_then(|asked| asked.explain()) else {
+        let Some(explained) = asked.and_then(|asked| asked.explain()) else {
             let cure = "no pixel to explain: open the inspector with Z, or pin a pixel";
             self.messages.error(cure.to_owned());
             return Vec::new();
         };
         self.messages.done("copied the explanation as Markdown".to_owned());
-        vec![Effect::CopyText(explanation.markdown(Detail::Telling))]
+        vec![Effect::CopyText(explained.own.markdown(Detail::Telling))]
     }
 
     /// The contours of a primitive of the frame on the screen, in window pixels; closed, but for a line of two points.

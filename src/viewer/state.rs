@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use super::background::Mailbox;
 use super::comparison::{Against, Comparison, Measured, Panes, ReadPicture, is_picture};
 use super::drawing::{Drawing, DrawingId, Drawn};
-use super::explaining::{self, Asked, Explaining};
+use super::explaining::{self, Asked, Explained, Explaining};
 use super::messages::Messages;
 use super::pointer::Pointer;
 use super::probing::{self, ProbedSample, Probing, Target};
@@ -19,7 +19,6 @@ use super::{
     Sight, Theme, ViewNumbers, library,
 };
 use crate::geometry::View;
-use crate::inspect::Explanation;
 
 /// Called from other threads when [`Viewer::poll`] has something to take in.
 pub type Waker = Arc<dyn Fn() + Send + Sync>;
@@ -125,7 +124,7 @@ pub(super) enum Finished {
     Measured(Measured),
     PictureRead(ReadPicture),
     Probed(Target, Vec<ProbedSample>),
-    Explained(Asked, Box<Option<Explanation>>),
+    Explained(Asked, Box<Option<Explained>>),
     Thumbnail(Thumbnail),
     Saved(Saved),
 }

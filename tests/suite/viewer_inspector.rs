@@ -96,6 +96,22 @@ fn inspector_explains_the_pinned_pixel() {
         Some(4),
         "for the new settings"
     );
+    assert!(session.viewer.other_explanation().is_none(), "there is no B");
+    session.keys(&["r"]);
+    session.run(Command::SetSampleRate(SampleRate::new(9).expect("a square number")));
+    let explained = session.viewer.explanation().expect("a pinned pixel");
+    let other = session.viewer.other_explanation().expect("B is drawn by us");
+    let differences = explained.differences(other);
+    let samples = differences.iter().find(|difference| difference.what == "samples");
+    assert_eq!(
+        samples.map(|difference| (difference.a.as_str(), difference.b.as_str())),
+        Some(("9", "4")),
+        "{differences:?}"
+    );
+    assert!(
+        explained.differences(explained).is_empty(),
+        "nothing differs from itself"
+    );
     session.keys(&["e"]);
     assert!(session.viewer.explanation().is_none(), "closed");
     session.keys(&["e"]);

@@ -67,6 +67,7 @@ impl ExplanationPanel {
 
     fn report(&mut self, ui: &mut Ui, viewer: &Viewer, explanation: &Explanation, hovered: &mut Hovered) {
         lines(ui, &explanation.pixel_lines());
+        against(ui, viewer, explanation);
         section(ui, "resolve", "How samples became the colour", false, |ui| {
             lines(ui, &explanation.resolve_lines());
         });
@@ -178,6 +179,35 @@ fn missed(ui: &mut Ui, explanation: &Explanation, hovered: &mut Hovered) {
             }
         }
         lines(ui, &["More samples, or another pattern, may find it.".to_owned()]);
+    });
+}
+
+/// What B tells differently.
+fn against(ui: &mut Ui, viewer: &Viewer, explanation: &Explanation) {
+    let Some(other) = viewer.other_explanation() else {
+        return;
+    };
+    let differences = explanation.differences(other);
+    section(ui, "against", "A against B", true, |ui| {
+        if differences.is_empty() {
+            lines(ui, &["A and B tell the same of this pixel.".to_owned()]);
+            return;
+        }
+        egui::Grid::new("differences")
+            .num_columns(3)
+            .striped(true)
+            .show(ui, |ui| {
+                for heading in ["", "A", "B"] {
+                    ui.label(RichText::new(heading).strong().size(SIZE));
+                }
+                ui.end_row();
+                for difference in &differences {
+                    ui.add(egui::Label::new(RichText::new(&difference.what).weak().size(SIZE)).wrap());
+                    ui.label(RichText::new(&difference.a).size(SIZE));
+                    ui.label(RichText::new(&difference.b).size(SIZE));
+                    ui.end_row();
+                }
+            });
     });
 }
 

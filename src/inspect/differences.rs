@@ -1,0 +1,95 @@
+//! What differs between two explanations of the same pixel: A's settings against B's.
+
+use super::model::{Explanation, Paint, Texture};
+use super::numbers::{number, percent};
+
+/// One thing that differs, in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// What.
+    pub what: String,
+    /// What it is in A.
+    pub a: String,
+    /// What it is in B.
+    pub b: String,
+}
+
+impl Explanation {
+    /// What differs in `b`, from the colour back to the texels; empty where both tell the same.
+    pub fn differences(&self, b: &Self) -> Vec<Difference> {
+        let mut found = Vec::new();
+        let mut compare = |what: &str, a: String, b: String| {
+            if a != b {
+                let what = what.to_owned();
+                found.push(Difference { what, a, b });
+            }
+        };
+        compare("colour", self.hex.clone(), b.hex.clone());
+        let mean = |of: &Self| {
+            of.resolve
+                .mean
+                .map(|channel| number((channel * 100.0).round() / 100.0))
+                .join(", ")
+        };
+        compare("mean", mean(self), mean(b));
+        compare("samples", self.samples.len().to_string(), b.samples.len().to_string());
+        let background = |of: &Self| {
+            let shown = of.samples.iter().filter(|sample| sample.seen.is_none()).count();
+            percent(shown as f64 / of.samples.len().max(1) as f64)
+        };
+        compare("background", background(self), background(b));
+        for paint in self
+            .paints
+            .iter()
+            .chain(b.paints.iter().filter(|paint| self.same(paint).is_none()))
+        {
+            let (mine, other) = (self.same(paint), b.same(paint));
+            let covered = |of: &Self, paint: Option<&Paint>| match paint {
+                None => "no sample".to_owned(),
+                Some(paint) => percent(paint.fragments.len() as f64 / of.samples.len().max(1) as f64),
+            };
+            compare(
+                &format!("{} covers", paint.name()),
+                covered(self, mine),
+                covered(b, other),
+            );
+            let textures = [mine, other].map(|paint| paint.and_then(|paint| paint.texture.as_ref()));
+            if let [Some(mine), Some(other)] = textures {
+                for (what, words) in TEXTURE {
+                    compare(what, words(mine), words(other));
+                }
+            }
+        }
+        found
+    }
+
+    /// The same part of the same primitive, the topmost where there are several.
+    fn same(&self, paint: &Paint) -> Option<&Paint> {
+        let same = |other: &&Paint| {
+            other.primitive == paint.primitive
+                && std::mem::discriminant(&other.shape) == std::mem::discriminant(&paint.shape)
+        };
+        self.paints.iter().rfind(same)
+    }
+}
+
+/// Something about a texture in words.
+type InWords = fn(&Texture) -> String;
+
+/// How a textured primitive may be read differently.
+const TEXTURE: [(&str, InWords); 5] = [
+    ("pixel sampling", |texture| texture.pixel_sampling.to_owned()),
+    ("level sampling", |texture| texture.level_sampling.to_owned()),
+    ("taps", |texture| texture.taps.to_string()),
+    ("level of detail", |texture| {
+        number((texture.clamped * 1000.0).round() / 1000.0)
+    }),
+    ("levels read", |texture| {
+        let levels: Vec<String> = texture
+            .levels
+            .iter()
+            .map(|level| format!("{} of {}", percent(level.weight), level.number))
+            .collect();
+        levels.join(", ")
+    }),
+];

@@ -30,7 +30,7 @@ pub(super) struct Asked {
     target: Target,
     /// B, where it is drawn by us too.
     other: Option<Picture>,
-    /// The scene's address, for quotations.
+    /// The scene's name in the list, for quotations.
     file: String,
 }
 
@@ -96,7 +96,7 @@ impl Viewer {
             picture: self.frame()?.picture.clone(),
             pixel,
         };
-        let file = self.current()?.source.address();
+        let file = self.current()?.label.clone();
         let other = self.other_frame().map(|frame| frame.picture.clone());
         Some(Asked { target, other, file })
     }

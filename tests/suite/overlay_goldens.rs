@@ -68,7 +68,7 @@ const CASES: [Case; 14] = [
         size: [900, 900],
         scale: 1.0,
         theme: Theme::Dark,
-        steps: "rate 16; pin 587,178; magnification 16; panel off; move 200,372",
+        steps: "rate 16; pin 585,178; magnification 16; panel off; move 120,339",
     },
     Case {
         name: "overlay_explanation_light_2x",
@@ -156,6 +156,22 @@ fn overlay_goldens() {
         .filter_map(|case| golden::check(case.name, &picture(case, folder.path()), TOLERANCE).err())
         .collect();
     assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
+
+/// Texture, footprint, taps and texels of a pixel, and what B tells differently.
+#[test]
+fn overlay_explains_a_texture() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/07_checker_floor.svg");
+    let case = Case {
+        name: "overlay_explanation_texture",
+        size: [1280, 1150],
+        scale: 1.0,
+        theme: Theme::Light,
+        steps: "panel off; pixel-sampling bilinear; level-sampling linear; key r; anisotropy 8; rate 4; pin 720,560",
+    };
+    let found = golden::check(case.name, &picture_of(document, &case, folder.path()), TOLERANCE);
+    assert_eq!(found.err(), None, "as it was looked at");
 }
 
 /// A script always makes the same picture: nothing in it depends on time.

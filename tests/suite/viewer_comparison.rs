@@ -508,6 +508,7 @@ fn comparison_goes_from_difference_to_difference() {
         session.keys(&["n"]);
         assert_eq!(session.viewer.pinned_pixel(), Some(*place), "the next, round and round");
     }
+    session.run(Command::Unpin);
     // Asked for before anything is known of the new picture.
     let _ = session.viewer.apply(Command::PanBy { by: dvec2(7.0, 2.0) });
     let _ = session.viewer.apply(Command::NextDifference);

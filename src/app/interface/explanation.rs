@@ -6,6 +6,7 @@ use egui::{
 };
 
 use super::controls::command_button;
+use super::floating::points;
 use super::look;
 use super::{scrubber, twin};
 use crate::inspect::{Explanation, Paint};
@@ -324,20 +325,41 @@ impl Hovered {
     pub(super) fn outline(&self, ui: &Ui, viewer: &Viewer, free: Rect) {
         let Some(primitive) = self.primitive else { return };
         let scale = f64::from(ui.pixels_per_point());
-        let painter = ui.painter().with_clip_rect(free);
         #[expect(clippy::cast_possible_truncation, reason = "what is far outside is clipped")]
         let point = |[x, y]: [f64; 2]| {
             let near = |at: f64| (at / scale).clamp(-1e5, 1e5) as f32;
             pos2(near(x), near(y))
         };
-        let contours = viewer.outline_of(primitive);
-        for (width, color) in OUTLINE {
-            for contour in &contours {
-                let points = contour.iter().map(|at| point(*at)).collect();
-                painter.add(Shape::closed_line(points, Stroke::new(width, color)));
+        let contours: Vec<Vec<Pos2>> = viewer
+            .outline_of(primitive)
+            .iter()
+            .map(|contour| contour.iter().map(|at| point(*at)).collect())
+            .collect();
+        let inset = viewer.inset().map(|placed| points(&placed.rect, ui.pixels_per_point()));
+        for part in around(free, inset) {
+            let painter = ui.painter().with_clip_rect(part);
+            for (width, color) in OUTLINE {
+                for contour in &contours {
+                    painter.add(Shape::closed_line(contour.clone(), Stroke::new(width, color)));
+                }
             }
         }
     }
+}
+
+/// What is left of a rectangle around a hole.
+fn around(whole: Rect, hole: Option<Rect>) -> Vec<Rect> {
+    let Some(hole) = hole.filter(|hole| hole.intersects(whole)) else {
+        return vec![whole];
+    };
+    let hole = hole.intersect(whole);
+    let parts = [
+        Rect::from_min_max(whole.min, pos2(whole.right(), hole.top())),
+        Rect::from_min_max(pos2(whole.left(), hole.bottom()), whole.max),
+        Rect::from_min_max(pos2(whole.left(), hole.top()), hole.left_bottom()),
+        Rect::from_min_max(hole.right_top(), pos2(whole.right(), hole.bottom())),
+    ];
+    parts.into_iter().filter(Rect::is_positive).collect()
 }
 
 /// Whether the panel goes on the left: unless the pinned pixel lies there. `None` where the window is too narrow.
@@ -351,4 +373,25 @@ pub(super) fn side(viewer: &Viewer, free: Rect, pixels_per_point: f32) -> Option
     let zoom = viewer.settings().pixel_zoom.factor() as f32;
     let x = pixel[0] as f32 * zoom / pixels_per_point;
     Some(x > free.left() + WIDTH + look::PANEL_WIDTH / 8.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_around_a_hole_are_the_rest() {
+        let rect = |x: f32, y: f32, width: f32, height: f32| Rect::from_min_size(pos2(x, y), vec2(width, height));
+        let whole = rect(0.0, 0.0, 100.0, 80.0);
+        let area = |parts: Vec<Rect>| parts.iter().map(Rect::area).sum::<f32>();
+        for (hole, left) in [
+            (None, 8000.0),
+            (Some(rect(200.0, 0.0, 10.0, 10.0)), 8000.0),
+            (Some(rect(20.0, 30.0, 10.0, 10.0)), 7900.0),
+            (Some(rect(90.0, 70.0, 50.0, 50.0)), 7900.0),
+            (Some(whole), 0.0),
+        ] {
+            assert!((area(around(whole, hole)) - left).abs() < 0.1, "{hole:?}");
+        }
+    }
 }

@@ -8,7 +8,7 @@ use super::probing::Target;
 use super::state::Finished;
 use super::{Effect, Picture, Viewer};
 use crate::inspect::{Detail, Explanation, Question};
-use crate::render::Subject;
+use crate::render::{RenderSettings, Subject};
 use crate::scene::PrimitiveKind;
 
 /// The state of explaining; a pixel that cannot be explained has `None`.
@@ -97,7 +97,14 @@ impl Viewer {
             pixel,
         };
         let file = self.current()?.label.clone();
-        let other = self.other_frame().map(|frame| frame.picture.clone());
+        let own = &target.picture;
+        let other = self.other_settings().map(|settings| Picture {
+            settings: RenderSettings {
+                outline: settings.outline && own.settings.outline,
+                ..settings
+            },
+            ..own.clone()
+        });
         Some(Asked { target, other, file })
     }
 

@@ -9,7 +9,7 @@ use super::controls::command_button;
 use super::floating::points;
 use super::look;
 use super::{scrubber, twin};
-use crate::inspect::{Explanation, Paint};
+use crate::inspect::{Difference, Explanation, Paint};
 use crate::viewer::{Command, Toggle, Viewer};
 
 /// Width of the panel, in points, frame included.
@@ -189,26 +189,16 @@ fn against(ui: &mut Ui, viewer: &Viewer, explanation: &Explanation) {
         return;
     };
     let differences = explanation.differences(other);
-    section(ui, "against", "A against B", true, |ui| {
+    section(ui, "against", "A  |  B", true, |ui| {
         if differences.is_empty() {
             lines(ui, &["A and B tell the same of this pixel.".to_owned()]);
             return;
         }
-        egui::Grid::new("differences")
-            .num_columns(3)
-            .striped(true)
-            .show(ui, |ui| {
-                for heading in ["", "A", "B"] {
-                    ui.label(RichText::new(heading).strong().size(SIZE));
-                }
-                ui.end_row();
-                for difference in &differences {
-                    ui.add(egui::Label::new(RichText::new(&difference.what).weak().size(SIZE)).wrap());
-                    ui.label(RichText::new(&difference.a).size(SIZE));
-                    ui.label(RichText::new(&difference.b).size(SIZE));
-                    ui.end_row();
-                }
-            });
+        let told = differences.iter().map(|difference| {
+            let Difference { what, a, b } = difference;
+            format!("{what}  {a}  |  {b}")
+        });
+        lines(ui, &told.collect::<Vec<_>>());
     });
 }
 

@@ -63,6 +63,7 @@ impl ResolveSpace {
 
     /// The straight 8-bit pixel `0xAARRGGBB` that is the mean of samples, of which there must be 1 to 256, rounded to
     /// nearest or truncated as `rules` say. Samples that are all alike are that pixel in either space.
+    #[inline]
     pub fn resolve(self, samples: &[Premultiplied16], rules: Rules) -> u32 {
         match self {
             Self::Stored => stored_mean(samples, rules),
@@ -83,6 +84,7 @@ impl Premultiplied16 {
     }
 }
 
+#[inline]
 fn stored_mean(samples: &[Premultiplied16], rules: Rules) -> u32 {
     let mut sums = [0; 4];
     for sample in samples {

@@ -4,6 +4,7 @@ use super::band_spans::{BandSpans, Shape};
 use super::display_list::Chunk;
 use super::entry::{Entry, Work};
 use super::pixel_row::{PixelRow, each_pixel_row_of_few, scaled};
+use super::places::Place;
 use super::recorder::{PaintedKind, PaintedOp, Recorder};
 use super::rows::Span;
 use super::sample_mask::SampleMask;
@@ -250,16 +251,22 @@ impl<'a> TilePainter<'a> {
         };
         let PixelRect { x, y } = self.layers[0].rect;
         let side = self.context.grid.side();
+        let all = SampleMask::all(self.context.rate.samples() as usize);
         self.points.clear();
         for (pixel, mask) in &self.parts {
             let first = [(pixel[0] - x.start) * side, (pixel[1] - y.start) * side];
             let places = scatter.places(*pixel);
             // No tile has more than `2^14` points of a lattice along a side.
             let [left, top] = first.map(|at| u16::try_from(at).unwrap_or(u16::MAX));
-            mask.each(|sample| {
-                let [column, row] = places[sample].map(u16::from);
-                self.points.push([left.saturating_add(column), top.saturating_add(row)]);
-            });
+            let point = |[column, row]: Place| {
+                let (column, row) = (left.saturating_add(column.into()), top.saturating_add(row.into()));
+                [column, row]
+            };
+            if *mask == all {
+                self.points.extend(places.iter().map(|place| point(*place)));
+            } else {
+                mask.each(|sample| self.points.push(point(places[sample])));
+            }
         }
         let count = self.points.len();
         if self.colors.len() < count {

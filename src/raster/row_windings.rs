@@ -42,9 +42,13 @@ impl RowWindings {
         (self.uneven == 0).then_some(self.steps[0])
     }
 
-    /// The winding of one row.
-    pub(super) fn of_row(&self, row: usize) -> i32 {
-        self.steps[..=row].iter().sum()
+    /// Puts the windings of all rows, and one more, into `rows`.
+    pub(super) fn of_rows(&self, rows: &mut Vec<i32>) {
+        rows.clear();
+        rows.extend(self.steps.iter().scan(0, |winding, step| {
+            *winding += step;
+            Some(*winding)
+        }));
     }
 
     /// Takes back what was added; `rows` are those of every edge.
@@ -87,8 +91,9 @@ mod tests {
                 }
                 let even = rows.iter().all(|row| *row == rows[0]).then_some(rows[0]);
                 assert_eq!(windings.even(), even, "{rows:?}");
-                let found: Vec<i32> = (0..rows.len()).map(|row| windings.of_row(row)).collect();
-                assert_eq!(found, rows, "row by row");
+                let mut found = Vec::new();
+                windings.of_rows(&mut found);
+                assert_eq!(found[..rows.len()], rows, "row by row");
             }
             windings.forget(added.into_iter());
             Ok(())

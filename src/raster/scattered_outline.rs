@@ -60,12 +60,14 @@ struct Run {
 /// Edges of an outline in one row of pixels, reusing its memory.
 #[derive(Debug, Default)]
 struct Sweep {
-    /// Pixels that an edge may cross, and the edge.
-    crossings: Vec<(i32, LocalEdge)>,
+    /// The edges, and pixels that each may cross.
+    edges: Vec<LocalEdge>,
+    crossings: Vec<(i32, u32)>,
     /// Pixels from which on an edge winds around all samples of some rows, those rows, and how.
     passed: Vec<(i32, Span, i32)>,
-    /// How often each sample of a pixel is wound around.
+    /// How often each sample of a pixel is wound around, and each row.
     around: Vec<i32>,
+    rows: Vec<i32>,
 }
 
 /// An edge and the lattice rows of a pixel that it crosses.
@@ -217,6 +219,7 @@ impl OutlineScatter {
 impl Sweep {
     /// Finds where the edges of an outline lie in row `y` of pixels, of which only `columns` count.
     fn gather(&mut self, (outline, all): (&Outline, &[OutlineEdge]), grid: SubpixelGrid, columns: Span, y: i32) {
+        self.edges.clear();
         self.crossings.clear();
         self.passed.clear();
         let (top, width) = (y * grid.side(), grid.units_per_pixel());
@@ -234,14 +237,15 @@ impl Sweep {
                 start: inside.start - top,
                 end: inside.end - top,
             };
-            let local = LocalEdge {
+            let number = u32::try_from(self.edges.len()).unwrap_or(u32::MAX);
+            self.edges.push(LocalEdge {
                 top: edge.top,
                 bottom: edge.bottom,
                 rows,
                 winding: edge.winding,
-            };
+            });
             let crossed = from.max(columns.start)..(to + 1).min(columns.end);
-            self.crossings.extend(crossed.map(|x| (x, local)));
+            self.crossings.extend(crossed.map(|x| (x, number)));
             self.passed.push((to + 1, rows, edge.winding));
         }
         self.crossings.sort_unstable_by_key(|(x, _)| *x);
@@ -260,21 +264,29 @@ impl Sweep {
         if let Some(winding) = windings.even() {
             self.around.resize(places.len(), winding);
         } else {
-            let rows = places.iter().map(|place| usize::from(place[1]));
-            self.around.extend(rows.map(|row| windings.of_row(row)));
+            windings.of_rows(&mut self.rows);
+            let rows = places.iter().map(|place| self.rows[usize::from(place[1])]);
+            self.around.extend(rows);
         }
         let [x, y] = pixel.map(|pixel| grid.sample_coordinate(pixel * grid.side()));
-        for (_, edge) in &self.crossings[here] {
+        for (_, number) in &self.crossings[here] {
+            let edge = &self.edges[*number as usize];
             let value = edge_value(edge.top, edge.bottom, GridPoint { x, y });
             let [dx, dy] = [edge.bottom.x - edge.top.x, edge.bottom.y - edge.top.y];
             let [right, down] = [-i64::from(dy), i64::from(dx)].map(|step| step << grid.bits());
-            let all_rows = edge.rows.end - edge.rows.start == grid.side();
-            for (around, [column, row]) in self.around.iter_mut().zip(places) {
-                let (column, row) = (i64::from(*column), i64::from(*row));
-                // Downwards, the right of the edge on the screen is where the edge function is negative.
+            // Downwards, the right of the edge on the screen is where the edge function is negative.
+            let winding = |[column, row]: [i64; 2]| {
                 let left_of_sample = value + right * column + down * row <= 0;
-                let in_rows = all_rows | (i64::from(edge.rows.start) <= row && row < i64::from(edge.rows.end));
-                *around += edge.winding * i32::from(in_rows & left_of_sample);
+                if left_of_sample { edge.winding } else { 0 }
+            };
+            let samples = self.around.iter_mut().zip(places);
+            let samples = samples.map(|(around, place)| (around, place.map(i64::from)));
+            if edge.rows.end - edge.rows.start == grid.side() {
+                samples.for_each(|(around, place)| *around += winding(place));
+            } else {
+                let rows = i64::from(edge.rows.start)..i64::from(edge.rows.end);
+                let in_rows = samples.filter(|(_, place)| rows.contains(&place[1]));
+                in_rows.for_each(|(around, place)| *around += winding(place));
             }
         }
         // Of a winding number all bits count, or the lowest.

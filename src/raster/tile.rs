@@ -260,6 +260,10 @@ impl Tile {
     ) {
         let rules = self.rules;
         let samples = self.samples_of(x, y);
+        if opaque && colors.len() == samples.len() {
+            samples.copy_from_slice(colors);
+            return;
+        }
         let mut colors = colors.iter();
         mask.each(|sample| {
             if let Some(color) = colors.next() {

@@ -182,6 +182,10 @@ fn comparison_difference_is_the_pairs_picture() {
     session.keys(&["Shift+D"]);
     style.gain = Gain::Factor(8.0);
     shows(&session, style, "back to the gain of before");
+    session.run(Command::Normalize(Toggle::On));
+    style.gain = Gain::Factor(session.viewer.difference_gain().unwrap() / 2.0);
+    session.run(Command::StepGain(-1));
+    shows(&session, style, "half of the normalised gain");
     session.keys(&["d"]);
     assert!(session.viewer.window_picture() == *session.pixels(), "A alone again");
 }
@@ -708,6 +712,19 @@ fn comparison_with_what_is_no_picture_says_so() {
 fn comparison_newest_picture_wins() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
     let (path, _) = picture_of_rate_four(&session, [90, 70]);
+    let _ = session.viewer.apply(Command::Compare(Against::File(path.clone())));
+    let _ = session.viewer.apply(Command::Arrange(Arrangement::SideBySide));
+    let _ = session.viewer.apply(Command::SwapAb);
+    session.viewer.finish();
+    assert!(
+        matches!(session.viewer.other(), Some(Other::Picture(_))),
+        "what is being read becomes B"
+    );
+    assert_eq!(
+        session.viewer.arrangement(),
+        Arrangement::SideBySide,
+        "arranged as asked meanwhile"
+    );
     let _ = session.viewer.apply(Command::Compare(Against::File(path)));
     let _ = session.viewer.apply(Command::Compare(Against::Truth));
     session.viewer.finish();

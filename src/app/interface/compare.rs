@@ -132,6 +132,11 @@ fn difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         }
     });
     legend(ui, style.measure, gain);
+    if style.measure == Measure::Signed {
+        let other = if viewer.is_swapped() { "A" } else { "B" };
+        let text = format!("blue: {other} is darker; orange: {other} is lighter");
+        ui.label(RichText::new(text).small().weak());
+    }
 }
 
 /// The colours from end to end with the numbers that they stand for.
@@ -177,9 +182,6 @@ fn legend(ui: &mut Ui, measure: Measure, gain: f32) {
         };
         let font = egui::FontId::proportional(11.0);
         ui.painter().text(pos2(x, row.center().y), align, text, font, ink);
-    }
-    if measure == Measure::Signed {
-        ui.label(RichText::new("blue: B is darker; orange: B is lighter").small().weak());
     }
 }
 

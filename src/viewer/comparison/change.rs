@@ -138,6 +138,8 @@ impl Viewer {
                 self.comparison.swapped = !self.comparison.swapped;
                 self.comparison.swaps += 1;
             }
+            // A picture that is being read becomes B.
+            None if self.comparison.loading.is_some() => {}
             None => self.compare(Against::Settings),
         }
     }
@@ -176,7 +178,8 @@ impl Viewer {
     }
 
     pub(super) fn arrange(&mut self, arrangement: Arrangement) {
-        if arrangement != Arrangement::Alone && self.comparison.other.is_none() {
+        let is_without = self.comparison.other.is_none() && self.comparison.loading.is_none();
+        if arrangement != Arrangement::Alone && is_without {
             self.compare(Against::Settings);
         }
         self.comparison.arrangement = arrangement;
@@ -186,7 +189,9 @@ impl Viewer {
     }
 
     fn step_gain(&mut self, steps: i32) {
-        let gain = self.comparison.gain * 2.0_f32.powi(steps.clamp(-40, 40));
+        // From what is to be seen: a normalised gain, too.
+        let gain = self.difference_gain().unwrap_or(self.comparison.gain);
+        let gain = gain * 2.0_f32.powi(steps.clamp(-40, 40));
         self.comparison.gain = gain.clamp(GAINS[0], GAINS[1]);
         self.comparison.style.gain = Gain::Factor(self.comparison.gain);
         self.arrange(Arrangement::Difference);

@@ -481,6 +481,7 @@ mod tests {
             "rasterscope diff a.png b.png --gain 2 --normalize",
             "rasterscope diff a.png b.png --tolerance 256",
             "rasterscope diff a.png b.png --mode other",
+            "rasterscope view a.svg --against none",
             "rasterscope bench",
             "rasterscope bench a.svg --frames 0",
             "rasterscope bench a.svg --threads 0",

@@ -4,7 +4,7 @@ mod resolve;
 
 use crate::rules::Rules;
 
-pub use resolve::ResolveSpace;
+pub use resolve::{ResolveSpace, encoded};
 
 /// A straight (not premultiplied) sRGB-encoded colour; each channel and alpha in `0.0..=1.0`.
 #[derive(Clone, Copy, Debug, PartialEq)]

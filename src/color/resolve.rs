@@ -84,6 +84,17 @@ impl Premultiplied16 {
     }
 }
 
+/// The stored value of linear light, both in `0.0..=255.0`: the way back.
+pub fn encoded(light: f64) -> f64 {
+    let light = light / 255.0;
+    let stored = if light <= 0.003_130_8 {
+        light * 12.92
+    } else {
+        1.055 * light.powf(1.0 / 2.4) - 0.055
+    };
+    stored * 255.0
+}
+
 #[inline]
 fn stored_mean(samples: &[Premultiplied16], rules: Rules) -> u32 {
     let mut sums = [0; 4];

@@ -18,19 +18,18 @@ pub struct Convergence {
 impl Explanation {
     /// The pixel, straight red, green, blue, alpha, that the first `count` samples make; `count` is at least 1.
     pub fn mean_of_first(&self, count: usize) -> [u8; 4] {
-        let mut sums = [0; 4];
-        let mut taken = 0;
-        for sample in self.samples.iter().take(count) {
-            taken += 1;
-            for (sum, channel) in sums.iter_mut().zip(sample.color) {
-                *sum += stored(channel);
-            }
+        let samples = self.samples.iter().take(count.max(1));
+        let samples: Vec<_> = samples
+            .map(|sample| Premultiplied16(sample.color.map(stored)))
+            .collect();
+        if samples.is_empty() {
+            return [0; 4];
         }
         let rules = match self.resolve.rounding {
             Rounding::Nearest => Rules::Standard,
             Rounding::Truncated => Rules::Course,
         };
-        let [a, r, g, b] = Premultiplied16::resolve(sums, taken.max(1), rules).to_be_bytes();
+        let [a, r, g, b] = self.resolve.space().resolve(&samples, rules).to_be_bytes();
         [r, g, b, a]
     }
 
@@ -64,6 +63,6 @@ impl Explanation {
     clippy::cast_sign_loss,
     reason = "a channel is 0 to 255 levels"
 )]
-fn stored(levels: f64) -> u32 {
-    (levels * f64::from(Premultiplied16::PER_BYTE)) as u32
+fn stored(levels: f64) -> u16 {
+    (levels * f64::from(Premultiplied16::PER_BYTE)) as u16
 }

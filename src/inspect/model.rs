@@ -7,6 +7,8 @@
 
 use serde::Serialize;
 
+use crate::color::ResolveSpace;
+
 /// The version of the shape of the report.
 pub const VERSION: u32 = 1;
 
@@ -54,6 +56,16 @@ pub struct Resolve {
     /// Whether shaded samples were summed before they were rounded to 1/256, so that the sums may differ a little from
     /// those of [`Explanation::samples`].
     pub summed_exactly: bool,
+}
+
+impl Resolve {
+    /// [`Resolve::space`] as a setting.
+    pub fn space(&self) -> ResolveSpace {
+        let all = ResolveSpace::ALL.into_iter();
+        all.filter(|space| space.name() == self.space)
+            .last()
+            .unwrap_or_default()
+    }
 }
 
 /// How fractions of a level become whole ones.

@@ -1,8 +1,11 @@
 //! The report in words: one sentence per fact, as a teacher would say it. Text, Markdown and the window's tree are made of
 //! these lines.
 
+use std::fmt::Write as _;
+
 use super::model::{Edge, Explanation, Fragment, Interpolated, Paint, Resolve, Rounding, Shape, Source, Verdict, View};
 use super::numbers::{number, percent, runs, shortened, significant};
+use crate::color::{ResolveSpace, encoded};
 
 /// Different colours that a sum is written out for at most.
 const MOST_TERMS: usize = 4;
@@ -72,6 +75,10 @@ impl Explanation {
                 resolve.samples
             ));
         }
+        if self.averages_light() {
+            let words = "Their light is averaged, each weighted by its alpha: sRGB values are decoded before and encoded after.";
+            lines.push(words.to_owned());
+        }
         if resolve.summed_exactly && resolve.samples > 1 {
             lines.push("Shaded samples are summed before they are rounded to 1/256 of a level.".to_owned());
         }
@@ -84,8 +91,41 @@ impl Explanation {
         lines
     }
 
+    /// Whether several samples are averaged in linear light.
+    fn averages_light(&self) -> bool {
+        self.resolve.space() == ResolveSpace::Linear && self.resolve.samples > 1
+    }
+
+    /// A colour channel from the sum of its light to its byte.
+    fn light_channel(&self, channel: usize) -> String {
+        let Resolve {
+            sums, samples, mean, ..
+        } = &self.resolve;
+        let (mean, alpha) = (mean[channel], self.resolve.mean[3]);
+        let mut text = format!("light {} / {samples} = {}", number(sums[channel]), number(mean));
+        let straight = if alpha > 0.0 { mean * 255.0 / alpha } else { 0.0 };
+        if self.color[3] < 255 {
+            let _ = write!(text, ", / alpha = {}", number(straight));
+        }
+        let rounding = match self.resolve.rounding {
+            Rounding::Nearest => "rounded",
+            Rounding::Truncated => "truncated",
+        };
+        // Writing to a `String` cannot fail.
+        let _ = write!(
+            text,
+            ", encoded {}, {rounding} to {}",
+            number(encoded(straight)),
+            self.color[channel]
+        );
+        text
+    }
+
     /// A channel from its sum to its byte.
     fn channel(&self, channel: usize) -> String {
+        if channel < 3 && self.averages_light() {
+            return self.light_channel(channel);
+        }
         let Resolve {
             sums,
             samples,

@@ -141,6 +141,21 @@ fn check_resolve(found: &Explanation, rules: Rules) {
             "{sum} is the sum of samples, not {total}: {found:?}"
         );
     }
+    if !resolve.summed_exactly {
+        assert_eq!(
+            found.mean_of_first(resolve.samples),
+            found.color,
+            "sample by sample: {found:?}"
+        );
+    }
+    if linear && resolve.samples > 1 {
+        let lines = found.resolve_lines();
+        let red = lines.iter().find(|line| line.starts_with("red")).unwrap();
+        assert!(
+            red.contains(" light ") && red.ends_with(&format!(" to {}", found.color[0])),
+            "{red}"
+        );
+    }
     let alpha = resolve.mean[3];
     for (i, byte) in found.color.iter().enumerate() {
         let exact = match i {

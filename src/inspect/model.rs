@@ -61,10 +61,8 @@ pub struct Resolve {
 impl Resolve {
     /// [`Resolve::space`] as a setting.
     pub fn space(&self) -> ResolveSpace {
-        let all = ResolveSpace::ALL.into_iter();
-        all.filter(|space| space.name() == self.space)
-            .last()
-            .unwrap_or_default()
+        let named = ResolveSpace::ALL.into_iter().find(|space| space.name() == self.space);
+        named.unwrap_or_default()
     }
 }
 

@@ -33,6 +33,7 @@ impl Explanation {
         };
         compare("mean", mean(self), mean(b));
         compare("samples", self.samples.len().to_string(), b.samples.len().to_string());
+        compare("averaged as", self.resolve.space.to_owned(), b.resolve.space.to_owned());
         let background = |of: &Self| {
             let shown = of.samples.iter().filter(|sample| sample.seen.is_none()).count();
             percent(shown as f64 / of.samples.len().max(1) as f64)

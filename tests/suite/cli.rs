@@ -404,6 +404,11 @@ fn cli_inspect_explains_a_pixel_in_words_and_numbers() {
         let expected = expected.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(joined.contains(&expected), "{expected:?} is in {text}");
     }
+    let light = inspect(&["--resolve", "linear"]);
+    assert!(
+        light.contains("light 765 / 4 = 191.25, encoded 224.6104"),
+        "three quarters of the light: {light}"
+    );
     let outside = inspect(&["--sample", "4"]);
     assert!(
         outside.contains("outside") && outside.contains("leaves this sample as it was"),

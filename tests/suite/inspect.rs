@@ -111,6 +111,7 @@ fn every_explanation_of_every_scene_ends_in_the_frames_bytes() {
                 assert_eq!(found.color, [r, g, b, a], "{at:?}");
                 check_resolve(found, settings.rules);
                 check_samples(found);
+                check_accumulation(found);
                 for paint in &found.paints {
                     check_coverage(paint, found.samples.len(), settings.rules);
                     check_colors(paint, settings.rules);
@@ -199,6 +200,38 @@ fn stored(light: f64) -> f64 {
         light * 12.92
     } else {
         1.055 * light.powf(1.0 / 2.4) - 0.055
+    }
+}
+
+/// All samples together are the pixel, one alone is that sample, and the covered part ends with what is covered.
+fn check_accumulation(found: &Explanation) {
+    let all = found.mean_of_first(found.samples.len());
+    for (all, color) in all.iter().zip(found.color) {
+        // What is off by a quarter of a level counts more where little is opaque.
+        let rounding = match found.color[3] {
+            _ if !found.resolve.summed_exactly => 0,
+            alpha => 1 + 80 / alpha.max(1),
+        };
+        assert!(all.abs_diff(color) <= rounding, "all samples are the pixel: {found:?}");
+    }
+    assert_eq!(
+        found.mean_of_first(1),
+        found.samples[0].bytes,
+        "the first sample: {found:?}"
+    );
+    if let Some(convergence) = found.convergence() {
+        assert_eq!(convergence.parts.len(), found.samples.len(), "a part per sample");
+        assert!((0.0..=1.0).contains(&convergence.area), "a part of the pixel");
+        let covered = |paint: &Paint| {
+            paint.name() == convergence.name && {
+                let part = paint.fragments.len() as f64 / found.samples.len() as f64;
+                convergence.parts.last().is_some_and(|last| (last - part).abs() < 1e-9)
+            }
+        };
+        assert!(
+            found.paints.iter().any(covered),
+            "in the end what is covered: {convergence:?}"
+        );
     }
 }
 

@@ -66,8 +66,8 @@ impl Asked {
 }
 
 impl Viewer {
-    /// Why the pinned pixel of the frame on the screen has its colour; `None` until it was found out, and while no pixel
-    /// is pinned or the explanation is closed.
+    /// Why the pinned pixel has its colour in the last frame that was finished; `None` until it was found out, and while
+    /// no pixel is pinned or the explanation is closed.
     pub fn explanation(&self) -> Option<&Explanation> {
         Some(&self.explaining.answer()?.as_ref()?.own)
     }
@@ -85,6 +85,10 @@ impl Viewer {
 
     /// Sees to it that what is to be explained is found out.
     pub(super) fn want_explanation(&mut self) {
+        // While the picture moves the last explanation stays: finding out others would only slow the picture down.
+        if self.explains() && !self.drawing.is_current() {
+            return;
+        }
         let pixel = self.pinned_pixel().filter(|_| self.explains());
         let asked = pixel.and_then(|pixel| self.question(pixel));
         self.explaining.want(asked, |_| None);

@@ -134,7 +134,10 @@ impl<'a> Explainer<'a> {
         let area = |points: &[DVec2; 3]| area_in_pixel(points.map(|point| screen.place(point)), self.pixel);
         match kind {
             PrimitiveKind::Triangle { points, .. } => Some(area(points)),
-            PrimitiveKind::Polygon { polygon, .. } => Some(polygon.triangles()?.iter().map(area).sum()),
+            PrimitiveKind::Polygon { polygon, .. } => {
+                // Each part is rounded; together they cannot be more than all of it.
+                Some(polygon.triangles()?.iter().map(area).sum::<f64>().min(1.0))
+            }
             PrimitiveKind::Hairline { .. }
             | PrimitiveKind::Point { .. }
             | PrimitiveKind::BeginLayer

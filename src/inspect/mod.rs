@@ -6,6 +6,7 @@
 mod accumulation;
 mod differences;
 mod explanation;
+mod hints;
 mod model;
 mod numbers;
 mod samples;

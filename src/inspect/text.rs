@@ -86,6 +86,10 @@ impl Explanation {
             let nothing = vec!["every sample shows the background".to_owned()];
             topics.push(topic("Nothing paints this pixel".to_owned(), nothing));
         }
+        let hints = self.hints();
+        if !hints.is_empty() {
+            topics.push(topic("What would help".to_owned(), hints));
+        }
         if !self.missed.is_empty() {
             topics.push(topic("What passes between the samples".to_owned(), self.missed_lines()));
         }
@@ -152,16 +156,14 @@ fn push_wrapped(text: &mut String, line: &str, indent: usize) {
     loop {
         let room = WIDTH.saturating_sub(column).max(16);
         text.push_str(&" ".repeat(column));
-        let Some((limit, _)) = rest.char_indices().nth(room) else {
+        let Some((limit, next)) = rest.char_indices().nth(room) else {
             text.push_str(rest);
             text.push('\n');
             return;
         };
         // A word longer than a line is broken where the line ends.
-        let end = rest[..=limit.min(rest.len() - 1)]
-            .rfind(' ')
-            .filter(|end| *end > 0)
-            .unwrap_or(limit);
+        let space = rest[..limit].rfind(' ').filter(|end| *end > 0);
+        let end = if next == ' ' { limit } else { space.unwrap_or(limit) };
         text.push_str(rest[..end].trim_end());
         text.push('\n');
         rest = rest[end..].trim_start();

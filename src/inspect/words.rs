@@ -30,7 +30,7 @@ impl Explanation {
         ]
     }
 
-    /// What the samples show, in one sentence, such as `9 of 16 samples show 1 (polygon "left", line 3), 7 the background.`
+    /// What the samples show, in one sentence, such as `9 of 16 samples show 1 (polygon "left", line 3), 7 show the background.`
     fn seen_words(&self) -> String {
         let mut seen: Vec<(Option<usize>, usize)> = Vec::new();
         for sample in &self.samples {
@@ -50,12 +50,13 @@ impl Explanation {
             [(only, _)] => format!("All {all} samples show {}.", what(*only)),
             several => {
                 let parts = several.iter().enumerate().map(|(i, (seen, count))| {
+                    let verb = if *count == 1 { "shows" } else { "show" };
                     let of = if i == 0 {
-                        format!(" of {all} samples show")
+                        format!(" of {all} samples")
                     } else {
                         String::new()
                     };
-                    format!("{count}{of} {}", what(*seen))
+                    format!("{count}{of} {verb} {}", what(*seen))
                 });
                 format!("{}.", parts.collect::<Vec<_>>().join(", "))
             }

@@ -393,7 +393,7 @@ fn cli_inspect_explains_a_pixel_in_words_and_numbers() {
     for expected in [
         "Pixel (1, 0) of 4 x 4",
         "colour      #BF0040",
-        "3 of 4 samples show 2 (triangle of polygon \"tip\", line 3), 1 1 (polygon of rect",
+        "3 of 4 samples show 2 (triangle of polygon \"tip\", line 3), 1 shows 1 (polygon of rect",
         "(3 x 255 + 1 x 0) / 4 = 191.25, rounded to 191",
         "two.svg:3:1",
         "3 | <polygon id=\"tip\"",

@@ -350,3 +350,77 @@ fn check_colors(paint: &Paint, rules: Rules) {
         }
     }
 }
+
+/// Why one pixel of a picture of `size` pixels has its colour.
+fn explain(scene: &Scene, settings: &RenderSettings, size: [u32; 2], pixel: [u32; 2]) -> Explanation {
+    let view = SceneView::Canvas.transform(scene.canvas, size);
+    let subject = Subject {
+        scene,
+        view: &view,
+        settings,
+    };
+    let question = Question {
+        subject,
+        file: "scene.svg",
+        size,
+        pixel,
+    };
+    Explanation::new(&question).unwrap()
+}
+
+#[test]
+fn hints_name_a_cure_and_vanish_with_it() {
+    let document = r##"<svg width="8" height="8"><polygon points="1.1,0 1.3,0 1.2,8" fill="#FF0000"/></svg>"##;
+    let thin = read("thin.svg", document);
+    let at = |samples| RenderSettings {
+        sample_rate: SampleRate::new(samples).unwrap(),
+        ..RenderSettings::default()
+    };
+    let missed = explain(&thin, &at(1), [8, 8], [1, 2]);
+    assert_eq!(missed.missed.len(), 1, "it passes beside the centre");
+    assert!(
+        (missed.missed[0].area - 0.1375).abs() < 1e-5,
+        "a trapezium: {:?}",
+        missed.missed
+    );
+    assert!(missed.hints().concat().contains("breaks up"), "{:?}", missed.hints());
+    let found = explain(&thin, &at(64), [8, 8], [1, 2]);
+    assert!(
+        found.missed.is_empty() && found.hints().is_empty(),
+        "more samples find it: {:?}",
+        found.hints()
+    );
+    assert!(
+        missed
+            .text(rasterscope::inspect::Detail::Telling)
+            .contains("What would help"),
+        "it is told"
+    );
+
+    let floor = SCENES
+        .iter()
+        .find(|scene| scene.name == "study/07_checker_floor.svg")
+        .unwrap();
+    let floor = read(floor.name, floor.document);
+    let hints = |level_sampling, taps| {
+        let settings = RenderSettings {
+            pixel_sampling: PixelSampling::Bilinear,
+            level_sampling,
+            anisotropy: Anisotropy::new(taps).unwrap(),
+            ..RenderSettings::default()
+        };
+        explain(&floor, &settings, [1000, 640], [400, 310]).hints().concat()
+    };
+    assert!(
+        hints(LevelSampling::Zero, 1).contains("(L)"),
+        "{}",
+        hints(LevelSampling::Zero, 1)
+    );
+    assert!(
+        hints(LevelSampling::Linear, 1).contains("(T)"),
+        "{}",
+        hints(LevelSampling::Linear, 1)
+    );
+    let cured = hints(LevelSampling::Linear, 16);
+    assert!(!cured.contains("(L)") && !cured.contains("(T)"), "{cured}");
+}

@@ -69,6 +69,12 @@ impl ExplanationPanel {
     fn report(&mut self, ui: &mut Ui, viewer: &Viewer, explanation: &Explanation, hovered: &mut Hovered) {
         lines(ui, &explanation.pixel_lines());
         against(ui, viewer, explanation);
+        let hints = explanation.hints();
+        if !hints.is_empty() {
+            section(ui, "hints", "What would help", true, |ui| {
+                lines(ui, &hints);
+            });
+        }
         section(ui, "resolve", "How samples became the colour", false, |ui| {
             lines(ui, &explanation.resolve_lines());
         });
@@ -179,7 +185,6 @@ fn missed(ui: &mut Ui, explanation: &Explanation, hovered: &mut Hovered) {
                 hovered.primitive = Some(missed.primitive);
             }
         }
-        lines(ui, &["More samples, or another pattern, may find it.".to_owned()]);
     });
 }
 

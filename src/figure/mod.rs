@@ -1,4 +1,4 @@
-//! Pictures made of frames: insets for now. Knows no window and no text; whoever shows a picture adds its words.
+//! Pictures made of frames: insets and words on them, PNG files. Knows no window.
 
 mod inset;
 mod paint;
@@ -6,9 +6,11 @@ mod placement;
 mod png;
 mod rect;
 mod samples;
+mod text;
 
 pub use inset::Inset;
 pub use placement::{Corner, place};
 pub use png::{encode_png, save_png};
 pub use rect::PixelRect;
 pub use samples::{SampleMark, is_dark};
+pub use text::{Anchor, TextBlock, TextStyle, Typeface};

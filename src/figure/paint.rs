@@ -1,7 +1,9 @@
-//! Rectangles of colour in a frame.
+//! Colour into a frame: rectangles, and pixels blended.
 
 use super::PixelRect;
+use crate::color::unit_to_byte;
 use crate::raster::Framebuffer;
+use crate::rules::Rules;
 
 /// `rect` without `depth` pixels on every side.
 pub(super) fn inner(rect: &PixelRect, depth: u32) -> PixelRect {
@@ -45,4 +47,19 @@ pub(super) fn over_white([r, g, b, a]: [u8; 4]) -> u32 {
     let alpha = u32::from(a);
     let mix = |channel: u8| (u32::from(channel) * alpha + 255 * (255 - alpha) + 127) / 255;
     0xff00_0000 | mix(r) << 16 | mix(g) << 8 | mix(b)
+}
+
+/// A straight colour at a part of its opacity, `0.0..=1.0`, over a straight pixel (Porter and Duff's source-over).
+pub(super) fn blend(below: u32, above: u32, part: f32) -> u32 {
+    let [above_alpha, above @ ..] = above.to_be_bytes();
+    let [below_alpha, below @ ..] = below.to_be_bytes();
+    let cover = f32::from(above_alpha) / 255.0 * part;
+    let rest = f32::from(below_alpha) / 255.0 * (1.0 - cover);
+    let alpha = cover + rest;
+    if alpha <= 0.0 {
+        return 0;
+    }
+    let mix = |i: usize| (f32::from(above[i]) * cover + f32::from(below[i]) * rest) / alpha / 255.0;
+    let byte = |unit: f32| unit_to_byte(unit, Rules::Standard);
+    u32::from_be_bytes([byte(alpha), byte(mix(0)), byte(mix(1)), byte(mix(2))])
 }

@@ -49,7 +49,7 @@ const ROOMS: &[Room] = &[
         rooms: &[
             "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
         ],
-        crates: &["image"],
+        crates: &["image", "ab_glyph", "epaint_default_fonts"],
     },
     Room {
         name: "compare",
@@ -118,6 +118,8 @@ const GUARDED: &[&str] = &[
     "simplecss",
     "data_url",
     "image",
+    "ab_glyph",
+    "epaint_default_fonts",
     "kurbo",
     "i_triangle",
     "clap",

@@ -73,37 +73,37 @@ impl TextStyle {
     }
 
     /// The size within its range.
-    fn em(&self) -> f32 {
+    fn em(self) -> f32 {
         // A size that is no number becomes the smallest.
         self.size.max(*Self::SIZE.start()).min(*Self::SIZE.end())
     }
 
     /// Pixels from the top of one line to the top of the next.
-    pub fn line_height(&self) -> u32 {
+    pub fn line_height(self) -> u32 {
         whole_pixels(self.em() * LINE)
     }
 
     /// The typeface, then the other one.
-    fn faces(&self) -> impl Iterator<Item = &'static FontRef<'static>> {
+    fn faces(self) -> impl Iterator<Item = &'static FontRef<'static>> {
         let first = usize::from(self.typeface == Typeface::Code);
         FACES.iter().skip(first).chain(FACES.iter().take(first))
     }
 
     /// The face and the glyph of a character: a face that has it, else the box of the chosen face.
-    fn glyph(&self, character: char) -> Option<(&'static FontRef<'static>, GlyphId)> {
+    fn glyph(self, character: char) -> Option<(&'static FontRef<'static>, GlyphId)> {
         let mut glyphs = self.faces().map(|face| (face, face.glyph_id(character)));
         let missing = self.faces().next().map(|face| (face, GlyphId(0)));
         glyphs.find(|(_, glyph)| *glyph != GlyphId(0)).or(missing)
     }
 
-    fn scale(&self, face: &FontRef<'_>) -> PxScale {
+    fn scale(self, face: &FontRef<'_>) -> PxScale {
         // The crate's scale is the height from ascent to descent; the unit of a size is the em.
         let em = face.units_per_em().unwrap_or(1000.0);
         PxScale::from(self.em() * face.height_unscaled() / em)
     }
 
     /// How far the pen moves over a character after `before`.
-    fn advance(&self, before: Option<char>, character: char) -> f32 {
+    fn advance(self, before: Option<char>, character: char) -> f32 {
         let Some((face, glyph)) = self.glyph(character) else {
             return 0.0;
         };
@@ -116,7 +116,7 @@ impl TextStyle {
     }
 
     /// Width of a line in pixels, not rounded.
-    fn advance_of(&self, line: &str) -> f32 {
+    fn advance_of(self, line: &str) -> f32 {
         let pairs = std::iter::once(None).chain(line.chars().map(Some)).zip(line.chars());
         pairs.map(|(before, character)| self.advance(before, character)).sum()
     }
@@ -143,7 +143,7 @@ impl TextBlock {
         let lines = text.split('\n').flat_map(|paragraph| {
             let paragraph: String = paragraph.chars().filter_map(shown).collect();
             match width {
-                Some(width) => broken(&paragraph, &style, width),
+                Some(width) => broken(&paragraph, style, width),
                 None => vec![paragraph],
             }
         });
@@ -190,7 +190,7 @@ impl TextBlock {
                 return;
             }
             if top > -step {
-                draw_line(picture, &line.text, &self.style, [x - before(anchor, line.width), top]);
+                draw_line(picture, &line.text, self.style, [x - before(anchor, line.width), top]);
             }
             top = top.saturating_add(step);
         }
@@ -212,15 +212,22 @@ fn shown(character: char) -> Option<char> {
     match character {
         '\r' => None,
         '\t' => Some(' '),
-        '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' => Some(char::REPLACEMENT_CHARACTER),
-        '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}' => Some(char::REPLACEMENT_CHARACTER),
-        _ if character.is_control() => Some(char::REPLACEMENT_CHARACTER),
+        _ if character.is_control() || is_invisible(character) => Some(char::REPLACEMENT_CHARACTER),
         _ => Some(character),
     }
 }
 
+/// Formatting characters of Unicode (category Cf) that turn up in names.
+fn is_invisible(character: char) -> bool {
+    matches!(
+        character,
+        '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}' | '\u{feff}'
+    )
+}
+
 /// `paragraph` in lines no wider than `width` pixels.
-fn broken(paragraph: &str, style: &TextStyle, width: u32) -> Vec<String> {
+fn broken(paragraph: &str, style: TextStyle, width: u32) -> Vec<String> {
     let (limit, mut lines, mut line) = (width as f32, Vec::new(), String::new());
     for word in paragraph.split(' ') {
         let separator = if line.is_empty() { "" } else { " " };
@@ -250,7 +257,7 @@ fn broken(paragraph: &str, style: &TextStyle, width: u32) -> Vec<String> {
 }
 
 /// Draws one line with its upper left corner at `place`.
-fn draw_line(picture: &mut Framebuffer, text: &str, style: &TextStyle, [x, y]: [i64; 2]) {
+fn draw_line(picture: &mut Framebuffer, text: &str, style: TextStyle, [x, y]: [i64; 2]) {
     let Some(main) = style.faces().next() else { return };
     let scaled = main.as_scaled(style.scale(main));
     // The face's own lines are of other heights; the letters stand in the middle of ours.

@@ -20,7 +20,7 @@ use crate::scene::{Paint, PrimitiveKind, Scene};
 use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, SamplingSettings};
 
 pub use regions::{Subject, draw_regions, refine};
-pub use replay::{Explainer, replay};
+pub use replay::{Explainer, Neighbourhood, replay};
 
 /// Everything about a picture that is neither scene nor view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,7 +118,8 @@ pub fn draw_cancellable(
     cancel: &CancelToken,
 ) -> Option<FrameStats> {
     let start = Instant::now();
-    let list = display_list(scene, view, settings, [frame.width(), frame.height()]);
+    let subject = Subject { scene, view, settings };
+    let list = display_list(&subject, [frame.width(), frame.height()], |_| true);
     let transform = start.elapsed();
     let times = list.rasterize(frame, &cancel.0)?;
     Some(FrameStats {
@@ -134,13 +135,13 @@ pub fn draw_cancellable(
 /// Fewest and most primitives that one thread transforms at a time.
 const CHUNK: (usize, usize) = (1024, 65_536);
 
-/// Transforms a scene's primitives to screen space, in parallel.
+/// Transforms those primitives of a scene that are `wanted` to screen space, in parallel.
 fn display_list<'a>(
-    scene: &'a Scene,
-    view: &ViewTransform,
-    settings: &RenderSettings,
+    subject: &Subject<'a>,
     size: [u32; 2],
+    wanted: impl Fn(&PrimitiveKind) -> bool + Sync,
 ) -> DisplayList<'a> {
+    let Subject { scene, view, settings } = *subject;
     let raster = raster_settings(settings);
     let context = ListContext::new(size, &raster);
     let screen = Screen {
@@ -155,6 +156,9 @@ fn display_list<'a>(
         .map(|(i, primitives)| {
             let mut builder = ChunkBuilder::new(&context, primitives.len());
             for (source, primitive) in (i * length..).zip(primitives) {
+                if !wanted(&primitive.kind) {
+                    continue;
+                }
                 builder.set_source(number(source));
                 add(&mut builder, &screen, &primitive.kind);
             }

@@ -200,7 +200,7 @@ impl Question<'_> {
 }
 
 /// For each op and each of its fragments whether anything of it is seen: painted over by nothing opaque.
-fn seen_fragments(replay: &PixelReplay) -> Vec<Vec<bool>> {
+pub(super) fn seen_fragments(replay: &PixelReplay) -> Vec<Vec<bool>> {
     let mut seen: Vec<Vec<bool>> = replay
         .painted
         .iter()

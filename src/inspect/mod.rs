@@ -1,21 +1,25 @@
 //! Why a pixel has its colour: samples, fragments, edges, weights, footprint, texels.
 //!
 //! Replays for one pixel the very functions that draw frames; it has no arithmetic of its own. [`Explanation`] is the
-//! report, in numbers; [`Explanation::text`] says it in words, [`Explanation::markdown`] for a write-up.
+//! report, in numbers; [`Explanation::text`] says it in words, [`Explanation::markdown`] for a write-up. [`Feeds`] goes the
+//! other way: from a texel to the pixels around that read it.
 
 mod accumulation;
 mod differences;
 mod explanation;
+mod feeds;
 mod hints;
 mod model;
 mod numbers;
 mod samples;
+mod seams;
 mod text;
 mod words;
 
 pub use accumulation::Convergence;
 pub use differences::Difference;
 pub use explanation::Question;
+pub use feeds::{FedPixel, Feeds, TexelPlace};
 pub use model::{
     Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Resolve, Rounding, Sample, Shape, Source, Tap,
     Texel, Texture, VERSION, Verdict, View,

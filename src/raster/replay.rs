@@ -107,6 +107,11 @@ impl DisplayList<'_> {
         })
     }
 
+    /// How many ops the list has.
+    pub fn ops(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.ops.len()).sum()
+    }
+
     /// The ops that touch a pixel of the frame.
     pub(super) fn bins_of_pixel(&self, pixel: [i32; 2]) -> Vec<Bins> {
         let context = ListContext {

@@ -1,4 +1,4 @@
-//! One pixel drawn again: what painted it, op by op, and the shapes that did.
+//! Pixels drawn again, one by one: what painted each, op by op, and the shapes that did.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -7,7 +7,7 @@ use super::{Screen, Subject, add, display_list, number, raster_settings};
 use crate::color::Rgba;
 use crate::geometry::area_in_pixel;
 use crate::raster::{
-    ChunkBuilder, DisplayList, ListContext, PaintedKind, PaintedOp, Piece, PixelReplay, RasterSettings,
+    ChunkBuilder, DisplayList, ListContext, PaintedKind, PaintedOp, Piece, PixelReplay, RasterSettings, Region,
 };
 use crate::scene::{Paint, Primitive, PrimitiveKind};
 
@@ -16,10 +16,68 @@ use crate::scene::{Paint, Primitive, PrimitiveKind};
 /// Sources are indices into [`crate::scene::Scene::primitives`], or the number of primitives for the canvas outline. Only
 /// ops that touch samples of the pixel are told, and the layers that hold any of them.
 pub fn replay(subject: &Subject<'_>, size: [u32; 2], [x, y]: [u32; 2]) -> Option<PixelReplay> {
-    let list = display_list(subject.scene, subject.view, subject.settings, size);
-    let mut pixel = list.replay(x, y)?;
-    drop_what_paints_nothing(&mut pixel.painted);
-    Some(pixel)
+    let pixel = Region {
+        x,
+        y,
+        width: 1,
+        height: 1,
+    };
+    Neighbourhood::new(*subject, size, pixel).replay([x, y])
+}
+
+/// Some pixels of a picture that are drawn again, each alone: what is far from all of them was left out once.
+#[derive(Debug)]
+pub struct Neighbourhood<'a> {
+    subject: Subject<'a>,
+    size: [u32; 2],
+    region: Region,
+    list: DisplayList<'a>,
+}
+
+impl<'a> Neighbourhood<'a> {
+    /// The pixels of `region` in a frame of `size` pixels.
+    pub fn new(subject: Subject<'a>, size: [u32; 2], region: Region) -> Self {
+        /// Corners are snapped by far less than this, in pixels.
+        const SNAP: f64 = 1.0;
+        let screen = Screen {
+            view: subject.view,
+            rules: subject.settings.rules,
+        };
+        let low = DVec2::new(f64::from(region.x), f64::from(region.y));
+        let size_of = DVec2::new(f64::from(region.width), f64::from(region.height));
+        let near = [low - SNAP, low + size_of + SNAP];
+        let wanted = |kind: &PrimitiveKind| bounds(&screen, kind).is_none_or(|bounds| touch(bounds, near));
+        Self {
+            list: display_list(&subject, size, wanted),
+            subject,
+            size,
+            region,
+        }
+    }
+
+    /// What [`replay`] tells of one of the pixels; `None` outside the region or the frame.
+    pub fn replay(&self, [x, y]: [u32; 2]) -> Option<PixelReplay> {
+        let Region {
+            x: left,
+            y: top,
+            width,
+            height,
+        } = self.region;
+        let inside = x.checked_sub(left)? < width && y.checked_sub(top)? < height;
+        let mut pixel = self.list.replay(x, y).filter(|_| inside)?;
+        drop_what_paints_nothing(&mut pixel.painted);
+        Some(pixel)
+    }
+
+    /// Looks at what painted one of the pixels.
+    pub fn explainer(&self, pixel: [u32; 2]) -> Explainer<'a> {
+        Explainer::new(self.subject, self.size, pixel)
+    }
+
+    /// How much there is to look at for each pixel.
+    pub fn ops(&self) -> usize {
+        self.list.ops()
+    }
 }
 
 /// Keeps the ops that paint samples, and the beginning of each layer whose end does.
@@ -166,22 +224,29 @@ impl<'a> Explainer<'a> {
 
     /// Whether the box around a primitive touches the pixel.
     fn is_near(&self, kind: &PrimitiveKind) -> bool {
-        let points: &[DVec2] = match kind {
-            PrimitiveKind::Triangle { points, .. } => points,
-            PrimitiveKind::Polygon { polygon, .. } => polygon.points(),
-            _ => return false,
-        };
-        let screen = self.screen();
-        let mut low = DVec2::INFINITY;
-        let mut high = DVec2::NEG_INFINITY;
-        for point in points {
-            let point = screen.place(*point);
-            low = low.min(point);
-            high = high.max(point);
-        }
         let pixel = DVec2::new(f64::from(self.pixel[0]), f64::from(self.pixel[1]));
-        low.cmplt(pixel + 1.0).all() && high.cmpgt(pixel).all()
+        bounds(&self.screen(), kind).is_some_and(|bounds| touch(bounds, [pixel, pixel + 1.0]))
     }
+}
+
+/// The box around a primitive on the screen, its least and its greatest corner; `None` for what has no area of its own.
+fn bounds(screen: &Screen<'_>, kind: &PrimitiveKind) -> Option<[DVec2; 2]> {
+    let points: &[DVec2] = match kind {
+        PrimitiveKind::Triangle { points, .. } => points,
+        PrimitiveKind::Polygon { polygon, .. } => polygon.points(),
+        _ => return None,
+    };
+    let mut bounds = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+    for point in points {
+        let point = screen.place(*point);
+        bounds = [bounds[0].min(point), bounds[1].max(point)];
+    }
+    Some(bounds)
+}
+
+/// Whether two boxes share more than a line.
+fn touch([low, high]: [DVec2; 2], [other_low, other_high]: [DVec2; 2]) -> bool {
+    low.cmplt(other_high).all() && high.cmpgt(other_low).all()
 }
 
 /// The same triangle with red, green and blue at its corners: colours that are barycentric weights.

@@ -61,7 +61,7 @@ impl Viewer {
     pub fn is_final(&self) -> bool {
         let reading = self.current().is_some_and(super::SceneEntry::is_reading);
         let drawn = self.drawing.is_current() && self.comparison.is_current();
-        !reading && drawn && self.probing.is_current() && self.explaining.is_current() && self.is_measured()
+        !reading && drawn && self.probing.is_current() && self.explains_all() && self.is_measured()
     }
 
     /// When to call [`Viewer::poll`] even if nothing wakes the event loop: then the hand rests, and the preview on the
@@ -119,6 +119,7 @@ impl Viewer {
             Finished::PictureRead(read) => self.picture_read(read),
             Finished::Probed(target, samples) => self.probing.finished(target, samples),
             Finished::Explained(asked, explanation) => self.explaining.finished(asked, *explanation),
+            Finished::Fed(target, feeds) => self.feeding.finished(target, *feeds),
             Finished::Thumbnail(thumbnail) => self.thumbnail_drawn(thumbnail),
             Finished::Saved(saved) => self.picture_saved(saved),
         }
@@ -134,6 +135,7 @@ impl Viewer {
         self.update_comparison();
         self.want_samples();
         self.want_explanation();
+        self.want_feeds();
         let drawn = self.drawn_state();
         if self.last_drawn != Some(drawn) {
             self.last_drawn = Some(drawn);
@@ -154,6 +156,7 @@ impl Viewer {
             Command::PointerLeft => self.pointer.at.is_none(),
             Command::Resize(size) => self.screen.window == *size,
             Command::SetFreeArea(area) => self.screen.free_area == *area,
+            Command::PointAtTexel(texel) => self.pointed_texel == *texel,
             _ => false,
         }
     }
@@ -281,6 +284,7 @@ impl Viewer {
             Command::Pin(pixel) => self.pin(pixel),
             Command::Nudge(by) => self.nudge(by),
             Command::Unpin => self.inspector.pin = None,
+            Command::PointAtTexel(texel) => self.pointed_texel = texel,
             command => self.change_screen(&command),
         }
     }

@@ -11,6 +11,7 @@ use super::{Against, Arrangement, PixelZoom, Theme, Toggle, ViewNumbers};
 use crate::color::{ResolveSpace, Rgba};
 use crate::compare::Measure;
 use crate::figure::PixelRect;
+use crate::inspect::TexelPlace;
 use crate::raster::{SamplePattern, SampleRate};
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
@@ -181,9 +182,10 @@ pub enum Command {
     Unpin,
     /// Shows or hides why the pinned pixel has its colour.
     Explanation(Toggle),
+    /// The pointer is over this texel of the explanation, or over none: the pixels that it feeds are lit.
+    PointAtTexel(Option<TexelPlace>),
     /// Copies place and colour of the inspected pixel.
     CopyPixel,
-
     /// Copies why the inspected pixel has its colour, as Markdown.
     CopyExplanation,
 

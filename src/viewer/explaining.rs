@@ -83,6 +83,11 @@ impl Viewer {
         is_open && self.screen.shown.explanation && self.pinned_pixel().is_some()
     }
 
+    /// Whether everything that is asked about the pinned pixel was found out.
+    pub(super) fn explains_all(&self) -> bool {
+        self.explaining.is_current() && self.feeding.is_current()
+    }
+
     /// Sees to it that what is to be explained is found out.
     pub(super) fn want_explanation(&mut self) {
         // While the picture moves the last explanation stays: finding out others would only slow the picture down.

@@ -17,6 +17,7 @@ pub mod commands;
 mod comparison;
 mod drawing;
 mod explaining;
+mod feeding;
 mod frame;
 pub mod gallery;
 mod inspector;

@@ -253,7 +253,7 @@ impl Viewer {
     }
 
     /// Where a frame pixel is to be seen, in window pixels.
-    fn shown_at(&self, pixel: [u32; 2]) -> PixelRect {
+    pub fn shown_at(&self, pixel: [u32; 2]) -> PixelRect {
         let zoom = self.settings.pixel_zoom.factor();
         let [x, y] = pixel.map(i64::from);
         let [left, top] = self.panes().first.corner;

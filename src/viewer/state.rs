@@ -9,6 +9,7 @@ use super::background::Mailbox;
 use super::comparison::{Against, Comparison, Measured, Panes, ReadPicture, is_picture};
 use super::drawing::{Drawing, DrawingId, Drawn};
 use super::explaining::{self, Asked, Explained, Explaining};
+use super::feeding::{self, Feeding};
 use super::messages::Messages;
 use super::pointer::Pointer;
 use super::probing::{self, ProbedSample, Probing, Target};
@@ -19,6 +20,7 @@ use super::{
     Sight, Theme, ViewNumbers, library,
 };
 use crate::geometry::View;
+use crate::inspect::{Feeds, TexelPlace};
 
 /// Called from other threads when [`Viewer::poll`] has something to take in.
 pub type Waker = Arc<dyn Fn() + Send + Sync>;
@@ -67,6 +69,9 @@ pub struct Viewer {
     pub(super) comparison: Comparison,
     pub(super) probing: Probing,
     pub(super) explaining: Explaining,
+    pub(super) feeding: Feeding,
+    /// The texel of the explanation that the pointer is over.
+    pub(super) pointed_texel: Option<TexelPlace>,
     pub(super) readers: Readers,
     pub(super) saver: Saver,
     pub(super) results: Receiver<Finished>,
@@ -125,6 +130,7 @@ pub(super) enum Finished {
     PictureRead(ReadPicture),
     Probed(Target, Vec<ProbedSample>),
     Explained(Asked, Box<Option<Explained>>),
+    Fed(Target, Box<Option<Feeds>>),
     Thumbnail(Thumbnail),
     Saved(Saved),
 }
@@ -192,6 +198,8 @@ impl Viewer {
             comparison: Comparison::new(mailbox.clone()),
             probing: probing::start(&mailbox)?,
             explaining: explaining::start(&mailbox)?,
+            feeding: feeding::start(&mailbox)?,
+            pointed_texel: None,
             readers: Readers::start(&mailbox)?,
             saver: Saver::start(&mailbox, options.screenshot_dir)?,
             results,

@@ -174,6 +174,22 @@ fn overlay_explains_a_texture() {
     assert_eq!(found.err(), None, "as it was looked at");
 }
 
+/// The texel under the pointer is framed, and so are the pixels that it feeds.
+#[test]
+fn overlay_lights_what_a_texel_feeds() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/07_checker_floor.svg");
+    let case = Case {
+        name: "overlay_texel_feeds",
+        size: [1100, 1000],
+        scale: 1.0,
+        theme: Theme::Dark,
+        steps: "panel off; pixel-sampling bilinear; level-sampling linear; rate 4; pin 720,560; wait; move 190,770",
+    };
+    let found = golden::check(case.name, &picture_of(document, &case, folder.path()), TOLERANCE);
+    assert_eq!(found.err(), None, "as it was looked at");
+}
+
 /// A script always makes the same picture: nothing in it depends on time.
 #[test]
 fn overlay_pictures_repeat() {

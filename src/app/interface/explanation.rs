@@ -9,7 +9,7 @@ use super::controls::command_button;
 use super::floating::points;
 use super::look;
 use super::{scrubber, twin};
-use crate::inspect::{Difference, Explanation, Paint};
+use crate::inspect::{Difference, Explanation, Paint, TexelPlace};
 use crate::viewer::{Command, Toggle, Viewer};
 
 /// Width of the panel, in points, frame included.
@@ -42,6 +42,8 @@ pub(super) struct Hovered {
     primitive: Option<u32>,
     /// A sample.
     sample: Option<usize>,
+    /// A texel.
+    texel: Option<TexelPlace>,
 }
 
 impl ExplanationPanel {
@@ -163,7 +165,9 @@ impl ExplanationPanel {
             .show(ui, |ui| {
                 lines(ui, &explanation.paint_lines(number));
                 if let Some(sample) = sample {
-                    twin::show(ui, viewer, paint, sample);
+                    if let Some(texel) = twin::show(ui, viewer, paint, sample) {
+                        hovered.texel = Some(texel);
+                    }
                     lines(ui, &[format!("At {}:", explanation.sample_title(sample))]);
                     ui.indent("fragment", |ui| lines(ui, &explanation.fragment_lines(number, sample)));
                 }
@@ -316,9 +320,19 @@ pub(super) fn opaque([r, g, b, _]: [u8; 4]) -> Color32 {
 }
 
 impl Hovered {
-    /// Outlines the primitive that the pointer is over in the picture, where no panel covers it.
+    /// Tells the viewer which texel the pointer is over.
+    pub(super) fn point_at_texel(&self, viewer: &Viewer, commands: &mut Vec<Command>) {
+        if self.texel != viewer.pointed_texel() {
+            commands.push(Command::PointAtTexel(self.texel));
+        }
+    }
+
+    /// Outlines the primitive that the pointer is over in the picture, where no panel covers it; but for a texel, whose
+    /// pixels are lit instead.
     pub(super) fn outline(&self, ui: &Ui, viewer: &Viewer, free: Rect) {
-        let Some(primitive) = self.primitive else { return };
+        let Some(primitive) = self.primitive.filter(|_| self.texel.is_none()) else {
+            return;
+        };
         let scale = f64::from(ui.pixels_per_point());
         #[expect(clippy::cast_possible_truncation, reason = "what is far outside is clipped")]
         let point = |[x, y]: [f64; 2]| {
@@ -343,7 +357,7 @@ impl Hovered {
 }
 
 /// What is left of a rectangle around a hole.
-fn around(whole: Rect, hole: Option<Rect>) -> Vec<Rect> {
+pub(super) fn around(whole: Rect, hole: Option<Rect>) -> Vec<Rect> {
     let Some(hole) = hole.filter(|hole| hole.intersects(whole)) else {
         return vec![whole];
     };

@@ -12,6 +12,7 @@ mod detail;
 mod dialogs;
 mod document;
 mod explanation;
+mod fed;
 mod floating;
 mod hits;
 mod look;
@@ -153,6 +154,7 @@ impl Interface {
         let hovered = self.explanation(ui, viewer, whole, asked);
         let free = ui.available_rect_before_wrap().intersect(whole);
         hovered.outline(ui, viewer, free);
+        hovered.point_at_texel(viewer, &mut asked.commands);
         asked
             .commands
             .push(Command::SetFreeArea(Some(device_rect(free, ui.pixels_per_point()))));
@@ -160,6 +162,7 @@ impl Interface {
             floating::progress(ui, viewer, free);
         }
         floating::pixel_labels(ui, viewer);
+        fed::show(ui, viewer, free);
         hits::hits(ui, viewer);
         let messages = self.clock.show(ui, viewer, free, &mut asked.commands);
         if !hidden {

@@ -1,9 +1,11 @@
 //! The texture's twin of a fragment: the mip level that it reads, with the footprint of its pixel and its taps.
 
-use egui::{Color32, Pos2, Rect, RichText, Sense, Shape, Stroke, Ui, vec2};
+use egui::{Color32, Pos2, Rect, RichText, Sense, Shape, Stroke, StrokeKind, Ui, vec2};
 
 use super::explanation::opaque;
-use crate::inspect::{Interpolated, Level, Paint, Tap, View};
+use super::fed::LIT;
+use crate::inspect::{Interpolated, Level, Paint, Tap, TexelPlace, View};
+use crate::raster::Region;
 use crate::texture::MipLevel;
 use crate::viewer::Viewer;
 
@@ -23,22 +25,20 @@ struct Window {
     scale: f64,
 }
 
-/// Draws the first level that the fragment of `paint` at `sample` reads; nothing where it reads no texture.
-pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) {
+/// Draws the level that the fragment of `paint` at `sample` reads most of, nothing where it reads no texture; the texel
+/// that the pointer is over.
+pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -> Option<TexelPlace> {
     let (Some(texture), Some(View::Triangle { value, .. })) = (&paint.texture, paint.views.get(sample)) else {
-        return;
+        return None;
     };
     let Interpolated::Texture { uv, taps, texels } = value else {
-        return;
+        return None;
     };
-    let Some(level) = texture.levels.iter().max_by(|a, b| a.weight.total_cmp(&b.weight)) else {
-        return;
-    };
+    let level = texture.levels.iter().max_by(|a, b| a.weight.total_cmp(&b.weight))?;
     let image = viewer
         .frame()
         .and_then(|frame| frame.picture.scene.textures.get(texture.index as usize))
-        .and_then(|image| image.pyramid.levels().get(level.number));
-    let Some(image) = image else { return };
+        .and_then(|image| image.pyramid.levels().get(level.number))?;
     let (rect, response) = ui.allocate_exact_size(vec2(SIZE[0], SIZE[1]), Sense::hover());
     let scale = [0, 1].map(|i| f64::from(level.size[i]) / f64::from(texture.size[i]));
     let steps = [texture.right, texture.down].map(|step| [step[0] * scale[0], step[1] * scale[1]]);
@@ -52,16 +52,23 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) {
     window.texels(ui, image);
     window.footprint(ui, centre, steps);
     window.taps(ui, taps, level);
-    let under = response.hover_pos().map(|at| window.texel_at(at, level));
-    if let Some(at) = under.flatten() {
+    let under = response.hover_pos().and_then(|at| window.texel_at(at, level));
+    let place = under.map(|at| TexelPlace {
+        texture: texture.index,
+        level: level.number,
+        at,
+    });
+    if let Some(at) = under {
         let weight: f64 = texels
             .iter()
             .filter(|texel| texel.level == level.number && texel.at == at)
             .map(|texel| texel.weight)
             .sum();
         let [r, g, b, a] = image.texel(at[0].cast_signed(), at[1].cast_signed());
+        window.mark(ui, at);
+        let fed = feeds(viewer, place).unwrap_or_default();
         response.on_hover_text(format!(
-            "texel ({}, {}) of level {}: {r} {g} {b} {a}, {:.2} % of this sample",
+            "texel ({}, {}) of level {}: {r} {g} {b} {a}, {:.2} % of this sample{fed}",
             at[0],
             at[1],
             level.number,
@@ -76,6 +83,16 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) {
         if texture.taps > 1 { "taps" } else { "point that is read" }
     );
     ui.label(RichText::new(words).size(11.0).weak());
+    place
+}
+
+/// How many pixels a texel feeds, once that was found out.
+fn feeds(viewer: &Viewer, texel: Option<TexelPlace>) -> Option<String> {
+    let Region { width, height, .. } = viewer.fed_region().filter(|_| texel == viewer.pointed_texel())?;
+    let count = viewer.fed_pixels().len();
+    Some(format!(
+        "\nfeeds {count} of the {width} x {height} pixels around the pinned one, lit in the picture"
+    ))
 }
 
 /// The last part of a texture's address.
@@ -133,6 +150,16 @@ impl Window {
             let at = self.place(tap.at);
             painter.circle_filled(at, 3.0, TAP);
             painter.circle_stroke(at, 3.0, Stroke::new(1.0, Color32::WHITE));
+        }
+    }
+
+    /// Frames a texel.
+    fn mark(&self, ui: &Ui, texel: [u32; 2]) {
+        let corner = texel.map(f64::from);
+        let square = Rect::from_two_pos(self.place(corner), self.place([corner[0] + 1.0, corner[1] + 1.0]));
+        let painter = ui.painter().with_clip_rect(self.rect);
+        for (width, color) in LIT {
+            painter.rect_stroke(square, 0.0, Stroke::new(width, color), StrokeKind::Middle);
         }
     }
 

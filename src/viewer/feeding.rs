@@ -1,0 +1,58 @@
+//! Which pixels the texel under the pointer feeds: found out in a thread, once for all texels around the pinned pixel,
+//! when a texel of the explanation is first pointed at.
+
+use std::io;
+
+use super::Viewer;
+use super::background::{Mailbox, guarded};
+use super::latest::Latest;
+use super::probing::Target;
+use super::state::Finished;
+use crate::inspect::{FedPixel, Feeds, TexelPlace};
+use crate::raster::Region;
+
+/// The state of finding out; pixels that cannot be replayed have `None`.
+pub(super) type Feeding = Latest<Target, Option<Feeds>>;
+
+/// Starts the thread.
+pub(super) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Feeding> {
+    let mailbox = mailbox.clone();
+    Latest::start("feed", move |target: Target| {
+        let picture = &target.picture;
+        let feeds = guarded(|| Feeds::around(&picture.subject(), picture.size, target.pixel));
+        mailbox.post(Finished::Fed(target, Box::new(feeds.unwrap_or_default())));
+    })
+}
+
+impl Viewer {
+    /// The texel that is pointed at in the explanation.
+    pub fn pointed_texel(&self) -> Option<TexelPlace> {
+        self.pointed_texel
+    }
+
+    /// The pixels around the pinned one that read the texel pointed at; empty until they were found out.
+    pub fn fed_pixels(&self) -> &[FedPixel] {
+        let feeds = self.feeding.answer().and_then(Option::as_ref);
+        feeds
+            .zip(self.pointed_texel)
+            .map_or(&[], |(feeds, texel)| feeds.of(texel))
+    }
+
+    /// The pixels that were looked at for [`Viewer::fed_pixels`]; `None` until they were.
+    pub fn fed_region(&self) -> Option<Region> {
+        Some(self.feeding.answer()?.as_ref()?.searched)
+    }
+
+    /// Sees to it that what the texel pointed at feeds is found out.
+    pub(super) fn want_feeds(&mut self) {
+        if !self.explains() {
+            self.pointed_texel = None;
+        }
+        let pixel = self.pinned_pixel().filter(|_| self.pointed_texel.is_some());
+        let target = pixel.zip(self.frame()).map(|(pixel, frame)| Target {
+            picture: frame.picture.clone(),
+            pixel,
+        });
+        self.feeding.want(target, |_| None);
+    }
+}

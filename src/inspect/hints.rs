@@ -18,6 +18,7 @@ impl Explanation {
         let mut hints = Vec::new();
         let seen = |paint: &&Paint| paint.fragments.iter().any(|fragment| fragment.seen);
         let topmost = self.paints.iter().rev().find(seen);
+        hints.extend(self.seam_hints());
         if let Some((paint, area)) = topmost.and_then(|paint| Some((paint, paint.area?))) {
             let part = paint.fragments.len() as f64 / self.samples.len().max(1) as f64;
             if (part - area).abs() > WRONG {

@@ -12,6 +12,8 @@ mod diff;
 mod gallery;
 mod golden;
 mod inspect;
+mod inspect_feeds;
+mod inspect_seams;
 mod instruction_guard;
 mod oracle;
 #[cfg(feature = "window")]

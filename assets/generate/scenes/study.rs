@@ -209,42 +209,55 @@ fn seams() -> String {
         1000.0,
         560.0,
         &[
-            "Abutting triangles. Left, one colour on a glowing ground: a gap would glow. Right, the same mesh half transparent:",
-            "a sample that two triangles claim would be darker, one that none claims lighter. Both must be perfectly even inside.",
-            "Try every rate, zoom and angle ([ ]); then switch the rules to course and see its edges appear on the right.",
+            "Abutting triangles. Left, one colour on a glowing ground: a gap would glow. Right, half transparent: a sample that two",
+            "triangles claim would be darker, one that none claims lighter. Both must be perfectly even, at every rate, zoom and angle.",
+            "Then switch the rules to course: diagonals through samples show on the right. Pin one (right click) and read why.",
         ],
     );
     doc.rect(DVec2::ZERO, dvec2(1000.0, 560.0), Style::fill(INK));
     doc.rect(dvec2(504.0, 24.0), dvec2(472.0, 512.0), Style::fill(PAPER));
-    for (place, style) in [(24.0, Style::fill(TEAL)), (504.0, Style::fill(PLUM).opacity(0.5))] {
-        doc.open(&format!("transform=\"translate({place} 24)\""));
-        if place < 100.0 {
-            let rim: Vec<DVec2> = regular(dvec2(236.0, 256.0), 212.0, 64, 0.0);
-            doc.polygon(&rim, Style::fill(AMBER.mix(PAPER, 0.3)));
-        }
-        // Rings of jittered points; each ring is joined to the next by a strip of triangles.
-        let point = |ring: i64, k: i64| {
-            let (count, reach) = (32, 26.75);
-            let k = k.rem_euclid(count);
-            let shake = if ring == 8 { 0.0 } else { (2.4 * ring as f64).min(9.0) };
-            let jitter = dvec2(cell(1, ring, k), cell(2, ring, k)) - 0.5;
-            dvec2(236.0, 256.0)
-                + polar(reach * ring as f64, TAU * (k as f64 + 0.5 * ring as f64) / count as f64)
-                + jitter * shake
-        };
-        for ring in 0..8 {
-            for k in 0..32 {
-                let [a, b] = [point(ring, k), point(ring, k + 1)];
-                let [c, d] = [point(ring + 1, k), point(ring + 1, k + 1)];
-                doc.polygon(&[a, c, d], style);
-                if ring > 0 {
-                    doc.polygon(&[a, d, b], style);
-                }
+    shaken_disc(&mut doc, dvec2(260.0, 280.0));
+    lattice(&mut doc);
+    doc.finish()
+}
+
+/// Rings of jittered points; each ring is joined to the next by a strip of triangles.
+fn shaken_disc(doc: &mut Document, middle: DVec2) {
+    let rim: Vec<DVec2> = regular(middle, 212.0, 64, 0.0);
+    doc.polygon(&rim, Style::fill(AMBER.mix(PAPER, 0.3)));
+    let point = |ring: i64, k: i64| {
+        let (count, reach) = (32, 26.75);
+        let k = k.rem_euclid(count);
+        let shake = if ring == 8 { 0.0 } else { (2.4 * ring as f64).min(9.0) };
+        let jitter = dvec2(cell(1, ring, k), cell(2, ring, k)) - 0.5;
+        let turn = TAU * (k as f64 + 0.5 * ring as f64) / count as f64;
+        middle + polar(reach * ring as f64, turn) + jitter * shake
+    };
+    for ring in 0..8 {
+        for k in 0..32 {
+            let [a, b] = [point(ring, k), point(ring, k + 1)];
+            let [c, d] = [point(ring + 1, k), point(ring + 1, k + 1)];
+            doc.polygon(&[a, c, d], Style::fill(TEAL));
+            if ring > 0 {
+                doc.polygon(&[a, d, b], Style::fill(TEAL));
             }
         }
-        doc.close();
     }
-    doc.finish()
+}
+
+/// Squares of four triangles. Their diagonals run through the middles of pixels in the default view of 1024 x 1024 and of
+/// 1280 x 800 pixels and at one unit per pixel: differences of x and y are then 220, sums 780, and multiples of 75 besides.
+fn lattice(doc: &mut Document) {
+    const SIDE: f64 = 75.0;
+    let style = Style::fill(PLUM).opacity(0.5);
+    for (row, column) in (0..6).flat_map(|row| (0..5).map(move |column| (row, column))) {
+        let corner = |x: i32, y: i32| dvec2(f64::from(column + x), f64::from(row + y)) * SIDE + dvec2(575.0, 55.0);
+        let middle = (corner(0, 0) + corner(1, 1)) / 2.0;
+        let corners = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+        for (i, from) in corners.into_iter().enumerate() {
+            doc.polygon(&[from, corners[(i + 1) % 4], middle], style);
+        }
+    }
 }
 
 fn pixel_centres() -> String {

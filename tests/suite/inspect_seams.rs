@@ -119,9 +119,9 @@ fn seams_of_levels_that_jump_between_triangles() {
     let two = |more: f64| {
         let far = 0.5 * more;
         format!(
-            r##"<texture texid="map" filename="../../assets/textures/map.png"/>
+            r#"<texture texid="map" filename="../../assets/textures/map.png"/>
             <textri texid="map" uvs="0 0 0.5 0 0 0.5" points="0,0 64,0 0,64"/>
-            <textri texid="map" uvs="{far} 0 {far} {far} 0 {far}" points="64,0 64,64 0,64"/>"##
+            <textri texid="map" uvs="{far} 0 {far} {far} 0 {far}" points="64,0 64,64 0,64"/>"#
         )
     };
     let at = |body: &str, level_sampling, pixel| {

@@ -69,6 +69,8 @@ pub(super) fn viewer_options(
         screenshot_dir: options.screenshot_dir.clone(),
         theme: options.theme.or(theme).unwrap_or_default(),
         waker,
+        read_arguments: options.read_arguments,
+        restored: options.restored.clone(),
     }
 }
 

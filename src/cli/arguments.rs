@@ -5,9 +5,10 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValue;
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand, ValueEnum};
 
 use super::failure::Failure;
+use super::recorded;
 use super::size::FrameSize;
 use super::view_option;
 use crate::color::{ResolveSpace, Rgba};
@@ -18,7 +19,10 @@ use crate::render::RenderSettings;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
-use crate::viewer::{Against, Theme};
+use crate::viewer::{Against, Restored, Theme};
+
+/// Longest side of a window that comes back from a picture, in pixels.
+const MAX_RESTORED_WINDOW: u32 = 4096;
 
 /// See how a picture is sampled.
 #[derive(Debug, Parser)]
@@ -39,6 +43,9 @@ pub(super) enum Verb {
     View(ViewerOptions),
     /// Draw a scene, or every scene in a folder, into PNG files, without a window
     Render(RenderOptions),
+    /// Draw again what a picture of this program shows, by the command line that its file carries
+    #[command(after_help = RERUN_STATUS)]
+    Rerun(RerunOptions),
     /// Explain why a pixel has its colour: samples, primitives, edges, weights, texels
     Inspect(InspectOptions),
     /// Compare two pictures, or a scene with a picture: how many pixels differ, by how much, where, perhaps why
@@ -50,23 +57,37 @@ pub(super) enum Verb {
 
 impl Verb {
     /// How it reads and samples scenes.
-    fn sampling(&self) -> &SamplingOptions {
+    fn sampling(&self) -> Option<&SamplingOptions> {
         match self {
-            Self::View(options) => &options.sampling,
-            Self::Render(options) => &options.picture.sampling,
-            Self::Inspect(options) => &options.picture.sampling,
-            Self::Diff(options) => &options.sampling,
-            Self::Bench(options) => &options.picture.sampling,
+            Self::View(options) => Some(&options.sampling),
+            Self::Render(options) => Some(&options.picture.sampling),
+            Self::Rerun(_) => None,
+            Self::Inspect(options) => Some(&options.picture.sampling),
+            Self::Diff(options) => Some(&options.sampling),
+            Self::Bench(options) => Some(&options.picture.sampling),
+        }
+    }
+
+    /// The scene, where a picture may stand for it.
+    fn scene(&mut self) -> Option<&mut PathBuf> {
+        match self {
+            Self::View(options) if options.paths.len() == 1 => options.paths.first_mut(),
+            Self::Render(options) => Some(&mut options.scene),
+            Self::Inspect(options) => Some(&mut options.scene),
+            _ => None,
         }
     }
 }
+
+const RERUN_STATUS: &str = "Exit status: 0 done, with --check: every pixel is the same; 1 pixels differ; 2 the picture \
+                            carries no record, or a file or an argument is at fault.";
 
 const DIFF_STATUS: &str = "Exit status: 0 the pictures agree within the tolerance, 1 they differ, 2 a file or an \
                            argument is at fault.";
 
 #[derive(Debug, Args)]
 pub(super) struct ViewerOptions {
-    /// SVG files and folders of them
+    /// SVG files and folders of them, or a PNG of this program: its scene, view and settings
     pub(super) paths: Vec<PathBuf>,
     /// The window's size in device pixels [default: 1280x800]
     #[arg(long, value_name = "WxH")]
@@ -100,13 +121,31 @@ pub(super) struct ViewerOptions {
 
 #[derive(Debug, Args)]
 pub(super) struct RenderOptions {
-    /// An SVG file, or a folder whose scenes are all drawn
+    /// An SVG file, a folder whose scenes are all drawn, or a PNG of this program: its scene and settings
     pub(super) scene: PathBuf,
     /// The PNG file to write; for a folder, the folder to write into
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: PathBuf,
     #[command(flatten)]
     pub(super) picture: PictureOptions,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct RerunOptions {
+    /// A PNG that this program wrote
+    pub(super) shot: PathBuf,
+    /// Compare with the picture instead of writing a file
+    #[arg(long, required_unless_present = "output")]
+    pub(super) check: bool,
+    /// The PNG file to write
+    #[arg(short, long, value_name = "OUT.png", conflicts_with = "check")]
+    pub(super) output: Option<PathBuf>,
+    /// The scene, where it is no longer at its place
+    #[arg(long, value_name = "FILE")]
+    pub(super) scene: Option<PathBuf>,
+    /// Threads that draw [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(super) threads: Option<u16>,
 }
 
 #[derive(Debug, Args)]
@@ -357,16 +396,51 @@ fn background(text: &str) -> Result<Rgba, String> {
     }
 }
 
-/// Reads the arguments, the program's name first.
-pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments, Failure> {
-    let arguments = with_default_command(arguments.into_iter().collect());
-    let arguments = Arguments::try_parse_from(arguments).map_err(|error| match error.kind() {
+/// Reads the arguments, the program's name first. Where a picture that tells how it was made stands for the scene, its
+/// options come before those that were written, so that these count.
+pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<(Arguments, Option<Restored>), Failure> {
+    let words = with_default_command(arguments.into_iter().collect());
+    let mut arguments = parse_words(words.clone(), false)?;
+    let is_view = matches!(arguments.verb, Verb::View(_));
+    let Some(restored) = arguments
+        .verb
+        .scene()
+        .map_or(Ok(None), |scene| recorded::restored(scene))?
+    else {
+        return Ok((arguments, None));
+    };
+    let mut options = restored.spec.options();
+    if is_view && restored.spec.size.iter().any(|side| *side > MAX_RESTORED_WINDOW) {
+        // `--size` and its value: no screen is that large.
+        options.drain(..2);
+    }
+    let command = words.len().min(2);
+    let words = [
+        &words[..command],
+        &options.iter().map(OsString::from).collect::<Vec<_>>(),
+        &words[command..],
+    ]
+    .concat();
+    let mut arguments = parse_words(words, true)?;
+    if let Some(scene) = arguments.verb.scene() {
+        *scene = recorded::scene_path(&restored);
+    }
+    Ok((arguments, Some(restored)))
+}
+
+/// Reads words that name a command; `repeated` allows options to come again, so that the last counts.
+pub(super) fn parse_words(words: Vec<OsString>, repeated: bool) -> Result<Arguments, Failure> {
+    let matches = Arguments::command()
+        .args_override_self(repeated)
+        .try_get_matches_from(words);
+    let read = matches.and_then(|matches| Arguments::from_arg_matches(&matches));
+    let arguments = read.map_err(|error| match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             Failure::Text(error.to_string())
         }
         _ => Failure::Input(one_line(&error.to_string())),
     })?;
-    match arguments.verb.sampling().refusal() {
+    match arguments.verb.sampling().and_then(SamplingOptions::refusal) {
         Some(refusal) => Err(Failure::Input(one_line(&refusal))),
         None => Ok(arguments),
     }
@@ -406,7 +480,7 @@ mod tests {
     use super::*;
 
     fn parsed(line: &str) -> Result<Arguments, Failure> {
-        parse(line.split(' ').map(OsString::from))
+        parse(line.split(' ').map(OsString::from)).map(|(arguments, _)| arguments)
     }
 
     #[test]
@@ -475,6 +549,9 @@ mod tests {
             "rasterscope render a.svg -o b.png --lod-level 1e9",
             "rasterscope render a.svg -o b.png --lod-per texel",
             "rasterscope render a.svg -o b.png --unknown",
+            "rasterscope rerun a.png",
+            "rasterscope rerun a.png --check -o b.png",
+            "rasterscope render a.svg -o b.png --size 5x5 --size 6x6",
             "rasterscope diff a.png",
             "rasterscope diff a.png b.png --gain 0",
             "rasterscope diff a.png b.png --gain nan",

@@ -8,8 +8,8 @@ use serde::Serialize;
 use super::arguments::BenchOptions;
 use super::failure::{Failure, print};
 use super::picture::{Picture, on_threads};
+use super::recorded;
 use crate::render::FrameStats;
-use crate::viewer::SceneSource;
 
 /// The answer of `bench --json`. Times are milliseconds of wall time.
 #[derive(Debug, Serialize)]
@@ -74,7 +74,7 @@ pub(super) fn run(options: &BenchOptions) -> Result<(), Failure> {
 }
 
 fn measure(scene: &Path, options: &BenchOptions) -> Result<Report, Failure> {
-    let mut picture = Picture::read(&SceneSource::from_address(scene), &options.picture)?;
+    let mut picture = Picture::read(recorded::spec(scene, &options.picture))?;
     // The first frame pays for memory that later ones find in place.
     picture.draw();
     // It takes the system a while to give every thread a core of its own.

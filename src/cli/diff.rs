@@ -7,14 +7,15 @@ use serde::Serialize;
 use super::arguments::{DiffOptions, PictureOptions};
 use super::failure::{Failure, print};
 use super::picture::{Picture, on_threads};
+use super::recorded;
 use super::render::{name_for_png, unwritable};
 use super::size::FrameSize;
 use crate::compare::{self, DifferenceStyle, Gain, Guess, Levels, Pair, Place};
-use crate::figure::save_png;
+use crate::figure::{Record, save_recorded_png};
 use crate::raster::Framebuffer;
 use crate::render::CancelToken;
 use crate::scene::FolderResources;
-use crate::viewer::SceneSource;
+use crate::viewer::{SceneSource, as_path, plain_record};
 
 /// Version of the JSON's shape; a field that changes its meaning raises it, a new one does not.
 const SHAPE: u32 = 1;
@@ -145,7 +146,7 @@ fn measure_scene(options: &DiffOptions) -> Result<Report, Failure> {
         sampling: options.sampling.clone(),
         framing: options.framing.clone(),
     };
-    let mut ours = Picture::read(&SceneSource::from_address(&options.a), &drawing)?;
+    let mut ours = Picture::read(recorded::spec(&options.a, &drawing))?;
     let theirs = encoded.decode(&options.b)?;
     ours.draw();
     let pair = Pair::new(ours.frame(), &theirs).map_err(Failure::input)?;
@@ -212,12 +213,40 @@ fn draw(pair: Pair<'_>, output: &Path, options: &DiffOptions) -> Result<PictureR
     };
     let mut frame = Framebuffer::default();
     let gain = pair.show(style, &mut frame);
-    save_png(&frame, output).map_err(|error| unwritable(output, &error))?;
+    let record = record(pair.size(), output, options);
+    save_recorded_png(&frame, output, &record).map_err(|error| unwritable(output, &error))?;
     Ok(PictureReport {
         file: output.display().to_string(),
         mode: options.mode.name(),
         gain,
     })
+}
+
+/// The record of a difference picture: its command line compares two files, so that no scene comes back from it.
+fn record(size: [u32; 2], output: &Path, options: &DiffOptions) -> Record {
+    let path = |path: &Path| as_path(&path.display().to_string());
+    let mut words = vec!["diff".to_owned(), path(&options.a), path(&options.b)];
+    words.extend([
+        "-o".to_owned(),
+        path(output),
+        "--mode".to_owned(),
+        options.mode.name().to_owned(),
+    ]);
+    if options.normalize {
+        words.push("--normalize".to_owned());
+    } else {
+        words.push(format!("--gain={}", options.gain));
+    }
+    if is_scene(&options.a) {
+        let drawing = PictureOptions {
+            size: FrameSize(size),
+            sampling: options.sampling.clone(),
+            framing: options.framing.clone(),
+        };
+        // The size is that of B.
+        words.extend(recorded::spec(&options.a, &drawing).options().drain(2..));
+    }
+    plain_record(words, size)
 }
 
 impl Report {

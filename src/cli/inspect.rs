@@ -3,16 +3,17 @@
 use super::arguments::InspectOptions;
 use super::failure::{Failure, print};
 use super::picture::{Picture, on_threads};
+use super::recorded;
 use crate::inspect::{Detail, Explanation, Question};
-use crate::viewer::SceneSource;
+use crate::viewer::{Restored, SceneSource};
 
 /// Explains the pixel that the options ask for.
-pub(super) fn run(options: &InspectOptions) -> Result<(), Failure> {
-    let report = on_threads(options.picture.framing.threads, || report(options))??;
+pub(super) fn run(options: &InspectOptions, restored: Option<&Restored>) -> Result<(), Failure> {
+    let report = on_threads(options.picture.framing.threads, || report(options, restored))??;
     print(report.trim_end())
 }
 
-fn report(options: &InspectOptions) -> Result<String, Failure> {
+fn report(options: &InspectOptions, restored: Option<&Restored>) -> Result<String, Failure> {
     let source = SceneSource::from_address(&options.scene);
     let size = options.picture.size.0;
     let [x, y] = options.pixel.0;
@@ -27,7 +28,8 @@ fn report(options: &InspectOptions) -> Result<String, Failure> {
     if x >= width || y >= height {
         return Err(outside());
     }
-    let picture = Picture::read(&source, &options.picture)?;
+    let picture = Picture::read(recorded::spec(&options.scene, &options.picture))?;
+    picture.tell_changes(restored);
     let file = source.address();
     let question = Question {
         subject: picture.subject(),

@@ -1,7 +1,7 @@
 //! The command line: one file per command.
 //!
 //! Exit status 0: done. 2: the input or the arguments are at fault, said in one line on stderr. 1: everything else,
-//! and `diff` of pictures that differ.
+//! and `diff` and `rerun --check` of pictures that differ.
 
 mod arguments;
 mod bench;
@@ -9,7 +9,9 @@ mod diff;
 mod failure;
 mod inspect;
 mod picture;
+mod recorded;
 mod render;
+mod rerun;
 mod size;
 mod view;
 mod view_option;
@@ -21,15 +23,16 @@ use arguments::{Arguments, Verb};
 use failure::Failure;
 
 use crate::simd;
+use crate::viewer::Restored;
 
 /// The environment variable that fixes the vector instructions: for measurements that must not depend on the machine.
 const SIMD_VARIABLE: &str = "RASTERSCOPE_SIMD";
 
 /// Runs the program with its arguments, its own name first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let done = arguments::parse(arguments).and_then(|arguments| {
+    let done = arguments::parse(arguments).and_then(|(arguments, restored)| {
         choose_simd()?;
-        execute(&arguments)
+        execute(&arguments, restored.as_ref())
     });
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -44,11 +47,13 @@ fn choose_simd() -> Result<(), Failure> {
     simd::choose(&name.to_string_lossy()).map_err(|error| Failure::input(format!("{SIMD_VARIABLE}: {error}")))
 }
 
-fn execute(arguments: &Arguments) -> Result<(), Failure> {
+/// `restored` is the picture that scene and options come from.
+fn execute(arguments: &Arguments, restored: Option<&Restored>) -> Result<(), Failure> {
     match &arguments.verb {
-        Verb::View(options) => view::run(options),
-        Verb::Render(options) => render::run(options),
-        Verb::Inspect(options) => inspect::run(options),
+        Verb::View(options) => view::run(options, restored),
+        Verb::Render(options) => render::run(options, restored),
+        Verb::Rerun(options) => rerun::run(options),
+        Verb::Inspect(options) => inspect::run(options, restored),
         Verb::Diff(options) => diff::run(options),
         Verb::Bench(options) => bench::run(options),
     }

@@ -1,40 +1,54 @@
 //! From options to a picture: reading a scene, drawing it on as many threads as were asked for.
 
-use super::arguments::PictureOptions;
+use std::path::Path;
+
 use super::failure::{Failure, print_error};
+use crate::figure::Record;
 use crate::geometry::ViewTransform;
 use crate::raster::Framebuffer;
-use crate::render::{self, FrameStats, RenderSettings, Subject};
+use crate::render::{self, FrameStats, Subject};
 use crate::scene::Scene;
-use crate::viewer::SceneSource;
+use crate::viewer::{PictureSpec, Restored};
 
 /// A scene and everything that its picture depends on.
 pub(super) struct Picture {
     pub(super) scene: Scene,
+    spec: PictureSpec,
     view: ViewTransform,
-    settings: RenderSettings,
     frame: Framebuffer,
 }
 
 impl Picture {
     /// Reads the scene; what the reader skipped is said on stderr, line by line.
-    pub(super) fn read(source: &SceneSource, options: &PictureOptions) -> Result<Self, Failure> {
-        let scene = source.read(options.sampling.dialect).map_err(Failure::input)?;
+    pub(super) fn read(spec: PictureSpec) -> Result<Self, Failure> {
+        let scene = spec.scene.read(spec.dialect).map_err(Failure::input)?;
         for line in scene.report.lines() {
-            print_error(&format!("{}:{line}", source.address()));
+            print_error(&format!("{}:{line}", spec.scene.address()));
         }
-        let [width, height] = options.size.0;
+        let [width, height] = spec.size;
         Ok(Self {
-            view: options.framing.view.transform(scene.canvas, options.size.0),
-            settings: options.sampling.settings(options.framing.view),
+            view: spec.view.transform(scene.canvas, spec.size),
             frame: Framebuffer::new(width, height),
             scene,
+            spec,
         })
+    }
+
+    /// Says on stderr what has changed since the picture was made that the scene comes from.
+    pub(super) fn tell_changes(&self, restored: Option<&Restored>) {
+        if let Some(change) = restored.and_then(|restored| restored.changes(&self.scene.files)) {
+            print_error(&change);
+        }
+    }
+
+    /// The record of the picture, for the file `output`.
+    pub(super) fn record(&self, output: &Path) -> Record {
+        self.spec.record(&self.scene, output)
     }
 
     /// Draws the picture, on the pool that this is called in.
     pub(super) fn draw(&mut self) -> FrameStats {
-        render::draw(&self.scene, &self.view, &self.settings, &mut self.frame)
+        render::draw(&self.scene, &self.view, &self.spec.render, &mut self.frame)
     }
 
     /// What the picture is of.
@@ -42,8 +56,13 @@ impl Picture {
         Subject {
             scene: &self.scene,
             view: &self.view,
-            settings: &self.settings,
+            settings: &self.spec.render,
         }
+    }
+
+    /// What was drawn last, without the rest.
+    pub(super) fn into_frame(self) -> Framebuffer {
+        self.frame
     }
 
     /// What was drawn last.

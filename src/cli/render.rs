@@ -9,17 +9,23 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::arguments::RenderOptions;
 use super::failure::{Failure, print_error};
 use super::picture::{Picture, on_threads};
-use crate::figure::save_png;
-use crate::viewer::{SceneEntry, SceneSource, list_scenes};
+use super::recorded;
+use crate::figure::save_recorded_png;
+use crate::viewer::{PictureSpec, Restored, SceneEntry, SceneSource, list_scenes};
 
 /// Draws what the options ask for.
-pub(super) fn run(options: &RenderOptions) -> Result<(), Failure> {
+pub(super) fn run(options: &RenderOptions, restored: Option<&Restored>) -> Result<(), Failure> {
     on_threads(options.picture.framing.threads, || {
         if options.scene.is_dir() {
             folder(options)
         } else {
             name_for_png(&options.output)?;
-            one(&SceneSource::from_address(&options.scene), &options.output, options)
+            one(
+                SceneSource::from_address(&options.scene),
+                &options.output,
+                options,
+                restored,
+            )
         }
     })?
 }
@@ -40,7 +46,7 @@ fn folder(options: &RenderOptions) -> Result<(), Failure> {
         bar.set_message(entry.label.clone());
         let output = picture_of(entry, options);
         let drawn = if taken.insert(output.clone()) {
-            one(&entry.source, &output, options)
+            one(entry.source.clone(), &output, options, None)
         } else {
             let (scene, output) = (entry.source.address(), output.display());
             Err(Failure::input(format!(
@@ -76,13 +82,24 @@ fn picture_of(entry: &SceneEntry, options: &RenderOptions) -> PathBuf {
     options.output.join(inner).with_extension("png")
 }
 
-fn one(source: &SceneSource, output: &Path, options: &RenderOptions) -> Result<(), Failure> {
-    let mut picture = Picture::read(source, &options.picture)?;
+fn one(
+    source: SceneSource,
+    output: &Path,
+    options: &RenderOptions,
+    restored: Option<&Restored>,
+) -> Result<(), Failure> {
+    let scene = PictureSpec {
+        scene: source,
+        ..recorded::spec(&options.scene, &options.picture)
+    };
+    let mut picture = Picture::read(scene)?;
+    picture.tell_changes(restored);
     picture.draw();
     if let Some(folder) = folder_to_make(output, options) {
         std::fs::create_dir_all(&folder).map_err(|error| unwritable(&folder, &error))?;
     }
-    save_png(picture.frame(), output).map_err(|error| unwritable(output, &error))
+    let record = picture.record(output);
+    save_recorded_png(picture.frame(), output, &record).map_err(|error| unwritable(output, &error))
 }
 
 /// The folder of an output among many; a single picture goes only where its user has made room.

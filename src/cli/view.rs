@@ -2,10 +2,11 @@
 
 use super::arguments::ViewerOptions;
 use super::failure::Failure;
+use crate::viewer::Restored;
 
 /// Opens the window, or plays a session without one.
 #[cfg(feature = "window")]
-pub(super) fn run(options: &ViewerOptions) -> Result<(), Failure> {
+pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Result<(), Failure> {
     use crate::app::{self, ScriptSource, ViewOptions};
 
     let (entries, problems) = crate::viewer::list_scenes(&options.paths);
@@ -33,6 +34,8 @@ pub(super) fn run(options: &ViewerOptions) -> Result<(), Failure> {
         screenshot_dir: options.screenshot_dir.clone(),
         script: file.or(options.commands.clone().map(ScriptSource::Text)),
         headless: options.headless,
+        read_arguments: Some(super::recorded::read_arguments),
+        restored: restored.cloned(),
     };
     app::run(view_options).map_err(|error| {
         if error.is_input() {
@@ -54,7 +57,7 @@ fn settings(options: &ViewerOptions) -> crate::viewer::Settings {
 
 /// Says that there is no window in this build.
 #[cfg(not(feature = "window"))]
-pub(super) fn run(_: &ViewerOptions) -> Result<(), Failure> {
+pub(super) fn run(_: &ViewerOptions, _: Option<&Restored>) -> Result<(), Failure> {
     let cure = "build it with the feature `window`, or use `rasterscope render`";
     Err(Failure::other(format!(
         "this program was built without its window; {cure}"

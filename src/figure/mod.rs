@@ -4,13 +4,15 @@ mod inset;
 mod paint;
 mod placement;
 mod png;
+mod record;
 mod rect;
 mod samples;
 mod text;
 
+pub use self::png::{encode_png, save_files, save_png, save_recorded_png};
 pub use inset::Inset;
 pub use placement::{Corner, place};
-pub use png::{encode_png, save_png};
+pub use record::{Record, RecordError, RecordedFile};
 pub use rect::PixelRect;
 pub use samples::{SampleMark, is_dark};
 pub use text::{Anchor, TextBlock, TextStyle, Typeface};

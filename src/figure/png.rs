@@ -1,32 +1,44 @@
-//! Frames as PNG files.
+//! Frames as PNG files with their records; files that are written whole or not at all.
 
+use std::ffi::OsString;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder as _, ImageError};
+use ::png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
+use super::Record;
+use super::record::KEYWORD;
 use crate::raster::Framebuffer;
 
-/// A frame as the bytes of a PNG file: 8-bit RGB, or RGBA with straight alpha where a pixel is not opaque.
+/// A frame as the bytes of a PNG file: 8-bit RGB, or RGBA with straight alpha where a pixel is not opaque. `record` stands
+/// before the pixels.
 ///
 /// # Errors
 /// When the frame has no pixels.
-pub fn encode_png(frame: &Framebuffer) -> Result<Vec<u8>, ImageError> {
+pub fn encode_png(frame: &Framebuffer, record: Option<&Record>) -> io::Result<Vec<u8>> {
     let opaque = frame.pixels().iter().all(|pixel| pixel >> 24 == 0xFF);
-    let channels = if opaque { 3 } else { 4 };
+    let (channels, color) = if opaque {
+        (3, ColorType::Rgb)
+    } else {
+        (4, ColorType::Rgba)
+    };
     let mut data = Vec::with_capacity(frame.pixels().len() * channels);
     for pixel in frame.pixels() {
         let [a, r, g, b] = pixel.to_be_bytes();
         data.extend_from_slice(&[r, g, b, a][..channels]);
     }
-    let color = if opaque {
-        ExtendedColorType::Rgb8
-    } else {
-        ExtendedColorType::Rgba8
-    };
     let mut bytes = Vec::new();
-    PngEncoder::new(&mut bytes).write_image(&data, frame.width(), frame.height(), color)?;
+    let mut encoder = Encoder::new(&mut bytes, frame.width(), frame.height());
+    encoder.set_color(color);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_compression(Compression::Fast);
+    encoder.set_filter(Filter::Adaptive);
+    if let Some(record) = record {
+        encoder.add_itxt_chunk(KEYWORD.to_owned(), record.to_json()?)?;
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&data)?;
+    writer.finish()?;
     Ok(bytes)
 }
 
@@ -36,33 +48,66 @@ pub fn encode_png(frame: &Framebuffer) -> Result<Vec<u8>, ImageError> {
 /// # Errors
 /// When the frame has no pixels, when the name does not end in `.png`, when the file cannot be written.
 pub fn save_png(frame: &Framebuffer, path: &Path) -> io::Result<()> {
-    let refused = |why: &str| Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+    save(frame, path, None)
+}
+
+/// As [`save_png`], with a record of how the picture was made.
+///
+/// # Errors
+/// As [`save_png`].
+pub fn save_recorded_png(frame: &Framebuffer, path: &Path, record: &Record) -> io::Result<()> {
+    save(frame, path, Some(record))
+}
+
+fn save(frame: &Framebuffer, path: &Path, record: Option<&Record>) -> io::Result<()> {
     if !path
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
     {
-        return refused("pictures are written as PNG and their names end in .png");
+        let why = "pictures are written as PNG and their names end in .png";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
     }
+    let bytes = encode_png(frame, record)?;
+    save_files(&[(path.to_owned(), bytes)])
+}
+
+/// Writes files, replacing those that were there: all under other names first, so that neither a half file is ever seen nor
+/// half of the files. A link is followed; a device, pipe or folder is left alone.
+///
+/// # Errors
+/// When one cannot be written.
+pub fn save_files(files: &[(PathBuf, Vec<u8>)]) -> io::Result<()> {
+    let mut staged: Vec<(PathBuf, PathBuf)> = Vec::new();
+    let written = files.iter().try_for_each(|(path, bytes)| {
+        let (partial, target) = partial_name(path)?;
+        staged.push((partial.clone(), target));
+        std::fs::write(&partial, bytes)
+    });
+    let moved = written.and_then(|()| staged.iter().try_for_each(|(from, to)| std::fs::rename(from, to)));
+    if moved.is_err() {
+        for (partial, _) in &staged {
+            // The first error is the one to tell; there may be nothing to remove.
+            let _ = std::fs::remove_file(partial);
+        }
+    }
+    moved
+}
+
+/// The name to write under first, and the one in the end.
+fn partial_name(path: &Path) -> io::Result<(PathBuf, PathBuf)> {
+    let refused = |why: &str| Err(io::Error::new(io::ErrorKind::InvalidInput, why));
     // What is not there yet cannot be followed.
-    let target = std::fs::canonicalize(path);
-    let path = target.as_deref().unwrap_or(path);
-    if std::fs::metadata(path).is_ok_and(|there| !there.is_file()) {
+    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    if std::fs::metadata(&target).is_ok_and(|there| !there.is_file()) {
         return refused("there is something of that name that is no file");
     }
-    let bytes = encode_png(frame).map_err(io::Error::other)?;
-    let name = path
-        .file_name()
-        .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "this is no file name"))?;
-    let mut partial = std::ffi::OsString::from(".");
+    let Some(name) = target.file_name() else {
+        return refused("this is no file name");
+    };
+    let mut partial = OsString::from(".");
     partial.push(name);
     partial.push(format!(".{}.part", std::process::id()));
-    let partial = path.with_file_name(partial);
-    let written = std::fs::write(&partial, bytes).and_then(|()| std::fs::rename(&partial, path));
-    if written.is_err() {
-        // The first error is the one to tell; there may be nothing to remove.
-        let _ = std::fs::remove_file(&partial);
-    }
-    written
+    Ok((target.with_file_name(partial), target))
 }
 
 #[cfg(test)]

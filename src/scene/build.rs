@@ -9,7 +9,8 @@ use super::document::{LineIndex, Source};
 use super::error::Fault;
 use super::textures::TextureTable;
 use super::{
-    Dialect, Paint, Primitive, PrimitiveKind, Problem, Report, Scene, Shape, ShapeId, SkippedKind, SourceLocation,
+    Dialect, Paint, Primitive, PrimitiveKind, Problem, Report, Scene, SceneFiles, Shape, ShapeId, SkippedKind,
+    SourceLocation,
 };
 use crate::color::Rgba;
 use crate::geometry::{FillRule, Polygon};
@@ -182,6 +183,10 @@ impl<'doc> Builder<'doc> {
 
     /// The scene, once its textures are loaded.
     pub(super) fn finish(mut self, dialect: Dialect, canvas: DVec2) -> Scene {
+        let files = SceneFiles {
+            document: None,
+            textures: self.textures.digests(),
+        };
         let textures = self.textures.load(&mut self.report);
         Scene {
             canvas,
@@ -191,6 +196,7 @@ impl<'doc> Builder<'doc> {
             textures,
             report: self.report,
             document: None,
+            files,
         }
     }
 

@@ -8,6 +8,7 @@ mod build;
 mod course;
 mod course_values;
 mod dialect;
+mod digest;
 mod document;
 mod entities;
 mod error;
@@ -29,6 +30,7 @@ use svg::SvgReader;
 use textures::{Alpha, TextureTable};
 
 pub use dialect::{DialectChoice, ReadOptions};
+pub use digest::{FileDigest, SceneFiles};
 pub use error::{Problem, SceneError};
 pub use model::{Dialect, Paint, Primitive, PrimitiveKind, Scene, Shape, ShapeId, SourceLocation, TextureId};
 pub use report::{Report, Skipped, SkippedKind, Warning};
@@ -92,6 +94,7 @@ fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> 
         return Err(Problem::Canvas { width, height }.at(builder.locate(root)));
     }
     let mut scene = builder.finish(dialect, canvas);
+    scene.files.document = Some(FileDigest::of(bytes));
     scene.document = (text.len() <= MAX_KEPT_DOCUMENT).then(|| text.as_ref().into());
     Ok(scene)
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
 
-use super::Report;
+use super::{Report, SceneFiles};
 use crate::color::Rgba;
 use crate::geometry::Polygon;
 use crate::texture::Texture;
@@ -36,6 +36,8 @@ pub struct Scene {
     /// The document itself, for [`Scene::source_line`]; not kept when it is larger than 32 MB or the scene was made in
     /// code.
     pub document: Option<Arc<str>>,
+    /// What it was read from.
+    pub files: SceneFiles,
 }
 
 impl Scene {
@@ -49,6 +51,7 @@ impl Scene {
             textures: Vec::new(),
             report: Report::default(),
             document: None,
+            files: SceneFiles::default(),
         }
     }
 

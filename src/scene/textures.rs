@@ -8,7 +8,7 @@ use data_url::DataUrl;
 use rayon::prelude::*;
 
 use super::report::{quote, shorten};
-use super::{Report, ResourceError, Resources, SourceLocation, TextureId};
+use super::{FileDigest, Report, ResourceError, Resources, SourceLocation, TextureId};
 use crate::texture::{DecodeError, Texture};
 
 /// Most texels of all textures of a scene: with pyramids 1.4 GB.
@@ -17,6 +17,8 @@ const MAX_TEXELS: u64 = 1 << 28;
 const MAX_BYTES: u64 = 512 << 20;
 /// Most characters of the decoder's own message.
 const MAX_MESSAGE: usize = 160;
+/// Most characters of an address that is kept with its digest.
+const MAX_ADDRESS: usize = 400;
 /// Most different textures of a scene.
 const MAX_TEXTURES: usize = 4_096;
 /// Schemes of addresses elsewhere, which are never fetched.
@@ -94,6 +96,16 @@ impl<'doc> TextureTable<'doc> {
     pub(super) fn size(&self, id: TextureId) -> Option<[u32; 2]> {
         let entry = self.entries.get(id.0 as usize)?;
         entry.file.as_ref().ok().map(|file| file.size)
+    }
+
+    /// The addresses of the files that could be read, with their digests.
+    pub(super) fn digests(&self) -> Vec<(String, FileDigest)> {
+        let files = self.entries.par_iter().filter(|entry| !is_data(entry.address));
+        let digest = |entry: &Entry<'_>| {
+            let file = entry.file.as_ref().ok()?;
+            Some((shorten(entry.address.trim(), MAX_ADDRESS), FileDigest::of(&file.bytes)))
+        };
+        files.filter_map(digest).collect()
     }
 
     /// Decodes everything. What fails becomes the checker of [`Texture::missing`] and a warning.

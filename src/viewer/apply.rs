@@ -129,6 +129,7 @@ impl Viewer {
     pub(super) fn update(&mut self) {
         self.revision += 1;
         self.want_scene();
+        self.complete_restored();
         self.keep_pin_in_place();
         self.place_inset();
         self.want_frame();

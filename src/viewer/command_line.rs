@@ -1,12 +1,15 @@
-//! Texts for the clipboard: a pixel in words, and the command line that makes the picture again.
+//! What makes a picture again: the words of its command line, and the record that its file carries.
+//!
+//! Also the texts for the clipboard: that command line, and a pixel in words.
 
-use std::fmt::Write as _;
+use std::path::{Component, Path, PathBuf};
 
 use super::settings::background_name;
-use super::{Effect, Viewer};
+use super::{Effect, SceneSource, Viewer};
+use crate::figure::{Record, RecordedFile};
 use crate::geometry::View;
 use crate::render::RenderSettings;
-use crate::scene::DialectChoice;
+use crate::scene::{DialectChoice, FileDigest, Scene};
 use crate::texture::FixedLevel;
 
 impl Viewer {
@@ -42,31 +45,92 @@ impl Viewer {
     /// The `rasterscope render` command that makes the current picture, quoted for a POSIX shell; `None` without a
     /// scene or without pixels. Options that have their default value are left out, but for size and view.
     pub fn command_line(&self) -> Option<String> {
-        let entry = self.current()?;
-        let [width, height] = self.frame_size();
-        if width == 0 || height == 0 {
-            return None;
+        let output = output_name(&self.current()?.label);
+        Some(shell_line(&self.picture_spec()?.arguments(&output)))
+    }
+
+    /// What decides the current picture; `None` without a scene or without pixels.
+    pub(super) fn picture_spec(&self) -> Option<PictureSpec> {
+        let (entry, size) = (self.current()?, self.frame_size());
+        (!size.contains(&0)).then(|| PictureSpec {
+            scene: entry.source.clone(),
+            size,
+            view: entry.camera.view(),
+            render: self.settings.render,
+            dialect: self.settings.dialect,
+        })
+    }
+}
+
+/// Everything that decides the pixels of a picture, in the words of the command line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureSpec {
+    /// What is drawn.
+    pub scene: SceneSource,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// From where.
+    pub view: View,
+    /// How; the outline follows the view.
+    pub render: RenderSettings,
+    /// How the document is read.
+    pub dialect: DialectChoice,
+}
+
+impl PictureSpec {
+    /// The words of the `render` command that draws the picture into `output`, without the program's name. Options that
+    /// have their default value are left out, but for size and view.
+    pub fn arguments(&self, output: &str) -> Vec<String> {
+        let mut words = vec![
+            "render".to_owned(),
+            as_path(&self.scene.address()),
+            "-o".to_owned(),
+            as_path(output),
+        ];
+        words.extend(self.options());
+        words
+    }
+
+    /// The options among them: size, view and the settings.
+    pub fn options(&self) -> Vec<String> {
+        let [width, height] = self.size;
+        let mut words = vec!["--size".to_owned(), format!("{width}x{height}")];
+        match self.view_text() {
+            // A number may start with a minus.
+            numbers if numbers.contains(',') => words.push(format!("--view={numbers}")),
+            name => words.extend(["--view".to_owned(), name]),
         }
-        let scene = shell_quoted(&entry.source.address());
-        let output = shell_quoted(&output_name(&entry.label));
-        let mut line = format!("rasterscope render {scene} -o {output} --size {width}x{height}");
-        // Writing to a `String` cannot fail.
-        let _ = match entry.camera.view() {
-            View::Default => write!(line, " --view default"),
-            View::Canvas => write!(line, " --view canvas"),
+        for (name, value) in self.settings() {
+            words.extend([format!("--{name}"), value]);
+        }
+        words
+    }
+
+    /// The view as `--view` takes it.
+    pub fn view_text(&self) -> String {
+        match self.view {
+            View::Default => "default".to_owned(),
+            View::Canvas => "canvas".to_owned(),
+            View::At {
+                center,
+                scale,
+                rotation: 0.0,
+            } => format!("{},{},{scale}", center.x, center.y),
             View::At {
                 center,
                 scale,
                 rotation,
-            } => match rotation {
-                0.0 => write!(line, " --view={},{},{scale}", center.x, center.y),
-                _ => write!(line, " --view={},{},{scale},{rotation}", center.x, center.y),
-            },
-        };
-        let (render, default) = (&self.settings.render, RenderSettings::default());
-        let mut option = |differs: bool, name: &str, value: &str| {
+            } => format!("{},{},{scale},{rotation}", center.x, center.y),
+        }
+    }
+
+    /// The settings that differ from their defaults: names and values of the command line's options.
+    pub fn settings(&self) -> Vec<(&'static str, String)> {
+        let (render, default) = (&self.render, RenderSettings::default());
+        let mut options = Vec::new();
+        let mut option = |differs: bool, name: &'static str, value: &str| {
             if differs {
-                let _ = write!(line, " --{name} {value}");
+                options.push((name, value.to_owned()));
             }
         };
         let (rate, pixel, level) = (render.sample_rate, render.pixel_sampling, render.level_sampling);
@@ -83,16 +147,101 @@ impl Viewer {
         let per = detail.derivatives;
         option(per != default.detail.derivatives, "lod-per", per.name());
         let background = background_name(render.background);
-        option(
-            render.background != default.background,
-            "background",
-            &shell_quoted(&background),
-        );
-        let dialect = self.settings.dialect;
+        option(render.background != default.background, "background", &background);
+        let dialect = self.dialect;
         option(dialect != DialectChoice::default(), "dialect", dialect.name());
         option(render.resolve != default.resolve, "resolve", render.resolve.name());
         option(render.rules != default.rules, "rules", render.rules.name());
-        Some(line)
+        options
+    }
+
+    /// The record of the picture that was drawn of `scene`, for a file `output`.
+    pub fn record(&self, scene: &Scene, output: &Path) -> Record {
+        Record {
+            scene: Some(scene_file(&self.scene, scene, output)),
+            textures: scene.files.textures.iter().map(texture_file).collect(),
+            view: self.view_text(),
+            settings: self
+                .settings()
+                .into_iter()
+                .map(|(name, value)| (name.to_owned(), value))
+                .collect(),
+            ..plain_record(self.arguments(&output.display().to_string()), self.size)
+        }
+    }
+}
+
+/// The record of a picture of `size` pixels that these arguments make, of which nothing else is known.
+pub fn plain_record(arguments: Vec<String>, size: [u32; 2]) -> Record {
+    Record {
+        version: Record::VERSION,
+        program: concat!("rasterscope ", env!("CARGO_PKG_VERSION")).to_owned(),
+        command_line: shell_line(&arguments),
+        arguments,
+        size,
+        ..Record::default()
+    }
+}
+
+/// The scene as a record names it.
+fn scene_file(source: &SceneSource, scene: &Scene, output: &Path) -> RecordedFile {
+    RecordedFile {
+        address: source.address(),
+        beside: match source {
+            SceneSource::File(path) => relative_path(output.parent().unwrap_or(Path::new("")), path),
+            SceneSource::Gallery(_) => None,
+        },
+        sha256: scene
+            .files
+            .document
+            .map(|digest| digest.to_string())
+            .unwrap_or_default(),
+    }
+}
+
+fn texture_file((address, digest): &(String, FileDigest)) -> RecordedFile {
+    RecordedFile {
+        address: address.clone(),
+        beside: None,
+        sha256: digest.to_string(),
+    }
+}
+
+/// The way from a folder to a file; `None` where there is none, or one of them does not exist.
+fn relative_path(folder: &Path, file: &Path) -> Option<String> {
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let (folder, file) = (folder.canonicalize().ok()?, file.canonicalize().ok()?);
+    let common = folder
+        .components()
+        .zip(file.components())
+        .take_while(|(a, b)| a == b)
+        .count();
+    // Files on different drives have no way between them.
+    let rest = folder.components().skip(common);
+    if common == 0 || rest.clone().any(|part| !matches!(part, Component::Normal(_))) {
+        return None;
+    }
+    let up = rest.map(|_| Component::ParentDir);
+    let way: PathBuf = up.chain(file.components().skip(common)).collect();
+    way.to_str().map(str::to_owned)
+}
+
+/// Words as one line for a POSIX shell, after the program's name.
+pub fn shell_line(arguments: &[String]) -> String {
+    let words = std::iter::once("rasterscope".to_owned()).chain(arguments.iter().map(|word| shell_quoted(word)));
+    words.collect::<Vec<_>>().join(" ")
+}
+
+/// A path that no one takes for an option.
+pub fn as_path(path: &str) -> String {
+    if path.starts_with('-') {
+        format!("./{path}")
+    } else {
+        path.to_owned()
     }
 }
 
@@ -103,16 +252,11 @@ fn output_name(label: &str) -> String {
     format!("{}.png", if stem.is_empty() { "picture" } else { stem })
 }
 
-/// `word` as one word of a POSIX shell. A leading dash becomes `./-`, since it is a path.
+/// `word` as one word of a POSIX shell.
 fn shell_quoted(word: &str) -> String {
-    let word = if word.starts_with('-') {
-        format!("./{word}")
-    } else {
-        word.to_owned()
-    };
     let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+:,@%=".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
-        return word;
+        return word.to_owned();
     }
     format!("'{}'", word.replace('\'', r"'\''"))
 }
@@ -128,12 +272,43 @@ mod tests {
             ("my scene.svg", "'my scene.svg'"),
             ("it's.svg", r"'it'\''s.svg'"),
             ("#ff8000", "'#ff8000'"),
-            ("-o.svg", "./-o.svg"),
+            ("--view=-1,2,3", "--view=-1,2,3"),
             ("$(x)", "'$(x)'"),
             ("", "''"),
         ] {
             assert_eq!(shell_quoted(word), quoted, "{word}");
         }
+    }
+
+    #[test]
+    fn paths_are_no_options() {
+        assert_eq!(as_path("-o.svg"), "./-o.svg", "a file of that name");
+        assert_eq!(as_path("a-o.svg"), "a-o.svg", "as it is");
+    }
+
+    #[test]
+    fn relative_paths_lead_from_folder_to_file() {
+        let root = tempfile::tempdir().expect("a temporary folder");
+        let at = |name: &str| root.path().join(name);
+        std::fs::create_dir_all(at("out/deep")).expect("folders");
+        std::fs::create_dir_all(at("scenes")).expect("a folder");
+        std::fs::write(at("scenes/a.svg"), "").expect("a file");
+        for (folder, way) in [
+            ("out/deep", "../../scenes/a.svg"),
+            ("scenes", "a.svg"),
+            ("", "scenes/a.svg"),
+        ] {
+            assert_eq!(
+                relative_path(&at(folder), &at("scenes/a.svg")).as_deref(),
+                Some(way),
+                "{folder}"
+            );
+        }
+        assert_eq!(
+            relative_path(&at("nowhere"), &at("scenes/a.svg")),
+            None,
+            "no such folder"
+        );
     }
 
     #[test]

@@ -205,7 +205,7 @@ pub const GESTURES: &[Gesture] = &[
     },
     Gesture {
         gesture: "drop files or folders",
-        help: "Opens their scenes",
+        help: "Opens their scenes; of a saved picture its scene, view and settings",
     },
 ];
 

@@ -1,4 +1,5 @@
-//! Screenshots: PNG files named by the time to the millisecond, that never replace another file.
+//! Screenshots: PNG files named by the time to the millisecond, that tell how they were made and never replace another
+//! file.
 
 use std::fs::OpenOptions;
 use std::io::{self, Write as _};
@@ -8,9 +9,10 @@ use std::sync::Arc;
 use super::background::{AtEnd, Crew, Mailbox, guarded};
 use super::present::{paste, show_frame};
 use super::state::Finished;
-use super::{Frame, PixelRect, PixelZoom, PlacedInset, Viewer, WindowPixels};
-use crate::figure::{SampleMark, encode_png};
+use super::{Frame, PictureSpec, PixelRect, PixelZoom, PlacedInset, Viewer, WindowPixels};
+use crate::figure::{Record, SampleMark, encode_png};
 use crate::raster::Framebuffer;
+use crate::scene::Scene;
 
 /// Names that are tried for one picture: others may have been saved in the same millisecond.
 const ATTEMPTS: u32 = 1000;
@@ -33,6 +35,26 @@ pub(super) struct Saver {
 struct Job {
     folder: PathBuf,
     picture: Shot,
+    recipe: Option<Recipe>,
+}
+
+/// How a picture was made; its record names the file, whose name is not known before it is written.
+#[derive(Clone, Debug)]
+pub(super) struct Recipe {
+    spec: PictureSpec,
+    scene: Arc<Scene>,
+    /// How the picture differs from what `spec` alone makes.
+    differs: Option<String>,
+}
+
+impl Recipe {
+    /// The record for the file `output`.
+    pub(super) fn record(&self, output: &Path) -> Record {
+        Record {
+            differs: self.differs.clone(),
+            ..self.spec.record(&self.scene, output)
+        }
+    }
 }
 
 enum Shot {
@@ -74,10 +96,14 @@ impl Saver {
         self.waiting > 0
     }
 
-    fn push(&mut self, picture: Shot) {
+    fn push(&mut self, picture: Shot, recipe: Option<Recipe>) {
         let folder = self.folder.clone().unwrap_or_else(|| PathBuf::from("."));
         self.running += 1;
-        self.crew.push(Job { folder, picture });
+        self.crew.push(Job {
+            folder,
+            picture,
+            recipe,
+        });
     }
 }
 
@@ -88,7 +114,8 @@ impl Viewer {
             self.messages
                 .error("nothing to save: the window has no pixels; make it larger".to_owned());
         } else {
-            self.saver.push(Shot::Ready(window));
+            let recipe = self.recipe_of_window();
+            self.saver.push(Shot::Ready(window), recipe);
         }
         self.update();
     }
@@ -130,20 +157,63 @@ impl Viewer {
             Some(_) => self.window_picture(),
             None => self.composite().picture(),
         });
+        let recipe = self.recipe_of_frame(&frame, both.is_some());
         for _ in 0..std::mem::take(&mut self.saver.waiting) {
             if let Some(both) = &both {
-                self.saver.push(Shot::Ready(both.clone()));
+                self.saver.push(Shot::Ready(both.clone()), recipe.clone());
                 continue;
             }
             let inset = self
                 .inset
                 .map(|inset| (inset, self.settings.pixel_zoom, self.sample_marks()));
-            self.saver.push(Shot::Frame {
-                frame: Arc::clone(&frame),
-                inset,
-            });
+            let frame = Arc::clone(&frame);
+            self.saver.push(Shot::Frame { frame, inset }, recipe.clone());
         }
         self.set_hurry(false);
+    }
+
+    /// How the picture of the whole window was made.
+    fn recipe_of_window(&self) -> Option<Recipe> {
+        Some(Recipe {
+            spec: self.picture_spec()?,
+            scene: Arc::clone(self.current()?.scene()?),
+            differs: Some("a picture of the window; the command line draws what it shows, without panels".to_owned()),
+        })
+    }
+
+    /// The record of a picture of the window that is written to `output`; `None` without a scene.
+    pub fn record_of_window(&self, output: &Path) -> Option<Record> {
+        Some(self.recipe_of_window()?.record(output))
+    }
+
+    /// How a frame was made, and what else its picture shows.
+    fn recipe_of_frame(&self, frame: &Frame, with_other: bool) -> Option<Recipe> {
+        let now = self.picture_spec()?;
+        let picture = &frame.picture;
+        let spec = PictureSpec {
+            size: picture.size,
+            render: picture.settings,
+            ..now
+        };
+        let drawn_of_now = self
+            .current()?
+            .scene()
+            .is_some_and(|scene| Arc::ptr_eq(scene, &picture.scene));
+        let seen_from_there = spec.view.transform(picture.scene.canvas, picture.size) == picture.view;
+        let differs = if !drawn_of_now || !seen_from_there {
+            Some("the view moved on while this picture was saved; the command line draws where it went")
+        } else if with_other {
+            Some("A and B share this picture; the command line draws A alone")
+        } else if self.inset.is_some() {
+            Some("with the inspector's inset; the command line draws the picture below it")
+        } else {
+            None
+        };
+        Some(Recipe {
+            spec,
+            scene: Arc::clone(&picture.scene),
+            differs: differs.map(str::to_owned),
+        })
     }
 
     pub(super) fn picture_saved(&mut self, Saved(saved): Saved) {
@@ -161,14 +231,14 @@ impl Viewer {
 impl Job {
     fn save(self) -> Result<(PathBuf, [u32; 2]), String> {
         let picture = match self.picture {
-            Shot::Frame { frame, inset: None } => return save_new(&self.folder, &frame.pixels),
+            Shot::Frame { frame, inset: None } => return save_new(&self.folder, &frame.pixels, self.recipe.as_ref()),
             Shot::Frame {
                 frame,
                 inset: Some((placed, zoom, marks)),
             } => with_inset(&frame.pixels, &placed, zoom, &marks),
             Shot::Ready(picture) => picture,
         };
-        save_new(&self.folder, &picture)
+        save_new(&self.folder, &picture, self.recipe.as_ref())
     }
 }
 
@@ -194,9 +264,8 @@ fn with_inset(frame: &Framebuffer, placed: &PlacedInset, zoom: PixelZoom, marks:
 }
 
 /// Saves `picture` in `folder` under a name that did not exist.
-fn save_new(folder: &Path, picture: &Framebuffer) -> Result<(PathBuf, [u32; 2]), String> {
+fn save_new(folder: &Path, picture: &Framebuffer, recipe: Option<&Recipe>) -> Result<(PathBuf, [u32; 2]), String> {
     let cure = "choose another folder with --screenshot-dir";
-    let bytes = encode_png(picture).map_err(|error| format!("cannot make a PNG of this picture: {error}"))?;
     let now = jiff::Zoned::now().strftime("%Y-%m-%d_%H-%M-%S_%3f").to_string();
     for attempt in 1..=ATTEMPTS {
         let name = match attempt {
@@ -204,11 +273,12 @@ fn save_new(folder: &Path, picture: &Framebuffer) -> Result<(PathBuf, [u32; 2]),
             _ => format!("rasterscope-{now}-{attempt}.png"),
         };
         let path = folder.join(name);
+        let path = path.strip_prefix(".").unwrap_or(&path).to_owned();
+        let record = recipe.map(|recipe| recipe.record(&path));
+        let bytes = encode_png(picture, record.as_ref())
+            .map_err(|error| format!("cannot make a PNG of this picture: {error}"))?;
         match write_new(&path, &bytes) {
-            Ok(()) => {
-                let path = path.strip_prefix(".").unwrap_or(&path).to_owned();
-                return Ok((path, [picture.width(), picture.height()]));
-            }
+            Ok(()) => return Ok((path, [picture.width(), picture.height()])),
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
             Err(error) => return Err(format!("{}: cannot save here: {error}; {cure}", folder.display())),
         }
@@ -241,7 +311,7 @@ mod tests {
         let mut picture = Framebuffer::new(3, 2);
         picture.pixels_mut()[4] = 0x80ff_8000;
         let paths: Vec<PathBuf> = (0..20)
-            .map(|_| save_new(folder.path(), &picture).expect("a writable folder").0)
+            .map(|_| save_new(folder.path(), &picture, None).expect("a writable folder").0)
             .collect();
         let files = std::fs::read_dir(folder.path()).expect("the folder").count();
         assert_eq!(files, paths.len(), "each picture has a file of its own");
@@ -259,7 +329,7 @@ mod tests {
     fn screenshot_folder_missing() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let nowhere = folder.path().join("no/such");
-        let problem = save_new(&nowhere, &Framebuffer::new(1, 1)).expect_err("no folder");
+        let problem = save_new(&nowhere, &Framebuffer::new(1, 1), None).expect_err("no folder");
         assert!(
             problem.contains("no/such") && problem.contains("--screenshot-dir"),
             "{problem}"

@@ -14,6 +14,7 @@ use super::messages::Messages;
 use super::pointer::Pointer;
 use super::probing::{self, ProbedSample, Probing, Target};
 use super::reading::{ReadScene, Readers, Thumbnail};
+use super::recorded::{ReadArguments, Restored};
 use super::screenshot::{Saved, Saver};
 use super::{
     Camera, Dialog, Frame, Inspector, Message, PixelRect, PixelZoom, PlacedInset, SceneEntry, SceneSource, Settings,
@@ -44,6 +45,10 @@ pub struct ViewerOptions {
     pub theme: Theme,
     /// Wakes the event loop; may do nothing.
     pub waker: Waker,
+    /// Reads the command lines that pictures carry; without it no picture brings a state back.
+    pub read_arguments: Option<ReadArguments>,
+    /// The picture that scene and settings come from.
+    pub restored: Option<Restored>,
 }
 
 /// The program without a window.
@@ -81,6 +86,9 @@ pub struct Viewer {
     pub(super) last_drawn: Option<DrawnState>,
     /// What [`Viewer::take_damage`] told last.
     pub(super) last_shown: Option<DrawnState>,
+    pub(super) read_arguments: Option<ReadArguments>,
+    /// What was restored from a picture, until its scene was read.
+    pub(super) restored: Option<Restored>,
 }
 
 /// What is to be seen in the window besides the picture.
@@ -158,6 +166,8 @@ impl Default for ViewerOptions {
             screenshot_dir: None,
             theme: Theme::default(),
             waker: Arc::new(|| {}),
+            read_arguments: None,
+            restored: None,
         }
     }
 }
@@ -207,6 +217,8 @@ impl Viewer {
             picture_revision: 0,
             last_drawn: None,
             last_shown: None,
+            read_arguments: options.read_arguments,
+            restored: options.restored,
         };
         viewer.drawing.set_progressive(viewer.settings.progressive);
         viewer.open(&options.paths);
@@ -218,10 +230,15 @@ impl Viewer {
     }
 
     /// Adds the scenes in `paths` to the list and shows the first of them; at the start they are the list, or the
-    /// gallery is where they hold none. A PNG or JPEG becomes B.
+    /// gallery is where they hold none. A PNG with a record brings its state back; another picture becomes B.
     pub(super) fn open(&mut self, paths: &[PathBuf]) {
         let (pictures, documents): (Vec<&PathBuf>, Vec<&PathBuf>) = paths.iter().partition(|path| is_picture(path));
         let documents: Vec<PathBuf> = documents.into_iter().cloned().collect();
+        if let ([], Some(picture)) = (documents.as_slice(), pictures.last())
+            && self.restore(picture)
+        {
+            return self.open_gallery_if_empty();
+        }
         // A picture alone at the start is told that it is no scene.
         let compares = !self.scenes.is_empty() || !documents.is_empty();
         let (mut scenes, problems) = library::list_scenes(if compares { &documents } else { paths });
@@ -241,8 +258,15 @@ impl Viewer {
         }
     }
 
+    /// A picture whose scene is gone leaves a list with something to look at too.
+    fn open_gallery_if_empty(&mut self) {
+        if self.scenes.is_empty() {
+            self.replace_scenes(library::gallery_entries());
+        }
+    }
+
     /// Appends scenes and shows the first of them; one that is in the list already is read again instead.
-    fn add_scenes(&mut self, scenes: Vec<SceneEntry>) {
+    pub(super) fn add_scenes(&mut self, scenes: Vec<SceneEntry>) {
         let place = |list: &[SceneEntry], source: &SceneSource| list.iter().position(|entry| entry.source == *source);
         let first = scenes.first().map(|entry| entry.source.clone());
         for mut scene in scenes {

@@ -49,7 +49,14 @@ const ROOMS: &[Room] = &[
         rooms: &[
             "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
         ],
-        crates: &["image", "ab_glyph", "epaint_default_fonts"],
+        crates: &[
+            "image",
+            "png",
+            "ab_glyph",
+            "epaint_default_fonts",
+            "serde",
+            "serde_json",
+        ],
     },
     Room {
         name: "compare",
@@ -73,7 +80,7 @@ const ROOMS: &[Room] = &[
     Room {
         name: "scene",
         rooms: &["texture", "color", "geometry", "rules", "simd"],
-        crates: &["roxmltree", "svgtypes", "simplecss", "data_url"],
+        crates: &["roxmltree", "svgtypes", "simplecss", "data_url", "sha2"],
     },
     Room {
         name: "raster",
@@ -120,6 +127,8 @@ const GUARDED: &[&str] = &[
     "image",
     "ab_glyph",
     "epaint_default_fonts",
+    "png",
+    "sha2",
     "kurbo",
     "i_triangle",
     "clap",

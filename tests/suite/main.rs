@@ -24,6 +24,7 @@ mod overlay_painter;
 mod overlay_repaints;
 mod patterns;
 mod readme;
+mod records;
 mod regions;
 mod render;
 mod robustness;

@@ -1,7 +1,8 @@
 //! Screenshots: which pixels, which names, what happens where none can be written.
 
+use rasterscope::figure::Record;
 use rasterscope::raster::Framebuffer;
-use rasterscope::viewer::{Command, Effect, MessageKind, PixelZoom, Viewer, ViewerOptions};
+use rasterscope::viewer::{Against, Command, Effect, MessageKind, PixelZoom, Viewer, ViewerOptions};
 
 use crate::support::session::{Session, TRIANGLES};
 
@@ -35,6 +36,28 @@ fn screenshot_is_the_frame() {
         name.starts_with("rasterscope-") && digits >= 17,
         "{name} goes from the year to the millisecond"
     );
+}
+
+#[test]
+fn screenshot_tells_how_it_was_made() {
+    let mut session = Session::open(&[TRIANGLES], [80, 60]);
+    session.keys(&["=", "s"]);
+    let told = |session: &Session, index: usize| Record::of_file(&session.pictures()[index]).unwrap().unwrap();
+    let first = told(&session, 0);
+    let line = session.viewer.command_line().unwrap();
+    let [before, after] = ["rasterscope render ", " --size 80x60 --view default --sample-rate 4"];
+    assert!(
+        first.command_line.starts_with(before) && first.command_line.ends_with(after),
+        "{first:?}"
+    );
+    assert!(
+        line.ends_with(after) && first.differs.is_none(),
+        "the command line of the moment"
+    );
+    session.run(Command::Compare(Against::Settings));
+    session.keys(&["w", "s"]);
+    let both = told(&session, 1).differs.unwrap();
+    assert!(both.contains("A and B share this picture"), "{both}");
 }
 
 #[test]

@@ -7,8 +7,7 @@ use egui::{Event, vec2};
 use glam::DVec2;
 
 use super::{Clock, Session};
-use crate::figure::save_png;
-use crate::viewer::script::Stage;
+use crate::viewer::script::{Stage, save_window};
 use crate::viewer::{Command, Key, KeyPress, Modifiers, PointerButton};
 
 /// Rounds until a picture without a window counts as at rest.
@@ -41,7 +40,7 @@ impl Stage for Session {
 
     fn shot(&mut self, path: &Path) -> Result<(), String> {
         self.settle();
-        save_png(&self.picture(), path).map_err(|error| {
+        save_window(&self.viewer, &self.picture(), path).map_err(|error| {
             format!(
                 "{}: cannot write this file: {error}; choose another place",
                 path.display()

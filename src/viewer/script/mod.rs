@@ -17,4 +17,4 @@ mod parse;
 mod play;
 
 pub use parse::{Script, ScriptError, ScriptStep, Step};
-pub use play::{Stage, ViewerStage, perform, play};
+pub use play::{Stage, ViewerStage, perform, play, save_window};

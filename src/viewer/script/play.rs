@@ -1,12 +1,14 @@
 //! Plays a script on a stage: the viewer alone, or a whole window.
 
+use std::io;
 use std::path::Path;
 use std::time::Duration;
 
 use glam::DVec2;
 
 use super::parse::{Script, ScriptError, ScriptStep, Step};
-use crate::figure::save_png;
+use crate::figure::{save_png, save_recorded_png};
+use crate::raster::Framebuffer;
 use crate::viewer::{Command, Effect, KeyPress, PointerButton, Viewer, commands};
 
 /// Moves of the pointer in one drag.
@@ -172,7 +174,7 @@ impl Stage for ViewerStage<'_> {
     }
 
     fn shot(&mut self, path: &Path) -> Result<(), String> {
-        save_png(&self.viewer.window_picture(), path).map_err(|error| {
+        save_window(self.viewer, &self.viewer.window_picture(), path).map_err(|error| {
             format!(
                 "{}: cannot write this file: {error}; choose another place",
                 path.display()
@@ -182,5 +184,16 @@ impl Stage for ViewerStage<'_> {
 
     fn has_quit(&self) -> bool {
         self.has_quit
+    }
+}
+
+/// Writes a picture of the window with its record.
+///
+/// # Errors
+/// When it has no pixels or the file cannot be written.
+pub fn save_window(viewer: &Viewer, picture: &Framebuffer, path: &Path) -> io::Result<()> {
+    match viewer.record_of_window(path) {
+        Some(record) => save_recorded_png(picture, path, &record),
+        None => save_png(picture, path),
     }
 }

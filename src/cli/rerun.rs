@@ -1,0 +1,122 @@
+//! `rasterscope rerun`: draws again what a picture shows, by the command line in its file, and compares.
+
+use std::path::Path;
+
+use super::arguments::{RerunOptions, Verb};
+use super::failure::{Failure, print, print_error};
+use super::picture::{Picture, on_threads};
+use super::recorded::{read_arguments, verb_of};
+use super::render::{name_for_png, unwritable};
+use crate::compare;
+use crate::figure::{Record, save_recorded_png};
+use crate::raster::Framebuffer;
+use crate::scene::FolderResources;
+use crate::viewer::{Restored, SceneSource};
+
+/// A picture that was drawn again.
+struct Again {
+    frame: Framebuffer,
+    /// For the file that it may be written to.
+    record: Record,
+    /// What of its files has changed, in one line.
+    change: Option<String>,
+}
+
+/// Draws, and compares or writes.
+pub(super) fn run(options: &RerunOptions) -> Result<(), Failure> {
+    let shot = options.shot.as_path();
+    if let Some(output) = &options.output {
+        name_for_png(output)?;
+    }
+    let restored = restored(options)?;
+    if let Some(differs) = &restored.record.differs {
+        let line = format!("{}: {differs}", shot.display());
+        if options.check {
+            return Err(Failure::input(format!(
+                "{line}; the command line is: {}",
+                restored.record.command_line
+            )));
+        }
+        print_error(&line);
+    }
+    let output = options.output.as_deref().unwrap_or(shot);
+    let again = on_threads(options.threads, || draw(&restored, output))??;
+    if options.check {
+        return check(shot, &again);
+    }
+    if let Some(change) = &again.change {
+        print_error(change);
+    }
+    save_recorded_png(&again.frame, output, &again.record).map_err(|error| unwritable(output, &error))
+}
+
+/// The state that the picture tells, with the scene that the options name.
+fn restored(options: &RerunOptions) -> Result<Restored, Failure> {
+    let shot = options.shot.as_path();
+    let found = Restored::of_file(shot, read_arguments).map_err(Failure::Input)?;
+    let mut restored = found.ok_or_else(|| {
+        Failure::input(format!(
+            "{}: no record in this file; give a PNG that rasterscope wrote and no other program has changed",
+            shot.display()
+        ))
+    })?;
+    if let Some(scene) = &options.scene {
+        restored.spec.scene = SceneSource::from_address(scene);
+    }
+    Ok(restored)
+}
+
+/// Draws what the record tells, by the same code as the command that it names.
+fn draw(restored: &Restored, output: &Path) -> Result<Again, Failure> {
+    match verb_of(&restored.record).map_err(Failure::Input)? {
+        Verb::Render(_) => {
+            let mut picture = Picture::read(restored.spec.clone())?;
+            picture.draw();
+            Ok(Again {
+                record: picture.record(output),
+                change: restored.changes(&picture.scene.files),
+                frame: picture.into_frame(),
+            })
+        }
+        _ => Err(Failure::input(format!(
+            "{}: this picture is not drawn of a scene alone; run its command line: {}",
+            restored.shot.display(),
+            restored.record.command_line
+        ))),
+    }
+}
+
+/// Compares every pixel and says what was found.
+fn check(shot: &Path, again: &Again) -> Result<(), Failure> {
+    let name = shot.display();
+    let unreadable = |error: &dyn std::fmt::Display| {
+        Failure::input(format!(
+            "{name}: cannot be read as a picture: {error}; give a whole PNG"
+        ))
+    };
+    let bytes = FolderResources::read_file(shot).map_err(|error| unreadable(&error))?;
+    let before = compare::decode_picture(&bytes).map_err(|error| unreadable(&error))?;
+    let why = again
+        .change
+        .as_ref()
+        .map_or(String::new(), |change| format!("; {change}"));
+    let [size, now] = [&before, &again.frame].map(|frame| [frame.width(), frame.height()]);
+    if size != now {
+        let ([w, h], [w2, h2]) = (size, now);
+        print(&format!(
+            "{name}: differs: {w} x {h} pixels, drawn again {w2} x {h2}{why}"
+        ))?;
+        return Err(Failure::Different);
+    }
+    let all = before.pixels().len();
+    let pairs = before.pixels().iter().zip(again.frame.pixels());
+    // What cannot be seen has no colour: decoders and the renderer may say so differently.
+    let different = pairs
+        .filter(|(a, b)| a != b && (*a >> 24 != 0 || *b >> 24 != 0))
+        .count();
+    if different == 0 {
+        return print(&format!("{name}: the same, all {all} pixels{why}"));
+    }
+    print(&format!("{name}: differs in {different} of {all} pixels{why}"))?;
+    Err(Failure::Different)
+}

@@ -1,0 +1,153 @@
+//! Pictures that tell how they were made: finding their scene again, and what of it has changed since.
+
+use std::path::{Path, PathBuf};
+
+use super::camera::Camera;
+use super::library;
+use super::{PictureSpec, SceneSource, Viewer};
+use crate::figure::Record;
+use crate::scene::{FileDigest, FolderResources, SceneFiles};
+
+/// Reads the arguments of a record by the grammar of the command line.
+pub type ReadArguments = fn(&Record) -> Result<PictureSpec, String>;
+
+/// A picture whose record was read: the state to come back to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Restored {
+    /// The picture's file.
+    pub shot: PathBuf,
+    /// What it tells.
+    pub record: Record,
+    /// The same, understood; its scene is where it is found now.
+    pub spec: PictureSpec,
+}
+
+impl Restored {
+    /// The state that the PNG file `shot` tells; `None` where it has no record.
+    ///
+    /// # Errors
+    /// One line when its record cannot be used.
+    pub fn of_file(shot: &Path, read: ReadArguments) -> Result<Option<Self>, String> {
+        let name = shot.display();
+        let cure = "give its scene instead";
+        let Some(record) = Record::of_file(shot).map_err(|error| format!("{name}: {error}; {cure}"))? else {
+            return Ok(None);
+        };
+        let mut spec = read(&record)
+            .map_err(|error| format!("{name}: the command line in this picture is at fault: {error}; {cure}"))?;
+        spec.scene = found_scene(&record, spec.scene, shot);
+        Ok(Some(Self {
+            shot: shot.to_owned(),
+            record,
+            spec,
+        }))
+    }
+
+    /// What of the files has another content than when the picture was made, in one line; `None` where all is as it was.
+    pub fn changes(&self, files: &SceneFiles) -> Option<String> {
+        let mut changed = Vec::new();
+        let then = self.record.scene.as_ref().map_or("", |scene| scene.sha256.as_str());
+        if files.document.is_some_and(|now| differs(then, &now)) {
+            changed.push(format!("the scene {}", self.spec.scene.address()));
+        }
+        for texture in &self.record.textures {
+            let now = files.textures.iter().find(|(address, _)| *address == texture.address);
+            match now {
+                Some((_, now)) if !differs(&texture.sha256, now) => {}
+                Some(_) => changed.push(format!("the texture {}", texture.address)),
+                None => changed.push(format!("the texture {}, which is gone,", texture.address)),
+            }
+        }
+        let first = changed.first()?;
+        let others = match changed.len() - 1 {
+            0 => String::new(),
+            1 => " and one more file".to_owned(),
+            more => format!(" and {more} more files"),
+        };
+        let shot = self.shot.display();
+        Some(format!(
+            "{first}{others} changed since {shot} was made (another SHA-256): the picture may differ"
+        ))
+    }
+}
+
+/// Whether a file had another digest then; nothing is known where none was recorded.
+fn differs(then: &str, now: &FileDigest) -> bool {
+    !then.is_empty() && now.to_string() != then
+}
+
+/// Where the scene of a record is now: in the gallery, at its place beside the picture, or at the address of the command
+/// line, whichever still has the content of then; else the first that exists.
+fn found_scene(record: &Record, named: SceneSource, shot: &Path) -> SceneSource {
+    let (SceneSource::File(path), Some(scene)) = (&named, &record.scene) else {
+        return named;
+    };
+    let folder = shot.parent().unwrap_or(Path::new(""));
+    let beside = scene.beside.as_ref().map(|beside| folder.join(beside));
+    let places: Vec<PathBuf> = beside
+        .into_iter()
+        .chain([path.clone()])
+        .filter(|path| path.is_file())
+        .collect();
+    let has_content = |path: &&PathBuf| {
+        // One place alone needs no telling apart.
+        let bytes = FolderResources::read_file(path).ok();
+        places.len() > 1 && bytes.is_some_and(|bytes| !differs(&scene.sha256, &FileDigest::of(&bytes)))
+    };
+    let found = places.iter().find(has_content).or(places.first());
+    found.map_or(named.clone(), |path| SceneSource::File(path.clone()))
+}
+
+impl Viewer {
+    /// Shows what a picture's record tells: scene, view, settings. False where it has none.
+    pub(super) fn restore(&mut self, shot: &Path) -> bool {
+        let restored = match self.read_arguments.map(|read| Restored::of_file(shot, read)) {
+            None | Some(Ok(None)) => return false,
+            Some(Ok(Some(restored))) => restored,
+            Some(Err(problem)) => {
+                self.messages.error(problem);
+                return true;
+            }
+        };
+        let address = PathBuf::from(restored.spec.scene.address());
+        let (scenes, problems) = library::list_scenes(&[address]);
+        if let Some(problem) = problems.into_iter().next() {
+            let name = shot.display();
+            self.messages
+                .error(format!("{name}: the scene of this picture is not there: {problem}"));
+            return true;
+        }
+        if self.scenes.is_empty() {
+            self.replace_scenes(scenes);
+        } else {
+            self.add_scenes(scenes);
+        }
+        self.settings.render = restored.spec.render;
+        self.settings.render.outline = true;
+        self.settings.dialect = restored.spec.dialect;
+        if let Some(entry) = self.scenes.get_mut(self.current) {
+            entry.camera = Camera::new(restored.spec.view);
+        }
+        self.messages.done(format!("as in {}", shot.display()));
+        self.restored = Some(restored);
+        true
+    }
+
+    /// Tells, once the scene was read, what changed since its picture was made.
+    pub(super) fn complete_restored(&mut self) {
+        let Some(entry) = self.current().filter(|entry| !entry.is_reading()) else {
+            return;
+        };
+        let Some(scene) = entry.scene().cloned() else { return };
+        let source = entry.source.clone();
+        let Some(restored) = self.restored.take_if(|restored| restored.spec.scene == source) else {
+            return;
+        };
+        if let Some(differs) = &restored.record.differs {
+            self.messages.done(format!("{}: {differs}", restored.shot.display()));
+        }
+        if let Some(change) = restored.changes(&scene.files) {
+            self.messages.error(change);
+        }
+    }
+}

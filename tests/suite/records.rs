@@ -1,0 +1,240 @@
+//! Pictures that tell how they were made: what their files carry, and that it brings the picture and its state back.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use rasterscope::figure::{Record, encode_png};
+use rasterscope::raster::Framebuffer;
+use rasterscope::scene::FileDigest;
+
+use crate::support::refusal::assert_refused;
+
+const SCENE: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="30">
+  <polygon points="2,3 37,9 11,28" fill="#123456"/>
+  <image href="t.png" x="2" y="2" width="20" height="20"/>
+</svg>"##;
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterscope"));
+    let command = command.current_dir(folder).args(arguments);
+    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+    command.output().unwrap()
+}
+
+/// Runs the program, which must not complain.
+fn done(folder: &Path, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    assert!(
+        output.status.success() && output.stderr.is_empty(),
+        "{arguments:?}: {output:?}"
+    );
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn texture(color: u32) -> Vec<u8> {
+    let mut picture = Framebuffer::new(4, 4);
+    picture.pixels_mut().fill(color);
+    picture.pixels_mut()[5] = 0xff00_0000;
+    encode_png(&picture, None).unwrap()
+}
+
+/// A folder with a scene, its texture, and a folder for pictures.
+fn workplace() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("out")).unwrap();
+    fs::write(folder.path().join("a.svg"), SCENE).unwrap();
+    fs::write(folder.path().join("t.png"), texture(0xffff_8000)).unwrap();
+    folder
+}
+
+fn record(path: PathBuf) -> Record {
+    Record::of_file(&path)
+        .unwrap()
+        .unwrap_or_else(|| panic!("{path:?} has a record"))
+}
+
+#[rustfmt::skip]
+const RENDER: [&str; 14] = [
+    "render", "a.svg", "-o", "out/a.png", "--size", "90x70", "--view=20,15,2.5,30", "--sample-rate", "9",
+    "--pixel-sampling", "bilinear", "--background", "#ff8000", "--threads=1",
+];
+
+#[test]
+fn record_tells_scene_textures_and_settings() {
+    let work = workplace();
+    done(work.path(), &RENDER);
+    let told = record(work.path().join("out/a.png"));
+    assert_eq!(told.version, 1, "the shape");
+    let line = "rasterscope render a.svg -o out/a.png --size 90x70 --view=20,15,2.5,30 --sample-rate 9 \
+                --pixel-sampling bilinear --background '#ff8000'";
+    assert_eq!(told.command_line, line, "threads make no difference");
+    let scene = told.scene.unwrap();
+    let digest = |name: &str| FileDigest::of(&fs::read(work.path().join(name)).unwrap()).to_string();
+    assert_eq!(
+        (scene.address.as_str(), scene.sha256),
+        ("a.svg", digest("a.svg")),
+        "the scene"
+    );
+    assert_eq!(scene.beside.as_deref(), Some("../a.svg"), "from the picture");
+    assert_eq!(
+        (told.textures[0].address.as_str(), &told.textures[0].sha256),
+        ("t.png", &digest("t.png")),
+        "one texture"
+    );
+    let settings: Vec<_> = told
+        .settings
+        .iter()
+        .map(|(name, value)| format!("{name} {value}"))
+        .collect();
+    assert_eq!(
+        settings,
+        ["background #ff8000", "pixel-sampling bilinear", "sample-rate 9"],
+        "what is not default"
+    );
+    assert_eq!(
+        (told.view.as_str(), told.size),
+        ("20,15,2.5,30", [90, 70]),
+        "what is seen"
+    );
+}
+
+#[test]
+fn rerun_finds_every_pixel_again_from_anywhere() {
+    let work = workplace();
+    done(work.path(), &RENDER);
+    for threads in ["1", "3"] {
+        let said = done(work.path(), &["rerun", "out/a.png", "--check", "--threads", threads]);
+        assert_eq!(said.trim(), "out/a.png: the same, all 6300 pixels", "{threads} threads");
+    }
+    let said = done(&work.path().join("out"), &["rerun", "a.png", "--check"]);
+    assert!(said.contains("the same"), "from another folder: {said}");
+    done(work.path(), &["rerun", "out/a.png", "-o", "out/b.png"]);
+    let [a, b] = ["out/a.png", "out/b.png"].map(|name| image::open(work.path().join(name)).unwrap().into_rgba8());
+    assert!(a == b, "written again");
+    assert!(
+        record(work.path().join("out/b.png"))
+            .command_line
+            .contains("-o out/b.png"),
+        "with its own record"
+    );
+}
+
+#[test]
+fn rerun_tells_how_much_differs_and_why() {
+    let work = workplace();
+    done(work.path(), &RENDER);
+    fs::write(work.path().join("t.png"), texture(0xff00_80ff)).unwrap();
+    let output = run(work.path(), &["rerun", "out/a.png", "--check"]);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(
+        said.starts_with("out/a.png: differs in ") && said.contains(" of 6300 pixels; the texture t.png changed"),
+        "{said}"
+    );
+    fs::write(work.path().join("a.svg"), SCENE.replace("11,28", "12,28")).unwrap();
+    let output = run(work.path(), &["rerun", "out/a.png", "--check"]);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        said.contains("the scene ") && said.contains(" and one more file changed since"),
+        "{said}"
+    );
+    let output = run(work.path(), &["render", "out/a.png", "-o", "out/c.png"]);
+    let warned = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        output.status.success() && warned.lines().count() == 1 && warned.contains("changed since"),
+        "{warned}"
+    );
+}
+
+#[test]
+fn rerun_refuses_what_tells_nothing() {
+    let work = workplace();
+    fs::write(work.path().join("plain.png"), texture(0xff00_0000)).unwrap();
+    let refused = |arguments: &[&str], words: &[&str]| assert_refused(&run(work.path(), arguments), arguments, words);
+    refused(&["rerun", "plain.png", "--check"], &["plain.png", "no record", "give"]);
+    refused(&["rerun", "missing.png", "--check"], &["missing.png"]);
+    let hostile = [
+        (vec!["view", "--do", "shot /tmp/x.png"], "draws no scene"),
+        (vec!["render", "a.svg", "-o", "b.png", "--size", "0x5"], "size"),
+        (vec!["--help"], "help"),
+        (vec![], "help"),
+        (vec!["render", "nowhere.svg", "-o", "b.png"], "nowhere.svg"),
+    ];
+    for (arguments, word) in hostile {
+        let record = Record {
+            version: 1,
+            arguments: arguments.into_iter().map(str::to_owned).collect(),
+            ..Record::default()
+        };
+        let bytes = encode_png(&Framebuffer::new(2, 2), Some(&record)).unwrap();
+        fs::write(work.path().join("hostile.png"), bytes).unwrap();
+        refused(&["rerun", "hostile.png", "--check"], &[word]);
+    }
+    done(work.path(), &["diff", "plain.png", "plain.png", "-o", "d.png"]);
+    refused(&["rerun", "d.png", "--check"], &["d.png"]);
+    let told = record(work.path().join("d.png"));
+    assert_eq!(
+        told.command_line, "rasterscope diff plain.png plain.png -o d.png --mode absolute --gain=1",
+        "its own"
+    );
+}
+
+#[test]
+fn render_takes_a_picture_for_its_scene_and_settings() {
+    let work = workplace();
+    done(work.path(), &RENDER);
+    done(
+        work.path(),
+        &["render", "out/a.png", "-o", "b.png", "--sample-rate", "4"],
+    );
+    let told = record(work.path().join("b.png"));
+    let line = "rasterscope render out/../a.svg -o b.png --size 90x70 --view=20,15,2.5,30 --sample-rate 4 \
+                --pixel-sampling bilinear --background '#ff8000'";
+    assert_eq!(told.command_line, line, "what is written counts more");
+}
+
+#[cfg(feature = "window")]
+#[test]
+fn window_comes_back_from_a_picture() {
+    let work = workplace();
+    done(work.path(), &RENDER);
+    let settings = |name: &str| {
+        let told = record(work.path().join(name));
+        assert!(
+            told.differs.is_some_and(|differs| differs.contains("window")),
+            "panels are no part of it"
+        );
+        (told.scene.map(|scene| scene.sha256), told.view, told.settings)
+    };
+    let expected = {
+        let told = record(work.path().join("out/a.png"));
+        (told.scene.map(|scene| scene.sha256), told.view, told.settings)
+    };
+    done(work.path(), &["view", "out/a.png", "--headless", "--do", "shot w.png"]);
+    assert_eq!(settings("w.png"), expected, "as an argument");
+    assert_eq!(record(work.path().join("w.png")).size, [90, 70], "with its size");
+    done(
+        work.path(),
+        &["view", "--headless", "--do", "open out/a.png; wait; shot dropped.png"],
+    );
+    assert_eq!(settings("dropped.png"), expected, "dropped on the gallery");
+    done(
+        work.path(),
+        &[
+            "view",
+            "dropped.png",
+            "--headless",
+            "--do",
+            "shot again.png",
+            "--sample-rate",
+            "4",
+        ],
+    );
+    let (_, _, told) = settings("again.png");
+    assert_eq!(
+        told.get("sample-rate").map(String::as_str),
+        Some("4"),
+        "what is written counts more"
+    );
+}

@@ -51,7 +51,7 @@ fn workplace() -> tempfile::TempDir {
 fn record(path: PathBuf) -> Record {
     Record::of_file(&path)
         .unwrap()
-        .unwrap_or_else(|| panic!("{path:?} has a record"))
+        .unwrap_or_else(|| panic!("{} has a record", path.display()))
 }
 
 #[rustfmt::skip]

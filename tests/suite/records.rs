@@ -1,7 +1,7 @@
 //! Pictures that tell how they were made: what their files carry, and that it brings the picture and its state back.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
 
 use rasterscope::figure::{Record, encode_png};
@@ -48,8 +48,8 @@ fn workplace() -> tempfile::TempDir {
     folder
 }
 
-fn record(path: PathBuf) -> Record {
-    Record::of_file(&path)
+fn record(path: &Path) -> Record {
+    Record::of_file(path)
         .unwrap()
         .unwrap_or_else(|| panic!("{} has a record", path.display()))
 }
@@ -64,7 +64,7 @@ const RENDER: [&str; 14] = [
 fn record_tells_scene_textures_and_settings() {
     let work = workplace();
     done(work.path(), &RENDER);
-    let told = record(work.path().join("out/a.png"));
+    let told = record(&work.path().join("out/a.png"));
     assert_eq!(told.version, 1, "the shape");
     let line = "rasterscope render a.svg -o out/a.png --size 90x70 --view=20,15,2.5,30 --sample-rate 9 \
                 --pixel-sampling bilinear --background '#ff8000'";
@@ -113,7 +113,7 @@ fn rerun_finds_every_pixel_again_from_anywhere() {
     let [a, b] = ["out/a.png", "out/b.png"].map(|name| image::open(work.path().join(name)).unwrap().into_rgba8());
     assert!(a == b, "written again");
     assert!(
-        record(work.path().join("out/b.png"))
+        record(&work.path().join("out/b.png"))
             .command_line
             .contains("-o out/b.png"),
         "with its own record"
@@ -173,7 +173,7 @@ fn rerun_refuses_what_tells_nothing() {
     }
     done(work.path(), &["diff", "plain.png", "plain.png", "-o", "d.png"]);
     refused(&["rerun", "d.png", "--check"], &["d.png"]);
-    let told = record(work.path().join("d.png"));
+    let told = record(&work.path().join("d.png"));
     assert_eq!(
         told.command_line, "rasterscope diff plain.png plain.png -o d.png --mode absolute --gain=1",
         "its own"
@@ -188,7 +188,7 @@ fn render_takes_a_picture_for_its_scene_and_settings() {
         work.path(),
         &["render", "out/a.png", "-o", "b.png", "--sample-rate", "4"],
     );
-    let told = record(work.path().join("b.png"));
+    let told = record(&work.path().join("b.png"));
     let line = "rasterscope render out/../a.svg -o b.png --size 90x70 --view=20,15,2.5,30 --sample-rate 4 \
                 --pixel-sampling bilinear --background '#ff8000'";
     assert_eq!(told.command_line, line, "what is written counts more");
@@ -200,7 +200,7 @@ fn window_comes_back_from_a_picture() {
     let work = workplace();
     done(work.path(), &RENDER);
     let settings = |name: &str| {
-        let told = record(work.path().join(name));
+        let told = record(&work.path().join(name));
         assert!(
             told.differs.is_some_and(|differs| differs.contains("window")),
             "panels are no part of it"
@@ -208,12 +208,12 @@ fn window_comes_back_from_a_picture() {
         (told.scene.map(|scene| scene.sha256), told.view, told.settings)
     };
     let expected = {
-        let told = record(work.path().join("out/a.png"));
+        let told = record(&work.path().join("out/a.png"));
         (told.scene.map(|scene| scene.sha256), told.view, told.settings)
     };
     done(work.path(), &["view", "out/a.png", "--headless", "--do", "shot w.png"]);
     assert_eq!(settings("w.png"), expected, "as an argument");
-    assert_eq!(record(work.path().join("w.png")).size, [90, 70], "with its size");
+    assert_eq!(record(&work.path().join("w.png")).size, [90, 70], "with its size");
     done(
         work.path(),
         &["view", "--headless", "--do", "open out/a.png; wait; shot dropped.png"],

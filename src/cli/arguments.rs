@@ -92,8 +92,9 @@ pub(super) struct ViewerOptions {
     /// The window's size in device pixels [default: 1280x800]
     #[arg(long, value_name = "WxH")]
     pub(super) size: Option<FrameSize>,
-    /// Compare with this from the start: `truth`, `settings`, or the file of a PNG or JPEG
-    #[arg(long, value_name = "FILE|truth|settings", value_parser = against)]
+    /// Compare with this from the start: `truth`, `settings`, settings such as "sample-rate 16, dialect svg", or the file of a
+    /// PNG or JPEG
+    #[arg(long, value_name = "FILE|truth|SETTINGS", value_parser = against)]
     pub(super) against: Option<Against>,
     #[command(flatten)]
     pub(super) sampling: SamplingOptions,
@@ -362,7 +363,7 @@ fn lod_level(text: &str) -> Result<FixedLevel, String> {
 
 fn against(text: &str) -> Result<Against, String> {
     let against = Against::from_text(text).filter(|against| *against != Against::Nothing);
-    against.ok_or_else(|| "compare with truth, settings, or the file of a PNG or JPEG".to_owned())
+    against.ok_or_else(|| "compare with truth, settings, settings such as \"sample-rate 16, dialect svg\", or the file of a PNG or JPEG".to_owned())
 }
 
 fn gain(text: &str) -> Result<f32, String> {
@@ -572,6 +573,24 @@ mod tests {
                 }
                 other => panic!("{line}: {other:?}"),
             }
+        }
+    }
+
+    #[test]
+    fn arguments_that_sample_are_the_viewers_options() {
+        use crate::viewer::options;
+        let sampling = SamplingOptions::augment_args(clap::Command::new("options"));
+        let here: Vec<&str> = sampling
+            .get_arguments()
+            .filter_map(|argument| argument.get_long())
+            .collect();
+        let there: Vec<&str> = options::names().collect();
+        for name in here.iter().chain(&there) {
+            let known = here.contains(name) && there.contains(name);
+            assert!(
+                known,
+                "--{name} is written on the command line and elsewhere, or nowhere"
+            );
         }
     }
 

@@ -59,7 +59,9 @@ impl Viewer {
 
     /// Whether the final frame of the current state is there, and what the inspector and a comparison say about it.
     pub fn is_final(&self) -> bool {
-        let reading = self.current().is_some_and(super::SceneEntry::is_reading);
+        let reading = self
+            .current()
+            .is_some_and(|entry| entry.is_reading() || entry.is_read_for_b());
         let drawn = self.drawing.is_current() && self.comparison.is_current();
         !reading && drawn && self.probing.is_current() && self.explains_all() && self.is_measured()
     }
@@ -206,7 +208,7 @@ impl Viewer {
         }
     }
 
-    fn change_sampling(&mut self, command: Command) {
+    pub(super) fn change_sampling(&mut self, command: Command) {
         let Some(command) = self.change_comparison(command) else {
             return;
         };
@@ -428,6 +430,7 @@ impl Viewer {
         }
         let picture = super::Picture {
             scene,
+            document: entry.document,
             view: entry.camera.transform(&sight),
             settings: RenderSettings {
                 outline: self.settings.render.outline && entry.camera.view() != View::Canvas,

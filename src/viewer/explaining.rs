@@ -8,7 +8,7 @@ use super::probing::Target;
 use super::state::Finished;
 use super::{Effect, Picture, Viewer};
 use crate::inspect::{Detail, Explanation, Question};
-use crate::render::{RenderSettings, Subject};
+use crate::render::Subject;
 use crate::scene::PrimitiveKind;
 
 /// The state of explaining; a pixel that cannot be explained has `None`.
@@ -107,13 +107,7 @@ impl Viewer {
         };
         let file = self.current()?.label.clone();
         let own = &target.picture;
-        let other = self.other_settings().map(|settings| Picture {
-            settings: RenderSettings {
-                outline: settings.outline && own.settings.outline,
-                ..settings
-            },
-            ..own.clone()
-        });
+        let other = self.other_picture(own);
         Some(Asked { target, other, file })
     }
 

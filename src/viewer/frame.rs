@@ -13,6 +13,8 @@ use crate::scene::Scene;
 pub struct Picture {
     /// What is drawn.
     pub scene: Arc<Scene>,
+    /// Which document it is, and which reading of the file: one number for both dialects that A and B read it in.
+    pub document: u64,
     /// From where.
     pub view: ViewTransform,
     /// How.
@@ -79,7 +81,16 @@ impl Picture {
 
     /// Whether both show the same scene from the same place in the same size: then their pixels can be compared.
     pub(super) fn is_seen_as(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.scene, &other.scene) && self.view == other.view && self.size == other.size
+        Arc::ptr_eq(&self.scene, &other.scene) && self.is_in_place_of(other)
+    }
+
+    /// Whether both show the same document, perhaps in two dialects, from the same place in the same size.
+    pub(super) fn shows_document_of(&self, other: &Self) -> bool {
+        self.document == other.document && self.is_in_place_of(other)
+    }
+
+    fn is_in_place_of(&self, other: &Self) -> bool {
+        self.view == other.view && self.size == other.size
     }
 }
 

@@ -33,6 +33,10 @@ pub struct SceneEntry {
     pub label: String,
     /// What became of reading it.
     pub state: SceneState,
+    /// The same for B, where B has a dialect of its own.
+    pub(super) other_state: SceneState,
+    /// Counts what was read: other numbers, other files, or the file read again.
+    pub(super) document: u64,
     /// Where the user last looked.
     pub camera: Camera,
     /// A small picture of it, once it was asked for and drawn.
@@ -76,6 +80,8 @@ impl SceneEntry {
             source,
             label,
             state: SceneState::Unread,
+            other_state: SceneState::Unread,
+            document: 0,
             camera: Camera::default(),
             thumbnail: None,
             thumbnail_asked: false,
@@ -84,11 +90,7 @@ impl SceneEntry {
 
     /// The scene, once it was read; while it is read again, as it was before.
     pub fn scene(&self) -> Option<&Arc<Scene>> {
-        match &self.state {
-            SceneState::Ready { scene, .. } => Some(scene),
-            SceneState::Reading { before, .. } => before.as_ref(),
-            SceneState::Unread | SceneState::Failed { .. } => None,
-        }
+        self.state.scene()
     }
 
     /// Why it could not be read.
@@ -102,6 +104,32 @@ impl SceneEntry {
     /// Whether a thread is reading it.
     pub fn is_reading(&self) -> bool {
         matches!(self.state, SceneState::Reading { .. })
+    }
+
+    /// Whether a thread is reading it in B's dialect.
+    pub(super) fn is_read_for_b(&self) -> bool {
+        matches!(self.other_state, SceneState::Reading { .. })
+    }
+}
+
+impl SceneState {
+    /// The scene, once it was read; while it is read again, as it was before.
+    pub(super) fn scene(&self) -> Option<&Arc<Scene>> {
+        match self {
+            Self::Ready { scene, .. } => Some(scene),
+            Self::Reading { before, .. } => before.as_ref(),
+            Self::Unread | Self::Failed { .. } => None,
+        }
+    }
+
+    /// The choice of dialect that it is or was read with, if it is or was.
+    pub(super) fn dialect(&self) -> Option<DialectChoice> {
+        match self {
+            Self::Unread => None,
+            Self::Reading { dialect, .. } | Self::Ready { dialect, .. } | Self::Failed { dialect, .. } => {
+                Some(*dialect)
+            }
+        }
     }
 }
 

@@ -25,6 +25,7 @@ mod key;
 mod latest;
 mod library;
 mod messages;
+pub mod options;
 mod pointer;
 mod present;
 mod probing;

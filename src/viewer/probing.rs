@@ -83,6 +83,7 @@ impl Target {
             view,
             settings,
             size,
+            ..
         } = &self.picture;
         let samples = pixel_samples(scene, view, settings, *size, self.pixel).unwrap_or_default();
         let own = samples.iter().map(|sample| {

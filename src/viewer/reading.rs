@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::background::{AtEnd, Crew, Mailbox, guarded};
 use super::state::Finished;
-use super::{SceneSource, SceneState, Viewer};
+use super::{SceneEntry, SceneSource, SceneState, Viewer};
 use crate::geometry::{View, ViewTransform};
 use crate::raster::{Framebuffer, SampleRate};
 use crate::render::{RenderSettings, draw};
@@ -29,11 +29,38 @@ pub(super) struct Readers {
     pending_thumbnails: usize,
 }
 
+/// Whose dialect a scene is read in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    A,
+    B,
+}
+
+impl Side {
+    /// Who waits for a scene to be read in a dialect. A and B may have changed places since that began.
+    fn reading(entry: &SceneEntry, dialect: DialectChoice) -> Option<Self> {
+        let waits =
+            |state: &SceneState| matches!(state, SceneState::Reading { dialect: wanted, .. } if *wanted == dialect);
+        if waits(&entry.state) {
+            return Some(Self::A);
+        }
+        waits(&entry.other_state).then_some(Self::B)
+    }
+
+    fn state(self, entry: &mut SceneEntry) -> &mut SceneState {
+        match self {
+            Self::A => &mut entry.state,
+            Self::B => &mut entry.other_state,
+        }
+    }
+}
+
 /// Which scene, and for which list.
 #[derive(Clone, Debug)]
 struct Order {
     generation: u64,
     index: usize,
+    document: u64,
     source: SceneSource,
     dialect: DialectChoice,
     /// Set where it was read already.
@@ -45,6 +72,7 @@ struct Order {
 pub(super) struct ReadScene {
     generation: u64,
     index: usize,
+    document: u64,
     dialect: DialectChoice,
     result: Result<Arc<Scene>, String>,
 }
@@ -64,6 +92,7 @@ impl Readers {
             let Order {
                 generation,
                 index,
+                document,
                 dialect,
                 ..
             } = order;
@@ -71,6 +100,7 @@ impl Readers {
             mail.post(Finished::Read(ReadScene {
                 generation,
                 index,
+                document,
                 dialect,
                 result,
             }));
@@ -153,46 +183,83 @@ fn draw_thumbnail(scene: &Scene) -> Framebuffer {
 }
 
 impl Viewer {
-    /// Sees to it that the current scene is read in the dialect that is set.
+    /// Sees to it that the current scene is read in the dialect that is set, and in B's.
     pub(super) fn want_scene(&mut self) {
-        let dialect = self.settings.dialect;
+        let Some(entry) = self.scenes.get(self.current) else {
+            return;
+        };
+        match entry.state.dialect() {
+            None => self.read_current(),
+            Some(dialect) if dialect != self.settings.dialect => self.read_for(Side::A),
+            Some(_) => {}
+        }
+        self.let_go_of_old_scenes();
+        self.want_other_scene();
+    }
+
+    /// The same for B where it has a dialect of its own; else B shares A's scene.
+    fn want_other_scene(&mut self) {
+        let wanted = self.own_dialect_of_b();
         let Some(entry) = self.scenes.get_mut(self.current) else {
             return;
         };
-        let there = match &entry.state {
-            SceneState::Unread => false,
-            SceneState::Reading { dialect: read, .. }
-            | SceneState::Ready { dialect: read, .. }
-            | SceneState::Failed { dialect: read, .. } => *read == dialect,
-        };
-        if !there {
-            self.read_current();
+        match wanted {
+            None => entry.other_state = SceneState::Unread,
+            Some(dialect) if entry.other_state.dialect() != Some(dialect) => self.read_for(Side::B),
+            Some(_) => {}
         }
-        self.let_go_of_old_scenes();
     }
 
     /// Reads the current scene again.
     pub(super) fn read_current(&mut self) {
-        let (generation, index, dialect) = (self.generation, self.current, self.settings.dialect);
+        self.documents += 1;
+        let documents = self.documents;
+        let Some(entry) = self.scenes.get_mut(self.current) else {
+            return;
+        };
+        entry.document = documents;
+        self.read_for(Side::A);
+        if self.own_dialect_of_b().is_some() {
+            self.read_for(Side::B);
+        }
+    }
+
+    /// Reads the current scene for one side, in its dialect.
+    fn read_for(&mut self, side: Side) {
+        let (generation, index) = (self.generation, self.current);
+        let dialect = match side {
+            Side::A => self.settings.dialect,
+            Side::B => self.own_dialect_of_b().unwrap_or(self.settings.dialect),
+        };
         let Some(entry) = self.scenes.get_mut(index) else {
             return;
         };
-        let before = entry.scene().cloned();
-        entry.state = SceneState::Reading { dialect, before };
-        let dropped = self.readers.scenes.replace(Order {
+        let state = side.state(entry);
+        let before = state.scene().cloned();
+        *state = SceneState::Reading { dialect, before };
+        let order = Order {
             generation,
             index,
+            document: entry.document,
             source: entry.source.clone(),
             dialect,
             scene: None,
-        });
-        for order in dropped {
+        };
+        if side == Side::B {
+            self.readers.scenes.push(order);
+            return;
+        }
+        for order in self.readers.scenes.replace(order) {
             let forgotten = self
                 .scenes
                 .get_mut(order.index)
                 .filter(|_| order.generation == generation);
-            if let Some(entry) = forgotten.filter(|_| order.index != index) {
-                entry.state = SceneState::Unread;
+            let again = order.index == index && order.dialect == dialect;
+            if let Some((side, entry)) = forgotten
+                .filter(|_| !again)
+                .and_then(|entry| Some((Side::reading(entry, order.dialect)?, entry)))
+            {
+                *side.state(entry) = SceneState::Unread;
             }
         }
     }
@@ -203,20 +270,24 @@ impl Viewer {
         let Some(entry) = self.scenes.get_mut(read.index) else {
             return;
         };
-        let expected = matches!(&entry.state, SceneState::Reading { dialect, .. } if *dialect == read.dialect);
-        if read.generation != self.generation || !expected {
-            return;
-        }
         let dialect = read.dialect;
-        // A scene that was read again looks different in small too.
-        entry.thumbnail_asked &= entry.scene().is_none();
-        entry.state = match read.result {
+        let is_newest = read.generation == self.generation && read.document == entry.document;
+        let Some(side) = Side::reading(entry, dialect).filter(|_| is_newest) else {
+            return;
+        };
+        if side == Side::A {
+            // A scene that was read again looks different in small too.
+            entry.thumbnail_asked &= entry.scene().is_none();
+            if read.result.is_err() {
+                entry.thumbnail = None;
+            }
+        }
+        *side.state(entry) = match read.result {
             Ok(scene) => {
                 self.messages.forget_problems_of(&entry.source.address());
                 SceneState::Ready { scene, dialect }
             }
             Err(message) => {
-                entry.thumbnail = None;
                 if is_current {
                     self.messages.error(message.clone());
                 }
@@ -230,6 +301,11 @@ impl Viewer {
         let current = self.current;
         if self.recent.last() == Some(&current) {
             return;
+        }
+        for index in &self.recent {
+            if let Some(entry) = self.scenes.get_mut(*index) {
+                entry.other_state = SceneState::Unread;
+            }
         }
         self.recent.retain(|index| *index != current);
         self.recent.push(current);
@@ -253,6 +329,7 @@ impl Viewer {
         self.readers.thumbnails.push(Order {
             generation,
             index,
+            document: entry.document,
             source: entry.source.clone(),
             dialect,
             scene: entry.scene().cloned(),

@@ -59,6 +59,8 @@ pub struct Viewer {
     pub(super) current: usize,
     /// Grows when the list is replaced: results for an older list are dropped.
     pub(super) generation: u64,
+    /// Documents that were read so far.
+    pub(super) documents: u64,
     /// The scenes shown last, latest last: the others are let go to save memory.
     pub(super) recent: Vec<usize>,
     pub(super) start_view: View,
@@ -184,6 +186,7 @@ impl Viewer {
             scenes: Vec::new(),
             current: 0,
             generation: 0,
+            documents: 0,
             recent: Vec::new(),
             start_view: options.view,
             settings: options.settings,

@@ -33,6 +33,7 @@ mod scene_svg;
 mod scene_triangulation;
 mod support;
 mod viewer_comparison;
+mod viewer_dialects;
 mod viewer_inspector;
 mod viewer_random;
 mod viewer_replay;

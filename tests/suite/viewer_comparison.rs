@@ -703,7 +703,7 @@ fn comparison_with_what_is_no_picture_says_so() {
             message.text
         );
         assert!(message.text.contains("give a"), "the cure: {}", message.text);
-        let kept = matches!(session.viewer.other(), Some(Other::Settings(_)));
+        let kept = matches!(session.viewer.other(), Some(Other::Settings { .. }));
         assert!(kept, "B stays after {name}");
     }
 }

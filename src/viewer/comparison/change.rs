@@ -130,8 +130,14 @@ impl Viewer {
 
     fn swap_ab(&mut self) {
         match &mut self.comparison.other {
-            Some(Other::Settings(settings)) => {
-                std::mem::swap(&mut self.settings.render, settings);
+            Some(Other::Settings { render, dialect }) => {
+                std::mem::swap(&mut self.settings.render, render);
+                std::mem::swap(&mut self.settings.dialect, dialect);
+                if self.own_dialect_of_b().is_some()
+                    && let Some(entry) = self.scenes.get_mut(self.current)
+                {
+                    std::mem::swap(&mut entry.state, &mut entry.other_state);
+                }
                 self.swap_frames();
             }
             Some(Other::Truth | Other::Picture(_)) => {
@@ -149,11 +155,21 @@ impl Viewer {
         self.comparison.loading = None;
         match against {
             Against::Settings => {
-                self.set_other(Some(Other::Settings(self.settings.render)));
+                self.set_other(Some(self.settings_as_other()));
                 self.messages.done(
                     "B keeps these settings; now change A with its keys. R swaps both, W wipes, D shows the difference"
                         .to_owned(),
                 );
+            }
+            Against::Changed(changes) => {
+                let own = self.settings;
+                for change in changes {
+                    self.change_sampling(change);
+                }
+                let other = self.settings_as_other();
+                self.settings = own;
+                self.set_other(Some(other));
+                self.show_somehow();
             }
             Against::Truth => {
                 self.set_other(Some(Other::Truth));
@@ -164,6 +180,14 @@ impl Viewer {
                 self.set_other(None);
                 self.comparison.arrangement = Arrangement::Alone;
             }
+        }
+    }
+
+    /// A's settings, for B.
+    fn settings_as_other(&self) -> Other {
+        Other::Settings {
+            render: self.settings.render,
+            dialect: self.settings.dialect,
         }
     }
 

@@ -16,12 +16,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::Frame;
 use super::background::Mailbox;
 use super::drawing::Drawing;
 use super::state::Finished;
+use super::{Command, Frame};
 use crate::compare::{DifferencePaint, DifferenceStyle};
 use crate::render::RenderSettings;
+use crate::scene::DialectChoice;
 
 pub(super) use composite::{BEYOND, Composite};
 pub(super) use measuring::Measured;
@@ -39,8 +40,13 @@ const FLIP: Duration = Duration::from_millis(700);
 /// What A is compared with.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Other {
-    /// The same scene under these settings.
-    Settings(RenderSettings),
+    /// The same scene under these settings, read in this dialect.
+    Settings {
+        /// Sampling, rules, background.
+        render: RenderSettings,
+        /// Where it is not A's, the scene is read a second time.
+        dialect: DialectChoice,
+    },
     /// The same scene with 256 samples per pixel that read textures at level zero and are averaged in linear light; else as
     /// A.
     Truth,
@@ -53,6 +59,8 @@ pub enum Other {
 pub enum Against {
     /// A copy of the settings of this moment.
     Settings,
+    /// A copy of the settings of this moment, to which these commands are given.
+    Changed(Vec<Command>),
     /// The same scene with 256 samples per pixel in linear light.
     Truth,
     /// The PNG or JPEG in this file.

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::super::Viewer;
 use super::super::background::guarded;
+use super::super::{Viewer, options};
 use super::{Against, Arrangement, Other};
 use crate::compare;
 use crate::raster::Framebuffer;
@@ -133,10 +133,12 @@ impl Viewer {
 }
 
 impl Against {
-    /// What a person writes: `settings`, `truth`, `none`, or the path of a picture; nothing for no text.
+    /// What a person writes: `settings`, `truth`, `none`, settings such as `sample-rate 16, dialect svg`, or the path of a
+    /// picture; nothing for no text and for settings that are none.
     pub fn from_text(text: &str) -> Option<Self> {
         match text {
             "" => None,
+            text if options::are_meant(text) => options::parse(text).map(Self::Changed),
             "settings" => Some(Self::Settings),
             "truth" => Some(Self::Truth),
             "none" => Some(Self::Nothing),

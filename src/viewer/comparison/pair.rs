@@ -8,12 +8,13 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::super::drawing::{Changes, Drawing, DrawingId, Wish};
-use super::super::{Picture, Viewer};
+use super::super::{Picture, SceneState, Viewer};
 use super::measuring::SharedPicture;
 use super::{Arrangement, Comparison, Other};
 use crate::color::ResolveSpace;
 use crate::raster::{Framebuffer, SamplePattern, SampleRate};
 use crate::render::RenderSettings;
+use crate::scene::DialectChoice;
 use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling};
 
 /// The truth about a picture: as many samples as there can be, each of which reads the texture itself, averaged in linear
@@ -40,7 +41,7 @@ impl Comparison {
     pub(super) fn drawn_other(&self) -> Option<&Drawing> {
         self.drawing
             .as_ref()
-            .filter(|_| matches!(self.other, Some(Other::Settings(_) | Other::Truth)))
+            .filter(|_| matches!(self.other, Some(Other::Settings { .. } | Other::Truth)))
     }
 
     pub(in super::super) fn drawing_mut(&mut self) -> Option<&mut Drawing> {
@@ -78,10 +79,33 @@ impl Viewer {
     /// B's settings, where it is drawn.
     pub fn other_settings(&self) -> Option<RenderSettings> {
         match self.comparison.other.as_ref()? {
-            Other::Settings(settings) => Some(*settings),
+            Other::Settings { render, .. } => Some(*render),
             Other::Truth => Some(truth_of(&self.settings.render)),
             Other::Picture(_) => None,
         }
+    }
+
+    /// The dialect that B's scene is read in, where that is not A's.
+    pub fn own_dialect_of_b(&self) -> Option<DialectChoice> {
+        match self.comparison.other.as_ref()? {
+            Other::Settings { dialect, .. } => Some(*dialect).filter(|dialect| *dialect != self.settings.dialect),
+            Other::Truth | Other::Picture(_) => None,
+        }
+    }
+
+    /// What B shows where A shows `own`; `None` unless B is drawn, and while its scene is being read.
+    pub(in super::super) fn other_picture(&self, own: &Picture) -> Option<Picture> {
+        let settings = self.other_settings()?;
+        let scene = match self.own_dialect_of_b() {
+            None => Arc::clone(&own.scene),
+            Some(_) => Arc::clone(self.current()?.other_state.scene()?),
+        };
+        let outline = settings.outline && own.settings.outline;
+        Some(Picture {
+            settings: RenderSettings { outline, ..settings },
+            scene,
+            ..own.clone()
+        })
     }
 
     /// Both pictures on the screen, the one in front first; `None` while they cannot be compared.
@@ -119,7 +143,11 @@ impl Viewer {
             return (a.picture.size == size).then_some([&a.pixels, &picture.pixels]);
         }
         let b = self.comparison.drawing.as_ref()?.frame()?;
-        a.picture.is_seen_as(&b.picture).then_some([&a.pixels, &b.pixels])
+        let in_step = match self.own_dialect_of_b() {
+            None => a.picture.is_seen_as(&b.picture),
+            Some(_) => a.picture.shows_document_of(&b.picture),
+        };
+        in_step.then_some([&a.pixels, &b.pixels])
     }
 
     /// The same for threads.
@@ -172,10 +200,19 @@ impl Viewer {
 
     /// Wants B's frame beside A's `wish`.
     pub(in super::super) fn want_other(&mut self, wish: &Wish) {
-        let Some(settings) = self.other_settings() else {
+        let failed = self.own_dialect_of_b().is_some()
+            && matches!(
+                self.current().map(|entry| &entry.other_state),
+                Some(SceneState::Failed { .. })
+            );
+        if self.other_settings().is_none() || failed {
             if let Some(drawing) = &mut self.comparison.drawing {
                 drawing.close();
             }
+            return;
+        }
+        // While its scene is read, what is there of B stays.
+        let Some(picture) = self.other_picture(&wish.picture) else {
             return;
         };
         if !self.comparison.shows_both() {
@@ -205,13 +242,6 @@ impl Viewer {
                 }
             }
         }
-        let picture = Picture {
-            settings: RenderSettings {
-                outline: settings.outline && wish.picture.settings.outline,
-                ..settings
-            },
-            ..wish.picture.clone()
-        };
         if let Some(drawing) = &mut self.comparison.drawing {
             drawing.want(Wish::new(picture, wish.from, wish.focus));
         }

@@ -16,7 +16,7 @@ impl Viewer {
     /// A against B in one line, for the window's title; `None` without B.
     pub fn comparison_title(&self) -> Option<String> {
         let other = match self.other()? {
-            Other::Settings(_) => "B".to_owned(),
+            Other::Settings { .. } => "B".to_owned(),
             Other::Truth => "the truth".to_owned(),
             Other::Picture(picture) => picture.name(),
         };
@@ -39,8 +39,8 @@ impl Viewer {
             _ => format!("A: {}", a.join(", ")),
         };
         let b = match self.other()? {
-            Other::Settings(_) if b.is_empty() => "B".to_owned(),
-            Other::Settings(_) => format!("B: {}", b.join(", ")),
+            Other::Settings { .. } if b.is_empty() => "B".to_owned(),
+            Other::Settings { .. } => format!("B: {}", b.join(", ")),
             Other::Truth => "B: the truth, 256 samples".to_owned(),
             Other::Picture(picture) => format!("B: {}", picture.name()),
         };
@@ -61,7 +61,13 @@ impl Viewer {
     }
 
     fn differing_settings(&self) -> Option<Vec<Differing>> {
-        Some(differing(&self.settings.render, &self.other_settings()?))
+        let mut words = differing(&self.settings.render, &self.other_settings()?);
+        if let Some(dialect) = self.own_dialect_of_b() {
+            let names = [self.settings.dialect, dialect].map(|dialect| dialect.name().to_owned());
+            let [a, b] = names;
+            words.push(("dialect", a, b));
+        }
+        Some(words)
     }
 }
 

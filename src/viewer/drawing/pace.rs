@@ -157,6 +157,7 @@ mod tests {
         let view = View::Default.transform(scene.canvas, size);
         Picture {
             scene,
+            document: 0,
             view,
             settings,
             size,

@@ -67,6 +67,7 @@ impl Desk {
         };
         Picture {
             scene: Arc::clone(&self.scene),
+            document: 0,
             view: view.transform(self.scene.canvas, SIZE),
             settings: RenderSettings {
                 sample_rate: SampleRate::new(rate).expect("a square number"),

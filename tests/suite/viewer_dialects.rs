@@ -1,0 +1,150 @@
+//! A and B with a dialect each: the scene is read twice.
+
+use std::fs;
+
+use rasterscope::raster::Framebuffer;
+use rasterscope::render::{self, RenderSettings};
+use rasterscope::scene::{self, DialectChoice};
+use rasterscope::viewer::{Against, Arrangement, Command, Other, options};
+
+use crate::support::session::Session;
+
+/// The dialect `course` ignores the `viewBox`, so that all is half as large, and skips the circle.
+const BOXED: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100" viewBox="0 0 50 50">
+  <polygon fill="#1f6feb" points="5,5 45,9 20,45"/>
+  <circle fill="#edae49" cx="35" cy="35" r="9"/>
+</svg>"##;
+
+/// The session's only scene, read in `dialect` and drawn from where A is seen.
+fn drawn(session: &Session, dialect: DialectChoice, settings: &RenderSettings) -> Framebuffer {
+    let scene = scene::load(&session.folder.path().join("1.svg"), dialect).unwrap();
+    let entry = session.viewer.current().unwrap();
+    let size = session.viewer.frame_size();
+    let view = entry.camera.view().transform(entry.scene().unwrap().canvas, size);
+    let mut frame = Framebuffer::new(size[0], size[1]);
+    render::draw(&scene, &view, settings, &mut frame);
+    frame
+}
+
+fn assert_both(session: &Session, dialects: [DialectChoice; 2], when: &str) {
+    let viewer = &session.viewer;
+    let own = drawn(session, dialects[0], &viewer.settings().render);
+    assert!(*session.pixels() == own, "{when}: A in {:?}", dialects[0]);
+    let other = drawn(session, dialects[1], &viewer.other_settings().unwrap());
+    assert!(
+        *viewer.other_pixels().unwrap() == other,
+        "{when}: B in {:?}",
+        dialects[1]
+    );
+    assert!(own != other, "{when}: they differ");
+}
+
+#[test]
+fn dialects_of_a_and_b_are_their_own() {
+    use DialectChoice::{Auto, Course, Svg};
+    let mut session = Session::open(&[BOXED], [200, 160]);
+    session.run(Command::Compare(Against::Settings));
+    session.run(Command::Arrange(Arrangement::Wipe));
+    session.run(Command::SetDialect(Course));
+    assert_both(&session, [Course, Auto], "A reads anew, B does not");
+    let title = session.viewer.title();
+    assert!(title.contains("dialect course | auto"), "{title}");
+    session.run(Command::PanBy {
+        by: glam::dvec2(7.0, -3.0),
+    });
+    assert_both(&session, [Course, Auto], "they move together");
+    session.run(Command::SwapAb);
+    assert_eq!(
+        session.viewer.settings().dialect,
+        Auto,
+        "the dialect changes places, too"
+    );
+    assert_both(&session, [Auto, Course], "swapped");
+    session.run(Command::SetDialect(Svg));
+    assert_both(&session, [Svg, Course], "A's choice leaves B alone");
+    session.run(Command::Pin([100, 80]));
+    assert!(session.viewer.explanation().is_some(), "A is explained");
+    let [own, other] = [session.viewer.explanation(), session.viewer.other_explanation()].map(Option::unwrap);
+    assert_eq!(
+        [own.color, other.color],
+        [
+            session.pixels().rgba(100, 80).unwrap(),
+            session.viewer.other_pixels().unwrap().rgba(100, 80).unwrap()
+        ],
+        "each in its dialect"
+    );
+    let path = session.folder.path().join("1.svg");
+    fs::write(&path, BOXED.replace("#1f6feb", "#d1495b")).unwrap();
+    session.run(Command::Reload);
+    assert_both(&session, [Svg, Course], "both are read again");
+    session.run(Command::SetDialect(Course));
+    let same = session.pixels() == session.viewer.other_pixels().unwrap();
+    assert!(same, "one dialect, one scene");
+    assert!(
+        !session.viewer.title().contains("dialect"),
+        "{}",
+        session.viewer.title()
+    );
+    session.run(Command::Compare(Against::Truth));
+    session.run(Command::SetDialect(Svg));
+    assert_both(&session, [Svg, Svg], "the truth is that of A's dialect");
+}
+
+#[test]
+fn dialects_change_with_scenes() {
+    let mut session = Session::open(&[BOXED, BOXED], [120, 100]);
+    session.run(Command::Compare(Against::Settings));
+    session.run(Command::Arrange(Arrangement::SideBySide));
+    session.run(Command::SetDialect(DialectChoice::Course));
+    for index in [1, 0, 1] {
+        session.run(Command::Scene(index));
+        assert_both(&session, [DialectChoice::Course, DialectChoice::Auto], "the next scene");
+    }
+}
+
+#[test]
+fn settings_for_b_are_written_as_the_command_line_has_them() {
+    let mut session = Session::open(&[BOXED], [120, 100]);
+    let against = Against::from_text("sample-rate 16, dialect course").unwrap();
+    session.run(Command::Compare(against));
+    assert_eq!(session.viewer.settings().render.sample_rate.samples(), 1, "A stays");
+    assert_eq!(session.viewer.settings().dialect, DialectChoice::Auto, "in its dialect");
+    match session.viewer.other() {
+        Some(Other::Settings { render, dialect }) => {
+            assert_eq!(
+                (render.sample_rate.samples(), *dialect),
+                (16, DialectChoice::Course),
+                "B has them"
+            );
+        }
+        other => panic!("{other:?}"),
+    }
+    assert_eq!(session.viewer.arrangement(), Arrangement::Wipe, "to be seen at once");
+    assert_both(&session, [DialectChoice::Auto, DialectChoice::Course], "from the start");
+    for wrong in [
+        "sample-rate 0",
+        "sample-rate 4, nonsense 3",
+        "dialect",
+        "sample-rate 4,",
+        "rules other",
+    ] {
+        let settings = Against::from_text(wrong);
+        let is_path = wrong == "dialect";
+        assert_eq!(
+            matches!(settings, Some(Against::File(_))),
+            is_path,
+            "{wrong}: {settings:?}"
+        );
+        assert!(is_path || settings.is_none(), "{wrong}: {settings:?}");
+    }
+    let picture = Against::from_text("my picture, 2.png");
+    assert_eq!(
+        picture,
+        Some(Against::File("my picture, 2.png".into())),
+        "a path may have blanks and commas"
+    );
+    assert!(
+        options::option("lod-per").is_some() && options::option("size").is_none(),
+        "settings only"
+    );
+}

@@ -1,9 +1,11 @@
 //! Colours: straight and premultiplied, floats and bytes. The only file that knows gamma.
 
+mod colormap;
 mod resolve;
 
 use crate::rules::Rules;
 
+pub use colormap::Colormap;
 pub use resolve::{ResolveSpace, encoded};
 
 /// A straight (not premultiplied) sRGB-encoded colour; each channel and alpha in `0.0..=1.0`.
@@ -111,6 +113,12 @@ impl Premultiplied16 {
     /// The largest value of a channel.
     pub const ONE: u16 = 255 * Self::PER_BYTE;
 
+    /// What every fragment adds where fragments are counted: it lets all shine through that is below it. Red is the mean
+    /// number of fragments in quarters, as a byte.
+    pub const FRAGMENT: Self = Self([Self::PER_BYTE * Self::FRAGMENT_BYTES, 0, 0, 0]);
+    /// What one fragment is worth in a resolved byte where fragments are counted.
+    pub const FRAGMENT_BYTES: u16 = 4;
+
     /// From a straight colour. The course's rules first truncate the channels to bytes.
     pub fn from_straight(color: Rgba, rules: Rules) -> Self {
         let alpha = color.a.clamp(0.0, 1.0);
@@ -161,7 +169,7 @@ impl Premultiplied16 {
         let rest = u32::from(Self::ONE - self.0[3]);
         let mixed = std::array::from_fn(|i| {
             let sum = u32::from(self.0[i]) + div_one(u32::from(below.0[i]) * rest);
-            u16::try_from(sum).unwrap_or(u16::MAX)
+            u16::try_from(sum).unwrap_or(Self::ONE).min(Self::ONE)
         });
         match rules {
             Rules::Standard => Self(mixed),
@@ -182,9 +190,9 @@ impl Premultiplied16 {
         let kept = !(step - 1);
         for color in below {
             for (channel, above) in color.0.iter_mut().zip(above) {
-                // Neither operand exceeds `ONE`, so that the sum is a little above it at most: it fits 17 bits.
+                // Neither operand exceeds `ONE`, so that the sum fits 17 bits.
                 let sum = above + div_one(u32::from(*channel) * rest);
-                *channel = low_quarter(sum.min(u32::from(u16::MAX))) & kept;
+                *channel = low_quarter(sum.min(u32::from(Self::ONE))) & kept;
             }
         }
     }

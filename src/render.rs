@@ -1,7 +1,9 @@
 //! The only place where scene meets raster: transforms a scene's primitives and draws them into a frame.
 
+mod legend;
 mod regions;
 mod replay;
+mod visualisation;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -16,11 +18,14 @@ use crate::raster::{
     SampleRate,
 };
 use crate::rules::Rules;
-use crate::scene::{Paint, PrimitiveKind, Scene};
+use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};
 use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, SamplingSettings};
 
+pub use legend::{Legend, LegendKey};
 pub use regions::{Subject, draw_regions, refine};
 pub use replay::{Explainer, Neighbourhood, replay};
+pub use visualisation::Visualisation;
+use visualisation::Visualiser;
 
 /// Everything about a picture that is neither scene nor view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +46,8 @@ pub struct RenderSettings {
     pub rules: Rules,
     /// In which values the samples of a pixel are averaged.
     pub resolve: ResolveSpace,
+    /// What the pixels show.
+    pub visualisation: Visualisation,
     /// What lies below the first primitive.
     pub background: Rgba,
     /// Whether a one-pixel black outline runs just outside the canvas.
@@ -58,6 +65,7 @@ impl Default for RenderSettings {
             detail: LevelOfDetail::default(),
             rules: Rules::default(),
             resolve: ResolveSpace::default(),
+            visualisation: Visualisation::default(),
             background: Rgba::WHITE,
             outline: true,
         }
@@ -119,7 +127,7 @@ pub fn draw_cancellable(
 ) -> Option<FrameStats> {
     let start = Instant::now();
     let subject = Subject { scene, view, settings };
-    let list = display_list(&subject, [frame.width(), frame.height()], |_| true);
+    let list = display_list(&subject, [frame.width(), frame.height()]);
     let transform = start.elapsed();
     let times = list.rasterize(frame, &cancel.0)?;
     Some(FrameStats {
@@ -135,8 +143,51 @@ pub fn draw_cancellable(
 /// Fewest and most primitives that one thread transforms at a time.
 const CHUNK: (usize, usize) = (1024, 65_536);
 
-/// Transforms those primitives of a scene that are `wanted` to screen space, in parallel.
-fn display_list<'a>(
+/// What paints a frame of `size` pixels: the picture, or what it shows instead.
+fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
+    let Subject { scene, view, settings } = *subject;
+    let kind = settings.visualisation;
+    if kind == Visualisation::Color {
+        return picture_list(subject, size, |_| true);
+    }
+    let mut raster = raster_settings(settings);
+    Visualiser::change(kind, &mut raster);
+    let context = ListContext::new(size, &raster);
+    let screen = Screen {
+        view,
+        rules: settings.rules,
+    };
+    let visualiser = Visualiser::new(kind, scene, raster.sampling);
+    let mut list = chunks(scene, |index, primitives| {
+        let mut builder = visualiser.prepare(ChunkBuilder::new(&context, primitives.len()));
+        for primitive in (index..).take(primitives.len()) {
+            builder.set_source(number(primitive));
+            visualiser.add(&mut builder, &screen, primitive);
+        }
+        builder.finish()
+    });
+    if visualiser.has_edges() {
+        let mut veil = ChunkBuilder::new(&context, 2);
+        Visualiser::add_veil(&mut veil, size, raster.background);
+        list.push(veil.finish());
+        list.extend(chunks(scene, |index, primitives| {
+            let mut builder = ChunkBuilder::new(&context, primitives.len());
+            for primitive in (index..).take(primitives.len()) {
+                builder.set_source(number(primitive));
+                visualiser.add_edges(&mut builder, &screen, primitive);
+            }
+            builder.finish()
+        }));
+    }
+    if kind.has_outline() {
+        list.extend(outline(scene, &context, &screen, settings));
+    }
+    DisplayList::new(context, raster, list, visualiser.textures())
+}
+
+/// Transforms those primitives of a scene that are `wanted` to screen space, in parallel. It is the picture that they
+/// paint, whatever the settings show instead.
+fn picture_list<'a>(
     subject: &Subject<'a>,
     size: [u32; 2],
     wanted: impl Fn(&PrimitiveKind) -> bool + Sync,
@@ -148,37 +199,38 @@ fn display_list<'a>(
         view,
         rules: settings.rules,
     };
-    let length = (scene.primitives.len() / 64).clamp(CHUNK.0, CHUNK.1);
-    let mut chunks: Vec<Chunk> = scene
-        .primitives
-        .par_chunks(length)
-        .enumerate()
-        .map(|(i, primitives)| {
-            let mut builder = ChunkBuilder::new(&context, primitives.len());
-            for (source, primitive) in (i * length..).zip(primitives) {
-                if !wanted(&primitive.kind) {
-                    continue;
-                }
+    let mut list = chunks(scene, |index, primitives| {
+        let mut builder = ChunkBuilder::new(&context, primitives.len());
+        for (source, primitive) in (index..).zip(primitives) {
+            if wanted(&primitive.kind) {
                 builder.set_source(number(source));
                 add(&mut builder, &screen, &primitive.kind);
             }
-            builder.finish()
-        })
-        .collect();
-    if settings.outline {
-        let mut builder = ChunkBuilder::new(&context, 4);
+        }
+        builder.finish()
+    });
+    list.extend(outline(scene, &context, &screen, settings));
+    let textures = scene.textures.iter().map(AsRef::as_ref).collect();
+    DisplayList::new(context, raster, list, textures)
+}
+
+/// What `make` makes of each part of a scene, in painter's order: of the number of its first primitive and its primitives.
+fn chunks(scene: &Scene, make: impl Fn(usize, &[Primitive]) -> Chunk + Sync) -> Vec<Chunk> {
+    let length = (scene.primitives.len() / 64).clamp(CHUNK.0, CHUNK.1);
+    let parts = scene.primitives.par_chunks(length).enumerate();
+    parts.map(|(i, primitives)| make(i * length, primitives)).collect()
+}
+
+/// The outline of the canvas, where one is wanted.
+fn outline(scene: &Scene, context: &ListContext, screen: &Screen<'_>, settings: &RenderSettings) -> Option<Chunk> {
+    settings.outline.then(|| {
+        let mut builder = ChunkBuilder::new(context, 4);
         builder.set_source(number(scene.primitives.len()));
         for ends in screen.outline(scene.canvas) {
             builder.hairline(ends, Rgba::BLACK);
         }
-        chunks.push(builder.finish());
-    }
-    DisplayList::new(
-        context,
-        raster,
-        chunks,
-        scene.textures.iter().map(AsRef::as_ref).collect(),
-    )
+        builder.finish()
+    })
 }
 
 /// What the settings mean to the rasterizer.
@@ -196,6 +248,7 @@ fn raster_settings(settings: &RenderSettings) -> RasterSettings {
         },
         space: settings.resolve,
         background: settings.background,
+        palette: None,
     }
 }
 

@@ -15,7 +15,7 @@ use crate::color::{ResolveSpace, Rgba};
 use crate::compare::Measure;
 use crate::geometry::View;
 use crate::raster::{SamplePattern, SampleRate};
-use crate::render::RenderSettings;
+use crate::render::{RenderSettings, Visualisation};
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
@@ -274,6 +274,9 @@ pub(super) struct SamplingOptions {
     /// In which values the samples of a pixel are averaged
     #[arg(long, default_value = ResolveSpace::default().name(), value_enum)]
     pub(super) resolve: ResolveSpace,
+    /// What the pixels show; all but color come with a legend
+    #[arg(long, default_value = Visualisation::default().name(), value_enum, value_name = "WHAT")]
+    pub(super) visualise: Visualisation,
     /// Whose conventions decide edges, texels and bytes
     #[arg(long, default_value = Rules::default().name(), value_enum)]
     pub(super) rules: Rules,
@@ -301,6 +304,7 @@ impl SamplingOptions {
             },
             rules: self.rules,
             resolve: self.resolve,
+            visualisation: self.visualise,
             background: self.background,
             outline: view != View::Canvas,
         }
@@ -324,6 +328,7 @@ macro_rules! named_values {
 
 named_values!(
     ResolveSpace,
+    Visualisation,
     SamplePattern,
     PixelSampling,
     LevelSampling,
@@ -493,7 +498,7 @@ mod tests {
     fn arguments_of_render_become_settings() {
         let line = "rasterscope render a.svg -o b.png --size 300x200 --sample-rate 16 --pixel-sampling bilinear \
                     --pattern jittered-same --level-sampling linear --anisotropy 16 --lod-bias -1.5 --lod-level 2.25 --lod-per sample \
-                    --view=-5,10,2.5,-90 --background #ff8000 --dialect course --rules course --resolve linear --threads 2";
+                    --view=-5,10,2.5,-90 --background #ff8000 --dialect course --rules course --resolve linear --visualise mip --threads 2";
         let Ok(Arguments {
             verb: Verb::Render(options),
         }) = parsed(&line.split_whitespace().collect::<Vec<_>>().join(" "))
@@ -520,6 +525,7 @@ mod tests {
         );
         assert_eq!(settings.rules, Rules::Course, "rules");
         assert_eq!(settings.resolve, ResolveSpace::Linear, "resolve");
+        assert_eq!(settings.visualisation, Visualisation::MipLevels, "visualisation");
         assert!(settings.outline, "a free view has the outline");
         assert_eq!(options.picture.framing.threads, Some(2), "threads");
     }
@@ -537,6 +543,7 @@ mod tests {
             "rasterscope render a.svg -o b.png --sample-rate 257 --pattern r2",
             "rasterscope render a.svg -o b.png --pattern poisson",
             "rasterscope render a.svg -o b.png --resolve gamma",
+            "rasterscope render a.svg -o b.png --visualise depth",
             "rasterscope render a.svg -o b.png --size 0x5",
             "rasterscope render a.svg -o b.png --background red",
             "rasterscope render a.svg -o b.png --background #ff80é",

@@ -6,7 +6,6 @@
 //! are stored: straight sRGB-encoded bytes.
 
 mod cause;
-mod colormap;
 mod flip;
 mod hypotheses;
 mod levels;
@@ -19,7 +18,6 @@ mod ssim;
 mod tiles;
 
 pub use cause::Cause;
-pub use colormap::Colormap;
 pub use hypotheses::{Guess, guess};
 pub use levels::{Largest, Levels};
 pub use pair::{Pair, SizeMismatch};

@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::{Colormap, Pair};
+use super::Pair;
+use crate::color::Colormap;
 use crate::raster::Framebuffer;
 
 /// How the difference of a pixel is measured. A is the reference; channels run from 0 to 1. The pixel's number is that

@@ -492,6 +492,7 @@ mod tests {
             },
             space: ResolveSpace::Stored,
             background: Rgba::WHITE,
+            palette: None,
         }
     }
 

@@ -5,6 +5,8 @@ use glam::DVec2;
 use super::display_list::{Chunk, Fill, LayerMark, ListContext, Op, Paint, ScreenTriangle, Stamp};
 use super::hairline::Hairline;
 use super::outline::{OutlineBuilder, RowScanner, SpanStore};
+use super::planes::Planes;
+use super::shade::uv_map;
 use super::small::{SampleBox, SmallCoverage};
 use super::tile::PixelRect;
 use crate::color::{Premultiplied16, Rgba, unit_to_16};
@@ -12,6 +14,7 @@ use crate::geometry::Polygon;
 use crate::geometry::clip::{ClipVertex, ClippedTriangle, in_guard};
 use crate::geometry::edge::doubled_area;
 use crate::geometry::subpixel::floor_to_i32;
+use crate::texture::Footprint;
 
 /// Fills one chunk.
 #[derive(Debug)]
@@ -27,6 +30,8 @@ pub struct ChunkBuilder<'a> {
     scanner: (RowScanner, SpanStore),
     /// Whether small shapes become stamps.
     stamps: bool,
+    /// Whether fragments are counted rather than painted.
+    counts: bool,
 }
 
 impl<'a> ChunkBuilder<'a> {
@@ -46,7 +51,17 @@ impl<'a> ChunkBuilder<'a> {
             scanner: Default::default(),
             // A few points of a finer lattice need not be samples.
             stamps: context.is_grid(),
+            counts: false,
         }
+    }
+
+    /// Whatever its fill, every fragment adds [`Premultiplied16::FRAGMENT`] to its sample.
+    #[must_use]
+    pub fn with_counts(mut self) -> Self {
+        self.counts = true;
+        self.color = (Rgba::TRANSPARENT, Premultiplied16::FRAGMENT);
+        self.chunk.translucent = true;
+        self
     }
 
     /// Keeps small triangles and polygons as they are, rather than reduced to the samples that they cover.
@@ -76,14 +91,34 @@ impl<'a> ChunkBuilder<'a> {
         }
     }
 
+    /// Adds a triangle in the one colour that `color` gives to the change of `(u, v)` per pixel with which a texture
+    /// would be read there.
+    pub fn measured_triangle(&mut self, points: [DVec2; 3], uv: [[f32; 2]; 3], color: &dyn Fn(&Footprint) -> Rgba) {
+        let (texture, opacity) = (0, 1.0);
+        let fill = Fill::Texture { texture, uv, opacity };
+        if points.iter().all(|point| in_guard(*point)) {
+            self.measured(points, &fill, color);
+        } else if self.may_show(points) {
+            each_piece(points, &fill, |points, fill| self.measured(points, fill, color));
+        }
+    }
+
+    fn measured(&mut self, points: [DVec2; 3], fill: &Fill, color: &dyn Fn(&Footprint) -> Rgba) {
+        if let Fill::Texture { uv, .. } = *fill {
+            let grid = self.context.grid;
+            let corners = points.map(|point| grid.snap(point));
+            if doubled_area(corners) != 0 {
+                let footprint = uv_map(grid, &Planes::new(grid, &corners, uv)).footprint();
+                self.snapped(points, &Fill::Solid(color(&footprint)));
+            }
+        }
+    }
+
     /// Adds a triangle that reaches beyond the guard band.
     #[cold]
     fn clipped(&mut self, points: [DVec2; 3], fill: &Fill) {
-        if !points.iter().all(|point| point.is_finite()) || !self.may_show(points) {
-            return;
-        }
-        for corners in ClippedTriangle::new(points).triangles() {
-            self.snapped(corners.map(|corner| corner.point), &fill.at(&corners));
+        if self.may_show(points) {
+            each_piece(points, fill, |points, fill| self.snapped(points, fill));
         }
     }
 
@@ -163,8 +198,11 @@ impl<'a> ChunkBuilder<'a> {
         self.chunk.sources.push(self.source);
     }
 
-    /// Whether a triangle's box touches the frame at all.
+    /// Whether a triangle is finite and its box touches the frame at all.
     fn may_show(&self, [a, b, c]: [DVec2; 3]) -> bool {
+        if ![a, b, c].iter().all(|point| point.is_finite()) {
+            return false;
+        }
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         let frame = DVec2::new(f64::from(self.context.size[0]), f64::from(self.context.size[1]));
         high.cmpge(DVec2::ZERO).all() && low.cmple(frame).all()
@@ -221,7 +259,7 @@ impl<'a> ChunkBuilder<'a> {
     /// A colour as it is stored; the same one twice costs nothing.
     #[inline]
     fn color(&mut self, color: Rgba) -> Premultiplied16 {
-        if color != self.color.0 {
+        if color != self.color.0 && !self.counts {
             self.color = (color, Premultiplied16::from_straight(color, self.context.rules));
             self.chunk.translucent |= !self.color.1.is_opaque();
         }
@@ -232,6 +270,7 @@ impl<'a> ChunkBuilder<'a> {
     fn paint(&mut self, fill: &Fill) -> u32 {
         let paint = match *fill {
             Fill::Solid(color) => Paint::Solid(self.color(color)),
+            Fill::Vertex(_) | Fill::Texture { .. } if self.counts => Paint::Solid(Premultiplied16::FRAGMENT),
             Fill::Vertex(colors) => Paint::Vertex(colors.map(|color| [color.r, color.g, color.b, color.a])),
             Fill::Texture { texture, uv, opacity } => Paint::Texture { texture, uv, opacity },
         };
@@ -247,6 +286,13 @@ impl<'a> ChunkBuilder<'a> {
 /// adds at most five triangles.
 fn index(value: usize) -> u32 {
     u32::try_from(value).unwrap_or(u32::MAX)
+}
+
+/// The parts of a triangle that lie inside the guard band, each with its part of the fill.
+fn each_piece(points: [DVec2; 3], fill: &Fill, mut add: impl FnMut([DVec2; 3], &Fill)) {
+    for corners in ClippedTriangle::new(points).triangles() {
+        add(corners.map(|corner| corner.point), &fill.at(&corners));
+    }
 }
 
 impl Fill {

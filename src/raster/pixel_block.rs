@@ -40,6 +40,15 @@ impl<'p> PixelBlock<'p> {
         self.pixels[usize::from(y) * self.stride + usize::from(x)] = value;
     }
 
+    /// Changes every pixel.
+    pub(crate) fn map(&mut self, change: impl Fn(u32) -> u32) {
+        for y in self.rect.y.start..self.rect.y.end {
+            for pixel in self.line(y) {
+                *pixel = change(*pixel);
+            }
+        }
+    }
+
     /// Gives all pixels one value.
     pub(crate) fn fill(&mut self, pixel: u32) {
         for y in self.rect.y.start..self.rect.y.end {

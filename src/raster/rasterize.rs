@@ -40,6 +40,8 @@ pub struct RasterSettings {
     pub space: ResolveSpace,
     /// What lies below the first primitive.
     pub background: Rgba,
+    /// Where it is given, the red of each resolved pixel is a number and becomes the colour of that index.
+    pub palette: Option<&'static [u32; 256]>,
 }
 
 /// A display list ready to be drawn.
@@ -373,6 +375,16 @@ impl<'a> DisplayList<'a> {
         tile: usize,
         block: &mut PixelBlock<'_>,
     ) {
+        self.paint_tile(pass, painters, tile, block);
+        if let Some(palette) = self.settings.palette {
+            block.map(|pixel| {
+                let [_, red, ..] = pixel.to_be_bytes();
+                palette[usize::from(red)]
+            });
+        }
+    }
+
+    fn paint_tile<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, tile: usize, block: &mut PixelBlock<'_>) {
         let background = self.background();
         let rules = self.settings.sampling.rules;
         if pass.bins.iter().all(|bins| bins.of_tile(tile).is_empty()) {
@@ -489,6 +501,7 @@ mod tests {
                 sampling,
                 space: *u.choose(&ResolveSpace::ALL)?,
                 background: Rgba::WHITE,
+                palette: None,
             };
             let seed: Vec<u8> = (0..1500).map(|_| u.arbitrary()).collect::<Result<_>>()?;
             let draw = |tiles: TileLayout| -> Result<Framebuffer> {

@@ -291,6 +291,7 @@ mod tests {
             },
             space: ResolveSpace::Stored,
             background: Rgba::WHITE,
+            palette: None,
         }
     }
 

@@ -59,7 +59,7 @@ fn tiles(
     publish: &(impl Fn(Region, &[u32]) + Sync),
 ) -> Option<FrameStats> {
     let start = Instant::now();
-    let list = display_list(subject, size, |_| true);
+    let list = display_list(subject, size);
     let transform = start.elapsed();
     if cancel.is_cancelled() {
         return None;

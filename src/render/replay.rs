@@ -3,7 +3,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::{Screen, Subject, add, display_list, number, raster_settings};
+use super::{Screen, Subject, add, number, picture_list, raster_settings};
 use crate::color::Rgba;
 use crate::geometry::area_in_pixel;
 use crate::raster::{
@@ -14,7 +14,8 @@ use crate::scene::{Paint, Primitive, PrimitiveKind};
 /// Draws pixel `(x, y)` of a frame of `size` pixels again, by the same code as the frame; `None` outside the frame.
 ///
 /// Sources are indices into [`crate::scene::Scene::primitives`], or the number of primitives for the canvas outline. Only
-/// ops that touch samples of the pixel are told, and the layers that hold any of them.
+/// ops that touch samples of the pixel are told, and the layers that hold any of them. It is the picture that is told of,
+/// whatever the settings show instead.
 pub fn replay(subject: &Subject<'_>, size: [u32; 2], [x, y]: [u32; 2]) -> Option<PixelReplay> {
     let pixel = Region {
         x,
@@ -48,7 +49,7 @@ impl<'a> Neighbourhood<'a> {
         let near = [low - SNAP, low + size_of + SNAP];
         let wanted = |kind: &PrimitiveKind| bounds(&screen, kind).is_none_or(|bounds| touch(bounds, near));
         Self {
-            list: display_list(&subject, size, wanted),
+            list: picture_list(&subject, size, wanted),
             subject,
             size,
             region,

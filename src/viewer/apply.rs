@@ -11,7 +11,7 @@ use super::{Camera, Command, Effect, PixelRect, PixelZoom, Sight, Theme, Viewer,
 use crate::color::ResolveSpace;
 use crate::geometry::View;
 use crate::raster::{Region, SamplePattern, SampleRate};
-use crate::render::RenderSettings;
+use crate::render::{RenderSettings, Visualisation};
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{Derivatives, FixedLevel, LevelSampling, PixelSampling};
@@ -244,6 +244,15 @@ impl Viewer {
             Command::SetDerivatives(derivatives) => render.detail.derivatives = derivatives,
             Command::NextResolveSpace => render.resolve = next_of(&ResolveSpace::ALL, render.resolve),
             Command::SetResolveSpace(space) => render.resolve = space,
+            Command::NextVisualisation => {
+                render.visualisation = next_of(&Visualisation::ALL, render.visualisation);
+            }
+            Command::PreviousVisualisation => {
+                let mut all = Visualisation::ALL;
+                all.reverse();
+                render.visualisation = next_of(&all, render.visualisation);
+            }
+            Command::SetVisualisation(visualisation) => render.visualisation = visualisation,
             Command::NextRules => render.rules = next_of(&Rules::ALL, render.rules),
             Command::SetRules(rules) => render.rules = rules,
             Command::SetBackground(color) => render.background = color,

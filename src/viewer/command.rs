@@ -13,6 +13,7 @@ use crate::compare::Measure;
 use crate::figure::PixelRect;
 use crate::inspect::TexelPlace;
 use crate::raster::{SamplePattern, SampleRate};
+use crate::render::Visualisation;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
@@ -114,6 +115,12 @@ pub enum Command {
     NextResolveSpace,
     /// Averages samples in these values.
     SetResolveSpace(ResolveSpace),
+    /// What the pixels show next, round and round.
+    NextVisualisation,
+    /// What they showed before that.
+    PreviousVisualisation,
+    /// Shows this.
+    SetVisualisation(Visualisation),
     /// The next rules, round and round.
     NextRules,
     /// These rules.

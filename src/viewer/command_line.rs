@@ -151,6 +151,8 @@ impl PictureSpec {
         let dialect = self.dialect;
         option(dialect != DialectChoice::default(), "dialect", dialect.name());
         option(render.resolve != default.resolve, "resolve", render.resolve.name());
+        let shown = render.visualisation;
+        option(shown != default.visualisation, "visualise", shown.name());
         option(render.rules != default.rules, "rules", render.rules.name());
         options
     }

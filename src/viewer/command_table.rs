@@ -220,6 +220,24 @@ pub(super) static TABLE: &[CommandSpec] = &[
     .run(&Command::NextResolveSpace)
     .argument(typed::RESOLVE),
     spec(
+        "visualise",
+        "Visualisation",
+        "Shows the next of colour, coverage, overdraw, primitives, wireframe, barycentric weights, (u, v), level of detail, mip levels, anisotropy",
+        Group::Sampling,
+    )
+    .more("Shapes and samples stay those of the picture, only what they are painted with changes; the legend says how")
+    .keys(&[Chord::char('v')])
+    .run(&Command::NextVisualisation)
+    .argument(typed::VISUALISE),
+    spec(
+        "visualise-back",
+        "Previous visualisation",
+        "Shows the visualisation before this one",
+        Group::Sampling,
+    )
+    .keys(&[shift(Key::Char('v'))])
+    .run(&Command::PreviousVisualisation),
+    spec(
         "rules",
         "Rules",
         "Switches between the standard rules of the picture and the course's",

@@ -123,13 +123,14 @@ impl Toggle {
     }
 }
 
-/// Where samples lie and how they are averaged, where that is not the default: few words each, such as `pattern halton` or
-/// `resolve linear`.
+/// Where samples lie, how they are averaged and what they show, where that is not the default: few words each, such as
+/// `pattern halton` or `resolve linear`.
 pub fn sample_words(render: &RenderSettings) -> Vec<String> {
     let default = RenderSettings::default();
     let words = [
         (render.pattern != default.pattern).then(|| format!("pattern {}", render.pattern.name())),
         (render.resolve != default.resolve).then(|| format!("resolve {}", render.resolve.name())),
+        (render.visualisation != default.visualisation).then(|| format!("visualise {}", render.visualisation.name())),
     ];
     words.into_iter().flatten().collect()
 }
@@ -159,6 +160,7 @@ pub(super) fn settings_words(render: &RenderSettings) -> Vec<(&'static str, Stri
         detail,
         rules,
         resolve,
+        visualisation,
         background,
         outline: _,
     } = render;
@@ -178,6 +180,7 @@ pub(super) fn settings_words(render: &RenderSettings) -> Vec<(&'static str, Stri
         ("bias", format!("{:+}", bias.levels())),
         ("level per", derivatives.name().to_owned()),
         ("resolve", resolve.name().to_owned()),
+        ("visualise", visualisation.name().to_owned()),
         ("rules", rules.name().to_owned()),
         ("background", background_name(*background)),
     ]

@@ -6,6 +6,7 @@ use super::{Against, Arrangement, Command, PixelZoom, Theme, Toggle, ViewNumbers
 use crate::color::{ResolveSpace, Rgba};
 use crate::compare::Measure;
 use crate::raster::{SamplePattern, SampleRate};
+use crate::render::Visualisation;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
@@ -102,6 +103,10 @@ pub(super) const LOD_PER: Argument = argument("pixel|sample", |text| {
 pub(super) const RESOLVE: Argument = argument("stored|linear", |text| {
     named(&ResolveSpace::ALL, ResolveSpace::name, text).map(Command::SetResolveSpace)
 });
+pub(super) const VISUALISE: Argument = argument(
+    "color|coverage|overdraw|primitive|wireframe|barycentric|uv|lod|mip|anisotropy",
+    |text| named(&Visualisation::ALL, Visualisation::name, text).map(Command::SetVisualisation),
+);
 pub(super) const RULES: Argument = argument("standard|course", |text| {
     named(&Rules::ALL, Rules::name, text).map(Command::SetRules)
 });

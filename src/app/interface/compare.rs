@@ -4,7 +4,8 @@ use egui::{Button, DragValue, Grid, Layout, RichText, Sense, Ui, pos2, vec2};
 
 use super::controls::{choice, command_button, heading, row, tip};
 use super::look::CONTROL;
-use crate::compare::{Colormap, Gain, Measure};
+use crate::color::Colormap;
+use crate::compare::{Gain, Measure};
 use crate::viewer::{Action, Arrangement, Command, Measures, Other, Toggle, Viewer, commands};
 
 /// Height of the legend's colours, in points.

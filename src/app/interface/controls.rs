@@ -1,6 +1,6 @@
 //! The few controls that the panels are built of; each has an accessible name and says its key in its tool tip.
 
-use egui::{Align, Button, Layout, Response, RichText, Ui, vec2};
+use egui::{Align, Button, ComboBox, Layout, Response, RichText, Ui, vec2};
 
 use super::look::CONTROL;
 use crate::viewer::{CommandSpec, commands};
@@ -58,6 +58,33 @@ pub(super) fn choice<T: Copy + PartialEq>(
             }
         }
     });
+    chosen
+}
+
+/// One of more values than there is room for buttons. `name` is for screen readers and identifies the control.
+pub(super) fn drop_down<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    tip: &str,
+    current: T,
+    values: &[(T, &str)],
+) -> Option<T> {
+    let shown = values.iter().find(|(value, _)| *value == current);
+    let mut chosen = None;
+    ComboBox::from_id_salt(name)
+        .width(ui.available_width())
+        .selected_text(shown.map_or("", |(_, text)| text))
+        .height(f32::INFINITY)
+        .show_ui(ui, |ui| {
+            for (value, text) in values {
+                if ui.selectable_label(*value == current, *text).clicked() && *value != current {
+                    chosen = Some(*value);
+                }
+            }
+        })
+        .response
+        .on_hover_text(tip)
+        .accessible_name(name.to_owned());
     chosen
 }
 

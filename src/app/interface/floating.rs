@@ -7,6 +7,7 @@ use egui::{Align2, Area, Color32, FontId, Frame, Id, Order, Rect, RichText, Sens
 
 use crate::color::ResolveSpace;
 use crate::raster::SamplePattern;
+use crate::render::Visualisation;
 use crate::viewer::{Arrangement, Command, Message, MessageKind, PixelRect, Viewer, texture_words};
 
 /// Seconds that a message stays.
@@ -75,6 +76,9 @@ fn overlay_words(viewer: &Viewer) -> Vec<String> {
     }
     if render.resolve != ResolveSpace::default() {
         lines.push(format!("resolve: {}", render.resolve.name()));
+    }
+    if render.visualisation != Visualisation::default() {
+        lines.push(format!("visualise: {}", render.visualisation.name()));
     }
     if render.rules != crate::rules::Rules::default() {
         lines.push(format!("rules: {}", render.rules.name()));

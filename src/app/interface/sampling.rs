@@ -2,10 +2,11 @@
 
 use egui::Ui;
 
-use super::controls::{choice, heading, row, tip};
+use super::controls::{choice, drop_down, heading, row, tip};
 use super::detail;
 use crate::color::ResolveSpace;
 use crate::raster::{SamplePattern, SampleRate};
+use crate::render::Visualisation;
 use crate::rules::Rules;
 use crate::scene::{Dialect, DialectChoice};
 use crate::texture::{LevelSampling, PixelSampling};
@@ -53,6 +54,11 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let values = ResolveSpace::ALL.map(|value| (value, value.name().to_owned()));
         let chosen = choice(ui, "Resolve space", &tip("resolve"), render.resolve, &values);
         commands.extend(chosen.map(Command::SetResolveSpace));
+    });
+    row(ui, "Show", |ui| {
+        let values = Visualisation::ALL.map(|value| (value, value.name()));
+        let chosen = drop_down(ui, "Visualisation", &tip("visualise"), render.visualisation, &values);
+        commands.extend(chosen.map(Command::SetVisualisation));
     });
     row(ui, "Rules", |ui| {
         let values = Rules::ALL.map(|value| (value, value.name().to_owned()));

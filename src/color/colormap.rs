@@ -60,7 +60,7 @@ impl Colormap {
         let fraction = position - index as f32;
         let mixed: [u8; 3] = std::array::from_fn(|i| {
             let (from, to) = (f32::from(colors[index][i]), f32::from(colors[index + 1][i]));
-            crate::color::unit_to_byte((from + (to - from) * fraction) / 255.0, crate::rules::Rules::Standard)
+            super::unit_to_byte((from + (to - from) * fraction) / 255.0, crate::rules::Rules::Standard)
         });
         u32::from_be_bytes([0xFF, mixed[0], mixed[1], mixed[2]])
     }

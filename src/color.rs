@@ -114,10 +114,10 @@ impl Premultiplied16 {
     pub const ONE: u16 = 255 * Self::PER_BYTE;
 
     /// What every fragment adds where fragments are counted: it lets all shine through that is below it. Red is the mean
-    /// number of fragments in quarters, as a byte.
+    /// number of fragments in eighths, as a byte.
     pub const FRAGMENT: Self = Self([Self::PER_BYTE * Self::FRAGMENT_BYTES, 0, 0, 0]);
     /// What one fragment is worth in a resolved byte where fragments are counted.
-    pub const FRAGMENT_BYTES: u16 = 4;
+    pub const FRAGMENT_BYTES: u16 = 8;
 
     /// From a straight colour. The course's rules first truncate the channels to bytes.
     pub fn from_straight(color: Rgba, rules: Rules) -> Self {

@@ -127,6 +127,9 @@ pub(super) struct RenderOptions {
     /// The PNG file to write; for a folder, the folder to write into
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: PathBuf,
+    /// Leave the legend of a visualisation away
+    #[arg(long)]
+    pub(super) no_legend: bool,
     #[command(flatten)]
     pub(super) picture: PictureOptions,
 }

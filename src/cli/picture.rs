@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::failure::{Failure, print_error};
-use crate::figure::Record;
+use crate::figure::{Record, add_legends};
 use crate::geometry::ViewTransform;
 use crate::raster::Framebuffer;
 use crate::render::{self, FrameStats, Subject};
@@ -49,6 +49,18 @@ impl Picture {
     /// Draws the picture, on the pool that this is called in.
     pub(super) fn draw(&mut self) -> FrameStats {
         render::draw(&self.scene, &self.view, &self.spec.render, &mut self.frame)
+    }
+
+    /// Draws the legend of what the picture shows into a corner of it, where there is room; else says so on stderr.
+    pub(super) fn add_legend(&mut self) {
+        let legend = self.spec.render.visualisation.legend(&self.scene);
+        let legends = legend.as_slice();
+        if add_legends(&mut self.frame, legends, &[]) < legends.len() {
+            let [width, height] = [self.frame.width(), self.frame.height()];
+            print_error(&format!(
+                "no room for the legend in {width}x{height} pixels; make the picture larger with --size"
+            ));
+        }
     }
 
     /// What the picture is of.

@@ -95,6 +95,9 @@ fn one(
     let mut picture = Picture::read(scene)?;
     picture.tell_changes(restored);
     picture.draw();
+    if !options.no_legend {
+        picture.add_legend();
+    }
     if let Some(folder) = folder_to_make(output, options) {
         std::fs::create_dir_all(&folder).map_err(|error| unwritable(&folder, &error))?;
     }

@@ -1,6 +1,7 @@
 //! Pictures made of frames: insets and words on them, PNG files. Knows no window.
 
 mod inset;
+mod legend;
 mod paint;
 mod placement;
 mod png;
@@ -11,6 +12,8 @@ mod text;
 
 pub use self::png::{encode_png, save_files, save_png, save_recorded_png};
 pub use inset::Inset;
+pub use legend::{add_legends, draw_legend, place_legends};
+use placement::corners;
 pub use placement::{Corner, place};
 pub use record::{Record, RecordError, RecordedFile};
 pub use rect::PixelRect;

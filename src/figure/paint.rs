@@ -31,6 +31,25 @@ pub(super) fn fill(picture: &mut Framebuffer, rect: &PixelRect, color: u32) {
     for_each_index(rect, width, |index| picture.pixels_mut()[index] = color);
 }
 
+/// Copies `source` to where its upper left corner is at `place`; what lies outside `picture` is left out.
+pub(super) fn copy(source: &Framebuffer, picture: &mut Framebuffer, [x, y]: [i64; 2]) {
+    let place = PixelRect {
+        x,
+        y,
+        width: source.width(),
+        height: source.height(),
+    };
+    let shown = place.intersection(&PixelRect::of_size([picture.width(), picture.height()]));
+    let index = |at: i64, from: i64| usize::try_from(at - from).unwrap_or(0);
+    let (from, to) = (source.width() as usize, picture.width() as usize);
+    for row in shown.y..shown.bottom() {
+        let start = index(row, y) * from + index(shown.x, x);
+        let target = index(row, 0) * to + index(shown.x, 0);
+        let length = shown.width as usize;
+        picture.pixels_mut()[target..target + length].copy_from_slice(&source.pixels()[start..start + length]);
+    }
+}
+
 /// Calls `visit` with the index of every pixel of `rect`, which lies inside a picture of this `width`.
 pub(super) fn for_each_index(rect: &PixelRect, width: usize, mut visit: impl FnMut(usize)) {
     for y in rect.y..rect.bottom() {

@@ -46,15 +46,22 @@ impl Corner {
 /// A place for an inset of `size` inside `area` that leaves `shown` uncovered: `preferred` if that will do, else the
 /// first other corner. `None` where every corner covers it.
 pub fn place(area: &PixelRect, size: [u32; 2], shown: &PixelRect, preferred: Corner) -> Option<(Corner, PixelRect)> {
+    corners(area, size, preferred).find(|(_, rect)| !rect.overlaps(shown))
+}
+
+/// The places for something of `size` in the corners of `area`, `preferred` first; none where it is larger than that.
+pub(super) fn corners(
+    area: &PixelRect,
+    size: [u32; 2],
+    preferred: Corner,
+) -> impl Iterator<Item = (Corner, PixelRect)> {
     // Without a margin a tight area may still have room.
-    let corners = [MARGIN, 0].into_iter().flat_map(|margin| {
+    let corners = [MARGIN, 0].into_iter().flat_map(move |margin| {
         std::iter::once(preferred)
             .chain(Corner::ALL)
             .map(move |corner| (corner, margin))
     });
-    corners
-        .filter_map(|(corner, margin)| Some((corner, corner.rect(area, size, margin)?)))
-        .find(|(_, rect)| !rect.overlaps(shown))
+    corners.filter_map(move |(corner, margin)| Some((corner, corner.rect(area, size, margin)?)))
 }
 
 #[cfg(test)]

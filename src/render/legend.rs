@@ -55,7 +55,10 @@ impl Visualisation {
                 "texture coordinates",
                 LegendKey::Square([(UV[0], "u = 1"), (UV[1], "v = 1")]),
             ),
-            Self::LevelOfDetail => ("level of detail: log2 of texels per pixel", level_of_detail()),
+            Self::LevelOfDetail => (
+                "level of detail: below 0 magnified, above 0 minified",
+                level_of_detail(),
+            ),
             Self::MipLevels => ("mip levels that are read", levels(scene)),
             Self::Anisotropy => ("anisotropy: length of the footprint over its width", anisotropy()),
         };
@@ -85,7 +88,7 @@ fn coverage() -> LegendKey {
 fn overdraw() -> LegendKey {
     let most = f32::from(MOST_FRAGMENTS);
     let color = |part: f32| overdraw_color((part * (most + 1.0).log2()).exp2() - 1.0);
-    let ticks = [0, 1, 3, 7, 15, 31, MOST_FRAGMENTS].map(|count| {
+    let ticks = [0, 1, 2, 4, 8, 16, MOST_FRAGMENTS].map(|count| {
         let at = logarithmic(f32::from(count) + 1.0, most + 1.0);
         let more = if count == MOST_FRAGMENTS { "+" } else { "" };
         (at, format!("{count}{more}"))
@@ -95,14 +98,7 @@ fn overdraw() -> LegendKey {
 
 fn level_of_detail() -> LegendKey {
     let color = |part: f32| level_of_detail_color(MOST_LEVELS * f64::from(2.0 * part - 1.0));
-    let ticks = [-8, -4, 0, 4, 8].map(|level| {
-        let label = match level {
-            -8 => "-8 magnified".to_owned(),
-            8 => "minified 8".to_owned(),
-            level => level.to_string(),
-        };
-        ((level as f32 / MOST_LEVELS as f32 + 1.0) / 2.0, label)
-    });
+    let ticks = [-8, -4, 0, 4, 8].map(|level| ((level as f32 / MOST_LEVELS as f32 + 1.0) / 2.0, level.to_string()));
     scale(color, ticks)
 }
 

@@ -85,7 +85,7 @@ const LEVELS: [u32; 8] = [
     0xFF00_0000,
 ];
 
-/// Counts of quarters of fragments, on a logarithmic scale: `log2(1 + fragments)`.
+/// Counts of eighths of fragments, on a logarithmic scale: `log2(1 + fragments)`.
 static OVERDRAW: LazyLock<[u32; 256]> = LazyLock::new(|| {
     std::array::from_fn(|byte| overdraw_color(byte as f32 / f32::from(Premultiplied16::FRAGMENT_BYTES)))
 });
@@ -152,7 +152,7 @@ impl Visualisation {
     }
 }
 
-/// The colour of a mean number of fragments, `0.0..=63.0`.
+/// The colour of a mean number of fragments, `0.0..=31.0`.
 pub(super) fn overdraw_color(fragments: f32) -> u32 {
     Colormap::Sequential.color(logarithmic(fragments + 1.0, f32::from(MOST_FRAGMENTS) + 1.0))
 }

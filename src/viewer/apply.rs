@@ -139,6 +139,7 @@ impl Viewer {
         self.want_samples();
         self.want_explanation();
         self.want_feeds();
+        self.place_legends();
         let drawn = self.drawn_state();
         if self.last_drawn != Some(drawn) {
             self.last_drawn = Some(drawn);

@@ -23,6 +23,7 @@ pub mod gallery;
 mod inspector;
 mod key;
 mod latest;
+mod legends;
 mod library;
 mod messages;
 pub mod options;

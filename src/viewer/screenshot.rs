@@ -10,8 +10,9 @@ use super::background::{AtEnd, Crew, Mailbox, guarded};
 use super::present::{paste, show_frame};
 use super::state::Finished;
 use super::{Frame, PictureSpec, PixelRect, PixelZoom, PlacedInset, Viewer, WindowPixels};
-use crate::figure::{Record, SampleMark, encode_png};
+use crate::figure::{Record, SampleMark, add_legends, encode_png};
 use crate::raster::Framebuffer;
+use crate::render::Legend;
 use crate::scene::Scene;
 
 /// Names that are tried for one picture: others may have been saved in the same millisecond.
@@ -62,6 +63,7 @@ enum Shot {
     Frame {
         frame: Arc<Frame>,
         inset: Option<(PlacedInset, PixelZoom, Vec<SampleMark>)>,
+        legends: Vec<Legend>,
     },
     /// A picture that is put together already.
     Ready(Framebuffer),
@@ -155,7 +157,11 @@ impl Viewer {
         let both = self.comparison.shows_both().then(|| match self.inset {
             // The inset is in window pixels.
             Some(_) => self.window_picture(),
-            None => self.composite().picture(),
+            None => {
+                let mut picture = self.composite().picture();
+                add_legends(&mut picture, &self.legends_of_picture(), &[]);
+                picture
+            }
         });
         let recipe = self.recipe_of_frame(&frame, both.is_some());
         for _ in 0..std::mem::take(&mut self.saver.waiting) {
@@ -166,8 +172,12 @@ impl Viewer {
             let inset = self
                 .inset
                 .map(|inset| (inset, self.settings.pixel_zoom, self.sample_marks()));
-            let frame = Arc::clone(&frame);
-            self.saver.push(Shot::Frame { frame, inset }, recipe.clone());
+            let shot = Shot::Frame {
+                frame: Arc::clone(&frame),
+                inset,
+                legends: self.legends_of_picture(),
+            };
+            self.saver.push(shot, recipe.clone());
         }
         self.set_hurry(false);
     }
@@ -231,11 +241,22 @@ impl Viewer {
 impl Job {
     fn save(self) -> Result<(PathBuf, [u32; 2]), String> {
         let picture = match self.picture {
-            Shot::Frame { frame, inset: None } => return save_new(&self.folder, &frame.pixels, self.recipe.as_ref()),
             Shot::Frame {
                 frame,
-                inset: Some((placed, zoom, marks)),
-            } => with_inset(&frame.pixels, &placed, zoom, &marks),
+                inset: None,
+                legends,
+            } if legends.is_empty() => return save_new(&self.folder, &frame.pixels, self.recipe.as_ref()),
+            Shot::Frame { frame, inset, legends } => {
+                let (mut picture, spared) = match inset {
+                    Some((placed, zoom, marks)) => {
+                        let picture = with_inset(&frame.pixels, &placed, zoom, &marks);
+                        (picture, vec![placed.rect])
+                    }
+                    None => (frame.pixels.clone(), Vec::new()),
+                };
+                add_legends(&mut picture, &legends, &spared);
+                picture
+            }
             Shot::Ready(picture) => picture,
         };
         save_new(&self.folder, &picture, self.recipe.as_ref())

@@ -10,6 +10,7 @@ use super::comparison::{Against, Comparison, Measured, Panes, ReadPicture, is_pi
 use super::drawing::{Drawing, DrawingId, Drawn};
 use super::explaining::{self, Asked, Explained, Explaining};
 use super::feeding::{self, Feeding};
+use super::legends::{Legends, PlacedLegends};
 use super::messages::Messages;
 use super::pointer::Pointer;
 use super::probing::{self, ProbedSample, Probing, Target};
@@ -71,6 +72,7 @@ pub struct Viewer {
     pub(super) inset: Option<PlacedInset>,
     /// B's, below A's, where both share the window.
     pub(super) other_inset: Option<PlacedInset>,
+    pub(super) legends: Legends,
     pub(super) messages: Messages,
     pub(super) drawing: Drawing,
     pub(super) comparison: Comparison,
@@ -127,6 +129,7 @@ pub(super) struct DrawnState {
     pub(super) samples: u64,
     pub(super) inset: Option<PlacedInset>,
     pub(super) other_inset: Option<PlacedInset>,
+    pub(super) legends: PlacedLegends,
     pub(super) pixel_zoom: PixelZoom,
     pub(super) window: [u32; 2],
 }
@@ -206,6 +209,7 @@ impl Viewer {
             inspector: Inspector::default(),
             inset: None,
             other_inset: None,
+            legends: Legends::default(),
             messages: Messages::default(),
             drawing: Drawing::start(&mailbox, DrawingId::First)?,
             comparison: Comparison::new(mailbox.clone()),
@@ -325,6 +329,7 @@ impl Viewer {
             samples: self.probing.number(),
             inset: self.inset,
             other_inset: self.other_inset,
+            legends: self.legends.places(),
             pixel_zoom: self.settings.pixel_zoom,
             window: self.screen.window,
         }

@@ -35,6 +35,7 @@ impl Viewer {
             let rgba = |x, y| self.other_final_rgba(x, y);
             draw_inset((placed, &rgba), &[], parts, window);
         }
+        self.draw_legends(parts, window);
     }
 
     /// The parts of the window in which [`Viewer::draw_window`] may draw other pixels than when this was asked last;
@@ -66,6 +67,10 @@ impl Viewer {
         if inset_changed {
             let insets = [before.inset, now.inset, before.other_inset, now.other_inset];
             parts.extend(insets.into_iter().flatten().map(|placed| placed.rect));
+        }
+        if before.legends != now.legends {
+            let legends = before.legends.rects.into_iter().chain(now.legends.rects);
+            parts.extend(legends.flatten());
         }
         Some(parts)
     }

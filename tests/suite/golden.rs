@@ -18,6 +18,9 @@ use crate::support::scenes::drawn;
 /// Small enough to be looked at in a review, large enough to show what a scene is about.
 const SIZE: [u32; 2] = [160, 160];
 
+/// What the pictures of other tests begin with.
+const OTHERS: [&str; 2] = ["overlay_", "visualised_"];
+
 fn settings(samples: u32, pixel_sampling: PixelSampling, level_sampling: LevelSampling) -> RenderSettings {
     let sample_rate = SampleRate::new(samples).expect("a square number");
     RenderSettings {
@@ -188,7 +191,7 @@ fn golden_pictures_all_belong_to_a_scene() {
                 .to_string_lossy()
                 .into_owned()
         })
-        .filter(|name| !name.starts_with("overlay_") && !expected.contains(name))
+        .filter(|name| !OTHERS.iter().any(|other| name.starts_with(other)) && !expected.contains(name))
         .collect();
     assert!(orphans.is_empty(), "without a scene: {orphans:?}");
     assert!(

@@ -39,3 +39,4 @@ mod viewer_random;
 mod viewer_replay;
 mod viewer_screenshots;
 mod viewer_scripts;
+mod visualisation;

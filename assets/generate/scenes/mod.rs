@@ -9,6 +9,7 @@ mod mesh;
 mod outline;
 mod study;
 mod study_patterns;
+mod study_shown;
 mod study_textures;
 mod subdiv;
 mod texmap;
@@ -28,6 +29,7 @@ pub(crate) fn scenes() -> Vec<SceneFile> {
         study::SCENES,
         study_textures::SCENES,
         study_patterns::SCENES,
+        study_shown::SCENES,
     ]
     .concat()
 }

@@ -1,0 +1,485 @@
+//! Visualisations: each number that colours stand for is compared with what the explanation of the pixel, or plain
+//! arithmetic, says of it.
+
+use rasterscope::color::Colormap;
+use rasterscope::figure::{PixelRect, add_legends, place_legends};
+use rasterscope::geometry::View;
+use rasterscope::inspect::{Explanation, Interpolated, Question, View as ViewOfSample};
+use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
+use rasterscope::render::{LegendKey, RenderSettings, Subject, Visualisation, draw, replay};
+use rasterscope::rules::Rules;
+use rasterscope::scene::{DialectChoice, Scene};
+use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
+use rasterscope::viewer::gallery::{SCENES, Textures};
+use rayon::prelude::*;
+
+use crate::support::documents::{read, svg};
+use crate::support::golden::check;
+
+/// What goldens may differ by: logarithms are not the same on every machine.
+const TOLERANCE: u8 = 1;
+/// What one fragment is worth in the byte that is counted in.
+const FRAGMENT: f64 = 8.0;
+
+/// Scenes of textured triangles.
+const TEXTURED: [&str; 2] = ["texmap/test1.svg", "study/11_city_floor.svg"];
+
+fn rate(samples: u32) -> SampleRate {
+    SampleRate::new(samples).unwrap()
+}
+
+fn showing(visualisation: Visualisation) -> RenderSettings {
+    RenderSettings {
+        visualisation,
+        ..RenderSettings::default()
+    }
+}
+
+fn gallery(name: &str) -> Scene {
+    let scene = SCENES.iter().find(|scene| scene.name == name).unwrap();
+    read_own(scene.name, scene.document)
+}
+
+fn read_own(name: &str, document: &str) -> Scene {
+    let options = rasterscope::scene::ReadOptions {
+        dialect: DialectChoice::Auto,
+    };
+    rasterscope::scene::read(document.as_bytes(), name, options, &Textures).unwrap()
+}
+
+fn picture(scene: &Scene, settings: &RenderSettings, view: View, size: [u32; 2]) -> Framebuffer {
+    let mut frame = Framebuffer::new(size[0], size[1]);
+    draw(scene, &view.transform(scene.canvas, size), settings, &mut frame);
+    frame
+}
+
+fn pixel(frame: &Framebuffer, x: u32, y: u32) -> u32 {
+    frame.pixels()[(y * frame.width() + x) as usize]
+}
+
+/// Red, green, blue.
+fn bytes(pixel: u32) -> [i32; 3] {
+    let [_, r, g, b] = pixel.to_be_bytes();
+    [r, g, b].map(i32::from)
+}
+
+fn is_near(a: u32, b: u32, most: i32) -> bool {
+    a >> 24 == b >> 24 && bytes(a).iter().zip(bytes(b)).all(|(a, b)| (a - b).abs() <= most)
+}
+
+/// The byte that a mean becomes.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a byte")]
+fn resolved(mean: f64, rules: Rules) -> u8 {
+    match rules {
+        Rules::Standard => mean.round() as u8,
+        Rules::Course => mean.floor() as u8,
+    }
+}
+
+/// Samplings under which pixels are counted.
+fn samplings() -> Vec<RenderSettings> {
+    let plain = RenderSettings::default();
+    let mut all = Vec::new();
+    for (samples, pattern) in [
+        (1, SamplePattern::Grid),
+        (16, SamplePattern::Grid),
+        (4, SamplePattern::Jittered),
+        (5, SamplePattern::R2),
+    ] {
+        for rules in Rules::ALL {
+            all.push(RenderSettings {
+                sample_rate: rate(samples),
+                pattern,
+                rules,
+                outline: false,
+                ..plain
+            });
+        }
+    }
+    all
+}
+
+#[test]
+fn visualised_coverage_and_overdraw_count_the_fragments_of_every_scene() {
+    let size = [19, 15];
+    let scale = |visualisation: Visualisation, scene: &Scene| match visualisation.legend(scene).unwrap().key {
+        LegendKey::Scale(colors, _) => colors,
+        key => panic!("{key:?} is no scale"),
+    };
+    SCENES.par_iter().for_each(|own| {
+        let scene = read_own(own.name, own.document);
+        for settings in samplings() {
+            let view = View::Default.transform(scene.canvas, size);
+            let subject = Subject {
+                scene: &scene,
+                view: &view,
+                settings: &settings,
+            };
+            let [covered, overdrawn] = [Visualisation::Coverage, Visualisation::Overdraw].map(|visualisation| {
+                let settings = RenderSettings {
+                    visualisation,
+                    ..settings
+                };
+                picture(&scene, &settings, View::Default, size)
+            });
+            let colors = scale(Visualisation::Overdraw, &scene);
+            for (x, y) in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))) {
+                let found = replay(&subject, size, [x, y]).unwrap();
+                let count = found.samples.len();
+                let mut fragments = vec![0_u32; count];
+                for op in &found.painted {
+                    if op.kind == rasterscope::raster::PaintedKind::Primitive {
+                        for fragment in &op.fragments {
+                            fragments[fragment.sample] += 1;
+                        }
+                    }
+                }
+                let at = (own.name, &settings, x, y, &fragments);
+                let part = fragments.iter().filter(|count| **count > 0).count() as f64 / count as f64;
+                let byte = resolved(part * 255.0, settings.rules);
+                let expected = Colormap::Sequential.color(f32::from(byte) / 255.0);
+                assert_eq!(pixel(&covered, x, y), expected, "coverage of {at:?}");
+                let most = |count: &u32| (f64::from(*count) * FRAGMENT).min(255.0);
+                let sum: f64 = fragments.iter().map(most).sum();
+                let mean = f64::from(resolved(sum / count as f64, settings.rules)) / FRAGMENT;
+                // The scale of the legend is logarithmic, from no fragment to 31.
+                let step = ((mean.min(31.0) + 1.0).log2() / 5.0 * 255.0).round();
+                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+                let expected = colors[step as usize];
+                assert!(is_near(pixel(&overdrawn, x, y), expected, 3), "overdraw of {at:?}");
+            }
+        }
+    });
+}
+
+#[test]
+fn visualised_coverage_does_not_see_colours_and_layers() {
+    let body = "<g opacity='0.25'><rect x='0' y='0' width='5' height='10' fill='#fff'/></g>
+                <rect x='5' y='0' width='2.5' height='10' fill='#000' fill-opacity='0.01'/>";
+    let scene = read(&svg("width='10' height='10'", body), DialectChoice::Svg);
+    let settings = RenderSettings {
+        sample_rate: rate(16),
+        resolve: rasterscope::color::ResolveSpace::Linear,
+        ..showing(Visualisation::Coverage)
+    };
+    let frame = picture(&scene, &settings, View::Canvas, [10, 10]);
+    let full = Colormap::Sequential.color(1.0);
+    assert_eq!(pixel(&frame, 2, 5), full, "in a layer");
+    assert_eq!(pixel(&frame, 6, 5), full, "nearly transparent");
+    assert_eq!(pixel(&frame, 7, 5), Colormap::Sequential.color(128.0 / 255.0), "half");
+    assert_eq!(pixel(&frame, 8, 5), Colormap::Sequential.color(0.0), "nothing");
+}
+
+#[test]
+fn visualised_overdraw_tells_edges_that_the_course_paints_twice() {
+    let body = "<polygon points='0,0 8,0 8,8' fill='#f00'/><polygon points='0,0 8,8 0,8' fill='#f00'/>";
+    let scene = read(&svg("width='8' height='8'", body), DialectChoice::Course);
+    let counts = |rules| {
+        let settings = RenderSettings {
+            rules,
+            outline: false,
+            ..showing(Visualisation::Overdraw)
+        };
+        let frame = picture(&scene, &settings, View::Canvas, [8, 8]);
+        [(3, 3), (5, 2)].map(|(x, y)| pixel(&frame, x, y))
+    };
+    let [once, alone] = counts(Rules::Standard);
+    assert_eq!(once, alone, "the shared edge belongs to one triangle");
+    let [twice, alone] = counts(Rules::Course);
+    assert_ne!(twice, alone, "to both");
+}
+
+#[test]
+fn visualised_primitives_have_the_colours_of_the_legend() {
+    let body = "<polygon id='low' points='0,0 8,0 8,8 0,8' fill='#123456' fill-opacity='0.5'/>
+                <polygon points='4,0 8,0 8,8 4,8' fill='#123456'/>";
+    let scene = read(&svg("width='8' height='8'", body), DialectChoice::Svg);
+    let frame = picture(&scene, &showing(Visualisation::Primitive), View::Canvas, [8, 8]);
+    let Some(LegendKey::Swatches(swatches)) = Visualisation::Primitive.legend(&scene).map(|legend| legend.key) else {
+        panic!("swatches");
+    };
+    let names: Vec<&str> = swatches.iter().map(|(_, name)| name.as_str()).collect();
+    assert_eq!(names, ["polygon \"low\"", "polygon, line 2"], "both");
+    assert_eq!(
+        [pixel(&frame, 1, 4), pixel(&frame, 6, 4)],
+        [swatches[0].0, swatches[1].0],
+        "opaque"
+    );
+    assert_ne!(swatches[0].0, swatches[1].0, "told apart");
+}
+
+/// Red, green and blue as a mix.
+fn mixed(colors: &[u32], parts: &[f64]) -> [f64; 3] {
+    let channel = |i: usize| -> f64 {
+        let parts = colors.iter().zip(parts);
+        parts.map(|(color, part)| f64::from(bytes(*color)[i]) * part).sum()
+    };
+    [0, 1, 2].map(channel)
+}
+
+fn distance(pixel: u32, expected: [f64; 3]) -> f64 {
+    let apart = bytes(pixel)
+        .into_iter()
+        .zip(expected)
+        .map(|(a, b)| (f64::from(a) - b).abs());
+    apart.fold(0.0, f64::max)
+}
+
+/// Colours of a legend that is no scale, in order.
+fn legend_colors(visualisation: Visualisation, scene: &Scene) -> Vec<u32> {
+    match visualisation.legend(scene).unwrap().key {
+        LegendKey::Triangle(corners) => corners.iter().map(|(color, _)| *color).collect(),
+        LegendKey::Square(axes) => axes.iter().map(|(color, _)| *color).collect(),
+        LegendKey::Swatches(swatches) => swatches.iter().map(|(color, _)| *color).collect(),
+        key @ LegendKey::Scale(..) => panic!("{key:?} is a scale"),
+    }
+}
+
+/// Every so many pixels of a scene of textured triangles: each visualisation against the explanation of the pixel.
+fn compare_with_explanations(name: &str, sampling: RenderSettings) {
+    const SIDE: u32 = 120;
+    /// A colour is stored in bytes, and `(u, v)` comes in steps of 1/256.
+    const NEAR: f64 = 2.6;
+    let (scene, size) = (gallery(name), [SIDE; 2]);
+    let plain = RenderSettings {
+        outline: false,
+        ..sampling
+    };
+    let show = |visualisation| {
+        let settings = RenderSettings { visualisation, ..plain };
+        picture(&scene, &settings, View::Default, size)
+    };
+    let color = show(Visualisation::Color);
+    let frames = Visualisation::ALL.map(show);
+    let shown = |visualisation: Visualisation, x, y| {
+        let index = Visualisation::ALL
+            .iter()
+            .position(|known| *known == visualisation)
+            .unwrap();
+        pixel(&frames[index], x, y)
+    };
+    let [corners, axes, levels] = [Visualisation::Barycentric, Visualisation::Uv, Visualisation::MipLevels]
+        .map(|visualisation| legend_colors(visualisation, &scene));
+    let view = View::Default.transform(scene.canvas, size);
+    let subject = Subject {
+        scene: &scene,
+        view: &view,
+        settings: &plain,
+    };
+    let mut seen = 0;
+    for (x, y) in (0..SIDE)
+        .step_by(5)
+        .flat_map(|y| (0..SIDE).step_by(5).map(move |x| (x, y)))
+    {
+        let question = Question {
+            subject,
+            file: "scene.svg",
+            size,
+            pixel: [x, y],
+        };
+        let explanation = Explanation::new(&question).unwrap();
+        let Some(top) = explanation.samples[0].stack.last() else {
+            continue;
+        };
+        let paint = &explanation.paints[*top];
+        let (Some(texture), [ViewOfSample::Triangle { weights, value, .. }]) = (&paint.texture, &paint.views[..])
+        else {
+            continue;
+        };
+        let Interpolated::Texture { uv, .. } = value else {
+            continue;
+        };
+        seen += 1;
+        let at = format!("{name} at {x},{y}: {texture:?}");
+        let expected = mixed(&corners, weights);
+        assert!(
+            distance(shown(Visualisation::Barycentric, x, y), expected) < NEAR,
+            "weights {weights:?} of {at}"
+        );
+        let expected = mixed(&axes, &uv.map(|part| part.clamp(0.0, 1.0)));
+        assert!(
+            distance(shown(Visualisation::Uv, x, y), expected) < NEAR,
+            "{uv:?} of {at}"
+        );
+        #[expect(clippy::cast_possible_truncation, reason = "a level")]
+        let lod = texture.level_of_detail.unwrap() as f32;
+        let expected = Colormap::Diverging.color(lod / 8.0);
+        assert!(
+            is_near(shown(Visualisation::LevelOfDetail, x, y), expected, 1),
+            "level of detail of {at}"
+        );
+        let ratio = (texture.major / texture.minor).min(texture.major).clamp(1.0, 64.0);
+        #[expect(clippy::cast_possible_truncation, reason = "a ratio")]
+        let expected = Colormap::Sequential.color((ratio.log2() / 6.0) as f32);
+        assert!(
+            is_near(shown(Visualisation::Anisotropy, x, y), expected, 1),
+            "ratio {ratio} of {at}"
+        );
+        let [read, parts]: [Vec<_>; 2] = [
+            texture
+                .levels
+                .iter()
+                .map(|level| f64::from(levels[level.number]))
+                .collect(),
+            texture.levels.iter().map(|level| level.weight).collect(),
+        ];
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "colours that became floats"
+        )]
+        let read: Vec<u32> = read.into_iter().map(|color| color as u32).collect();
+        let tint = mixed(&read, &parts);
+        let below = bytes(pixel(&color, x, y)).map(f64::from);
+        let expected = [0, 1, 2].map(|i| 0.7 * tint[i] + 0.3 * below[i]);
+        assert!(
+            distance(shown(Visualisation::MipLevels, x, y), expected) < NEAR,
+            "levels of {at}"
+        );
+    }
+    assert!(seen > 100, "{seen} textured pixels of {name}");
+}
+
+#[test]
+fn visualised_numbers_are_those_of_the_explanation() {
+    let plain = RenderSettings::default();
+    let trilinear = RenderSettings {
+        pixel_sampling: PixelSampling::Bilinear,
+        level_sampling: LevelSampling::Linear,
+        ..plain
+    };
+    for name in TEXTURED {
+        compare_with_explanations(name, plain);
+        compare_with_explanations(name, trilinear);
+    }
+    let detail = rasterscope::texture::LevelOfDetail {
+        bias: rasterscope::texture::LodBias::new(1.5).unwrap(),
+        ..plain.detail
+    };
+    compare_with_explanations(TEXTURED[0], RenderSettings { detail, ..trilinear });
+    let anisotropy = Anisotropy::new(16).unwrap();
+    compare_with_explanations(
+        TEXTURED[0],
+        RenderSettings {
+            anisotropy,
+            ..trilinear
+        },
+    );
+}
+
+#[test]
+fn visualised_edges_run_where_the_primitives_do() {
+    let body =
+        "<polygon points='2,2 14,2 14,14 2,14' fill='#000'/><rect x='20' y='4' width='0' height='0' fill='#0f0'/>";
+    let scene = read(&svg("width='24' height='16'", body), DialectChoice::Course);
+    let settings = RenderSettings {
+        outline: false,
+        ..showing(Visualisation::Wireframe)
+    };
+    let frame = picture(&scene, &settings, View::Canvas, [24, 16]);
+    let colors = legend_colors(Visualisation::Wireframe, &scene);
+    for (x, y) in [(2, 8), (14, 8), (8, 2), (8, 14)] {
+        assert_eq!(pixel(&frame, x, y), colors[1], "outline at {x},{y}");
+    }
+    assert_eq!(pixel(&frame, 20, 4), colors[2], "the point");
+    assert_eq!(
+        bytes(pixel(&frame, 8, 8)),
+        [204; 3],
+        "the inside is paled by four fifths"
+    );
+    assert_eq!(bytes(pixel(&frame, 18, 12)), [255; 3], "white stays white");
+    let course = RenderSettings {
+        rules: Rules::Course,
+        ..settings
+    };
+    let frame = picture(&scene, &course, View::Canvas, [24, 16]);
+    let diagonal = [pixel(&frame, 8, 8), pixel(&frame, 8, 7), pixel(&frame, 7, 8)];
+    assert!(
+        diagonal.contains(&colors[0]),
+        "the course paints two triangles: {diagonal:x?}"
+    );
+}
+
+#[test]
+fn visualised_pictures_do_not_depend_on_regions() {
+    let scene = gallery("texmap/test2.svg");
+    let size = [90, 70];
+    let view = View::Default.transform(scene.canvas, size);
+    for visualisation in Visualisation::ALL {
+        let settings = RenderSettings {
+            sample_rate: rate(4),
+            ..showing(visualisation)
+        };
+        let subject = Subject {
+            scene: &scene,
+            view: &view,
+            settings: &settings,
+        };
+        let whole = picture(&scene, &settings, View::Default, size);
+        let mut parts = Framebuffer::new(size[0], size[1]);
+        let half = |x| rasterscope::raster::Region {
+            x,
+            y: 0,
+            width: 45,
+            height: 70,
+        };
+        let cancel = rasterscope::render::CancelToken::default();
+        rasterscope::render::draw_regions(&subject, &mut parts, &[half(0), half(45)], &cancel).unwrap();
+        assert!(whole == parts, "{visualisation:?}");
+    }
+}
+
+#[test]
+fn visualisations_are_explained_by_legends() {
+    let scene = gallery("texmap/test1.svg");
+    assert_eq!(Visualisation::Color.legend(&scene), None, "the picture explains itself");
+    for visualisation in Visualisation::ALL.into_iter().skip(1) {
+        let legend = visualisation.legend(&scene).unwrap();
+        if let LegendKey::Scale(colors, ticks) = &legend.key {
+            assert!(ticks.len() >= 5 && colors.len() == 256, "{visualisation:?}");
+            assert!(ticks.iter().all(|(at, _)| (0.0..=1.0).contains(at)), "{ticks:?}");
+            assert!(ticks.is_sorted_by(|a, b| a.0 < b.0), "{ticks:?}");
+        }
+        let mut picture = Framebuffer::new(640, 480);
+        picture.pixels_mut().fill(0xFF80_8080);
+        let spared = PixelRect {
+            x: 10,
+            y: 400,
+            width: 20,
+            height: 20,
+        };
+        let all = PixelRect::of_size([640, 480]);
+        let placed = place_legends(&[legend.clone(), legend.clone()], [640, 480], &all, &[spared]);
+        let [(first, _), (second, _)] = &placed[..] else {
+            panic!("room for two: {visualisation:?}")
+        };
+        for rect in [first, second] {
+            assert!(
+                !rect.overlaps(&spared) && rect.intersection(&all) == *rect,
+                "{visualisation:?} {rect:?}"
+            );
+        }
+        assert!(!first.overlaps(second), "{visualisation:?} side by side");
+        assert_eq!(add_legends(&mut picture, std::slice::from_ref(&legend), &[]), 1, "room");
+        assert_eq!(add_legends(&mut Framebuffer::new(60, 60), &[legend], &[]), 0, "no room");
+    }
+}
+
+#[test]
+fn golden_visualisations() {
+    let mut problems = Vec::new();
+    let scene = gallery("study/16_what_is_painted.svg");
+    for visualisation in Visualisation::ALL.into_iter().skip(1) {
+        let settings = RenderSettings {
+            sample_rate: rate(4),
+            pixel_sampling: PixelSampling::Bilinear,
+            level_sampling: LevelSampling::Linear,
+            ..showing(visualisation)
+        };
+        let mut frame = picture(&scene, &settings, View::Default, [400, 400]);
+        add_legends(&mut frame, &[visualisation.legend(&scene).unwrap()], &[]);
+        let name = format!("visualised_{}", visualisation.name());
+        problems.extend(check(&name, &frame, TOLERANCE).err());
+    }
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
+}

@@ -38,6 +38,27 @@ fn folder_with(files: &[(&str, &str)]) -> tempfile::TempDir {
 }
 
 #[test]
+fn cli_visualisations_come_with_a_legend_where_there_is_room() {
+    let folder = folder_with(&[("a.svg", SCENE)]);
+    let picture = |name: &str, more: &[&str]| {
+        let mut arguments = vec!["render", "a.svg", "-o", name, "--visualise", "coverage", "--size"];
+        arguments.extend(more);
+        let output = run(folder.path(), &arguments);
+        assert!(output.status.success(), "{output:?}");
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        (image::open(folder.path().join(name)).expect("a PNG").into_rgba8(), told)
+    };
+    let (with, told) = picture("with.png", &["400x300"]);
+    assert_eq!(told, "", "nothing to tell");
+    let (without, _) = picture("without.png", &["400x300", "--no-legend"]);
+    let changed = with.pixels().zip(without.pixels()).filter(|(a, b)| a != b).count();
+    assert!(changed > 5000, "{changed} pixels are the legend's");
+    assert_eq!(with.get_pixel(390, 10), without.get_pixel(390, 10), "elsewhere nothing changes");
+    let (_, told) = picture("small.png", &["100x80"]);
+    assert!(told.contains("no room for the legend in 100x80 pixels; make"), "{told}");
+}
+
+#[test]
 fn cli_renders_what_the_library_draws() {
     let folder = folder_with(&[("a.svg", SCENE)]);
     let view = "--view=20,15,3.5,30";

@@ -39,4 +39,5 @@ mod viewer_random;
 mod viewer_replay;
 mod viewer_screenshots;
 mod viewer_scripts;
+mod viewer_visualisation;
 mod visualisation;

@@ -97,14 +97,17 @@ fn overdraw() -> LegendKey {
 }
 
 fn level_of_detail() -> LegendKey {
-    let color = |part: f32| level_of_detail_color(MOST_LEVELS * f64::from(2.0 * part - 1.0));
-    let ticks = [-8, -4, 0, 4, 8].map(|level| ((level as f32 / MOST_LEVELS as f32 + 1.0) / 2.0, level.to_string()));
+    let color = |part: f32| level_of_detail_color(MOST_LEVELS * (2.0 * part - 1.0));
+    let ticks = [-8_i8, -4, 0, 4, 8].map(|level| {
+        let at = (f32::from(level) / MOST_LEVELS).midpoint(1.0);
+        (at, level.to_string())
+    });
     scale(color, ticks)
 }
 
 fn anisotropy() -> LegendKey {
     let most = Anisotropy::MAX as f32;
-    let color = |part: f32| anisotropy_color(f64::from(part * most.log2()).exp2());
+    let color = |part: f32| anisotropy_color((part * most.log2()).exp2());
     let ticks = [1_u8, 2, 4, 8, 16, 32, 64].map(|ratio| {
         let more = if u32::from(ratio) == Anisotropy::MAX { "+" } else { "" };
         (logarithmic(f32::from(ratio), most), format!("{ratio}{more}"))

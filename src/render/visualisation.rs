@@ -54,7 +54,7 @@ pub(super) const UV: [u32; 2] = [0xFFFF_9900, 0xFF00_66FF];
 /// Edges of triangles, outlines of polygons, hairlines and points.
 pub(super) const EDGES: [u32; 3] = [0xFF00_72B2, 0xFFD5_5E00, 0xFF00_0000];
 /// The largest level of detail that has a colour of its own.
-pub(super) const MOST_LEVELS: f64 = 8.0;
+pub(super) const MOST_LEVELS: f32 = 8.0;
 /// The largest number of fragments that is counted.
 pub(super) const MOST_FRAGMENTS: u16 = 255 / Premultiplied16::FRAGMENT_BYTES;
 /// How opaque the tint of a mip level is.
@@ -158,13 +158,13 @@ pub(super) fn overdraw_color(fragments: f32) -> u32 {
 }
 
 /// The colour of a level of detail.
-pub(super) fn level_of_detail_color(lod: f64) -> u32 {
-    Colormap::Diverging.color((lod / MOST_LEVELS) as f32)
+pub(super) fn level_of_detail_color(lod: f32) -> u32 {
+    Colormap::Diverging.color(lod / MOST_LEVELS)
 }
 
 /// The colour of a footprint that is `ratio` times as long as wide.
-pub(super) fn anisotropy_color(ratio: f64) -> u32 {
-    Colormap::Sequential.color(logarithmic(ratio as f32, Anisotropy::MAX as f32))
+pub(super) fn anisotropy_color(ratio: f32) -> u32 {
+    Colormap::Sequential.color(logarithmic(ratio, Anisotropy::MAX as f32))
 }
 
 /// The colour of a mip level; levels after the eighth repeat the colours, half-way to white.
@@ -190,7 +190,7 @@ pub(super) fn rgba(pixel: u32) -> Rgba {
 
 fn shade_of(colors: &[u32], index: usize) -> Rgba {
     let color = rgba(colors[index % colors.len()]);
-    if index / colors.len() % 2 == 0 {
+    if (index / colors.len()).is_multiple_of(2) {
         color
     } else {
         mix(color, Rgba::WHITE, 0.5)
@@ -276,7 +276,7 @@ impl<'a> Visualiser<'a> {
                 _ => repaint(builder, screen, kind, rgba(NONE)),
             },
             Visualisation::Uv | Visualisation::LevelOfDetail | Visualisation::MipLevels | Visualisation::Anisotropy => {
-                self.add_textured(builder, screen, kind)
+                self.add_textured(builder, screen, kind);
             }
         }
     }
@@ -299,10 +299,10 @@ impl<'a> Visualiser<'a> {
                 builder.triangle(points, &Fill::Texture { texture, uv, opacity });
             }
             Visualisation::LevelOfDetail => builder.measured_triangle(points, uv, &|footprint| {
-                rgba(level_of_detail_color(self.reading(footprint, pyramid).lod))
+                rgba(level_of_detail_color(single(self.reading(footprint, pyramid).lod)))
             }),
             Visualisation::Anisotropy => builder.measured_triangle(points, uv, &|footprint| {
-                rgba(anisotropy_color(ratio(footprint, pyramid)))
+                rgba(anisotropy_color(single(ratio(footprint, pyramid))))
             }),
             _ => {
                 builder.triangle(points, &fill(paint));
@@ -371,6 +371,14 @@ fn ratio(footprint: &Footprint, pyramid: &MipPyramid) -> f64 {
     let size = DVec2::new(f64::from(base.width()), f64::from(base.height()));
     let most = Anisotropy::STEPS[Anisotropy::STEPS.len() - 1];
     Taps::new(footprint, size, most).ratio
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "what becomes a colour needs no more digits"
+)]
+fn single(value: f64) -> f32 {
+    value as f32
 }
 
 /// The triangles that a polygon is painted as, where it is.

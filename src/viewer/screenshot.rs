@@ -154,14 +154,14 @@ impl Viewer {
         if self.comparison.shows_both() && !self.comparison.is_current() {
             return;
         }
-        let both = self.comparison.shows_both().then(|| match self.inset {
-            // The inset is in window pixels.
-            Some(_) => self.window_picture(),
-            None => {
-                let mut picture = self.composite().picture();
-                add_legends(&mut picture, &self.legends_of_picture(), &[]);
-                picture
+        let both = self.comparison.shows_both().then(|| {
+            if self.inset.is_some() {
+                // The inset is in window pixels.
+                return self.window_picture();
             }
+            let mut picture = self.composite().picture();
+            add_legends(&mut picture, &self.legends_of_picture(), &[]);
+            picture
         });
         let recipe = self.recipe_of_frame(&frame, both.is_some());
         for _ in 0..std::mem::take(&mut self.saver.waiting) {

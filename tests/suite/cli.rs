@@ -53,7 +53,11 @@ fn cli_visualisations_come_with_a_legend_where_there_is_room() {
     let (without, _) = picture("without.png", &["400x300", "--no-legend"]);
     let changed = with.pixels().zip(without.pixels()).filter(|(a, b)| a != b).count();
     assert!(changed > 5000, "{changed} pixels are the legend's");
-    assert_eq!(with.get_pixel(390, 10), without.get_pixel(390, 10), "elsewhere nothing changes");
+    assert_eq!(
+        with.get_pixel(390, 10),
+        without.get_pixel(390, 10),
+        "elsewhere nothing changes"
+    );
     let (_, told) = picture("small.png", &["100x80"]);
     assert!(told.contains("no room for the legend in 100x80 pixels; make"), "{told}");
 }

@@ -4,7 +4,7 @@
 use rasterscope::color::Colormap;
 use rasterscope::figure::{PixelRect, add_legends, place_legends};
 use rasterscope::geometry::View;
-use rasterscope::inspect::{Explanation, Interpolated, Question, View as ViewOfSample};
+use rasterscope::inspect::{Explanation, Interpolated, Question, Texture as ReadTexture, View as ViewOfSample};
 use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{LegendKey, RenderSettings, Subject, Visualisation, draw, replay};
 use rasterscope::rules::Rules;
@@ -16,6 +16,8 @@ use rayon::prelude::*;
 use crate::support::documents::{read, svg};
 use crate::support::golden::check;
 
+/// What a colour may be off: it is stored in bytes, and `(u, v)` comes in steps of 1/256.
+const NEAR: f64 = 2.6;
 /// What goldens may differ by: logarithms are not the same on every machine.
 const TOLERANCE: u8 = 1;
 /// What one fragment is worth in the byte that is counted in.
@@ -235,47 +237,98 @@ fn legend_colors(visualisation: Visualisation, scene: &Scene) -> Vec<u32> {
     }
 }
 
+/// One scene under every visualisation.
+struct Shown {
+    frames: [Framebuffer; 10],
+    /// Colours of triangle corners, of the axes of `(u, v)`, of mip levels.
+    legends: [Vec<u32>; 3],
+}
+
+impl Shown {
+    fn new(scene: &Scene, sampling: &RenderSettings, size: [u32; 2]) -> Self {
+        Self {
+            frames: Visualisation::ALL.map(|visualisation| {
+                let settings = RenderSettings {
+                    visualisation,
+                    ..*sampling
+                };
+                picture(scene, &settings, View::Default, size)
+            }),
+            legends: [Visualisation::Barycentric, Visualisation::Uv, Visualisation::MipLevels]
+                .map(|visualisation| legend_colors(visualisation, scene)),
+        }
+    }
+
+    fn pixel(&self, visualisation: Visualisation, [x, y]: [u32; 2]) -> u32 {
+        let index = Visualisation::ALL.iter().position(|known| *known == visualisation);
+        pixel(&self.frames[index.unwrap()], x, y)
+    }
+
+    /// Compares the pixel with barycentric weights and texture coordinates.
+    fn check_place(&self, at: [u32; 2], weights: &[f64], uv: [f64; 2]) {
+        let expected = mixed(&self.legends[0], weights);
+        let found = self.pixel(Visualisation::Barycentric, at);
+        assert!(distance(found, expected) < NEAR, "weights {weights:?} at {at:?}");
+        let expected = mixed(&self.legends[1], &uv.map(|part| part.clamp(0.0, 1.0)));
+        assert!(
+            distance(self.pixel(Visualisation::Uv, at), expected) < NEAR,
+            "{uv:?} at {at:?}"
+        );
+    }
+
+    /// Compares the pixel with how a texture is read there.
+    #[expect(clippy::cast_possible_truncation, reason = "numbers that become colours")]
+    fn check_reading(&self, at: [u32; 2], texture: &ReadTexture) {
+        let lod = texture.level_of_detail.unwrap() as f32;
+        let found = self.pixel(Visualisation::LevelOfDetail, at);
+        assert!(
+            is_near(found, Colormap::Diverging.color(lod / 8.0), 1),
+            "level of detail at {at:?}: {texture:?}"
+        );
+        let ratio = (texture.major / texture.minor).min(texture.major).clamp(1.0, 64.0);
+        let expected = Colormap::Sequential.color((ratio.log2() / 6.0) as f32);
+        assert!(
+            is_near(self.pixel(Visualisation::Anisotropy, at), expected, 1),
+            "ratio {ratio} at {at:?}"
+        );
+        let read: Vec<u32> = texture
+            .levels
+            .iter()
+            .map(|level| self.legends[2][level.number])
+            .collect();
+        let parts: Vec<f64> = texture.levels.iter().map(|level| level.weight).collect();
+        let (tint, below) = (mixed(&read, &parts), bytes(self.pixel(Visualisation::Color, at)));
+        let expected = [0, 1, 2].map(|i| 0.7 * tint[i] + 0.3 * f64::from(below[i]));
+        let found = self.pixel(Visualisation::MipLevels, at);
+        assert!(distance(found, expected) < NEAR, "levels at {at:?}: {texture:?}");
+    }
+}
+
 /// Every so many pixels of a scene of textured triangles: each visualisation against the explanation of the pixel.
 fn compare_with_explanations(name: &str, sampling: RenderSettings) {
     const SIDE: u32 = 120;
-    /// A colour is stored in bytes, and `(u, v)` comes in steps of 1/256.
-    const NEAR: f64 = 2.6;
     let (scene, size) = (gallery(name), [SIDE; 2]);
-    let plain = RenderSettings {
+    let settings = RenderSettings {
         outline: false,
         ..sampling
     };
-    let show = |visualisation| {
-        let settings = RenderSettings { visualisation, ..plain };
-        picture(&scene, &settings, View::Default, size)
-    };
-    let color = show(Visualisation::Color);
-    let frames = Visualisation::ALL.map(show);
-    let shown = |visualisation: Visualisation, x, y| {
-        let index = Visualisation::ALL
-            .iter()
-            .position(|known| *known == visualisation)
-            .unwrap();
-        pixel(&frames[index], x, y)
-    };
-    let [corners, axes, levels] = [Visualisation::Barycentric, Visualisation::Uv, Visualisation::MipLevels]
-        .map(|visualisation| legend_colors(visualisation, &scene));
+    let shown = Shown::new(&scene, &settings, size);
     let view = View::Default.transform(scene.canvas, size);
     let subject = Subject {
         scene: &scene,
         view: &view,
-        settings: &plain,
+        settings: &settings,
     };
     let mut seen = 0;
-    for (x, y) in (0..SIDE)
+    for pixel in (0..SIDE)
         .step_by(5)
-        .flat_map(|y| (0..SIDE).step_by(5).map(move |x| (x, y)))
+        .flat_map(|y| (0..SIDE).step_by(5).map(move |x| [x, y]))
     {
         let question = Question {
             subject,
             file: "scene.svg",
             size,
-            pixel: [x, y],
+            pixel,
         };
         let explanation = Explanation::new(&question).unwrap();
         let Some(top) = explanation.samples[0].stack.last() else {
@@ -290,52 +343,8 @@ fn compare_with_explanations(name: &str, sampling: RenderSettings) {
             continue;
         };
         seen += 1;
-        let at = format!("{name} at {x},{y}: {texture:?}");
-        let expected = mixed(&corners, weights);
-        assert!(
-            distance(shown(Visualisation::Barycentric, x, y), expected) < NEAR,
-            "weights {weights:?} of {at}"
-        );
-        let expected = mixed(&axes, &uv.map(|part| part.clamp(0.0, 1.0)));
-        assert!(
-            distance(shown(Visualisation::Uv, x, y), expected) < NEAR,
-            "{uv:?} of {at}"
-        );
-        #[expect(clippy::cast_possible_truncation, reason = "a level")]
-        let lod = texture.level_of_detail.unwrap() as f32;
-        let expected = Colormap::Diverging.color(lod / 8.0);
-        assert!(
-            is_near(shown(Visualisation::LevelOfDetail, x, y), expected, 1),
-            "level of detail of {at}"
-        );
-        let ratio = (texture.major / texture.minor).min(texture.major).clamp(1.0, 64.0);
-        #[expect(clippy::cast_possible_truncation, reason = "a ratio")]
-        let expected = Colormap::Sequential.color((ratio.log2() / 6.0) as f32);
-        assert!(
-            is_near(shown(Visualisation::Anisotropy, x, y), expected, 1),
-            "ratio {ratio} of {at}"
-        );
-        let [read, parts]: [Vec<_>; 2] = [
-            texture
-                .levels
-                .iter()
-                .map(|level| f64::from(levels[level.number]))
-                .collect(),
-            texture.levels.iter().map(|level| level.weight).collect(),
-        ];
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "colours that became floats"
-        )]
-        let read: Vec<u32> = read.into_iter().map(|color| color as u32).collect();
-        let tint = mixed(&read, &parts);
-        let below = bytes(pixel(&color, x, y)).map(f64::from);
-        let expected = [0, 1, 2].map(|i| 0.7 * tint[i] + 0.3 * below[i]);
-        assert!(
-            distance(shown(Visualisation::MipLevels, x, y), expected) < NEAR,
-            "levels of {at}"
-        );
+        shown.check_place(pixel, weights, *uv);
+        shown.check_reading(pixel, texture);
     }
     assert!(seen > 100, "{seen} textured pixels of {name}");
 }

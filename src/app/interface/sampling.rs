@@ -65,6 +65,12 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let chosen = choice(ui, "Rules", &tip("rules"), render.rules, &values);
         commands.extend(chosen.map(Command::SetRules));
     });
+    reading(ui, viewer, commands);
+}
+
+/// How scenes are read and shown, whatever the sampling.
+fn reading(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let settings = viewer.settings();
     row(ui, "Dialect", |ui| {
         let values = DialectChoice::ALL.map(|value| (value, value.name().to_owned()));
         let tip = format!("{}\n{}", tip("dialect"), dialect_in_force(viewer));

@@ -53,6 +53,9 @@ impl Picture {
 
     /// Draws the legend of what the picture shows into a corner of it, where there is room; else says so on stderr.
     pub(super) fn add_legend(&mut self) {
+        if !self.spec.legend {
+            return;
+        }
         let legend = self.spec.render.visualisation.legend(&self.scene);
         let legends = legend.as_slice();
         if add_legends(&mut self.frame, legends, &[]) < legends.len() {

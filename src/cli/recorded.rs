@@ -14,7 +14,10 @@ use crate::viewer::{PictureSpec, Restored, SceneSource};
 /// One line when it is none that draws a scene.
 pub(super) fn read_arguments(record: &Record) -> Result<PictureSpec, String> {
     match verb_of(record)? {
-        Verb::Render(options) => Ok(spec(&options.scene, &options.picture)),
+        Verb::Render(options) => Ok(PictureSpec {
+            legend: !options.no_legend,
+            ..spec(&options.scene, &options.picture)
+        }),
         _ => Err("it draws no scene".to_owned()),
     }
 }
@@ -40,6 +43,7 @@ pub(super) fn spec(scene: &Path, options: &PictureOptions) -> PictureSpec {
         view: options.framing.view,
         render: options.sampling.settings(options.framing.view),
         dialect: options.sampling.dialect,
+        legend: true,
     }
 }
 

@@ -90,14 +90,13 @@ fn one(
 ) -> Result<(), Failure> {
     let scene = PictureSpec {
         scene: source,
+        legend: !options.no_legend,
         ..recorded::spec(&options.scene, &options.picture)
     };
     let mut picture = Picture::read(scene)?;
     picture.tell_changes(restored);
     picture.draw();
-    if !options.no_legend {
-        picture.add_legend();
-    }
+    picture.add_legend();
     if let Some(folder) = folder_to_make(output, options) {
         std::fs::create_dir_all(&folder).map_err(|error| unwritable(&folder, &error))?;
     }

@@ -72,6 +72,7 @@ fn draw(restored: &Restored, output: &Path) -> Result<Again, Failure> {
         Verb::Render(_) => {
             let mut picture = Picture::read(restored.spec.clone())?;
             picture.draw();
+            picture.add_legend();
             Ok(Again {
                 record: picture.record(output),
                 change: restored.changes(&picture.scene.files),

@@ -58,6 +58,7 @@ impl Viewer {
             view: entry.camera.view(),
             render: self.settings.render,
             dialect: self.settings.dialect,
+            legend: true,
         })
     }
 }
@@ -75,6 +76,8 @@ pub struct PictureSpec {
     pub render: RenderSettings,
     /// How the document is read.
     pub dialect: DialectChoice,
+    /// Whether a visualisation comes with its legend.
+    pub legend: bool,
 }
 
 impl PictureSpec {
@@ -102,6 +105,9 @@ impl PictureSpec {
         }
         for (name, value) in self.settings() {
             words.extend([format!("--{name}"), value]);
+        }
+        if !self.legend {
+            words.push("--no-legend".to_owned());
         }
         words
     }

@@ -60,6 +60,10 @@ fn cli_visualisations_come_with_a_legend_where_there_is_room() {
     );
     let (_, told) = picture("small.png", &["100x80"]);
     assert!(told.contains("no room for the legend in 100x80 pixels; make"), "{told}");
+    for name in ["with.png", "without.png", "small.png"] {
+        let output = run(folder.path(), &["rerun", name, "--check", "--threads", "1"]);
+        assert!(output.status.success(), "{name} again: {output:?}");
+    }
 }
 
 #[test]

@@ -11,7 +11,7 @@
 //! | [`viewer`] | commands | state, a finished frame, saved files |
 //! | [`figure`] | frames | insets and figures |
 //! | [`compare`] | two frames | differences, error metrics, a guess at their cause |
-//! | [`inspect`] | one pixel | the samples that made it |
+//! | [`inspect`] | one pixel | why it has its colour: samples, fragments, edges, texels, and what would help |
 //! | [`render`] | scene + view + settings | a [`raster::Framebuffer`] |
 //! | [`scene`] | documents | a [`scene::Scene`] with nothing left to interpret |
 //! | [`raster`] | screen-space primitives | resolved pixels |

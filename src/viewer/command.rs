@@ -143,6 +143,8 @@ pub enum Command {
     Arrange(Arrangement),
     /// The same, or A alone where they share it so already.
     ToggleArrangement(Arrangement),
+    /// Shows the other of A and B, until this is asked again: a flip by hand.
+    FlipByHand,
     /// The line of the wipe: the part of the frame's width that is A's, kept within 0 and 1.
     SetWipe(f64),
     /// Shows this difference.

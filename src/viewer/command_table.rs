@@ -350,6 +350,15 @@ pub(super) static TABLE: &[CommandSpec] = &[
     .more("What differs then jumps to the eye")
     .run(&Command::ToggleArrangement(Arrangement::Flip)),
     spec(
+        "flip-by-hand",
+        "Flip by hand",
+        "Shows B in place of A; again, A",
+        Group::Compare,
+    )
+    .more("Look at one place while you press it")
+    .keys(&[Chord::char('b')])
+    .run(&Command::FlipByHand),
+    spec(
         "truth",
         "Compare with the truth",
         "Compares A with the same scene at 256 samples per pixel, averaged in linear light",

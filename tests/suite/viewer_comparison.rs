@@ -390,6 +390,25 @@ fn comparison_flips_in_time() {
     assert_eq!(session.viewer.due(), None, "nothing to wait for");
 }
 
+#[test]
+fn comparison_flips_by_hand() {
+    let mut session = sixteen_against_one(WINDOW);
+    let [a, b] = frames(&session);
+    session.keys(&["b"]);
+    assert!(session.viewer.window_picture() == b, "B, where A alone was");
+    assert_eq!(session.viewer.due(), None, "until the key is pressed again");
+    session.keys(&["b"]);
+    assert!(session.viewer.window_picture() == a, "A");
+    session.run(Command::ToggleArrangement(Arrangement::Flip));
+    session.run(Command::ToggleArrangement(Arrangement::Flip));
+    assert!(session.viewer.due().is_some(), "from alone both flip in time");
+    session.keys(&["b"]);
+    assert!(session.viewer.window_picture() == b, "the other of both");
+    assert_eq!(session.viewer.due(), None, "a hand stops the time");
+    session.run(Command::Escape);
+    assert!(session.viewer.window_picture() == a, "A alone");
+}
+
 /// What nobody sees is drawn when the hand rests.
 #[test]
 fn comparison_draws_b_in_the_back_at_rest() {

@@ -76,6 +76,7 @@ impl Viewer {
                 let shown = self.arrangement() == arrangement;
                 self.arrange(if shown { Arrangement::Alone } else { arrangement });
             }
+            Command::FlipByHand => self.flip_by_hand(),
             Command::SetWipe(part) if part.is_finite() => {
                 self.comparison.wipe = part.clamp(0.0, 1.0);
                 self.arrange(Arrangement::Wipe);

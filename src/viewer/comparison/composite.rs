@@ -82,6 +82,20 @@ impl<'a> Composite<'a> {
         }
     }
 
+    /// Each pane with what it shows and where that is to be seen on the screen.
+    fn parts(&self) -> impl Iterator<Item = (&Pane, &Content<'a>, PixelRect)> {
+        self.panes.iter().map(|(pane, content)| {
+            let frame = content.frame();
+            let place = PixelRect {
+                x: pane.corner[0],
+                y: pane.corner[1],
+                width: frame.width(),
+                height: frame.height(),
+            };
+            (pane, content, place.intersection(&pane.area))
+        })
+    }
+
     /// Writes some columns of a row of the screen; `out` has as many pixels.
     pub(in super::super) fn row(&self, y: usize, columns: Range<usize>, out: &mut [u32]) {
         out.fill(BEYOND);
@@ -91,22 +105,15 @@ impl<'a> Composite<'a> {
             width: u32::try_from(columns.len()).unwrap_or(u32::MAX),
             height: 1,
         };
-        for (pane, content) in &self.panes {
-            let frame = content.frame();
-            let place = PixelRect {
-                x: pane.corner[0],
-                y: pane.corner[1],
-                width: frame.width(),
-                height: frame.height(),
-            };
-            let part = place.intersection(&pane.area).intersection(&wanted);
+        for (pane, content, seen) in self.parts() {
+            let part = seen.intersection(&wanted);
             if part.width == 0 || part.height == 0 {
                 continue;
             }
             let length = part.width as usize;
-            let (from, to) = (unsigned(part.x - place.x), unsigned(part.x - wanted.x));
+            let (from, to) = (unsigned(part.x - pane.corner[0]), unsigned(part.x - wanted.x));
             content.row(
-                unsigned(part.y - place.y),
+                unsigned(part.y - pane.corner[1]),
                 from..from + length,
                 &mut out[to..to + length],
             );
@@ -115,16 +122,7 @@ impl<'a> Composite<'a> {
 
     /// The panes as a picture: what lies between and around them is cut off where nothing is to be seen.
     pub(in super::super) fn picture(&self) -> Framebuffer {
-        let places = self.panes.iter().map(|(pane, content)| {
-            let frame = content.frame();
-            let place = PixelRect {
-                x: pane.corner[0],
-                y: pane.corner[1],
-                width: frame.width(),
-                height: frame.height(),
-            };
-            place.intersection(&pane.area)
-        });
+        let places = self.parts().map(|(_, _, seen)| seen);
         let bounds = places.reduce(|one, other| union(&one, &other)).unwrap_or_default();
         let mut picture = Framebuffer::new(bounds.width, bounds.height);
         let columns = unsigned(bounds.x)..unsigned(bounds.right());

@@ -99,8 +99,9 @@ pub(super) struct Comparison {
     pub(super) wipe: f64,
     /// Whether the pointer drags that line.
     pub(super) drags_line: bool,
-    /// When both change places next, and whether B is to be seen now.
-    flip: Option<(Instant, bool)>,
+    /// When both change places next (never by themselves where a hand flips them), and whether the one in the back is to
+    /// be seen now.
+    flip: Option<(Option<Instant>, bool)>,
     mailbox: Mailbox<Finished>,
     /// B's frames: started for the first B, and kept.
     drawing: Option<Drawing>,

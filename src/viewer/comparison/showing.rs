@@ -25,13 +25,22 @@ impl Viewer {
         let comparison = &mut self.comparison;
         match comparison.flip {
             _ if !flips => comparison.flip = None,
-            None => comparison.flip = next.map(|next| (next, false)),
-            Some((due, shows_b)) if due <= now => {
-                comparison.flip = next.map(|next| (next, !shows_b));
+            None => comparison.flip = Some((next, false)),
+            Some((Some(due), shows_back)) if due <= now => {
+                comparison.flip = Some((next, !shows_back));
                 comparison.touch();
             }
             Some(_) => {}
         }
+    }
+
+    /// Shows the other of both, until it is asked for again.
+    pub(super) fn flip_by_hand(&mut self) {
+        let shows_back = self.flip_shows_back();
+        if self.arrangement() != Arrangement::Flip {
+            self.arrange(Arrangement::Flip);
+        }
+        self.comparison.flip = Some((None, !shows_back));
     }
 
     /// Whether the one in the back is to be seen of both that flip.
@@ -46,7 +55,7 @@ impl Viewer {
 
     /// When something about comparing is to be done: flipping, measuring, looking at B again.
     pub(in super::super) fn comparison_due(&self) -> Option<Instant> {
-        let flip = self.comparison.flip.map(|(due, _)| due);
+        let flip = self.comparison.flip.and_then(|(due, _)| due);
         let drawing = self.comparison.drawing.as_ref().and_then(Drawing::due);
         let other = self.comparison.postponed.filter(|_| self.comparison.other.is_some());
         [flip, drawing, other, self.comparison.measuring.due()]

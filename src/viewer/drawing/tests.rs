@@ -81,15 +81,19 @@ impl Desk {
         self.drawing.want(Wish::new(picture.clone(), [20, 30], None));
     }
 
-    /// Whole frames of `picture` are slow from now on.
+    /// Whole frames of `picture` are slow from now on, and previews of one sample per pixel are not.
     fn is_slow(&mut self, picture: &Picture) {
         self.drawing.pace.note(picture, None, SLOW_FRAME);
+        self.drawing.pace.note(picture, Some(Manner::RateOne), Duration::ZERO);
     }
 
-    /// Takes in messages until the thread has nothing more to do.
+    /// Takes in messages until the thread has nothing more to do; the hand does not rest meanwhile, however long it takes.
     fn work(&mut self) {
         while self.drawing.running.is_some() {
             let message = self.messages.recv().expect("the thread answers");
+            if let Some(wanted) = &mut self.drawing.wanted {
+                wanted.since = Instant::now();
+            }
             self.take_in(message);
         }
     }

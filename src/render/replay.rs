@@ -9,7 +9,22 @@ use crate::geometry::area_in_pixel;
 use crate::raster::{
     ChunkBuilder, DisplayList, ListContext, PaintedKind, PaintedOp, Piece, PixelReplay, RasterSettings, Region,
 };
-use crate::scene::{Paint, Primitive, PrimitiveKind};
+use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};
+
+/// Whether a primitive is shaded and lets what is below it shine through.
+fn shines_through(scene: &Scene, kind: &PrimitiveKind) -> bool {
+    match kind {
+        PrimitiveKind::Triangle {
+            paint: Paint::Texture { texture, opacity, .. },
+            ..
+        } => *opacity < 1.0 || !scene.textures[texture.0 as usize].pyramid.is_opaque(),
+        PrimitiveKind::Triangle {
+            paint: Paint::Vertex(colors),
+            ..
+        } => colors.iter().any(|color| color.a < 1.0),
+        _ => false,
+    }
+}
 
 /// Draws pixel `(x, y)` of a frame of `size` pixels again, by the same code as the frame; `None` outside the frame.
 ///
@@ -47,7 +62,10 @@ impl<'a> Neighbourhood<'a> {
         let low = DVec2::new(f64::from(region.x), f64::from(region.y));
         let size_of = DVec2::new(f64::from(region.width), f64::from(region.height));
         let near = [low - SNAP, low + size_of + SNAP];
-        let wanted = |kind: &PrimitiveKind| bounds(&screen, kind).is_none_or(|bounds| touch(bounds, near));
+        // One translucent shaded primitive anywhere makes all shaded ones blend sample by sample.
+        let wanted = |kind: &PrimitiveKind| {
+            shines_through(subject.scene, kind) || bounds(&screen, kind).is_none_or(|bounds| touch(bounds, near))
+        };
         Self {
             list: picture_list(&subject, size, wanted),
             subject,

@@ -9,9 +9,9 @@ use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::View as SceneView;
 use rasterscope::inspect::{Explanation, Fragment, Interpolated, Paint, Question, Shape, View};
 use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
-use rasterscope::render::{RenderSettings, Subject, draw};
+use rasterscope::render::{RenderSettings, Subject, draw, replay};
 use rasterscope::rules::Rules;
-use rasterscope::scene::{self, DialectChoice, ReadOptions, Scene};
+use rasterscope::scene::{self, DialectChoice, Paint as ScenePaint, PrimitiveKind, ReadOptions, Scene};
 use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 use rayon::prelude::*;
@@ -423,4 +423,37 @@ fn hints_name_a_cure_and_vanish_with_it() {
     );
     let cured = hints(LevelSampling::Linear, 16);
     assert!(!cured.contains("(L)") && !cured.contains("(T)"), "{cured}");
+}
+
+#[test]
+fn explanations_know_what_lies_far_away() {
+    // The translucent triangle on the left decides how the textures on the right are blended.
+    let document = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="60">
+        <texture texid="map" filename="../../assets/textures/map.png"/>
+        <textri texid="map" uvs="0 0 1 0 0 1" points="0,0 8,0 0,60"/>
+        <textri texid="map" uvs="0 0 1 0 1 1" points="20,0 100,0 100,60"/>
+        <textri texid="map" uvs="0 0 1 1 0 1" points="20,0 100,60 20,60"/></svg>"#;
+    let mut scene = read("far.svg", document);
+    if let PrimitiveKind::Triangle {
+        paint: ScenePaint::Texture { opacity, .. },
+        ..
+    } = &mut scene.primitives[0].kind
+    {
+        *opacity = 0.5;
+    }
+    let [_, trilinear, ..] = settings();
+    let size = [300, 200];
+    let view = SceneView::Canvas.transform(scene.canvas, size);
+    let mut frame = Framebuffer::new(size[0], size[1]);
+    draw(&scene, &view, &trilinear, &mut frame);
+    let subject = Subject {
+        scene: &scene,
+        view: &view,
+        settings: &trilinear,
+    };
+    (0..size[0] * size[1]).into_par_iter().for_each(|i| {
+        let pixel = [i % size[0], i / size[0]];
+        let found = replay(&subject, size, pixel).unwrap().pixel;
+        assert_eq!(found, frame.pixels()[i as usize], "{pixel:?}");
+    });
 }

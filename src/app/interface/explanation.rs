@@ -10,6 +10,7 @@ use super::floating::points;
 use super::look;
 use super::{scrubber, twin};
 use crate::inspect::{Difference, Explanation, Paint, TexelPlace};
+use crate::render::Visualisation;
 use crate::viewer::{Command, Toggle, Viewer};
 
 /// Width of the panel, in points, frame included.
@@ -70,6 +71,14 @@ impl ExplanationPanel {
 
     fn report(&mut self, ui: &mut Ui, viewer: &Viewer, explanation: &Explanation, hovered: &mut Hovered) {
         lines(ui, &explanation.pixel_lines());
+        let shown = viewer.settings().render.visualisation;
+        if shown != Visualisation::Color {
+            let note = format!(
+                "The window shows {}; what is explained is the picture (V).",
+                shown.name()
+            );
+            ui.label(RichText::new(note).weak());
+        }
         against(ui, viewer, explanation);
         let hints = explanation.hints();
         if !hints.is_empty() {

@@ -7,12 +7,14 @@ use clap::builder::PossibleValue;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand, ValueEnum};
 
+use super::axes::AxisLists;
 use super::failure::Failure;
 use super::recorded;
 use super::size::FrameSize;
 use super::view_option;
 use crate::color::{ResolveSpace, Rgba};
 use crate::compare::Measure;
+use crate::figure::{Ground, InsetSpec};
 use crate::geometry::View;
 use crate::raster::{SamplePattern, SampleRate};
 use crate::render::{RenderSettings, Visualisation};
@@ -43,6 +45,9 @@ pub(super) enum Verb {
     View(ViewerOptions),
     /// Draw a scene, or every scene in a folder, into PNG files, without a window
     Render(RenderOptions),
+    /// Draw one picture for each combination of settings, in a labelled grid
+    #[command(after_help = SHEET_FILES)]
+    Sheet(SheetOptions),
     /// Draw again what a picture of this program shows, by the command line that its file carries
     #[command(after_help = RERUN_STATUS)]
     Rerun(RerunOptions),
@@ -61,7 +66,8 @@ impl Verb {
         match self {
             Self::View(options) => Some(&options.sampling),
             Self::Render(options) => Some(&options.picture.sampling),
-            Self::Rerun(_) => None,
+            // Each panel has its own.
+            Self::Sheet(_) | Self::Rerun(_) => None,
             Self::Inspect(options) => Some(&options.picture.sampling),
             Self::Diff(options) => Some(&options.sampling),
             Self::Bench(options) => Some(&options.picture.sampling),
@@ -73,11 +79,16 @@ impl Verb {
         match self {
             Self::View(options) if options.paths.len() == 1 => options.paths.first_mut(),
             Self::Render(options) => Some(&mut options.scene),
+            Self::Sheet(options) => Some(&mut options.scene),
             Self::Inspect(options) => Some(&mut options.scene),
             _ => None,
         }
     }
 }
+
+const SHEET_FILES: &str = "Every option of sampling takes a list with commas; the first list of several values makes the columns. \
+                           Beside OUT.png a folder OUT gets the single panels, and figures.md, figures.html and \
+                           figures.tex with captions and alternative text.";
 
 const RERUN_STATUS: &str = "Exit status: 0 done, with --check: every pixel is the same; 1 pixels differ; 2 the picture \
                             carries no record, or a file or an argument is at fault.";
@@ -132,6 +143,35 @@ pub(super) struct RenderOptions {
     pub(super) no_legend: bool,
     #[command(flatten)]
     pub(super) picture: PictureOptions,
+
+    /// Magnify a region in a corner: X,Y is its middle in pixels, uX,Y in user units; may come several times
+    #[arg(long = "inset", value_name = "X,Y[:REGION@FACTOR[:CORNER]]")]
+    pub(super) insets: Vec<InsetSpec>,
+}
+
+#[derive(Clone, Debug, Args)]
+pub(super) struct SheetOptions {
+    /// An SVG file, a scene of the gallery, or a PNG of this program: its scene and settings
+    pub(super) scene: PathBuf,
+    /// The PNG file to write
+    #[arg(short, long, value_name = "OUT.png")]
+    pub(super) output: PathBuf,
+    /// Pixels of each panel [default: squares that make the sheet 1890 pixels wide, 16 cm at 300 dpi]
+    #[arg(long, value_name = "WxH")]
+    pub(super) size: Option<FrameSize>,
+    /// Magnify a region of every panel: X,Y is its middle in pixels, uX,Y in user units; may come several times
+    #[arg(long = "inset", value_name = "X,Y[:REGION@FACTOR[:CORNER]]")]
+    pub(super) insets: Vec<InsetSpec>,
+    /// Dark ink on white for print, or light ink on black for slides
+    #[arg(long, default_value = Ground::Light.name(), value_enum)]
+    pub(super) theme: Ground,
+    /// A sentence that the caption ends with
+    #[arg(long, value_name = "TEXT")]
+    pub(super) note: Option<String>,
+    #[command(flatten)]
+    pub(super) axes: AxisLists,
+    #[command(flatten)]
+    pub(super) framing: FramingOptions,
 }
 
 #[derive(Debug, Args)]
@@ -339,7 +379,8 @@ named_values!(
     Rules,
     DialectChoice,
     Theme,
-    Measure
+    Measure,
+    Ground
 );
 
 fn sample_rate(text: &str) -> Result<SampleRate, String> {
@@ -423,6 +464,12 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<(Ar
         // `--size` and its value: no screen is that large.
         options.drain(..2);
     }
+    if matches!(arguments.verb, Verb::Render(_) | Verb::Sheet(_)) {
+        options.extend(restored.spec.inset_options());
+    }
+    if matches!(arguments.verb, Verb::Render(_)) {
+        options.extend(restored.spec.legend_option());
+    }
     let command = words.len().min(2);
     let words = [
         &words[..command],
@@ -435,6 +482,26 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<(Ar
         *scene = recorded::scene_path(&restored);
     }
     Ok((arguments, Some(restored)))
+}
+
+/// The options of sampling alone.
+#[derive(Debug, Parser)]
+#[command(no_binary_name = true)]
+struct SamplingOnly {
+    #[command(flatten)]
+    sampling: SamplingOptions,
+}
+
+/// Reads options of sampling.
+pub(super) fn sampling_of(words: impl Iterator<Item = String>) -> Result<SamplingOptions, Failure> {
+    let read = SamplingOnly::try_parse_from(words);
+    let sampling = read
+        .map_err(|error| Failure::Input(one_line(&error.to_string())))?
+        .sampling;
+    match sampling.refusal() {
+        Some(refusal) => Err(Failure::Input(one_line(&refusal))),
+        None => Ok(sampling),
+    }
 }
 
 /// Reads words that name a command; `repeated` allows options to come again, so that the last counts.
@@ -560,6 +627,13 @@ mod tests {
             "rasterscope render a.svg -o b.png --lod-level 1e9",
             "rasterscope render a.svg -o b.png --lod-per texel",
             "rasterscope render a.svg -o b.png --unknown",
+            "rasterscope render a.svg -o b.png --inset 5",
+            "rasterscope render a.svg -o b.png --inset 5,5:16@8:middle",
+            "rasterscope render a.svg -o b.png --inset 5,5:4@8",
+            "rasterscope sheet a.svg -o b.png --sample-rate 1,,4",
+            "rasterscope sheet a.svg -o b.png --pattern grid,grid",
+            "rasterscope sheet a.svg -o b.png --axis 1,4",
+            "rasterscope sheet a.svg --sample-rate 1,4",
             "rasterscope rerun a.png",
             "rasterscope rerun a.png --check -o b.png",
             "rasterscope render a.svg -o b.png --size 5x5 --size 6x6",

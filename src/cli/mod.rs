@@ -4,6 +4,7 @@
 //! and `diff` and `rerun --check` of pictures that differ.
 
 mod arguments;
+mod axes;
 mod bench;
 mod diff;
 mod failure;
@@ -12,6 +13,7 @@ mod picture;
 mod recorded;
 mod render;
 mod rerun;
+mod sheet;
 mod size;
 mod view;
 mod view_option;
@@ -52,6 +54,7 @@ fn execute(arguments: &Arguments, restored: Option<&Restored>) -> Result<(), Fai
     match &arguments.verb {
         Verb::View(options) => view::run(options, restored),
         Verb::Render(options) => render::run(options, restored),
+        Verb::Sheet(options) => sheet::run(options, restored),
         Verb::Rerun(options) => rerun::run(options),
         Verb::Inspect(options) => inspect::run(options, restored),
         Verb::Diff(options) => diff::run(options),

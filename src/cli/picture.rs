@@ -1,18 +1,19 @@
 //! From options to a picture: reading a scene, drawing it on as many threads as were asked for.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::failure::{Failure, print_error};
-use crate::figure::{Record, add_legends};
+use crate::figure::{Record, add_furniture};
 use crate::geometry::ViewTransform;
 use crate::raster::Framebuffer;
-use crate::render::{self, FrameStats, Subject};
+use crate::render::{self, FrameStats, Legend, Subject};
 use crate::scene::Scene;
 use crate::viewer::{PictureSpec, Restored};
 
 /// A scene and everything that its picture depends on.
 pub(super) struct Picture {
-    pub(super) scene: Scene,
+    pub(super) scene: Arc<Scene>,
     spec: PictureSpec,
     view: ViewTransform,
     frame: Framebuffer,
@@ -25,13 +26,18 @@ impl Picture {
         for line in scene.report.lines() {
             print_error(&format!("{}:{line}", spec.scene.address()));
         }
+        Ok(Self::of(spec, Arc::new(scene)))
+    }
+
+    /// As [`Picture::read`], of a scene that was read as `spec` says.
+    pub(super) fn of(spec: PictureSpec, scene: Arc<Scene>) -> Self {
         let [width, height] = spec.size;
-        Ok(Self {
+        Self {
             view: spec.view.transform(scene.canvas, spec.size),
             frame: Framebuffer::new(width, height),
             scene,
             spec,
-        })
+        }
     }
 
     /// Says on stderr what has changed since the picture was made that the scene comes from.
@@ -51,19 +57,25 @@ impl Picture {
         render::draw(&self.scene, &self.view, &self.spec.render, &mut self.frame)
     }
 
-    /// Draws the legend of what the picture shows into a corner of it, where there is room; else says so on stderr.
-    pub(super) fn add_legend(&mut self) {
-        if !self.spec.legend {
-            return;
-        }
-        let legend = self.spec.render.visualisation.legend(&self.scene);
+    /// Draws the picture as a figure: with its insets, and the legend of what it shows where there is room; else says so on
+    /// stderr.
+    pub(super) fn draw_figure(&mut self) -> Result<(), Failure> {
+        self.draw();
+        let legend = self.spec.legend.then(|| self.legend()).flatten();
         let legends = legend.as_slice();
-        if add_legends(&mut self.frame, legends, &[]) < legends.len() {
+        let drawn = add_furniture(&mut self.frame, &self.spec.insets, &self.view, legends).map_err(Failure::input)?;
+        if drawn < legends.len() {
             let [width, height] = [self.frame.width(), self.frame.height()];
             print_error(&format!(
                 "no room for the legend in {width}x{height} pixels; make the picture larger with --size"
             ));
         }
+        Ok(())
+    }
+
+    /// The legend of what the picture shows.
+    pub(super) fn legend(&self) -> Option<Legend> {
+        self.spec.render.visualisation.legend(&self.scene)
     }
 
     /// What the picture is of.

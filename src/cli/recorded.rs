@@ -8,6 +8,9 @@ use super::failure::Failure;
 use crate::figure::Record;
 use crate::viewer::{PictureSpec, Restored, SceneSource};
 
+/// What is wrong with a command line that shows something else.
+pub(super) const NO_SCENE: &str = "it draws no scene";
+
 /// What the command line of a record draws.
 ///
 /// # Errors
@@ -15,10 +18,12 @@ use crate::viewer::{PictureSpec, Restored, SceneSource};
 pub(super) fn read_arguments(record: &Record) -> Result<PictureSpec, String> {
     match verb_of(record)? {
         Verb::Render(options) => Ok(PictureSpec {
+            insets: options.insets,
             legend: !options.no_legend,
             ..spec(&options.scene, &options.picture)
         }),
-        _ => Err("it draws no scene".to_owned()),
+        Verb::Sheet(options) => super::sheet::restored_spec(&options),
+        _ => Err(NO_SCENE.to_owned()),
     }
 }
 
@@ -44,6 +49,7 @@ pub(super) fn spec(scene: &Path, options: &PictureOptions) -> PictureSpec {
         render: options.sampling.settings(options.framing.view),
         dialect: options.sampling.dialect,
         legend: true,
+        insets: Vec::new(),
     }
 }
 

@@ -91,12 +91,12 @@ fn one(
     let scene = PictureSpec {
         scene: source,
         legend: !options.no_legend,
+        insets: options.insets.clone(),
         ..recorded::spec(&options.scene, &options.picture)
     };
     let mut picture = Picture::read(scene)?;
     picture.tell_changes(restored);
-    picture.draw();
-    picture.add_legend();
+    picture.draw_figure()?;
     if let Some(folder) = folder_to_make(output, options) {
         std::fs::create_dir_all(&folder).map_err(|error| unwritable(&folder, &error))?;
     }

@@ -5,8 +5,9 @@ use std::path::Path;
 use super::arguments::{RerunOptions, Verb};
 use super::failure::{Failure, print, print_error};
 use super::picture::{Picture, on_threads};
-use super::recorded::{read_arguments, verb_of};
+use super::recorded::{read_arguments, scene_path, verb_of};
 use super::render::{name_for_png, unwritable};
+use super::sheet;
 use crate::compare;
 use crate::figure::{Record, save_recorded_png};
 use crate::raster::Framebuffer;
@@ -71,12 +72,20 @@ fn draw(restored: &Restored, output: &Path) -> Result<Again, Failure> {
     match verb_of(&restored.record).map_err(Failure::Input)? {
         Verb::Render(_) => {
             let mut picture = Picture::read(restored.spec.clone())?;
-            picture.draw();
-            picture.add_legend();
+            picture.draw_figure()?;
             Ok(Again {
                 record: picture.record(output),
                 change: restored.changes(&picture.scene.files),
                 frame: picture.into_frame(),
+            })
+        }
+        Verb::Sheet(mut options) => {
+            options.scene = scene_path(restored);
+            let sheet = sheet::draw(&options, output)?;
+            Ok(Again {
+                change: restored.changes(&sheet.scene.files),
+                record: sheet.record,
+                frame: sheet.picture,
             })
         }
         _ => Err(Failure::input(format!(

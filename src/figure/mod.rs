@@ -1,16 +1,21 @@
-//! Pictures made of frames: insets and words on them, PNG files. Knows no window.
+//! Pictures made of frames: insets, legends, words, sheets, and the PNG files they are kept in. Knows no window.
 
+mod callout;
 mod inset;
 mod legend;
+mod lines;
 mod paint;
 mod placement;
 mod png;
 mod record;
 mod rect;
 mod samples;
+mod sheet;
+mod snippets;
 mod text;
 
 pub use self::png::{encode_png, save_files, save_png, save_recorded_png};
+pub use callout::{InsetError, InsetPlace, InsetSpec, add_furniture};
 pub use inset::Inset;
 pub use legend::{add_legends, draw_legend, place_legends};
 use placement::corners;
@@ -18,4 +23,6 @@ pub use placement::{Corner, place};
 pub use record::{Record, RecordError, RecordedFile};
 pub use rect::PixelRect;
 pub use samples::{SampleMark, is_dark};
+pub use sheet::{Ground, PAGE_WIDTH, SheetLayout, SheetPlan, draw_legends};
+pub use snippets::{Figure, html, latex, markdown};
 pub use text::{Anchor, TextBlock, TextStyle, Typeface};

@@ -23,6 +23,16 @@ impl Corner {
     /// Every corner.
     pub const ALL: [Self; 4] = [Self::TopRight, Self::BottomRight, Self::TopLeft, Self::BottomLeft];
 
+    /// Its name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::TopLeft => "top-left",
+            Self::TopRight => "top-right",
+            Self::BottomLeft => "bottom-left",
+            Self::BottomRight => "bottom-right",
+        }
+    }
+
     /// A rectangle of `size` in this corner of `area`, `margin` from its sides where there is room; `None` if it is
     /// larger than the area.
     fn rect(self, area: &PixelRect, size: [u32; 2], margin: u32) -> Option<PixelRect> {
@@ -41,6 +51,11 @@ impl Corner {
             height: size[1],
         })
     }
+}
+
+/// A rectangle of `size` in a corner of `area`; `None` if it does not fit.
+pub(super) fn in_corner(area: &PixelRect, size: [u32; 2], corner: Corner) -> Option<PixelRect> {
+    corner.rect(area, size, MARGIN)
 }
 
 /// A place for an inset of `size` inside `area` that leaves `shown` uncovered: `preferred` if that will do, else the

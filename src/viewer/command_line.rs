@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::settings::background_name;
 use super::{Effect, SceneSource, Viewer};
-use crate::figure::{Record, RecordedFile};
+use crate::figure::{InsetPlace, InsetSpec, Record, RecordedFile};
 use crate::geometry::View;
 use crate::render::RenderSettings;
 use crate::scene::{DialectChoice, FileDigest, Scene};
@@ -59,7 +59,18 @@ impl Viewer {
             render: self.settings.render,
             dialect: self.settings.dialect,
             legend: true,
+            insets: self.inset_spec().into_iter().collect(),
         })
+    }
+
+    /// The inspector's inset as figures carry it: as large as the frame has room for. `None` while it is not to be seen, or
+    /// where there is no room at all.
+    fn inset_spec(&self) -> Option<InsetSpec> {
+        let pixel = self.inset.and(self.inspected_pixel())?;
+        let (entry, sight) = (self.current()?, self.sight()?);
+        let (region, magnification) = (self.inspector.region, self.inspector.magnification);
+        let spec = InsetSpec::around(InsetPlace::Pixel(pixel), region, magnification);
+        spec.fitted(self.frame_size(), &entry.camera.transform(&sight))
     }
 }
 
@@ -78,6 +89,8 @@ pub struct PictureSpec {
     pub dialect: DialectChoice,
     /// Whether a visualisation comes with its legend.
     pub legend: bool,
+    /// What is magnified.
+    pub insets: Vec<InsetSpec>,
 }
 
 impl PictureSpec {
@@ -91,7 +104,18 @@ impl PictureSpec {
             as_path(output),
         ];
         words.extend(self.options());
+        words.extend(self.inset_options());
+        words.extend(self.legend_option());
         words
+    }
+
+    /// The options of the insets, which only commands that draw figures know.
+    pub fn inset_options(&self) -> Vec<String> {
+        let words = self
+            .insets
+            .iter()
+            .map(|inset| ["--inset".to_owned(), inset.to_string()]);
+        words.flatten().collect()
     }
 
     /// The options among them: size, view and the settings.
@@ -106,10 +130,12 @@ impl PictureSpec {
         for (name, value) in self.settings() {
             words.extend([format!("--{name}"), value]);
         }
-        if !self.legend {
-            words.push("--no-legend".to_owned());
-        }
         words
+    }
+
+    /// The option of the legend, which only the command for one figure knows.
+    pub fn legend_option(&self) -> Option<String> {
+        (!self.legend).then(|| "--no-legend".to_owned())
     }
 
     /// The view as `--view` takes it.

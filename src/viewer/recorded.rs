@@ -2,10 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::DVec2;
+
 use super::camera::Camera;
+use super::inspector::Pin;
 use super::library;
 use super::{PictureSpec, SceneSource, Viewer};
-use crate::figure::Record;
+use crate::figure::{InsetPlace, InsetSpec, Record};
 use crate::scene::{FileDigest, FolderResources, SceneFiles};
 
 /// Reads the arguments of a record by the grammar of the command line.
@@ -143,11 +146,32 @@ impl Viewer {
         let Some(restored) = self.restored.take_if(|restored| restored.spec.scene == source) else {
             return;
         };
+        if let Some(inset) = restored.spec.insets.first() {
+            self.pin_as_in(inset, &restored.spec, scene.canvas);
+        }
         if let Some(differs) = &restored.record.differs {
             self.messages.done(format!("{}: {differs}", restored.shot.display()));
         }
         if let Some(change) = restored.changes(&scene.files) {
             self.messages.error(change);
         }
+    }
+
+    /// Pins the place of an inset, in a window that may have another size than the picture.
+    fn pin_as_in(&mut self, inset: &InsetSpec, spec: &PictureSpec, canvas: DVec2) {
+        let place = match inset.at {
+            InsetPlace::User(place) => place,
+            InsetPlace::Pixel(pixel) => {
+                let centre = DVec2::from(pixel.map(f64::from)) + 0.5;
+                spec.view.transform(canvas, spec.size).to_scene(centre)
+            }
+        };
+        self.inspector.set_magnification(inset.magnification);
+        self.inspector.set_region(inset.region);
+        self.inspector.open = true;
+        self.inspector.pin = Some(Pin {
+            pixel: [0, 0],
+            place: Some((place, (self.current, self.generation))),
+        });
     }
 }

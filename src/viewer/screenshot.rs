@@ -7,10 +7,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::background::{AtEnd, Crew, Mailbox, guarded};
-use super::present::{paste, show_frame};
 use super::state::Finished;
-use super::{Frame, PictureSpec, PixelRect, PixelZoom, PlacedInset, Viewer, WindowPixels};
-use crate::figure::{Record, SampleMark, add_legends, encode_png};
+use super::{Frame, PictureSpec, Viewer};
+use crate::figure::{InsetSpec, Record, add_furniture, add_legends, encode_png};
 use crate::raster::Framebuffer;
 use crate::render::Legend;
 use crate::scene::Scene;
@@ -59,10 +58,10 @@ impl Recipe {
 }
 
 enum Shot {
-    /// A frame, and the inset that lies over it.
+    /// A frame, what of it is magnified, and what its colours show.
     Frame {
         frame: Arc<Frame>,
-        inset: Option<(PlacedInset, PixelZoom, Vec<SampleMark>)>,
+        insets: Vec<InsetSpec>,
         legends: Vec<Legend>,
     },
     /// A picture that is put together already.
@@ -169,12 +168,9 @@ impl Viewer {
                 self.saver.push(Shot::Ready(both.clone()), recipe.clone());
                 continue;
             }
-            let inset = self
-                .inset
-                .map(|inset| (inset, self.settings.pixel_zoom, self.sample_marks()));
             let shot = Shot::Frame {
                 frame: Arc::clone(&frame),
-                inset,
+                insets: recipe.as_ref().map_or(Vec::new(), |recipe| recipe.spec.insets.clone()),
                 legends: self.legends_of_picture(),
             };
             self.saver.push(shot, recipe.clone());
@@ -203,6 +199,8 @@ impl Viewer {
         let spec = PictureSpec {
             size: picture.size,
             render: picture.settings,
+            // What A and B share has its own insets, in window pixels.
+            insets: if with_other { Vec::new() } else { now.insets.clone() },
             ..now
         };
         let drawn_of_now = self
@@ -214,8 +212,6 @@ impl Viewer {
             Some("the view moved on while this picture was saved; the command line draws where it went")
         } else if with_other {
             Some("A and B share this picture; the command line draws A alone")
-        } else if self.inset.is_some() {
-            Some("with the inspector's inset; the command line draws the picture below it")
         } else {
             None
         };
@@ -241,47 +237,19 @@ impl Viewer {
 impl Job {
     fn save(self) -> Result<(PathBuf, [u32; 2]), String> {
         let picture = match self.picture {
-            Shot::Frame {
-                frame,
-                inset: None,
-                legends,
-            } if legends.is_empty() => return save_new(&self.folder, &frame.pixels, self.recipe.as_ref()),
-            Shot::Frame { frame, inset, legends } => {
-                let (mut picture, spared) = match inset {
-                    Some((placed, zoom, marks)) => {
-                        let picture = with_inset(&frame.pixels, &placed, zoom, &marks);
-                        (picture, vec![placed.rect])
-                    }
-                    None => (frame.pixels.clone(), Vec::new()),
-                };
-                add_legends(&mut picture, &legends, &spared);
+            Shot::Frame { frame, insets, legends } if insets.is_empty() && legends.is_empty() => {
+                return save_new(&self.folder, &frame.pixels, self.recipe.as_ref());
+            }
+            Shot::Frame { frame, insets, legends } => {
+                let mut picture = frame.pixels.clone();
+                add_furniture(&mut picture, &insets, &frame.picture.view, &legends)
+                    .map_err(|error| error.to_string())?;
                 picture
             }
             Shot::Ready(picture) => picture,
         };
         save_new(&self.folder, &picture, self.recipe.as_ref())
     }
-}
-
-/// The frame as the window shows it, with the inset over it.
-fn with_inset(frame: &Framebuffer, placed: &PlacedInset, zoom: PixelZoom, marks: &[SampleMark]) -> Framebuffer {
-    // One frame pixel stays one pixel of the file unless the inset, which is in window pixels, lies over it.
-    let side = |length: u32| length.saturating_mul(zoom.factor()).min(Framebuffer::MAX_SIDE);
-    let mut picture = Framebuffer::new(side(frame.width()), side(frame.height()));
-    let all = PixelRect::of_size([picture.width(), picture.height()]);
-    if zoom == PixelZoom::ONE {
-        picture.pixels_mut().copy_from_slice(frame.pixels());
-    } else {
-        show_frame(frame, zoom, &mut WindowPixels::of(&mut picture), &all);
-    }
-    let inset = placed.inset.draw(frame, marks);
-    paste(
-        &inset,
-        [placed.rect.x, placed.rect.y],
-        &mut WindowPixels::of(&mut picture),
-        &all,
-    );
-    picture
 }
 
 /// Saves `picture` in `folder` under a name that did not exist.

@@ -9,6 +9,7 @@ mod architecture;
 mod cli;
 mod coverage;
 mod diff;
+mod figures;
 mod gallery;
 mod golden;
 mod inspect;

@@ -194,6 +194,36 @@ fn render_takes_a_picture_for_its_scene_and_settings() {
     assert_eq!(told.command_line, line, "what is written counts more");
 }
 
+#[test]
+fn insets_are_part_of_the_picture() {
+    let work = workplace();
+    let inset = ["--inset", "u12,12:9@12:auto", "--inset", "260,20:8@10:bottom-left"];
+    let draw = [&["render", "a.svg", "-o", "out/i.png", "--size", "300x280"], &inset[..]].concat();
+    done(work.path(), &draw);
+    let told = record(&work.path().join("out/i.png"));
+    assert!(told.command_line.ends_with(&inset.join(" ")), "{}", told.command_line);
+    let said = done(work.path(), &["rerun", "out/i.png", "--check", "--threads", "2"]);
+    assert!(said.contains("the same"), "{said}");
+    let refused = |inset: &str, words: &[&str]| {
+        let arguments = [
+            "render",
+            "a.svg",
+            "-o",
+            "out/no.png",
+            "--size",
+            "200x100",
+            "--inset",
+            inset,
+        ];
+        assert_refused(&run(work.path(), &arguments), &arguments, words);
+        assert!(!work.path().join("out/no.png").exists(), "nothing is written");
+    };
+    refused("200,5", &["--inset 200,5", "outside", "200x100"]);
+    refused("u-90,5", &["outside"]);
+    refused("100,50:64@96", &["no room", "smaller"]);
+    refused("190,10:8@4:top-right", &["no room", "its own subject"]);
+}
+
 #[cfg(feature = "window")]
 #[test]
 fn window_comes_back_from_a_picture() {

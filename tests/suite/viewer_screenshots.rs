@@ -72,18 +72,38 @@ fn screenshot_waits_for_the_frame_it_was_asked_for() {
 
 #[test]
 fn screenshot_holds_the_inset() {
-    let mut session = Session::open(&[TRIANGLES], [640, 480]);
+    let mut session = Session::open(&[TRIANGLES], [800, 600]);
     session.run(Command::Pin([300, 200]));
     session.keys(&["s"]);
+    let shot = &session.pictures()[0];
+    let told = Record::of_file(shot).unwrap().unwrap();
+    let line = session.viewer.command_line().unwrap();
+    assert!(line.ends_with(" --inset 300,200:15@20:auto"), "{line}");
     assert!(
-        read(&session.pictures()[0]) == rgba(&session.viewer.window_picture()),
-        "frame and inset"
+        told.command_line.ends_with(" --inset 300,200:15@20:auto") && told.differs.is_none(),
+        "{told:?}"
     );
-    session.run(Command::SetPixelZoom(PixelZoom::new(2).unwrap()));
+    let (saved, frame) = (read(shot), rgba(session.pixels()));
+    let changed = saved.iter().zip(&frame).filter(|(a, b)| a != b).count();
+    assert!(changed > 300 * 300, "an inset of 15 times 21 pixels: {changed}");
+    assert_eq!(
+        saved[200 * 640 + 300],
+        frame[200 * 640 + 300],
+        "its subject is to be seen"
+    );
+    let again = std::process::Command::new(env!("CARGO_BIN_EXE_rasterscope"))
+        .args(["rerun".as_ref(), shot.as_os_str(), "--check".as_ref()])
+        .output()
+        .unwrap();
+    assert!(again.status.success(), "{again:?}");
+    session.run(Command::SetPixelZoom(PixelZoom::new(4).unwrap()));
     session.keys(&["s"]);
+    let told = Record::of_file(&session.pictures()[1]).unwrap().unwrap();
+    assert_eq!(told.size, [200, 150], "frame pixels");
     assert!(
-        read(&session.pictures()[1]) == rgba(&session.viewer.window_picture()),
-        "magnified"
+        told.command_line.contains(" --inset 75,50:"),
+        "made to fit: {}",
+        told.command_line
     );
 }
 

@@ -1,0 +1,148 @@
+//! Figures in the words of documents: Markdown, HTML and LaTeX, with captions and alternative text.
+
+use std::fmt::Write as _;
+
+/// A picture and what is said about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Figure {
+    /// The file, from where the document lies, with `/` between folders.
+    pub file: String,
+    /// What stands below the picture.
+    pub caption: String,
+    /// What is to be seen, for those who cannot see it.
+    pub alternative: String,
+    /// The command line that makes it again.
+    pub command_line: String,
+}
+
+/// As Markdown.
+pub fn markdown(figures: &[Figure]) -> String {
+    let mut text = String::new();
+    for figure in figures {
+        let (alternative, caption) = (in_markdown(&figure.alternative), in_markdown(&figure.caption));
+        // Writing to a `String` cannot fail.
+        let _ = writeln!(
+            text,
+            "![{alternative}](<{}>)\n\n*{caption}*\n",
+            figure.file.replace(['<', '>'], "_")
+        );
+    }
+    text
+}
+
+/// As HTML: a whole page that reads on light and dark screens.
+pub fn html(title: &str, figures: &[Figure]) -> String {
+    let title = in_html(title);
+    let mut text = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>\n\
+         :root {{ color-scheme: light dark; }}\n\
+         body {{ font: 16px/1.5 sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }}\n\
+         figure {{ margin: 2rem 0; }}\nimg {{ max-width: 100%; height: auto; }}\n\
+         figcaption {{ margin-top: .5rem; }}\ncode {{ display: block; font-size: 12px; overflow-wrap: anywhere; opacity: .7; }}\n\
+         </style>\n</head>\n<body>\n<h1>{title}</h1>\n"
+    );
+    for figure in figures {
+        let [file, alternative, caption, line] =
+            [&figure.file, &figure.alternative, &figure.caption, &figure.command_line].map(|part| in_html(part));
+        let _ = writeln!(
+            text,
+            "<figure>\n<img src=\"{file}\" alt=\"{alternative}\">\n<figcaption>{caption}<code>{line}</code></figcaption>\n</figure>"
+        );
+    }
+    text.push_str("</body>\n</html>\n");
+    text
+}
+
+/// As LaTeX, for `graphicx`; `Description` is that of `acmart`, and does nothing elsewhere.
+pub fn latex(figures: &[Figure]) -> String {
+    let mut text = "\\providecommand{\\Description}[1]{}\n".to_owned();
+    for figure in figures {
+        let (caption, alternative) = (in_latex(&figure.caption), in_latex(&figure.alternative));
+        // A name with special signs is taken as it stands.
+        let _ = writeln!(
+            text,
+            "\n\\begin{{figure}}\n  \\centering\n  \\includegraphics[width=\\linewidth]{{\\detokenize{{{}}}}}\n  \
+             \\caption{{{caption}}}\n  \\Description{{{alternative}}}\n\\end{{figure}}",
+            figure.file
+        );
+    }
+    text
+}
+
+/// A text in which no sign means anything to Markdown.
+fn in_markdown(text: &str) -> String {
+    let mut escaped = String::new();
+    for character in text.chars() {
+        if "\\`*_[]<>#|!".contains(character) {
+            escaped.push('\\');
+        }
+        escaped.push(if character.is_control() { ' ' } else { character });
+    }
+    escaped
+}
+
+fn in_html(text: &str) -> String {
+    let mut escaped = String::new();
+    for character in text.chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            other => escaped.push(other),
+        }
+    }
+    escaped
+}
+
+fn in_latex(text: &str) -> String {
+    let mut escaped = String::new();
+    for character in text.chars() {
+        match character {
+            '\\' => escaped.push_str("\\textbackslash{}"),
+            '~' => escaped.push_str("\\textasciitilde{}"),
+            '^' => escaped.push_str("\\textasciicircum{}"),
+            '\u{d7}' => escaped.push_str("$\\times$"),
+            '&' | '%' | '$' | '#' | '_' | '{' | '}' => {
+                escaped.push('\\');
+                escaped.push(character);
+            }
+            other => escaped.push(if other.is_control() { ' ' } else { other }),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn figure() -> Figure {
+        Figure {
+            file: "a b_1.png".to_owned(),
+            caption: "50 % of <b> & {x}_1 #2 \\ 8\u{d7}".to_owned(),
+            alternative: "a \"star\" [1]".to_owned(),
+            command_line: "rasterscope render 'a & b.svg'".to_owned(),
+        }
+    }
+
+    #[test]
+    fn snippets_escape_what_means_something() {
+        let text = markdown(&[figure()]);
+        assert!(text.contains("![a \"star\" \\[1\\]](<a b_1.png>)"), "{text}");
+        assert!(text.contains("*50 % of \\<b\\> & {x}\\_1 \\#2 \\\\ 8\u{d7}*"), "{text}");
+        let text = html("T & co", &[figure()]);
+        assert!(text.contains("<title>T &amp; co</title>"), "{text}");
+        assert!(
+            text.contains("src=\"a b_1.png\" alt=\"a &quot;star&quot; [1]\""),
+            "{text}"
+        );
+        assert!(text.contains("50 % of &lt;b&gt; &amp; {x}_1"), "{text}");
+        let text = latex(&[figure()]);
+        assert!(text.contains("{\\detokenize{a b_1.png}}"), "{text}");
+        assert!(
+            text.contains("50 \\% of <b> \\& \\{x\\}\\_1 \\#2 \\textbackslash{} 8$\\times$"),
+            "{text}"
+        );
+    }
+}

@@ -135,7 +135,8 @@ impl PictureSpec {
 
     /// The option of the legend, which only the command for one figure knows.
     pub fn legend_option(&self) -> Option<String> {
-        (!self.legend).then(|| "--no-legend".to_owned())
+        let has_one = self.render.visualisation != RenderSettings::default().visualisation;
+        (has_one && !self.legend).then(|| "--no-legend".to_owned())
     }
 
     /// The view as `--view` takes it.

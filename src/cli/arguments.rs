@@ -48,6 +48,9 @@ pub(super) enum Verb {
     /// Draw one picture for each combination of settings, in a labelled grid
     #[command(after_help = SHEET_FILES)]
     Sheet(SheetOptions),
+    /// Draw every figure of a write-up, and a page that shows them
+    #[command(after_help = WRITEUP_FILES)]
+    Writeup(WriteupOptions),
     /// Draw again what a picture of this program shows, by the command line that its file carries
     #[command(after_help = RERUN_STATUS)]
     Rerun(RerunOptions),
@@ -67,7 +70,7 @@ impl Verb {
             Self::View(options) => Some(&options.sampling),
             Self::Render(options) => Some(&options.picture.sampling),
             // Each panel has its own.
-            Self::Sheet(_) | Self::Rerun(_) => None,
+            Self::Sheet(_) | Self::Writeup(_) | Self::Rerun(_) => None,
             Self::Inspect(options) => Some(&options.picture.sampling),
             Self::Diff(options) => Some(&options.sampling),
             Self::Bench(options) => Some(&options.picture.sampling),
@@ -89,6 +92,10 @@ impl Verb {
 const SHEET_FILES: &str = "Every option of sampling takes a list with commas; the first list of several values makes the columns. \
                            Beside OUT.png a folder OUT gets the single panels, and figures.md, figures.html and \
                            figures.tex with captions and alternative text.";
+
+const WRITEUP_FILES: &str = "The folder OUT gets a PNG for each figure, named by task, with the panels of sheets in folders of \
+                             their names; index.html, figures.md and figures.tex; pins.toml, which tells where insets look \
+                             and may be edited; and the scenes that were made for it.";
 
 const RERUN_STATUS: &str = "Exit status: 0 done, with --check: every pixel is the same; 1 pixels differ; 2 the picture \
                             carries no record, or a file or an argument is at fault.";
@@ -172,6 +179,48 @@ pub(super) struct SheetOptions {
     pub(super) axes: AxisLists,
     #[command(flatten)]
     pub(super) framing: FramingOptions,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct WriteupOptions {
+    /// Which write-up
+    #[arg(value_enum, default_value = Assignment::Course.name())]
+    pub(super) assignment: Assignment,
+    /// The folder to write into; it is made where there is none
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: PathBuf,
+    /// The course's scenes, with folders such as basic and texmap; those that are missing come from the gallery
+    #[arg(long, value_name = "DIR")]
+    pub(super) scenes: Option<PathBuf>,
+    /// Your own picture, PNG or JPEG, for the task of levels
+    #[arg(long, value_name = "PHOTO")]
+    pub(super) own: Option<PathBuf>,
+    /// Your own robot
+    #[arg(long, value_name = "ROBOT.svg")]
+    pub(super) robot: Option<PathBuf>,
+    /// Where insets look [default: OUT/pins.toml]
+    #[arg(long, value_name = "FILE")]
+    pub(super) pins: Option<PathBuf>,
+    /// Threads that draw [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(super) threads: Option<u16>,
+}
+
+/// A write-up that the program knows the figures of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Assignment {
+    /// A course on rasterization: six tasks and the competition.
+    Course,
+}
+
+impl Assignment {
+    const ALL: [Self; 1] = [Self::Course];
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Course => "course",
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -380,7 +429,8 @@ named_values!(
     DialectChoice,
     Theme,
     Measure,
-    Ground
+    Ground,
+    Assignment
 );
 
 fn sample_rate(text: &str) -> Result<SampleRate, String> {
@@ -634,6 +684,8 @@ mod tests {
             "rasterscope sheet a.svg -o b.png --pattern grid,grid",
             "rasterscope sheet a.svg -o b.png --axis 1,4",
             "rasterscope sheet a.svg --sample-rate 1,4",
+            "rasterscope writeup course",
+            "rasterscope writeup thesis -o out",
             "rasterscope rerun a.png",
             "rasterscope rerun a.png --check -o b.png",
             "rasterscope render a.svg -o b.png --size 5x5 --size 6x6",

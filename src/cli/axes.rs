@@ -106,11 +106,22 @@ fn options() -> Command {
 impl Args for AxisLists {
     fn augment_args(command: Command) -> Command {
         let as_list = |option: &Arg| {
+            let names: Vec<String> = option
+                .get_possible_values()
+                .iter()
+                .map(|value| value.get_name().to_owned())
+                .collect();
+            let mut help = option.get_help().map(ToString::to_string).unwrap_or_default();
+            if !names.is_empty() {
+                help = format!("{help}: {}", names.join(", "));
+            }
             option
                 .clone()
                 .value_parser(value_parser!(String))
                 .default_value(Resettable::<OsStr>::Reset)
                 .value_name("LIST")
+                .help(help)
+                .help_heading("Settings, each a list of values with commas")
                 .allow_hyphen_values(true)
         };
         command.args(options().get_arguments().map(as_list))

@@ -17,6 +17,7 @@ mod sheet;
 mod size;
 mod view;
 mod view_option;
+mod writeup;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -55,6 +56,7 @@ fn execute(arguments: &Arguments, restored: Option<&Restored>) -> Result<(), Fai
         Verb::View(options) => view::run(options, restored),
         Verb::Render(options) => render::run(options, restored),
         Verb::Sheet(options) => sheet::run(options, restored),
+        Verb::Writeup(options) => writeup::run(options),
         Verb::Rerun(options) => rerun::run(options),
         Verb::Inspect(options) => inspect::run(options, restored),
         Verb::Diff(options) => diff::run(options),

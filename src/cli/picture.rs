@@ -47,6 +47,11 @@ impl Picture {
         }
     }
 
+    /// What decides the picture.
+    pub(super) fn spec(&self) -> &PictureSpec {
+        &self.spec
+    }
+
     /// The record of the picture, for the file `output`.
     pub(super) fn record(&self, output: &Path) -> Record {
         self.spec.record(&self.scene, output)

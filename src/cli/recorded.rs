@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use super::arguments::{self, Arguments, PictureOptions, Verb};
+use super::arguments::{self, Arguments, PictureOptions, RenderOptions, Verb};
 use super::failure::Failure;
 use crate::figure::Record;
 use crate::viewer::{PictureSpec, Restored, SceneSource};
@@ -17,11 +17,7 @@ pub(super) const NO_SCENE: &str = "it draws no scene";
 /// One line when it is none that draws a scene.
 pub(super) fn read_arguments(record: &Record) -> Result<PictureSpec, String> {
     match verb_of(record)? {
-        Verb::Render(options) => Ok(PictureSpec {
-            insets: options.insets,
-            legend: !options.no_legend,
-            ..spec(&options.scene, &options.picture)
-        }),
+        Verb::Render(options) => Ok(spec_of_render(&options)),
         Verb::Sheet(options) => super::sheet::restored_spec(&options),
         _ => Err(NO_SCENE.to_owned()),
     }
@@ -37,6 +33,15 @@ pub(super) fn verb_of(record: &Record) -> Result<Verb, String> {
         Ok(Arguments { verb }) => Ok(verb),
         Err(Failure::Input(problem) | Failure::Other(problem)) => Err(problem),
         Err(Failure::Text(_) | Failure::Different) => Err("it asks for help".to_owned()),
+    }
+}
+
+/// The figure that `render` draws of one scene.
+pub(super) fn spec_of_render(options: &RenderOptions) -> PictureSpec {
+    PictureSpec {
+        insets: options.insets.clone(),
+        legend: !options.no_legend,
+        ..spec(&options.scene, &options.picture)
     }
 }
 

@@ -31,6 +31,15 @@ pub(super) struct Sheet {
     pub(super) scene: Arc<Scene>,
 }
 
+impl Sheet {
+    /// What tells each panel apart, and its picture.
+    pub(super) fn panels_mut(&mut self) -> impl Iterator<Item = (&str, &mut Picture)> {
+        self.panels
+            .iter_mut()
+            .map(|panel| (panel.words.as_str(), &mut panel.picture))
+    }
+}
+
 struct Panel {
     picture: Picture,
     /// What tells it apart, such as `sample rate 4, pixel sampling nearest`.
@@ -197,8 +206,8 @@ fn plan(options: &SheetOptions, first: &PictureSpec) -> SheetPlan {
 /// What differs and what all panels share.
 fn caption(options: &SheetOptions, first: &PictureSpec, axes: &[&Axis]) -> String {
     let list = |axis: &Axis| format!("{} {}", axis.title(), axis.values.join(", "));
-    let scene = first.scene.address();
-    let mut parts = vec![match axes {
+    let scene = title(&first.scene);
+    let what = match axes {
         [] => scene,
         [across] => format!("{scene} with {}", list(across)),
         [across, down @ ..] => {
@@ -209,29 +218,61 @@ fn caption(options: &SheetOptions, first: &PictureSpec, axes: &[&Axis]) -> Strin
                 down.join("; ")
             )
         }
-    }];
-    let differs = |name: &str| axes.iter().any(|axis| axis.name == name);
-    let shared: Vec<String> = (first.settings().into_iter())
-        .filter(|(name, _)| !differs(name))
-        .map(|(name, value)| format!("{} {value}", name.replace('-', " ")))
-        .collect();
-    if !shared.is_empty() {
-        parts.push(format!("In all: {}", shared.join(", ")));
+    };
+    let shared = shared_words(first, |name| axes.iter().any(|axis| axis.name == name));
+    let shared = (!shared.is_empty()).then(|| format!("In all: {shared}"));
+    let parts = [Some(what), shared]
+        .into_iter()
+        .flatten()
+        .chain(seen(first, "Each "))
+        .chain(options.note.clone());
+    format!("{}.", parts.collect::<Vec<_>>().join(". "))
+}
+
+/// What is said of a single picture.
+pub(super) fn caption_of(spec: &PictureSpec) -> String {
+    let settings = shared_words(spec, |_| false);
+    let what = match settings.as_str() {
+        "" => title(&spec.scene),
+        settings => format!("{} with {settings}", title(&spec.scene)),
+    };
+    let parts = std::iter::once(what).chain(seen(spec, ""));
+    format!("{}.", parts.collect::<Vec<_>>().join(". "))
+}
+
+/// A scene's name on a picture: not its folder, for a picture that is drawn again where both were moved must be the same.
+fn title(scene: &SceneSource) -> String {
+    let address = scene.address();
+    match scene {
+        SceneSource::File(path) => path
+            .file_name()
+            .map_or(address, |name| name.to_string_lossy().into_owned()),
+        SceneSource::Gallery(_) => address.trim_start_matches("gallery:").to_owned(),
     }
-    let [width, height] = first.size;
-    parts.push(format!(
-        "Each {width} \u{d7} {height} pixels, view {}",
-        first.view_text()
-    ));
-    for inset in &options.insets {
+}
+
+/// The settings in words that differ from their defaults, but for those that are `told` elsewhere.
+fn shared_words(spec: &PictureSpec, told: impl Fn(&str) -> bool) -> String {
+    let settings = spec.settings().into_iter().filter(|(name, _)| !told(name));
+    let words = settings.map(|(name, value)| format!("{} {value}", name.replace('-', " ")));
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// Size, view and insets in words.
+fn seen(spec: &PictureSpec, each: &str) -> Vec<String> {
+    let [width, height] = spec.size;
+    let mut parts = vec![format!(
+        "{each}{width} \u{d7} {height} pixels, view {}",
+        spec.view_text()
+    )];
+    for inset in &spec.insets {
         let [region, factor] = [inset.region, inset.magnification];
         parts.push(format!(
             "Inset: {region} \u{d7} {region} pixels around {}, {factor}\u{d7}",
             inset.at.words()
         ));
     }
-    parts.extend(options.note.clone());
-    format!("{}.", parts.join(". "))
+    parts
 }
 
 /// What tells a panel from the others.
@@ -296,9 +337,9 @@ pub(super) fn write(sheet: &Sheet, output: &Path) -> Result<Figure, Failure> {
         let name = panel_name(number, &panel.words);
         let path = folder.join(&name);
         let record = panel.picture.record(&path);
-        let scene = record.scene.as_ref().map_or("", |scene| scene.address.as_str());
+        let scene = title(&panel.picture.spec().scene);
         let said = if panel.words.is_empty() {
-            scene.to_owned()
+            scene
         } else {
             format!("{scene}, {}", panel.words)
         };

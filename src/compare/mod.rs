@@ -13,6 +13,7 @@ mod pair;
 mod picture;
 mod places;
 mod plane;
+mod region;
 mod show;
 mod ssim;
 mod tiles;

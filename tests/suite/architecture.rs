@@ -26,7 +26,7 @@ const ROOMS: &[Room] = &[
             "app", "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color",
             "geometry", "rules", "simd",
         ],
-        crates: &["clap", "serde", "serde_json", "indicatif"],
+        crates: &["clap", "serde", "serde_json", "toml", "indicatif"],
     },
     Room {
         name: "app",
@@ -134,6 +134,7 @@ const GUARDED: &[&str] = &[
     "clap",
     "serde",
     "serde_json",
+    "toml",
     "indicatif",
     "jiff",
     "fearless_simd",

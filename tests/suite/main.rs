@@ -42,3 +42,4 @@ mod viewer_screenshots;
 mod viewer_scripts;
 mod viewer_visualisation;
 mod visualisation;
+mod writeup;

@@ -55,3 +55,30 @@ fn readme_names_every_option_and_scene_folder() {
         "the picture at the top is there"
     );
 }
+
+#[test]
+fn readme_shows_pictures_that_its_commands_make() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = fs::read_to_string(root.join("README.md")).unwrap();
+    let mut count = 0;
+    for entry in fs::read_dir(root.join("assets/figures")).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap();
+        let told = rasterscope::figure::Record::of_file(&path).unwrap().unwrap();
+        assert!(readme.contains(&format!("(assets/figures/{name})")), "{name} is shown");
+        assert!(
+            readme.contains(&format!("`{}`", told.command_line)),
+            "{}",
+            told.command_line
+        );
+        count += 1;
+    }
+    assert_eq!(count, 2, "both pictures");
+    // Flat colours are the same bytes on every machine.
+    let again = Command::new(env!("CARGO_BIN_EXE_rasterscope"))
+        .current_dir(root)
+        .args(["rerun", "assets/figures/rates.png", "--check"])
+        .output()
+        .unwrap();
+    assert!(again.status.success(), "{again:?}");
+}

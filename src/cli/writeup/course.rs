@@ -1,0 +1,309 @@
+//! The figures that a course's write-up asks for, task by task, and the scenes that they show.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use crate::cli::arguments::WriteupOptions;
+use crate::cli::failure::{Failure, print_error};
+use crate::compare;
+use crate::scene::FolderResources;
+use crate::viewer::gallery;
+
+/// A figure.
+#[derive(Debug)]
+pub(super) struct Item {
+    /// Its file, without ending.
+    pub(super) name: &'static str,
+    /// What the caption starts with.
+    pub(super) says: &'static str,
+    /// The command.
+    pub(super) verb: &'static str,
+    pub(super) subject: Subject,
+    /// Its options.
+    pub(super) words: &'static [&'static str],
+    /// The name of the pin that its inset looks at, and the settings that are compared to propose it.
+    pub(super) pin: Option<(&'static str, [&'static [&'static str]; 2])>,
+    /// Whether the caption tells how long each panel takes to draw.
+    pub(super) timed: bool,
+}
+
+/// What a figure shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Subject {
+    /// A scene of the course, or the one of that name in the gallery.
+    Scene(&'static str),
+    /// The student's robot.
+    Robot,
+    /// One triangle with a red, a green and a blue corner.
+    Triangle,
+    /// The student's own picture on a rectangle.
+    Own,
+    /// The student's entry for the competition.
+    Competition,
+}
+
+const RATES: [&[&str]; 2] = [&[], &["--sample-rate=16"]];
+const TEXELS: [&[&str]; 2] = [&[], &["--pixel-sampling=bilinear"]];
+const LEVELS: [&[&str]; 2] = [&[], &["--pixel-sampling=bilinear", "--level-sampling=nearest"]];
+const TRILINEAR: [&str; 2] = ["--pixel-sampling=bilinear", "--level-sampling=linear"];
+const TAPS: [&[&str]; 2] = [
+    &TRILINEAR,
+    &[
+        "--pixel-sampling=bilinear",
+        "--level-sampling=linear",
+        "--anisotropy=16",
+    ],
+];
+
+/// A figure without options, pin and times.
+const fn plain(name: &'static str, says: &'static str, subject: Subject) -> Item {
+    Item {
+        name,
+        says,
+        verb: "render",
+        subject,
+        words: &["--size=800x800"],
+        pin: None,
+        timed: false,
+    }
+}
+
+/// A sheet with an inset.
+const fn sheet(
+    name: &'static str,
+    says: &'static str,
+    scene: &'static str,
+    words: &'static [&'static str],
+    pin: (&'static str, [&'static [&'static str]; 2]),
+) -> Item {
+    Item {
+        verb: "sheet",
+        words,
+        pin: Some(pin),
+        ..plain(name, says, Subject::Scene(scene))
+    }
+}
+
+/// Every figure, in the order of the tasks.
+pub(super) static ITEMS: &[Item] = &[
+    Item {
+        pin: Some(("test4", RATES)),
+        ..plain(
+            "T1_triangles",
+            "Task 1: one sample per pixel",
+            Subject::Scene("basic/test4.svg"),
+        )
+    },
+    sheet(
+        "T2_supersampling",
+        "Task 2: more samples per pixel",
+        "basic/test4.svg",
+        &["--sample-rate=1,4,16"],
+        ("test4", RATES),
+    ),
+    Item {
+        words: &["--size=800x800", "--sample-rate=16"],
+        ..plain("T3_robot", "Task 3: transforms", Subject::Robot)
+    },
+    plain("T4_triangle", "Task 4: barycentric weights", Subject::Triangle),
+    plain(
+        "T4_wheel",
+        "Task 4: barycentric weights",
+        Subject::Scene("basic/test7.svg"),
+    ),
+    sheet(
+        "T5_texels",
+        "Task 5: pixel sampling against more samples",
+        "texmap/test1.svg",
+        &["--pixel-sampling=nearest,bilinear", "--sample-rate=1,16"],
+        ("texture", TEXELS),
+    ),
+    Item {
+        subject: Subject::Own,
+        ..sheet(
+            "T6_levels",
+            "Task 6: level sampling, zoomed out",
+            "",
+            &[
+                "--level-sampling=zero,nearest",
+                "--pixel-sampling=nearest,bilinear",
+                "--size=480x480",
+            ],
+            ("own", LEVELS),
+        )
+    },
+    sheet(
+        "X1_patterns",
+        "Extra: sample patterns where the grid fails",
+        "study/13_thin_rays.svg",
+        &[
+            "--pattern=grid,rotated,jittered,jittered-same,halton,r2",
+            "--sample-rate=4",
+        ],
+        (
+            "patterns",
+            [&["--sample-rate=4"], &["--sample-rate=4", "--pattern=jittered"]],
+        ),
+    ),
+    Item {
+        words: &["--size=800x800", "--view=500,500,0.66,30", "--sample-rate=4"],
+        ..plain("X2_rotated", "Extra: a rotated view", Subject::Scene("basic/test4.svg"))
+    },
+    Item {
+        timed: true,
+        ..sheet(
+            "X3_anisotropy",
+            "Extra: anisotropic against trilinear filtering",
+            "study/11_city_floor.svg",
+            &[
+                "--anisotropy=1,16",
+                "--pixel-sampling=bilinear",
+                "--level-sampling=linear",
+            ],
+            ("floor", TAPS),
+        )
+    },
+    Item {
+        verb: "sheet",
+        words: &["--visualise=coverage,overdraw", "--sample-rate=16"],
+        ..plain(
+            "X4_visualised",
+            "Extra: what the samples know",
+            Subject::Scene("study/16_what_is_painted.svg"),
+        )
+    },
+    Item {
+        words: &["--size=800x800", "--sample-rate=16"],
+        ..plain("competition", "Competition, 800 x 800 pixels", Subject::Competition)
+    },
+];
+
+/// Where scenes are found, and the files that are written for them.
+pub(super) struct Scenes<'a> {
+    options: &'a WriteupOptions,
+    folder: PathBuf,
+    /// What `folder` gets.
+    pub(super) files: Vec<(PathBuf, Vec<u8>)>,
+    /// The view of the student's own picture: it is seen from so far that its texture is minified.
+    own_view: String,
+}
+
+impl<'a> Scenes<'a> {
+    /// Scenes for a write-up in `output`; those that are made for it go into a folder in there.
+    pub(super) fn new(options: &'a WriteupOptions) -> Result<Self, Failure> {
+        let folder = options.output.join("scenes");
+        let mut scenes = Self {
+            options,
+            files: vec![(folder.join("triangle.svg"), TRIANGLE.as_bytes().to_vec())],
+            folder,
+            own_view: String::new(),
+        };
+        scenes.make_own()?;
+        Ok(scenes)
+    }
+
+    /// The address of a subject, and the options that belong to it.
+    pub(super) fn find(&self, subject: Subject) -> (String, Option<String>) {
+        let path = |path: &Path| path.display().to_string();
+        let scene = match subject {
+            Subject::Scene(name) => self.scene(name),
+            Subject::Robot => match &self.options.robot {
+                Some(robot) => path(robot),
+                None => self.scene("transforms/robot.svg"),
+            },
+            Subject::Triangle => path(&self.folder.join("triangle.svg")),
+            Subject::Own => {
+                return (
+                    path(&self.folder.join("own.svg")),
+                    Some(format!("--view={}", self.own_view)),
+                );
+            }
+            Subject::Competition => match self.in_folder("competition.svg") {
+                Some(found) => path(&found),
+                None => "gallery:illustration/02_fox.svg".to_owned(),
+            },
+        };
+        (scene, None)
+    }
+
+    /// A scene in the folder of scenes.
+    fn in_folder(&self, name: &str) -> Option<PathBuf> {
+        let folder = self.options.scenes.as_ref()?;
+        [folder.join(name), folder.join("svg").join(name)]
+            .into_iter()
+            .find(|path| path.is_file())
+    }
+
+    fn scene(&self, name: &str) -> String {
+        match (self.in_folder(name), &self.options.scenes) {
+            (Some(found), _) => found.display().to_string(),
+            (None, None) => format!("gallery:{name}"),
+            (None, Some(folder)) => {
+                print_error(&format!(
+                    "{}: no {name} in this folder; the built-in scene of that name is drawn",
+                    folder.display()
+                ));
+                format!("gallery:{name}")
+            }
+        }
+    }
+
+    /// A scene that shows the student's own picture, or one of the gallery.
+    fn make_own(&mut self) -> Result<(), Failure> {
+        let (bytes, name) = match &self.options.own {
+            Some(path) => {
+                let refused = |error: &dyn std::fmt::Display| {
+                    Failure::input(format!(
+                        "{}: {error}; give a whole PNG or JPEG with --own",
+                        path.display()
+                    ))
+                };
+                let bytes = FolderResources::read_file(path).map_err(|error| refused(&error))?;
+                compare::decode_picture(&bytes).map_err(|error| refused(&error))?;
+                (bytes, path.display().to_string())
+            }
+            None => match gallery::TEXTURES.iter().find(|texture| texture.name == "foliage.jpg") {
+                Some(texture) => (texture.bytes.to_vec(), texture.name.to_owned()),
+                None => return Err(Failure::other("the gallery has no picture")),
+            },
+        };
+        let size = compare::encoded_size(&bytes)
+            .map_err(|error| Failure::input(format!("{name}: {error}; give another picture")))?;
+        let texture = if bytes.starts_with(b"\x89PNG") {
+            "own.png"
+        } else {
+            "own.jpg"
+        };
+        let [width, height] = size.map(f64::from);
+        // The canvas has one unit for each texel. A pixel spans four of them each way: fewer where the picture would be too
+        // small to see, more where it would not fit the panel.
+        let scale = (0.25_f64).max(150.0 / width.max(height)).min(1.0);
+        let scale = scale.min(400.0 / width.max(height));
+        self.own_view = format!("{},{},{scale}", width / 2.0, height / 2.0);
+        self.files
+            .push((self.folder.join("own.svg"), own_scene(size, texture).into_bytes()));
+        self.files.push((self.folder.join(texture), bytes));
+        Ok(())
+    }
+}
+
+const TRIANGLE: &str = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n\
+    <!-- One triangle with a red, a green and a blue corner. -->\n\
+    <svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"1000\" height=\"1000\">\n\
+    <colortri points=\"500,80 940,860 60,860\" colors=\"1 0 0 1  0 1 0 1  0 0 1 1\"/>\n</svg>\n";
+
+/// A rectangle of two triangles with a picture as texture.
+fn own_scene([width, height]: [u32; 2], texture: &str) -> String {
+    let mut text =
+        "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!-- A picture on a rectangle, one unit for each texel. -->\n"
+            .to_owned();
+    // Writing to a `String` cannot fail.
+    let _ = write!(
+        text,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"{width}\" height=\"{height}\">\n\
+         <texture texid=\"own\" filename=\"{texture}\"/>\n\
+         <textri texid=\"own\" uvs=\"0 0 1 0 1 1\" points=\"0,0 {width},0 {width},{height}\"/>\n\
+         <textri texid=\"own\" uvs=\"0 0 1 1 0 1\" points=\"0,0 {width},{height} 0,{height}\"/>\n</svg>\n"
+    );
+    text
+}

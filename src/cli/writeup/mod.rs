@@ -1,0 +1,161 @@
+//! `rasterscope writeup`: all figures of a write-up in one go, each of which can be drawn again alone.
+
+mod course;
+mod pins;
+
+use std::ffi::OsString;
+use std::path::Path;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use self::course::{ITEMS, Item, Scenes};
+use self::pins::Pins;
+use super::arguments::{self, Verb, WriteupOptions};
+use super::failure::{Failure, print};
+use super::picture::{Picture, on_threads};
+use super::recorded;
+use super::render::unwritable;
+use super::sheet;
+use crate::figure::{Figure, html, latex, markdown, save_files, save_recorded_png};
+use crate::viewer::PictureSpec;
+
+/// Draws of a panel of which the median time is told.
+const TIMED: usize = 7;
+
+/// Draws every figure and writes the pages that show them.
+pub(super) fn run(options: &WriteupOptions) -> Result<(), Failure> {
+    let folder = &options.output;
+    if folder.exists() && !folder.is_dir() {
+        return Err(Failure::input(format!(
+            "{}: there is a file of that name; give a folder with -o",
+            folder.display()
+        )));
+    }
+    let scenes = Scenes::new(options)?;
+    let pins_file = options.pins.clone().unwrap_or_else(|| folder.join(pins::FILE));
+    let known: Vec<&str> = ITEMS.iter().filter_map(|item| Some(item.pin?.0)).collect();
+    let mut pins = Pins::read(pins_file, &known)?;
+    let inner = folder.join("scenes");
+    std::fs::create_dir_all(&inner).map_err(|error| unwritable(&inner, &error))?;
+    save_files(&scenes.files).map_err(|error| unwritable(&inner, &error))?;
+    let figures = on_threads(options.threads, || all(options, &scenes, &mut pins))??;
+    let title = "Figures of the write-up";
+    let pages = [
+        ("index.html", html(title, &figures)),
+        ("figures.md", markdown(&figures)),
+        ("figures.tex", latex(&figures)),
+    ];
+    let mut files: Vec<_> = pages.map(|(name, text)| (folder.join(name), text.into_bytes())).into();
+    files.push(pins.file());
+    save_files(&files).map_err(|error| unwritable(folder, &error))?;
+    let (count, page) = (figures.len(), folder.join("index.html"));
+    print(&format!("{count} figures; {} shows all", page.display()))
+}
+
+/// Draws the figures one after the other.
+fn all(options: &WriteupOptions, scenes: &Scenes<'_>, pins: &mut Pins) -> Result<Vec<Figure>, Failure> {
+    let bar = ProgressBar::new(ITEMS.len() as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
+        bar.set_style(style);
+    }
+    let mut figures = Vec::new();
+    for item in ITEMS {
+        bar.set_message(item.name);
+        let output = options.output.join(item.name).with_extension("png");
+        let figure = one(item, &output, scenes, pins)?;
+        figures.push(Figure {
+            caption: format!("{}. {}", item.says, figure.caption),
+            alternative: format!("{}. {}", item.says, figure.alternative),
+            ..figure
+        });
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(figures)
+}
+
+/// Draws one figure and writes it.
+fn one(item: &Item, output: &Path, scenes: &Scenes<'_>, pins: &mut Pins) -> Result<Figure, Failure> {
+    let (scene, more) = scenes.find(item.subject);
+    let mut words = vec!["rasterscope".to_owned(), item.verb.to_owned()];
+    words.extend([format!("--output={}", output.display())]);
+    words.extend(item.words.iter().map(|word| (*word).to_owned()));
+    words.extend(more);
+    if let Some((name, compared)) = item.pin {
+        let pin = pins.get(name, &pair(&spec_of(&words, &scene)?, compared)?)?;
+        words.push(format!("--inset={pin}"));
+    }
+    match parsed(&words, &scene)? {
+        Verb::Sheet(options) => {
+            let mut sheet = sheet::draw(&options, output)?;
+            let figure = sheet::write(&sheet, output)?;
+            // Last, since it draws over the insets.
+            let times = if item.timed { times(&mut sheet) } else { String::new() };
+            Ok(Figure {
+                caption: format!("{}{times}", figure.caption),
+                ..figure
+            })
+        }
+        _ => render(spec_of(&words, &scene)?, output),
+    }
+}
+
+/// Draws and writes a single picture.
+fn render(spec: PictureSpec, output: &Path) -> Result<Figure, Failure> {
+    let caption = sheet::caption_of(&spec);
+    let mut picture = Picture::read(spec)?;
+    picture.draw_figure()?;
+    let record = picture.record(output);
+    save_recorded_png(picture.frame(), output, &record).map_err(|error| unwritable(output, &error))?;
+    Ok(Figure {
+        file: output.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+        alternative: format!("The scene {caption}"),
+        caption,
+        command_line: record.command_line,
+    })
+}
+
+/// The command that words stand for; the scene comes last, as a path that may look like an option.
+fn parsed(words: &[String], scene: &str) -> Result<Verb, Failure> {
+    let words = words.iter().map(String::as_str).chain(["--", scene]);
+    Ok(arguments::parse_words(words.map(OsString::from).collect(), false)?.verb)
+}
+
+/// What the words draw, or the first panel of it.
+fn spec_of(words: &[String], scene: &str) -> Result<PictureSpec, Failure> {
+    match parsed(words, scene)? {
+        Verb::Render(options) => Ok(recorded::spec_of_render(&options)),
+        Verb::Sheet(options) => sheet::spec(&options),
+        _ => Err(Failure::other("a figure is a picture or a sheet")),
+    }
+}
+
+/// The picture with both settings that are compared.
+fn pair(spec: &PictureSpec, compared: [&[&str]; 2]) -> Result<[PictureSpec; 2], Failure> {
+    let with = |words: &[&str]| {
+        let sampling = arguments::sampling_of(words.iter().map(|word| (*word).to_owned()))?;
+        Ok(PictureSpec {
+            render: sampling.settings(spec.view),
+            insets: Vec::new(),
+            ..spec.clone()
+        })
+    };
+    Ok([with(compared[0])?, with(compared[1])?])
+}
+
+/// How long the panels take, as a sentence: of this machine, and therefore not on the picture.
+fn times(sheet: &mut sheet::Sheet) -> String {
+    let told = sheet.panels_mut().map(|(words, picture)| {
+        let mut times: Vec<Duration> = (0..TIMED).map(|_| picture.draw().total()).collect();
+        times.sort_unstable();
+        let median = times.get(TIMED / 2).copied().unwrap_or_default();
+        format!("{words} {:.1} ms", median.as_secs_f64() * 1000.0)
+    });
+    let told: Vec<String> = told.collect();
+    let threads = rayon::current_num_threads();
+    format!(
+        " Time to draw, median of {TIMED} on {threads} threads of this machine: {}.",
+        told.join(", ")
+    )
+}

@@ -1,0 +1,167 @@
+//! Pins of a write-up: proposed where the compared settings differ most, and kept in a file that may be edited.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use glam::DVec2;
+
+use crate::cli::failure::Failure;
+use crate::cli::picture::Picture;
+use crate::compare::Pair;
+use crate::figure::{InsetPlace, InsetSpec};
+use crate::viewer::PictureSpec;
+
+/// The file in the folder of a write-up.
+pub(super) const FILE: &str = "pins.toml";
+/// Largest file that is read, in bytes.
+const MAX_BYTES: u64 = 1 << 20;
+/// What the file says first.
+const HEAD: &str = "# Where insets look: X,Y:REGION@FACTOR:CORNER, with u before X for user units.\n\
+                    # Edit a line and run `rasterscope writeup` again; a line that is deleted is proposed anew.\n";
+
+/// The pins by their names.
+#[derive(Debug, Default)]
+pub(super) struct Pins {
+    path: PathBuf,
+    pins: BTreeMap<String, InsetSpec>,
+}
+
+impl Pins {
+    /// Reads the file, which need not exist; its names must be among `known`.
+    pub(super) fn read(path: PathBuf, known: &[&str]) -> Result<Self, Failure> {
+        let refused = |why: String| Failure::input(format!("{}: {why}", path.display()));
+        let text = match text_of(&path) {
+            Ok(text) => text,
+            // What is wrong with the folder is told when it is made.
+            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
+                String::new()
+            }
+            Err(error) => {
+                return Err(refused(format!(
+                    "cannot read the pins: {error}; give a text file or remove it"
+                )));
+            }
+        };
+        let lines: BTreeMap<String, String> = toml::from_str(&text).map_err(|error| {
+            let line = error
+                .span()
+                .map_or(1, |span| text[..span.start.min(text.len())].lines().count().max(1));
+            refused(format!(
+                "line {line}: {}; a pin is a line such as test4 = \"u614,777:16@8:auto\"",
+                error.message()
+            ))
+        })?;
+        let mut pins = BTreeMap::new();
+        for (name, pin) in lines {
+            if !known.contains(&name.as_str()) {
+                return Err(refused(format!(
+                    "no figure has the pin {name}; the pins are {}",
+                    known.join(", ")
+                )));
+            }
+            let pin = pin.parse().map_err(|error| refused(format!("{name}: {error}")))?;
+            pins.insert(name, pin);
+        }
+        Ok(Self { path, pins })
+    }
+
+    /// The pin of that name; a new one lies where the pictures of `specs` differ most.
+    pub(super) fn get(&mut self, name: &str, specs: &[PictureSpec; 2]) -> Result<InsetSpec, Failure> {
+        if let Some(pin) = self.pins.get(name) {
+            return Ok(*pin);
+        }
+        let pin = propose(specs)?;
+        self.pins.insert(name.to_owned(), pin);
+        Ok(pin)
+    }
+
+    /// The file with all pins.
+    pub(super) fn file(&self) -> (PathBuf, Vec<u8>) {
+        let line = |(name, pin): (&String, &InsetSpec)| format!("{name} = \"{pin}\"\n");
+        let lines: String = self.pins.iter().map(line).collect();
+        (self.path.clone(), format!("{HEAD}{lines}").into_bytes())
+    }
+}
+
+fn text_of(path: &Path) -> io::Result<String> {
+    let about = std::fs::metadata(path)?;
+    if !about.is_file() || about.len() > MAX_BYTES {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no small text file"));
+    }
+    std::fs::read_to_string(path)
+}
+
+/// An inset of a quarter of the picture around the place where two pictures of it differ most.
+fn propose(specs: &[PictureSpec; 2]) -> Result<InsetSpec, Failure> {
+    let mut pictures = Vec::new();
+    for spec in specs {
+        let mut picture = Picture::read(spec.clone())?;
+        picture.draw();
+        pictures.push(picture);
+    }
+    let [a, b] = pictures.as_slice() else {
+        return Err(Failure::other("two pictures make a pair"));
+    };
+    let side = a.frame().width().min(a.frame().height());
+    let region = 16;
+    let factor = (side / 4 / region).clamp(3, 24) - 1;
+    let pair = Pair::new(a.frame(), b.frame()).map_err(Failure::input)?;
+    // Settings that make no difference are looked at in the middle.
+    let middle = [a.frame().width() / 2, a.frame().height() / 2];
+    let [x, y] = pair.busiest(region).unwrap_or(middle).map(f64::from);
+    let view = specs[0].view.transform(a.scene.canvas, specs[0].size);
+    let place = view.to_scene(DVec2::new(x, y) + 0.5);
+    // A hundredth of a pixel is exact enough, and short to read.
+    let digits = 10.0_f64.powf(
+        (view.to_pixels(DVec2::X) - view.to_pixels(DVec2::ZERO))
+            .length()
+            .log10()
+            .ceil()
+            + 2.0,
+    );
+    let short = (place * digits).round() / digits;
+    Ok(InsetSpec::around(InsetPlace::User(short), region, factor))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Pins, String> {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join(FILE);
+        std::fs::write(&path, text).expect("a small file");
+        Pins::read(path, &["test4", "own"]).map_err(|failure| match failure {
+            Failure::Input(problem) => problem,
+            other => panic!("{other:?}"),
+        })
+    }
+
+    #[test]
+    fn pins_are_read_as_they_are_written() {
+        let pins = read("test4 = \"u614,777:16@8:auto\"\n# none\nown = '3,4'\n").expect("two pins");
+        let (_, bytes) = pins.file();
+        let text = String::from_utf8(bytes).expect("text");
+        assert!(text.starts_with("# Where insets look"), "{text}");
+        assert!(
+            text.contains("own = \"3,4:16@8:auto\"\ntest4 = \"u614,777:16@8:auto\"\n"),
+            "{text}"
+        );
+        assert_eq!(read(&text).expect("its own").pins, pins.pins, "and back");
+    }
+
+    #[test]
+    fn pins_at_fault_are_told_in_one_line() {
+        for (text, words) in [
+            ("test4 = \"middle\"", "test4: an inset is X,Y"),
+            ("test5 = \"3,4\"", "the pins are test4, own"),
+            ("\ntest4 = ", "line 2:"),
+            ("test4 = 5", "line 1:"),
+            ("[test4]\nx = 1", "line 1:"),
+        ] {
+            let problem = read(text).expect_err("at fault");
+            assert!(problem.contains(words) && problem.contains(FILE), "{text}: {problem}");
+        }
+    }
+}

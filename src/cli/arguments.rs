@@ -59,6 +59,8 @@ pub(super) enum Verb {
     /// Compare two pictures, or a scene with a picture: how many pixels differ, by how much, where, perhaps why
     #[command(after_help = DIFF_STATUS)]
     Diff(DiffOptions),
+    /// Walk through a lesson in the window, or draw its steps as slides
+    Lesson(LessonOptions),
     /// Time redraws of scenes: median, minimum, milliseconds per stage
     Bench(BenchOptions),
 }
@@ -71,6 +73,7 @@ impl Verb {
             Self::Render(options) => Some(&options.picture.sampling),
             // Each panel has its own.
             Self::Sheet(_) | Self::Writeup(_) | Self::Rerun(_) => None,
+            Self::Lesson(options) => Some(&options.view.sampling),
             Self::Inspect(options) => Some(&options.picture.sampling),
             Self::Diff(options) => Some(&options.sampling),
             Self::Bench(options) => Some(&options.picture.sampling),
@@ -103,7 +106,7 @@ const RERUN_STATUS: &str = "Exit status: 0 done, with --check: every pixel is th
 const DIFF_STATUS: &str = "Exit status: 0 the pictures agree within the tolerance, 1 they differ, 2 a file or an \
                            argument is at fault.";
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct ViewerOptions {
     /// SVG files and folders of them, or a PNG of this program: its scene, view and settings
     pub(super) paths: Vec<PathBuf>,
@@ -136,6 +139,17 @@ pub(super) struct ViewerOptions {
     /// Device pixels per point of the panels, with --headless only
     #[arg(long, value_name = "FACTOR", value_parser = scale, requires = "headless")]
     pub(super) scale: Option<f32>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct LessonOptions {
+    /// A lesson in TOML, or one of the program's: six-tasks, anisotropy
+    pub(super) lesson: PathBuf,
+    /// Draw each step into a numbered PNG in this folder [size by default: 1600x900]
+    #[arg(long, value_name = "DIR")]
+    pub(super) slides: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) view: ViewerOptions,
 }
 
 #[derive(Debug, Args)]

@@ -9,6 +9,7 @@ mod bench;
 mod diff;
 mod failure;
 mod inspect;
+mod lesson;
 mod picture;
 mod recorded;
 mod render;
@@ -60,6 +61,7 @@ fn execute(arguments: &Arguments, restored: Option<&Restored>) -> Result<(), Fai
         Verb::Rerun(options) => rerun::run(options),
         Verb::Inspect(options) => inspect::run(options, restored),
         Verb::Diff(options) => diff::run(options),
+        Verb::Lesson(options) => lesson::run(options),
         Verb::Bench(options) => bench::run(options),
     }
 }

@@ -8,9 +8,19 @@ use crate::viewer::Restored;
 #[cfg(feature = "window")]
 pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Result<(), Failure> {
     use crate::app::{self, ScriptSource, ViewOptions};
+    use crate::viewer::LessonSource;
 
+    let lessons: Vec<LessonSource> = options
+        .paths
+        .iter()
+        .filter_map(|path| LessonSource::from_address(path))
+        .collect();
+    for lesson in &lessons {
+        lesson.read().map_err(Failure::input)?;
+    }
     let (entries, problems) = crate::viewer::list_scenes(&options.paths);
     if entries.is_empty()
+        && lessons.is_empty()
         && let Some(problem) = problems.into_iter().next()
     {
         return Err(Failure::Input(problem));

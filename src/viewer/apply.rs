@@ -132,6 +132,7 @@ impl Viewer {
         self.revision += 1;
         self.want_scene();
         self.complete_restored();
+        self.follow_lesson();
         self.keep_pin_in_place();
         self.place_inset();
         self.want_frame();
@@ -198,8 +199,15 @@ impl Viewer {
             Command::SetView(numbers) => self.look(|camera, sight| camera.set(numbers, sight)),
             Command::SetPixelZoom(zoom) => self.set_pixel_zoom(zoom),
             Command::NextPixelZoom => self.set_pixel_zoom(next_of(&PixelZoom::ALL, self.settings.pixel_zoom)),
+            Command::NextScene if self.step_lesson(true) => {}
+            Command::PreviousScene if self.step_lesson(false) => {}
             Command::NextScene => self.step_scene(1),
             Command::PreviousScene => self.step_scene(self.scenes.len().saturating_sub(1)),
+            Command::OpenLesson(source) => self.open_lesson(&source),
+            Command::LessonStep(step) => self.take_step(step),
+            Command::CloseLesson => {
+                self.close_lesson();
+            }
             Command::Scene(index) => self.show_scene(index),
             Command::Open(paths) => self.open(&paths),
             Command::OpenGallery => self.replace_scenes(library::gallery_entries()),
@@ -332,7 +340,7 @@ impl Viewer {
         if self.inspector.pin.take().is_some() || std::mem::take(&mut self.inspector.open) {
             return Vec::new();
         }
-        if self.escape_comparison() {
+        if self.escape_comparison() || self.close_lesson() {
             return Vec::new();
         }
         vec![Effect::Quit]
@@ -348,14 +356,14 @@ impl Viewer {
     }
 
     /// Changes the current scene's camera; nothing happens before the scene was read.
-    fn look(&mut self, change: impl FnOnce(&mut Camera, &Sight)) {
+    pub(super) fn look(&mut self, change: impl FnOnce(&mut Camera, &Sight)) {
         if let Some((sight, entry)) = self.sight().zip(self.scenes.get_mut(self.current)) {
             change(&mut entry.camera, &sight);
         }
     }
 
     /// Into the part of the window that no panel covers.
-    fn fit_view(&mut self) {
+    pub(super) fn fit_view(&mut self) {
         let zoom = f64::from(self.settings.pixel_zoom.factor());
         let window = PixelRect::of_size(self.screen.window);
         let free = self.screen.free_area.map_or(window, |free| free.intersection(&window));

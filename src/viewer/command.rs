@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use glam::DVec2;
 
-use super::{Against, Arrangement, PixelZoom, Theme, Toggle, ViewNumbers};
+use super::{Against, Arrangement, LessonSource, PixelZoom, Theme, Toggle, ViewNumbers};
 use crate::color::{ResolveSpace, Rgba};
 use crate::compare::Measure;
 use crate::figure::PixelRect;
@@ -159,9 +159,9 @@ pub enum Command {
     Normalize(Toggle),
 
     // Scenes.
-    /// The scene after the current one, round and round.
+    /// The scene after the current one, round and round; in a lesson its next step.
     NextScene,
-    /// The scene before the current one, round and round.
+    /// The scene before the current one, round and round; in a lesson the step before.
     PreviousScene,
     /// The scene with this index, counted from 0. Nothing happens where there is none.
     Scene(usize),
@@ -171,6 +171,12 @@ pub enum Command {
     OpenGallery,
     /// Reads the current scene again from where it came from.
     Reload,
+    /// Opens a lesson at its first step: its scenes take the place of the list until it is closed.
+    OpenLesson(LessonSource),
+    /// The step of the open lesson with this index, counted from 0, as its author meant it.
+    LessonStep(usize),
+    /// Closes the lesson and brings back what was open before.
+    CloseLesson,
 
     // Inspector.
     /// Opens or closes the pixel inspector.

@@ -3,7 +3,7 @@
 use super::commands::{Action, CommandSpec, Group};
 use super::key::{Chord, Key, Modifiers};
 use super::typed::{self, Argument};
-use super::{Against, Arrangement, Command, Dialog, Toggle};
+use super::{Against, Arrangement, Command, Dialog, LessonSource, Toggle};
 
 /// Degrees that one press of a key turns the picture.
 const TURN: f64 = 5.0;
@@ -408,7 +408,7 @@ pub(super) static TABLE: &[CommandSpec] = &[
     spec(
         "previous-scene",
         "Previous scene",
-        "Shows the scene before this one",
+        "Shows the scene before this one; in a lesson the step before",
         Group::Scenes,
     )
     .keys(&[Chord::named(Key::PageUp)])
@@ -416,7 +416,7 @@ pub(super) static TABLE: &[CommandSpec] = &[
     spec(
         "next-scene",
         "Next scene",
-        "Shows the scene after this one",
+        "Shows the scene after this one; in a lesson its next step",
         Group::Scenes,
     )
     .keys(&[Chord::named(Key::PageDown)])
@@ -435,6 +435,44 @@ pub(super) static TABLE: &[CommandSpec] = &[
         Group::Scenes,
     )
     .run(&Command::OpenGallery),
+    spec(
+        "six-tasks",
+        "Lesson: six tasks",
+        "Opens the lesson on triangles, samples, groups, colours, texels and mip levels",
+        Group::Scenes,
+    )
+    .more("PageDown goes to its next step, Esc closes it")
+    .run(&Command::OpenLesson(LessonSource::BuiltIn(0))),
+    spec(
+        "lesson-anisotropy",
+        "Lesson: anisotropy",
+        "Opens the lesson on footprints that are longer than wide",
+        Group::Scenes,
+    )
+    .more("PageDown goes to its next step, Esc closes it")
+    .run(&Command::OpenLesson(LessonSource::BuiltIn(1))),
+    spec(
+        "lesson",
+        "Lesson",
+        "Opens a lesson: a TOML file of steps with text",
+        Group::Scenes,
+    )
+    .more("It can be dropped on the window, too")
+    .argument(typed::LESSON),
+    spec(
+        "lesson-step",
+        "Step of the lesson",
+        "Goes to the step with this number",
+        Group::Scenes,
+    )
+    .argument(typed::LESSON_STEP),
+    spec(
+        "close-lesson",
+        "Close the lesson",
+        "Brings back what was open before the lesson",
+        Group::Scenes,
+    )
+    .run(&Command::CloseLesson),
     spec("reload", "Reload", "Reads the scene again", Group::Scenes)
         .keys(&[Chord::ctrl('r'), Chord::named(Key::F(5))])
         .run(&Command::Reload),

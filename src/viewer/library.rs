@@ -178,6 +178,16 @@ impl SceneSource {
 /// Starts the address of a built-in scene.
 const GALLERY_PREFIX: &str = "gallery:";
 
+/// One scene, by its name in the gallery or its file's.
+pub(super) fn entry_of(source: SceneSource) -> SceneEntry {
+    let label = match &source {
+        SceneSource::Gallery(index) => gallery::SCENES.get(*index).map(|scene| scene.name.to_owned()),
+        SceneSource::File(path) => path.file_name().map(|name| name.to_string_lossy().into_owned()),
+    };
+    let label = label.unwrap_or_else(|| source.address());
+    SceneEntry::new(source, label)
+}
+
 /// The built-in gallery as a list.
 pub(super) fn gallery_entries() -> Vec<SceneEntry> {
     let entry = |(index, scene): (usize, &gallery::GalleryScene)| {

@@ -18,6 +18,7 @@ pub(super) static OPTIONS: &[(&str, Argument)] = &[
     ("rules", typed::RULES),
     ("background", typed::BACKGROUND),
     ("dialect", typed::DIALECT),
+    ("visualise", typed::VISUALISE),
 ];
 
 /// What may follow an option's name; `None` where there is no such option.

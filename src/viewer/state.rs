@@ -11,6 +11,7 @@ use super::drawing::{Drawing, DrawingId, Drawn};
 use super::explaining::{self, Asked, Explained, Explaining};
 use super::feeding::{self, Feeding};
 use super::legends::{Legends, PlacedLegends};
+use super::lesson::{LessonSource, Walk};
 use super::messages::Messages;
 use super::pointer::Pointer;
 use super::probing::{self, ProbedSample, Probing, Target};
@@ -60,6 +61,8 @@ pub struct Viewer {
     pub(super) current: usize,
     /// Grows when the list is replaced: results for an older list are dropped.
     pub(super) generation: u64,
+    /// The lesson that is open.
+    pub(super) lesson: Option<Walk>,
     /// Documents that were read so far.
     pub(super) documents: u64,
     /// The scenes shown last, latest last: the others are let go to save memory.
@@ -190,6 +193,7 @@ impl Viewer {
             current: 0,
             generation: 0,
             documents: 0,
+            lesson: None,
             recent: Vec::new(),
             start_view: options.view,
             settings: options.settings,
@@ -239,6 +243,11 @@ impl Viewer {
     /// Adds the scenes in `paths` to the list and shows the first of them; at the start they are the list, or the
     /// gallery is where they hold none. A PNG with a record brings its state back; another picture becomes B.
     pub(super) fn open(&mut self, paths: &[PathBuf]) {
+        let lesson = paths.iter().find_map(|path| LessonSource::from_address(path));
+        if let Some(lesson) = lesson {
+            self.open_lesson(&lesson);
+            return self.open_gallery_if_empty();
+        }
         let (pictures, documents): (Vec<&PathBuf>, Vec<&PathBuf>) = paths.iter().partition(|path| is_picture(path));
         let documents: Vec<PathBuf> = documents.into_iter().cloned().collect();
         if let ([], Some(picture)) = (documents.as_slice(), pictures.last())
@@ -300,6 +309,8 @@ impl Viewer {
     }
 
     pub(super) fn replace_scenes(&mut self, mut scenes: Vec<SceneEntry>) {
+        // Its steps would show other scenes.
+        self.lesson = None;
         for scene in &mut scenes {
             scene.camera = Camera::new(self.start_view);
         }

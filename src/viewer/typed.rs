@@ -1,8 +1,10 @@
 //! Arguments that a person types after a command's word, in scripts and in the palette: text to [`Command`].
 
+use std::path::Path;
+
 use glam::DVec2;
 
-use super::{Against, Arrangement, Command, PixelZoom, Theme, Toggle, ViewNumbers};
+use super::{Against, Arrangement, Command, LessonSource, PixelZoom, Theme, Toggle, ViewNumbers};
 use crate::color::{ResolveSpace, Rgba};
 use crate::compare::Measure;
 use crate::raster::{SamplePattern, SampleRate};
@@ -137,6 +139,13 @@ pub(super) const AGAINST: Argument = argument(
 pub(super) const SCENE: Argument = argument("a scene's number, from 1", |text| {
     let index = usize::try_from(whole(text)?).ok()?.checked_sub(1)?;
     Some(Command::Scene(index))
+});
+pub(super) const LESSON: Argument = argument("lesson:NAME, or the path of a lesson in TOML", |text| {
+    LessonSource::from_address(Path::new(text)).map(Command::OpenLesson)
+});
+pub(super) const LESSON_STEP: Argument = argument("a step's number, from 1", |text| {
+    let index = usize::try_from(whole(text)?).ok()?.checked_sub(1)?;
+    Some(Command::LessonStep(index))
 });
 pub(super) const OPEN: Argument = argument("a path", |text| {
     (!text.is_empty()).then(|| Command::Open(vec![text.into()]))

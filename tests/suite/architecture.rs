@@ -42,7 +42,7 @@ const ROOMS: &[Room] = &[
             "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules",
             "simd",
         ],
-        crates: &["image", "jiff"],
+        crates: &["image", "jiff", "toml", "pulldown_cmark"],
     },
     Room {
         name: "figure",
@@ -137,6 +137,7 @@ const GUARDED: &[&str] = &[
     "toml",
     "indicatif",
     "jiff",
+    "pulldown_cmark",
     "fearless_simd",
 ];
 

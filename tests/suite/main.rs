@@ -16,6 +16,7 @@ mod inspect;
 mod inspect_feeds;
 mod inspect_seams;
 mod instruction_guard;
+mod lessons;
 mod oracle;
 #[cfg(feature = "window")]
 mod overlay_goldens;

@@ -15,6 +15,7 @@ mod explanation;
 mod fed;
 mod floating;
 mod hits;
+mod lesson;
 mod look;
 mod sampling;
 mod scenes;
@@ -143,6 +144,9 @@ impl Interface {
                 .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 4)))
                 .show(ui, |ui| status::show(ui, viewer, &mut asked.commands));
             self.covered.push(line.response.rect);
+            if viewer.lesson().is_some() && ui.available_width() >= lesson::WIDTH + LEAST_PICTURE {
+                self.lesson_panel(ui, viewer, asked);
+            }
             if viewer.panel() {
                 self.side_panel(ui, viewer, asked);
                 let fits = ui.available_width() >= look::PANEL_WIDTH + LEAST_PICTURE;
@@ -175,6 +179,15 @@ impl Interface {
         self.covered.extend(messages);
         let ctx = self.ctx.clone();
         self.dialogs.show(&ctx, viewer, &mut asked.commands);
+    }
+
+    fn lesson_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
+        let panel = Panel::left("lesson panel")
+            .resizable(false)
+            .exact_size(lesson::WIDTH)
+            .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 8)))
+            .show(ui, |ui| lesson::show(ui, viewer, &mut asked.commands));
+        self.covered.push(panel.response.rect);
     }
 
     fn compare_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {

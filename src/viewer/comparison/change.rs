@@ -202,7 +202,7 @@ impl Viewer {
         self.comparison.touch();
     }
 
-    pub(super) fn arrange(&mut self, arrangement: Arrangement) {
+    pub(in super::super) fn arrange(&mut self, arrangement: Arrangement) {
         let is_without = self.comparison.other.is_none() && self.comparison.loading.is_none();
         if arrangement != Arrangement::Alone && is_without {
             self.compare(Against::Settings);

@@ -1,0 +1,103 @@
+//! The text of a lesson's step, beside the picture.
+
+use egui::text::{LayoutJob, TextFormat};
+use egui::{FontFamily, FontId, RichText, ScrollArea, Ui};
+
+use super::controls::command_button;
+use crate::viewer::{Block, Command, LessonStep, Span, Viewer};
+
+/// Width of the panel, in points, frame included.
+pub(super) const WIDTH: f32 = 300.0;
+/// Letters, in points.
+const SIZE: f32 = 14.0;
+/// Letters of headings.
+const HEADING: f32 = 17.0;
+/// What an item's words are moved to the right by, in points.
+const INDENT: f32 = 18.0;
+
+/// Fills the panel.
+pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let Some((lesson, at)) = viewer.lesson() else { return };
+    let Some(step) = lesson.steps.get(at) else { return };
+    ui.horizontal(|ui| {
+        let of = format!("{} of {}", at + 1, lesson.steps.len());
+        ui.label(RichText::new(of).size(12.0).weak());
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            if command_button(ui, "close-lesson", "Close").clicked() {
+                commands.push(Command::CloseLesson);
+            }
+            if command_button(ui, "next-scene", "Next").clicked() {
+                commands.push(Command::NextScene);
+            }
+            if command_button(ui, "previous-scene", "Back").clicked() {
+                commands.push(Command::PreviousScene);
+            }
+        });
+    });
+    ui.label(RichText::new(&lesson.title).size(12.0).weak());
+    ui.add_space(4.0);
+    // Another step begins at its beginning.
+    ScrollArea::vertical()
+        .id_salt(("lesson", at))
+        .auto_shrink(false)
+        .show(ui, |ui| words(ui, step));
+}
+
+fn words(ui: &mut Ui, step: &LessonStep) {
+    if !step.title.is_empty() {
+        ui.label(RichText::new(&step.title).size(HEADING + 2.0).strong());
+        ui.add_space(6.0);
+    }
+    for block in &step.text {
+        match block {
+            Block::Heading(words) => {
+                ui.add_space(4.0);
+                ui.label(layout(ui, words, HEADING, true));
+            }
+            Block::Paragraph(words) => {
+                ui.label(layout(ui, words, SIZE, false));
+            }
+            Block::Item { depth, marker, words } => {
+                ui.horizontal_top(|ui| {
+                    #[expect(clippy::cast_precision_loss, reason = "a few")]
+                    ui.add_space(INDENT * (*depth).min(4) as f32);
+                    ui.label(RichText::new(marker).size(SIZE));
+                    ui.vertical(|ui| ui.label(layout(ui, words, SIZE, false)));
+                });
+            }
+            Block::Code(code) => {
+                ui.label(RichText::new(code).monospace().size(SIZE - 1.5));
+            }
+        }
+        ui.add_space(6.0);
+    }
+}
+
+/// Words in their looks.
+fn layout(ui: &Ui, spans: &[Span], size: f32, heading: bool) -> LayoutJob {
+    let visuals = ui.visuals();
+    let mut job = LayoutJob::default();
+    for span in spans {
+        let strong = span.bold || heading;
+        let color = if strong {
+            visuals.strong_text_color()
+        } else {
+            visuals.text_color()
+        };
+        let (family, size) = if span.code {
+            (FontFamily::Monospace, size - 1.5)
+        } else {
+            (FontFamily::Proportional, size)
+        };
+        let mut format = TextFormat {
+            italics: span.italic,
+            line_height: Some(size * 1.4),
+            ..TextFormat::simple(FontId::new(size, family), color)
+        };
+        if span.code {
+            format.background = visuals.code_bg_color;
+        }
+        job.append(&span.text, 0.0, format);
+    }
+    job
+}

@@ -1,0 +1,389 @@
+//! The file of a lesson: TOML to steps. Settings have the names and the values of the command line's options. Every
+//! mistake is told with line, column and cure.
+
+use std::ops::Range;
+use std::path::Path;
+
+use glam::DVec2;
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+
+use super::markdown::blocks;
+use super::{Lesson, LessonError, LessonStep};
+use crate::viewer::typed::{self, point};
+use crate::viewer::{Against, Arrangement, Command, SceneSource, Toggle, gallery, options};
+
+/// Most steps of a lesson.
+const MOST_STEPS: usize = 200;
+/// Longest text of a step, in bytes.
+const LONGEST_TEXT: usize = 20_000;
+/// Longest title, in bytes.
+const LONGEST_TITLE: usize = 200;
+/// The keys of a step besides settings.
+const KEYS: [&str; 8] = [
+    "title",
+    "text",
+    "scene",
+    "view",
+    "pin",
+    "explanation",
+    "against",
+    "arrange",
+];
+
+/// What is wrong, and where in the document.
+struct Mistake {
+    at: Range<usize>,
+    problem: String,
+}
+
+type Found<T> = Result<T, Mistake>;
+
+fn mistake<T>(at: Range<usize>, problem: impl Into<String>) -> Found<T> {
+    Err(Mistake {
+        at,
+        problem: problem.into(),
+    })
+}
+
+/// The lesson in `document`, which is called `file`; scenes are found from `folder`, or in the gallery alone without one.
+pub(super) fn parse(document: &str, file: &str, folder: Option<&Path>) -> Result<Lesson, LessonError> {
+    let table = DeTable::parse(document).map_err(|error| Mistake {
+        at: error.span().unwrap_or(0..0),
+        problem: format!("not TOML: {}; see https://toml.io", error.message().replace('\n', " ")),
+    });
+    let lesson = table.and_then(|table| lesson(table.get_ref(), folder));
+    lesson.map_err(|Mistake { at, problem }| LessonError {
+        file: file.to_owned(),
+        at: Some(place(document, at.start)),
+        problem,
+    })
+}
+
+/// Line and column of a byte.
+fn place(document: &str, byte: usize) -> [usize; 2] {
+    let mut end = byte.min(document.len());
+    while !document.is_char_boundary(end) {
+        end -= 1;
+    }
+    let before = &document[..end];
+    let line = before.rsplit('\n').next().unwrap_or_default();
+    [before.matches('\n').count() + 1, line.chars().count() + 1]
+}
+
+type Key<'i> = Spanned<DeString<'i>>;
+type Value<'i> = Spanned<DeValue<'i>>;
+
+fn lesson(table: &DeTable<'_>, folder: Option<&Path>) -> Found<Lesson> {
+    let (mut title, mut steps) = (None, Vec::new());
+    for (key, value) in table {
+        match key.get_ref().as_ref() {
+            "title" => title = Some(words(value, LONGEST_TITLE)?),
+            "step" => steps = self::steps(value, folder)?,
+            other => {
+                let cure = "a lesson has a `title` and tables `[[step]]`";
+                return mistake(key.span(), format!("`{}` is unknown; {cure}", short(other)));
+            }
+        }
+    }
+    match title {
+        Some(_) if steps.is_empty() => mistake(0..0, "no step; add a table `[[step]]`"),
+        Some(title) => Ok(Lesson { title, steps }),
+        None => mistake(0..0, "no title; add `title = \"...\"` above the first step"),
+    }
+}
+
+fn steps(value: &Value<'_>, folder: Option<&Path>) -> Found<Vec<LessonStep>> {
+    let Some(tables) = value.get_ref().as_array() else {
+        return mistake(value.span(), "`step` is no list of tables; write `[[step]]` above each");
+    };
+    let mut steps: Vec<LessonStep> = Vec::new();
+    for value in tables {
+        if steps.len() >= MOST_STEPS {
+            return mistake(value.span(), format!("more than {MOST_STEPS} steps; split the lesson"));
+        }
+        let Some(table) = value.get_ref().as_table() else {
+            return mistake(value.span(), "a step is a table; write `[[step]]` above it");
+        };
+        let before = steps.last().map(|step| step.scene.clone());
+        steps.push(step(table, (before, value.span()), folder)?);
+    }
+    Ok(steps)
+}
+
+/// One step; without a scene of its own it shows the one `before`.
+fn step(
+    table: &DeTable<'_>,
+    (before, at): (Option<SceneSource>, Range<usize>),
+    folder: Option<&Path>,
+) -> Found<LessonStep> {
+    let (mut scene, mut against, mut arrangement) = (before, None, None);
+    let mut step = LessonStep {
+        title: String::new(),
+        text: Vec::new(),
+        scene: SceneSource::Gallery(0),
+        settings: Vec::new(),
+        view: None,
+        pin: None,
+        explained: false,
+        against: None,
+    };
+    for (key, value) in table {
+        match key.get_ref().as_ref() {
+            "title" => step.title = words(value, LONGEST_TITLE)?,
+            "text" => step.text = blocks(&words(value, LONGEST_TEXT)?),
+            "scene" => scene = Some(self::scene(value, folder)?),
+            "view" => {
+                step.view = match command(value, typed::VIEW.parse(&text(value)?))? {
+                    Command::SetView(numbers) => Some(numbers),
+                    _ => None,
+                }
+            }
+            "pin" => step.pin = Some(pin(value)?),
+            "explanation" => {
+                let shown = command(value, typed::EXPLANATION.parse(&text(value)?))?;
+                step.explained = shown == Command::Explanation(Toggle::On);
+            }
+            "against" => against = Some(self::against(value)?),
+            "arrange" => arrangement = Some((arrange(value)?, key.span())),
+            name => step.settings.push(setting(name, key, value)?),
+        }
+    }
+    step.against = match (against, arrangement) {
+        (Some(against), Some((arrangement, _))) => Some((against, arrangement)),
+        (Some(against), None) => Some((against, Arrangement::Wipe)),
+        (None, Some((_, at))) => return mistake(at, "nothing to compare with; add `against`, such as \"truth\""),
+        (None, None) => None,
+    };
+    match scene {
+        Some(scene) => Ok(LessonStep { scene, ..step }),
+        None => mistake(
+            at,
+            "no scene; add `scene = \"gallery:basic/test4.svg\"`, or a path from the lesson's folder",
+        ),
+    }
+}
+
+fn setting(name: &str, key: &Key<'_>, value: &Value<'_>) -> Found<Command> {
+    let Some(argument) = options::option(name) else {
+        let known: Vec<&str> = KEYS.into_iter().chain(options::names()).collect();
+        let problem = format!("`{}` is unknown; a step has {}", short(name), known.join(", "));
+        return mistake(key.span(), problem);
+    };
+    command(value, argument.parse(&text(value)?))
+}
+
+/// What a value asks for, or its mistake in its place.
+fn command(value: &Value<'_>, parsed: Result<Command, String>) -> Found<Command> {
+    parsed.or_else(|problem| mistake(value.span(), format!("{}; write it as that", short(&problem))))
+}
+
+fn scene(value: &Value<'_>, folder: Option<&Path>) -> Found<SceneSource> {
+    let address = words(value, LONGEST_TITLE * 10)?;
+    let source = SceneSource::from_address(Path::new(&address));
+    let missing = |cure: &str| mistake(value.span(), format!("{}: no such scene; {cure}", short(&address)));
+    match (source, folder) {
+        (SceneSource::Gallery(index), _) => Ok(SceneSource::Gallery(index)),
+        (SceneSource::File(_), _) if address.starts_with("gallery:") => {
+            let some = gallery::SCENES.first().map_or("", |scene| scene.name);
+            missing(&format!("give one of the gallery, such as gallery:{some}"))
+        }
+        (SceneSource::File(path), Some(folder)) if folder.join(&path).is_file() => {
+            Ok(SceneSource::File(folder.join(path)))
+        }
+        (SceneSource::File(_), _) => missing("give a path from the lesson's folder, or gallery:NAME"),
+    }
+}
+
+fn pin(value: &Value<'_>) -> Found<DVec2> {
+    match point(&text(value)?) {
+        Some(place) => Ok(place),
+        None => mistake(value.span(), "a pin is a place of the scene, \"X,Y\" in user units"),
+    }
+}
+
+fn against(value: &Value<'_>) -> Found<Against> {
+    match Against::from_text(&text(value)?) {
+        Some(against @ (Against::Truth | Against::Changed(_))) => Ok(against),
+        _ => mistake(
+            value.span(),
+            "compare with \"truth\", or with settings such as \"sample-rate 16, level-sampling linear\"",
+        ),
+    }
+}
+
+fn arrange(value: &Value<'_>) -> Found<Arrangement> {
+    match command(value, typed::ARRANGE.parse(&text(value)?))? {
+        Command::Arrange(arrangement) => Ok(arrangement),
+        _ => mistake(value.span(), format!("arrange as {}", typed::ARRANGE.usage)),
+    }
+}
+
+/// A string of at most so many bytes.
+fn words(value: &Value<'_>, most: usize) -> Found<String> {
+    match value.get_ref().as_str() {
+        Some(text) if text.len() > most => mistake(
+            value.span(),
+            format!("longer than {most} bytes; shorten it or split the step"),
+        ),
+        Some(text) => Ok(text.to_owned()),
+        None => mistake(value.span(), "not a string; put it in quotes"),
+    }
+}
+
+/// A value as it would stand on the command line.
+fn text(value: &Value<'_>) -> Found<String> {
+    match value.get_ref() {
+        DeValue::String(text) if text.len() <= LONGEST_TITLE => Ok(text.to_string()),
+        DeValue::Integer(number) if number.radix() == 10 => Ok(number.as_str().to_owned()),
+        DeValue::Float(number) => Ok(number.as_str().to_owned()),
+        DeValue::Boolean(true) => Ok("on".to_owned()),
+        DeValue::Boolean(false) => Ok("off".to_owned()),
+        _ => mistake(
+            value.span(),
+            "not a value of an option; write it as on the command line, in quotes",
+        ),
+    }
+}
+
+/// What is quoted in a message, in one short line.
+fn short(text: &str) -> String {
+    const MOST: usize = 160;
+    let mut line: String = text
+        .chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .take(MOST)
+        .collect();
+    if text.chars().count() > MOST {
+        line.push('\u{2026}');
+    }
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::SampleRate;
+
+    fn read(document: &str) -> Result<Lesson, String> {
+        parse(document, "lesson.toml", None).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn lessons_are_steps_with_settings_of_the_command_line() {
+        let document = r#"
+            title = "Two steps"
+            [[step]]
+            title = "One"
+            scene = "gallery:basic/test4.svg"
+            sample-rate = 16
+            lod-bias = -1.5
+            background = "white"
+            view = "10,20,2.5,90"
+            pin = "3,4.5"
+            explanation = true
+            text = "Look **here**."
+            [[step]]
+            against = "sample-rate 4, dialect svg"
+            arrange = "side"
+        "#;
+        let lesson = read(document).expect("a good one");
+        assert_eq!((lesson.title.as_str(), lesson.steps.len()), ("Two steps", 2));
+        let [first, second] = lesson.steps.as_slice() else {
+            panic!("{lesson:?}")
+        };
+        assert_eq!(first.settings.len(), 3, "{:?}", first.settings);
+        let rate = SampleRate::new(16)
+            .map(Command::SetSampleRate)
+            .expect("a square number");
+        assert!(first.settings.contains(&rate), "{:?}", first.settings);
+        assert_eq!(first.view.map(|view| view.rotation), Some(90.0), "the view");
+        assert_eq!(
+            (first.pin, first.explained),
+            (Some(DVec2::new(3.0, 4.5)), true),
+            "the pin"
+        );
+        assert_eq!(first.text.len(), 1, "a paragraph");
+        assert_eq!(second.scene, first.scene, "the scene before");
+        let (against, arrangement) = second.against.clone().expect("a comparison");
+        assert_eq!(arrangement, Arrangement::SideBySide);
+        assert!(
+            matches!(against, Against::Changed(changes) if changes.len() == 2),
+            "B's settings"
+        );
+    }
+
+    #[test]
+    fn lessons_at_fault_are_told_the_place_and_the_cure() {
+        let step = |line: &str| format!("title = \"T\"\n[[step]]\nscene = \"gallery:basic/test4.svg\"\n{line}\n");
+        let long = "x".repeat(LONGEST_TEXT + 1);
+        for (document, place, word) in [
+            (String::new(), "1:1", "title"),
+            ("title = \"T\"".to_owned(), "1:1", "[[step]]"),
+            ("title = ".to_owned(), "1:", "not TOML"),
+            ("title = \"T\"\ncolour = 3".to_owned(), "2:1", "`colour` is unknown"),
+            ("title = 3".to_owned(), "1:9", "quotes"),
+            ("title = \"T\"\nstep = 3".to_owned(), "2:8", "[[step]]"),
+            ("title = \"T\"\n[[step]]\n".to_owned(), "2:1", "no scene"),
+            (step("samplerate = 4"), "4:1", "sample-rate"),
+            (step("sample-rate = 257"), "4:15", "1 to 256"),
+            (step("sample-rate = 0x10"), "4:15", "command line"),
+            (step("sample-rate = [4]"), "4:15", "command line"),
+            (step("pattern = \"poisson\""), "4:11", "grid|rotated"),
+            (step("view = \"1,2\""), "4:8", "X,Y,SCALE"),
+            (step("pin = \"1\""), "4:7", "user units"),
+            (step("pin = \"nan,0\""), "4:7", "user units"),
+            (step("arrange = \"wipe\""), "4:1", "against"),
+            (step("against = \"/etc/passwd\""), "4:11", "truth"),
+            (step("sample-rate = 4\nsample-rate = 9"), "5:1", "not TOML"),
+            (step(&format!("text = \"{long}\"")), "4:8", "longer"),
+            (
+                "title = \"T\"\n[[step]]\nscene = \"gallery:nowhere.svg\"".to_owned(),
+                "3:9",
+                "no such scene",
+            ),
+            (
+                "title = \"T\"\n[[step]]\nscene = \"a.svg\"".to_owned(),
+                "3:9",
+                "no such scene",
+            ),
+        ] {
+            let problem = read(&document).expect_err(&document);
+            assert!(
+                problem.starts_with(&format!("lesson.toml:{place}")),
+                "{document}: {problem}"
+            );
+            assert!(
+                problem.contains(word) && !problem.contains('\n'),
+                "{document}: {problem}"
+            );
+        }
+    }
+
+    #[test]
+    fn lessons_of_hostile_make_end_soon() {
+        let deep = format!("title = \"T\"\nstep = {}", "[".repeat(100_000));
+        assert!(read(&deep).is_err(), "however deep");
+        let many =
+            "title = \"T\"\n".to_owned() + &"[[step]]\nscene = \"gallery:basic/test4.svg\"\n".repeat(MOST_STEPS + 1);
+        let problem = read(&many).expect_err("too many");
+        assert!(problem.contains("200 steps"), "{problem}");
+        let keys = "title = \"T\"\n[[step]]\n".to_owned() + &"a.".repeat(50_000) + "b = 1";
+        assert!(read(&keys).is_err(), "however long a key");
+    }
+
+    #[test]
+    fn built_in_lessons_are_whole() {
+        for (index, (name, _)) in super::super::BUILT_IN.iter().enumerate() {
+            let lesson = super::super::LessonSource::BuiltIn(index).read();
+            let lesson = lesson.unwrap_or_else(|error| panic!("{error}"));
+            for step in &lesson.steps {
+                assert!(
+                    !step.title.is_empty() && !step.text.is_empty(),
+                    "{name}: {}",
+                    step.title
+                );
+            }
+        }
+    }
+}

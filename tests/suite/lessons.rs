@@ -1,0 +1,260 @@
+//! Lessons: walking through them by commands, and their slides.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command as Process;
+
+use glam::dvec2;
+use rasterscope::scene::DialectChoice;
+use rasterscope::viewer::{Arrangement, BUILT_IN, Command, LessonSource, Viewer};
+
+use crate::support::session::{SQUARE, Session, TRIANGLES};
+
+const LESSON: &str = r#"
+title = "Two steps"
+
+[[step]]
+title = "First"
+scene = "a.svg"
+sample-rate = 16
+pin = "40,60"
+text = "See **this**."
+
+[[step]]
+title = "Second"
+scene = "b.svg"
+view = "50,50,2"
+dialect = "svg"
+against = "sample-rate 4"
+arrange = "side"
+text = "And that."
+
+[[step]]
+title = "Third"
+text = "The same scene."
+"#;
+
+/// A folder with the lesson and its scenes.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in [("lesson.toml", LESSON), ("a.svg", TRIANGLES), ("b.svg", SQUARE)] {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+fn title(viewer: &Viewer) -> Option<String> {
+    let (lesson, at) = viewer.lesson()?;
+    Some(lesson.steps[at].title.clone())
+}
+
+#[test]
+fn lesson_is_walked_by_keys_and_closed_by_escape() {
+    let folder = folder();
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    session.keys(&["p", "="]);
+    let (settings, before) = (*session.viewer.settings(), session.pixels().clone());
+    session.run(Command::Open(vec![folder.path().join("lesson.toml")]));
+    assert_eq!(title(&session.viewer).as_deref(), Some("First"));
+    assert_eq!(session.viewer.scenes().len(), 2, "each scene of the lesson once");
+    assert_eq!(
+        session.viewer.settings().render.sample_rate.samples(),
+        16,
+        "the step's settings"
+    );
+    assert_eq!(
+        session.viewer.settings().render.pixel_sampling,
+        rasterscope::texture::PixelSampling::default(),
+        "the others have their defaults"
+    );
+    let pinned = session.viewer.pinned_pixel().expect("the step's pin");
+    let user = session.viewer.status_of(pinned).unwrap().user;
+    assert!(user.distance(dvec2(40.0, 60.0)) < 1.0, "{user}");
+    session.assert_frame_is_current();
+
+    session.keys(&["PageDown"]);
+    assert_eq!(title(&session.viewer).as_deref(), Some("Second"));
+    let numbers = session.viewer.view_numbers().unwrap();
+    assert_eq!(
+        (numbers.center, numbers.scale),
+        (dvec2(50.0, 50.0), 2.0),
+        "the step's view"
+    );
+    assert_eq!(session.viewer.settings().dialect, DialectChoice::Svg);
+    assert_eq!(session.viewer.arrangement(), Arrangement::SideBySide);
+    assert_eq!(session.viewer.other_settings().unwrap().sample_rate.samples(), 4, "B");
+    assert_eq!(session.viewer.pinned_pixel(), None, "no pin");
+
+    session.keys(&["PageDown", "PageDown"]);
+    assert_eq!(title(&session.viewer).as_deref(), Some("Third"), "the last one stays");
+    assert_eq!(session.viewer.other(), None, "without a comparison");
+    session.keys(&["=", "]", "PageUp"]);
+    session.run(Command::LessonStep(2));
+    assert_eq!(
+        session.viewer.settings().render.sample_rate.samples(),
+        1,
+        "as its author meant it"
+    );
+    assert_eq!(session.viewer.view_numbers().unwrap().rotation, 0.0);
+    session.run(Command::LessonStep(17));
+    assert_eq!(
+        title(&session.viewer).as_deref(),
+        Some("Third"),
+        "there is no such step"
+    );
+
+    session.run(Command::Escape);
+    assert_eq!(session.viewer.lesson(), None, "closed");
+    assert_eq!(*session.viewer.settings(), settings, "the settings are back");
+    assert_eq!(session.viewer.scenes().len(), 1, "and the scenes");
+    assert!(*session.pixels() == before, "and the picture");
+}
+
+#[test]
+fn lesson_shows_the_canvas_where_no_panel_is_until_a_hand_moves_it() {
+    use rasterscope::viewer::PixelRect;
+    let folder = folder();
+    let mut session = Session::open(&[TRIANGLES], [600, 300]);
+    session.run(Command::Open(vec![folder.path().join("lesson.toml")]));
+    let middle = |session: &Session| {
+        let entry = session.viewer.current().unwrap();
+        let canvas = entry.scene().unwrap().canvas;
+        entry
+            .camera
+            .view()
+            .transform(canvas, session.viewer.frame_size())
+            .to_pixels(canvas / 2.0)
+    };
+    let free = |x: i64, width: u32| {
+        Command::SetFreeArea(Some(PixelRect {
+            x,
+            y: 0,
+            width,
+            height: 300,
+        }))
+    };
+    session.run(free(200, 400));
+    assert!(
+        middle(&session).distance(dvec2(400.0, 150.0)) < 1.0,
+        "{}",
+        middle(&session)
+    );
+    session.run(free(300, 200));
+    assert!(
+        middle(&session).distance(dvec2(400.0, 150.0)) < 1.0,
+        "{}",
+        middle(&session)
+    );
+    session.run(Command::PanBy { by: dvec2(-50.0, 0.0) });
+    session.run(free(0, 600));
+    assert!(
+        middle(&session).distance(dvec2(350.0, 150.0)) < 1.0,
+        "the hand's view stays: {}",
+        middle(&session)
+    );
+}
+
+#[test]
+fn lesson_that_cannot_be_read_changes_nothing() {
+    let folder = folder();
+    let path = folder.path().join("broken.toml");
+    fs::write(&path, "title = \"T\"\n[[step]]\nscene = \"nowhere.svg\"\n").unwrap();
+    let mut session = Session::open(&[TRIANGLES], [200, 100]);
+    session.run(Command::OpenLesson(LessonSource::File(path)));
+    assert_eq!(session.viewer.lesson(), None);
+    let message = &session.viewer.messages().last().unwrap().text;
+    assert!(
+        message.contains("broken.toml:3:9: nowhere.svg: no such scene"),
+        "{message}"
+    );
+    session.assert_frame_is_current();
+}
+
+/// Every step of the program's own lessons can be drawn, and its words fit.
+#[test]
+fn lesson_slides_are_numbered_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, _) in BUILT_IN {
+        let out = folder.path().join(name);
+        let run = lesson(&[name, "--slides", out.to_str().unwrap(), "--size", "960x540"]);
+        assert_eq!(run.0, Some(0), "{name}: {}", run.1);
+        let source = LessonSource::from_address(Path::new(&format!("lesson:{name}"))).unwrap();
+        let steps = source.read().unwrap().steps.len();
+        let mut files: Vec<String> = fs::read_dir(&out)
+            .unwrap()
+            .map(|file| file.unwrap().file_name().into_string().unwrap())
+            .collect();
+        files.sort();
+        let expected: Vec<String> = (1..=steps).map(|number| format!("{number:02}.png")).collect();
+        assert_eq!(files, expected, "{name}");
+        let first = image::open(out.join("01.png")).unwrap().into_rgb8();
+        assert_eq!((first.width(), first.height()), (960, 540), "{name}");
+        let dark = |columns: std::ops::Range<u32>| {
+            let pixels = columns.flat_map(|x| (0..540).map(move |y| (x, y)));
+            pixels
+                .filter(|(x, y)| first.get_pixel(*x, *y).0.iter().all(|channel| *channel < 120))
+                .count()
+        };
+        assert!(dark(0..320) > 200, "{name}: words on the left");
+    }
+    let golden = rasterscope_frame(&folder.path().join("six-tasks/08.png"));
+    let found = crate::support::golden::check("lesson_slide", &golden, 1);
+    assert_eq!(found.err(), None, "as it was looked at");
+}
+
+fn rasterscope_frame(path: &Path) -> rasterscope::raster::Framebuffer {
+    let image = image::open(path).unwrap().into_rgba8();
+    let mut frame = rasterscope::raster::Framebuffer::new(image.width(), image.height());
+    for (to, from) in frame.pixels_mut().iter_mut().zip(image.pixels()) {
+        let [r, g, b, a] = from.0;
+        *to = u32::from_be_bytes([a, r, g, b]);
+    }
+    frame
+}
+
+#[test]
+fn lesson_mistakes_are_one_line_and_status_2() {
+    let folder = folder();
+    let path = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let out = folder.path().join("out");
+    let out = out.to_str().unwrap();
+    let wrong = path("wrong.toml", &LESSON.replace("sample-rate = 16", "sample-rat = 16"));
+    let long = path(
+        "long.toml",
+        &LESSON.replace("And that.", &"words and words ".repeat(900)),
+    );
+    let bad = path("bad.toml", &LESSON.replace("b.svg", "broken.svg"));
+    path("broken.svg", "<svg");
+    let plain = path("plain.txt", "");
+    for (arguments, word) in [
+        (
+            vec![wrong.as_str(), "--slides", out],
+            "wrong.toml:7:1: `sample-rat` is unknown",
+        ),
+        (vec![long.as_str(), "--slides", out], "step 2: its text does not fit"),
+        (vec![bad.as_str(), "--slides", out], "step 2: "),
+        (vec![plain.as_str()], "no lesson"),
+        (vec!["nowhere.toml"], "nowhere.toml: cannot be read"),
+        (vec!["six-tasks", "--slides", out, "--size", "20x20"], "too small"),
+        (vec!["six-tasks", "--slides", plain.as_str()], "plain.txt"),
+    ] {
+        let (status, message) = lesson(&arguments);
+        assert_eq!(status, Some(2), "{arguments:?}: {message}");
+        assert!(message.contains(word), "{arguments:?}: {message}");
+        assert_eq!(message.trim_end().lines().count(), 1, "{arguments:?}: {message}");
+    }
+}
+
+/// Exit status and stderr of `rasterscope lesson`.
+fn lesson(arguments: &[&str]) -> (Option<i32>, String) {
+    let run = Process::new(env!("CARGO_BIN_EXE_rasterscope"))
+        .arg("lesson")
+        .args(arguments)
+        .output()
+        .unwrap();
+    (run.status.code(), String::from_utf8_lossy(&run.stderr).into_owned())
+}

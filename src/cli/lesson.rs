@@ -18,19 +18,15 @@ const LEAST: [u32; 2] = [480, 270];
 pub(super) fn run(options: &LessonOptions) -> Result<(), Failure> {
     let source = source(&options.lesson)?;
     let lesson = source.read().map_err(Failure::input)?;
-    match &options.slides {
-        Some(folder) => {
-            let size = options.view.size.map_or(SLIDE, |size| size.0);
-            write(&lesson, size, folder)
-        }
-        None => {
-            let view = ViewerOptions {
-                paths: vec![PathBuf::from(source.address())],
-                ..options.view.clone()
-            };
-            view::run(&view, None)
-        }
+    if let Some(folder) = &options.slides {
+        let size = options.view.size.map_or(SLIDE, |size| size.0);
+        return write(&lesson, size, folder);
     }
+    let view = ViewerOptions {
+        paths: vec![PathBuf::from(source.address())],
+        ..options.view.clone()
+    };
+    view::run(&view, None)
 }
 
 /// The lesson that a person names; those of the program need no prefix.

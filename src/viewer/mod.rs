@@ -49,7 +49,7 @@ pub use comparison::{Against, Arrangement, Measures, Other, OutsidePicture, Seen
 pub use frame::{Frame, Manner, Picture, Preview};
 pub use inspector::{Inspector, PixelLabel, PlacedInset};
 pub use key::{Chord, Key, KeyPress, Modifiers};
-pub use lesson::{BUILT_IN, Block, Lesson, LessonError, LessonSource, LessonStep, SlideError, Span, slides};
+pub use lesson::{BUILT_IN, Block, Lesson, LessonError, LessonSource, LessonStep, Look, SlideError, Span, slides};
 pub use library::{SceneEntry, SceneSource, SceneState, list_scenes};
 pub use messages::{Message, MessageKind};
 pub use present::WindowPixels;

@@ -4,7 +4,7 @@ use egui::text::{LayoutJob, TextFormat};
 use egui::{FontFamily, FontId, RichText, ScrollArea, Ui};
 
 use super::controls::command_button;
-use crate::viewer::{Block, Command, LessonStep, Span, Viewer};
+use crate::viewer::{Block, Command, LessonStep, Look, Span, Viewer};
 
 /// Width of the panel, in points, frame included.
 pub(super) const WIDTH: f32 = 300.0;
@@ -78,23 +78,23 @@ fn layout(ui: &Ui, spans: &[Span], size: f32, heading: bool) -> LayoutJob {
     let visuals = ui.visuals();
     let mut job = LayoutJob::default();
     for span in spans {
-        let strong = span.bold || heading;
+        let strong = span.look == Look::Bold || heading;
         let color = if strong {
             visuals.strong_text_color()
         } else {
             visuals.text_color()
         };
-        let (family, size) = if span.code {
+        let (family, size) = if span.look == Look::Code {
             (FontFamily::Monospace, size - 1.5)
         } else {
             (FontFamily::Proportional, size)
         };
         let mut format = TextFormat {
-            italics: span.italic,
+            italics: span.look == Look::Italic,
             line_height: Some(size * 1.4),
             ..TextFormat::simple(FontId::new(size, family), color)
         };
-        if span.code {
+        if span.look == Look::Code {
             format.background = visuals.code_bg_color;
         }
         job.append(&span.text, 0.0, format);

@@ -28,12 +28,22 @@ pub enum Block {
 pub struct Span {
     /// The words; a line break stands where one was asked for.
     pub text: String,
-    /// Whether they are strong.
-    pub bold: bool,
-    /// Whether they are emphasised.
-    pub italic: bool,
-    /// Whether they are code.
-    pub code: bool,
+    /// How they look.
+    pub look: Look,
+}
+
+/// How words look: where several apply, the first of code, bold and italic.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Look {
+    /// As the others.
+    #[default]
+    Plain,
+    /// Strong.
+    Bold,
+    /// Emphasised.
+    Italic,
+    /// Code.
+    Code,
 }
 
 /// What is being read.
@@ -132,17 +142,18 @@ impl Reader {
     }
 
     fn add(&mut self, text: &str, code: bool) {
-        let span = Span {
-            text: text.to_owned(),
-            bold: self.bold > 0,
-            italic: self.italic > 0,
-            code,
+        let look = match () {
+            () if code => Look::Code,
+            () if self.bold > 0 => Look::Bold,
+            () if self.italic > 0 => Look::Italic,
+            () => Look::Plain,
         };
         match self.words.last_mut() {
-            Some(last) if (last.bold, last.italic, last.code) == (span.bold, span.italic, span.code) => {
-                last.text.push_str(text);
-            }
-            _ => self.words.push(span),
+            Some(last) if last.look == look => last.text.push_str(text),
+            _ => self.words.push(Span {
+                text: text.to_owned(),
+                look,
+            }),
         }
     }
 
@@ -183,15 +194,15 @@ mod tests {
     fn markdown_becomes_blocks() {
         let text = "# One *thing*\n\nSome **bold** and `code`\nin a row.\n\n1. first\n2. second\n   * inner\n\n```\na\n b\n```\n";
         let bold = Span {
-            bold: true,
+            look: Look::Bold,
             ..plain("bold")
         };
         let italic = Span {
-            italic: true,
+            look: Look::Italic,
             ..plain("thing")
         };
         let code = Span {
-            code: true,
+            look: Look::Code,
             ..plain("code")
         };
         let item = |depth, marker: &str, words| Block::Item {

@@ -17,7 +17,7 @@ use glam::DVec2;
 
 use super::{Against, Arrangement, Command, SceneSource, ViewNumbers};
 
-pub use markdown::{Block, Span};
+pub use markdown::{Block, Look, Span};
 pub use slides::{SlideError, slides};
 pub(super) use walk::Walk;
 

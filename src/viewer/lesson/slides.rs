@@ -2,7 +2,7 @@
 
 use std::io;
 
-use super::markdown::{Block, Span};
+use super::markdown::{Block, Look, Span};
 use super::{Lesson, LessonStep};
 use crate::figure::{Anchor, TextBlock, TextStyle, Typeface};
 use crate::raster::Framebuffer;
@@ -106,11 +106,17 @@ struct Layout {
 struct Word<'a> {
     text: &'a str,
     style: TextStyle,
-    bold: bool,
-    /// Whether a blank comes before it.
-    spaced: bool,
-    /// Whether it begins a line.
-    breaks: bool,
+    look: Look,
+    after: After,
+}
+
+/// What comes before a word.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum After {
+    /// Another word, from which it must not be parted.
+    Word,
+    Blank,
+    LineBreak,
 }
 
 /// Where the next word goes.
@@ -190,8 +196,7 @@ impl Layout {
         top += i64::from(head.size()[1]) + gap;
         let title = [Span {
             text: step.title.clone(),
-            bold: true,
-            ..Span::default()
+            look: Look::Bold,
         }];
         if !step.title.is_empty() {
             top = self.spans(&title, (heading(body), margin, top), slide.as_deref_mut()) + gap;
@@ -237,8 +242,8 @@ impl Layout {
         let blank = i64::from(TextBlock::new("n n", style, None).size()[0])
             - i64::from(TextBlock::new("nn", style, None).size()[0]);
         for word in spans.iter().flat_map(|span| words_of(span, style)) {
-            pen.blank |= word.spaced;
-            if word.text.is_empty() && !word.breaks {
+            pen.blank |= word.after == After::Blank;
+            if word.text.is_empty() && word.after != After::LineBreak {
                 continue;
             }
             let spaced = std::mem::take(&mut pen.blank);
@@ -246,14 +251,14 @@ impl Layout {
             let width = i64::from(block.size()[0]);
             let before = if spaced && pen.at[0] > pen.left { blank } else { 0 };
             let beyond = pen.at[0] + before + width > i64::from(self.words_end) && pen.at[0] > pen.left;
-            if word.breaks || (beyond && spaced) {
+            if word.after == After::LineBreak || (beyond && spaced) {
                 pen.at = [pen.left, pen.at[1] + i64::from(style.line_height())];
             } else {
                 pen.at[0] += before;
             }
             if let Some(slide) = slide.as_deref_mut() {
                 block.draw(slide, pen.at, Anchor::Left);
-                if word.bold {
+                if word.look == Look::Bold {
                     block.draw(slide, [pen.at[0] + 1, pen.at[1]], Anchor::Left);
                 }
             }
@@ -297,19 +302,22 @@ fn code_style(style: TextStyle) -> TextStyle {
 
 /// The words of a span. Between two spans without a blank no line may break.
 fn words_of(span: &Span, style: TextStyle) -> impl Iterator<Item = Word<'_>> {
-    let style = match span {
-        Span { code: true, .. } => code_style(style),
-        Span { bold: true, .. } => TextStyle { color: STRONG, ..style },
-        Span { italic: true, .. } => TextStyle { color: QUIET, ..style },
-        Span { .. } => style,
+    let style = match span.look {
+        Look::Code => code_style(style),
+        Look::Bold => TextStyle { color: STRONG, ..style },
+        Look::Italic => TextStyle { color: QUIET, ..style },
+        Look::Plain => style,
     };
     span.text.split('\n').enumerate().flat_map(move |(line, text)| {
         text.split(' ').enumerate().map(move |(i, text)| Word {
             text,
             style,
-            bold: span.bold,
-            spaced: i > 0,
-            breaks: line > 0 && i == 0,
+            look: span.look,
+            after: match (line, i) {
+                (0, 0) => After::Word,
+                (_, 0) => After::LineBreak,
+                _ => After::Blank,
+            },
         })
     })
 }

@@ -142,16 +142,13 @@ impl Viewer {
         if !walk.view_pending && !follows {
             return;
         }
-        let fitted = match numbers {
-            Some(numbers) => {
-                self.look(|camera, _| camera.set(numbers, &sight));
-                None
-            }
-            None => {
-                self.look(|camera, _| *camera = Camera::new(View::Default));
-                self.fit_view();
-                self.current().map(|entry| entry.camera)
-            }
+        let fitted = if let Some(numbers) = numbers {
+            self.look(|camera, _| camera.set(numbers, &sight));
+            None
+        } else {
+            self.look(|camera, _| *camera = Camera::new(View::Default));
+            self.fit_view();
+            self.current().map(|entry| entry.camera)
         };
         if let Some(walk) = &mut self.lesson {
             (walk.view_pending, walk.fitted) = (false, fitted);

@@ -95,7 +95,10 @@ fn lesson_is_walked_by_keys_and_closed_by_escape() {
         1,
         "as its author meant it"
     );
-    assert!(session.viewer.view_numbers().unwrap().rotation.abs() < 1e-9, "upright again");
+    assert!(
+        session.viewer.view_numbers().unwrap().rotation.abs() < 1e-9,
+        "upright again"
+    );
     session.run(Command::LessonStep(17));
     assert_eq!(
         title(&session.viewer).as_deref(),

@@ -6,6 +6,7 @@ mod legend;
 mod lines;
 mod paint;
 mod placement;
+mod plot;
 mod png;
 mod record;
 mod rect;

@@ -72,6 +72,23 @@ impl Default for RenderSettings {
     }
 }
 
+impl RenderSettings {
+    /// The truth about a picture: as many samples as there can be, each of which reads the texture itself, averaged in
+    /// linear light. Rules, background and how a texture is continued between its texels are the picture's own.
+    #[must_use]
+    pub fn truth(self) -> Self {
+        Self {
+            sample_rate: SampleRate::new(SampleRate::MAX).unwrap_or(self.sample_rate),
+            pattern: SamplePattern::Grid,
+            level_sampling: LevelSampling::Zero,
+            anisotropy: Anisotropy::OFF,
+            detail: LevelOfDetail::default(),
+            resolve: ResolveSpace::Linear,
+            ..self
+        }
+    }
+}
+
 /// Where the time of one frame went, as wall time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameStats {

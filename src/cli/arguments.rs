@@ -11,6 +11,7 @@ use super::axes::AxisLists;
 use super::failure::Failure;
 use super::recorded;
 use super::size::FrameSize;
+use super::sweep::Quality;
 use super::view_option;
 use crate::color::{ResolveSpace, Rgba};
 use crate::compare::Measure;
@@ -48,6 +49,9 @@ pub(super) enum Verb {
     /// Draw one picture for each combination of settings, in a labelled grid
     #[command(after_help = SHEET_FILES)]
     Sheet(SheetOptions),
+    /// Measure each combination of settings: time, memory, and how far the picture is from the truth
+    #[command(after_help = SWEEP_FILES)]
+    Sweep(SweepOptions),
     /// Draw every figure of a write-up, and a page that shows them
     #[command(after_help = WRITEUP_FILES)]
     Writeup(WriteupOptions),
@@ -72,7 +76,7 @@ impl Verb {
             Self::View(options) => Some(&options.sampling),
             Self::Render(options) => Some(&options.picture.sampling),
             // Each panel has its own.
-            Self::Sheet(_) | Self::Writeup(_) | Self::Rerun(_) => None,
+            Self::Sheet(_) | Self::Sweep(_) | Self::Writeup(_) | Self::Rerun(_) => None,
             Self::Lesson(options) => Some(&options.view.sampling),
             Self::Inspect(options) => Some(&options.picture.sampling),
             Self::Diff(options) => Some(&options.sampling),
@@ -86,6 +90,7 @@ impl Verb {
             Self::View(options) if options.paths.len() == 1 => options.paths.first_mut(),
             Self::Render(options) => Some(&mut options.scene),
             Self::Sheet(options) => Some(&mut options.scene),
+            Self::Sweep(options) => Some(&mut options.scene),
             Self::Inspect(options) => Some(&mut options.scene),
             _ => None,
         }
@@ -95,6 +100,9 @@ impl Verb {
 const SHEET_FILES: &str = "Every option of sampling takes a list with commas; the first list of several values makes the columns. \
                            Beside OUT.png a folder OUT gets the single panels, and figures.md, figures.html and \
                            figures.tex with captions and alternative text.";
+
+const SWEEP_FILES: &str = "Every option of sampling takes a list with commas; the first list of several values makes the lines of the \
+                           chart, which lies beside the table unless --plot says otherwise. Ctrl+C leaves what is measured.";
 
 const WRITEUP_FILES: &str = "The folder OUT gets a PNG for each figure, named by task, with the panels of sheets in folders of \
                              their names; index.html, figures.md and figures.tex; pins.toml, which tells where insets look \
@@ -189,6 +197,31 @@ pub(super) struct SheetOptions {
     /// A sentence that the caption ends with
     #[arg(long, value_name = "TEXT")]
     pub(super) note: Option<String>,
+    #[command(flatten)]
+    pub(super) axes: AxisLists,
+    #[command(flatten)]
+    pub(super) framing: FramingOptions,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct SweepOptions {
+    /// An SVG file, a scene of the gallery, or a PNG of this program: its scene and settings
+    pub(super) scene: PathBuf,
+    /// The table to write
+    #[arg(long, value_name = "OUT.csv")]
+    pub(super) csv: PathBuf,
+    /// The chart to write [default: the table's name, ending in .png]
+    #[arg(long, value_name = "OUT.png")]
+    pub(super) plot: Option<PathBuf>,
+    /// What the chart shows over the time
+    #[arg(long, default_value = Quality::default().name(), value_enum)]
+    pub(super) quality: Quality,
+    /// Frames whose time is taken, for each combination
+    #[arg(long, default_value = "5", value_name = "K", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub(super) frames: u32,
+    /// Pixels of the pictures
+    #[arg(long, default_value = "1024x1024", value_name = "WxH")]
+    pub(super) size: FrameSize,
     #[command(flatten)]
     pub(super) axes: AxisLists,
     #[command(flatten)]
@@ -433,6 +466,7 @@ macro_rules! named_values {
 }
 
 named_values!(
+    Quality,
     ResolveSpace,
     Visualisation,
     SamplePattern,

@@ -10,12 +10,14 @@ mod diff;
 mod failure;
 mod inspect;
 mod lesson;
+mod memory;
 mod picture;
 mod recorded;
 mod render;
 mod rerun;
 mod sheet;
 mod size;
+mod sweep;
 mod view;
 mod view_option;
 mod writeup;
@@ -57,6 +59,7 @@ fn execute(arguments: &Arguments, restored: Option<&Restored>) -> Result<(), Fai
         Verb::View(options) => view::run(options, restored),
         Verb::Render(options) => render::run(options, restored),
         Verb::Sheet(options) => sheet::run(options, restored),
+        Verb::Sweep(options) => sweep::run(options, restored),
         Verb::Writeup(options) => writeup::run(options),
         Verb::Rerun(options) => rerun::run(options),
         Verb::Inspect(options) => inspect::run(options, restored),

@@ -21,6 +21,7 @@ pub use inset::Inset;
 pub use legend::{add_legends, draw_legend, place_legends};
 use placement::corners;
 pub use placement::{Corner, place};
+pub use plot::{Plot, PlotSeries, draw_plot};
 pub use record::{Record, RecordError, RecordedFile};
 pub use rect::PixelRect;
 pub use samples::{SampleMark, is_dark};

@@ -55,7 +55,10 @@ pub struct PlotSeries {
 /// When there is no point to show or no room for the chart; in words.
 pub fn draw_plot(plot: &Plot, size: [u32; 2]) -> Result<Framebuffer, String> {
     if size[0] < 160 || size[1] < 120 || size.iter().any(|side| *side > Framebuffer::MAX_SIDE) {
-        return Err(format!("a chart of {} x {} pixels has no room; take 1200 x 800", size[0], size[1]));
+        return Err(format!(
+            "a chart of {} x {} pixels has no room; take 1200 x 800",
+            size[0], size[1]
+        ));
     }
     if !*READY {
         return Err("the typeface of charts cannot be read".to_owned());
@@ -89,7 +92,11 @@ fn ranges(plot: &Plot) -> Option<[[f64; 2]; 2]> {
     let factor = (right / left).powf(0.08).max(1.2);
     let spare = ((high - low) * 0.08).max(high.abs() * 1e-3).max(1e-9);
     // What cannot be below zero has no room there.
-    let bottom = if low >= 0.0 { (low - spare).max(0.0) } else { low - spare };
+    let bottom = if low >= 0.0 {
+        (low - spare).max(0.0)
+    } else {
+        low - spare
+    };
     Some([[left / factor, right * factor * factor], [bottom, high + spare]])
 }
 
@@ -104,7 +111,11 @@ fn draw<'b>(
     let [width, height] = size.map(|side| f64::from(side.min(Framebuffer::MAX_SIDE)));
     // Letters keep their part of the picture.
     let unit = (width.min(height * 1.5) / 60.0).max(8.0);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a picture's side")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at most a picture's side"
+    )]
     let px = |units: f64| (unit * units).round() as u32;
     let root = BitMapBackend::with_buffer(bytes, (size[0], size[1])).into_drawing_area();
     root.fill(&WHITE)?;
@@ -136,7 +147,9 @@ fn draw<'b>(
                 .label(&series.name)
                 .legend(move |(x, y)| PathElement::new([(x, y), (x + length, y)], line));
         }
-        let dots = points.iter().map(|(at, _)| Circle::new((at[0], at[1]), px(0.3), ShapeStyle::from(color).filled()));
+        let dots = points
+            .iter()
+            .map(|(at, _)| Circle::new((at[0], at[1]), px(0.3), ShapeStyle::from(color).filled()));
         chart.draw_series(dots)?;
         let words = points.iter().map(|(at, words)| {
             let place = (at[0] * (right / left).powf(0.012), at[1] + (high - low) * 0.022);
@@ -224,7 +237,14 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        for (value, text) in [(0.0, "0"), (0.05, "0.05"), (0.1, "0.1"), (2.5, "2.5"), (20.0, "20"), (1000.0, "1000")] {
+        for (value, text) in [
+            (0.0, "0"),
+            (0.05, "0.05"),
+            (0.1, "0.1"),
+            (2.5, "2.5"),
+            (20.0, "20"),
+            (1000.0, "1000"),
+        ] {
             assert_eq!(short(value), text, "{value}");
         }
     }

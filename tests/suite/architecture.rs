@@ -26,7 +26,7 @@ const ROOMS: &[Room] = &[
             "app", "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color",
             "geometry", "rules", "simd",
         ],
-        crates: &["clap", "serde", "serde_json", "toml", "indicatif"],
+        crates: &["clap", "serde", "serde_json", "toml", "indicatif", "ctrlc"],
     },
     Room {
         name: "app",
@@ -54,6 +54,7 @@ const ROOMS: &[Room] = &[
             "png",
             "ab_glyph",
             "epaint_default_fonts",
+            "plotters",
             "serde",
             "serde_json",
         ],

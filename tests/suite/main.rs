@@ -34,6 +34,7 @@ mod scene_course;
 mod scene_svg;
 mod scene_triangulation;
 mod support;
+mod sweep;
 mod viewer_comparison;
 mod viewer_dialects;
 mod viewer_inspector;

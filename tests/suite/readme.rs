@@ -30,7 +30,9 @@ fn readme_holds_the_key_table_of_the_program() {
 fn readme_names_every_option_and_scene_folder() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let text = fs::read_to_string(root.join("README.md")).expect("the README");
-    for command in ["view", "render", "diff", "lesson", "bench"] {
+    for command in [
+        "view", "render", "sheet", "sweep", "writeup", "rerun", "inspect", "diff", "lesson", "bench",
+    ] {
         let output = Command::new(env!("CARGO_BIN_EXE_rasterscope"))
             .args([command, "--help"])
             .output()

@@ -11,25 +11,9 @@ use super::super::drawing::{Changes, Drawing, DrawingId, Wish};
 use super::super::{Picture, SceneState, Viewer};
 use super::measuring::SharedPicture;
 use super::{Arrangement, Comparison, Other};
-use crate::color::ResolveSpace;
-use crate::raster::{Framebuffer, SamplePattern, SampleRate};
+use crate::raster::Framebuffer;
 use crate::render::RenderSettings;
 use crate::scene::DialectChoice;
-use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling};
-
-/// The truth about a picture: as many samples as there can be, each of which reads the texture itself, averaged in linear
-/// light. Rules, background and how a texture is continued between its texels are the picture's own.
-fn truth_of(settings: &RenderSettings) -> RenderSettings {
-    RenderSettings {
-        sample_rate: SampleRate::new(SampleRate::MAX).unwrap_or(settings.sample_rate),
-        pattern: SamplePattern::Grid,
-        level_sampling: LevelSampling::Zero,
-        anisotropy: Anisotropy::OFF,
-        detail: LevelOfDetail::default(),
-        resolve: ResolveSpace::Linear,
-        ..*settings
-    }
-}
 
 impl Comparison {
     /// Whether B is needed on the screen.
@@ -80,7 +64,7 @@ impl Viewer {
     pub fn other_settings(&self) -> Option<RenderSettings> {
         match self.comparison.other.as_ref()? {
             Other::Settings { render, .. } => Some(*render),
-            Other::Truth => Some(truth_of(&self.settings.render)),
+            Other::Truth => Some(self.settings.render.truth()),
             Other::Picture(_) => None,
         }
     }

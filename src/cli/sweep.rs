@@ -1,0 +1,422 @@
+//! `rasterscope sweep`: what each combination of settings costs, and how far its picture is from the truth.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::arguments::SweepOptions;
+use super::axes::{AxisLists, Choice};
+use super::bench::{median, milliseconds};
+use super::failure::{Failure, print, print_error};
+use super::memory::{forget_peak, peak_megabytes};
+use super::picture::{Picture, on_threads};
+use super::render::{name_for_png, unwritable};
+use super::size::FrameSize;
+use crate::compare::Pair;
+use crate::figure::{Plot, PlotSeries, Record, draw_plot, encode_png, save_files};
+use crate::raster::Framebuffer;
+use crate::render::CancelToken;
+use crate::scene::{DialectChoice, Scene};
+use crate::viewer::{PictureSpec, Restored, SceneSource, as_path, plain_record};
+
+/// Most combinations of a sweep.
+const MAX_CHOICES: usize = 1000;
+/// Pixels of the chart.
+const CHART: [u32; 2] = [1500, 1000];
+/// The columns of the table after those of the settings.
+const COLUMNS: [&str; 7] = ["median_ms", "min_ms", "peak_mb", "rmse", "psnr_db", "ssim", "flip"];
+
+/// How far a picture is from the truth, as the chart shows it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Quality {
+    /// What people see of the difference: 0 is none.
+    #[default]
+    Flip,
+    /// Likeness of structure: 1 is equal.
+    Ssim,
+    /// Signal to noise in decibels.
+    Psnr,
+    /// Root mean square error in levels of 255.
+    Rmse,
+}
+
+/// What was measured of one combination.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    median_ms: f64,
+    min_ms: f64,
+    /// Of the whole process while it drew, where the system tells.
+    peak_mb: Option<f64>,
+    rmse: f64,
+    psnr: f64,
+    ssim: f64,
+    flip: f64,
+}
+
+/// The combinations, and what was measured of them until Ctrl+C.
+struct Sweep {
+    specs: Vec<(Choice, PictureSpec)>,
+    /// Of the first combinations.
+    rows: Vec<Row>,
+    record: Record,
+}
+
+/// What others are compared with.
+struct Truth {
+    spec: PictureSpec,
+    frame: Framebuffer,
+}
+
+impl Quality {
+    /// Every value, in the order of help.
+    pub(super) const ALL: [Self; 4] = [Self::Flip, Self::Ssim, Self::Psnr, Self::Rmse];
+
+    /// The name on the command line.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Flip => "flip",
+            Self::Ssim => "ssim",
+            Self::Psnr => "psnr",
+            Self::Rmse => "rmse",
+        }
+    }
+
+    /// For the axis of the chart.
+    fn title(self) -> &'static str {
+        match self {
+            Self::Flip => "FLIP difference from the truth, 0 is none",
+            Self::Ssim => "SSIM with the truth, 1 is equal",
+            Self::Psnr => "PSNR against the truth in dB, more is nearer",
+            Self::Rmse => "root mean square error against the truth, in levels of 255",
+        }
+    }
+
+    fn of(self, row: &Row) -> f64 {
+        match self {
+            Self::Flip => row.flip,
+            Self::Ssim => row.ssim,
+            Self::Psnr => row.psnr,
+            Self::Rmse => row.rmse,
+        }
+    }
+}
+
+/// Measures every combination and writes table and chart.
+pub(super) fn run(options: &SweepOptions, restored: Option<&Restored>) -> Result<(), Failure> {
+    let chart = chart_of(options);
+    check_outputs(&options.csv, &chart)?;
+    let specs = specs(options)?;
+    let stop = Arc::new(CancelToken::default());
+    let at_interrupt = Arc::clone(&stop);
+    ctrlc::set_handler(move || at_interrupt.cancel())
+        .map_err(|error| Failure::other(format!("cannot listen for Ctrl+C: {error}")))?;
+    let sweep = on_threads(options.framing.threads, || measure(options, specs, restored, &stop))??;
+    if sweep.rows.is_empty() {
+        return Err(Failure::other(
+            "stopped before anything was measured; nothing is written",
+        ));
+    }
+    sweep.write(options, &chart)?;
+    let (done, all) = (sweep.rows.len(), sweep.specs.len());
+    if done < all {
+        let table = options.csv.display();
+        return Err(Failure::other(format!(
+            "stopped: {done} of {all} combinations are in {table}"
+        )));
+    }
+    print(&sweep.text(options))
+}
+
+/// Where the chart goes.
+fn chart_of(options: &SweepOptions) -> PathBuf {
+    let beside = || options.csv.with_extension("png");
+    options.plot.clone().unwrap_or_else(beside)
+}
+
+/// Says before minutes of work what would fail after it.
+fn check_outputs(csv: &Path, chart: &Path) -> Result<(), Failure> {
+    name_for_png(chart)?;
+    if chart == csv {
+        return Err(Failure::input(format!(
+            "{}: table and chart cannot be one file; end --csv in .csv",
+            chart.display()
+        )));
+    }
+    for file in [csv, chart] {
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+        if folder.is_some_and(|folder| !folder.is_dir()) {
+            return Err(unwritable(file, &io::Error::from(io::ErrorKind::NotFound)));
+        }
+    }
+    Ok(())
+}
+
+/// What each combination draws.
+fn specs(options: &SweepOptions) -> Result<Vec<(Choice, PictureSpec)>, Failure> {
+    if options.axes.count() > MAX_CHOICES {
+        return Err(Failure::input(format!(
+            "a sweep measures at most {MAX_CHOICES} combinations, and these lists make more; give fewer values"
+        )));
+    }
+    let FrameSize(size) = options.size;
+    let spec = |choice: Choice| {
+        let sampling = AxisLists::sampling(&choice)?;
+        let spec = PictureSpec {
+            scene: SceneSource::from_address(&options.scene),
+            size,
+            view: options.framing.view,
+            render: sampling.settings(options.framing.view),
+            dialect: sampling.dialect,
+            insets: Vec::new(),
+            legend: false,
+        };
+        Ok((choice, spec))
+    };
+    options.axes.choices().into_iter().map(spec).collect()
+}
+
+fn measure(
+    options: &SweepOptions,
+    specs: Vec<(Choice, PictureSpec)>,
+    restored: Option<&Restored>,
+    stop: &CancelToken,
+) -> Result<Sweep, Failure> {
+    let mut scenes: Vec<(DialectChoice, Arc<Scene>)> = Vec::new();
+    let mut truths: Vec<Truth> = Vec::new();
+    let (mut rows, mut told) = (Vec::new(), Record::default());
+    let bar = ProgressBar::new(specs.len() as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
+        bar.set_style(style);
+    }
+    for (choice, spec) in &specs {
+        bar.set_message(words(choice));
+        let known = scenes.iter().find(|(dialect, _)| *dialect == spec.dialect);
+        let scene = if let Some((_, scene)) = known {
+            Arc::clone(scene)
+        } else {
+            let picture = Picture::read(spec.clone())?;
+            picture.tell_changes(restored);
+            scenes.push((spec.dialect, Arc::clone(&picture.scene)));
+            picture.scene
+        };
+        if rows.is_empty() {
+            told = record(options, (spec, &scene));
+        }
+        let mut picture = Picture::of(spec.clone(), Arc::clone(&scene));
+        let times = times(&mut picture, options.frames, stop);
+        let truth = truth(&mut truths, spec, &scene, stop);
+        let row = times
+            .zip(truth)
+            .and_then(|(times, truth)| row(times, (picture.frame(), truth), stop));
+        // Half a combination is none.
+        let Some(row) = row else { break };
+        rows.push(row);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(Sweep {
+        specs,
+        rows,
+        record: told,
+    })
+}
+
+/// The times of some frames, after one that does not count, and the peak of memory meanwhile; `None` when stopped.
+fn times(picture: &mut Picture, frames: u32, stop: &CancelToken) -> Option<(Vec<Duration>, Option<f64>)> {
+    let counts = forget_peak();
+    picture.draw();
+    let mut times = Vec::new();
+    for _ in 0..frames {
+        if stop.is_cancelled() {
+            return None;
+        }
+        times.push(picture.draw().total());
+    }
+    Some((times, peak_megabytes().filter(|_| counts)))
+}
+
+/// The truth of a picture; drawn unless it is known. `None` when stopped.
+fn truth<'t>(
+    truths: &'t mut Vec<Truth>,
+    spec: &PictureSpec,
+    scene: &Arc<Scene>,
+    stop: &CancelToken,
+) -> Option<&'t Framebuffer> {
+    let spec = PictureSpec {
+        render: spec.render.truth(),
+        ..spec.clone()
+    };
+    if !truths.iter().any(|truth| truth.spec == spec) {
+        let mut picture = Picture::of(spec.clone(), Arc::clone(scene));
+        picture.draw();
+        // Lists rarely make several truths; two that alternate are not drawn again and again.
+        truths.truncate(1);
+        let frame = picture.into_frame();
+        truths.insert(
+            0,
+            Truth {
+                spec: spec.clone(),
+                frame,
+            },
+        );
+    }
+    let known = truths.iter().find(|truth| truth.spec == spec);
+    known.filter(|_| !stop.is_cancelled()).map(|truth| &truth.frame)
+}
+
+/// What the times and the comparison of a picture with the truth say; `None` when stopped.
+fn row(
+    (times, peak_mb): (Vec<Duration>, Option<f64>),
+    (picture, truth): (&Framebuffer, &Framebuffer),
+    stop: &CancelToken,
+) -> Option<Row> {
+    let pair = Pair::new(picture, truth).ok()?;
+    let levels = pair.levels();
+    Some(Row {
+        min_ms: milliseconds(times.iter().copied().min().unwrap_or_default()),
+        median_ms: milliseconds(median(times)),
+        peak_mb,
+        rmse: levels.rmse(),
+        psnr: levels.psnr(),
+        ssim: pair.ssim(stop)?,
+        flip: pair.flip(stop)?,
+    })
+}
+
+/// The record of the chart: the command line that measures again.
+fn record(options: &SweepOptions, (first, scene): (&PictureSpec, &Scene)) -> Record {
+    let mut words = vec![
+        "sweep".to_owned(),
+        as_path(&first.scene.address()),
+        "--csv".to_owned(),
+        as_path(&options.csv.display().to_string()),
+    ];
+    words.extend(options.axes.words());
+    let [width, height] = first.size;
+    words.extend([
+        format!("--size={width}x{height}"),
+        format!("--view={}", first.view_text()),
+        format!("--frames={}", options.frames),
+        format!("--quality={}", options.quality.name()),
+    ]);
+    let plain = plain_record(words, first.size);
+    Record {
+        arguments: plain.arguments,
+        command_line: plain.command_line,
+        differs: Some("a chart of times, which differ from run to run".to_owned()),
+        ..first.record(scene, &chart_of(options))
+    }
+}
+
+/// All values of a combination.
+fn words(choice: &Choice) -> String {
+    let words: Vec<String> = choice.iter().map(|(name, value)| format!("{name} {value}")).collect();
+    words.join(", ")
+}
+
+/// A value of a combination.
+fn value<'c>(choice: &'c Choice, name: &str) -> &'c str {
+    let known = choice.iter().find(|(known, _)| known == name);
+    known.map_or("", |(_, value)| value)
+}
+
+impl Row {
+    /// The values of [`COLUMNS`]; empty where the system does not tell.
+    fn cells(&self) -> [String; 7] {
+        [
+            format!("{:.4}", self.median_ms),
+            format!("{:.4}", self.min_ms),
+            self.peak_mb.map_or(String::new(), |peak| format!("{peak:.1}")),
+            format!("{:.6}", self.rmse),
+            format!("{:.4}", self.psnr),
+            format!("{:.6}", self.ssim),
+            format!("{:.6}", self.flip),
+        ]
+    }
+}
+
+impl Sweep {
+    /// Names and values of the settings that `wanted` names, and what was measured; the first line has the names.
+    fn lines(&self, wanted: impl Fn(&str) -> bool) -> Vec<Vec<String>> {
+        let of_choice = |choice: &Choice, part: fn(&(String, String)) -> String| -> Vec<String> {
+            choice.iter().filter(|(name, _)| wanted(name)).map(part).collect()
+        };
+        let mut names = self.specs.first().map_or_else(Vec::new, |(choice, _)| {
+            of_choice(choice, |(name, _)| name.replace('-', "_"))
+        });
+        names.extend(COLUMNS.map(str::to_owned));
+        let lines = self.specs.iter().zip(&self.rows).map(|((choice, _), row)| {
+            let mut values = of_choice(choice, |(_, value)| value.clone());
+            values.extend(row.cells());
+            values
+        });
+        std::iter::once(names).chain(lines).collect()
+    }
+
+    /// The table as it is written (RFC 4180; no value has a comma, a quote or a line break in it).
+    fn csv(&self) -> String {
+        let lines = self.lines(|_| true);
+        lines.iter().map(|cells| cells.join(",") + "\r\n").collect()
+    }
+
+    /// The table for a reader at a terminal, without settings that all rows share.
+    fn text(&self, options: &SweepOptions) -> String {
+        let lines = self.lines(|name| options.axes.axes().any(|axis| axis.name == name));
+        let columns = lines.first().map_or(0, Vec::len);
+        let width = |column: usize| lines.iter().map(|cells| cells[column].chars().count()).max();
+        let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();
+        let line = |cells: &Vec<String>| {
+            let padded = cells.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}"));
+            padded.collect::<Vec<_>>().join("  ")
+        };
+        lines.iter().map(line).collect::<Vec<_>>().join("\n")
+    }
+
+    /// Writes table and chart, or neither.
+    fn write(&self, options: &SweepOptions, chart: &Path) -> Result<(), Failure> {
+        let mut files: Vec<(PathBuf, Vec<u8>)> = vec![(options.csv.clone(), self.csv().into_bytes())];
+        match draw_plot(&self.plot(options), CHART) {
+            Ok(picture) => {
+                let bytes = encode_png(&picture, Some(&self.record)).map_err(|error| unwritable(chart, &error))?;
+                files.push((chart.to_owned(), bytes));
+            }
+            // Signal to noise is infinite where pictures are equal.
+            Err(problem) => print_error(&format!("{}: no chart: {problem}", chart.display())),
+        }
+        save_files(&files).map_err(|error| unwritable(&options.csv, &error))
+    }
+
+    /// A line through all values of the first list, for each combination of the others.
+    fn plot(&self, options: &SweepOptions) -> Plot {
+        let axes: Vec<_> = options.axes.axes().collect();
+        let first = axes.first();
+        let measured: Vec<_> = self.specs.iter().zip(&self.rows).collect();
+        let series = measured.chunks(first.map_or(1, |axis| axis.values.len())).map(|line| {
+            let rest = axes.iter().skip(1);
+            let named = line.first().map(|((choice, _), _)| {
+                let values: Vec<String> = rest.map(|axis| axis.words(value(choice, &axis.name))).collect();
+                values.join(", ")
+            });
+            let point = |((choice, _), row): &(&(Choice, PictureSpec), &Row)| {
+                let words = first.map_or("", |axis| value(choice, &axis.name));
+                ([row.median_ms, options.quality.of(row)], words.to_owned())
+            };
+            PlotSeries {
+                name: named.unwrap_or_default(),
+                points: line.iter().map(point).collect(),
+            }
+        });
+        let scene = SceneSource::from_address(&options.scene).address();
+        Plot {
+            title: first.map_or(scene.clone(), |axis| format!("{scene}: each point a {}", axis.title())),
+            axes: [
+                "milliseconds per frame, median".to_owned(),
+                options.quality.title().to_owned(),
+            ],
+            series: series.collect(),
+        }
+    }
+}

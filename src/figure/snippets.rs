@@ -42,8 +42,9 @@ pub fn html(title: &str, figures: &[Figure]) -> String {
          </style>\n</head>\n<body>\n<h1>{title}</h1>\n"
     );
     for figure in figures {
-        let [file, alternative, caption, line] =
-            [&figure.file, &figure.alternative, &figure.caption, &figure.command_line].map(|part| in_html(part));
+        let file = in_html(&in_address(&figure.file));
+        let [alternative, caption, line] =
+            [&figure.alternative, &figure.caption, &figure.command_line].map(|part| in_html(part));
         let _ = writeln!(
             text,
             "<figure>\n<img src=\"{file}\" alt=\"{alternative}\">\n<figcaption>{caption}<code>{line}</code></figcaption>\n</figure>"
@@ -67,6 +68,21 @@ pub fn latex(figures: &[Figure]) -> String {
         );
     }
     text
+}
+
+/// A file name as an address: signs that would end it or start something else are written by their codes.
+fn in_address(file: &str) -> String {
+    let mut escaped = String::new();
+    for character in file.chars() {
+        match character {
+            '%' | '#' | '?' | '<' | '>' | '"' | '\\' => {
+                // Writing to a `String` cannot fail.
+                let _ = write!(escaped, "%{:02X}", u32::from(character));
+            }
+            other => escaped.push(if other.is_control() { '_' } else { other }),
+        }
+    }
+    escaped
 }
 
 /// A text in which no sign means anything to Markdown.
@@ -140,6 +156,11 @@ mod tests {
         assert!(text.contains("50 % of &lt;b&gt; &amp; {x}_1"), "{text}");
         let text = latex(&[figure()]);
         assert!(text.contains("{\\detokenize{a b_1.png}}"), "{text}");
+        assert_eq!(
+            in_address("50%/a #1?.png"),
+            "50%25/a %231%3F.png",
+            "an address that is the file's"
+        );
         assert!(
             text.contains("50 \\% of <b> \\& \\{x\\}\\_1 \\#2 \\textbackslash{} 8$\\times$"),
             "{text}"

@@ -199,6 +199,7 @@ impl<'a> Scenes<'a> {
             own_view: String::new(),
         };
         scenes.make_own()?;
+        scenes.tell_missing();
         Ok(scenes)
     }
 
@@ -235,15 +236,24 @@ impl<'a> Scenes<'a> {
     }
 
     fn scene(&self, name: &str) -> String {
-        match (self.in_folder(name), &self.options.scenes) {
-            (Some(found), _) => found.display().to_string(),
-            (None, None) => format!("gallery:{name}"),
-            (None, Some(folder)) => {
+        match self.in_folder(name) {
+            Some(found) => found.display().to_string(),
+            None => format!("gallery:{name}"),
+        }
+    }
+
+    /// Says, once for each, which scenes are not in the folder that was given.
+    fn tell_missing(&self) {
+        let Some(folder) = &self.options.scenes else { return };
+        let mut told = Vec::new();
+        for item in ITEMS {
+            let Subject::Scene(name) = item.subject else { continue };
+            if !told.contains(&name) && !name.starts_with("study/") && self.in_folder(name).is_none() {
+                told.push(name);
                 print_error(&format!(
                     "{}: no {name} in this folder; the built-in scene of that name is drawn",
                     folder.display()
                 ));
-                format!("gallery:{name}")
             }
         }
     }

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use super::arguments::{LessonOptions, ViewerOptions};
 use super::failure::Failure;
 use super::{render, view};
-use crate::figure::save_png;
+use crate::figure::save_recorded_png;
 use crate::raster::Framebuffer;
-use crate::viewer::{BUILT_IN, Lesson, LessonSource, slides};
+use crate::viewer::{BUILT_IN, Lesson, LessonSource, as_path, plain_record, slides};
 
 /// The size of slides where none is asked for.
 const SLIDE: [u32; 2] = [1600, 900];
@@ -20,7 +20,7 @@ pub(super) fn run(options: &LessonOptions) -> Result<(), Failure> {
     let lesson = source.read().map_err(Failure::input)?;
     if let Some(folder) = &options.slides {
         let size = options.view.size.map_or(SLIDE, |size| size.0);
-        return write(&lesson, size, folder);
+        return write((&lesson, &source.address()), size, folder);
     }
     let view = ViewerOptions {
         paths: vec![PathBuf::from(source.address())],
@@ -44,7 +44,7 @@ fn source(address: &Path) -> Result<LessonSource, Failure> {
 }
 
 /// Writes one PNG for each step; none is left half written.
-fn write(lesson: &Lesson, size: [u32; 2], folder: &Path) -> Result<(), Failure> {
+fn write((lesson, address): (&Lesson, &str), size: [u32; 2], folder: &Path) -> Result<(), Failure> {
     if size[0] < LEAST[0] || size[1] < LEAST[1] {
         return Err(Failure::input(format!(
             "--size {}x{}: too small for words and picture; give {}x{} or more",
@@ -52,12 +52,24 @@ fn write(lesson: &Lesson, size: [u32; 2], folder: &Path) -> Result<(), Failure> 
         )));
     }
     std::fs::create_dir_all(folder).map_err(|error| render::unwritable(folder, &error))?;
+    // Words and picture: only the whole command makes it again.
+    let record = plain_record(
+        vec![
+            "lesson".to_owned(),
+            as_path(address),
+            "--slides".to_owned(),
+            as_path(&folder.display().to_string()),
+            "--size".to_owned(),
+            format!("{}x{}", size[0], size[1]),
+        ],
+        size,
+    );
     let digits = lesson.steps.len().to_string().len().max(2);
     let mut number = 0;
     slides(lesson, size, |slide: &Framebuffer| {
         number += 1;
         let path = folder.join(format!("{number:0digits$}.png"));
-        save_png(slide, &path).map_err(|error| SlideFailure(render::unwritable(&path, &error)))
+        save_recorded_png(slide, &path, &record).map_err(|error| SlideFailure(render::unwritable(&path, &error)))
     })
     .map_err(|SlideFailure(failure)| failure)?;
     Ok(())

@@ -19,7 +19,7 @@ use crate::support::scenes::drawn;
 const SIZE: [u32; 2] = [160, 160];
 
 /// What the pictures of other tests begin with.
-const OTHERS: [&str; 3] = ["overlay_", "visualised_", "figure_"];
+const OTHERS: [&str; 4] = ["overlay_", "visualised_", "figure_", "lesson_"];
 
 fn settings(samples: u32, pixel_sampling: PixelSampling, level_sampling: LevelSampling) -> RenderSettings {
     let sample_rate = SampleRate::new(samples).expect("a square number");

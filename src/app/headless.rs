@@ -67,6 +67,7 @@ pub(super) fn viewer_options(
         against: options.against.clone(),
         window,
         screenshot_dir: options.screenshot_dir.clone(),
+        screenshot_name: options.screenshot_name.clone(),
         theme: options.theme.or(theme).unwrap_or_default(),
         waker,
         read_arguments: options.read_arguments,

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::geometry::View;
-use crate::viewer::{Against, ReadArguments, Restored, Settings, Theme};
+use crate::viewer::{Against, NameTemplate, ReadArguments, Restored, Settings, Theme};
 
 /// How a session starts.
 #[derive(Clone, Debug, Default)]
@@ -24,6 +24,8 @@ pub struct ViewOptions {
     pub theme: Option<Theme>,
     /// Where screenshots go; `None` is the current folder.
     pub screenshot_dir: Option<PathBuf>,
+    /// How they are called.
+    pub screenshot_name: NameTemplate,
     /// Commands to play at the start.
     pub script: Option<ScriptSource>,
     /// Never opens a window: plays the script, or saves one picture of the window, and ends.

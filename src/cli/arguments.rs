@@ -22,7 +22,7 @@ use crate::render::{RenderSettings, Visualisation};
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
-use crate::viewer::{Against, Restored, Theme};
+use crate::viewer::{Against, NameTemplate, Restored, Theme};
 
 /// Longest side of a window that comes back from a picture, in pixels.
 const MAX_RESTORED_WINDOW: u32 = 4096;
@@ -135,6 +135,9 @@ pub(super) struct ViewerOptions {
     /// The folder that screenshots go to [default: the current one]
     #[arg(long, value_name = "DIR")]
     pub(super) screenshot_dir: Option<PathBuf>,
+    /// How they are called: words and {scene} {rate} {pixel} {level} {pattern} {time} [default: rasterscope-{time}]
+    #[arg(long, value_name = "TEMPLATE", value_parser = NameTemplate::parse)]
+    pub(super) screenshot_name: Option<NameTemplate>,
     /// Play a script from a file
     #[arg(long, value_name = "FILE", conflicts_with = "commands")]
     pub(super) script: Option<PathBuf>,

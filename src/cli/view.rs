@@ -42,6 +42,7 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
         scale: options.scale,
         theme: options.theme,
         screenshot_dir: options.screenshot_dir.clone(),
+        screenshot_name: options.screenshot_name.clone().unwrap_or_default(),
         script: file.or(options.commands.clone().map(ScriptSource::Text)),
         headless: options.headless,
         read_arguments: Some(super::recorded::read_arguments),

@@ -169,6 +169,8 @@ impl Viewer {
     fn dispatch(&mut self, command: Command) -> Vec<Effect> {
         match command {
             Command::CopyPixel => return self.copy_pixel(),
+            Command::Copy => return self.copy(),
+            Command::CopyPicture => return self.copy_picture(),
             Command::CopyCommandLine => return self.copy_command_line(),
             Command::CopyExplanation => return self.copy_explanation(),
             Command::WindowScreenshot => return vec![Effect::PictureOfWindow],

@@ -12,7 +12,7 @@ use crate::color::{ResolveSpace, Rgba};
 use crate::compare::Measure;
 use crate::figure::PixelRect;
 use crate::inspect::TexelPlace;
-use crate::raster::{SamplePattern, SampleRate};
+use crate::raster::{Framebuffer, SamplePattern, SampleRate};
 use crate::render::Visualisation;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
@@ -201,6 +201,10 @@ pub enum Command {
     PointAtTexel(Option<TexelPlace>),
     /// Copies place and colour of the inspected pixel.
     CopyPixel,
+    /// Copies the inspected pixel's place and colour, or the picture while no pixel is inspected.
+    Copy,
+    /// Copies the picture.
+    CopyPicture,
     /// Copies why the inspected pixel has its colour, as Markdown.
     CopyExplanation,
 
@@ -266,6 +270,8 @@ pub enum Dialog {
 pub enum Effect {
     /// Put this text on the clipboard.
     CopyText(String),
+    /// Put this picture on the clipboard.
+    CopyPicture(Framebuffer),
     /// Give the picture of the whole window to [`super::Viewer::save_window_picture`].
     PictureOfWindow,
     /// End the program.

@@ -24,7 +24,7 @@ impl Viewer {
                     .other_status_of(status.pixel)
                     .and_then(|other| other.decimal_text());
                 let other = other.map_or(String::new(), |other| format!("  B {other}"));
-                self.copy(format!("{status}{other}"))
+                self.copy_text(format!("{status}{other}"))
             }
             None => Vec::new(),
         }
@@ -32,12 +32,12 @@ impl Viewer {
 
     pub(super) fn copy_command_line(&mut self) -> Vec<Effect> {
         match self.command_line() {
-            Some(line) => self.copy(line),
+            Some(line) => self.copy_text(line),
             None => Vec::new(),
         }
     }
 
-    fn copy(&mut self, text: String) -> Vec<Effect> {
+    fn copy_text(&mut self, text: String) -> Vec<Effect> {
         self.messages.done(format!("copied: {text}"));
         vec![Effect::CopyText(text)]
     }

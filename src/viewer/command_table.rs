@@ -601,13 +601,27 @@ pub(super) static TABLE: &[CommandSpec] = &[
     .keys(&[Chord::ctrl_shift('s')])
     .run(&Command::WindowScreenshot),
     spec(
+        "copy",
+        "Copy",
+        "Copies place and colour of the inspected pixel, or the picture while no pixel is inspected",
+        Group::Save,
+    )
+    .keys(&[Chord::ctrl('c')])
+    .run(&Command::Copy),
+    spec(
         "copy-pixel",
         "Copy pixel",
         "Copies place and colour of the inspected pixel",
         Group::Save,
     )
-    .keys(&[Chord::ctrl('c')])
     .run(&Command::CopyPixel),
+    spec(
+        "copy-picture",
+        "Copy picture",
+        "Copies the picture as a screenshot shows it",
+        Group::Save,
+    )
+    .run(&Command::CopyPicture),
     spec(
         "copy-explanation",
         "Copy explanation",

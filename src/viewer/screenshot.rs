@@ -1,4 +1,4 @@
-//! Screenshots: PNG files named by the time to the millisecond, that tell how they were made and never replace another
+//! Screenshots: PNG files named by a template, at first the time to the millisecond, that tell how they were made and never replace another
 //! file.
 
 use std::fs::OpenOptions;
@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::background::{AtEnd, Crew, Mailbox, guarded};
 use super::state::Finished;
-use super::{Frame, PictureSpec, Viewer};
+use super::{Effect, Frame, NameTemplate, PictureSpec, Viewer};
 use crate::figure::{InsetSpec, Record, add_furniture, add_legends, encode_png};
 use crate::raster::Framebuffer;
 use crate::render::Legend;
@@ -23,6 +23,7 @@ pub(super) struct Saver {
     crew: Crew<Job>,
     /// Where pictures go; `None` is the current folder.
     folder: Option<PathBuf>,
+    name: NameTemplate,
     /// Screenshots that wait for a final frame, and the wish that it must not be older than: what was to be seen when
     /// the last was asked for.
     waiting: u32,
@@ -34,6 +35,7 @@ pub(super) struct Saver {
 /// A picture to be saved.
 struct Job {
     folder: PathBuf,
+    name: NameTemplate,
     picture: Shot,
     recipe: Option<Recipe>,
 }
@@ -73,7 +75,7 @@ enum Shot {
 pub(super) struct Saved(Result<(PathBuf, [u32; 2]), String>);
 
 impl Saver {
-    pub(super) fn start(mailbox: &Mailbox<Finished>, folder: Option<PathBuf>) -> io::Result<Self> {
+    pub(super) fn start(mailbox: &Mailbox<Finished>, folder: Option<PathBuf>, name: NameTemplate) -> io::Result<Self> {
         let mailbox = mailbox.clone();
         let work = move |job: Job| {
             let saved = guarded(|| job.save()).unwrap_or_else(|| Err("saving failed inside the program".to_owned()));
@@ -82,6 +84,7 @@ impl Saver {
         Ok(Self {
             crew: Crew::start("save", 1, AtEnd::Complete, work)?,
             folder,
+            name,
             waiting: 0,
             since: 0,
             running: 0,
@@ -102,6 +105,7 @@ impl Saver {
         self.running += 1;
         self.crew.push(Job {
             folder,
+            name: self.name.clone(),
             picture,
             recipe,
         });
@@ -153,29 +157,63 @@ impl Viewer {
         if self.comparison.shows_both() && !self.comparison.is_current() {
             return;
         }
-        let both = self.comparison.shows_both().then(|| {
-            if self.inset.is_some() {
-                // The inset is in window pixels.
-                return self.window_picture();
-            }
-            let mut picture = self.composite().picture();
-            add_legends(&mut picture, &self.legends_of_picture(), &[]);
-            picture
-        });
-        let recipe = self.recipe_of_frame(&frame, both.is_some());
+        let recipe = self.recipe_of_frame(&frame, self.comparison.shows_both());
         for _ in 0..std::mem::take(&mut self.saver.waiting) {
-            if let Some(both) = &both {
-                self.saver.push(Shot::Ready(both.clone()), recipe.clone());
-                continue;
-            }
-            let shot = Shot::Frame {
-                frame: Arc::clone(&frame),
-                insets: recipe.as_ref().map_or(Vec::new(), |recipe| recipe.spec.insets.clone()),
-                legends: self.legends_of_picture(),
-            };
+            let shot = self.shot_of(&frame, recipe.as_ref());
             self.saver.push(shot, recipe.clone());
         }
         self.set_hurry(false);
+    }
+
+    /// What a screenshot of this frame shows.
+    fn shot_of(&self, frame: &Arc<Frame>, recipe: Option<&Recipe>) -> Shot {
+        if !self.comparison.shows_both() {
+            return Shot::Frame {
+                frame: Arc::clone(frame),
+                insets: recipe.map_or(Vec::new(), |recipe| recipe.spec.insets.clone()),
+                legends: self.legends_of_picture(),
+            };
+        }
+        if self.inset.is_some() {
+            // The inset is in window pixels.
+            return Shot::Ready(self.window_picture());
+        }
+        let mut picture = self.composite().picture();
+        add_legends(&mut picture, &self.legends_of_picture(), &[]);
+        Shot::Ready(picture)
+    }
+
+    /// Copies the inspected pixel in words, or the picture while no pixel is inspected.
+    pub(super) fn copy(&mut self) -> Vec<Effect> {
+        if self.inspector.open {
+            self.copy_pixel()
+        } else {
+            self.copy_picture()
+        }
+    }
+
+    /// The picture as a screenshot of this moment shows it.
+    pub(super) fn copy_picture(&mut self) -> Vec<Effect> {
+        let frame = self.drawing.final_frame(self.drawing.newest_wish()).cloned();
+        let both_current = !self.comparison.shows_both() || self.comparison.is_current();
+        let Some(frame) = frame.filter(|_| both_current) else {
+            let problem = "nothing copied: there is no finished picture yet; copy again when it is drawn";
+            self.messages.error(problem.to_owned());
+            return Vec::new();
+        };
+        let recipe = self.recipe_of_frame(&frame, self.comparison.shows_both());
+        match self.shot_of(&frame, recipe.as_ref()).picture() {
+            Ok(picture) => {
+                let (width, height) = (picture.width(), picture.height());
+                self.messages
+                    .done(format!("copied the picture, {width} x {height} pixels"));
+                vec![Effect::CopyPicture(picture)]
+            }
+            Err(problem) => {
+                self.messages.error(problem);
+                Vec::new()
+            }
+        }
     }
 
     /// How the picture of the whole window was made.
@@ -234,32 +272,40 @@ impl Viewer {
     }
 }
 
-impl Job {
-    fn save(self) -> Result<(PathBuf, [u32; 2]), String> {
-        let picture = match self.picture {
-            Shot::Frame { frame, insets, legends } if insets.is_empty() && legends.is_empty() => {
-                return save_new(&self.folder, &frame.pixels, self.recipe.as_ref());
-            }
-            Shot::Frame { frame, insets, legends } => {
+impl Shot {
+    fn picture(self) -> Result<Framebuffer, String> {
+        match self {
+            Self::Frame { frame, insets, legends } => {
                 let mut picture = frame.pixels.clone();
                 add_furniture(&mut picture, &insets, &frame.picture.view, &legends)
                     .map_err(|error| error.to_string())?;
-                picture
+                Ok(picture)
             }
-            Shot::Ready(picture) => picture,
-        };
-        save_new(&self.folder, &picture, self.recipe.as_ref())
+            Self::Ready(picture) => Ok(picture),
+        }
+    }
+}
+
+impl Job {
+    fn save(self) -> Result<(PathBuf, [u32; 2]), String> {
+        let picture = self.picture.picture()?;
+        save_new((&self.folder, &self.name), &picture, self.recipe.as_ref())
     }
 }
 
 /// Saves `picture` in `folder` under a name that did not exist.
-fn save_new(folder: &Path, picture: &Framebuffer, recipe: Option<&Recipe>) -> Result<(PathBuf, [u32; 2]), String> {
+fn save_new(
+    (folder, name): (&Path, &NameTemplate),
+    picture: &Framebuffer,
+    recipe: Option<&Recipe>,
+) -> Result<(PathBuf, [u32; 2]), String> {
     let cure = "choose another folder with --screenshot-dir";
     let now = jiff::Zoned::now().strftime("%Y-%m-%d_%H-%M-%S_%3f").to_string();
+    let stem = name.name(recipe.map(|recipe| &recipe.spec), &now);
     for attempt in 1..=ATTEMPTS {
         let name = match attempt {
-            1 => format!("rasterscope-{now}.png"),
-            _ => format!("rasterscope-{now}-{attempt}.png"),
+            1 => format!("{stem}.png"),
+            _ => format!("{stem}-{attempt}.png"),
         };
         let path = folder.join(name);
         let path = path.strip_prefix(".").unwrap_or(&path).to_owned();
@@ -300,7 +346,11 @@ mod tests {
         let mut picture = Framebuffer::new(3, 2);
         picture.pixels_mut()[4] = 0x80ff_8000;
         let paths: Vec<PathBuf> = (0..20)
-            .map(|_| save_new(folder.path(), &picture, None).expect("a writable folder").0)
+            .map(|_| {
+                save_new((folder.path(), &NameTemplate::default()), &picture, None)
+                    .expect("a writable folder")
+                    .0
+            })
             .collect();
         let files = std::fs::read_dir(folder.path()).expect("the folder").count();
         assert_eq!(files, paths.len(), "each picture has a file of its own");
@@ -318,7 +368,8 @@ mod tests {
     fn screenshot_folder_missing() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let nowhere = folder.path().join("no/such");
-        let problem = save_new(&nowhere, &Framebuffer::new(1, 1), None).expect_err("no folder");
+        let problem =
+            save_new((&nowhere, &NameTemplate::default()), &Framebuffer::new(1, 1), None).expect_err("no folder");
         assert!(
             problem.contains("no/such") && problem.contains("--screenshot-dir"),
             "{problem}"

@@ -19,8 +19,8 @@ use super::reading::{ReadScene, Readers, Thumbnail};
 use super::recorded::{ReadArguments, Restored};
 use super::screenshot::{Saved, Saver};
 use super::{
-    Camera, Dialog, Frame, Inspector, Message, PixelRect, PixelZoom, PlacedInset, SceneEntry, SceneSource, Settings,
-    Sight, Theme, ViewNumbers, library,
+    Camera, Dialog, Frame, Inspector, Message, NameTemplate, PixelRect, PixelZoom, PlacedInset, SceneEntry,
+    SceneSource, Settings, Sight, Theme, ViewNumbers, library,
 };
 use crate::geometry::View;
 use crate::inspect::{Feeds, TexelPlace};
@@ -43,6 +43,8 @@ pub struct ViewerOptions {
     pub window: [u32; 2],
     /// Where screenshots go; `None` is the current folder.
     pub screenshot_dir: Option<PathBuf>,
+    /// How they are called.
+    pub screenshot_name: NameTemplate,
     /// Light or dark panels.
     pub theme: Theme,
     /// Wakes the event loop; may do nothing.
@@ -172,6 +174,7 @@ impl Default for ViewerOptions {
             against: None,
             window: [1280, 800],
             screenshot_dir: None,
+            screenshot_name: NameTemplate::default(),
             theme: Theme::default(),
             waker: Arc::new(|| {}),
             read_arguments: None,
@@ -222,7 +225,7 @@ impl Viewer {
             feeding: feeding::start(&mailbox)?,
             pointed_texel: None,
             readers: Readers::start(&mailbox)?,
-            saver: Saver::start(&mailbox, options.screenshot_dir)?,
+            saver: Saver::start(&mailbox, options.screenshot_dir, options.screenshot_name)?,
             results,
             revision: 0,
             picture_revision: 0,

@@ -87,8 +87,8 @@ fn screenshot_holds_the_inset() {
     let changed = saved.iter().zip(&frame).filter(|(a, b)| a != b).count();
     assert!(changed > 50_000, "an inset of 15 times 21 pixels a side: {changed}");
     assert_eq!(
-        saved[200 * 640 + 300],
-        frame[200 * 640 + 300],
+        saved[200 * 800 + 300],
+        frame[200 * 800 + 300],
         "its subject is to be seen"
     );
     let again = std::process::Command::new(env!("CARGO_BIN_EXE_rasterscope"))
@@ -175,5 +175,56 @@ fn screenshots_are_whole_when_the_program_ends() {
         pictures.map(|path| read(path).len()).collect::<Vec<_>>(),
         [120_000; 5],
         "all five, all whole"
+    );
+}
+
+#[test]
+fn screenshots_are_named_by_a_template() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("gears.svg");
+    std::fs::write(&scene, TRIANGLES).unwrap();
+    let options = ViewerOptions {
+        paths: vec![scene],
+        window: [40, 30],
+        screenshot_dir: Some(folder.path().to_owned()),
+        screenshot_name: NameTemplate::parse("{scene} {rate}spp {pixel}").unwrap(),
+        ..ViewerOptions::default()
+    };
+    let mut viewer = Viewer::new(options).unwrap();
+    viewer.finish();
+    for command in [
+        Command::Screenshot,
+        Command::Screenshot,
+        Command::SampleRateUp,
+        Command::Screenshot,
+    ] {
+        let _ = viewer.apply(command);
+        viewer.finish();
+    }
+    for name in [
+        "gears 1spp nearest.png",
+        "gears 1spp nearest-2.png",
+        "gears 4spp nearest.png",
+    ] {
+        assert!(folder.path().join(name).is_file(), "{name}");
+    }
+}
+
+#[test]
+fn copy_takes_the_picture_unless_a_pixel_is_inspected() {
+    let mut session = Session::open(&[TRIANGLES], [80, 60]);
+    let effects = session.run(Command::Copy);
+    let frame = session.pixels().clone();
+    assert_eq!(effects, [Effect::CopyPicture(frame)], "what a screenshot saves");
+    session.run(Command::Pin([30, 20]));
+    let effects = session.run(Command::Copy);
+    assert!(
+        matches!(&effects[..], [Effect::CopyText(text)] if text.starts_with("pixel 30, 20")),
+        "{effects:?}"
+    );
+    let effects = session.run(Command::CopyPicture);
+    assert!(
+        matches!(&effects[..], [Effect::CopyPicture(_)]),
+        "by name still the picture"
     );
 }

@@ -79,6 +79,7 @@ struct Outbox {
     /// Pictures of the window that were asked for.
     pictures: u32,
     copied: Option<String>,
+    copied_picture: Option<Framebuffer>,
 }
 
 impl Session {
@@ -160,6 +161,11 @@ impl Session {
         self.outbox.copied.take()
     }
 
+    /// The picture that a command copied.
+    pub(super) fn take_copied_picture(&mut self) -> Option<Framebuffer> {
+        self.outbox.copied_picture.take()
+    }
+
     /// Another size of the window, in device pixels, or another scale of the panels.
     pub(super) fn set_size(&mut self, size: [u32; 2], scale: f32) {
         self.scale = scale;
@@ -189,6 +195,7 @@ impl Session {
         for effect in self.viewer.apply(command) {
             match effect {
                 Effect::CopyText(text) => self.outbox.copied = Some(text),
+                Effect::CopyPicture(picture) => self.outbox.copied_picture = Some(picture),
                 Effect::PictureOfWindow => self.outbox.pictures = self.outbox.pictures.saturating_add(1),
                 Effect::Quit => self.outbox.quit = true,
             }

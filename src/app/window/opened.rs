@@ -8,12 +8,14 @@ use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use egui::{Color32, ColorImage, OutputCommand};
 use softbuffer::{Context, Rect, SoftBufferError, Surface};
 use winit::dpi::PhysicalSize;
 use winit::event_loop::OwnedDisplayHandle;
 use winit::window::Window;
 
 use super::super::session::Session;
+use crate::raster::Framebuffer;
 use crate::viewer::PixelRect;
 
 /// Least time between two frames.
@@ -91,7 +93,7 @@ impl Opened {
     /// Another size or scale; zero while the window is minimised.
     pub(super) fn resized(&mut self, size: PhysicalSize<u32>) {
         self.size = size;
-        let longest = crate::raster::Framebuffer::MAX_SIDE;
+        let longest = Framebuffer::MAX_SIDE;
         let pixels = [size.width, size.height].map(|side| side.min(longest));
         self.session.set_size(pixels, scale_of(&self.window));
         self.dirty = true;
@@ -152,7 +154,12 @@ impl Opened {
         self.dirty = false;
         self.await_resized_frame();
         let input = self.egui.take_egui_input(&self.window);
-        let turn = self.session.turn(input);
+        let mut turn = self.session.turn(input);
+        if let Some(picture) = self.session.take_copied_picture() {
+            turn.platform
+                .commands
+                .push(OutputCommand::CopyImage(image_of(&picture)));
+        }
         self.egui.handle_platform_output(&self.window, turn.platform);
         if let Some(text) = self.session.take_copied() {
             self.egui.set_clipboard_text(text);
@@ -208,4 +215,14 @@ fn surface_rect(part: &PixelRect) -> Option<Rect> {
 #[expect(clippy::cast_possible_truncation, reason = "a small number")]
 fn scale_of(window: &Window) -> f32 {
     (window.scale_factor() as f32).clamp(0.5, 8.0)
+}
+
+/// A picture as egui hands it to the clipboard.
+fn image_of(picture: &Framebuffer) -> ColorImage {
+    let [width, height] = [picture.width(), picture.height()].map(|side| side as usize);
+    let pixels = picture.pixels().iter().map(|pixel| {
+        let [a, r, g, b] = pixel.to_be_bytes();
+        Color32::from_rgba_unmultiplied(r, g, b, a)
+    });
+    ColorImage::new([width, height], pixels.collect())
 }

@@ -159,6 +159,8 @@ impl Stage for ViewerStage<'_> {
         for effect in self.viewer.apply(command) {
             match effect {
                 Effect::CopyText(text) => self.clipboard = Some(text),
+                // There is no clipboard without a window.
+                Effect::CopyPicture(_) => {}
                 Effect::PictureOfWindow => {
                     self.viewer.finish();
                     let picture = self.viewer.window_picture();

@@ -2,7 +2,7 @@
 
 use rasterscope::figure::Record;
 use rasterscope::raster::Framebuffer;
-use rasterscope::viewer::{Against, Command, Effect, MessageKind, PixelZoom, Viewer, ViewerOptions};
+use rasterscope::viewer::{Against, Command, Effect, MessageKind, NameTemplate, PixelZoom, Viewer, ViewerOptions};
 
 use crate::support::session::{Session, TRIANGLES};
 

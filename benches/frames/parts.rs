@@ -1,4 +1,5 @@
-//! Single parts of drawing: stages of a frame as the engine counts them, texture filters and pyramids by divan.
+//! Single parts of drawing: stages of a frame as the engine counts them; texture filters, pyramids and explanations of
+//! pixels by divan.
 
 use std::time::Duration;
 
@@ -6,12 +7,15 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use glam::DVec2;
 use rasterscope::color::Premultiplied16;
-use rasterscope::render::{FrameStats, RenderSettings};
-use rasterscope::scene::Scene;
+use rasterscope::geometry::View;
+use rasterscope::inspect::{Explanation, Question};
+use rasterscope::render::{FrameStats, RenderSettings, Subject};
+use rasterscope::scene::{self, DialectChoice, ReadOptions, Scene};
 use rasterscope::simd;
 use rasterscope::texture::{
     Filter, LevelSampling, MipLevel, MipPyramid, PixelSampling, SampleGrid, SamplingSettings, UvMap,
 };
+use rasterscope::viewer::gallery;
 
 use crate::ours::{Ours, pool, settings};
 use crate::race::Timing;
@@ -117,6 +121,37 @@ fn filter(bencher: Bencher<'_, '_>, name: &str) {
     bencher.counter(ItemsCount::new(points.len())).bench_local(|| {
         Filter::new(&texture.pyramid, &map, &sampling).points(simd::level(), grid, &points, &mut colors);
     });
+}
+
+/// Why a pixel has its colour, in the scene of the gallery with the most primitives.
+#[divan::bench(args = [1, 16, 64])]
+fn explanation(bencher: Bencher<'_, '_>, rate: u32) {
+    let options = ReadOptions {
+        dialect: DialectChoice::Auto,
+    };
+    let read = |scene: &gallery::GalleryScene| {
+        scene::read(scene.document.as_bytes(), scene.name, options, &gallery::Textures).expect("a scene of ours")
+    };
+    let scenes = gallery::SCENES.iter().map(read);
+    let scene = scenes.max_by_key(|scene| scene.primitives.len()).expect("a gallery");
+    let settings = RenderSettings {
+        pixel_sampling: PixelSampling::Bilinear,
+        level_sampling: LevelSampling::Linear,
+        ..settings(rate)
+    };
+    let size = FRAMES[0];
+    let view = View::Default.transform(scene.canvas, size);
+    let question = Question {
+        subject: Subject {
+            scene: &scene,
+            view: &view,
+            settings: &settings,
+        },
+        file: "scene.svg",
+        size,
+        pixel: size.map(|side| side / 2),
+    };
+    bencher.bench_local(|| Explanation::new(&question));
 }
 
 #[divan::bench(args = [256, 1024])]

@@ -186,7 +186,10 @@ impl Viewer {
         match command {
             Command::PointerMoved { at } => self.pointer_moved(at),
             Command::PointerLeft => self.pointer.at = None,
-            Command::PointerPressed(button) => self.pointer_pressed(button),
+            Command::PointerPressed(button) => {
+                self.inspector.revealed = false;
+                self.pointer_pressed(button);
+            }
             Command::PointerReleased(super::PointerButton::Primary) => {
                 (self.pointer.dragging, self.comparison.drags_line) = (false, false);
             }
@@ -316,7 +319,10 @@ impl Viewer {
         let screen = &mut self.screen;
         match command {
             Command::Resize(size) => screen.window = *size,
-            Command::SetFreeArea(area) => screen.free_area = *area,
+            Command::SetFreeArea(area) => {
+                screen.free_area = *area;
+                self.reveal_pin();
+            }
             Command::OverlayText(toggle) => screen.shown.text = toggle.of(screen.shown.text),
             Command::Explanation(toggle) => screen.shown.explanation = toggle.of(screen.shown.explanation),
             Command::Panel(toggle) => screen.shown.panel = toggle.of(screen.shown.panel),

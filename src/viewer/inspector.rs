@@ -34,6 +34,8 @@ pub struct Inspector {
     /// Window pixels along each side of a magnified pixel.
     pub magnification: u32,
     pub(super) pin: Option<Pin>,
+    /// Whether the pin was jumped to, and is to stay in the part of the window that is free, until a hand moves the picture.
+    pub(super) revealed: bool,
     /// The pixel last under the pointer: shown while the pointer is elsewhere.
     pub(super) last: Option<[u32; 2]>,
     /// Region times pitch that the user chose; the wheel keeps it.
@@ -83,6 +85,7 @@ impl Default for Inspector {
             region,
             magnification,
             pin: None,
+            revealed: false,
             last: None,
             extent: region * (magnification + 1),
             corner: Corner::default(),

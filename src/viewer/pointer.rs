@@ -214,6 +214,26 @@ impl Viewer {
         }
     }
 
+    /// Moves the picture so that a pixel that was jumped to lies in the middle of what is free, where a panel covers it.
+    pub(super) fn reveal_pin(&mut self) {
+        let Some(pixel) = self.pinned_pixel().filter(|_| self.inspector.revealed) else {
+            return;
+        };
+        let window = PixelRect::of_size(self.screen.window);
+        let free = self.screen.free_area.map_or(window, |free| free.intersection(&window));
+        let shown = self.shown_at(pixel);
+        if free.width == 0 || free.height == 0 || free.contains([shown.x, shown.y]) {
+            return;
+        }
+        let zoom = f64::from(self.settings.pixel_zoom.factor());
+        let middle =
+            DVec2::new(free.x as f64, free.y as f64) + DVec2::new(f64::from(free.width), f64::from(free.height)) / 2.0;
+        let by = middle - DVec2::new(shown.x as f64, shown.y as f64);
+        // By whole frame pixels, so that the pinned one stays what it is.
+        self.pan((by / zoom).round() * zoom);
+        self.keep_pin_in_place();
+    }
+
     /// Pins the pixel, or the nearest in the frame, and shows the inspector.
     pub(super) fn pin(&mut self, pixel: [i64; 2]) {
         if let Some(pixel) = self.nearest_in_frame(pixel) {
@@ -221,6 +241,7 @@ impl Viewer {
                 pixel: pixel.map(i64::from),
                 place: None,
             });
+            self.inspector.revealed = false;
             self.inspector.open = true;
             self.screen.hidden = false;
         }

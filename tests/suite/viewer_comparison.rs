@@ -390,6 +390,41 @@ fn comparison_flips_in_time() {
     assert_eq!(session.viewer.due(), None, "nothing to wait for");
 }
 
+/// A pixel that is jumped to is not left below a panel.
+#[test]
+fn comparison_jumps_to_what_can_be_seen() {
+    let mut session = sixteen_against_one(WINDOW);
+    session.run(Command::NextDifference);
+    let first = session.viewer.pinned_pixel().expect("the largest difference");
+    session.run(Command::Unpin);
+    // A panel over the half that holds it.
+    let half = WINDOW[0] / 2;
+    let free = PixelRect {
+        x: if first[0] < half { i64::from(half) } else { 0 },
+        y: 0,
+        width: half,
+        height: WINDOW[1],
+    };
+    session.run(Command::SetFreeArea(Some(free)));
+    let place = session.viewer.status_of(first).unwrap().user;
+    session.run(Command::NextDifference);
+    let pinned = session.viewer.pinned_pixel().expect("the same again");
+    let shown = session.viewer.shown_at(pinned);
+    assert!(free.contains([shown.x, shown.y]), "{shown:?} in {free:?}");
+    let now = session.viewer.status_of(pinned).unwrap().user;
+    assert!(
+        now.distance(place) < 1e-6,
+        "the same place of the scene: {now}, {place}"
+    );
+    let view = session.viewer.view_numbers();
+    session.run(Command::Pin([first[0].into(), first[1].into()]));
+    assert_eq!(
+        session.viewer.view_numbers(),
+        view,
+        "a pixel that is named stays where it is"
+    );
+}
+
 #[test]
 fn comparison_flips_by_hand() {
     let mut session = sixteen_against_one(WINDOW);

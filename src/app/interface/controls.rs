@@ -1,6 +1,6 @@
 //! The few controls that the panels are built of; each has an accessible name and says its key in its tool tip.
 
-use egui::{Align, Button, ComboBox, Layout, Response, RichText, Ui, vec2};
+use egui::{Align, Button, Color32, ComboBox, Layout, Response, RichText, TextStyle, Ui, vec2};
 
 use super::look::CONTROL;
 use crate::viewer::{CommandSpec, commands};
@@ -48,7 +48,7 @@ pub(super) fn choice<T: Copy + PartialEq>(
         ui.spacing_mut().item_spacing.x = gap;
         ui.spacing_mut().button_padding.x = 1.0;
         for (value, text) in values {
-            let button = Button::selectable(*value == current, text.as_str())
+            let button = Button::selectable(*value == current, fitted(ui, text, width))
                 .frame_when_inactive(true)
                 .min_size(vec2(width, CONTROL.y));
             let response = ui.add_sized([width, CONTROL.y], button);
@@ -59,6 +59,20 @@ pub(super) fn choice<T: Copy + PartialEq>(
         }
     });
     chosen
+}
+
+/// A button's text, in smaller letters where it would touch the sides.
+fn fitted(ui: &Ui, text: &str, width: f32) -> RichText {
+    /// Free points on both sides together.
+    const FREE: f32 = 6.0;
+    let font = TextStyle::Button.resolve(ui.style());
+    let needed = ui
+        .painter()
+        .layout_no_wrap(text.to_owned(), font.clone(), Color32::WHITE)
+        .size()
+        .x;
+    let size = font.size * ((width - FREE) / needed.max(1.0)).clamp(0.8, 1.0);
+    RichText::new(text).size(size)
 }
 
 /// One of more values than there is room for buttons. `name` is for screen readers and identifies the control.

@@ -35,6 +35,8 @@ use scenes::{Thumbnails, Wishes};
 
 /// Width of the picture that two panels leave at least, in points.
 const LEAST_PICTURE: f32 = 160.0;
+/// Width of the picture below which panels give way to each other, in points.
+const USEFUL_PICTURE: f32 = 560.0;
 /// Height that the scenes need lest the whole panel scrolls instead of the list alone, in points.
 const LEAST_LIST: f32 = 170.0;
 /// The same for the reader's report.
@@ -149,7 +151,14 @@ impl Interface {
             }
             if viewer.panel() {
                 self.side_panel(ui, viewer, asked);
-                let fits = ui.available_width() >= look::PANEL_WIDTH + LEAST_PICTURE;
+                // Why a pixel has its colour tells the same of A and B, for that pixel: it goes first where there is not room
+                // for both.
+                let beside = if viewer.explains() {
+                    explanation::WIDTH + USEFUL_PICTURE
+                } else {
+                    LEAST_PICTURE
+                };
+                let fits = ui.available_width() >= look::PANEL_WIDTH + beside;
                 if viewer.other().is_some() && fits {
                     self.compare_panel(ui, viewer, asked);
                 }

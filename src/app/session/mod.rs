@@ -175,10 +175,11 @@ impl Session {
         self.fold_panel();
     }
 
-    /// Folds the side panel where it would reach into the default view's canvas, until the user decides.
+    /// Folds the side panel where it would reach into the default view's canvas, and while a lesson is open, which has what
+    /// is needed in its text; until the user decides.
     fn fold_panel(&mut self) {
         let size = self.viewer.window_size().map(|side| side as f32 / self.scale);
-        let fits = Interface::panel_fits(size);
+        let fits = Interface::panel_fits(size) && self.viewer.lesson().is_none();
         if self.panel_follows && fits != self.viewer.panel() {
             let to = if fits { Toggle::On } else { Toggle::Off };
             self.apply(Command::Panel(to));
@@ -188,7 +189,11 @@ impl Session {
     /// Runs a command and carries out its effects.
     pub(super) fn run(&mut self, command: Command) {
         self.panel_follows &= !matches!(command, Command::Panel(_));
+        let before = self.viewer.lesson().is_some();
         self.apply(command);
+        if before != self.viewer.lesson().is_some() {
+            self.fold_panel();
+        }
     }
 
     fn apply(&mut self, command: Command) {

@@ -324,7 +324,11 @@ impl Viewer {
         let place = measures.places.get(next).or(measures.places.first()).copied();
         self.comparison.measuring.jumps = false;
         match place {
-            Some(place) => self.pin(place.at.map(i64::from)),
+            Some(place) => {
+                self.pin(place.at.map(i64::from));
+                self.inspector.revealed = true;
+                self.reveal_pin();
+            }
             None => self
                 .messages
                 .done("A and B are equal in this view: no pixel differs".to_owned()),

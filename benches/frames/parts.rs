@@ -1,6 +1,7 @@
 //! Single parts of drawing: stages of a frame as the engine counts them; texture filters, pyramids and explanations of
 //! pixels by divan.
 
+use std::path::Path;
 use std::time::Duration;
 
 use divan::Bencher;
@@ -10,12 +11,11 @@ use rasterscope::color::Premultiplied16;
 use rasterscope::geometry::View;
 use rasterscope::inspect::{Explanation, Question};
 use rasterscope::render::{FrameStats, RenderSettings, Subject};
-use rasterscope::scene::{self, DialectChoice, ReadOptions, Scene};
+use rasterscope::scene::{self, DialectChoice, Scene};
 use rasterscope::simd;
 use rasterscope::texture::{
     Filter, LevelSampling, MipLevel, MipPyramid, PixelSampling, SampleGrid, SamplingSettings, UvMap,
 };
-use rasterscope::viewer::gallery;
 
 use crate::ours::{Ours, pool, settings};
 use crate::race::Timing;
@@ -123,17 +123,13 @@ fn filter(bencher: Bencher<'_, '_>, name: &str) {
     });
 }
 
-/// Why a pixel has its colour, in the scene of the gallery with the most primitives.
+/// The scene of ours with the most triangles.
+const LARGEST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/svg/hardcore/02_degenerate_square2.svg");
+
+/// Why a pixel of it has its colour.
 #[divan::bench(args = [1, 16, 64])]
 fn explanation(bencher: Bencher<'_, '_>, rate: u32) {
-    let options = ReadOptions {
-        dialect: DialectChoice::Auto,
-    };
-    let read = |scene: &gallery::GalleryScene| {
-        scene::read(scene.document.as_bytes(), scene.name, options, &gallery::Textures).expect("a scene of ours")
-    };
-    let scenes = gallery::SCENES.iter().map(read);
-    let scene = scenes.max_by_key(|scene| scene.primitives.len()).expect("a gallery");
+    let scene = scene::load(Path::new(LARGEST), DialectChoice::Auto).expect("a scene of ours");
     let settings = RenderSettings {
         pixel_sampling: PixelSampling::Bilinear,
         level_sampling: LevelSampling::Linear,

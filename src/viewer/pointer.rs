@@ -229,6 +229,8 @@ impl Viewer {
         let middle =
             DVec2::new(free.x as f64, free.y as f64) + DVec2::new(f64::from(free.width), f64::from(free.height)) / 2.0;
         let by = middle - DVec2::new(shown.x as f64, shown.y as f64);
+        // The place that was pinned moves along.
+        self.keep_pin_in_place();
         // By whole frame pixels, so that the pinned one stays what it is.
         self.pan((by / zoom).round() * zoom);
         self.keep_pin_in_place();

@@ -231,7 +231,7 @@ fn architecture_doors_open_downwards_only() {
 const BENCHES: Room = Room {
     name: "benches",
     rooms: &[
-        "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
+        "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
     ],
     crates: &["serde_json"],
 };

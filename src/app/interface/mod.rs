@@ -153,7 +153,8 @@ impl Interface {
                 self.side_panel(ui, viewer, asked);
                 // Why a pixel has its colour tells the same of A and B, for that pixel: it goes first where there is not room
                 // for both.
-                let beside = if viewer.explains() {
+                let room = ui.available_rect_before_wrap();
+                let beside = if explanation::side(viewer, room, ui.pixels_per_point()).is_some() {
                     explanation::WIDTH + USEFUL_PICTURE
                 } else {
                     LEAST_PICTURE

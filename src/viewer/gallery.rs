@@ -80,6 +80,7 @@ pub static SCENES: &[GalleryScene] = scenes![
     "study/14_one_edge.svg",
     "study/15_upright_bars.svg",
     "study/16_what_is_painted.svg",
+    "study/17_half_the_light.svg",
     "subdiv/triangle0.svg",
     "subdiv/triangle1.svg",
     "subdiv/triangle2.svg",

@@ -1,11 +1,12 @@
 //! Whole pictures: threads, resolve, backgrounds, layers, points and hairlines, views.
 
 use glam::DVec2;
-use rasterscope::color::Rgba;
+use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::View;
 use rasterscope::raster::{Framebuffer, SamplePattern};
 use rasterscope::render::{CancelToken, RenderSettings, Subject, draw_cancellable, replay};
-use rasterscope::scene::PrimitiveKind;
+use rasterscope::scene::{DialectChoice, PrimitiveKind, ReadOptions, read};
+use rasterscope::viewer::gallery::{SCENES, Textures};
 
 use crate::support::scenes::{Fills, at_rate, drawn, one_to_one, random, scene, triangle};
 
@@ -244,4 +245,25 @@ fn replay_tells_the_samples_that_make_the_pixel() {
         "the slanted edge leaves the lower right sample white"
     );
     assert!(replay(&subject, [4, 4], [4, 0]).is_none(), "outside");
+}
+
+#[test]
+fn study_of_half_the_light_is_what_it_says() {
+    let own = SCENES
+        .iter()
+        .find(|scene| scene.name == "study/17_half_the_light.svg")
+        .unwrap();
+    let options = ReadOptions {
+        dialect: DialectChoice::Auto,
+    };
+    let scene = read(own.document.as_bytes(), own.name, options, &Textures).unwrap();
+    let size = [1024, 1024];
+    // The square on the left, the stripes, the square on the right.
+    let pixels = |resolve| {
+        let settings = RenderSettings { resolve, ..at_rate(4) };
+        let frame = drawn(&scene, &View::Default.transform(scene.canvas, size), &settings, size);
+        [310, 512, 712].map(|x| frame.rgba(x, 712).unwrap()[0])
+    };
+    assert_eq!(pixels(ResolveSpace::Stored), [128, 128, 188], "as stored");
+    assert_eq!(pixels(ResolveSpace::Linear), [128, 188, 188], "in linear light");
 }

@@ -4,15 +4,21 @@ use glam::dvec2;
 
 use super::super::SceneFile;
 use super::super::document::{Document, Style};
-use super::super::palette::{AMBER, BRICK, CORAL, INK, PAPER, PLUM, SEA, TEAL};
+use super::super::palette::{AMBER, BRICK, CORAL, Color, INK, PAPER, PLUM, SEA, TEAL, WHITE, hex};
 use super::super::steady::{TAU, polar};
 use super::floor::Floor;
 use super::outline::regular;
 
-pub(super) const SCENES: &[SceneFile] = &[SceneFile {
-    path: "svg/study/16_what_is_painted.svg",
-    make: what_is_painted,
-}];
+pub(super) const SCENES: &[SceneFile] = &[
+    SceneFile {
+        path: "svg/study/16_what_is_painted.svg",
+        make: what_is_painted,
+    },
+    SceneFile {
+        path: "svg/study/17_half_the_light.svg",
+        make: half_the_light,
+    },
+];
 
 fn what_is_painted() -> String {
     let mut doc = Document::new(
@@ -62,5 +68,44 @@ fn what_is_painted() -> String {
         cells: 2,
     }
     .draw(&mut doc, "plan");
+    doc.finish()
+}
+
+fn half_the_light() -> String {
+    const BLACK: Color = hex(0x00_0000);
+    let mut doc = Document::new(
+        512.0,
+        512.0,
+        &[
+            "What the mean of black and white is: choose Resolve stored or linear, at 4 samples or more (1024 x 1024, default view).",
+            "Every pixel of the striped square is half black, half white. Stored, it becomes 128 and matches the square on its left;",
+            "in linear light it becomes 188 and matches the one on its right, as the stripes themselves do from afar.",
+            "Above, rays as wide as a pixel: in linear light white ones grow bolder and black ones paler: right as light, not always even.",
+        ],
+    );
+    doc.rect(dvec2(0.0, 0.0), dvec2(256.0, 300.0), Style::fill(BLACK));
+    doc.rect(dvec2(256.0, 0.0), dvec2(256.0, 512.0), Style::fill(WHITE));
+    doc.rect(dvec2(0.0, 300.0), dvec2(256.0, 212.0), Style::fill(WHITE));
+    doc.decimals(3);
+    for (side, color) in [(0.0, WHITE), (256.0, BLACK)] {
+        let hub = dvec2(side + 128.0, 150.0);
+        for k in 0..30 {
+            let angle = TAU * (f64::from(k) + 0.37) / 30.0;
+            let (along, across) = (polar(1.0, angle), polar(0.3, angle + TAU / 4.0));
+            let (from, to) = (hub + along * 24.0, hub + along * 116.0);
+            doc.polygon(
+                &[from - across, to - across, to + across, from + across],
+                Style::fill(color),
+            );
+        }
+    }
+    // Pixels begin at multiples of 0.6 from the middle.
+    let (top, side) = (346.0, 120.0);
+    doc.rect(dvec2(76.0, top), dvec2(side, side), Style::fill(hex(0x80_8080)));
+    doc.rect(dvec2(316.0, top), dvec2(side, side), Style::fill(hex(0xBC_BCBC)));
+    for k in 0..200 {
+        let y = top + 0.6 * f64::from(k);
+        doc.rect(dvec2(196.0, y), dvec2(side, 0.3), Style::fill(BLACK));
+    }
     doc.finish()
 }

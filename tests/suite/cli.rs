@@ -2,8 +2,9 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
+use crate::support::program::run;
 use crate::support::refusal::assert_refused;
 use crate::support::scenes::{at_rate, drawn};
 use rasterscope::geometry::View;
@@ -11,16 +12,6 @@ use rasterscope::render::RenderSettings;
 use rasterscope::scene::{DialectChoice, load};
 
 const SCENE: &str = r##"<svg width="40" height="30"><polygon points="2,3 37,9 11,28" fill="#123456"/></svg>"##;
-
-fn run(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterscope"));
-    command
-        .current_dir(folder)
-        .args(arguments)
-        .env_remove("DISPLAY")
-        .env_remove("WAYLAND_DISPLAY");
-    command.output().expect("the program starts")
-}
 
 /// Runs the program, which must refuse.
 fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {

@@ -2,31 +2,15 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
 use rasterscope::compare::decode_picture;
 use rasterscope::figure::Record;
 
 use crate::support::golden::check;
+use crate::support::program::{done, run};
 use crate::support::refusal::assert_refused;
 
 const STAR: &str = "gallery:basic/test4.svg";
-
-fn run(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterscope"));
-    let command = command.current_dir(folder).args(arguments);
-    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
-    command.output().unwrap()
-}
-
-fn done(folder: &Path, arguments: &[&str]) -> String {
-    let output = run(folder, arguments);
-    assert!(
-        output.status.success() && output.stderr.is_empty(),
-        "{arguments:?}: {output:?}"
-    );
-    String::from_utf8(output.stdout).unwrap()
-}
 
 fn files(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap();

@@ -352,7 +352,7 @@ fn check_colors(paint: &Paint, rules: Rules) {
 }
 
 /// Why one pixel of a picture of `size` pixels has its colour.
-fn explain(scene: &Scene, settings: &RenderSettings, size: [u32; 2], pixel: [u32; 2]) -> Explanation {
+pub(crate) fn explain(scene: &Scene, settings: &RenderSettings, size: [u32; 2], pixel: [u32; 2]) -> Explanation {
     let view = SceneView::Canvas.transform(scene.canvas, size);
     let subject = Subject {
         scene,

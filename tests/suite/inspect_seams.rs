@@ -9,6 +9,8 @@ use rasterscope::scene::{self, DialectChoice, ReadOptions};
 use rasterscope::texture::{LevelSampling, PixelSampling};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 
+use crate::inspect::explain;
+
 const TWICE: &str = "a line belongs to both";
 const GAP: &str = "leaves a gap of";
 const LEVELS: &str = "the level of detail changes from";
@@ -23,19 +25,7 @@ fn hints(body: &str, settings: &RenderSettings, size: [u32; 2], pixel: [u32; 2])
         dialect: DialectChoice::Auto,
     };
     let scene = scene::read(document.as_bytes(), "scene.svg", options, &Textures).unwrap();
-    let view = SceneView::Canvas.transform(scene.canvas, size);
-    let subject = Subject {
-        scene: &scene,
-        view: &view,
-        settings,
-    };
-    let question = Question {
-        subject,
-        file: "scene.svg",
-        size,
-        pixel,
-    };
-    Explanation::new(&question).unwrap().hints().join("\n")
+    explain(&scene, settings, size, pixel).hints().join("\n")
 }
 
 fn settings(rules: Rules, samples: u32) -> RenderSettings {

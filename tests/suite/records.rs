@@ -2,35 +2,18 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
 use rasterscope::figure::{Record, encode_png};
 use rasterscope::raster::Framebuffer;
 use rasterscope::scene::FileDigest;
 
+use crate::support::program::{done, run};
 use crate::support::refusal::assert_refused;
 
 const SCENE: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="30">
   <polygon points="2,3 37,9 11,28" fill="#123456"/>
   <image href="t.png" x="2" y="2" width="20" height="20"/>
 </svg>"##;
-
-fn run(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterscope"));
-    let command = command.current_dir(folder).args(arguments);
-    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
-    command.output().unwrap()
-}
-
-/// Runs the program, which must not complain.
-fn done(folder: &Path, arguments: &[&str]) -> String {
-    let output = run(folder, arguments);
-    assert!(
-        output.status.success() && output.stderr.is_empty(),
-        "{arguments:?}: {output:?}"
-    );
-    String::from_utf8(output.stdout).unwrap()
-}
 
 fn texture(color: u32) -> Vec<u8> {
     let mut picture = Framebuffer::new(4, 4);

@@ -3,6 +3,7 @@
 pub(crate) mod brute_force;
 pub(crate) mod documents;
 pub(crate) mod golden;
+pub(crate) mod program;
 pub(crate) mod refusal;
 pub(crate) mod scenes;
 pub(crate) mod session;

@@ -70,7 +70,7 @@ pub(super) fn viewer_options(
         screenshot_name: options.screenshot_name.clone(),
         theme: options.theme.or(theme).unwrap_or_default(),
         waker,
-        read_arguments: options.read_arguments,
+        grammar: options.grammar,
         restored: options.restored.clone(),
     }
 }

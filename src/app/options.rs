@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::geometry::View;
-use crate::viewer::{Against, NameTemplate, ReadArguments, Restored, Settings, Theme};
+use crate::viewer::{Against, Grammar, NameTemplate, Restored, Settings, Theme};
 
 /// How a session starts.
 #[derive(Clone, Debug, Default)]
@@ -30,8 +30,8 @@ pub struct ViewOptions {
     pub script: Option<ScriptSource>,
     /// Never opens a window: plays the script, or saves one picture of the window, and ends.
     pub headless: bool,
-    /// Reads the command lines that pictures carry.
-    pub read_arguments: Option<ReadArguments>,
+    /// Reads command lines.
+    pub grammar: Option<Grammar>,
     /// The picture that scene and settings come from.
     pub restored: Option<Restored>,
 }

@@ -7,7 +7,7 @@ use clap::builder::PossibleValue;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand, ValueEnum};
 
-use super::axes::AxisLists;
+use super::axes::Lists;
 use super::failure::Failure;
 use super::recorded;
 use super::size::FrameSize;
@@ -201,7 +201,7 @@ pub(super) struct SheetOptions {
     #[arg(long, value_name = "TEXT")]
     pub(super) note: Option<String>,
     #[command(flatten)]
-    pub(super) axes: AxisLists,
+    pub(super) axes: Lists,
     #[command(flatten)]
     pub(super) framing: FramingOptions,
 }
@@ -226,7 +226,7 @@ pub(super) struct SweepOptions {
     #[arg(long, default_value = "1024x1024", value_name = "WxH")]
     pub(super) size: FrameSize,
     #[command(flatten)]
-    pub(super) axes: AxisLists,
+    pub(super) axes: Lists,
     #[command(flatten)]
     pub(super) framing: FramingOptions,
 }
@@ -594,13 +594,11 @@ struct SamplingOnly {
 }
 
 /// Reads options of sampling.
-pub(super) fn sampling_of(words: impl Iterator<Item = String>) -> Result<SamplingOptions, Failure> {
+pub(super) fn sampling_of(words: impl Iterator<Item = String>) -> Result<SamplingOptions, String> {
     let read = SamplingOnly::try_parse_from(words);
-    let sampling = read
-        .map_err(|error| Failure::Input(one_line(&error.to_string())))?
-        .sampling;
+    let sampling = read.map_err(|error| one_line(&error.to_string()))?.sampling;
     match sampling.refusal() {
-        Some(refusal) => Err(Failure::Input(one_line(&refusal))),
+        Some(refusal) => Err(one_line(&refusal)),
         None => Ok(sampling),
     }
 }

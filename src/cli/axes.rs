@@ -4,98 +4,24 @@ use clap::builder::{OsStr, Resettable};
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, value_parser};
 
 use super::arguments::{SamplingOptions, sampling_of};
-use super::failure::Failure;
+use crate::viewer::{Axis, AxisLists, Choice};
 
 /// The lists that were given, in the order they were written in.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct AxisLists {
-    lists: Vec<Axis>,
+#[derive(Clone, Debug, Default)]
+pub(super) struct Lists(pub(super) AxisLists);
+
+/// The sampling of a choice.
+///
+/// # Errors
+/// One line.
+pub(super) fn sampling(choice: &Choice) -> Result<SamplingOptions, String> {
+    sampling_of(choice.iter().map(|(name, value)| format!("--{name}={value}")))
 }
 
-/// A setting and its values.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Axis {
-    /// The option without its dashes.
-    pub(super) name: String,
-    /// As they were written, at least one.
-    pub(super) values: Vec<String>,
-}
-
-/// One value of every list.
-pub(super) type Choice = Vec<(String, String)>;
-
-impl Axis {
-    /// A value in words, such as `sample rate 4`.
-    pub(super) fn words(&self, value: &str) -> String {
-        format!("{} {value}", self.title())
-    }
-
-    /// The setting in words, such as `sample rate`.
-    pub(super) fn title(&self) -> String {
-        self.name.replace('-', " ")
-    }
-}
-
-impl AxisLists {
-    /// The lists of several values: what differs between panels.
-    pub(super) fn axes(&self) -> impl Iterator<Item = &Axis> {
-        self.lists.iter().filter(|axis| axis.values.len() > 1)
-    }
-
-    /// The words of the command line, in their order.
-    pub(super) fn words(&self) -> Vec<String> {
-        let word = |axis: &Axis| format!("--{}={}", axis.name, axis.values.join(","));
-        self.lists.iter().map(word).collect()
-    }
-
-    /// How many choices there are; a huge number where they cannot be counted.
-    pub(super) fn count(&self) -> usize {
-        self.lists
-            .iter()
-            .fold(1, |count, axis| count.saturating_mul(axis.values.len()))
-    }
-
-    /// Every combination, the first axis changing fastest.
-    pub(super) fn choices(&self) -> Vec<Choice> {
-        let mut choices: Vec<Choice> = vec![Vec::new()];
-        for axis in self.lists.iter().rev() {
-            let value = |value: &String| (axis.name.clone(), value.clone());
-            choices = choices
-                .iter()
-                .flat_map(|rest| {
-                    axis.values
-                        .iter()
-                        .map(move |chosen| [&[value(chosen)], rest.as_slice()].concat())
-                })
-                .collect();
-        }
-        choices
-    }
-
-    /// The sampling of a choice.
-    pub(super) fn sampling(choice: &Choice) -> Result<SamplingOptions, Failure> {
-        sampling_of(choice.iter().map(|(name, value)| format!("--{name}={value}")))
-    }
-
-    /// Reads one list.
-    fn list(name: &str, text: &str) -> Result<Axis, clap::Error> {
-        let refused = |why: String| clap::Error::raw(clap::error::ErrorKind::InvalidValue, format!("--{name}: {why}"));
-        let values: Vec<String> = text.split(',').map(|value| value.trim().to_owned()).collect();
-        if values.iter().any(String::is_empty) {
-            return Err(refused(format!(
-                "`{text}` has an empty value; a list is values with commas between them"
-            )));
-        }
-        for (index, value) in values.iter().enumerate() {
-            if values[..index].contains(value) {
-                return Err(refused(format!("{value} is there twice; give it once")));
-            }
-        }
-        Ok(Axis {
-            name: name.to_owned(),
-            values,
-        })
-    }
+/// Reads one list.
+fn list(name: &str, text: &str) -> Result<Axis, clap::Error> {
+    Axis::parse(name, text)
+        .map_err(|why| clap::Error::raw(clap::error::ErrorKind::InvalidValue, format!("--{name}: {why}")))
 }
 
 /// The options of sampling, which each take a list here.
@@ -103,7 +29,7 @@ fn options() -> Command {
     SamplingOptions::augment_args(Command::new("sampling"))
 }
 
-impl Args for AxisLists {
+impl Args for Lists {
     fn augment_args(command: Command) -> Command {
         let as_list = |option: &Arg| {
             let names: Vec<String> = option
@@ -132,7 +58,7 @@ impl Args for AxisLists {
     }
 }
 
-impl FromArgMatches for AxisLists {
+impl FromArgMatches for Lists {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let mut lists = Vec::new();
         for option in options().get_arguments() {
@@ -140,13 +66,11 @@ impl FromArgMatches for AxisLists {
                 continue;
             };
             if let Some(text) = matches.get_one::<String>(id) {
-                lists.push((matches.index_of(id), Self::list(name, text)?));
+                lists.push((matches.index_of(id), list(name, text)?));
             }
         }
         lists.sort_by_key(|(index, _)| *index);
-        Ok(Self {
-            lists: lists.into_iter().map(|(_, axis)| axis).collect(),
-        })
+        Ok(Self(lists.into_iter().map(|(_, axis)| axis).collect()))
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
@@ -160,9 +84,9 @@ mod tests {
     use super::*;
 
     fn read(line: &str) -> Result<AxisLists, clap::Error> {
-        let command = AxisLists::augment_args(Command::new("test"));
+        let command = Lists::augment_args(Command::new("test"));
         let matches = command.try_get_matches_from(std::iter::once("test").chain(line.split_whitespace()))?;
-        AxisLists::from_arg_matches(&matches)
+        Lists::from_arg_matches(&matches).map(|Lists(lists)| lists)
     }
 
     #[test]
@@ -174,7 +98,7 @@ mod tests {
         let choices = lists.choices();
         let rates: Vec<u32> = choices
             .iter()
-            .map(|choice| AxisLists::sampling(choice).expect("valid").sample_rate.samples())
+            .map(|choice| sampling(choice).expect("valid").sample_rate.samples())
             .collect();
         assert_eq!(rates, [1, 1, 4, 4, 16, 16], "the first axis changes fastest");
         let words = [
@@ -197,6 +121,6 @@ mod tests {
             assert!(read(line).is_err(), "{line}");
         }
         let lists = read("--sample-rate 1,5").expect("only each value knows");
-        assert!(AxisLists::sampling(&lists.choices()[1]).is_err(), "5 is no square");
+        assert!(sampling(&lists.choices()[1]).is_err(), "5 is no square");
     }
 }

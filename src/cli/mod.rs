@@ -22,6 +22,8 @@ mod view;
 mod view_option;
 mod writeup;
 
+pub use recorded::GRAMMAR;
+
 use std::ffi::OsString;
 use std::process::ExitCode;
 

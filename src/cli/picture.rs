@@ -8,8 +8,8 @@ use crate::figure::{Record, add_furniture};
 use crate::geometry::ViewTransform;
 use crate::raster::Framebuffer;
 use crate::render::{self, FrameStats, Legend, Subject};
-use crate::scene::Scene;
-use crate::viewer::{PictureSpec, Restored};
+use crate::scene::{DialectChoice, Scene};
+use crate::viewer::{PictureSpec, Restored, SceneSource};
 
 /// A scene and everything that its picture depends on.
 pub(super) struct Picture {
@@ -22,10 +22,7 @@ pub(super) struct Picture {
 impl Picture {
     /// Reads the scene; what the reader skipped is said on stderr, line by line.
     pub(super) fn read(spec: PictureSpec) -> Result<Self, Failure> {
-        let scene = spec.scene.read(spec.dialect).map_err(Failure::input)?;
-        for line in scene.report.lines() {
-            print_error(&format!("{}:{line}", spec.scene.address()));
-        }
+        let scene = read_scene(&spec.scene, spec.dialect).map_err(Failure::Input)?;
         Ok(Self::of(spec, Arc::new(scene)))
     }
 
@@ -45,11 +42,6 @@ impl Picture {
         if let Some(change) = restored.and_then(|restored| restored.changes(&self.scene.files)) {
             print_error(&change);
         }
-    }
-
-    /// What decides the picture.
-    pub(super) fn spec(&self) -> &PictureSpec {
-        &self.spec
     }
 
     /// The record of the picture, for the file `output`.
@@ -101,6 +93,18 @@ impl Picture {
     pub(super) fn frame(&self) -> &Framebuffer {
         &self.frame
     }
+}
+
+/// Reads a scene; what the reader skipped is said on stderr, line by line.
+///
+/// # Errors
+/// One line when it cannot be read.
+pub(super) fn read_scene(source: &SceneSource, dialect: DialectChoice) -> Result<Scene, String> {
+    let scene = source.read(dialect).map_err(|error| error.to_string())?;
+    for line in scene.report.lines() {
+        print_error(&format!("{}:{line}", source.address()));
+    }
+    Ok(scene)
 }
 
 /// Runs `work` on a pool of as many threads as the option says, or one per core.

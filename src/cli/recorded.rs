@@ -6,29 +6,44 @@ use std::path::{Path, PathBuf};
 use super::arguments::{self, Arguments, PictureOptions, RenderOptions, Verb};
 use super::failure::Failure;
 use crate::figure::Record;
-use crate::viewer::{PictureSpec, Restored, SceneSource};
+use crate::viewer::{Grammar, PictureSpec, Restored, SceneSource, SheetRequest};
 
 /// What is wrong with a command line that shows something else.
-pub(super) const NO_SCENE: &str = "it draws no scene";
+const NO_SCENE: &str = "it draws no scene";
+
+/// The grammar of the command line, for viewers.
+pub const GRAMMAR: Grammar = Grammar {
+    picture: read_arguments,
+    sheet: read_sheet,
+};
+
+/// What the words of a `sheet` command ask for.
+///
+/// # Errors
+/// One line when they are none.
+fn read_sheet(words: &[String]) -> Result<SheetRequest, String> {
+    match verb_of(words)? {
+        Verb::Sheet(options) => super::sheet::request(&options),
+        _ => Err("this is no sheet".to_owned()),
+    }
+}
 
 /// What the command line of a record draws.
 ///
 /// # Errors
 /// One line when it is none that draws a scene.
 pub(super) fn read_arguments(record: &Record) -> Result<PictureSpec, String> {
-    match verb_of(record)? {
+    match verb_of(&record.arguments)? {
         Verb::Render(options) => Ok(spec_of_render(&options)),
-        Verb::Sheet(options) => super::sheet::restored_spec(&options),
+        Verb::Sheet(options) => super::sheet::spec(&options),
         _ => Err(NO_SCENE.to_owned()),
     }
 }
 
-/// The command that a record tells.
-pub(super) fn verb_of(record: &Record) -> Result<Verb, String> {
+/// The command that arguments name, such as a record tells.
+pub(super) fn verb_of(arguments: &[String]) -> Result<Verb, String> {
     // A name without a command would open the window.
-    let words = ["rasterscope"]
-        .into_iter()
-        .chain(record.arguments.iter().map(String::as_str));
+    let words = ["rasterscope"].into_iter().chain(arguments.iter().map(String::as_str));
     match arguments::parse_words(words.map(OsString::from).collect(), false) {
         Ok(Arguments { verb }) => Ok(verb),
         Err(Failure::Input(problem) | Failure::Other(problem)) => Err(problem),

@@ -69,7 +69,7 @@ fn restored(options: &RerunOptions) -> Result<Restored, Failure> {
 
 /// Draws what the record tells, by the same code as the command that it names.
 fn draw(restored: &Restored, output: &Path) -> Result<Again, Failure> {
-    match verb_of(&restored.record).map_err(Failure::Input)? {
+    match verb_of(&restored.record.arguments).map_err(Failure::Input)? {
         Verb::Render(_) => {
             let mut picture = Picture::read(restored.spec.clone())?;
             picture.draw_figure()?;
@@ -83,7 +83,10 @@ fn draw(restored: &Restored, output: &Path) -> Result<Again, Failure> {
             options.scene = scene_path(restored);
             let sheet = sheet::draw(&options, output)?;
             Ok(Again {
-                change: restored.changes(&sheet.scene.files),
+                change: sheet
+                    .panels
+                    .first()
+                    .and_then(|panel| restored.changes(&panel.scene.files)),
                 record: sheet.record,
                 frame: sheet.picture,
             })

@@ -8,7 +8,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::arguments::SweepOptions;
-use super::axes::{AxisLists, Choice};
+use super::axes::sampling;
 use super::bench::{median, milliseconds};
 use super::failure::{Failure, print, print_error};
 use super::memory::{forget_peak, peak_megabytes};
@@ -20,7 +20,7 @@ use crate::figure::{Plot, PlotSeries, Record, draw_plot, encode_png, save_files}
 use crate::raster::Framebuffer;
 use crate::render::CancelToken;
 use crate::scene::{DialectChoice, Scene};
-use crate::viewer::{PictureSpec, Restored, SceneSource, as_path, plain_record};
+use crate::viewer::{Choice, PictureSpec, Restored, SceneSource, as_path, plain_record};
 
 /// Most combinations of a sweep.
 const MAX_CHOICES: usize = 1000;
@@ -156,14 +156,15 @@ fn check_outputs(csv: &Path, chart: &Path) -> Result<(), Failure> {
 
 /// What each combination draws.
 fn specs(options: &SweepOptions) -> Result<Vec<(Choice, PictureSpec)>, Failure> {
-    if options.axes.count() > MAX_CHOICES {
+    let axes = &options.axes.0;
+    if axes.count() > MAX_CHOICES {
         return Err(Failure::input(format!(
             "a sweep measures at most {MAX_CHOICES} combinations, and these lists make more; give fewer values"
         )));
     }
     let FrameSize(size) = options.size;
     let spec = |choice: Choice| {
-        let sampling = AxisLists::sampling(&choice)?;
+        let sampling = sampling(&choice).map_err(Failure::Input)?;
         let spec = PictureSpec {
             scene: SceneSource::from_address(&options.scene),
             size,
@@ -175,7 +176,7 @@ fn specs(options: &SweepOptions) -> Result<Vec<(Choice, PictureSpec)>, Failure> 
         };
         Ok((choice, spec))
     };
-    options.axes.choices().into_iter().map(spec).collect()
+    axes.choices().into_iter().map(spec).collect()
 }
 
 fn measure(
@@ -294,7 +295,7 @@ fn record(options: &SweepOptions, (first, scene): (&PictureSpec, &Scene)) -> Rec
         "--csv".to_owned(),
         as_path(&options.csv.display().to_string()),
     ];
-    words.extend(options.axes.words());
+    words.extend(options.axes.0.words());
     let [width, height] = first.size;
     words.extend([
         format!("--size={width}x{height}"),
@@ -364,7 +365,7 @@ impl Sweep {
 
     /// The table for a reader at a terminal, without settings that all rows share.
     fn text(&self, options: &SweepOptions) -> String {
-        let lines = self.lines(|name| options.axes.axes().any(|axis| axis.name == name));
+        let lines = self.lines(|name| options.axes.0.axes().any(|axis| axis.name == name));
         let columns = lines.first().map_or(0, Vec::len);
         let width = |column: usize| lines.iter().map(|cells| cells[column].chars().count()).max();
         let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();
@@ -391,7 +392,7 @@ impl Sweep {
 
     /// A line through all values of the first list, for each combination of the others.
     fn plot(&self, options: &SweepOptions) -> Plot {
-        let axes: Vec<_> = options.axes.axes().collect();
+        let axes: Vec<_> = options.axes.0.axes().collect();
         let first = axes.first();
         let measured: Vec<_> = self.specs.iter().zip(&self.rows).collect();
         let series = measured.chunks(first.map_or(1, |axis| axis.values.len())).map(|line| {

@@ -45,7 +45,7 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
         screenshot_name: options.screenshot_name.clone().unwrap_or_default(),
         script: file.or(options.commands.clone().map(ScriptSource::Text)),
         headless: options.headless,
-        read_arguments: Some(super::recorded::read_arguments),
+        grammar: Some(super::recorded::GRAMMAR),
         restored: restored.cloned(),
     };
     app::run(view_options).map_err(|error| {

@@ -12,6 +12,7 @@ mod record;
 mod rect;
 mod samples;
 mod sheet;
+mod shrink;
 mod snippets;
 mod text;
 
@@ -26,5 +27,6 @@ pub use record::{Record, RecordError, RecordedFile};
 pub use rect::PixelRect;
 pub use samples::{SampleMark, is_dark};
 pub use sheet::{Ground, PAGE_WIDTH, SheetLayout, SheetPlan, draw_legends};
+pub use shrink::shrunk;
 pub use snippets::{Figure, html, latex, markdown};
 pub use text::{Anchor, TextBlock, TextStyle, Typeface};

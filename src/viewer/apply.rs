@@ -63,7 +63,12 @@ impl Viewer {
             .current()
             .is_some_and(|entry| entry.is_reading() || entry.is_read_for_b());
         let drawn = self.drawing.is_current() && self.comparison.is_current();
-        !reading && drawn && self.probing.is_current() && self.explains_all() && self.is_measured()
+        !reading
+            && drawn
+            && self.probing.is_current()
+            && self.explains_all()
+            && self.is_measured()
+            && self.sheet.is_current()
     }
 
     /// When to call [`Viewer::poll`] even if nothing wakes the event loop: then the hand rests, and the preview on the
@@ -124,6 +129,7 @@ impl Viewer {
             Finished::Fed(target, feeds) => self.feeding.finished(target, *feeds),
             Finished::Thumbnail(thumbnail) => self.thumbnail_drawn(thumbnail),
             Finished::Saved(saved) => self.picture_saved(saved),
+            Finished::SheetDrawn(question, drawn) => self.sheet.previews.finished(question, *drawn),
         }
     }
 
@@ -147,6 +153,8 @@ impl Viewer {
             self.picture_revision += 1;
         }
         self.save_when_ready();
+        self.want_sheet();
+        self.save_sheets_when_ready();
     }
 
     /// Whether everything but the picture is hidden.
@@ -162,6 +170,7 @@ impl Viewer {
             Command::Resize(size) => self.screen.window == *size,
             Command::SetFreeArea(area) => self.screen.free_area == *area,
             Command::PointAtTexel(texel) => self.pointed_texel == *texel,
+            Command::SetSheetRoom(room) => !self.sheet_room_changes(*room),
             _ => false,
         }
     }
@@ -173,6 +182,7 @@ impl Viewer {
             Command::CopyPicture => return self.copy_picture(),
             Command::CopyCommandLine => return self.copy_command_line(),
             Command::CopyExplanation => return self.copy_explanation(),
+            Command::CopySheetCommandLine => return self.copy_sheet_command_line(),
             Command::WindowScreenshot => return vec![Effect::PictureOfWindow],
             Command::Escape => return self.escape(),
             Command::Quit => return vec![Effect::Quit],
@@ -218,6 +228,9 @@ impl Viewer {
             Command::OpenGallery => self.replace_scenes(library::gallery_entries()),
             Command::Reload => self.read_current(),
             Command::Screenshot => self.ask_for_screenshot(),
+            Command::SaveSheet => self.ask_for_sheet(),
+            Command::ChangeSheet(change) => self.change_sheet(change),
+            Command::SetSheetRoom(room) => self.set_sheet_room(room),
             command => self.change_sampling(command),
         }
     }

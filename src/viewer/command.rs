@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use glam::DVec2;
 
-use super::{Against, Arrangement, LessonSource, PixelZoom, Theme, Toggle, ViewNumbers};
+use super::{Against, Arrangement, LessonSource, PixelZoom, SheetChange, Theme, Toggle, ViewNumbers};
 use crate::color::{ResolveSpace, Rgba};
 use crate::compare::Measure;
 use crate::figure::PixelRect;
@@ -215,6 +215,14 @@ pub enum Command {
     Screenshot,
     /// Saves the whole window with overlay and panels.
     WindowScreenshot,
+    /// Changes the sheet that is being put together.
+    ChangeSheet(SheetChange),
+    /// Device pixels that there are for the sheet's preview.
+    SetSheetRoom([u32; 2]),
+    /// Saves the sheet, its panels and the snippets for documents.
+    SaveSheet,
+    /// Copies the command line that makes the sheet.
+    CopySheetCommandLine,
 
     // Window.
     /// The window's size in device pixels; zero when it is minimised.
@@ -263,6 +271,8 @@ pub enum Dialog {
     GoToPixel,
     /// Asks for a picture's path.
     ComparePicture,
+    /// Puts a sheet together.
+    Sheet,
 }
 
 /// What a command asks of the program around the viewer.

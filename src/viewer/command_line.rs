@@ -37,7 +37,7 @@ impl Viewer {
         }
     }
 
-    fn copy_text(&mut self, text: String) -> Vec<Effect> {
+    pub(super) fn copy_text(&mut self, text: String) -> Vec<Effect> {
         self.messages.done(format!("copied: {text}"));
         vec![Effect::CopyText(text)]
     }
@@ -281,7 +281,7 @@ pub fn as_path(path: &str) -> String {
 }
 
 /// The name of the picture beside the scene's name.
-fn output_name(label: &str) -> String {
+pub(super) fn output_name(label: &str) -> String {
     let file = label.rsplit(['/', '\\']).next().unwrap_or(label);
     let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
     format!("{}.png", if stem.is_empty() { "picture" } else { stem })

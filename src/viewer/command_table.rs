@@ -601,6 +601,71 @@ pub(super) static TABLE: &[CommandSpec] = &[
     .keys(&[Chord::ctrl_shift('s')])
     .run(&Command::WindowScreenshot),
     spec(
+        "sheet",
+        "Sheet",
+        "Puts a sheet together: the picture once for each combination of settings, in a labelled grid",
+        Group::Save,
+    )
+    .more("With a preview of what is saved; every other setting, the view and the pin are those of the picture")
+    .keys(&[shift(Key::Char('s'))])
+    .run(&Command::ToggleDialog(Dialog::Sheet)),
+    spec(
+        "sheet-columns",
+        "Columns of the sheet",
+        "Sets what differs from left to right on the sheet",
+        Group::Save,
+    )
+    .argument(typed::SHEET_COLUMNS),
+    spec(
+        "sheet-rows",
+        "Rows of the sheet",
+        "Sets what differs from top to bottom on the sheet",
+        Group::Save,
+    )
+    .argument(typed::SHEET_ROWS),
+    spec(
+        "sheet-inset",
+        "Inset of the sheet",
+        "Magnifies the pinned pixel in every panel of the sheet",
+        Group::Save,
+    )
+    .argument(typed::SHEET_INSET),
+    spec(
+        "sheet-panels",
+        "Panels of the sheet",
+        "Sets the pixels of each panel: those of the window, as many as fit a page, or so many",
+        Group::Save,
+    )
+    .argument(typed::SHEET_PANELS),
+    spec(
+        "sheet-theme",
+        "Ground of the sheet",
+        "Sets dark ink on white for print, or light ink on black for slides",
+        Group::Save,
+    )
+    .argument(typed::SHEET_THEME),
+    spec(
+        "sheet-note",
+        "Note of the sheet",
+        "Sets the sentence that the caption of the sheet ends with",
+        Group::Save,
+    )
+    .argument(typed::SHEET_NOTE),
+    spec(
+        "save-sheet",
+        "Save sheet",
+        "Saves the sheet as PNG, and beside it a folder with its panels and snippets for documents",
+        Group::Save,
+    )
+    .run(&Command::SaveSheet),
+    spec(
+        "copy-sheet-command-line",
+        "Copy the sheet's command line",
+        "Copies the command line that makes the sheet",
+        Group::Save,
+    )
+    .run(&Command::CopySheetCommandLine),
+    spec(
         "copy",
         "Copy",
         "Copies place and colour of the inspected pixel, or the picture while no pixel is inspected",

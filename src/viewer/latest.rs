@@ -36,6 +36,11 @@ impl<Q: Clone + PartialEq + Send + 'static, A> Latest<Q, A> {
         (self.wanted.as_ref() == Some(question)).then_some(answer)
     }
 
+    /// The newest answer, which may be to an earlier question.
+    pub(super) fn newest(&self) -> Option<&A> {
+        self.found.as_ref().map(|(_, answer)| answer)
+    }
+
     /// Another number, another answer.
     pub(super) fn number(&self) -> u64 {
         self.number

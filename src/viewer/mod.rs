@@ -37,6 +37,7 @@ mod recorded;
 mod screenshot;
 pub mod script;
 mod settings;
+mod sheet;
 mod state;
 mod status;
 mod typed;
@@ -56,8 +57,12 @@ pub use messages::{Message, MessageKind};
 pub use naming::NameTemplate;
 pub use present::WindowPixels;
 pub use probing::{Hit, ProbedSample};
-pub use recorded::{ReadArguments, Restored};
+pub use recorded::{Grammar, ReadArguments, Restored};
 pub use settings::{PixelZoom, Settings, Theme, Toggle, sample_words, texture_words};
+pub use sheet::{
+    Axis, AxisLists, Choice, Panel, PanelSize, ReadSheet, SceneReader, Sheet, SheetChange, SheetDraft, SheetPreview,
+    SheetRequest, SheetSide, Unwritable, caption_of,
+};
 pub use state::{Viewer, ViewerOptions, Waker};
 pub use status::Status;
 pub use typed::Argument;

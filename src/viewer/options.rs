@@ -1,8 +1,8 @@
 //! Settings by the names of the command line's options, such as `sample-rate 16`: the one grammar for whatever sets them
 //! by text besides the command line itself.
 
-use super::Command;
 use super::typed::{self, Argument};
+use super::{Axis, Command};
 
 /// Every setting of a picture that is neither scene nor view: an option's name without its dashes, and what may follow.
 pub(super) static OPTIONS: &[(&str, Argument)] = &[
@@ -27,6 +27,41 @@ pub fn option(name: &str) -> Option<&'static Argument> {
     known.map(|(_, argument)| argument)
 }
 
+/// The values of an option where they can be counted; none elsewhere.
+pub fn values(name: &str) -> Vec<&'static str> {
+    let Some(argument) = option(name) else {
+        return Vec::new();
+    };
+    let parts: Vec<&'static str> = argument.usage.split('|').collect();
+    let counted = parts.len() > 1 && parts.iter().all(|part| argument.parse(part).is_ok());
+    if counted { parts } else { Vec::new() }
+}
+
+/// An axis of a sheet: a setting with values such as `1, 4, 16`.
+///
+/// # Errors
+/// One line when there is no such setting, or a value is none of it.
+pub fn axis(name: &str, text: &str) -> Result<Axis, String> {
+    let option = option(name).ok_or_else(|| format!("there is no setting {name}"))?;
+    let axis = Axis::parse(name, text)?;
+    axis.values.iter().try_for_each(|value| option.parse(value).map(drop))?;
+    Ok(axis)
+}
+
+/// An axis to begin with: every value where they can be counted.
+pub fn first_axis(name: &str) -> Option<Axis> {
+    let counted = values(name).join(",");
+    let text = match name {
+        _ if !counted.is_empty() => counted.as_str(),
+        "sample-rate" | "anisotropy" => "1,4,16",
+        "lod-bias" => "-1,0,1",
+        "lod-level" => "0,1,2",
+        "background" => "white,#808080",
+        _ => return None,
+    };
+    axis(name, text).ok()
+}
+
 /// The options' names, in the order of the command line's help.
 pub fn names() -> impl Iterator<Item = &'static str> {
     OPTIONS.iter().map(|(name, _)| *name)
@@ -46,4 +81,28 @@ pub(super) fn parse(text: &str) -> Option<Vec<Command>> {
         option(name)?.parse(value).ok()
     };
     text.split(',').map(one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_setting_can_be_an_axis() {
+        for name in names() {
+            let first = first_axis(name).expect(name);
+            assert!(first.values.len() > 1, "{name} differs");
+        }
+        assert!(axis("sample-rate", "1, many").is_err(), "no number");
+        assert!(axis("colour", "red, blue").is_err(), "no setting");
+    }
+
+    #[test]
+    fn values_that_can_be_counted() {
+        assert_eq!(values("rules"), ["standard", "course"], "in their order");
+        assert_eq!(values("visualise").len(), 10, "every one");
+        for name in ["sample-rate", "background", "lod-level", "no-such"] {
+            assert!(values(name).is_empty(), "{name}");
+        }
+    }
 }

@@ -7,12 +7,21 @@ use glam::DVec2;
 use super::camera::Camera;
 use super::inspector::Pin;
 use super::library;
-use super::{PictureSpec, SceneSource, Viewer};
+use super::{PictureSpec, ReadSheet, SceneSource, Viewer};
 use crate::figure::{InsetPlace, InsetSpec, Record};
 use crate::scene::{FileDigest, FolderResources, SceneFiles};
 
 /// Reads the arguments of a record by the grammar of the command line.
 pub type ReadArguments = fn(&Record) -> Result<PictureSpec, String>;
+
+/// The grammar of the command line, which lies above the viewer.
+#[derive(Clone, Copy, Debug)]
+pub struct Grammar {
+    /// Reads the command lines that pictures carry.
+    pub picture: ReadArguments,
+    /// Reads the command lines of sheets.
+    pub sheet: ReadSheet,
+}
 
 /// A picture whose record was read: the state to come back to.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,7 +113,7 @@ fn found_scene(record: &Record, named: SceneSource, shot: &Path) -> SceneSource 
 impl Viewer {
     /// Shows what a picture's record tells: scene, view, settings. False where it has none.
     pub(super) fn restore(&mut self, shot: &Path) -> bool {
-        let restored = match self.read_arguments.map(|read| Restored::of_file(shot, read)) {
+        let restored = match self.grammar.map(|grammar| Restored::of_file(shot, grammar.picture)) {
             None | Some(Ok(None)) => return false,
             Some(Ok(Some(restored))) => restored,
             Some(Err(problem)) => {

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::background::{AtEnd, Crew, Mailbox, guarded};
+use super::sheet::SheetJob;
 use super::state::Finished;
 use super::{Effect, Frame, NameTemplate, PictureSpec, Viewer};
 use crate::figure::{InsetSpec, Record, add_furniture, add_legends, encode_png};
@@ -32,12 +33,16 @@ pub(super) struct Saver {
     running: u32,
 }
 
-/// A picture to be saved.
+/// What is to be saved, and where.
 struct Job {
     folder: PathBuf,
     name: NameTemplate,
-    picture: Shot,
-    recipe: Option<Recipe>,
+    work: Work,
+}
+
+enum Work {
+    Picture(Shot, Option<Box<Recipe>>),
+    Sheet(Box<SheetJob>),
 }
 
 /// How a picture was made; its record names the file, whose name is not known before it is written.
@@ -100,14 +105,18 @@ impl Saver {
         self.waiting > 0
     }
 
-    fn push(&mut self, picture: Shot, recipe: Option<Recipe>) {
+    /// Saves a sheet beside the pictures.
+    pub(super) fn push_sheet(&mut self, sheet: SheetJob) {
+        self.push(Work::Sheet(Box::new(sheet)));
+    }
+
+    fn push(&mut self, work: Work) {
         let folder = self.folder.clone().unwrap_or_else(|| PathBuf::from("."));
         self.running += 1;
         self.crew.push(Job {
             folder,
             name: self.name.clone(),
-            picture,
-            recipe,
+            work,
         });
     }
 }
@@ -120,7 +129,8 @@ impl Viewer {
                 .error("nothing to save: the window has no pixels; make it larger".to_owned());
         } else {
             let recipe = self.recipe_of_window();
-            self.saver.push(Shot::Ready(window), recipe);
+            self.saver
+                .push(Work::Picture(Shot::Ready(window), recipe.map(Box::new)));
         }
         self.update();
     }
@@ -160,7 +170,7 @@ impl Viewer {
         let recipe = self.recipe_of_frame(&frame, self.comparison.shows_both());
         for _ in 0..std::mem::take(&mut self.saver.waiting) {
             let shot = self.shot_of(&frame, recipe.as_ref());
-            self.saver.push(shot, recipe.clone());
+            self.saver.push(Work::Picture(shot, recipe.clone().map(Box::new)));
         }
         self.set_hurry(false);
     }
@@ -288,9 +298,21 @@ impl Shot {
 
 impl Job {
     fn save(self) -> Result<(PathBuf, [u32; 2]), String> {
-        let picture = self.picture.picture()?;
-        save_new((&self.folder, &self.name), &picture, self.recipe.as_ref())
+        match self.work {
+            Work::Picture(picture, recipe) => {
+                save_new((&self.folder, &self.name), &picture.picture()?, recipe.as_deref())
+            }
+            Work::Sheet(sheet) => {
+                let stem = self.name.name(Some(sheet.spec()), &now());
+                sheet.save(&self.folder, &format!("{stem}-sheet"))
+            }
+        }
     }
+}
+
+/// The time of day, as names of files tell it.
+fn now() -> String {
+    jiff::Zoned::now().strftime("%Y-%m-%d_%H-%M-%S_%3f").to_string()
 }
 
 /// Saves `picture` in `folder` under a name that did not exist.
@@ -300,8 +322,7 @@ fn save_new(
     recipe: Option<&Recipe>,
 ) -> Result<(PathBuf, [u32; 2]), String> {
     let cure = "choose another folder with --screenshot-dir";
-    let now = jiff::Zoned::now().strftime("%Y-%m-%d_%H-%M-%S_%3f").to_string();
-    let stem = name.name(recipe.map(|recipe| &recipe.spec), &now);
+    let stem = name.name(recipe.map(|recipe| &recipe.spec), &now());
     for attempt in 1..=ATTEMPTS {
         let name = match attempt {
             1 => format!("{stem}.png"),

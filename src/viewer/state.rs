@@ -16,8 +16,9 @@ use super::messages::Messages;
 use super::pointer::Pointer;
 use super::probing::{self, ProbedSample, Probing, Target};
 use super::reading::{ReadScene, Readers, Thumbnail};
-use super::recorded::{ReadArguments, Restored};
+use super::recorded::{Grammar, Restored};
 use super::screenshot::{Saved, Saver};
+use super::sheet::{self, SheetDesk, SheetPreview, SheetQuestion};
 use super::{
     Camera, Dialog, Frame, Inspector, Message, NameTemplate, PixelRect, PixelZoom, PlacedInset, SceneEntry,
     SceneSource, Settings, Sight, Theme, ViewNumbers, library,
@@ -49,8 +50,8 @@ pub struct ViewerOptions {
     pub theme: Theme,
     /// Wakes the event loop; may do nothing.
     pub waker: Waker,
-    /// Reads the command lines that pictures carry; without it no picture brings a state back.
-    pub read_arguments: Option<ReadArguments>,
+    /// Reads command lines; without it no picture brings a state back, and there are no sheets.
+    pub grammar: Option<Grammar>,
     /// The picture that scene and settings come from.
     pub restored: Option<Restored>,
 }
@@ -95,7 +96,9 @@ pub struct Viewer {
     pub(super) last_drawn: Option<DrawnState>,
     /// What [`Viewer::take_damage`] told last.
     pub(super) last_shown: Option<DrawnState>,
-    pub(super) read_arguments: Option<ReadArguments>,
+    pub(super) grammar: Option<Grammar>,
+    /// The sheet that is being put together.
+    pub(super) sheet: SheetDesk,
     /// What was restored from a picture, until its scene was read.
     pub(super) restored: Option<Restored>,
 }
@@ -151,6 +154,7 @@ pub(super) enum Finished {
     Fed(Target, Box<Option<Feeds>>),
     Thumbnail(Thumbnail),
     Saved(Saved),
+    SheetDrawn(SheetQuestion, Box<Result<SheetPreview, String>>),
 }
 
 impl std::fmt::Debug for ViewerOptions {
@@ -177,7 +181,7 @@ impl Default for ViewerOptions {
             screenshot_name: NameTemplate::default(),
             theme: Theme::default(),
             waker: Arc::new(|| {}),
-            read_arguments: None,
+            grammar: None,
             restored: None,
         }
     }
@@ -231,7 +235,8 @@ impl Viewer {
             picture_revision: 0,
             last_drawn: None,
             last_shown: None,
-            read_arguments: options.read_arguments,
+            grammar: options.grammar,
+            sheet: SheetDesk::new(sheet::start(&mailbox)?),
             restored: options.restored,
         };
         viewer.drawing.set_progressive(viewer.settings.progressive);

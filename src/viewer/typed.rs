@@ -4,9 +4,11 @@ use std::path::Path;
 
 use glam::DVec2;
 
-use super::{Against, Arrangement, Command, LessonSource, PixelZoom, Theme, Toggle, ViewNumbers};
+use super::{Against, Arrangement, Command, LessonSource, PanelSize, PixelZoom, SheetChange, SheetSide, Theme};
+use super::{Toggle, ViewNumbers};
 use crate::color::{ResolveSpace, Rgba};
 use crate::compare::Measure;
+use crate::figure::Ground;
 use crate::raster::{SamplePattern, SampleRate};
 use crate::render::Visualisation;
 use crate::rules::Rules;
@@ -169,6 +171,40 @@ pub(super) const PANEL: Argument = argument("on|off|flip", |text| toggle(text).m
 pub(super) const THEME: Argument = argument("dark|light", |text| {
     named(&Theme::ALL, Theme::name, text).map(Command::SetTheme)
 });
+
+pub(super) const SHEET_COLUMNS: Argument = argument(SHEET_AXIS, |text| sheet_axis(SheetSide::Columns, text));
+pub(super) const SHEET_ROWS: Argument = argument(SHEET_AXIS, |text| sheet_axis(SheetSide::Rows, text));
+pub(super) const SHEET_INSET: Argument = argument("on|off", |text| {
+    let inset = match text {
+        "on" => true,
+        "off" => false,
+        _ => return None,
+    };
+    Some(Command::ChangeSheet(SheetChange::Inset(inset)))
+});
+pub(super) const SHEET_PANELS: Argument = argument("window, page or WIDTHxHEIGHT", |text| {
+    let panels = PanelSize::parse(text)?;
+    Some(Command::ChangeSheet(SheetChange::Panels(panels)))
+});
+pub(super) const SHEET_THEME: Argument = argument("light|dark", |text| {
+    named(&Ground::ALL, Ground::name, text).map(|theme| Command::ChangeSheet(SheetChange::Theme(theme)))
+});
+pub(super) const SHEET_NOTE: Argument = argument("a sentence", |text| {
+    Some(Command::ChangeSheet(SheetChange::Note(text.to_owned())))
+});
+
+/// The form of an axis.
+const SHEET_AXIS: &str = "a setting and its values, such as sample-rate 1,4,16; or none";
+
+fn sheet_axis(side: SheetSide, text: &str) -> Option<Command> {
+    let axis = if text == "none" {
+        None
+    } else {
+        let (name, values) = text.split_once(char::is_whitespace)?;
+        Some(super::options::axis(name, values).ok()?)
+    };
+    Some(Command::ChangeSheet(SheetChange::Axis(side, axis)))
+}
 
 /// The value of `all` that is called `text`.
 fn named<T: Copy>(all: &[T], name: impl Fn(T) -> &'static str, text: &str) -> Option<T> {

@@ -42,6 +42,7 @@ mod viewer_random;
 mod viewer_replay;
 mod viewer_screenshots;
 mod viewer_scripts;
+mod viewer_sheets;
 mod viewer_visualisation;
 mod visualisation;
 mod writeup;

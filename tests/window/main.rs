@@ -14,3 +14,4 @@ mod life;
 mod pacing;
 mod pointer;
 mod program;
+mod sheets;

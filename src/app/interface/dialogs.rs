@@ -5,6 +5,7 @@ use egui::{Align, Align2, Area, Button, Color32, Context, Id, Key, Layout, Modal
 use egui::{TextEdit, Ui, vec2};
 
 use super::look::CONTROL;
+use super::sheet::SheetDialog;
 use crate::viewer::commands::{self, GESTURES};
 use crate::viewer::{Action, Command, CommandSpec, Dialog, Group, Viewer};
 
@@ -17,6 +18,7 @@ pub(super) struct Dialogs {
     chosen: usize,
     /// The text was replaced: its line puts the caret behind it.
     caret_to_end: bool,
+    sheet: SheetDialog,
 }
 
 /// A question for the argument of a command.
@@ -66,6 +68,7 @@ impl Dialogs {
                 };
                 self.ask(ctx, &question, just_opened, commands);
             }
+            Some(Dialog::Sheet) => self.sheet.show(ctx, viewer, commands),
             None => {}
         }
     }
@@ -248,7 +251,7 @@ fn entry(ui: &mut Ui, spec: &CommandSpec, chosen: bool) -> egui::Response {
 /// What darkens the picture below a dialog.
 const BACKDROP: Color32 = Color32::from_black_alpha(90);
 
-fn modal(name: &'static str) -> Modal {
+pub(super) fn modal(name: &'static str) -> Modal {
     let id = Id::unique(name);
     Modal::new(id)
         .area(Modal::default_area(id).fade_in(false))

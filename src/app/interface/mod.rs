@@ -20,6 +20,7 @@ mod look;
 mod sampling;
 mod scenes;
 mod scrubber;
+mod sheet;
 mod status;
 mod twin;
 mod view_numbers;

@@ -6,6 +6,7 @@ use egui::{Align2, Color32, ColorImage, CornerRadius, FontId, Rect, RichText, Se
 use egui::{TextureOptions, Ui, Vec2, pos2, vec2};
 
 use super::controls::{command_button, heading};
+use crate::figure::shrunk;
 use crate::raster::Framebuffer;
 use crate::viewer::{Command, SceneEntry, Viewer};
 
@@ -56,9 +57,11 @@ impl Thumbnails {
         let thumbnail = slot.get_or_insert_with(|| Thumbnail {
             source: Arc::clone(source),
             room,
-            texture: ui
-                .ctx()
-                .load_texture(format!("scene {index}"), shrunk(source, room), TextureOptions::NEAREST),
+            texture: ui.ctx().load_texture(
+                format!("scene {index}"),
+                shrunk_image(source, room),
+                TextureOptions::NEAREST,
+            ),
         });
         &thumbnail.texture
     }
@@ -244,47 +247,17 @@ fn room(points: Vec2, scale: f32) -> [u32; 2] {
     [points.x, points.y].map(|side| (side * scale).clamp(1.0, 4096.0) as u32)
 }
 
-/// The picture over white, shrunk to fit `room` with its aspect kept; each pixel is the mean of those that it covers.
-fn shrunk(source: &Framebuffer, room: [u32; 2]) -> ColorImage {
-    let [width, height] = [source.width().max(1), source.height().max(1)];
-    let (w, h) = (u64::from(width), u64::from(height));
-    // The side that is tighter decides.
-    let [rw, rh] = room.map(u64::from);
-    let (to_w, to_h) = if w * rh > h * rw {
-        (rw, (h * rw / w).max(1))
-    } else {
-        ((w * rh / h).max(1), rh)
-    };
-    let (to_w, to_h) = (to_w.min(w), to_h.min(h));
-    let mut pixels = Vec::new();
-    for y in 0..to_h {
-        for x in 0..to_w {
-            pixels.push(mean(
-                source,
-                [x * w / to_w, (x + 1) * w / to_w],
-                [y * h / to_h, (y + 1) * h / to_h],
-            ));
-        }
-    }
-    let size = [to_w, to_h].map(|side| usize::try_from(side).unwrap_or(1));
-    ColorImage::new(size, pixels)
+/// The picture shrunk to fit `room`, for egui.
+fn shrunk_image(source: &Framebuffer, room: [u32; 2]) -> ColorImage {
+    image_of(&shrunk(source, room))
 }
 
-fn mean(source: &Framebuffer, columns: [u64; 2], rows: [u64; 2]) -> Color32 {
-    let mut sum = [0_u64; 3];
-    let mut count = 0;
-    for y in rows[0]..rows[1].max(rows[0] + 1) {
-        for x in columns[0]..columns[1].max(columns[0] + 1) {
-            let place = u32::try_from(x).ok().zip(u32::try_from(y).ok());
-            let Some([r, g, b, a]) = place.and_then(|(x, y)| source.rgba(x, y)) else {
-                continue;
-            };
-            for (sum, channel) in sum.iter_mut().zip([r, g, b]) {
-                *sum += (u64::from(channel) * u64::from(a) + 255 * (255 - u64::from(a))) / 255;
-            }
-            count += 1;
-        }
-    }
-    let [r, g, b] = sum.map(|sum| u8::try_from((sum + count / 2) / count.max(1)).unwrap_or(255));
-    Color32::from_rgb(r, g, b)
+/// An opaque picture, for egui.
+pub(super) fn image_of(picture: &Framebuffer) -> ColorImage {
+    let color = |pixel: &u32| {
+        let [_, r, g, b] = pixel.to_be_bytes();
+        Color32::from_rgb(r, g, b)
+    };
+    let size = [picture.width(), picture.height()].map(|side| side as usize);
+    ColorImage::new(size, picture.pixels().iter().map(color).collect())
 }

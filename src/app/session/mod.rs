@@ -344,6 +344,12 @@ impl Session {
         }
         let mut any = false;
         for command in asked.commands {
+            // The layout of a sheet's dialog tells its room in every pass.
+            if let Command::SetSheetRoom(room) = command
+                && !self.viewer.sheet_room_changes(room)
+            {
+                continue;
+            }
             if let Command::SetFreeArea(area) = command {
                 if self.free_area == area {
                     continue;

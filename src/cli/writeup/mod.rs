@@ -5,6 +5,7 @@ mod pins;
 
 use std::ffi::OsString;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -18,7 +19,7 @@ use super::recorded;
 use super::render::unwritable;
 use super::sheet;
 use crate::figure::{Figure, html, latex, markdown, save_files, save_recorded_png};
-use crate::viewer::PictureSpec;
+use crate::viewer::{PictureSpec, Sheet, caption_of};
 
 /// Draws of a panel of which the median time is told.
 const TIMED: usize = 7;
@@ -88,10 +89,9 @@ fn one(item: &Item, output: &Path, scenes: &Scenes<'_>, pins: &mut Pins) -> Resu
     }
     match parsed(&words, &scene)? {
         Verb::Sheet(options) => {
-            let mut sheet = sheet::draw(&options, output)?;
+            let sheet = sheet::draw(&options, output)?;
             let figure = sheet::write(&sheet, output)?;
-            // Last, since it draws over the insets.
-            let times = if item.timed { times(&mut sheet) } else { String::new() };
+            let times = if item.timed { times(&sheet) } else { String::new() };
             Ok(Figure {
                 caption: format!("{}{times}", figure.caption),
                 ..figure
@@ -103,7 +103,7 @@ fn one(item: &Item, output: &Path, scenes: &Scenes<'_>, pins: &mut Pins) -> Resu
 
 /// Draws and writes a single picture.
 fn render(spec: PictureSpec, output: &Path) -> Result<Figure, Failure> {
-    let caption = sheet::caption_of(&spec);
+    let caption = caption_of(&spec);
     let mut picture = Picture::read(spec)?;
     picture.draw_figure()?;
     let record = picture.record(output);
@@ -126,7 +126,7 @@ fn parsed(words: &[String], scene: &str) -> Result<Verb, Failure> {
 fn spec_of(words: &[String], scene: &str) -> Result<PictureSpec, Failure> {
     match parsed(words, scene)? {
         Verb::Render(options) => Ok(recorded::spec_of_render(&options)),
-        Verb::Sheet(options) => sheet::spec(&options),
+        Verb::Sheet(options) => sheet::spec(&options).map_err(Failure::Input),
         _ => Err(Failure::other("a figure is a picture or a sheet")),
     }
 }
@@ -134,7 +134,8 @@ fn spec_of(words: &[String], scene: &str) -> Result<PictureSpec, Failure> {
 /// The picture with both settings that are compared.
 fn pair(spec: &PictureSpec, compared: [&[&str]; 2]) -> Result<[PictureSpec; 2], Failure> {
     let with = |words: &[&str]| {
-        let sampling = arguments::sampling_of(words.iter().map(|word| (*word).to_owned()))?;
+        let words = words.iter().map(|word| (*word).to_owned());
+        let sampling = arguments::sampling_of(words).map_err(Failure::Input)?;
         Ok(PictureSpec {
             render: sampling.settings(spec.view),
             insets: Vec::new(),
@@ -145,12 +146,13 @@ fn pair(spec: &PictureSpec, compared: [&[&str]; 2]) -> Result<[PictureSpec; 2], 
 }
 
 /// How long the panels take, as a sentence: of this machine, and therefore not on the picture.
-fn times(sheet: &mut sheet::Sheet) -> String {
-    let told = sheet.panels_mut().map(|(words, picture)| {
+fn times(sheet: &Sheet) -> String {
+    let told = sheet.panels.iter().map(|panel| {
+        let mut picture = Picture::of(panel.spec.clone(), Arc::clone(&panel.scene));
         let mut times: Vec<Duration> = (0..TIMED).map(|_| picture.draw().total()).collect();
         times.sort_unstable();
         let median = times.get(TIMED / 2).copied().unwrap_or_default();
-        format!("{words} {:.1} ms", median.as_secs_f64() * 1000.0)
+        format!("{} {:.1} ms", panel.words, median.as_secs_f64() * 1000.0)
     });
     let told: Vec<String> = told.collect();
     let threads = rayon::current_num_threads();

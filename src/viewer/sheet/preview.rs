@@ -1,0 +1,72 @@
+//! The preview of a sheet: drawn by its command line in a thread, as large as there is room.
+
+use std::io;
+use std::path::Path;
+
+use super::{KnownScene, ReadSheet, SheetRequest};
+use crate::figure::shrunk;
+use crate::raster::Framebuffer;
+use crate::viewer::background::{Mailbox, guarded};
+use crate::viewer::latest::Latest;
+use crate::viewer::state::Finished;
+
+/// The state of previews.
+pub(in crate::viewer) type Previews = Latest<SheetQuestion, Result<SheetPreview, String>>;
+
+/// The sheet that a preview is wanted of.
+#[derive(Clone, Debug)]
+pub(in crate::viewer) struct SheetQuestion {
+    pub(super) words: Vec<String>,
+    pub(super) read: ReadSheet,
+    pub(super) known: KnownScene,
+    pub(super) room: [u32; 2],
+}
+
+/// A sheet as it will be.
+#[derive(Clone, Debug)]
+pub struct SheetPreview {
+    /// The sheet, made smaller where there is not room for all of it. Opaque.
+    pub picture: Framebuffer,
+    /// Width and height of the sheet itself, in pixels.
+    pub size: [u32; 2],
+    /// How many panels it has.
+    pub panels: usize,
+}
+
+impl PartialEq for SheetQuestion {
+    fn eq(&self, other: &Self) -> bool {
+        let known = |question: &Self| (question.known.document, question.known.dialect);
+        self.words == other.words && self.room == other.room && known(self) == known(other)
+    }
+}
+
+/// Starts the thread that draws previews.
+pub(in crate::viewer) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Previews> {
+    let mailbox = mailbox.clone();
+    Latest::start("sheet", move |question: SheetQuestion| {
+        let drawn = guarded(|| question.preview());
+        let drawn = drawn.unwrap_or_else(|| Err("drawing this sheet failed inside the program".to_owned()));
+        mailbox.post(Finished::SheetDrawn(question, Box::new(drawn)));
+    })
+}
+
+impl SheetQuestion {
+    /// What the words ask for.
+    pub(super) fn request(&self) -> Result<SheetRequest, String> {
+        (self.read)(&self.words)
+    }
+
+    fn preview(&self) -> Result<SheetPreview, String> {
+        let request = self.request()?;
+        let first = request.first().cloned().ok_or("a sheet without panels")?;
+        let sheet = request.draw(
+            &mut |dialect| self.known.read_in(dialect, &first),
+            Path::new("sheet.png"),
+        )?;
+        Ok(SheetPreview {
+            size: [sheet.picture.width(), sheet.picture.height()],
+            panels: sheet.panels.len(),
+            picture: shrunk(&sheet.picture, self.room),
+        })
+    }
+}

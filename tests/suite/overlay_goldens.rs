@@ -20,7 +20,7 @@ struct Case {
     steps: &'static str,
 }
 
-const CASES: [Case; 14] = [
+const CASES: [Case; 15] = [
     Case {
         name: "overlay_panel_dark",
         size: [800, 600],
@@ -119,6 +119,13 @@ const CASES: [Case; 14] = [
         theme: Theme::Light,
         steps: "key Ctrl+G; type 7; key Enter",
     },
+    Case {
+        name: "overlay_sheet",
+        size: [800, 500],
+        scale: 1.0,
+        theme: Theme::Light,
+        steps: "panel off; pin 300,178; magnification 8; explanation off; sheet; sheet-rows pattern grid,r2; move 2,2",
+    },
 ];
 
 fn picture(case: &Case, folder: &Path) -> Framebuffer {
@@ -136,6 +143,7 @@ fn picture_of(document: PathBuf, case: &Case, folder: &Path) -> Framebuffer {
         theme: Some(case.theme),
         script: Some(ScriptSource::Text(steps)),
         headless: true,
+        grammar: Some(rasterscope::cli::GRAMMAR),
         ..ViewOptions::default()
     })
     .unwrap();

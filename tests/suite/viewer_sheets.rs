@@ -133,7 +133,7 @@ fn pages_show_the_same_part_and_the_pinned_place() {
     let mut session = session([160, 120]);
     say(&mut session, "view", "100,50,2,0");
     say(&mut session, "pin", "40,30");
-    for (panels, width) in [("page", 1890), ("300x200", 670)] {
+    for (panels, width) in [("page", 1890), ("300x200", 630)] {
         say(&mut session, "sheet-panels", panels);
         say(&mut session, "sheet-columns", "sample-rate 1,16");
         say(&mut session, "save-sheet", "");
@@ -252,7 +252,7 @@ fn sheets_by_a_script_of_the_program() {
     let script = "sheet-columns level-sampling zero,linear; sheet-panels 120x90; save-sheet";
     let arguments = [
         "view",
-        "gallery:texmap/test4",
+        "gallery:texmap/test4.svg",
         "--headless",
         "--size=200x150",
         "--screenshot-name=T5",

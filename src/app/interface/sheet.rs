@@ -14,6 +14,8 @@ use crate::viewer::{Axis, Command, PanelSize, SheetChange, SheetPreview, SheetSi
 const CONTROLS: f32 = 272.0;
 /// What the window keeps free around the dialog, in points.
 const AROUND: Vec2 = vec2(32.0, 48.0);
+/// Height of a message of several lines, in points.
+const MESSAGE: f32 = 64.0;
 /// Least side of the preview, in points.
 const LEAST: f32 = 96.0;
 
@@ -58,7 +60,7 @@ impl SheetDialog {
             ui.set_width(size.x);
             let height = (size.y - 24.0).max(LEAST);
             ui.set_height(height);
-            // A narrow window has the preview below.
+            // A narrow window has room for the controls alone.
             if size.x >= CONTROLS + 2.0 * LEAST {
                 ui.horizontal_top(|ui| {
                     ui.allocate_ui_with_layout(vec2(CONTROLS, height), Layout::top_down(Align::Min), |ui| {
@@ -79,7 +81,9 @@ impl SheetDialog {
 
     fn controls(&mut self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         ui.heading("Sheet");
-        let below = 2.0 * CONTROL.y + 24.0;
+        // The dialog lies over the messages of the window.
+        let told = viewer.messages().last().map(|message| message.text.as_str());
+        let below = 2.0 * CONTROL.y + 24.0 + if told.is_some() { MESSAGE } else { 0.0 };
         let room = (ui.available_height() - below).max(LEAST);
         ScrollArea::vertical()
             .id_salt("sheet controls")
@@ -92,7 +96,12 @@ impl SheetDialog {
                 self.panels(ui, viewer, commands);
                 words(ui, viewer, commands);
             });
-        ui.with_layout(Layout::bottom_up(Align::Min), |ui| buttons(ui, commands));
+        ui.with_layout(Layout::bottom_up(Align::Min), |ui| {
+            buttons(ui, commands);
+            if let Some(told) = told {
+                ui.add(egui::Label::new(RichText::new(told).small()).wrap());
+            }
+        });
     }
 
     /// What differs on a side, and by which values.
@@ -229,7 +238,7 @@ impl SheetDialog {
         commands.push(Command::SetSheetRoom(device_size(room, scale)));
         ui.allocate_ui_with_layout(ui.available_size(), Layout::top_down(Align::Min), |ui| {
             let (area, _) = ui.allocate_exact_size(room, egui::Sense::hover());
-            ui.painter().rect_filled(area, 4.0, ui.visuals().extreme_bg_color);
+            ui.painter().rect_filled(area, 4.0, ui.visuals().faint_bg_color);
             let (line, color) = match viewer.sheet_preview() {
                 None if viewer.current().is_some_and(|entry| entry.failure().is_some()) => {
                     ("no scene to draw".to_owned(), ui.visuals().weak_text_color())
@@ -316,7 +325,7 @@ fn words(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 /// What can be done with the sheet; from below.
 fn buttons(ui: &mut Ui, commands: &mut Vec<Command>) {
     let mut button = |ui: &mut Ui, id: &str, text: &str, width: f32| {
-        let response = ui.add(Button::new(text).min_size(vec2(width, CONTROL.y)));
+        let response = ui.add_sized([width, CONTROL.y], Button::new(text));
         let response = response.on_hover_text(tip(id));
         if response.clicked() {
             commands.extend(commands::find(id).and_then(|spec| spec.command().cloned()));

@@ -4,7 +4,7 @@ use super::drawing::framing_words;
 use super::{Axis, AxisLists, SheetRequest};
 use crate::figure::{Ground, InsetSpec};
 use crate::geometry::View;
-use crate::viewer::{PictureSpec, SceneSource, as_path};
+use crate::viewer::{PictureSpec, as_path};
 
 /// A sheet of the current scene as it is being put together: settings that are not axes are those of the picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -147,10 +147,7 @@ impl SheetDraft {
     /// The words of the `sheet` command that writes `output`, without the program's name: every panel as `panel`, but for the
     /// axes.
     pub(super) fn arguments(&self, panel: &PictureSpec, inset: Option<InsetSpec>, output: &str) -> Vec<String> {
-        let scene = match &panel.scene {
-            SceneSource::File(_) => as_path(&panel.scene.address()),
-            SceneSource::Gallery(_) => panel.scene.address(),
-        };
+        let scene = as_path(&panel.scene.address());
         let mut words = vec!["sheet".to_owned(), scene, "-o".to_owned(), as_path(output)];
         let axes = self.axes();
         words.extend(axes.words());

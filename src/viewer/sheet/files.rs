@@ -3,12 +3,15 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::Sheet;
 use super::captions::title;
+use super::{Panel, Sheet};
 use crate::figure::{Figure, encode_png, html, latex, markdown, save_files};
 
 /// A file or folder that could not be written, and why.
 pub type Unwritable = (PathBuf, io::Error);
+
+/// Names and contents.
+type Files = Vec<(PathBuf, Vec<u8>)>;
 
 impl Sheet {
     /// Writes all files of the sheet, or none, replacing those that were there; gives what documents say about it, from the
@@ -17,13 +20,25 @@ impl Sheet {
     /// # Errors
     /// When one cannot be written.
     pub fn save(&self, output: &Path) -> Result<Figure, Unwritable> {
+        let folder = output.with_extension("");
+        // Before the rest: records tell the way from there to the scene.
+        let made = make_folder(&folder).map_err(|error| (folder.clone(), error))?;
+        let (whole, files) = self.files(output, &folder).inspect_err(|_| remove(made, &folder))?;
+        save_files(&files).map_err(|error| {
+            remove(made, &folder);
+            (output.to_owned(), error)
+        })?;
+        Ok(whole)
+    }
+
+    /// What documents say about the sheet, and all its files.
+    fn files(&self, output: &Path, folder: &Path) -> Result<(Figure, Files), Unwritable> {
         let at = |path: &Path| {
             let path = path.to_owned();
             move |error| (path, error)
         };
-        let folder = output.with_extension("");
-        let whole_bytes = encode_png(&self.picture, Some(&self.record)).map_err(at(output))?;
-        let mut files = vec![(output.to_owned(), whole_bytes)];
+        let bytes = encode_png(&self.picture, Some(&self.record)).map_err(at(output))?;
+        let mut files = vec![(output.to_owned(), bytes)];
         let name = output.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let whole = Figure {
             file: name,
@@ -39,31 +54,38 @@ impl Sheet {
             let name = panel_name(number, &panel.words);
             let path = folder.join(&name);
             let record = panel.spec.record(&panel.scene, &path);
-            let scene = title(&panel.spec.scene);
-            let said = if panel.words.is_empty() {
-                scene
-            } else {
-                format!("{scene}, {}", panel.words)
-            };
-            figures.push(Figure {
-                file: name,
-                caption: format!("{said}."),
-                alternative: format!("The scene {said}."),
-                command_line: record.command_line.clone(),
-            });
             let bytes = encode_png(&panel.frame, Some(&record)).map_err(at(&path))?;
+            figures.push(panel.figure(name, record.command_line));
             files.push((path, bytes));
         }
-        files.extend(snippets(&folder, &whole.file, &figures));
-        let made = make_folder(&folder).map_err(at(&folder))?;
-        save_files(&files).map_err(|error| {
-            if made {
-                // Only a folder that this made, and only while it is empty.
-                let _ = std::fs::remove_dir(&folder);
-            }
-            (output.to_owned(), error)
-        })?;
-        Ok(whole)
+        files.extend(snippets(folder, &whole.file, &figures));
+        Ok((whole, files))
+    }
+}
+
+impl Panel {
+    /// What documents say about the panel alone.
+    fn figure(&self, file: String, command_line: String) -> Figure {
+        let scene = title(&self.spec.scene);
+        let said = if self.words.is_empty() {
+            scene
+        } else {
+            format!("{scene}, {}", self.words)
+        };
+        Figure {
+            file,
+            caption: format!("{said}."),
+            alternative: format!("The scene {said}."),
+            command_line,
+        }
+    }
+}
+
+/// Removes a folder that this `made`, while it is empty.
+fn remove(made: bool, folder: &Path) {
+    if made {
+        // The first error is the one to tell.
+        let _ = std::fs::remove_dir(folder);
     }
 }
 

@@ -1,0 +1,77 @@
+//! A disk that is full: one clear line, and no half file. A limit of a file's size makes a write fail as a full disk does,
+//! after some of it went through.
+
+#![cfg(unix)]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use crate::support::refusal::assert_refused;
+
+/// Runs the program where no file may grow beyond `blocks` of 512 bytes.
+fn run_with_room(blocks: u32, folder: &Path, arguments: &[&str]) -> Output {
+    // The signal that comes with the error would end the program.
+    let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
+    let mut command = Command::new("sh");
+    command
+        .args(["-c", &script, "sh", env!("CARGO_BIN_EXE_rasterscope")])
+        .args(arguments)
+        .current_dir(folder)
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY");
+    command.output().expect("a shell")
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn full_disk_leaves_no_half_file() {
+    let scene = "gallery:texmap/test4.svg";
+    let size = "--size=400x400";
+    let commands: [&[&str]; 4] = [
+        &["render", scene, "-o", "out.png", size],
+        &["sheet", scene, "-o", "out.png", "--sample-rate=1,4", size],
+        &["lesson", "lesson:anisotropy", "--slides", "out", "--size=480x300"],
+        &["writeup", "course", "-o", "out"],
+    ];
+    for arguments in commands {
+        let folder = tempfile::tempdir().unwrap();
+        let output = run_with_room(64, folder.path(), arguments);
+        assert_refused(&output, arguments, &["out", "cannot"]);
+        let mut folders = vec![folder.path().to_owned()];
+        while let Some(folder) = folders.pop() {
+            for name in names(&folder) {
+                let path = folder.join(&name);
+                if path.is_dir() {
+                    folders.push(path);
+                    continue;
+                }
+                assert!(!name.starts_with('.'), "{arguments:?} left {name}");
+                // What was finished before, such as the scenes of a write-up, is whole.
+                let is_whole = name.ends_with("svg") || image::open(&path).is_ok();
+                assert!(is_whole, "{arguments:?} left half of {name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn full_disk_keeps_what_was_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = ["render", "gallery:texmap/test4.svg", "-o", "out.png", "--size=400x400"];
+    fs::write(folder.path().join("out.png"), "before").unwrap();
+    let output = run_with_room(64, folder.path(), &arguments);
+    assert_refused(&output, &arguments, &["out.png", "cannot"]);
+    assert_eq!(names(folder.path()), ["out.png"], "nothing else");
+    assert_eq!(fs::read(folder.path().join("out.png")).unwrap(), b"before", "unchanged");
+    let room = run_with_room(20_000, folder.path(), &arguments);
+    assert!(room.status.success(), "with room for it: {room:?}");
+}

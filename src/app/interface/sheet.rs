@@ -14,8 +14,6 @@ use crate::viewer::{Axis, Command, PanelSize, SheetChange, SheetPreview, SheetSi
 const CONTROLS: f32 = 272.0;
 /// What the window keeps free around the dialog, in points.
 const AROUND: Vec2 = vec2(32.0, 48.0);
-/// Height of a message of several lines, in points.
-const MESSAGE: f32 = 64.0;
 /// Least side of the preview, in points.
 const LEAST: f32 = 96.0;
 
@@ -81,13 +79,10 @@ impl SheetDialog {
 
     fn controls(&mut self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         ui.heading("Sheet");
-        // The dialog lies over the messages of the window.
-        let told = viewer.messages().last().map(|message| message.text.as_str());
-        let below = 2.0 * CONTROL.y + 24.0 + if told.is_some() { MESSAGE } else { 0.0 };
-        let room = (ui.available_height() - below).max(LEAST);
+        // Above the rest: the window's messages lie over what is below.
+        buttons(ui, commands);
         ScrollArea::vertical()
             .id_salt("sheet controls")
-            .max_height(room)
             .auto_shrink(false)
             .show(ui, |ui| {
                 for side in SheetSide::ALL {
@@ -96,12 +91,6 @@ impl SheetDialog {
                 self.panels(ui, viewer, commands);
                 words(ui, viewer, commands);
             });
-        ui.with_layout(Layout::bottom_up(Align::Min), |ui| {
-            buttons(ui, commands);
-            if let Some(told) = told {
-                ui.add(egui::Label::new(RichText::new(told).small()).wrap());
-            }
-        });
     }
 
     /// What differs on a side, and by which values.
@@ -239,18 +228,28 @@ impl SheetDialog {
         ui.allocate_ui_with_layout(ui.available_size(), Layout::top_down(Align::Min), |ui| {
             let (area, _) = ui.allocate_exact_size(room, egui::Sense::hover());
             ui.painter().rect_filled(area, 4.0, ui.visuals().faint_bg_color);
-            let (line, color) = match viewer.sheet_preview() {
-                None if viewer.current().is_some_and(|entry| entry.failure().is_some()) => {
-                    ("no scene to draw".to_owned(), ui.visuals().weak_text_color())
+            let weak = ui.visuals().weak_text_color();
+            let told = |ui: &mut Ui, text: &str, color: Color32| {
+                let label = egui::Label::new(RichText::new(text).color(color)).wrap();
+                ui.put(area.shrink(12.0), label);
+            };
+            let line = match viewer.sheet_preview() {
+                None => {
+                    let failed = viewer.current().is_none_or(|entry| entry.failure().is_some());
+                    told(ui, if failed { "no scene to draw" } else { "drawing …" }, weak);
+                    String::new()
                 }
-                None => ("drawing …".to_owned(), ui.visuals().weak_text_color()),
-                Some((Err(problem), _)) => (problem.clone(), ui.visuals().warn_fg_color),
+                Some((Err(problem), _)) => {
+                    told(ui, problem, ui.visuals().warn_fg_color);
+                    String::new()
+                }
                 Some((Ok(preview), stale)) => {
                     self.picture(ui, area, viewer.sheet_preview_number(), preview);
-                    (size_words(preview, stale), ui.visuals().weak_text_color())
+                    size_words(preview, stale)
                 }
             };
-            ui.add(egui::Label::new(RichText::new(line).small().color(color)).wrap());
+            // One line, so that the dialog keeps its height.
+            ui.add(egui::Label::new(RichText::new(line).small().color(weak)).truncate());
         });
     }
 
@@ -322,7 +321,7 @@ fn words(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     }
 }
 
-/// What can be done with the sheet; from below.
+/// What can be done with the sheet.
 fn buttons(ui: &mut Ui, commands: &mut Vec<Command>) {
     let mut button = |ui: &mut Ui, id: &str, text: &str, width: f32| {
         let response = ui.add_sized([width, CONTROL.y], Button::new(text));

@@ -288,6 +288,16 @@ impl Resolver {
         self.count
     }
 
+    /// What is added to the sums of opaque samples before they are shifted.
+    pub fn half(&self) -> u32 {
+        self.half
+    }
+
+    /// By how much sums of opaque samples are shifted to become bytes, where their number allows that.
+    pub fn shift(&self) -> Option<u32> {
+        self.shift
+    }
+
     /// As [`Resolver::pixel`] for sums in pairs: red and green, blue and alpha, the former in the lower 32 bits of each.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]

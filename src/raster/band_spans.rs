@@ -1,6 +1,7 @@
 //! What outlines enclose in one row of tiles, found once for all its tiles.
 
 use super::display_list::Chunk;
+use super::four;
 use super::outline::{RowScanner, RowSpans, SpanStore, Stored};
 use super::pixel_row::{PixelRow, each_pixel_row, each_pixel_row_of_spans, scaled};
 use super::rows::Span;
@@ -60,6 +61,18 @@ impl BandSpans {
             Shape::Outline(chunk, index) => {
                 let side = self.settings.0.side();
                 each_pixel_row_of_spans(self.of_outline(chunk, index, rect.y), side, rect, paint);
+            }
+        }
+    }
+
+    /// As [`BandSpans::each_pixel_row`] where a pixel has 4 x 4 samples, without a call for each row.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "what paints is to be seen by the compiler")]
+    pub(crate) fn each_row_of_four(&mut self, shape: Shape<'_>, rect: PixelRect, paint: impl FnMut(&PixelRow<'_>)) {
+        match shape {
+            Shape::Triangle(corners) => four::each_row_of_triangle(*corners, self.settings, rect, paint),
+            Shape::Outline(chunk, index) => {
+                four::each_row_of_spans(self.of_outline(chunk, index, rect.y), rect, paint);
             }
         }
     }

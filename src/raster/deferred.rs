@@ -6,9 +6,12 @@
 
 use std::time::{Duration, Instant};
 
+use fearless_simd::{Simd, dispatch};
+
 use super::band_spans::{BandSpans, Shape};
 use super::display_list::Chunk;
 use super::entry::{Entry, Work};
+use super::four;
 use super::fragments::{Fragment, Part, Unresolved};
 use super::pixel_block::PixelBlock;
 use super::pixel_row::each_pixel_row_of_few;
@@ -16,8 +19,9 @@ use super::shade::{Pixels, ShadeContext, Shader};
 use super::slots::{Shaded, SlotColor, Slots, Spread};
 use super::small::SmallCoverage;
 use super::tile::PixelRect;
-use super::visibility::{MAX_SLOTS, PAIR, Pair, Run, Slot, VisibilityTile, lanes, splat};
+use super::visibility::{BLOCK, Block, MAX_SLOTS, PAIR, Pair, Run, Slot, VisibilityTile, lanes, splat};
 use crate::color::{Premultiplied16, Resolver};
+use crate::simd;
 use crate::texture::SampleGrid;
 
 /// Paints tiles in which only opaque primitives are shaded, one after the other, reusing its memory.
@@ -56,7 +60,10 @@ impl<'a> DeferredPainter<'a> {
             resolver: Resolver::new(side * side, context.sampling.rules),
             layers: vec![VisibilityTile::new(context.grid.side())],
             depth: 1,
-            slots: Slots::new(context.sampling.rules),
+            slots: Slots::new(
+                context.sampling.rules,
+                Resolver::new(side * side, context.sampling.rules),
+            ),
             unresolved: Unresolved::default(),
             shading: Shading::default(),
             samples_shaded: 0,
@@ -98,9 +105,7 @@ impl<'a> DeferredPainter<'a> {
         self.unresolved.clear();
         let PixelRect { x, y } = self.layers[0].rect;
         if !self.slots.any_shaded {
-            for y in y.start..y.end {
-                self.resolve_flat_row(y, block.line(y));
-            }
+            dispatch!(simd::level(), simd => resolve_flat(simd, self, block));
             return Duration::ZERO;
         }
         for (y, row) in (y.start..y.end).zip(0..) {
@@ -141,6 +146,8 @@ impl<'a> DeferredPainter<'a> {
         let tile = &mut self.layers[self.depth - 1];
         if entry.covers_tile() {
             tile.cover(slot);
+        } else if self.context.grid.side() == four::SIDE {
+            dispatch!(simd::level(), simd => opaque_four(simd, (shape, bands), tile, slot));
         } else {
             bands.each_pixel_row(shape, tile.rect, |row| tile.paint(row, slot));
         }
@@ -151,6 +158,8 @@ impl<'a> DeferredPainter<'a> {
         slots.next_paint();
         if entry.covers_tile() {
             tile.change_all(|slot| slots.under(slot, color));
+        } else if self.context.grid.side() == four::SIDE {
+            dispatch!(simd::level(), simd => translucent_four(simd, (shape, bands), tile, (slots, color)));
         } else {
             bands.each_pixel_row(shape, tile.rect, |row| {
                 tile.change(row, |slot| slots.under(slot, color));
@@ -236,37 +245,80 @@ impl<'a> DeferredPainter<'a> {
     }
 
     /// Resolves a row in which nothing is to be shaded.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     fn resolve_flat_row(&self, y: i32, line: &mut [u32]) {
-        const BLOCK: usize = 8;
-        let (shown, pairs) = (self.layers[0].row(y), self.layers[0].pairs(y));
-        let shared = |slot: Slot, x: usize| match pairs.get(x) {
-            Some(pair) if slot == PAIR => pair_sum(*pair, &self.slots, self.resolver.count()),
-            _ => flat_sum(&self.layers[0], &self.slots, x, y),
+        let (whole, rest) = line.as_chunks_mut::<BLOCK>();
+        let blocks = whole.len();
+        for ((i, block), pixels) in self.layers[0].blocks(y).enumerate().zip(whole) {
+            self.resolve_block(block, (i, y), pixels);
+        }
+        // The frame's right end.
+        if let Some(block) = self.layers[0].blocks(y).nth(blocks) {
+            let mut pixels = [0; BLOCK];
+            self.resolve_block(block, (blocks, y), &mut pixels);
+            rest.copy_from_slice(&pixels[..rest.len()]);
+        }
+    }
+
+    /// Resolves the block in which nothing is to be shaded, number `i` of row `y`.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a few instructions for every block of pixels")]
+    fn resolve_block(&self, block: Block<'_>, (i, y): (usize, i32), pixels: &mut [u32; BLOCK]) {
+        let Block { shown, shared, pairs } = block;
+        if shared == 0 && *shown == [shown[0]; BLOCK] {
+            *pixels = [self.slots.get(shown[0]).pixel; BLOCK];
+            return;
+        }
+        let Some(known) = self.slots.known() else {
+            return self.resolve_of_many(block, (i, y), pixels);
         };
-        for ((shown, pixels), x) in shown
-            .chunks(BLOCK)
-            .zip(line.chunks_mut(BLOCK))
-            .zip((0..).step_by(BLOCK))
-        {
-            let first = shown[0];
-            if let Ok(pixels) = <&mut [u32; BLOCK]>::try_from(&mut *pixels)
-                && usize::from(first) < MAX_SLOTS
-                && *shown == [first; BLOCK]
+        // Which pixels are shared nobody can foresee; what these get here is written over.
+        for (slot, pixel) in shown.iter().zip(&mut *pixels) {
+            *pixel = known.pixel(*slot);
+        }
+        let mut rest = u32::from(shared);
+        while rest != 0 {
+            let at = rest.trailing_zeros() as usize % BLOCK;
+            rest &= rest - 1;
+            if shown[at] == PAIR
+                && let Some(pair) = pairs.get(at)
             {
-                *pixels = [self.slots.get(first).pixel; BLOCK];
-                continue;
-            }
-            // Which pixels are shared nobody can foresee, so that a branch for each would cost more than the rest.
-            let (mut later, mut count) = ([0; BLOCK], 0);
-            for (i, (slot, pixel)) in shown.iter().zip(&mut *pixels).enumerate() {
-                *pixel = self.slots.get_or_last(*slot).pixel;
-                later[count] = i;
-                count += usize::from(usize::from(*slot) >= MAX_SLOTS);
-            }
-            for i in &later[..count] {
-                pixels[*i] = self.resolver.pixel_of_halves(shared(shown[*i], x + i));
+                let of_second = count(pair.mask);
+                pixels[at] = match known.mixed(pair.first, pair.second, of_second) {
+                    Some(pixel) => pixel,
+                    None => self.resolver.pixel_of_halves(self.pair_sum(*pair, of_second)),
+                };
+            } else if usize::from(shown[at]) > MAX_SLOTS {
+                pixels[at] = self.resolve_split(i * BLOCK + at, y);
             }
         }
+    }
+
+    /// As [`DeferredPainter::resolve_block`] where there are many slots.
+    #[cold]
+    fn resolve_of_many(&self, Block { shown, pairs, .. }: Block<'_>, (i, y): (usize, i32), pixels: &mut [u32; BLOCK]) {
+        for (at, (slot, pixel)) in shown.iter().zip(pixels).enumerate() {
+            *pixel = match pairs.get(at) {
+                _ if usize::from(*slot) < MAX_SLOTS => self.slots.get(*slot).pixel,
+                Some(pair) if *slot == PAIR => self.resolver.pixel_of_halves(self.pair_sum(*pair, count(pair.mask))),
+                _ => self.resolve_split(i * BLOCK + at, y),
+            };
+        }
+    }
+
+    /// The pixel in column `x` of the tile and row `y`, which is split and all flat.
+    #[inline(never)]
+    fn resolve_split(&self, x: usize, y: i32) -> u32 {
+        self.resolver
+            .pixel_of_halves(flat_sum(&self.layers[0], &self.slots, x, y))
+    }
+
+    /// The sum of the samples of a pixel that shows two flat colours, `of_second` times the second one.
+    #[inline]
+    fn pair_sum(&self, pair: Pair, of_second: u32) -> [u64; 2] {
+        let [first, second] = [pair.first, pair.second].map(|slot| self.slots.get(slot).spread);
+        first.mixed(self.resolver.count(), second, of_second)
     }
 
     /// Resolves what is flat, and notes what is to be shaded.
@@ -291,7 +343,8 @@ impl<'a> DeferredPainter<'a> {
                             .iter()
                             .all(|slot| slots.get(*slot).shaded.is_none())
                         {
-                            let sum = pair_sum(*pair, slots, self.resolver.count());
+                            let [first, second] = [pair.first, pair.second].map(|slot| slots.get(slot).spread);
+                            let sum = first.mixed(self.resolver.count(), second, count(pair.mask));
                             line[usize::from(x)] = self.resolver.pixel_of_halves(sum);
                         } else {
                             let parts = [(pair.first, 0, tile.all() & !pair.mask), (pair.second, 0, pair.mask)];
@@ -351,6 +404,60 @@ impl<'a> DeferredPainter<'a> {
             }
         }
     }
+}
+
+/// Lets the samples of a shape show `slot`, where a pixel has 4 x 4 samples.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn opaque_four<S: Simd>(simd: S, (shape, bands): (Shape<'_>, &mut BandSpans), tile: &mut VisibilityTile, slot: Slot) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            bands.each_row_of_four(
+                shape,
+                tile.rect,
+                #[inline(always)]
+                |row| tile.paint_four(row, slot),
+            );
+        },
+    );
+}
+
+/// Paints a translucent colour over the samples of a shape, where a pixel has 4 x 4 samples.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn translucent_four<S: Simd>(
+    simd: S,
+    (shape, bands): (Shape<'_>, &mut BandSpans),
+    tile: &mut VisibilityTile,
+    (slots, color): (&mut Slots<'_>, Premultiplied16),
+) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            bands.each_row_of_four(
+                shape,
+                tile.rect,
+                #[inline(always)]
+                |row| tile.change_four(row, |slot| slots.under(slot, color)),
+            );
+        },
+    );
+}
+
+/// Resolves a tile in which nothing is to be shaded.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn resolve_flat<S: Simd>(simd: S, painter: &DeferredPainter<'_>, block: &mut PixelBlock<'_>) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let rows = block.rect.y;
+            for y in rows.start..rows.end {
+                painter.resolve_flat_row(y, block.line(y));
+            }
+        },
+    );
 }
 
 impl SlotColor<'_> {
@@ -419,21 +526,17 @@ impl Shading {
     }
 }
 
-/// The sum of the `count` samples of a pixel that shows two flat colours.
+/// How many samples of a pixel a mask holds.
 #[inline]
-fn pair_sum(pair: Pair, slots: &Slots<'_>, count: u32) -> [u64; 2] {
-    let of_second = match u16::try_from(pair.mask) {
+fn count(mask: u64) -> u32 {
+    match u16::try_from(mask) {
         // Faster than counting bits, for which not every machine has an instruction.
         Ok(mask) => {
             let [low, high] = mask.to_le_bytes();
             ONES[usize::from(low)] + ONES[usize::from(high)]
         }
-        Err(_) => pair.mask.count_ones(),
-    };
-    let mut sum = Spread::default();
-    sum.add(slots.get(pair.first).spread, count - of_second);
-    sum.add(slots.get(pair.second).spread, of_second);
-    sum.halves()
+        Err(_) => mask.count_ones(),
+    }
 }
 
 /// How many bits of each byte are set.

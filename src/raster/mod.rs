@@ -13,6 +13,7 @@ mod direct;
 mod display_list;
 mod entry;
 mod explain;
+mod four;
 mod fragments;
 mod framebuffer;
 mod hairline;

@@ -320,15 +320,16 @@ impl RowScanner {
                     end: (*a).max(*b) >> 1,
                 };
                 if (*a ^ *b) & 1 != 0 {
-                    if !span.is_empty() {
-                        store.spans.push(span);
-                    }
+                    store.spans.push(if span.is_empty() { Span::EMPTY } else { span });
                     continue;
                 }
             }
             crossings.sort_unstable();
             enclosed(crossings, rule, end, &mut store.spans);
-            single &= store.spans.len() - before <= 1;
+            match store.spans.len() - before {
+                0 => store.spans.push(Span::EMPTY),
+                found => single &= found == 1,
+            }
         }
         single
     }
@@ -420,7 +421,14 @@ impl SpanStore {
 }
 
 impl RowSpans<'_> {
-    /// The spans of one of the rows, from left to right.
+    /// The spans of some of the rows, row by row.
+    #[inline]
+    pub(crate) fn of_rows(&self, start: i32, end: i32) -> &[Span] {
+        let [start, end] = [start, end].map(|row| place(row - self.rows.start));
+        &self.spans[self.starts[start] as usize..self.starts[end] as usize]
+    }
+
+    /// The spans of one of the rows, from left to right; a single empty one where there are none.
     #[inline]
     pub(crate) fn of_row(&self, row: i32) -> &[Span] {
         let row = place(row - self.rows.start);

@@ -1,6 +1,7 @@
 //! The whole way from chunks to pixels: bins, tiles in parallel, resolve.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
@@ -224,23 +225,40 @@ impl<'a> DisplayList<'a> {
             let pass = self.pass(&plan, group, cancelled);
             times.bin += start.elapsed();
             let start = Instant::now();
-            frame
-                .pixels_mut()
-                .par_chunks_mut(row_pixels)
+            let rows = (frame.pixels_mut().chunks_mut(row_pixels))
                 .zip(0..self.context.tiles.rows)
                 .skip(group.start.cast_unsigned() as usize)
-                .take((group.end - group.start).cast_unsigned() as usize)
-                .with_max_len(1)
-                .for_each_init(
-                    || self.painters(),
-                    |painters, (pixels, row)| self.tile_row(&pass, painters, row, pixels),
-                );
+                .take((group.end - group.start).cast_unsigned() as usize);
+            self.tile_rows(&pass, rows);
             times.painted(start.elapsed(), &pass.tally.total());
             if cancelled.load(Ordering::Relaxed) {
                 return None;
             }
         }
         Some(times)
+    }
+
+    /// Paints and resolves rows of tiles, each with its number; every thread takes the next one that is left.
+    fn tile_rows<'f>(&self, pass: &Pass<'_>, rows: impl ExactSizeIterator<Item = (&'f mut [u32], u32)> + Send) {
+        let threads = rayon::current_num_threads().min(rows.len());
+        let rows = Mutex::new(rows);
+        let next = || rows.lock().unwrap_or_else(PoisonError::into_inner).next();
+        // Painters are dear: one set for each thread that comes in time.
+        let work = || {
+            if let Some((pixels, row)) = next() {
+                let mut painters = self.painters();
+                self.tile_row(pass, &mut painters, row, pixels);
+                while let Some((pixels, row)) = next() {
+                    self.tile_row(pass, &mut painters, row, pixels);
+                }
+            }
+        };
+        rayon::in_place_scope(|scope| {
+            for _ in 1..threads {
+                scope.spawn(|_| work());
+            }
+            work();
+        });
     }
 
     pub(super) fn background(&self) -> Premultiplied16 {

@@ -27,7 +27,7 @@ pub(crate) struct SortedTriangle {
 }
 
 /// Walks a triangle's sample rows from top to bottom.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct RowWalker {
     left: EdgeWalker,
     right: EdgeWalker,
@@ -45,6 +45,19 @@ impl Span {
     pub(crate) fn is_empty(self) -> bool {
         self.start >= self.end
     }
+
+    /// A row without samples: in a union or an intersection of rows it has no say about the one, and empties the other.
+    /// Far enough from the ends of the numbers that columns of a frame may be added.
+    pub(crate) const EMPTY: Self = Self {
+        start: i32::MAX / 2,
+        end: i32::MIN / 2,
+    };
+
+    /// The seed of an intersection.
+    const EVERYTHING: Self = Self {
+        start: i32::MIN,
+        end: i32::MAX,
+    };
 
     /// The seed of a union.
     pub(crate) const NOTHING: Self = Self {
@@ -133,9 +146,46 @@ impl SortedTriangle {
 }
 
 impl RowWalker {
+    /// The covered columns of as many rows as there is room in `spans`, within a frame or beyond; then stands below them.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub(crate) fn next_spans(&mut self, spans: &mut [Span]) {
+        if self.rules == Rules::Course {
+            for span in spans {
+                *span = self.next_span(Span::EVERYTHING);
+            }
+            return;
+        }
+        let end = self.row + i32::try_from(spans.len()).unwrap_or(i32::MAX);
+        let mut rest = spans;
+        if (self.row..end).contains(&self.switch) {
+            let (above, below) = rest.split_at_mut((self.switch - self.row).cast_unsigned() as usize);
+            self.run(above);
+            self.take_lower_edge();
+            rest = below;
+        }
+        self.run(rest);
+    }
+
+    /// As [`RowWalker::next_spans`] where no edge takes over.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn run(&mut self, spans: &mut [Span]) {
+        // One edge after the other: what both of them need does not fit the registers.
+        for span in &mut *spans {
+            span.start = self.left.at_or_after();
+            self.left.step();
+        }
+        for span in &mut *spans {
+            span.end = self.right.at_or_after();
+            self.right.step();
+        }
+        self.row += i32::try_from(spans.len()).unwrap_or(i32::MAX);
+    }
+
     /// As [`RowWalker::next_span`] for as many rows as there is room in `spans`.
     #[inline]
-    pub(crate) fn next_spans(&mut self, spans: &mut [Span], columns: Span) {
+    pub(crate) fn next_spans_within(&mut self, spans: &mut [Span], columns: Span) {
         let end = self.row + i32::try_from(spans.len()).unwrap_or(i32::MAX);
         if (self.row..end).contains(&self.switch) || self.rules == Rules::Course {
             for span in spans {
@@ -225,6 +275,13 @@ mod tests {
                 let all = Span { start: -2, end: 12 };
                 for start in [rows.start, (rows.start + 2).min(rows.end)] {
                     let mut walker = triangle.filter(|_| !rows.is_empty()).map(|t| t.walk_from(grid, start));
+                    let mut at_once = vec![Span::default(); (rows.end - start).max(0).unsigned_abs() as usize];
+                    if let Some(mut walker) = walker.clone() {
+                        let third = at_once.len() / 3;
+                        let (first, second) = at_once.split_at_mut(third);
+                        walker.next_spans(first);
+                        walker.next_spans(second);
+                    }
                     for row in start.max(-2)..12 {
                         let inside = row < rows.end && row >= start;
                         let span = walker
@@ -232,6 +289,10 @@ mod tests {
                             .filter(|_| inside)
                             .map(|w| w.next_span(all))
                             .unwrap_or_default();
+                        if walker.is_some() && inside {
+                            let at_once = at_once[(row - start).unsigned_abs() as usize].intersection(all);
+                            assert!(at_once == span || at_once.is_empty() && span.is_empty(), "row {row}");
+                        }
                         for column in all.start..all.end {
                             let sample = GridPoint {
                                 x: grid.sample_coordinate(column),

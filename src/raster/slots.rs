@@ -4,14 +4,41 @@
 
 use super::display_list::{Paint, ScreenTriangle};
 use super::visibility::{MAX_SLOTS, Slot};
-use crate::color::Premultiplied16;
+use crate::color::{Premultiplied16, Resolver};
 use crate::rules::Rules;
+
+/// How many slots have a place in [`Known`]: a power of two.
+const FIRST: usize = 1024;
+
+/// What is needed again and again of the first slots, side by side.
+#[derive(Debug)]
+pub(crate) struct Known {
+    resolver: Resolver,
+    /// What rounds a sum in three fields, and by how much it is to be shifted; where there are more samples than fit,
+    /// no slot is opaque here.
+    half: u64,
+    shift: Option<u32>,
+    pixels: Box<[u32; FIRST]>,
+    /// Red, green and blue in fields of [`FIELD`] bits, from the lowest; [`OTHER`] of what is not opaque.
+    fields: Box<[u64; FIRST]>,
+}
+
+/// Bits in which a channel's sum over [`MOST`] samples fits, rounded.
+const FIELD: u32 = 21;
+
+/// Most samples of a pixel that are summed up in fields.
+const MOST: u32 = 31;
+
+/// Stands for no fields: the bit above them.
+const OTHER: u64 = 1 << (3 * FIELD);
 
 /// What samples may show.
 #[derive(Debug)]
 pub(crate) struct Slots<'a> {
     rules: Rules,
     all: Vec<SlotColor<'a>>,
+    /// The first ones once more.
+    known: Known,
     /// For each slot what it became under the latest translucent paint, and which paint that was.
     painted: Vec<(u32, Slot)>,
     paint: u32,
@@ -47,10 +74,11 @@ pub(crate) struct Shaded<'a> {
 
 impl<'a> Slots<'a> {
     /// No slots.
-    pub(crate) fn new(rules: Rules) -> Self {
+    pub(crate) fn new(rules: Rules, resolver: Resolver) -> Self {
         Self {
             rules,
             all: Vec::new(),
+            known: Known::new(resolver),
             painted: Vec::new(),
             paint: 0,
             any_shaded: false,
@@ -76,10 +104,10 @@ impl<'a> Slots<'a> {
         &self.all[usize::from(slot)]
     }
 
-    /// As [`Slots::get`], or the newest where there is no such slot.
+    /// What is known of all slots; `None` where there are too many.
     #[inline]
-    pub(crate) fn get_or_last(&self, slot: Slot) -> &SlotColor<'a> {
-        &self.all[usize::from(slot).min(self.all.len() - 1)]
+    pub(crate) fn known(&self) -> Option<&Known> {
+        (self.all.len() <= FIRST).then_some(&self.known)
     }
 
     /// Whether each slot in use may become another one, and one more may come, without running out of numbers.
@@ -92,7 +120,7 @@ impl<'a> Slots<'a> {
     pub(crate) fn flat(&mut self, color: Premultiplied16) -> Slot {
         let newest = self.all.last();
         if newest.is_none_or(|newest| newest.flat != color || newest.shaded.is_some()) {
-            self.all.push(SlotColor {
+            self.push(SlotColor {
                 flat: color,
                 spread: Spread::new(color),
                 pixel: color.to_pixel(self.rules),
@@ -106,7 +134,7 @@ impl<'a> Slots<'a> {
     #[inline]
     pub(crate) fn shaded(&mut self, triangle: &'a ScreenTriangle, paint: &'a Paint) -> Slot {
         self.any_shaded = true;
-        self.all.push(SlotColor {
+        self.push(SlotColor {
             flat: Premultiplied16::TRANSPARENT,
             spread: Spread::default(),
             pixel: 0,
@@ -153,7 +181,7 @@ impl<'a> Slots<'a> {
                 shaded.kept = kept;
             }
         }
-        self.all.push(mixed);
+        self.push(mixed);
         self.newest()
     }
 
@@ -163,6 +191,7 @@ impl<'a> Slots<'a> {
         let mut kept = 0;
         for (old, number) in numbers.iter_mut().enumerate().filter(|(old, _)| used[*old]) {
             self.all[kept] = self.all[old];
+            self.known.set(kept, &self.all[kept]);
             *number = Slot::try_from(kept).unwrap_or(0);
             kept += 1;
         }
@@ -171,9 +200,64 @@ impl<'a> Slots<'a> {
         numbers
     }
 
+    #[inline]
+    fn push(&mut self, slot: SlotColor<'a>) {
+        self.known.set(self.all.len(), &slot);
+        self.all.push(slot);
+    }
+
     fn newest(&self) -> Slot {
         debug_assert!(self.all.len() <= MAX_SLOTS, "slots are made room for");
         Slot::try_from(self.all.len() - 1).unwrap_or(0)
+    }
+}
+
+impl Known {
+    fn new(resolver: Resolver) -> Self {
+        let shift = resolver.shift().filter(|_| resolver.count() <= MOST);
+        let half = u64::from(resolver.half());
+        Self {
+            resolver,
+            half: half | half << FIELD | half << (2 * FIELD),
+            shift,
+            pixels: Box::new([0; FIRST]),
+            fields: Box::new([OTHER; FIRST]),
+        }
+    }
+
+    #[inline]
+    fn set(&mut self, number: usize, slot: &SlotColor<'_>) {
+        self.pixels[number % FIRST] = slot.pixel;
+        let [r, g, b, _] = slot.flat.0.map(u64::from);
+        self.fields[number % FIRST] = if slot.flat.is_opaque() && self.shift.is_some() {
+            r | g << FIELD | b << (2 * FIELD)
+        } else {
+            OTHER
+        };
+    }
+
+    /// The pixel that shows nothing but the flat colour of a slot; any for a number that is none.
+    #[inline]
+    pub(crate) fn pixel(&self, slot: Slot) -> u32 {
+        self.pixels[usize::from(slot) % FIRST]
+    }
+
+    /// The pixel of which all samples show `first` but `of_second`, which show `second`; `None` unless both are opaque.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "fields of a number")]
+    pub(crate) fn mixed(&self, first: Slot, second: Slot, of_second: u32) -> Option<u32> {
+        let [first, second] = [first, second].map(|slot| self.fields[usize::from(slot) % FIRST]);
+        if (first | second) & OTHER != 0 {
+            return None;
+        }
+        // As a whole the difference may be below zero, the sum is not; no field overflows, and no mean exceeds 255.
+        let change = second.wrapping_sub(first).wrapping_mul(u64::from(of_second));
+        let sum = first
+            .wrapping_mul(u64::from(self.resolver.count()))
+            .wrapping_add(change);
+        let mean = (sum + self.half) >> self.shift?;
+        let field = |i: u32| (mean >> (i * FIELD)) as u32 & 0xFF;
+        Some(0xFF00_0000 | field(0) << 16 | field(1) << 8 | field(2))
     }
 }
 
@@ -200,6 +284,16 @@ impl Spread {
         self.0[1] += color.0[1];
     }
 
+    /// [`Spread::halves`] of the sum of `count` colours of which `of_other` are the other one.
+    #[inline]
+    pub(crate) fn mixed(self, count: u32, other: Self, of_other: u32) -> [u64; 2] {
+        // Modulo 2^64, in which the sum fits.
+        [0, 1].map(|i| {
+            let change = other.0[i].wrapping_sub(self.0[i]);
+            (self.0[i].wrapping_mul(u64::from(count))).wrapping_add(change.wrapping_mul(u64::from(of_other)))
+        })
+    }
+
     /// Red and green, blue and alpha; the former in the lower 32 bits of each.
     #[inline]
     pub(crate) fn halves(self) -> [u64; 2] {
@@ -222,5 +316,55 @@ impl SlotColor<'_> {
         let mut sum = Spread::default();
         sum.add(self.spread, count);
         sum.channels()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_mixed_in_fields_are_those_of_sums() {
+        arbtest::arbtest(|u| {
+            let rules = *u.choose(&Rules::ALL)?;
+            let side: u32 = u.int_in_range(1..=8)?;
+            let count = side * side;
+            let resolver = Resolver::new(count, rules);
+            let mut slots = Slots::new(rules, resolver);
+            let mut channel = || u.int_in_range(0..=Premultiplied16::ONE);
+            let mut color = || {
+                let alpha = if channel()? % 8 == 0 {
+                    channel()?
+                } else {
+                    Premultiplied16::ONE
+                };
+                let mut below = || Ok(channel()?.min(alpha));
+                Ok(Premultiplied16([below()?, below()?, below()?, alpha]))
+            };
+            let [first, second] = [color()?, color()?].map(|color| slots.flat(color));
+            for of_second in 0..=count {
+                let [a, b] = [first, second].map(|slot| slots.get(slot));
+                let sum = a.spread.mixed(count, b.spread, of_second);
+                let mut slowly = Spread::default();
+                slowly.add(a.spread, count - of_second);
+                slowly.add(b.spread, of_second);
+                assert_eq!(sum, slowly.halves(), "{a:?} and {of_second} of {count} times {b:?}");
+                let known = slots.known().expect("two slots");
+                assert_eq!(
+                    [first, second].map(|slot| known.pixel(slot)),
+                    [a.pixel, b.pixel],
+                    "whole"
+                );
+                let opaque = a.flat.is_opaque() && b.flat.is_opaque();
+                let expected = (opaque && [1, 4, 16].contains(&count)).then(|| resolver.pixel(slowly.channels()));
+                assert_eq!(
+                    known.mixed(first, second, of_second),
+                    expected,
+                    "{of_second} of {count}"
+                );
+            }
+            Ok(())
+        })
+        .budget_ms(200);
     }
 }

@@ -9,6 +9,7 @@
 
 use std::ops::Range;
 
+use super::four::{Ends, each_mask, fill};
 use super::pixel_row::PixelRow;
 use super::rows::Span;
 use super::tile::PixelRect;
@@ -24,6 +25,9 @@ pub(crate) const PAIR: Slot = Slot::MAX - 1;
 
 /// Most slots of a tile.
 pub(crate) const MAX_SLOTS: usize = PAIR as usize;
+
+/// Pixels of a block.
+pub(crate) const BLOCK: usize = 8;
 
 /// Most samples along the side of a pixel that may be a pair.
 const MAX_PAIR_SIDE: usize = 8;
@@ -56,6 +60,8 @@ const SPREAD_BITS: [u64; 16] = {
 pub(crate) struct VisibilityTile {
     pub(crate) rect: PixelRect,
     width: usize,
+    /// Distance between two rows of pixels: whole blocks.
+    stride: usize,
     /// Samples along one side of a pixel.
     side: usize,
     /// Words that one sample row of a pixel takes: four samples each, the last one perhaps with some to spare.
@@ -66,6 +72,8 @@ pub(crate) struct VisibilityTile {
     all: u64,
     /// One slot per pixel, or [`PAIR`], or [`SPLIT`].
     whole: Vec<Slot>,
+    /// For each block of pixels side by side a bit for each that was a pair or split once; it need not be any more.
+    shared: Vec<u8>,
     /// What pairs show, pixel by pixel.
     pairs: Vec<Pair>,
     /// The slots of split pixels, pixel by pixel. Allocated with the first split.
@@ -79,6 +87,17 @@ pub(crate) struct Pair {
     pub(crate) mask: u64,
     pub(crate) first: Slot,
     pub(crate) second: Slot,
+}
+
+/// Pixels side by side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Block<'a> {
+    /// What each shows; beyond the tile's right side something.
+    pub(crate) shown: &'a [Slot; BLOCK],
+    /// The pixels that may be pairs or split, a bit for each.
+    pub(crate) shared: u8,
+    /// What those show that are pairs; of no account for others. Empty where none may be.
+    pub(crate) pairs: &'a [Pair],
 }
 
 /// Which ends of spans may lie in a pixel.
@@ -107,6 +126,7 @@ impl VisibilityTile {
         Self {
             rect: PixelRect::NOTHING,
             width: 0,
+            stride: 0,
             side,
             words: side.div_ceil(PER_WORD),
             used: (0..side)
@@ -119,6 +139,7 @@ impl VisibilityTile {
                 0
             },
             whole: Vec::new(),
+            shared: Vec::new(),
             pairs: Vec::new(),
             samples: Vec::new(),
         }
@@ -129,8 +150,11 @@ impl VisibilityTile {
         let length = |span: Span| usize::try_from(span.end - span.start).unwrap_or(0);
         self.rect = rect;
         self.width = length(rect.x);
+        self.stride = self.width.next_multiple_of(BLOCK);
         self.whole.clear();
-        self.whole.resize(self.width * length(rect.y), slot);
+        self.whole.resize(self.stride * length(rect.y), slot);
+        self.shared.clear();
+        self.shared.resize(self.whole.len() / BLOCK, 0);
         if self.all != 0 && self.pairs.len() < self.whole.len() {
             self.pairs.resize(self.whole.len(), Pair::default());
         }
@@ -145,7 +169,7 @@ impl VisibilityTile {
     #[inline]
     pub(crate) fn paint(&mut self, row: &PixelRow<'_>, slot: Slot) {
         let left = self.rect.x.start;
-        let line = offset(self.rect.y.start, row.y) * self.width;
+        let line = offset(self.rect.y.start, row.y) * self.stride;
         if !row.full.is_empty() {
             self.whole[line + offset(left, row.full.start)..line + offset(left, row.full.end)].fill(slot);
         }
@@ -160,16 +184,42 @@ impl VisibilityTile {
             }
             return;
         }
-        match self.side {
-            // Known to the compiler, the commonest one is a third faster.
-            4 => self.paint_partial(4, row, line, slot),
-            side => self.paint_partial(side, row, line, slot),
+        self.paint_partial(self.side, row, line, slot);
+    }
+
+    /// As [`VisibilityTile::paint`] where a pixel has 4 x 4 samples.
+    #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "a call for each row of pixels would cost as much as the rest"
+    )]
+    pub(crate) fn paint_four(&mut self, row: &PixelRow<'_>, slot: Slot) {
+        let left = self.rect.x.start;
+        let line = offset(self.rect.y.start, row.y) * self.stride;
+        let (spans, xs) = (row.spans(), row.touched);
+        if row.full.is_empty() {
+            each_mask(spans, xs, Ends::Both, |x, covered| {
+                if covered != 0 {
+                    self.paint_samples(line + offset(left, x), covered, slot);
+                }
+            });
+            return;
         }
+        fill(
+            &mut self.whole[line + offset(left, row.full.start)..line + offset(left, row.full.end)],
+            slot,
+        );
+        // Beside pixels that are full, each holds some covered samples, and none holds all.
+        let (before, after) = row.beside_full();
+        each_mask(spans, before, Ends::Left, |x, covered| {
+            self.paint_samples(line + offset(left, x), covered, slot);
+        });
+        each_mask(spans, after, Ends::Right, |x, covered| {
+            self.paint_samples(line + offset(left, x), covered, slot);
+        });
     }
 
     /// Lets the samples of a row of pixels that is covered in part show `slot`; `line` is the index of its first pixel.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "faster where `side` is known")]
     fn paint_partial(&mut self, side: usize, row: &PixelRow<'_>, line: usize, slot: Slot) {
         let (left, spans) = (self.rect.x.start, row.spans());
         if row.full.is_empty() {
@@ -191,7 +241,8 @@ impl VisibilityTile {
     }
 
     /// Lets some samples of a pixel show `slot`, at least one and not all.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
     fn paint_samples(&mut self, pixel: usize, covered: u64, slot: Slot) {
         let shown = self.whole[pixel];
         if shown == slot {
@@ -200,7 +251,7 @@ impl VisibilityTile {
         if shown >= PAIR {
             return self.paint_shared(pixel, covered, slot);
         }
-        self.whole[pixel] = PAIR;
+        self.share(pixel, PAIR);
         self.pairs[pixel] = Pair {
             mask: covered,
             first: shown,
@@ -208,7 +259,16 @@ impl VisibilityTile {
         };
     }
 
+    /// Makes a pixel a [`PAIR`] or [`SPLIT`].
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
+    fn share(&mut self, pixel: usize, kind: Slot) {
+        self.whole[pixel] = kind;
+        self.shared[pixel / BLOCK] |= 1 << (pixel % BLOCK);
+    }
+
     /// As [`VisibilityTile::paint_samples`] where samples differ already.
+    #[inline(never)]
     fn paint_shared(&mut self, pixel: usize, covered: u64, slot: Slot) {
         if self.whole[pixel] == PAIR && self.paint_pair(pixel, covered, slot) {
             return;
@@ -284,7 +344,7 @@ impl VisibilityTile {
         } else if pair.mask == self.all {
             self.whole[pixel] = pair.second;
         } else {
-            self.whole[pixel] = PAIR;
+            self.share(pixel, PAIR);
             self.pairs[pixel] = pair;
         }
     }
@@ -292,26 +352,59 @@ impl VisibilityTile {
     /// Lets the samples that a row of pixels covers show what `change` makes of what they show.
     pub(crate) fn change(&mut self, row: &PixelRow<'_>, mut change: impl FnMut(Slot) -> Slot) {
         let left = self.rect.x.start;
-        let line = offset(self.rect.y.start, row.y) * self.width;
+        let line = offset(self.rect.y.start, row.y) * self.stride;
         self.change_whole(
             line + offset(left, row.full.start.min(row.full.end))..line + offset(left, row.full.end),
             &mut change,
         );
         for x in row.partial() {
-            let pixel = line + offset(left, x);
-            if self.whole[pixel] != SPLIT && self.all != 0 {
-                let covered = self.mask(x, row.spans());
-                if covered == 0 || self.change_pair(pixel, covered, &mut change) {
-                    continue;
-                }
-            }
-            self.split(pixel);
-            self.each_covered_word(pixel, x, row.spans(), |word, mask| {
-                if mask != 0 {
-                    *word = *word & !mask | changed(*word, mask, &mut change) & mask;
-                }
+            let covered = if self.all != 0 { self.mask(x, row.spans()) } else { 0 };
+            self.change_samples((line + offset(left, x), x), (covered, row.spans()), &mut change);
+        }
+    }
+
+    /// As [`VisibilityTile::change`] where a pixel has 4 x 4 samples.
+    #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "a call for each row of pixels would cost as much as the rest"
+    )]
+    pub(crate) fn change_four(&mut self, row: &PixelRow<'_>, mut change: impl FnMut(Slot) -> Slot) {
+        let left = self.rect.x.start;
+        let line = offset(self.rect.y.start, row.y) * self.stride;
+        if !row.full.is_empty() {
+            self.change_whole(
+                line + offset(left, row.full.start)..line + offset(left, row.full.end),
+                &mut change,
+            );
+        }
+        let (before, after) = row.beside_full();
+        for xs in [before, after] {
+            each_mask(row.spans(), xs, Ends::Both, |x, covered| {
+                self.change_samples((line + offset(left, x), x), (covered, row.spans()), &mut change);
             });
         }
+    }
+
+    /// Lets the samples that `spans` cover in a pixel, by its index and its column in the frame, show what `change` makes
+    /// of what they show; `covered` are their bits, if it may be a pair.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
+    fn change_samples(
+        &mut self,
+        (pixel, x): (usize, i32),
+        (covered, spans): (u64, &[Span]),
+        change: &mut impl FnMut(Slot) -> Slot,
+    ) {
+        if self.whole[pixel] != SPLIT && self.all != 0 && (covered == 0 || self.change_pair(pixel, covered, change)) {
+            return;
+        }
+        self.split(pixel);
+        self.each_covered_word(pixel, x, spans, |word, mask| {
+            if mask != 0 {
+                *word = *word & !mask | changed(*word, mask, change) & mask;
+            }
+        });
     }
 
     /// Lets samples of a pixel that is not split show what `change` makes of what they show; false, and nothing done,
@@ -365,7 +458,7 @@ impl VisibilityTile {
     /// The indices of pixels.
     #[inline]
     fn pixels(&self, xs: Span, y: i32) -> Range<usize> {
-        let line = offset(self.rect.y.start, y) * self.width;
+        let line = offset(self.rect.y.start, y) * self.stride;
         let left = self.rect.x.start;
         line + offset(left, xs.start)..line + offset(left, xs.end)
     }
@@ -480,7 +573,7 @@ impl VisibilityTile {
         };
         self.make_room();
         let per_pixel = self.side * self.words;
-        self.whole[pixel] = SPLIT;
+        self.share(pixel, SPLIT);
         for i in 0..per_pixel {
             self.samples[pixel * per_pixel + i] = self.word(pair, i);
         }
@@ -498,7 +591,7 @@ impl VisibilityTile {
     /// What each pixel of row `y` shows.
     #[inline]
     pub(crate) fn row(&self, y: i32) -> &[Slot] {
-        &self.whole[offset(self.rect.y.start, y) * self.width..][..self.width]
+        &self.whole[offset(self.rect.y.start, y) * self.stride..][..self.width]
     }
 
     /// The runs of row `y` from left to right, each with its range of pixels counted from the tile's left side.
@@ -520,13 +613,34 @@ impl VisibilityTile {
         })
     }
 
+    /// The blocks of row `y` from left to right.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub(crate) fn blocks(&self, y: i32) -> impl Iterator<Item = Block<'_>> {
+        let blocks = self.stride / BLOCK;
+        let first = offset(self.rect.y.start, y) * blocks;
+        let (shown, _) = self.whole[first * BLOCK..][..self.stride].as_chunks();
+        let pairs = if self.all == 0 {
+            &[]
+        } else {
+            &self.pairs[first * BLOCK..][..self.stride]
+        };
+        let (pairs, _) = pairs.as_chunks::<BLOCK>();
+        let shared = &self.shared[first..][..blocks];
+        shown.iter().zip(shared).enumerate().map(|(i, (shown, shared))| Block {
+            shown,
+            shared: *shared,
+            pairs: pairs.get(i).map_or(&[], |pairs| pairs),
+        })
+    }
+
     /// What the pixels of row `y` show that are pairs; of no account for others. Empty where none may be.
     #[inline]
     pub(crate) fn pairs(&self, y: i32) -> &[Pair] {
         if self.all == 0 {
             return &[];
         }
-        &self.pairs[offset(self.rect.y.start, y) * self.width..][..self.width]
+        &self.pairs[offset(self.rect.y.start, y) * self.stride..][..self.width]
     }
 
     /// The bits of all samples of a pixel that may be a pair.
@@ -561,7 +675,7 @@ impl VisibilityTile {
 
     #[inline]
     fn words(&self, x: usize, y: i32) -> &[u64] {
-        let pixel = offset(self.rect.y.start, y) * self.width + x;
+        let pixel = offset(self.rect.y.start, y) * self.stride + x;
         &self.samples[pixel * self.side * self.words..][..self.side * self.words]
     }
 
@@ -610,7 +724,6 @@ impl VisibilityTile {
 /// How many slots at the beginning of `line` are `slot`.
 #[inline]
 fn run_length(line: &[Slot], slot: Slot) -> usize {
-    const BLOCK: usize = 8;
     let mut length = 0;
     // Long runs in blocks, which compilers compare as one.
     for block in line.chunks_exact(BLOCK) {

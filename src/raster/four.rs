@@ -1,0 +1,295 @@
+//! Rows of pixels with 4 x 4 samples, the commonest rate above one: as in `pixel_row`, but with few instructions.
+//!
+//! Spans are not cut to the tile; only the pixels are. The samples of neighbouring pixels are cut out of one word per
+//! sample row, in which a window of fifteen pixels fits, so that nothing is clamped pixel by pixel.
+
+use super::outline::RowSpans;
+use super::pixel_row::{PixelRow, scaled};
+use super::rows::{SortedTriangle, Span};
+use super::tile::PixelRect;
+use super::visibility::Slot;
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::rules::Rules;
+
+/// Samples along one side of a pixel.
+pub(crate) const SIDE: i32 = 4;
+
+/// The same, as the number of sample rows.
+const ROWS: usize = SIDE as usize;
+
+/// Rows of pixels that a triangle is walked at once, and their sample rows.
+const BATCH: i32 = 4;
+const LINES: usize = BATCH as usize * ROWS;
+
+/// Pixels that are cut out of one word; a sixteenth would lie where clamped spans end.
+const WINDOW: i32 = 15;
+
+/// Which ends of spans may lie in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ends {
+    Left,
+    Right,
+    Both,
+}
+
+/// Calls `paint` for every row of pixels in `rect` of which the triangle covers any sample, from top to bottom.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "what paints is to be seen by the compiler")]
+pub(crate) fn each_row_of_triangle(
+    corners: [GridPoint; 3],
+    (grid, rules): (SubpixelGrid, Rules),
+    rect: PixelRect,
+    mut paint: impl FnMut(&PixelRow<'_>),
+) {
+    let Some(sorted) = SortedTriangle::new(corners, rules) else {
+        return;
+    };
+    let rows = sorted.rows(grid).intersection(scaled(rect.y, SIDE));
+    if rows.is_empty() {
+        return;
+    }
+    let mut walker = sorted.walk_from(grid, rows.start);
+    let mut lines = [Span::EMPTY; LINES];
+    let mut line = rows.start;
+    while line < rows.end {
+        // Rows of a frame are never negative.
+        let first = line >> 2;
+        let top = first * SIDE;
+        let end = rows.end.min(top + BATCH * SIDE);
+        let inside = |line: i32| ((line - top).cast_unsigned() as usize).min(LINES);
+        lines[..ROWS].fill(Span::EMPTY);
+        walker.next_spans(&mut lines[inside(line)..inside(end)]);
+        let last = inside(end).next_multiple_of(ROWS).min(LINES);
+        lines[inside(end)..last].fill(Span::EMPTY);
+        for (spans, y) in lines[..last].as_chunks::<ROWS>().0.iter().zip(first..) {
+            each(y, spans, rect.x, &mut paint);
+        }
+        line = end;
+    }
+}
+
+/// As [`each_row_of_triangle`] for an outline; a row of pixels in which a sample row has several spans comes several
+/// times, each time with one of them.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "what paints is to be seen by the compiler")]
+pub(crate) fn each_row_of_spans(spans: RowSpans<'_>, rect: PixelRect, mut paint: impl FnMut(&PixelRow<'_>)) {
+    let rows = spans.rows.intersection(scaled(rect.y, SIDE));
+    let columns = scaled(rect.x, SIDE);
+    let mut line = rows.start;
+    while line < rows.end {
+        let y = line >> 2;
+        let end = rows.end.min((y + 1) * SIDE);
+        let all = spans.of_rows(line, end);
+        let mut left: [&[Span]; ROWS] = [&[]; ROWS];
+        let (mut four, most) = match <&[Span; ROWS]>::try_from(all) {
+            Ok(four) if end - line == SIDE => (*four, 1),
+            _ => {
+                // Of each sample row the spans that reach into the rectangle.
+                for line in line..end {
+                    left[(line & 3).cast_unsigned() as usize] = reaching(spans.of_row(line), columns);
+                }
+                let [a, b, c, d] = left.map(<[Span]>::len);
+                (of_each(left, 0), a.max(b).max(c.max(d)))
+            }
+        };
+        for i in 1..=most {
+            each(y, &four, rect.x, &mut paint);
+            four = if i < most { of_each(left, i) } else { four };
+        }
+        line = end;
+    }
+}
+
+/// Of each sample row the span number `i`.
+#[inline]
+fn of_each(rows: [&[Span]; ROWS], i: usize) -> [Span; ROWS] {
+    rows.map(|spans| spans.get(i).copied().unwrap_or(Span::EMPTY))
+}
+
+/// Those of some spans that reach into `columns`, and perhaps a few others.
+#[inline]
+fn reaching(spans: &[Span], columns: Span) -> &[Span] {
+    const FEW: usize = 3;
+    if spans.len() <= FEW {
+        return spans;
+    }
+    let first = spans.partition_point(|span| span.end <= columns.start);
+    let end = first + spans[first..].partition_point(|span| span.start < columns.end);
+    &spans[first..end]
+}
+
+/// Calls `paint` with the row `y` of pixels that has these spans, if any of its pixels in `columns` is touched.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+fn each(y: i32, spans: &[Span; ROWS], columns: Span, paint: &mut impl FnMut(&PixelRow<'_>)) {
+    // The least and the greatest start and end, four numbers at a time.
+    let [a, b, c, d] = *spans;
+    let (ab, cd) = ([a.start, a.end, b.start, b.end], [c.start, c.end, d.start, d.end]);
+    let (mut least, mut most) = ([0; ROWS], [0; ROWS]);
+    for i in 0..ROWS {
+        least[i] = ab[i].min(cd[i]);
+        most[i] = ab[i].max(cd[i]);
+    }
+    let outer = Span {
+        start: least[0].min(least[2]) >> 2,
+        end: (most[1].max(most[3]) + 3) >> 2,
+    };
+    let touched = outer.intersection(columns);
+    if touched.is_empty() {
+        return;
+    }
+    let inner = Span {
+        start: (most[0].max(most[2]) + 3) >> 2,
+        end: least[1].min(least[3]) >> 2,
+    };
+    let full = inner.intersection(columns);
+    let full = if full.is_empty() {
+        Span {
+            start: touched.end,
+            end: touched.end,
+        }
+    } else {
+        full
+    };
+    paint(&PixelRow::of_parts(y, spans, touched, full));
+}
+
+/// Calls `visit` with each pixel from `xs.start` to `xs.end` and the bits of its samples that the spans of a row of
+/// pixels cover; `ends` says which ends of these may lie there.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "faster where `ends` is known")]
+pub(crate) fn each_mask(spans: &[Span], xs: Span, ends: Ends, mut visit: impl FnMut(i32, u64)) {
+    let Some(spans) = spans.first_chunk::<ROWS>() else {
+        return;
+    };
+    let mut x = xs.start;
+    while x < xs.end {
+        let end = xs.end.min(x + WINDOW);
+        let left = x * SIDE;
+        let mut rows = [0; ROWS];
+        for (row, span) in rows.iter_mut().zip(spans) {
+            *row = covered(*span, left, ends);
+        }
+        for x in x..end {
+            let [a, b, c, d] = rows;
+            visit(x, a & 0xF | (b & 0xF) << 4 | (c & 0xF) << 8 | (d & 0xF) << 12);
+            for row in &mut rows {
+                *row >>= 4;
+            }
+        }
+        x = end;
+    }
+}
+
+/// The bits of the samples from column `left` on that a span covers, as far as [`WINDOW`] pixels.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "faster where `ends` is known")]
+fn covered(span: Span, left: i32, ends: Ends) -> u64 {
+    // The bits from a column on.
+    let from = |column: i32| u64::MAX << (column - left).clamp(0, 63);
+    match ends {
+        Ends::Left => from(span.start),
+        Ends::Right => !from(span.end),
+        Ends::Both => from(span.start) & !from(span.end),
+    }
+}
+
+/// Lets all of some `slots`, mostly a few, be the same one.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+pub(crate) fn fill(slots: &mut [Slot], slot: Slot) {
+    match slots.len() {
+        0 => {}
+        1 => slots[0] = slot,
+        2..=3 => fill_ends::<2>(slots, slot),
+        4..=7 => fill_ends::<4>(slots, slot),
+        8..=16 => fill_ends::<8>(slots, slot),
+        17..=32 => fill_ends::<16>(slots, slot),
+        _ => slots.fill(slot),
+    }
+}
+
+/// Fills the first `N` slots and the last `N`, which may overlap: no loop, and no rest of one.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+fn fill_ends<const N: usize>(slots: &mut [Slot], slot: Slot) {
+    if let Some(first) = slots.first_chunk_mut::<N>() {
+        *first = [slot; N];
+    }
+    if let Some(last) = slots.last_chunk_mut::<N>() {
+        *last = [slot; N];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+
+    use super::*;
+
+    /// Columns around those of a tile of some pixels, more than fit a window.
+    fn span(u: &mut Unstructured<'_>) -> Result<Span> {
+        if u.ratio(1, 8)? {
+            return Ok(Span::EMPTY);
+        }
+        let start = u.int_in_range(-20..=180)?;
+        Ok(Span {
+            start,
+            end: start + u.int_in_range(0..=200)?,
+        })
+    }
+
+    #[test]
+    fn rows_of_pixels_hold_the_samples_of_their_spans() {
+        arbtest::arbtest(|u| {
+            let spans = [span(u)?, span(u)?, span(u)?, span(u)?];
+            let start = u.int_in_range(0..=9)?;
+            let columns = Span {
+                start,
+                end: start + u.int_in_range(1..=33)?,
+            };
+            let mut found = vec![0_u64; 64];
+            let place = |x: i32| usize::try_from(x).expect("in the tile");
+            each(7, &spans, columns, &mut |row: &PixelRow<'_>| {
+                assert_eq!(row.y, 7, "the row that was asked for");
+                assert_eq!(row.touched.intersection(columns), row.touched, "in the tile");
+                let mut add = |x: i32, mask| found[place(x)] |= mask;
+                (row.full.start..row.full.end).for_each(|x| add(x, 0xFFFF));
+                if row.full.is_empty() {
+                    each_mask(row.spans(), row.touched, Ends::Both, &mut add);
+                } else {
+                    let (before, after) = row.beside_full();
+                    each_mask(row.spans(), before, Ends::Left, |x, mask| {
+                        assert!(mask != 0 && mask != 0xFFFF, "covered in part");
+                        add(x, mask);
+                    });
+                    each_mask(row.spans(), after, Ends::Right, |x, mask| {
+                        assert!(mask != 0 && mask != 0xFFFF, "covered in part");
+                        add(x, mask);
+                    });
+                }
+            });
+            for (x, found) in (0..).zip(&found) {
+                let bit = |i: i32| {
+                    let Span { start, end } = spans[place(i / SIDE)];
+                    let inside = (start..end).contains(&(x * SIDE + i % SIDE));
+                    u64::from(inside && (columns.start..columns.end).contains(&x)) << i
+                };
+                let expected = (0..16).map(bit).sum::<u64>();
+                assert_eq!(*found, expected, "pixel {x} in {columns:?} of {spans:?}");
+            }
+            Ok(())
+        })
+        .budget_ms(300);
+    }
+
+    #[test]
+    fn slots_are_filled_from_end_to_end() {
+        for length in 0..70 {
+            let mut slots = vec![0; length + 2];
+            fill(&mut slots[1..=length], 9);
+            assert_eq!([slots[0], slots[length + 1]], [0, 0], "{length} and no more");
+            assert!(slots[1..=length].iter().all(|slot| *slot == 9), "{length} of them");
+        }
+    }
+}

@@ -142,18 +142,21 @@ pub fn draw_cancellable(
     frame: &mut Framebuffer,
     cancel: &CancelToken,
 ) -> Option<FrameStats> {
-    let start = Instant::now();
     let subject = Subject { scene, view, settings };
-    let list = display_list(&subject, [frame.width(), frame.height()]);
-    let transform = start.elapsed();
-    let times = list.rasterize(frame, &cancel.0)?;
-    Some(FrameStats {
-        transform,
-        bin: times.bin,
-        raster: times.raster,
-        resolve: times.resolve,
-        triangles: list.triangles(),
-        counters: times.counters,
+    // The way into the pool, which wakes a thread, is gone once for all steps.
+    rayon::scope(|_| {
+        let start = Instant::now();
+        let list = display_list(&subject, [frame.width(), frame.height()]);
+        let transform = start.elapsed();
+        let times = list.rasterize(frame, &cancel.0)?;
+        Some(FrameStats {
+            transform,
+            bin: times.bin,
+            raster: times.raster,
+            resolve: times.resolve,
+            triangles: list.triangles(),
+            counters: times.counters,
+        })
     })
 }
 

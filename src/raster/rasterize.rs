@@ -151,8 +151,10 @@ impl Kinds {
     fn of(chunks: &[Chunk], textures: &[&Texture], rules: Rules) -> Self {
         let layers = chunks.iter().any(Chunk::has_layers);
         let translucent = chunks.iter().any(|chunk| chunk.translucent);
+        // A few are looked at faster than another thread wakes up.
         let (shaded, shaded_opaque) = chunks
             .par_iter()
+            .with_min_len(8)
             .map(|chunk| {
                 let mut shaded = chunk
                     .paints

@@ -1,5 +1,9 @@
 //! A file dropped on the window, spoken as XDND: the protocol by which file managers do it.
 
+use std::path::Path;
+
+use rasterscope::raster::{Framebuffer, SampleRate};
+use rasterscope::viewer::{Command, ViewNumbers};
 use x11rb::connection::Connection as _;
 use x11rb::protocol::Event;
 use x11rb::protocol::xproto::{
@@ -9,12 +13,59 @@ use x11rb::protocol::xproto::{
 use x11rb::rust_connection::RustConnection;
 use x11rb::wrapper::ConnectionExt as _;
 
+use super::desktop::keysym;
 use super::program::{Program, flat, textured, until, viewed};
 
 #[test]
 fn drop_opens_the_scene() {
     let program = Program::start_bare(&flat());
     program.shows(&viewed(&flat(), &[]), "the first picture");
+    drop_file(&program, &textured());
+    program.shows(&viewed(&textured(), &[]), "the dropped scene");
+}
+
+#[test]
+fn drop_opens_the_lesson() {
+    let program = Program::start_bare(&flat());
+    program.shows(&viewed(&flat(), &[]), "the first picture");
+    let lesson = program.folder.path().join("lesson.toml");
+    let scene = textured();
+    let text = format!(
+        "title = 'Two steps'\n[[step]]\nscene = '{0}'\nsample-rate = 4\nview = '256,256,0.8'\ntext = 'One.'\n[[step]]\nscene = '{0}'\nview = '256,256,0.8'\ntext = 'Two.'\n",
+        scene.display()
+    );
+    std::fs::write(&lesson, text).unwrap();
+    drop_file(&program, &lesson);
+    let view = Command::SetView(ViewNumbers {
+        center: [256.0, 256.0].into(),
+        scale: 0.8,
+        rotation: 0.0,
+    });
+    let four = Command::SetSampleRate(SampleRate::new(4).unwrap());
+    let first = viewed(&scene, &[view.clone(), four]);
+    program.shows_somewhere(&beside_the_text(&first), "the first step, as its author meant it");
+    program.desktop.press(keysym::PAGE_DOWN, &[]);
+    let second = viewed(&scene, &[view]);
+    assert!(
+        beside_the_text(&first) != beside_the_text(&second),
+        "the steps can be told apart"
+    );
+    program.shows_somewhere(&beside_the_text(&second), "the second step");
+}
+
+/// The part of the picture that no panel covers, of a small window.
+fn beside_the_text(picture: &Framebuffer) -> Framebuffer {
+    let ([left, top], [width, height]) = ([320, 100], [160, 240]);
+    let mut part = Framebuffer::new(width, height);
+    for (y, row) in part.pixels_mut().chunks_exact_mut(width as usize).enumerate() {
+        let start = (top + y) * picture.width() as usize + left;
+        row.copy_from_slice(&picture.pixels()[start..start + row.len()]);
+    }
+    part
+}
+
+/// Drops a file in the window.
+fn drop_file(program: &Program, path: &Path) {
     let (x, root) = (&program.desktop.x, program.desktop.root);
     let atom = |name: &str| x.intern_atom(false, name.as_bytes()).unwrap().reply().unwrap().atom;
     let source = x.generate_id().unwrap();
@@ -41,7 +92,7 @@ fn drop_opens_the_scene() {
     };
     send("XdndEnter", [source, 5 << 24, uri_list, 0, 0]);
     send("XdndPosition", [source, 0, 0x0064_0064, 0, atom("XdndActionCopy")]);
-    let uri = format!("file://{}\r\n", textured().display());
+    let uri = format!("file://{}\r\n", path.display());
     let mut dropped = false;
     until("the transfer", || {
         match x.poll_for_event().unwrap()? {
@@ -55,7 +106,6 @@ fn drop_opens_the_scene() {
         }
         None
     });
-    program.shows(&viewed(&textured(), &[]), "the dropped scene");
 }
 
 /// Gives the file's address to who asked for it.

@@ -6,6 +6,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
 
+mod clipboard;
 mod compare;
 mod desktop;
 mod drop;

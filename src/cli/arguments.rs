@@ -159,6 +159,9 @@ pub(super) struct LessonOptions {
     /// Draw each step into a numbered PNG in this folder [size by default: 1600x900]
     #[arg(long, value_name = "DIR")]
     pub(super) slides: Option<PathBuf>,
+    /// Draw only this step, counted from 1
+    #[arg(long, value_name = "N", requires = "slides", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) step: Option<u32>,
     #[command(flatten)]
     pub(super) view: ViewerOptions,
 }

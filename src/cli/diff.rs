@@ -110,6 +110,32 @@ pub(super) fn run(options: &DiffOptions) -> Result<(), Failure> {
 }
 
 fn measure(options: &DiffOptions) -> Result<Report, Failure> {
+    with_pair(options, |pair, ours| {
+        let mut report = Report::new(pair, options);
+        if let Some(output) = &options.output {
+            report.picture = Some(save(pair, output, options)?);
+        }
+        if let Some(ours) = ours.filter(|_| report.differing_pixels > 0) {
+            let guess = compare::guess(&ours.subject(), pair.b(), &CancelToken::default());
+            report.guess = guess.map(|guess| GuessReport::new(&guess));
+        }
+        Ok(report)
+    })
+}
+
+/// The difference picture and its record, for the file `output`.
+pub(super) fn picture(options: &DiffOptions, output: &Path) -> Result<(Framebuffer, Record), Failure> {
+    with_pair(options, |pair, _| {
+        let (frame, _) = shown(pair, options);
+        Ok((frame, record(pair.size(), output, options)))
+    })
+}
+
+/// Hands over both pictures; and what was drawn for it, where A is a scene.
+fn with_pair<R>(
+    options: &DiffOptions,
+    work: impl FnOnce(Pair<'_>, Option<&Picture>) -> Result<R, Failure>,
+) -> Result<R, Failure> {
     let [first, second] = [&options.a, &options.b];
     if is_scene(second) {
         return Err(Failure::input(format!(
@@ -117,10 +143,15 @@ fn measure(options: &DiffOptions) -> Result<Report, Failure> {
             second.display()
         )));
     }
+    let b = Encoded::read(second)?;
     if is_scene(first) {
-        return measure_scene(options);
+        let mut ours = Picture::read(recorded::spec(first, &drawing(options, b.size)))?;
+        let theirs = b.decode(second)?;
+        ours.draw();
+        let pair = Pair::new(ours.frame(), &theirs).map_err(Failure::input)?;
+        return work(pair, Some(&ours));
     }
-    let (a, b) = (Encoded::read(first)?, Encoded::read(second)?);
+    let a = Encoded::read(first)?;
     if a.size != b.size {
         let (ours, theirs) = (b.size, a.size);
         return Err(Failure::input(format!(
@@ -134,28 +165,16 @@ fn measure(options: &DiffOptions) -> Result<Report, Failure> {
         )));
     }
     let (a, b) = (a.decode(first)?, b.decode(second)?);
-    let pair = Pair::new(&a, &b).map_err(Failure::input)?;
-    report(pair, options)
+    work(Pair::new(&a, &b).map_err(Failure::input)?, None)
 }
 
-/// Our drawing of a scene against a picture of it from elsewhere, with a guess at why they differ.
-fn measure_scene(options: &DiffOptions) -> Result<Report, Failure> {
-    let encoded = Encoded::read(&options.b)?;
-    let drawing = PictureOptions {
-        size: FrameSize(encoded.size),
+/// Our drawing of the scene that is A, as large as B.
+fn drawing(options: &DiffOptions, size: [u32; 2]) -> PictureOptions {
+    PictureOptions {
+        size: FrameSize(size),
         sampling: options.sampling.clone(),
         framing: options.framing.clone(),
-    };
-    let mut ours = Picture::read(recorded::spec(&options.a, &drawing))?;
-    let theirs = encoded.decode(&options.b)?;
-    ours.draw();
-    let pair = Pair::new(ours.frame(), &theirs).map_err(Failure::input)?;
-    let mut report = report(pair, options)?;
-    if report.differing_pixels > 0 {
-        let guess = compare::guess(&ours.subject(), &theirs, &CancelToken::default());
-        report.guess = guess.map(|guess| GuessReport::new(&guess));
     }
-    Ok(report)
 }
 
 /// Whether a path names a scene and no picture.
@@ -164,15 +183,6 @@ fn is_scene(path: &Path) -> bool {
         || path
             .extension()
             .is_some_and(|ending| ending.eq_ignore_ascii_case("svg"))
-}
-
-/// The numbers, and the picture where one is asked for.
-fn report(pair: Pair<'_>, options: &DiffOptions) -> Result<Report, Failure> {
-    let mut report = Report::new(pair, options);
-    if let Some(output) = &options.output {
-        report.picture = Some(draw(pair, output, options)?);
-    }
-    Ok(report)
 }
 
 /// The bytes of a picture that is not decoded yet, and its size.
@@ -201,8 +211,8 @@ fn unreadable(path: &Path, error: &dyn std::fmt::Display) -> Failure {
     ))
 }
 
-/// Saves the difference picture.
-fn draw(pair: Pair<'_>, output: &Path, options: &DiffOptions) -> Result<PictureReport, Failure> {
+/// The difference picture, and the gain that it has.
+fn shown(pair: Pair<'_>, options: &DiffOptions) -> (Framebuffer, f32) {
     let style = DifferenceStyle {
         measure: options.mode,
         gain: if options.normalize {
@@ -213,6 +223,12 @@ fn draw(pair: Pair<'_>, output: &Path, options: &DiffOptions) -> Result<PictureR
     };
     let mut frame = Framebuffer::default();
     let gain = pair.show(style, &mut frame);
+    (frame, gain)
+}
+
+/// Saves the difference picture.
+fn save(pair: Pair<'_>, output: &Path, options: &DiffOptions) -> Result<PictureReport, Failure> {
+    let (frame, gain) = shown(pair, options);
     let record = record(pair.size(), output, options);
     save_recorded_png(&frame, output, &record).map_err(|error| unwritable(output, &error))?;
     Ok(PictureReport {
@@ -238,13 +254,8 @@ fn record(size: [u32; 2], output: &Path, options: &DiffOptions) -> Record {
         words.push(format!("--gain={}", options.gain));
     }
     if is_scene(&options.a) {
-        let drawing = PictureOptions {
-            size: FrameSize(size),
-            sampling: options.sampling.clone(),
-            framing: options.framing.clone(),
-        };
         // The size is that of B.
-        words.extend(recorded::spec(&options.a, &drawing).options().drain(2..));
+        words.extend(recorded::spec(&options.a, &drawing(options, size)).options().drain(2..));
     }
     plain_record(words, size)
 }

@@ -7,7 +7,7 @@ use super::failure::{Failure, print, print_error};
 use super::picture::{Picture, on_threads};
 use super::recorded::{read_arguments, scene_path, verb_of};
 use super::render::{name_for_png, unwritable};
-use super::sheet;
+use super::{diff, lesson, sheet};
 use crate::compare;
 use crate::figure::{Record, save_recorded_png};
 use crate::raster::Framebuffer;
@@ -29,48 +29,60 @@ pub(super) fn run(options: &RerunOptions) -> Result<(), Failure> {
     if let Some(output) = &options.output {
         name_for_png(output)?;
     }
-    let restored = restored(options)?;
-    if let Some(differs) = &restored.record.differs {
+    let record = record_of(shot)?;
+    if let Some(differs) = &record.differs {
         let line = format!("{}: {differs}", shot.display());
         if options.check {
             return Err(Failure::input(format!(
                 "{line}; the command line is: {}",
-                restored.record.command_line
+                record.command_line
             )));
         }
         print_error(&line);
     }
-    let output = options.output.as_deref().unwrap_or(shot);
-    let again = on_threads(options.threads, || draw(&restored, output))??;
+    let verb = verb_of(&record.arguments).map_err(|error| at_fault(shot, &error))?;
+    let again = on_threads(options.threads, || draw(options, verb, &record))??;
     if options.check {
         return check(shot, &again);
     }
     if let Some(change) = &again.change {
         print_error(change);
     }
+    let output = options.output.as_deref().unwrap_or(shot);
     save_recorded_png(&again.frame, output, &again.record).map_err(|error| unwritable(output, &error))
 }
 
-/// The state that the picture tells, with the scene that the options name.
-fn restored(options: &RerunOptions) -> Result<Restored, Failure> {
-    let shot = options.shot.as_path();
-    let found = Restored::of_file(shot, read_arguments).map_err(Failure::Input)?;
-    let mut restored = found.ok_or_else(|| {
+/// What the picture tells.
+fn record_of(shot: &Path) -> Result<Record, Failure> {
+    let name = shot.display();
+    let found = Record::of_file(shot)
+        .map_err(|error| Failure::input(format!("{name}: {error}; give a PNG that rasterscope wrote")))?;
+    found.ok_or_else(|| {
         Failure::input(format!(
-            "{}: no record in this file; give a PNG that rasterscope wrote and no other program has changed",
-            shot.display()
+            "{name}: no record in this file; give a PNG that rasterscope wrote and no other program has changed"
         ))
-    })?;
-    if let Some(scene) = &options.scene {
-        restored.spec.scene = SceneSource::from_address(scene);
-    }
-    Ok(restored)
+    })
+}
+
+fn at_fault(shot: &Path, error: &str) -> Failure {
+    let name = shot.display();
+    Failure::input(format!(
+        "{name}: the command line in this picture is at fault: {error}; give a PNG that rasterscope wrote"
+    ))
 }
 
 /// Draws what the record tells, by the same code as the command that it names.
-fn draw(restored: &Restored, output: &Path) -> Result<Again, Failure> {
-    match verb_of(&restored.record.arguments).map_err(Failure::Input)? {
+fn draw(options: &RerunOptions, verb: Verb, record: &Record) -> Result<Again, Failure> {
+    let shot = options.shot.as_path();
+    let output = options.output.as_deref().unwrap_or(shot);
+    let alone = |(frame, record)| Again {
+        frame,
+        record,
+        change: None,
+    };
+    match verb {
         Verb::Render(_) => {
+            let restored = restored(options)?;
             let mut picture = Picture::read(restored.spec.clone())?;
             picture.draw_figure()?;
             Ok(Again {
@@ -79,24 +91,38 @@ fn draw(restored: &Restored, output: &Path) -> Result<Again, Failure> {
                 frame: picture.into_frame(),
             })
         }
-        Verb::Sheet(mut options) => {
-            options.scene = scene_path(restored);
-            let sheet = sheet::draw(&options, output)?;
+        Verb::Sheet(mut of_sheet) => {
+            let restored = restored(options)?;
+            of_sheet.scene = scene_path(&restored);
+            let sheet = sheet::draw(&of_sheet, output)?;
+            let files = sheet.panels.first().map(|panel| &panel.scene.files);
             Ok(Again {
-                change: sheet
-                    .panels
-                    .first()
-                    .and_then(|panel| restored.changes(&panel.scene.files)),
+                change: files.and_then(|files| restored.changes(files)),
                 record: sheet.record,
                 frame: sheet.picture,
             })
         }
+        Verb::Diff(of_diff) => diff::picture(&of_diff, output).map(alone),
+        Verb::Lesson(of_lesson) if of_lesson.slides.is_some() && of_lesson.step.is_some() => {
+            lesson::picture(&of_lesson).map(alone)
+        }
         _ => Err(Failure::input(format!(
-            "{}: this picture is not drawn of a scene alone; run its command line: {}",
-            restored.shot.display(),
-            restored.record.command_line
+            "{}: such a picture cannot be drawn again alone; run its command line: {}",
+            shot.display(),
+            record.command_line
         ))),
     }
+}
+
+/// The state that the picture tells, with the scene that the options name.
+fn restored(options: &RerunOptions) -> Result<Restored, Failure> {
+    let shot = options.shot.as_path();
+    let found = Restored::of_file(shot, read_arguments).map_err(Failure::Input)?;
+    let mut restored = found.ok_or_else(|| at_fault(shot, "it is gone"))?;
+    if let Some(scene) = &options.scene {
+        restored.spec.scene = SceneSource::from_address(scene);
+    }
+    Ok(restored)
 }
 
 /// Compares every pixel and says what was found.

@@ -41,6 +41,11 @@ impl<'f> Pair<'f> {
         [self.a.width(), self.a.height()]
     }
 
+    /// B itself.
+    pub fn b(self) -> &'f Framebuffer {
+        self.b
+    }
+
     /// B against A.
     #[must_use]
     pub fn swapped(self) -> Self {

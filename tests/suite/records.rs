@@ -138,7 +138,7 @@ fn rerun_refuses_what_tells_nothing() {
     refused(&["rerun", "plain.png", "--check"], &["plain.png", "no record", "give"]);
     refused(&["rerun", "missing.png", "--check"], &["missing.png"]);
     let hostile = [
-        (vec!["view", "--do", "shot /tmp/x.png"], "draws no scene"),
+        (vec!["view", "--do", "shot /tmp/x.png"], "drawn again"),
         (vec!["render", "a.svg", "-o", "b.png", "--size", "0x5"], "size"),
         (vec!["--help"], "help"),
         (vec![], "help"),
@@ -155,12 +155,69 @@ fn rerun_refuses_what_tells_nothing() {
         refused(&["rerun", "hostile.png", "--check"], &[word]);
     }
     done(work.path(), &["diff", "plain.png", "plain.png", "-o", "d.png"]);
-    refused(&["rerun", "d.png", "--check"], &["d.png"]);
     let told = record(&work.path().join("d.png"));
     assert_eq!(
         told.command_line, "rasterscope diff plain.png plain.png -o d.png --mode absolute --gain=1",
         "its own"
     );
+}
+
+#[test]
+fn rerun_draws_differences_and_slides_too() {
+    let work = workplace();
+    done(work.path(), &RENDER);
+    let said = |name: &str| run(work.path(), &["rerun", name, "--check", "--threads", "1"]);
+    let holds = |name: &str| {
+        let output = said(name);
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(
+            output.status.success() && text.contains("the same"),
+            "{name}: {output:?}"
+        );
+    };
+    // A drawing of the scene against its picture at another rate, and two pictures.
+    let diff = [
+        "diff",
+        "a.svg",
+        "out/a.png",
+        "-o",
+        "d.png",
+        "--gain=8",
+        "--sample-rate=1",
+    ];
+    assert_eq!(run(work.path(), &diff).status.code(), Some(1), "they differ");
+    holds("d.png");
+    done(
+        work.path(),
+        &["diff", "out/a.png", "out/a.png", "-o", "e.png", "--normalize"],
+    );
+    holds("e.png");
+    let slides = ["lesson", "lesson:anisotropy", "--slides", "s", "--size", "480x300"];
+    let text =
+        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lessons/anisotropy.toml")).unwrap();
+    let steps = text.matches("[[step]]").count();
+    done(work.path(), &[&slides[..], &["--step", "2"]].concat());
+    let names: Vec<_> = fs::read_dir(work.path().join("s"))
+        .unwrap()
+        .map(|item| item.unwrap().file_name())
+        .collect();
+    assert_eq!(names, ["02.png"], "of {steps} steps");
+    holds("s/02.png");
+    let told = record(&work.path().join("s/02.png"));
+    assert!(
+        told.command_line.ends_with(" --size 480x300 --step=2"),
+        "{}",
+        told.command_line
+    );
+    let refused = |more: &[&str], words: &[&str]| {
+        let arguments = [&slides[..], more].concat();
+        assert_refused(&run(work.path(), &arguments), &arguments, words);
+    };
+    refused(&["--step", "99"], &["step 99", &steps.to_string()]);
+    refused(&["--step", "0"], &["--step"]);
+    // What is compared changed.
+    fs::write(work.path().join("out/a.png"), texture(0xff00_00ff)).unwrap();
+    assert_eq!(said("e.png").status.code(), Some(1), "of another size now");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The steps of a lesson as slides: the words on the left, on the right the picture that the window shows.
 
 use std::io;
+use std::ops::RangeInclusive;
 
 use super::markdown::{Block, Look, Span};
 use super::{Lesson, LessonStep};
@@ -48,14 +49,15 @@ pub enum SlideError {
     },
 }
 
-/// Draws every step as a slide of `size` pixels and hands it to `take`, in their order.
+/// Draws the steps with these `numbers`, counted from 1, as slides of `size` pixels and hands each to `take` with its number.
 ///
 /// # Errors
 /// When a step cannot be drawn, or when `take` says so.
 pub fn slides<E: From<SlideError>>(
     lesson: &Lesson,
     size: [u32; 2],
-    mut take: impl FnMut(&Framebuffer) -> Result<(), E>,
+    numbers: RangeInclusive<usize>,
+    mut take: impl FnMut(usize, &Framebuffer) -> Result<(), E>,
 ) -> Result<(), E> {
     let layout = Layout::new(size);
     let options = ViewerOptions {
@@ -65,6 +67,9 @@ pub fn slides<E: From<SlideError>>(
     let mut viewer = Viewer::new(options).map_err(SlideError::from)?;
     viewer.show_lesson(lesson.clone());
     for (number, step) in lesson.steps.iter().enumerate() {
+        if !numbers.contains(&(number + 1)) {
+            continue;
+        }
         let _ = viewer.apply(Command::LessonStep(number));
         viewer.finish();
         if let Some(problem) = viewer.current().and_then(|entry| entry.failure()) {
@@ -88,7 +93,7 @@ pub fn slides<E: From<SlideError>>(
             let step = number + 1;
             return Err(SlideError::TextTooLong { step, width, height }.into());
         }
-        take(&slide)?;
+        take(number + 1, &slide)?;
     }
     Ok(())
 }

@@ -19,7 +19,70 @@ pub struct EdgeWalker {
     divisor: i64,
 }
 
+/// Four successive sample rows of an edge, stepped together: one vector of numbers on machines that have them.
+#[derive(Clone, Copy, Debug)]
+pub struct FourRows {
+    columns: [i32; 4],
+    excesses: [i64; 4],
+    /// What four rows down add.
+    column_step: i32,
+    excess_step: i64,
+    divisor: i64,
+}
+
+impl FourRows {
+    /// The first sample columns at or right of the edge in these rows.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub fn at_or_after(&self) -> [i32; 4] {
+        self.columns
+    }
+
+    /// Goes down four sample rows; as [`EdgeWalker::step`].
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub fn step(&mut self) {
+        for (column, excess) in self.columns.iter_mut().zip(&mut self.excesses) {
+            let rest = *excess - self.excess_step;
+            let borrow = rest >> 63;
+            *excess = rest + (self.divisor & borrow);
+            *column = column.wrapping_add(self.column_step).wrapping_sub(low_half(borrow));
+        }
+    }
+}
+
 impl EdgeWalker {
+    /// This row and the three below it.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub fn four_rows(&self) -> FourRows {
+        let (mut columns, mut excesses, mut row) = ([0; 4], [0; 4], *self);
+        for (column, excess) in columns.iter_mut().zip(&mut excesses) {
+            (*column, *excess) = (row.column, row.excess);
+            row.step();
+        }
+        // Four times a part of the divisor is less than four of it.
+        let (mut column_step, mut excess_step) = (self.column_step.wrapping_mul(4), 4 * self.excess_step);
+        for _ in 0..3 {
+            let whole = excess_step >= self.divisor;
+            column_step = column_step.wrapping_add(i32::from(whole));
+            excess_step -= if whole { self.divisor } else { 0 };
+        }
+        FourRows {
+            columns,
+            excesses,
+            column_step,
+            excess_step,
+            divisor: self.divisor,
+        }
+    }
+
+    /// Goes to the first of four rows of the same edge.
+    #[inline]
+    pub fn go_to(&mut self, rows: &FourRows) {
+        (self.column, self.excess) = (rows.columns[0], rows.excesses[0]);
+    }
+
     /// The edge from `top` to `bottom` (`top.y < bottom.y`), standing at sample row `row`.
     ///
     /// Column `i` lies at `(i + 1/2) << bits`, so the crossing `x = x0 + (y - y0) dx / dy` is column
@@ -197,6 +260,17 @@ mod tests {
                     value(after) < 0 && value(after - 1) >= 0,
                     "first column after the edge in row {row}"
                 );
+                let (mut four, mut below) = (walker.four_rows(), walker);
+                for _ in 0..2 {
+                    let mut far = below;
+                    far.go_to(&four);
+                    assert_eq!(far.excess, below.excess, "the first of four rows from {row} on");
+                    for column in four.at_or_after() {
+                        assert_eq!(column, below.at_or_after(), "four rows at once from row {row} on");
+                        below.step();
+                    }
+                    four.step();
+                }
                 walker.step();
             }
             Ok(())

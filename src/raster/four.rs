@@ -18,7 +18,7 @@ pub(crate) const SIDE: i32 = 4;
 const ROWS: usize = SIDE as usize;
 
 /// Rows of pixels that a triangle is walked at once, and their sample rows.
-const BATCH: i32 = 4;
+const BATCH: i32 = 32;
 const LINES: usize = BATCH as usize * ROWS;
 
 /// Pixels that are cut out of one word; a sixteenth would lie where clamped spans end.

@@ -171,13 +171,29 @@ impl RowWalker {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     fn run(&mut self, spans: &mut [Span]) {
-        // One edge after the other: what both of them need does not fit the registers.
-        for span in &mut *spans {
-            span.start = self.left.at_or_after();
-            self.left.step();
+        let (fours, rest) = spans.as_chunks_mut::<4>();
+        if !fours.is_empty() {
+            let (mut left, mut right) = (self.left.four_rows(), self.right.four_rows());
+            for four in fours {
+                let (starts, ends) = (left.at_or_after(), right.at_or_after());
+                for (i, span) in four.iter_mut().enumerate() {
+                    *span = Span {
+                        start: starts[i],
+                        end: ends[i],
+                    };
+                }
+                left.step();
+                right.step();
+            }
+            self.left.go_to(&left);
+            self.right.go_to(&right);
         }
-        for span in &mut *spans {
-            span.end = self.right.at_or_after();
+        for span in rest {
+            *span = Span {
+                start: self.left.at_or_after(),
+                end: self.right.at_or_after(),
+            };
+            self.left.step();
             self.right.step();
         }
         self.row += i32::try_from(spans.len()).unwrap_or(i32::MAX);

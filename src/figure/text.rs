@@ -243,9 +243,13 @@ fn broken(paragraph: &str, style: TextStyle, width: u32) -> Vec<String> {
         let (mut pen, mut last) = (0.0, None);
         for character in word.chars() {
             let advance = style.advance(last, character);
-            if !line.is_empty() && pen + advance > limit {
-                lines.push(std::mem::take(&mut line));
-                (pen, last) = (0.0, None);
+            while !line.is_empty() && pen + advance > limit {
+                // Behind a hyphen, if the line has one; else wherever it ends.
+                let rest = line
+                    .rfind('-')
+                    .map_or(String::new(), |hyphen| line.split_off(hyphen + 1));
+                lines.push(std::mem::replace(&mut line, rest));
+                (pen, last) = (style.advance_of(&line), line.chars().last());
             }
             pen += style.advance(last, character);
             line.push(character);
@@ -403,6 +407,9 @@ mod tests {
             "no need to break"
         );
         assert_eq!(TextBlock::new("", style, Some(9)).size(), [0, 21], "an empty line");
+        let hyphen = TextBlock::new("jittered-same", style, Some(80));
+        let lines: Vec<&str> = hyphen.lines().collect();
+        assert_eq!(lines, ["jittered-", "same"], "behind the hyphen");
     }
 
     #[test]

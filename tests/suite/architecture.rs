@@ -34,7 +34,7 @@ const ROOMS: &[Room] = &[
             "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry",
             "rules", "simd",
         ],
-        crates: &["winit", "softbuffer", "egui", "egui_winit"],
+        crates: &["winit", "softbuffer", "egui", "egui_winit", "fearless_simd"],
     },
     Room {
         name: "viewer",

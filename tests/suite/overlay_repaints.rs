@@ -3,7 +3,7 @@
 use arbtest::arbitrary::{Result, Unstructured};
 use egui::epaint::textures::TexturesDelta;
 use egui::{Context, Event, Modifiers, PointerButton, RawInput, Rect, Vec2, pos2, vec2};
-use rasterscope::app::overlay::{Output, Overlay};
+use rasterscope::app::overlay::{CanvasRect, Output, Overlay};
 
 const SIZE: [u32; 2] = [400, 300];
 
@@ -115,33 +115,35 @@ fn overlay_parts_are_the_bytes_of_a_full_repaint() {
     .budget_ms(3000);
 }
 
+/// A pass at this time; how many pixels were painted anew.
+fn painted(ctx: &Context, overlay: &mut Overlay, (time, at): (f64, egui::Pos2), ui: impl FnMut(&mut egui::Ui)) -> u32 {
+    let input = RawInput {
+        screen_rect: Some(Rect::from_min_size(pos2(0.0, 0.0), Vec2::new(400.0, 300.0))),
+        time: Some(time),
+        events: vec![Event::PointerMoved(at)],
+        focused: true,
+        ..RawInput::default()
+    };
+    let mut output = ctx.run_ui(input, ui);
+    let pixels_per_point = output.pixels_per_point;
+    let shapes = Output {
+        size: SIZE,
+        pixels_per_point,
+        shapes: output.shapes,
+    };
+    let tessellate = |shapes| ctx.tessellate(shapes, pixels_per_point);
+    let parts = overlay.paint(shapes, &mut output.textures_delta, tessellate);
+    let area = |part: &CanvasRect| (part.right - part.left) * (part.bottom - part.top);
+    parts.iter().map(area).sum()
+}
+
 #[test]
 fn overlay_repaints_little_for_a_hovered_widget() {
-    let (ctx, mut state) = (Context::default(), State::default());
-    let mut overlay = Overlay::default();
+    let (ctx, mut state, mut overlay) = (Context::default(), State::default(), Overlay::default());
     let mut areas = Vec::new();
-    for (pass, y) in [0.0, 0.0, 0.0, 200.0, 200.0, 222.0, 244.0, 244.0]
-        .into_iter()
-        .enumerate()
-    {
-        let input = RawInput {
-            screen_rect: Some(Rect::from_min_size(pos2(0.0, 0.0), Vec2::new(400.0, 300.0))),
-            time: Some(pass as f64),
-            events: vec![Event::PointerMoved(pos2(262.0, y))],
-            focused: true,
-            ..RawInput::default()
-        };
-        let mut output = ctx.run_ui(input, |ui| show(ui, &mut state));
-        let pixels_per_point = output.pixels_per_point;
-        let shapes = Output {
-            size: SIZE,
-            pixels_per_point,
-            shapes: output.shapes,
-        };
-        let tessellate = |shapes| ctx.tessellate(shapes, pixels_per_point);
-        let parts = overlay.paint(shapes, &mut output.textures_delta, tessellate);
-        let area = |part: &rasterscope::app::overlay::CanvasRect| (part.right - part.left) * (part.bottom - part.top);
-        areas.push(parts.iter().map(area).sum::<u32>());
+    for (pass, y) in (0_u8..).zip([0.0, 0.0, 0.0, 200.0, 200.0, 222.0, 244.0, 244.0]) {
+        let now = (f64::from(pass), pos2(262.0, y));
+        areas.push(painted(&ctx, &mut overlay, now, |ui| show(ui, &mut state)));
     }
     assert_eq!(areas[0], 400 * 300, "everything at first");
     for (pass, area) in areas.iter().enumerate().skip(4) {
@@ -151,4 +153,49 @@ fn overlay_repaints_little_for_a_hovered_widget() {
         areas[5] > 0 && areas[7] == 0,
         "another row, then nothing new: {areas:?}"
     );
+}
+
+/// A popup fades in, and its frame comes together with a shadow.
+#[test]
+fn overlay_repaints_little_for_a_popup() {
+    let (ctx, mut state, mut overlay) = (Context::default(), State::default(), Overlay::default());
+    let mut areas = Vec::new();
+    for pass in 0_u8..30 {
+        let now = (f64::from(pass) / 30.0, pos2(0.0, 0.0));
+        areas.push(painted(&ctx, &mut overlay, now, |ui| {
+            show(ui, &mut state);
+            let popup = egui::Area::new(egui::Id::unique("popup")).fixed_pos(pos2(20.0, 200.0));
+            popup.show(ui.ctx(), |ui| {
+                ui.multiply_opacity(f32::from(pass) / 30.0);
+                egui::Frame::popup(ui.style()).show(ui, |ui| ui.label("popup"));
+            });
+        }));
+    }
+    let later = &areas[4..];
+    assert!(later.iter().all(|area| *area > 0), "every step shows: {areas:?}");
+    assert!(later.iter().all(|area| *area < 400 * 300 / 8), "{areas:?}");
+}
+
+/// New letters make the font's texture larger: those that are there stay as they are.
+#[test]
+fn overlay_repaints_little_for_new_letters() {
+    let (ctx, mut overlay) = (Context::default(), Overlay::default());
+    let mut areas = Vec::new();
+    for pass in 0_u8..40 {
+        let now = (f64::from(pass), pos2(0.0, 0.0));
+        let size = if pass < 2 { 12.0 } else { 20.0 + 1.5 * f32::from(pass) };
+        areas.push(painted(&ctx, &mut overlay, now, |ui| {
+            ui.label("a word that stays");
+            let place = Rect::from_min_size(pos2(20.0, 200.0), vec2(80.0, 60.0));
+            let letters = ('a'..='z').chain('A'..='Z').collect::<String>();
+            ui.painter_at(place).text(
+                place.min,
+                egui::Align2::LEFT_TOP,
+                letters,
+                egui::FontId::proportional(size),
+                egui::Color32::WHITE,
+            );
+        }));
+    }
+    assert!(areas[2..].iter().all(|area| *area < 400 * 300 / 8), "{areas:?}");
 }

@@ -157,9 +157,7 @@ impl Canvas {
             let (first, end) = (first.max(area.left), end.min(area.right));
             if first < end {
                 let used = first as usize..end as usize;
-                for (pixel, source) in below[used.clone()].iter_mut().zip(&row[used]) {
-                    *pixel = pixel::over(*source, *pixel);
-                }
+                pixel::fill_from(&mut below[used.clone()], &row[used]);
             }
         }
     }

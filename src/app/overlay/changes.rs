@@ -84,21 +84,28 @@ fn uses(shape: &Shape, textures: &[TextureId]) -> bool {
 
 /// Where a shape can paint anything, in points.
 pub(super) fn reach(shape: &ClippedShape) -> Rect {
-    let bounds = match &shape.shape {
-        // Lines below and through a text may reach beyond its letters.
-        Shape::Text(text) if text.angle == 0.0 => {
-            let rows = text.galley.rect.translate(text.pos.to_vec2());
-            rows | shape.shape.visual_bounding_rect()
-        }
-        Shape::Text(_) | Shape::Vec(_) => Rect::EVERYTHING,
-        other => other.visual_bounding_rect(),
-    };
+    let bounds = bounds(&shape.shape);
     if bounds.any_nan() {
         return shape.clip_rect;
     }
     // What paints nothing has bounds that stay turned inside out.
     let bounds = shape.transform_after_tessellation * bounds.expand(REACH);
     shape.clip_rect.intersect(bounds)
+}
+
+/// Around all that a shape paints, but for what softens its edges.
+fn bounds(shape: &Shape) -> Rect {
+    match shape {
+        // Lines below and through a text may reach beyond its letters.
+        Shape::Text(text) if text.angle == 0.0 => {
+            let rows = text.galley.rect.translate(text.pos.to_vec2());
+            rows | shape.visual_bounding_rect()
+        }
+        Shape::Text(_) => Rect::EVERYTHING,
+        // A frame and its shadow come together.
+        Shape::Vec(shapes) => shapes.iter().map(bounds).fold(Rect::NOTHING, Rect::union),
+        other => other.visual_bounding_rect(),
+    }
 }
 
 /// Joins parts that overlap or nearly do, until all are apart and few.
@@ -173,6 +180,23 @@ mod tests {
         let missing = [&[255.0], &far(120)[..40]].concat();
         assert!(missing.iter().all(|at| seen.contains(at)), "far apart: {seen:?}");
         assert_eq!(changed(&[1.0, 2.0], &[2.0, 1.0]).len(), 2, "another order is a change");
+    }
+
+    #[test]
+    fn shapes_together_reach_as_far_as_each() {
+        let [near, far] = [1.0, 50.0].map(|at| square(at).shape);
+        let inner = Shape::Vec(vec![Shape::Noop, far]);
+        let together = ClippedShape {
+            shape: Shape::Vec(vec![near, inner]),
+            ..square(0.0)
+        };
+        let around = Rect::from_min_max(pos2(1.0, 0.0), pos2(54.0, 4.0)).expand(REACH);
+        assert_eq!(reach(&together), around, "around both");
+        let nothing = ClippedShape {
+            shape: Shape::Vec(vec![Shape::Noop]),
+            ..square(0.0)
+        };
+        assert!(!reach(&nothing).is_positive(), "nothing is painted nowhere");
     }
 
     #[test]

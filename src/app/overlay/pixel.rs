@@ -3,6 +3,19 @@
 //! Everything here is branch-free on purpose: loops over rows of pixels then turn into vector code. Values are
 //! sRGB-encoded and are mixed as they are, which is what egui expects of its renderers.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
+use fearless_simd::{Simd, dispatch};
+
+use crate::simd;
+
+/// Rows of so many pixels are worth the choice of vector instructions: most rows of letters are shorter.
+const LONG: usize = 32;
+/// Pixels that are looked at together, whether anything is to be mixed.
+const STRETCH: usize = 64;
 /// Red and blue, or alpha and green shifted down: two channels with room for carries between them.
 const LANES: u32 = 0x00ff_00ff;
 
@@ -16,14 +29,14 @@ pub(super) fn from_color(color: egui::Color32) -> u32 {
 ///
 /// `(t + 128 + ((t + 128) >> 8)) >> 8` is the exact rounding of `t / 255` for `t <= 255 * 255`
 /// (Jim Blinn, "Three Wrongs Make a Right").
-#[inline]
+#[inline(always)]
 fn scale_lanes(lanes: u32, factor: u32) -> u32 {
     let t = (lanes & LANES) * factor + 0x0080_0080;
     ((t + ((t >> 8) & LANES)) >> 8) & LANES
 }
 
 /// Lane-wise sum that stops at 255.
-#[inline]
+#[inline(always)]
 fn add_lanes(a: u32, b: u32) -> u32 {
     let sum = a + b;
     let over = (sum >> 8) & 0x0001_0001;
@@ -31,7 +44,7 @@ fn add_lanes(a: u32, b: u32) -> u32 {
 }
 
 /// `source` over `below`. Channels above alpha (egui's additive colours) saturate.
-#[inline]
+#[inline(always)]
 pub(super) fn over(source: u32, below: u32) -> u32 {
     let rest = 255 - (source >> 24);
     let rb = add_lanes(source & LANES, scale_lanes(below, rest));
@@ -66,18 +79,58 @@ pub(super) fn bilinear(rows: [[u32; 2]; 2], x: u32, y: u32) -> u32 {
 pub(super) fn fill(row: &mut [u32], source: u32) {
     if source >> 24 == 255 {
         row.fill(source);
-    } else if source != 0 {
+    } else if source != 0 && row.len() < LONG {
         for pixel in row {
             *pixel = over(source, *pixel);
         }
+    } else if source != 0 {
+        dispatch!(simd::level(), simd => fill_long(simd, row, source));
     }
 }
 
 /// Paints `sources` over `row`, pixel by pixel, up to the end of the shorter one.
 pub(super) fn fill_from(row: &mut [u32], sources: &[u32]) {
-    for (pixel, source) in row.iter_mut().zip(sources) {
-        *pixel = over(*source, *pixel);
+    if row.len() < LONG {
+        for (pixel, source) in row.iter_mut().zip(sources) {
+            *pixel = over(*source, *pixel);
+        }
+    } else {
+        dispatch!(simd::level(), simd => fill_long_from(simd, row, sources));
     }
+}
+
+/// As [`fill`], with the vector instructions of `simd`.
+#[inline(always)]
+fn fill_long<S: Simd>(simd: S, row: &mut [u32], source: u32) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            for pixel in row {
+                *pixel = over(source, *pixel);
+            }
+        },
+    );
+}
+
+/// As [`fill_from`], with the vector instructions of `simd`. An interface is opaque or not there over long stretches,
+/// where nothing is to be mixed.
+#[inline(always)]
+fn fill_long_from<S: Simd>(simd: S, row: &mut [u32], sources: &[u32]) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            for (pixels, sources) in row.chunks_mut(STRETCH).zip(sources.chunks(STRETCH)) {
+                let (all, any) = sources.iter().fold((u32::MAX, 0), |(all, any), s| (all & s, any | s));
+                if all >> 24 == 255 && pixels.len() == sources.len() {
+                    pixels.copy_from_slice(sources);
+                } else if any != 0 {
+                    for (pixel, source) in pixels.iter_mut().zip(sources) {
+                        *pixel = over(*source, *pixel);
+                    }
+                }
+            }
+        },
+    );
 }
 
 #[cfg(test)]
@@ -103,6 +156,55 @@ mod tests {
                 assert_eq!(got[0], 255, "an opaque pixel stays opaque");
             }
         }
+    }
+
+    #[test]
+    fn rows_are_what_their_pixels_are() {
+        arbtest::arbtest(|u| {
+            let length = u.int_in_range(0..=200)?;
+            let mut below = vec![0_u32; length];
+            let mut sources = vec![0_u32; u.int_in_range(0..=200)?];
+            for pixel in &mut below {
+                *pixel = u.arbitrary()?;
+            }
+            // Runs of what interfaces consist of, and anything between them.
+            let mut rest = sources.as_mut_slice();
+            while !rest.is_empty() {
+                let (run, after) = rest.split_at_mut(u.int_in_range(1..=rest.len())?);
+                let kind = u.int_in_range(0..=3)?;
+                for pixel in run {
+                    *pixel = match kind {
+                        0 => 0,
+                        1 => 0xff00_0000 | u.arbitrary::<u32>()?,
+                        2 => 0x00ff_ffff & u.arbitrary::<u32>()?,
+                        _ => u.arbitrary()?,
+                    };
+                }
+                rest = after;
+            }
+            let mut expected = below.clone();
+            for (pixel, source) in expected.iter_mut().zip(&sources) {
+                *pixel = over(*source, *pixel);
+            }
+            let color = sources.first().copied().unwrap_or_default();
+            let filled: Vec<u32> = below.iter().map(|pixel| over(color, *pixel)).collect();
+            for (name, level) in simd::tested() {
+                let mut row = below.clone();
+                dispatch!(level, simd => fill_long_from(simd, &mut row, &sources));
+                assert_eq!(row, expected, "{name}: {sources:08x?} over {below:08x?}");
+                let mut row = below.clone();
+                dispatch!(level, simd => fill_long(simd, &mut row, color));
+                assert_eq!(row, filled, "{name}: {color:08x} over {below:08x?}");
+            }
+            let mut row = below.clone();
+            fill_from(&mut row, &sources);
+            assert_eq!(row, expected, "any length");
+            let mut row = below;
+            fill(&mut row, color);
+            assert_eq!(row, filled, "any length");
+            Ok(())
+        })
+        .budget_ms(500);
     }
 
     #[test]

@@ -69,6 +69,14 @@ impl Bitmap {
         usize::try_from(inside).unwrap_or_default()
     }
 
+    /// Whether `grown` begins with the same rows, but for texels that were transparent: the font's texture grows so.
+    fn is_part_of(&self, grown: &Self) -> bool {
+        let alike = self.width == grown.width && self.linear == grown.linear && self.wrap == grown.wrap;
+        let (old, new) = (&self.texels, &grown.texels);
+        let stays = |(old, new): (&u32, &u32)| *old == 0 || old == new;
+        alike && !old.is_empty() && old.len() <= new.len() && old.iter().zip(new).all(stays)
+    }
+
     /// Takes new texels in. True if pixels that were painted with the old ones may look different: a letter that joins
     /// the font's texture, in a place that was transparent, changes nothing that anybody painted.
     fn apply(&mut self, delta: &ImageDelta) -> bool {
@@ -76,14 +84,14 @@ impl Bitmap {
         let [width, height] = image.size;
         let texels = image.pixels.iter().copied().map(pixel::from_color);
         let Some([left, top]) = delta.pos else {
-            *self = Self {
+            let new = Self {
                 width,
                 height,
                 texels: texels.collect(),
                 linear: delta.options.magnification == TextureFilter::Linear,
                 wrap: delta.options.wrap_mode,
             };
-            return true;
+            return !std::mem::replace(self, new).is_part_of(self);
         };
         if left + width > self.width || top + height > self.height {
             return false; // egui promises that this never happens

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::super::background::guarded;
 use super::super::frame::ExactCells;
 use super::super::{Frame, Manner, Picture, Preview};
-use super::preview::{coarse_view, magnify, shift};
+use super::preview::{coarse_view, magnify, shift, view_of_part};
 use crate::raster::{Framebuffer, Region, SampleRate};
 use crate::render::{CancelToken, FrameStats, RenderSettings, Subject, draw_cancellable, draw_regions, refine};
 
@@ -149,14 +149,26 @@ impl Job {
     /// A preview from a frame that lies elsewhere.
     fn moved(&mut self, frame: &Frame, by: [i64; 2]) -> Option<Drawn> {
         let mut pixels = self.pixels();
-        let strips = shift(&frame.pixels, by, &mut pixels);
-        let stats = draw_regions(&self.picture.subject(), &mut pixels, &strips, &self.cancel)?;
-        let mut exact = self.sharpen(&mut pixels)?;
-        for strip in strips {
-            exact.mark(strip);
+        let mut stats = FrameStats::default();
+        for strip in shift(&frame.pixels, by, &mut pixels) {
+            add(&mut stats, &self.strip(strip, &mut pixels)?);
         }
+        let exact = self.sharpen(&mut pixels)?;
         let manner = Manner::Moved;
         Some(self.frame(pixels, stats, Some(Preview { manner, exact }), true))
+    }
+
+    /// Draws a strip as a frame of its own: the tiles of the whole frame that it touches have many times its pixels. Samples
+    /// that depend on their place in the frame come elsewhere, so it is not final.
+    fn strip(&self, strip: Region, pixels: &mut Framebuffer) -> Option<FrameStats> {
+        let Picture {
+            scene, view, settings, ..
+        } = &self.picture;
+        let mut part = Framebuffer::new(strip.width, strip.height);
+        let view = view_of_part(view, [strip.x, strip.y]);
+        let stats = draw_cancellable(scene, &view, settings, &mut part, &self.cancel)?;
+        pixels.copy_from(strip, part.pixels(), strip);
+        Some(stats)
     }
 
     /// Draws what must be final in a preview, too.
@@ -225,4 +237,16 @@ impl TilePixels {
     pub(super) fn put(&self, frame: &mut Framebuffer) {
         frame.copy_from(self.region, &self.pixels, self.region);
     }
+}
+
+/// Adds what a part of the frame took.
+fn add(all: &mut FrameStats, part: &FrameStats) {
+    all.transform += part.transform;
+    all.bin += part.bin;
+    all.raster += part.raster;
+    all.resolve += part.resolve;
+    all.triangles += part.triangles;
+    all.counters.blocks_whole += part.counters.blocks_whole;
+    all.counters.blocks_split += part.counters.blocks_split;
+    all.counters.samples_shaded += part.counters.samples_shaded;
 }

@@ -97,7 +97,11 @@ impl Pace {
     pub(super) fn step(&self, picture: &Picture) -> Manner {
         let first = usize::from(picture.settings.sample_rate == SampleRate::ONE);
         let ladder = &STEPS[first..];
-        let fits = |manner: &&Manner| self.step_cost(picture, **manner).is_none_or(|cost| cost <= BUDGET);
+        let cost = |manner| {
+            self.step_cost(picture, manner)
+                .unwrap_or_else(|| self.least(picture, manner))
+        };
+        let fits = |manner: &&Manner| cost(**manner) <= BUDGET;
         if let Some(step) = ladder.iter().find(fits) {
             return *step;
         }
@@ -108,6 +112,13 @@ impl Pace {
             cost.is_some_and(|cost| cost.as_secs_f64() * WORTH <= least)
         };
         ladder.iter().find(near).copied().unwrap_or(STEPS[STEPS.len() - 1])
+    }
+
+    /// What a step takes at least: its samples are a part of those of the whole frame.
+    fn least(&self, picture: &Picture, manner: Manner) -> Duration {
+        let whole = self.whole_frame(picture).unwrap_or_default();
+        let side = if let Manner::Coarse(side) = manner { side } else { 1 };
+        whole / (picture.settings.sample_rate.samples() * side * side).max(1)
     }
 
     fn step_cost(&self, picture: &Picture, manner: Manner) -> Option<Duration> {
@@ -200,6 +211,17 @@ mod tests {
             pace.note(&picture, Some(manner), ms(time));
         }
         assert_eq!(pace.step(&picture), Manner::Coarse(2), "a quarter would be as slow");
+    }
+
+    #[test]
+    fn pace_does_not_try_what_cannot_be_quick() {
+        let (mut pace, picture) = (Pace::default(), picture(16));
+        pace.note(&picture, None, ms(400));
+        assert_eq!(pace.step(&picture), Manner::Coarse(2), "rate 1 would take 25 ms");
+        pace.note(&picture, None, ms(2000));
+        assert_eq!(pace.step(&picture), Manner::Coarse(4), "half the size would take 31 ms");
+        pace.note(&picture, None, ms(20_000));
+        assert_eq!(pace.step(&picture), Manner::Coarse(4), "there is no quicker one");
     }
 
     #[test]

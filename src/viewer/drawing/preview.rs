@@ -1,6 +1,6 @@
 //! Pixels that stand in for a frame: another frame moved by whole pixels, or a smaller one magnified.
 
-use glam::DAffine2;
+use glam::{DAffine2, DVec2};
 
 use super::super::{Frame, Picture};
 use crate::geometry::ViewTransform;
@@ -74,7 +74,15 @@ pub(super) fn shift(from: &Framebuffer, [dx, dy]: [i64; 2], to: &mut Framebuffer
 /// The view of a frame whose pixels are `side` times as large.
 pub(super) fn coarse_view(view: &ViewTransform, side: u32) -> ViewTransform {
     ViewTransform {
-        scene_to_pixels: DAffine2::from_scale(glam::DVec2::splat(1.0 / f64::from(side))) * view.scene_to_pixels,
+        scene_to_pixels: DAffine2::from_scale(DVec2::splat(1.0 / f64::from(side))) * view.scene_to_pixels,
+    }
+}
+
+/// The view of a part of the frame, from this pixel on.
+pub(super) fn view_of_part(view: &ViewTransform, corner: [u32; 2]) -> ViewTransform {
+    let corner = DVec2::from(corner.map(f64::from));
+    ViewTransform {
+        scene_to_pixels: DAffine2::from_translation(-corner) * view.scene_to_pixels,
     }
 }
 

@@ -12,7 +12,7 @@ use crate::render::{RenderSettings, draw};
 use crate::scene::{Dialect, Paint, Primitive, PrimitiveKind, Scene, Shape, ShapeId, SourceLocation};
 
 const SIZE: [u32; 2] = [150, 130];
-const SLOW_FRAME: Duration = Duration::from_secs(10);
+const SLOW_FRAME: Duration = Duration::from_millis(200);
 
 /// Drawing, and the thread's messages.
 struct Desk {
@@ -44,6 +44,21 @@ fn scene() -> Arc<Scene> {
             }
         })
         .collect();
+    Arc::new(scene)
+}
+
+/// A triangle around all of the canvas, with another colour at each corner.
+fn shaded() -> Arc<Scene> {
+    let mut scene = (*scene()).clone();
+    let points = [[-300.0, -300.0], [600.0, -300.0], [0.0, 900.0]].map(DVec2::from);
+    let colors = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255]].map(Rgba::from_bytes);
+    scene.primitives = vec![Primitive {
+        shape: ShapeId(0),
+        kind: PrimitiveKind::Triangle {
+            points,
+            paint: Paint::Vertex(colors),
+        },
+    }];
     Arc::new(scene)
 }
 
@@ -85,6 +100,11 @@ impl Desk {
     fn is_slow(&mut self, picture: &Picture) {
         self.drawing.pace.note(picture, None, SLOW_FRAME);
         self.drawing.pace.note(picture, Some(Manner::RateOne), Duration::ZERO);
+    }
+
+    /// Moving by whole pixels takes no time, however busy the machine is.
+    fn moves_quickly(&mut self, picture: &Picture) {
+        self.drawing.pace.note(picture, Some(Manner::Moved), Duration::ZERO);
     }
 
     /// Takes in messages until the thread has nothing more to do; the hand does not rest meanwhile, however long it takes.
@@ -205,6 +225,7 @@ fn panning_moves_what_is_there() {
     desk.is_slow(&first);
     let mut center = [50.0, 50.0];
     for by in [[7.0, 0.0], [0.0, -5.0], [-40.0, 31.0], [120.0, 100.0]] {
+        desk.moves_quickly(&first);
         center = [center[0] - by[0], center[1] - by[1]];
         let moved = desk.picture(16, center, 1.0);
         desk.want(&moved);
@@ -223,6 +244,28 @@ fn panning_moves_what_is_there() {
     desk.want(&half);
     desk.work();
     assert_eq!(desk.manner(), Some(Manner::RateOne), "half a pixel is another picture");
+}
+
+#[test]
+fn panning_shades_only_what_comes_into_view() {
+    let mut desk = Desk::new();
+    desk.scene = shaded();
+    let first = desk.picture(16, [50.0, 50.0], 2.0);
+    desk.want(&first);
+    desk.work();
+    let all = desk.frame().stats.counters.samples_shaded;
+    assert!(all >= 19_500, "a triangle over all of it: {all}");
+    desk.is_slow(&first);
+    for step in 1..10 {
+        desk.moves_quickly(&first);
+        let center = [50.0 - f64::from(step), 50.0 - 0.5 * f64::from(step)];
+        desk.want(&desk.picture(16, center, 2.0));
+        desk.work();
+        assert_eq!(desk.manner(), Some(Manner::Moved), "step {step}");
+        // Two columns and a row at most; blocks of samples may reach a little farther.
+        let samples = desk.frame().stats.counters.samples_shaded;
+        assert!(samples * 25 < all, "{samples} of {all} samples in step {step}");
+    }
 }
 
 #[test]

@@ -41,7 +41,20 @@ fn draw_sample(block: &PixelRect, sample: &SampleMark, radius: f64, picture: &mu
         0xff00_0000
     };
     let width = picture.width() as usize;
-    for_each_index(block, width, |index| {
+    // Farther away nothing of it is drawn.
+    let near = |at: f64| (at - radius).floor();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a few pixels around a place in the block"
+    )]
+    let around = PixelRect {
+        x: block.x + near(x) as i64,
+        y: block.y + near(y) as i64,
+        width: (2.0 * radius).ceil() as u32 + 2,
+        height: (2.0 * radius).ceil() as u32 + 2,
+    };
+    for_each_index(&around.intersection(block), width, |index| {
         let column = (index % width) as f64 - block.x as f64 + 0.5;
         let row = (index / width) as f64 - block.y as f64 + 0.5;
         let (dx, dy) = ((column - x).abs(), (row - y).abs());

@@ -30,6 +30,8 @@ pub struct ViewOptions {
     pub script: Option<ScriptSource>,
     /// Never opens a window: plays the script, or saves one picture of the window, and ends.
     pub headless: bool,
+    /// The file that gets a line for each picture that the window shows.
+    pub frame_log: Option<PathBuf>,
     /// Reads command lines.
     pub grammar: Option<Grammar>,
     /// The picture that scene and settings come from.

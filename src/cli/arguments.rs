@@ -147,6 +147,9 @@ pub(super) struct ViewerOptions {
     /// Play the script, or save one picture of the window, without a window
     #[arg(long)]
     pub(super) headless: bool,
+    /// Write a line of CSV for each picture that the window shows: what it shows, milliseconds per stage
+    #[arg(long, value_name = "FILE", conflicts_with = "headless")]
+    pub(super) frame_log: Option<PathBuf>,
     /// Device pixels per point of the panels, with --headless only
     #[arg(long, value_name = "FACTOR", value_parser = scale, requires = "headless")]
     pub(super) scale: Option<f32>,

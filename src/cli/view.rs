@@ -45,6 +45,7 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
         screenshot_name: options.screenshot_name.clone().unwrap_or_default(),
         script: file.or(options.commands.clone().map(ScriptSource::Text)),
         headless: options.headless,
+        frame_log: options.frame_log.clone(),
         grammar: Some(super::recorded::GRAMMAR),
         restored: restored.cloned(),
     };

@@ -79,6 +79,16 @@ impl Viewer {
         Some(self.frame()?.preview.as_ref()?.manner)
     }
 
+    /// Since when the picture on the screen has been wanted.
+    pub fn wanted_since(&self) -> Instant {
+        self.drawing.frame_since()
+    }
+
+    /// Whether final tiles are being drawn over what is on the screen.
+    pub fn is_refining(&self) -> bool {
+        self.drawing.refinement().is_some()
+    }
+
     /// Which part of a refinement that takes long is done, `0.0..=1.0`.
     pub fn long_refinement(&self) -> Option<f64> {
         let (since, done) = self.drawing.refinement()?;

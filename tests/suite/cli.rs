@@ -160,6 +160,11 @@ fn cli_view_answers_mistakes_too() {
     refused(folder.path(), &["view", "--headless", "broken.svg"], &["broken.svg:2:"]);
     refused(
         folder.path(),
+        &["a.svg", "--headless", "--frame-log", "log.csv"],
+        &["--frame-log", "--headless"],
+    );
+    refused(
+        folder.path(),
         &["a.svg", "--headless", "--do", "shot a.svg"],
         &["a.svg", ".png"],
     );

@@ -10,7 +10,7 @@ use rasterscope::viewer::{Command, PointerButton};
 
 use super::desktop::keysym;
 use super::life::ticks;
-use super::program::{Program, until, viewed};
+use super::program::{Program, SIZE, flat, until, viewed};
 
 /// Where the tests point, in window pixels.
 const AT: [i16; 2] = [180, 150];
@@ -195,4 +195,49 @@ fn drag_of_a_large_textured_scene_keeps_up() {
     // Hundreds of motions add up to other last digits than one: back to numbers that are known.
     program.desktop.type_char(' ', &[]);
     program.shows(&viewed(&path, &start), "the final picture of the default view");
+}
+
+/// What the log of a window says was shown, and of how many pixels.
+fn logged(file: &Path) -> Vec<(String, u64)> {
+    let text = std::fs::read_to_string(file).unwrap_or_default();
+    let mut lines = text.split_inclusive('\n').filter(|line| line.ends_with('\n'));
+    let Some(header) = lines.next() else {
+        return Vec::new();
+    };
+    let columns = header.trim_end().split(',').count();
+    let shown = lines.map(|line| {
+        let words: Vec<&str> = line.trim_end().split(',').collect();
+        assert_eq!(words.len(), columns, "{header}{line}");
+        (words[1].to_owned(), words[columns - 1].parse().unwrap())
+    });
+    shown.collect()
+}
+
+#[test]
+fn frame_log_tells_what_was_shown() {
+    let mut program = Program::start_with(&flat(), &["--frame-log", "frames.csv"]);
+    let file = program.folder.path().join("frames.csv");
+    let count = |panels: bool| {
+        let lines = logged(&file);
+        lines.iter().filter(|(shows, _)| (shows == "panels") == panels).count()
+    };
+    until("the first picture", || (count(false) > 0).then_some(()));
+    let before = count(true);
+    let mut step = 0;
+    until("the status line", || {
+        step += 1;
+        program.desktop.point(200 + step % 50, 200);
+        (count(true) > before).then_some(())
+    });
+    let before = count(false);
+    program.desktop.button(1, true);
+    program.desktop.point(240, 170);
+    until("the moved picture", || (count(false) > before).then_some(()));
+    program.desktop.button(1, false);
+    program.close();
+    assert!(program.ended().success(), "the window was closed");
+    let [width, height] = SIZE.map(u64::from);
+    for (shows, pixels) in logged(&file) {
+        assert!(pixels > 0 && pixels <= width * height, "{pixels} pixels of {shows}");
+    }
 }

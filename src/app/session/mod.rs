@@ -42,6 +42,19 @@ pub(super) struct Turn {
     pub(super) platform: PlatformOutput,
     /// When the panels want the next pass.
     pub(super) next: Duration,
+    /// Where its time went.
+    pub(super) times: PanelTimes,
+}
+
+/// How long the stages of the panels took, all passes together.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct PanelTimes {
+    /// egui's work: where everything lies, and its shapes.
+    pub(super) layout: Duration,
+    /// Cutting the shapes that changed into triangles.
+    pub(super) tessellate: Duration,
+    /// Comparing the shapes with those before, and painting.
+    pub(super) paint: Duration,
 }
 
 /// A viewer with its panels.
@@ -308,6 +321,7 @@ impl Session {
             let (interface, viewer) = (&mut self.interface, &self.viewer);
             interface.follow_theme(viewer.theme());
             let ctx = interface.ctx().clone();
+            let start = Instant::now();
             let mut output = ctx.run_ui(input.take(), |ui| {
                 asked = Asked::default();
                 interface.show(ui, viewer, &mut asked);
@@ -318,8 +332,18 @@ impl Session {
                 pixels_per_point,
                 shapes: std::mem::take(&mut output.shapes),
             };
-            let tessellate = |shapes| ctx.tessellate(shapes, pixels_per_point);
+            let laid_out = Instant::now();
+            let mut cutting = Duration::ZERO;
+            let tessellate = |shapes| {
+                let start = Instant::now();
+                let primitives = ctx.tessellate(shapes, pixels_per_point);
+                cutting = start.elapsed();
+                primitives
+            };
             let parts = self.overlay.paint(shapes, &mut output.textures_delta, tessellate);
+            turn.times.layout += laid_out - start;
+            turn.times.tessellate += cutting;
+            turn.times.paint += laid_out.elapsed().saturating_sub(cutting);
             if !self.damage.is_for(size) {
                 self.damage = Damage::all(size);
             }

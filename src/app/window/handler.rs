@@ -15,6 +15,7 @@ use winit::window::{Window, WindowId};
 use super::super::headless::{self, NamedScript};
 use super::super::session::{Clock, Session};
 use super::super::{AppError, ViewOptions};
+use super::frame_log::FrameLog;
 use super::keys;
 use super::opened::Opened;
 use super::player::Player;
@@ -55,6 +56,7 @@ impl Handler {
 
     #[expect(clippy::cast_possible_truncation, reason = "a scale is a small number")]
     fn open(&self, event_loop: &ActiveEventLoop) -> Result<Opened, AppError> {
+        let log = self.options.frame_log.as_deref().map(FrameLog::create).transpose()?;
         let scale = event_loop
             .primary_monitor()
             .map_or(1.0, |monitor| monitor.scale_factor());
@@ -75,7 +77,10 @@ impl Handler {
         let viewer_options = headless::viewer_options(&self.options, [width, height], theme, waker);
         let viewer = Viewer::new(viewer_options).map_err(AppError::Threads)?;
         let session = Session::new(viewer, window.scale_factor() as f32, Clock::Real(Instant::now()));
-        Opened::new(event_loop.owned_display_handle(), window, session).map_err(|error| failed(&error))
+        let mut opened =
+            Opened::new(event_loop.owned_display_handle(), window, session).map_err(|error| failed(&error))?;
+        opened.log_to(log);
+        Ok(opened)
     }
 
     fn fail(&mut self, event_loop: &ActiveEventLoop, error: AppError) {
@@ -105,6 +110,9 @@ impl ApplicationHandler<Wake> for Handler {
         let Some(opened) = &mut self.opened else {
             return;
         };
+        if !matches!(event, WindowEvent::RedrawRequested) {
+            opened.note_event();
+        }
         match event {
             WindowEvent::RedrawRequested => {
                 if let Err(error) = opened.draw() {

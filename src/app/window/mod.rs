@@ -1,9 +1,11 @@
 //! The real window: winit's event loop, a softbuffer surface, no GPU.
 
+mod frame_log;
 mod handler;
 mod keys;
 mod opened;
 mod player;
+mod rhythm;
 mod startup;
 
 use super::{AppError, ViewOptions, headless};

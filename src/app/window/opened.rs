@@ -1,8 +1,7 @@
 //! An open window: its surface, its session, and when it is to be drawn next.
 //!
 //! The surface is the one source of the window's size: it is set from the last `Resized` event, and everything else
-//! follows it. Nothing is drawn unless something changed, and never more often than every 16 ms, since X11 does not
-//! wait for the screen.
+//! follows it. Nothing is drawn unless something changed.
 
 use std::num::NonZeroU32;
 use std::sync::Arc;
@@ -14,12 +13,12 @@ use winit::dpi::PhysicalSize;
 use winit::event_loop::OwnedDisplayHandle;
 use winit::window::Window;
 
-use super::super::session::Session;
+use super::super::session::{PanelTimes, Session};
+use super::frame_log::{FrameLog, Shown};
+use super::rhythm::Rhythm;
 use crate::raster::Framebuffer;
 use crate::viewer::PixelRect;
 
-/// Least time between two frames.
-const FLOOR: Duration = Duration::from_millis(16);
 /// Longest wait for the frame of a new size, so that a resized window shows no border.
 const RESIZE_WAIT: Duration = Duration::from_millis(24);
 
@@ -39,9 +38,12 @@ pub(super) struct Opened {
     /// Since when a frame is asked for by us, not by the window system.
     asked: Option<Instant>,
     drawn_revision: u64,
-    last_frame: Option<Instant>,
+    rhythm: Rhythm,
     /// When the panels want to be shown again.
     next_wish: Option<Instant>,
+    /// When the first event came that nothing was shown for.
+    event: Option<Instant>,
+    log: Option<FrameLog>,
 }
 
 impl std::fmt::Debug for Opened {
@@ -83,11 +85,23 @@ impl Opened {
             dirty: true,
             asked: None,
             drawn_revision: 0,
-            last_frame: None,
+            rhythm: Rhythm::default(),
             next_wish: None,
+            event: None,
+            log: None,
         };
         opened.resized(size);
         Ok(opened)
+    }
+
+    /// Writes down what is shown from now on.
+    pub(super) fn log_to(&mut self, log: Option<FrameLog>) {
+        self.log = log;
+    }
+
+    /// Something came that may have to be shown.
+    pub(super) fn note_event(&mut self) {
+        self.event.get_or_insert_with(Instant::now);
     }
 
     /// Another size or scale; zero while the window is minimised.
@@ -123,15 +137,13 @@ impl Opened {
             return None;
         }
         if !self.dirty {
+            self.event = None;
             return [self.next_wish, self.session.viewer().due()]
                 .into_iter()
                 .flatten()
                 .min();
         }
-        let due = self
-            .last_frame
-            .and_then(|last| last.checked_add(FLOOR))
-            .filter(|due| *due > now);
+        let due = self.rhythm.due(self.session.viewer().picture_revision(), now);
         if due.is_none() {
             self.asked = Some(now);
             self.window.request_redraw();
@@ -150,11 +162,12 @@ impl Opened {
         };
         // Asked by the window system, the window may have lost any of its pixels.
         let exposed = self.asked.take().is_none();
-        self.last_frame = Some(Instant::now());
+        self.rhythm.begin(Instant::now());
         self.dirty = false;
         self.await_resized_frame();
         let input = self.egui.take_egui_input(&self.window);
         let mut turn = self.session.turn(input);
+        let panels = turn.times;
         if let Some(picture) = self.session.take_copied_picture() {
             turn.platform
                 .commands
@@ -166,22 +179,50 @@ impl Opened {
         }
         self.next_wish = Instant::now().checked_add(turn.next);
         self.drawn_revision = self.session.viewer().revision();
-        self.surface.resize(columns, rows)?;
-        let mut buffer = self.surface.buffer_mut()?;
-        let age = buffer.age();
-        let mut parts = self.session.compose(&mut buffer, width, age);
-        if exposed || age == 0 {
-            parts = vec![PixelRect::of_size([width, height])];
-        }
-        let damage: Vec<Rect> = parts.iter().filter_map(surface_rect).collect();
-        if !damage.is_empty() {
-            self.window.pre_present_notify();
-            buffer.present_with_damage(&damage)?;
-        }
+        self.rhythm.shows(self.session.viewer().picture_revision());
+        self.present([columns, rows], exposed, panels)?;
         let title = self.session.viewer().title();
         if title != self.title {
             self.window.set_title(&title);
             self.title = title;
+        }
+        Ok(())
+    }
+
+    /// Brings the surface up to date and hands what changed, or all that was `exposed`, to the display.
+    fn present(
+        &mut self,
+        [columns, rows]: [NonZeroU32; 2],
+        exposed: bool,
+        panels: PanelTimes,
+    ) -> Result<(), SoftBufferError> {
+        let start = Instant::now();
+        self.surface.resize(columns, rows)?;
+        let mut buffer = self.surface.buffer_mut()?;
+        // The display is done with what was presented before.
+        let ready = Instant::now();
+        let age = buffer.age();
+        let mut parts = self.session.compose(&mut buffer, columns.get(), age);
+        if exposed || age == 0 {
+            parts = vec![PixelRect::of_size([columns.get(), rows.get()])];
+        }
+        let composed = Instant::now();
+        let event = self.event.take();
+        let damage: Vec<Rect> = parts.iter().filter_map(surface_rect).collect();
+        if damage.is_empty() {
+            return Ok(());
+        }
+        self.window.pre_present_notify();
+        buffer.present_with_damage(&damage)?;
+        if let Some(log) = &mut self.log {
+            let shown = Shown {
+                event,
+                panels,
+                compose: composed.saturating_duration_since(ready),
+                present: ready.saturating_duration_since(start) + composed.elapsed(),
+                parts: &parts,
+            };
+            log.add(self.session.viewer(), &shown);
         }
         Ok(())
     }

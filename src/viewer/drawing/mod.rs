@@ -51,6 +51,8 @@ pub(super) struct Drawing {
     /// The frame on the screen, and the number of the wish that it came of.
     frame: Option<Arc<Frame>>,
     frame_wish: u64,
+    /// When that was wished.
+    frame_since: Instant,
     /// What is to be on the screen.
     wanted: Option<Wish>,
     running: Option<Running>,
@@ -131,6 +133,7 @@ impl Drawing {
             crew: Crew::start("draw", 1, AtEnd::Abandon, work)?,
             frame: None,
             frame_wish: 0,
+            frame_since: Instant::now(),
             wanted: None,
             running: None,
             failed: None,
@@ -151,6 +154,11 @@ impl Drawing {
 
     pub(super) fn frame(&self) -> Option<&Frame> {
         self.frame.as_deref()
+    }
+
+    /// When the frame on the screen was wanted.
+    pub(super) fn frame_since(&self) -> Instant {
+        self.frame_since
     }
 
     /// The frame for whoever keeps it longer than this state.
@@ -312,7 +320,7 @@ impl Drawing {
                 let fresh = self.wanted.is_some();
                 if let Some(running) = self.running.as_ref().filter(|_| fresh) {
                     self.last_finished = Instant::now();
-                    self.frame_wish = running.wish.number;
+                    (self.frame_wish, self.frame_since) = (running.wish.number, running.wish.since);
                     let old = self.frame.replace(Arc::from(frame));
                     self.spare = old.and_then(Arc::into_inner).map(|frame| frame.pixels);
                     self.changed(Changes::All);
@@ -360,7 +368,7 @@ impl Drawing {
         if frame.picture != *picture {
             frame.picture = picture.clone();
             frame.preview = None;
-            self.frame_wish = running.wish.number;
+            (self.frame_wish, self.frame_since) = (running.wish.number, running.wish.since);
         }
         let exact = ExactCells::new(picture.size);
         let manner = Manner::Earlier;
@@ -374,7 +382,7 @@ impl Drawing {
         }
         if let Some(stats) = ended {
             (frame.preview, frame.stats) = (None, stats);
-            self.frame_wish = running.wish.number;
+            (self.frame_wish, self.frame_since) = (running.wish.number, running.wish.since);
             self.pace.note(&running.wish.picture, None, stats.total());
             self.last_finished = Instant::now();
         }

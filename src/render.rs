@@ -163,9 +163,9 @@ pub fn draw_cancellable(
 /// Fewest and most primitives that one thread transforms at a time.
 const CHUNK: (usize, usize) = (64, 65_536);
 
-/// Parts into which a small scene and a large one are cut: some for each thread, and not so many that tiles would have
-/// to look at them all for a few primitives.
-const CHUNKS: (usize, usize) = (8, 64);
+/// Parts into which a large scene is cut; a small one into as many as there are threads, since tiles have to look at all
+/// of them.
+const CHUNKS: usize = 64;
 
 /// Primitives of a part from which on a scene is large.
 const LARGE: usize = 1024;
@@ -244,10 +244,8 @@ fn picture_list<'a>(
 /// What `make` makes of each part of a scene, in painter's order: of the number of its first primitive and its primitives.
 fn chunks(scene: &Scene, make: impl Fn(usize, &[Primitive]) -> Chunk + Sync) -> Vec<Chunk> {
     let count = scene.primitives.len();
-    let length = (count / CHUNKS.0)
-        .min(LARGE)
-        .max(count / CHUNKS.1)
-        .clamp(CHUNK.0, CHUNK.1);
+    let per_thread = count.div_ceil(rayon::current_num_threads());
+    let length = per_thread.min(LARGE).max(count / CHUNKS).clamp(CHUNK.0, CHUNK.1);
     let parts = scene.primitives.par_chunks(length).enumerate();
     parts.map(|(i, primitives)| make(i * length, primitives)).collect()
 }

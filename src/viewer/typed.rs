@@ -189,8 +189,9 @@ pub(super) const SHEET_PANELS: Argument = argument("window, page or WIDTHxHEIGHT
 pub(super) const SHEET_THEME: Argument = argument("light|dark", |text| {
     named(&Ground::ALL, Ground::name, text).map(|theme| Command::ChangeSheet(SheetChange::Theme(theme)))
 });
-pub(super) const SHEET_NOTE: Argument = argument("a sentence", |text| {
-    Some(Command::ChangeSheet(SheetChange::Note(text.to_owned())))
+pub(super) const SHEET_NOTE: Argument = argument("a sentence, or none", |text| {
+    let note = if text == "none" { "" } else { text };
+    (!text.is_empty()).then(|| Command::ChangeSheet(SheetChange::Note(note.to_owned())))
 });
 
 /// The form of an axis.

@@ -1,25 +1,16 @@
 //! Sheets from outside: what is written, how it is laid out, what is refused.
 
 use std::fs;
-use std::path::Path;
 
 use rasterscope::compare::decode_picture;
 use rasterscope::figure::Record;
 
+use crate::support::folder::names;
 use crate::support::golden::check;
 use crate::support::program::{done, run};
 use crate::support::refusal::assert_refused;
 
 const STAR: &str = "gallery:basic/test4.svg";
-
-fn files(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    let mut names: Vec<_> = entries
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
-}
 
 /// A sheet of six small panels with an inset, in a folder of its own.
 fn sheet(more: &[&str]) -> tempfile::TempDir {
@@ -50,7 +41,7 @@ fn golden_sheet_light_and_dark() {
 #[test]
 fn sheet_writes_panels_and_snippets_beside_it() {
     let folder = sheet(&[]);
-    assert_eq!(files(folder.path()), ["s", "s.png"], "nothing else is left");
+    assert_eq!(names(folder.path()), ["s", "s.png"], "nothing else is left");
     let panels = [
         "01_sample-rate-1_pattern-grid.png",
         "02_sample-rate-4_pattern-grid.png",
@@ -61,7 +52,7 @@ fn sheet_writes_panels_and_snippets_beside_it() {
     ];
     let snippets = ["figures.html", "figures.md", "figures.tex"];
     assert_eq!(
-        files(&folder.path().join("s")),
+        names(&folder.path().join("s")),
         [&panels[..], &snippets].concat(),
         "one for each combination"
     );
@@ -174,12 +165,12 @@ fn sheet_at_fault_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("a.svg"), "<svg width='9' height='9'/>").unwrap();
     fs::write(folder.path().join("taken"), "a file").unwrap();
-    let before = files(folder.path());
+    let before = names(folder.path());
     let rates = (1..=16).map(|n| (n * n).to_string()).collect::<Vec<_>>().join(",");
     let refused = |more: &[&str], words: &[&str]| {
         let arguments = [&["sheet", "a.svg"], more].concat();
         assert_refused(&run(folder.path(), &arguments), &arguments, words);
-        assert_eq!(files(folder.path()), before, "{more:?} leaves nothing");
+        assert_eq!(names(folder.path()), before, "{more:?} leaves nothing");
     };
     refused(&["-o", "s.png", "--sample-rate", "1,5"], &["--sample-rate 5"]);
     refused(

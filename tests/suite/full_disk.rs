@@ -7,6 +7,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use crate::support::folder::names;
 use crate::support::refusal::assert_refused;
 
 /// Runs the program where no file may grow beyond `blocks` of 512 bytes.
@@ -21,15 +22,6 @@ fn run_with_room(blocks: u32, folder: &Path, arguments: &[&str]) -> Output {
         .env_remove("DISPLAY")
         .env_remove("WAYLAND_DISPLAY");
     command.output().expect("a shell")
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    let mut names: Vec<_> = entries
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
 }
 
 #[test]

@@ -7,6 +7,7 @@ use rasterscope::viewer::{
     Command, Dialog, MessageKind, PanelSize, SheetChange, SheetSide, Viewer, ViewerOptions, commands, options,
 };
 
+use crate::support::folder::names;
 use crate::support::program::{done, run};
 use crate::support::session::{Session, TRIANGLES};
 
@@ -52,11 +53,7 @@ fn saved(session: &Session) -> (PathBuf, Vec<String>) {
     let sheet = sheet
         .unwrap_or_else(|| panic!("{:?}", session.viewer.messages()))
         .clone();
-    let inside = std::fs::read_dir(sheet.with_extension("")).unwrap();
-    let mut names: Vec<String> = inside
-        .map(|item| item.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
+    let names = names(&sheet.with_extension(""));
     (sheet, names)
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod brute_force;
 pub(crate) mod documents;
+pub(crate) mod folder;
 pub(crate) mod golden;
 pub(crate) mod program;
 pub(crate) mod refusal;

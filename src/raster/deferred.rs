@@ -16,13 +16,16 @@ use super::fragments::{Fragment, Part, Unresolved};
 use super::pixel_block::PixelBlock;
 use super::pixel_row::each_pixel_row_of_few;
 use super::shade::{Pixels, ShadeContext, Shader};
-use super::slots::{Shaded, SlotColor, Slots, Spread};
+use super::slots::{Known, Shaded, SlotColor, Slots, Spread};
 use super::small::SmallCoverage;
 use super::tile::PixelRect;
-use super::visibility::{BLOCK, Block, MAX_SLOTS, PAIR, Pair, Run, Slot, VisibilityTile, lanes, splat};
+use super::visibility::{BLOCK, MAX_SLOTS, PAIR, Pair, Run, STRETCH, Slot, Stretch, VisibilityTile, lanes, splat};
 use crate::color::{Premultiplied16, Resolver};
 use crate::simd;
 use crate::texture::SampleGrid;
+
+/// Blocks of pixels that are looked at together, whether they all show the same.
+const GROUP: usize = 4;
 
 /// Paints tiles in which only opaque primitives are shaded, one after the other, reusing its memory.
 #[derive(Debug)]
@@ -248,61 +251,44 @@ impl<'a> DeferredPainter<'a> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     fn resolve_flat_row(&self, y: i32, line: &mut [u32]) {
-        let (whole, rest) = line.as_chunks_mut::<BLOCK>();
-        let blocks = whole.len();
-        for ((i, block), pixels) in self.layers[0].blocks(y).enumerate().zip(whole) {
-            self.resolve_block(block, (i, y), pixels);
-        }
-        // The frame's right end.
-        if let Some(block) = self.layers[0].blocks(y).nth(blocks) {
-            let mut pixels = [0; BLOCK];
-            self.resolve_block(block, (blocks, y), &mut pixels);
-            rest.copy_from_slice(&pixels[..rest.len()]);
-        }
-    }
-
-    /// Resolves the block in which nothing is to be shaded, number `i` of row `y`.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "a few instructions for every block of pixels")]
-    fn resolve_block(&self, block: Block<'_>, (i, y): (usize, i32), pixels: &mut [u32; BLOCK]) {
-        let Block { shown, shared, pairs } = block;
-        if shared == 0 && *shown == [shown[0]; BLOCK] {
-            *pixels = [self.slots.get(shown[0]).pixel; BLOCK];
-            return;
-        }
         let Some(known) = self.slots.known() else {
-            return self.resolve_of_many(block, (i, y), pixels);
+            return self.resolve_row_of_many(y, line);
         };
-        // Which pixels are shared nobody can foresee; what these get here is written over.
-        for (slot, pixel) in shown.iter().zip(&mut *pixels) {
-            *pixel = known.pixel(*slot);
-        }
-        let mut rest = u32::from(shared);
-        while rest != 0 {
-            let at = rest.trailing_zeros() as usize % BLOCK;
-            rest &= rest - 1;
-            if shown[at] == PAIR
-                && let Some(pair) = pairs.get(at)
-            {
-                let of_second = count(pair.mask);
-                pixels[at] = match known.mixed(pair.first, pair.second, of_second) {
-                    Some(pixel) => pixel,
-                    None => self.resolver.pixel_of_halves(self.pair_sum(*pair, of_second)),
-                };
-            } else if usize::from(shown[at]) > MAX_SLOTS {
-                pixels[at] = self.resolve_split(i * BLOCK + at, y);
+        let stretches = self.layers[0].stretches(y).zip(line.chunks_mut(STRETCH));
+        for ((stretch, pixels), first) in stretches.zip((0..).step_by(STRETCH)) {
+            let Stretch { shown, shared, pairs } = stretch;
+            resolve_whole(known, shown, pixels);
+            // Where pixels are shared, what they got there is written over.
+            let mut rest = shared;
+            while rest != 0 {
+                let at = rest.trailing_zeros() as usize;
+                rest &= rest - 1;
+                let slot = shown[at / BLOCK][at % BLOCK];
+                if slot == PAIR
+                    && let Some(pair) = pairs.get(at)
+                {
+                    let of_second = count(pair.mask);
+                    pixels[at] = match known.mixed(pair.first, pair.second, of_second) {
+                        Some(pixel) => pixel,
+                        None => self.resolver.pixel_of_halves(self.pair_sum(*pair, of_second)),
+                    };
+                } else if usize::from(slot) > MAX_SLOTS {
+                    pixels[at] = self.resolve_split(first + at, y);
+                }
             }
         }
     }
 
-    /// As [`DeferredPainter::resolve_block`] where there are many slots.
+    /// As [`DeferredPainter::resolve_flat_row`] where there are many slots.
     #[cold]
-    fn resolve_of_many(&self, Block { shown, pairs, .. }: Block<'_>, (i, y): (usize, i32), pixels: &mut [u32; BLOCK]) {
-        for (at, (slot, pixel)) in shown.iter().zip(pixels).enumerate() {
-            *pixel = match pairs.get(at) {
+    fn resolve_row_of_many(&self, y: i32, line: &mut [u32]) {
+        let tile = &self.layers[0];
+        let pairs = tile.pairs(y);
+        for ((x, slot), pixel) in tile.row(y).iter().enumerate().zip(line) {
+            *pixel = match pairs.get(x) {
                 _ if usize::from(*slot) < MAX_SLOTS => self.slots.get(*slot).pixel,
                 Some(pair) if *slot == PAIR => self.resolver.pixel_of_halves(self.pair_sum(*pair, count(pair.mask))),
-                _ => self.resolve_split(i * BLOCK + at, y),
+                _ => self.resolve_split(x, y),
             };
         }
     }
@@ -443,6 +429,30 @@ fn translucent_four<S: Simd>(
             );
         },
     );
+}
+
+/// Resolves pixels side by side as if none was shared; `shown` may hold more of them than the frame.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn resolve_whole(known: &Known, shown: &[[Slot; BLOCK]], pixels: &mut [u32]) {
+    let (groups, rest) = shown.as_chunks::<GROUP>();
+    let (whole, last) = pixels.as_chunks_mut::<{ GROUP * BLOCK }>();
+    for (pixels, slots) in whole.iter_mut().zip(groups) {
+        let first = slots[0][0];
+        // Without a way out in between: nobody can foresee where it would be taken.
+        if slots.iter().fold(true, |same, block| same & (*block == [first; BLOCK])) {
+            *pixels = [known.pixel(first); GROUP * BLOCK];
+        } else {
+            for (pixel, slot) in pixels.iter_mut().zip(slots.as_flattened()) {
+                *pixel = known.pixel(*slot);
+            }
+        }
+    }
+    // The frame's right end.
+    let beyond = groups.get(whole.len()).map_or(rest, |group| group);
+    for (pixel, slot) in last.iter_mut().zip(beyond.as_flattened()) {
+        *pixel = known.pixel(*slot);
+    }
 }
 
 /// Resolves a tile in which nothing is to be shaded.

@@ -50,8 +50,7 @@ impl TileLayout {
     /// Tiles whose samples, when every pixel is split, still stay in a core's cache: at most 260 kB at any rate.
     pub(crate) fn for_rate(rate: SampleRate, size: [u32; 2]) -> Self {
         let sides_log2 = match rate.side() {
-            1 | 2 => (6, 5),
-            3 | 4 => (5, 5),
+            1..=4 => (6, 5),
             5 | 6 => (5, 4),
             7 | 8 => (4, 4),
             9..=11 => (4, 3),

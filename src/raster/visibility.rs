@@ -29,6 +29,9 @@ pub(crate) const MAX_SLOTS: usize = PAIR as usize;
 /// Pixels of a block.
 pub(crate) const BLOCK: usize = 8;
 
+/// Pixels of which a word has a bit each.
+pub(crate) const STRETCH: usize = BLOCK * BLOCK;
+
 /// Most samples along the side of a pixel that may be a pair.
 const MAX_PAIR_SIDE: usize = 8;
 
@@ -89,13 +92,13 @@ pub(crate) struct Pair {
     pub(crate) second: Slot,
 }
 
-/// Pixels side by side.
+/// Pixels side by side, [`STRETCH`] or up to the tile's right side.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Block<'a> {
+pub(crate) struct Stretch<'a> {
     /// What each shows; beyond the tile's right side something.
-    pub(crate) shown: &'a [Slot; BLOCK],
+    pub(crate) shown: &'a [[Slot; BLOCK]],
     /// The pixels that may be pairs or split, a bit for each.
-    pub(crate) shared: u8,
+    pub(crate) shared: u64,
     /// What those show that are pairs; of no account for others. Empty where none may be.
     pub(crate) pairs: &'a [Pair],
 }
@@ -613,10 +616,10 @@ impl VisibilityTile {
         })
     }
 
-    /// The blocks of row `y` from left to right.
+    /// The pixels of row `y` from left to right.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    pub(crate) fn blocks(&self, y: i32) -> impl Iterator<Item = Block<'_>> {
+    pub(crate) fn stretches(&self, y: i32) -> impl Iterator<Item = Stretch<'_>> {
         let blocks = self.stride / BLOCK;
         let first = offset(self.rect.y.start, y) * blocks;
         let (shown, _) = self.whole[first * BLOCK..][..self.stride].as_chunks();
@@ -625,12 +628,12 @@ impl VisibilityTile {
         } else {
             &self.pairs[first * BLOCK..][..self.stride]
         };
-        let (pairs, _) = pairs.as_chunks::<BLOCK>();
-        let shared = &self.shared[first..][..blocks];
-        shown.iter().zip(shared).enumerate().map(|(i, (shown, shared))| Block {
+        let mut pairs = pairs.chunks(STRETCH);
+        let shared = self.shared[first..][..blocks].chunks(BLOCK);
+        shown.chunks(BLOCK).zip(shared).map(move |(shown, shared)| Stretch {
             shown,
-            shared: *shared,
-            pairs: pairs.get(i).map_or(&[], |pairs| pairs),
+            shared: word_of(shared),
+            pairs: pairs.next().unwrap_or_default(),
         })
     }
 
@@ -718,6 +721,16 @@ impl VisibilityTile {
                 whole => seen(whole),
             }
         }
+    }
+}
+
+/// Up to eight bytes, the first one lowest.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "one instruction, mostly")]
+fn word_of(bytes: &[u8]) -> u64 {
+    match <[u8; BLOCK]>::try_from(bytes) {
+        Ok(bytes) => u64::from_le_bytes(bytes),
+        Err(_) => bytes.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte)),
     }
 }
 

@@ -5,6 +5,7 @@ mod regions;
 mod replay;
 mod visualisation;
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -160,15 +161,16 @@ pub fn draw_cancellable(
     })
 }
 
-/// Fewest and most primitives that one thread transforms at a time.
-const CHUNK: (usize, usize) = (64, 65_536);
+/// Fewest points that are worth another thread.
+const MIN_POINTS: usize = 192;
+
+/// Most primitives of a part, fewer than which a large scene is not cut into either unless into more than [`PARTS`].
+const MAX_PRIMITIVES: usize = 65_536;
+const LARGE: usize = 1024;
 
 /// Parts into which a large scene is cut; a small one into as many as there are threads, since tiles have to look at all
 /// of them.
-const CHUNKS: usize = 64;
-
-/// Primitives of a part from which on a scene is large.
-const LARGE: usize = 1024;
+const PARTS: usize = 64;
 
 /// What paints a frame of `size` pixels: the picture, or what it shows instead.
 fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
@@ -243,11 +245,41 @@ fn picture_list<'a>(
 
 /// What `make` makes of each part of a scene, in painter's order: of the number of its first primitive and its primitives.
 fn chunks(scene: &Scene, make: impl Fn(usize, &[Primitive]) -> Chunk + Sync) -> Vec<Chunk> {
-    let count = scene.primitives.len();
-    let per_thread = count.div_ceil(rayon::current_num_threads());
-    let length = per_thread.min(LARGE).max(count / CHUNKS).clamp(CHUNK.0, CHUNK.1);
-    let parts = scene.primitives.par_chunks(length).enumerate();
-    parts.map(|(i, primitives)| make(i * length, primitives)).collect()
+    let parts = parts(&scene.primitives, rayon::current_num_threads());
+    let make = |part: Range<usize>| make(part.start, &scene.primitives[part]);
+    parts.into_par_iter().map(make).collect()
+}
+
+/// Cuts primitives into parts for several threads: those of a small scene have about as many points each, those of a large
+/// one as many primitives.
+fn parts(primitives: &[Primitive], threads: usize) -> Vec<Range<usize>> {
+    let count = primitives.len();
+    if count > LARGE * threads {
+        let length = (count / PARTS).clamp(LARGE, MAX_PRIMITIVES);
+        return (0..count)
+            .step_by(length)
+            .map(|start| start..count.min(start + length))
+            .collect();
+    }
+    let points = |primitive: &Primitive| match &primitive.kind {
+        PrimitiveKind::Triangle { points, .. } => points.len(),
+        PrimitiveKind::Polygon { polygon, .. } => polygon.points().len(),
+        _ => 1,
+    };
+    let all: usize = primitives.iter().map(points).sum();
+    let most = all.div_ceil(threads).max(MIN_POINTS);
+    let (mut parts, mut start, mut held) = (Vec::with_capacity(threads), 0, 0);
+    for (i, primitive) in primitives.iter().enumerate() {
+        held += points(primitive);
+        if held >= most {
+            parts.push(start..i + 1);
+            (start, held) = (i + 1, 0);
+        }
+    }
+    if start < count {
+        parts.push(start..count);
+    }
+    parts
 }
 
 /// The outline of the canvas, where one is wanted.

@@ -1,7 +1,8 @@
 //! Which ops touch which tile, in painter's order.
 //!
 //! Two walks over the ops of a chunk: the first counts the entries of each tile, the second writes them where they
-//! belong. Nothing is allocated per op or per tile. A stamp goes to the tiles of its bits, cut to each. A triangle or
+//! belong; where the first meets few entries, it keeps them, and there is no second. Nothing is allocated per op or per
+//! tile. A stamp goes to the tiles of its bits, cut to each. A triangle or
 //! outline is followed row of tiles by row of tiles: a tile that it covers is marked, so that painting it needs no
 //! coverage at all. An opaque one that covers a tile hides everything painted there before.
 
@@ -21,14 +22,28 @@ use crate::texture::Texture;
 /// Most entries that are held at once; more are made and painted in several passes over groups of tile rows.
 const MAX_ENTRIES: u64 = 1 << 22;
 
+/// Most entries of a chunk that are kept when they are counted, a third of a megabyte.
+const MAX_KEPT: usize = 1 << 14;
+
+/// Room for entries to begin with.
+const FEW: usize = 1 << 10;
+
 /// How many entries there will be.
 #[derive(Debug)]
 pub(crate) struct Plan {
-    /// For each chunk the number of its entries in each tile of the frame.
-    counts: Vec<Vec<u32>>,
+    chunks: Vec<ChunkPlan>,
     /// Tiles in a row, rows of tiles.
     columns: usize,
     rows: i32,
+}
+
+/// The entries of one chunk, as they will be.
+#[derive(Debug)]
+struct ChunkPlan {
+    /// How many there are in each tile of the frame.
+    counts: Vec<u32>,
+    /// All of them with their tiles, in painter's order, if they are few.
+    kept: Option<Vec<(u32, Entry)>>,
 }
 
 /// The entries of one chunk, tile by tile.
@@ -102,11 +117,22 @@ impl Plan {
         };
         let of_chunk = |chunk| {
             let mut counts = vec![0; tiles.columns as usize * tiles.rows as usize];
-            Walk::new(chunk, context, all).each(textures, |tile, _| counts[tile] += 1);
-            counts
+            let mut kept = Vec::with_capacity(FEW);
+            let mut few = true;
+            Walk::new(chunk, context, all).each(textures, |tile, entry| {
+                counts[tile] += 1;
+                few &= kept.len() < MAX_KEPT;
+                if few {
+                    kept.push((u32::try_from(tile).unwrap_or(u32::MAX), entry));
+                }
+            });
+            ChunkPlan {
+                counts,
+                kept: few.then_some(kept),
+            }
         };
         Self {
-            counts: chunks.par_iter().map(of_chunk).collect(),
+            chunks: chunks.par_iter().map(of_chunk).collect(),
             columns: tiles.columns as usize,
             rows: tiles.rows.cast_signed(),
         }
@@ -117,8 +143,8 @@ impl Plan {
         let (mut groups, mut start, mut in_group) = (Vec::new(), 0, 0_u64);
         for row in 0..self.rows {
             let tiles = place(row) * self.columns..(place(row) + 1) * self.columns;
-            let of_chunk = |counts: &Vec<u32>| counts[tiles.clone()].iter().map(|count| u64::from(*count)).sum::<u64>();
-            let in_row: u64 = self.counts.iter().map(of_chunk).sum();
+            let of_chunk = |plan: &ChunkPlan| -> u64 { plan.counts[tiles.clone()].iter().map(|n| u64::from(*n)).sum() };
+            let in_row: u64 = self.chunks.iter().map(of_chunk).sum();
             in_group += in_row;
             if in_group > MAX_ENTRIES && row > start {
                 groups.push(Span { start, end: row });
@@ -133,17 +159,35 @@ impl Plan {
     /// Sorts the ops of every chunk into the tiles of `rows`, a range of tile rows.
     pub(crate) fn bins(&self, chunks: &[Chunk], context: &ListContext, textures: &[&Texture], rows: Span) -> Vec<Bins> {
         let tiles = place(rows.start) * self.columns..place(rows.end) * self.columns;
-        chunks
-            .par_iter()
-            .zip(&self.counts)
-            .map(|(chunk, counts)| Bins::new(&Walk::new(chunk, context, rows), &counts[tiles.clone()], textures))
-            .collect()
+        let of_chunk = |(chunk, plan): (&Chunk, &ChunkPlan)| {
+            let mut sorter = Sorter::new(&plan.counts[tiles.clone()]);
+            match &plan.kept {
+                Some(kept) => {
+                    for (tile, entry) in kept {
+                        let tile = (*tile as usize).checked_sub(tiles.start);
+                        if let Some(tile) = tile.filter(|tile| *tile < tiles.len()) {
+                            sorter.add(tile, *entry);
+                        }
+                    }
+                }
+                None => Walk::new(chunk, context, rows).each(textures, |tile, entry| sorter.add(tile, entry)),
+            }
+            sorter.bins
+        };
+        chunks.par_iter().zip(&self.chunks).map(of_chunk).collect()
     }
 }
 
-impl Bins {
-    /// Sorts what a walk meets into tiles with `counts` entries each.
-    fn new(walk: &Walk<'_>, counts: &[u32], textures: &[&Texture]) -> Self {
+/// Sorts entries into tiles.
+struct Sorter {
+    bins: Bins,
+    /// Where the next entry of each tile belongs.
+    next: Vec<u32>,
+}
+
+impl Sorter {
+    /// For tiles with `counts` entries each.
+    fn new(counts: &[u32]) -> Self {
         let mut starts = Vec::with_capacity(counts.len() + 1);
         let mut total = 0;
         starts.push(0);
@@ -151,16 +195,24 @@ impl Bins {
             total += count;
             total
         }));
-        let mut next = starts.clone();
-        let mut entries = vec![Entry::default(); total as usize];
-        walk.each(textures, |tile, entry| {
-            let slot = &mut next[tile];
-            entries[*slot as usize] = entry;
-            *slot += 1;
-        });
-        Self { entries, starts }
+        Self {
+            next: starts.clone(),
+            bins: Bins {
+                entries: vec![Entry::default(); total as usize],
+                starts,
+            },
+        }
     }
 
+    #[inline]
+    fn add(&mut self, tile: usize, entry: Entry) {
+        let place = &mut self.next[tile];
+        self.bins.entries[*place as usize] = entry;
+        *place += 1;
+    }
+}
+
+impl Bins {
     /// All entries of a single tile.
     pub(crate) fn of_one_tile(entries: Vec<Entry>) -> Self {
         let end = u32::try_from(entries.len()).unwrap_or(u32::MAX);

@@ -21,6 +21,9 @@ const ROWS: usize = SIDE as usize;
 const BATCH: i32 = 32;
 const LINES: usize = BATCH as usize * ROWS;
 
+/// Pixels in a row of most tiles.
+const ROW: usize = 64;
+
 /// Pixels that are cut out of one word; a sixteenth would lie where clamped spans end.
 const WINDOW: i32 = 15;
 
@@ -194,30 +197,18 @@ fn covered(span: Span, left: i32, ends: Ends) -> u64 {
     }
 }
 
-/// Lets all of some `slots`, mostly a few, be the same one.
+/// Lets the slots from number `start` to `end` be the same one.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
-pub(crate) fn fill(slots: &mut [Slot], slot: Slot) {
-    match slots.len() {
-        0 => {}
-        1 => slots[0] = slot,
-        2..=3 => fill_ends::<2>(slots, slot),
-        4..=7 => fill_ends::<4>(slots, slot),
-        8..=16 => fill_ends::<8>(slots, slot),
-        17..=32 => fill_ends::<16>(slots, slot),
-        _ => slots.fill(slot),
-    }
-}
-
-/// Fills the first `N` slots and the last `N`, which may overlap: no loop, and no rest of one.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
-fn fill_ends<const N: usize>(slots: &mut [Slot], slot: Slot) {
-    if let Some(first) = slots.first_chunk_mut::<N>() {
-        *first = [slot; N];
-    }
-    if let Some(last) = slots.last_chunk_mut::<N>() {
-        *last = [slot; N];
+pub(crate) fn fill(slots: &mut [Slot], start: usize, end: usize, slot: Slot) {
+    let Ok(row) = <&mut [Slot; ROW]>::try_from(&mut *slots) else {
+        return slots[start..end].fill(slot);
+    };
+    // All of them anew: how many there are nobody can foresee, and vectors hold so few.
+    let (start, length) = (start as Slot, (end - start) as Slot);
+    for (at, shown) in (0..).zip(row) {
+        let inside = Slot::wrapping_sub(at, start) < length;
+        *shown = if inside { slot } else { *shown };
     }
 }
 
@@ -287,7 +278,7 @@ mod tests {
     fn slots_are_filled_from_end_to_end() {
         for length in 0..70 {
             let mut slots = vec![0; length + 2];
-            fill(&mut slots[1..=length], 9);
+            fill(&mut slots, 1, length + 1, 9);
             assert_eq!([slots[0], slots[length + 1]], [0, 0], "{length} and no more");
             assert!(slots[1..=length].iter().all(|slot| *slot == 9), "{length} of them");
         }

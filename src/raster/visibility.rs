@@ -208,10 +208,8 @@ impl VisibilityTile {
             });
             return;
         }
-        fill(
-            &mut self.whole[line + offset(left, row.full.start)..line + offset(left, row.full.end)],
-            slot,
-        );
+        let slots = &mut self.whole[line..line + self.stride];
+        fill(slots, offset(left, row.full.start), offset(left, row.full.end), slot);
         // Beside pixels that are full, each holds some covered samples, and none holds all.
         let (before, after) = row.beside_full();
         each_mask(spans, before, Ends::Left, |x, covered| {

@@ -6,6 +6,8 @@
 //! outline is followed row of tiles by row of tiles: a tile that it covers is marked, so that painting it needs no
 //! coverage at all. An opaque one that covers a tile hides everything painted there before.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::display_list::{Chunk, ListContext, Op, Paint};
@@ -42,8 +44,8 @@ pub(crate) struct Plan {
 struct ChunkPlan {
     /// How many there are in each tile of the frame.
     counts: Vec<u32>,
-    /// All of them with their tiles, in painter's order, if they are few.
-    kept: Option<Vec<(u32, Entry)>>,
+    /// All of them, if they are few.
+    bins: Option<Arc<Bins>>,
 }
 
 /// The entries of one chunk, tile by tile.
@@ -126,10 +128,14 @@ impl Plan {
                     kept.push((u32::try_from(tile).unwrap_or(u32::MAX), entry));
                 }
             });
-            ChunkPlan {
-                counts,
-                kept: few.then_some(kept),
-            }
+            let bins = few.then(|| {
+                let mut sorter = Sorter::new(&counts);
+                for (tile, entry) in kept {
+                    sorter.add(tile as usize, entry);
+                }
+                Arc::new(sorter.bins)
+            });
+            ChunkPlan { counts, bins }
         };
         Self {
             chunks: chunks.par_iter().map(of_chunk).collect(),
@@ -157,22 +163,26 @@ impl Plan {
     }
 
     /// Sorts the ops of every chunk into the tiles of `rows`, a range of tile rows.
-    pub(crate) fn bins(&self, chunks: &[Chunk], context: &ListContext, textures: &[&Texture], rows: Span) -> Vec<Bins> {
+    pub(crate) fn bins(
+        &self,
+        chunks: &[Chunk],
+        context: &ListContext,
+        textures: &[&Texture],
+        rows: Span,
+    ) -> Vec<Arc<Bins>> {
         let tiles = place(rows.start) * self.columns..place(rows.end) * self.columns;
+        let are_all = rows.start == 0 && rows.end == self.rows;
+        let ready = |plan: &ChunkPlan| plan.bins.clone().filter(|_| are_all);
+        // Nobody is woken up for nothing.
+        if let Some(bins) = self.chunks.iter().map(ready).collect() {
+            return bins;
+        }
         let of_chunk = |(chunk, plan): (&Chunk, &ChunkPlan)| {
-            let mut sorter = Sorter::new(&plan.counts[tiles.clone()]);
-            match &plan.kept {
-                Some(kept) => {
-                    for (tile, entry) in kept {
-                        let tile = (*tile as usize).checked_sub(tiles.start);
-                        if let Some(tile) = tile.filter(|tile| *tile < tiles.len()) {
-                            sorter.add(tile, *entry);
-                        }
-                    }
-                }
-                None => Walk::new(chunk, context, rows).each(textures, |tile, entry| sorter.add(tile, entry)),
-            }
-            sorter.bins
+            ready(plan).unwrap_or_else(|| {
+                let mut sorter = Sorter::new(&plan.counts[tiles.clone()]);
+                Walk::new(chunk, context, rows).each(textures, |tile, entry| sorter.add(tile, entry));
+                Arc::new(sorter.bins)
+            })
         };
         chunks.par_iter().zip(&self.chunks).map(of_chunk).collect()
     }

@@ -1,7 +1,7 @@
 //! The whole way from chunks to pixels: bins, tiles in parallel, resolve.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
@@ -117,7 +117,7 @@ pub(super) struct Painters<'a> {
 /// One group of tile rows on its way to the frame.
 pub(super) struct Pass<'a> {
     /// The entries of each chunk.
-    pub(super) bins: Vec<Bins>,
+    pub(super) bins: Vec<Arc<Bins>>,
     pub(super) first_row: u32,
     pub(super) cancelled: &'a AtomicBool,
     pub(super) tally: SharedTally,
@@ -472,7 +472,7 @@ impl<'a> DisplayList<'a> {
 }
 
 /// The chunk and the entry in it that painting a tile may start with: the last opaque shape that covers it wholly.
-pub(super) fn first_visible(bins: &[Bins], tile: usize) -> (usize, usize) {
+pub(super) fn first_visible(bins: &[Arc<Bins>], tile: usize) -> (usize, usize) {
     for (chunk, bins) in bins.iter().enumerate().rev() {
         if let Some(entry) = bins.of_tile(tile).iter().rposition(|entry| entry.hides_tile()) {
             return (chunk, entry);
@@ -483,7 +483,7 @@ pub(super) fn first_visible(bins: &[Bins], tile: usize) -> (usize, usize) {
 
 /// The entries of a tile from `first` on, chunk by chunk.
 fn visible(
-    bins: &[Bins],
+    bins: &[Arc<Bins>],
     tile: usize,
     (chunk, entry): (usize, usize),
 ) -> impl Iterator<Item = (usize, &[Entry])> + Clone {

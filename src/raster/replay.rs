@@ -3,6 +3,7 @@
 //! The painters are those of frames. What the pixel becomes is painted as its tile is, and what each op does to each
 //! sample by the painter that blends op by op: hidden fragments appear too, which frames leave out.
 
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::DisplayList;
@@ -113,12 +114,19 @@ impl DisplayList<'_> {
     }
 
     /// The ops that touch a pixel of the frame.
-    pub(super) fn bins_of_pixel(&self, pixel: [i32; 2]) -> Vec<Bins> {
+    pub(super) fn bins_of_pixel(&self, pixel: [i32; 2]) -> Vec<Arc<Bins>> {
         let context = ListContext {
             tiles: TileLayout::new((0, 0), self.context.size),
             ..self.context
         };
-        let bins = |chunk| Bins::of_one_tile(entries_of_tile(chunk, &context, &self.textures, pixel));
+        let bins = |chunk| {
+            Arc::new(Bins::of_one_tile(entries_of_tile(
+                chunk,
+                &context,
+                &self.textures,
+                pixel,
+            )))
+        };
         self.chunks.iter().map(bins).collect()
     }
 

@@ -1,7 +1,7 @@
 //! Rows of pixels with 4 x 4 samples, the commonest rate above one: as in `pixel_row`, but with few instructions.
 //!
-//! Spans are not cut to the tile; only the pixels are. The samples of neighbouring pixels are cut out of one word per
-//! sample row, in which a window of fifteen pixels fits, so that nothing is clamped pixel by pixel.
+//! Spans are not cut to the tile; only the pixels are. The masks of four neighbouring pixels are made as one word, so
+//! that nothing is clamped pixel by pixel.
 
 use super::outline::RowSpans;
 use super::pixel_row::{PixelRow, scaled};
@@ -24,8 +24,12 @@ const LINES: usize = BATCH as usize * ROWS;
 /// Pixels in a row of most tiles.
 const ROW: usize = 64;
 
-/// Pixels that are cut out of one word; a sixteenth would lie where clamped spans end.
-const WINDOW: i32 = 15;
+/// Pixels whose masks fit one word, and their sample columns.
+const WINDOW: i32 = 4;
+const COLUMNS: i32 = WINDOW * SIDE;
+
+/// The bits of so many samples of a row.
+const ALL: u64 = (1 << COLUMNS) - 1;
 
 /// Which ends of spans may lie in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -167,34 +171,35 @@ pub(crate) fn each_mask(spans: &[Span], xs: Span, ends: Ends, mut visit: impl Fn
     };
     let mut x = xs.start;
     while x < xs.end {
-        let end = xs.end.min(x + WINDOW);
         let left = x * SIDE;
-        let mut rows = [0; ROWS];
-        for (row, span) in rows.iter_mut().zip(spans) {
-            *row = covered(*span, left, ends);
-        }
+        let before = |column: fn(&Span) -> i32| before(spans.each_ref().map(|span| column(span) - left));
+        let mut masks = match ends {
+            Ends::Left => !before(|span| span.start),
+            Ends::Right => before(|span| span.end),
+            Ends::Both => before(|span| span.end) & !before(|span| span.start),
+        };
+        let end = xs.end.min(x + WINDOW);
         for x in x..end {
-            let [a, b, c, d] = rows;
-            visit(x, a & 0xF | (b & 0xF) << 4 | (c & 0xF) << 8 | (d & 0xF) << 12);
-            for row in &mut rows {
-                *row >>= 4;
-            }
+            visit(x, masks & 0xFFFF);
+            masks >>= 16;
         }
         x = end;
     }
 }
 
-/// The bits of the samples from column `left` on that a span covers, as far as [`WINDOW`] pixels.
+/// The masks of four pixels side by side, from the lowest bits on: of the samples of each row before a column.
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "faster where `ends` is known")]
-fn covered(span: Span, left: i32, ends: Ends) -> u64 {
-    // The bits from a column on.
-    let from = |column: i32| u64::MAX << (column - left).clamp(0, 63);
-    match ends {
-        Ends::Left => from(span.start),
-        Ends::Right => !from(span.end),
-        Ends::Both => from(span.start) & !from(span.end),
+#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+fn before(columns: [i32; ROWS]) -> u64 {
+    let mut masks = [0; ROWS];
+    for (row, (mask, column)) in masks.iter_mut().zip(columns).enumerate() {
+        let samples = !(u64::MAX << column.clamp(0, COLUMNS)) & ALL;
+        // Each four to the pixel that they belong to.
+        let halves = (samples | samples << 24) & 0x0000_00FF_0000_00FF;
+        *mask = ((halves | halves << 12) & 0x000F_000F_000F_000F) << (ROWS * row);
     }
+    let [a, b, c, d] = masks;
+    (a | b) | (c | d)
 }
 
 /// Lets the slots from number `start` to `end` be the same one.

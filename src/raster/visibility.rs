@@ -208,8 +208,6 @@ impl VisibilityTile {
             });
             return;
         }
-        let slots = &mut self.whole[line..line + self.stride];
-        fill(slots, offset(left, row.full.start), offset(left, row.full.end), slot);
         // Beside pixels that are full, each holds some covered samples, and none holds all.
         let (before, after) = row.beside_full();
         each_mask(spans, before, Ends::Left, |x, covered| {
@@ -218,6 +216,9 @@ impl VisibilityTile {
         each_mask(spans, after, Ends::Right, |x, covered| {
             self.paint_samples(line + offset(left, x), covered, slot);
         });
+        // Last: slots that were just written as vectors are read slowly.
+        let slots = &mut self.whole[line..line + self.stride];
+        fill(slots, offset(left, row.full.start), offset(left, row.full.end), slot);
     }
 
     /// Lets the samples of a row of pixels that is covered in part show `slot`; `line` is the index of its first pixel.

@@ -376,3 +376,62 @@ impl Screen<'_> {
         [[a, b], [a, c], [d, b], [d, c]]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{DialectChoice, NoResources, ReadOptions, read};
+
+    /// A scene of polygons with so many corners each.
+    fn scene(corners: impl Iterator<Item = usize>) -> Scene {
+        let polygon = |count: usize| format!("<polygon points='{}'/>", "1,2 7,3 5,8 ".repeat(count.div_ceil(3)));
+        let polygons = corners.map(polygon).collect::<Vec<_>>().concat();
+        let document = format!("<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'>{polygons}</svg>");
+        let options = ReadOptions {
+            dialect: DialectChoice::Svg,
+        };
+        read(document.as_bytes(), "polygons", options, &NoResources).expect("a good document")
+    }
+
+    fn points(primitives: &[Primitive]) -> usize {
+        let of = |primitive: &Primitive| match &primitive.kind {
+            PrimitiveKind::Polygon { polygon, .. } => polygon.points().len(),
+            PrimitiveKind::Triangle { points, .. } => points.len(),
+            _ => 0,
+        };
+        primitives.iter().map(of).sum()
+    }
+
+    #[test]
+    fn parts_hold_each_primitive_once_and_small_scenes_as_many_points_in_each() {
+        let small = scene((0..90).map(|i| if i < 80 { 3 } else { 240 }));
+        let few = scene([30].into_iter());
+        let large = scene((0..5000).map(|_| 6));
+        for threads in 1..=4 {
+            for scene in [&small, &few, &large] {
+                let parts = parts(&scene.primitives, threads);
+                let all: Vec<usize> = parts.iter().cloned().flatten().collect();
+                assert_eq!(
+                    all,
+                    (0..scene.primitives.len()).collect::<Vec<_>>(),
+                    "each once, in order"
+                );
+            }
+            let parts_of_small = parts(&small.primitives, threads);
+            assert_eq!(parts_of_small.len(), threads, "one for each thread");
+            let share = points(&small.primitives) / threads;
+            for part in parts_of_small {
+                let held = points(&small.primitives[part]);
+                assert!(
+                    held.abs_diff(share) <= 240 * threads,
+                    "{held} points of {share} by {threads}"
+                );
+            }
+            assert_eq!(
+                parts(&few.primitives, threads).len(),
+                1,
+                "nobody is woken up for so little"
+            );
+        }
+    }
+}

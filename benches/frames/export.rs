@@ -62,7 +62,7 @@ impl Export<'_> {
                 anisotropy: Anisotropy::new(*taps).unwrap_or_default(),
                 ..settings(*rate)
             };
-            Ours::new(scene, size, settings, &pool)
+            Ours::new(scene, size, settings, pool)
         });
         let mut ours: Vec<Ours<'_>> = draws.collect();
         let number = self.entries.len();

@@ -53,7 +53,7 @@ fn measure(scenes: fn([u32; 2]) -> Vec<FlatScene>, budget: Budget) -> Columns {
     let mut columns = vec![Column::new(); NAMES.len()];
     for size in FRAMES {
         for scene in scenes(size) {
-            let timings = race_on(&scene, size, &pools, budget);
+            let timings = race_on(&scene, size, pools, budget);
             say_times(scene.name, size, &NAMES, &timings);
             for (column, timing) in columns.iter_mut().zip(timings) {
                 column.push(timing);
@@ -63,9 +63,9 @@ fn measure(scenes: fn([u32; 2]) -> Vec<FlatScene>, budget: Budget) -> Columns {
     Columns(columns)
 }
 
-fn race_on(scene: &FlatScene, size: [u32; 2], pools: &[ThreadPool; 2], budget: Budget) -> Vec<Timing> {
+fn race_on(scene: &FlatScene, size: [u32; 2], pools: [&'static ThreadPool; 2], budget: Budget) -> Vec<Timing> {
     let read = scene.read();
-    let ours = |rate, threads: usize| Ours::new(&read, size, settings(rate), &pools[threads - 1]);
+    let ours = |rate, threads: usize| Ours::new(&read, size, settings(rate), pools[threads - 1]);
     let mut rivals: Vec<Rival<'_>> = [(1, 2), (1, 1), (16, 2), (16, 1)]
         .into_iter()
         .map(|(rate, threads)| {

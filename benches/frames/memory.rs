@@ -19,7 +19,7 @@ pub(crate) fn memory() -> Vec<Row> {
     let before = kilobytes("VmRSS:").filter(|_| fs::write("/proc/self/clear_refs", "5").is_ok());
     for (name, scene) in &scenes {
         // The frame itself counts, too.
-        Ours::new(scene, size, settings(RATE), &pool).draw();
+        Ours::new(scene, size, settings(RATE), pool).draw();
         if let Some((before, peak)) = before.zip(kilobytes("VmHWM:")) {
             let [beside, all] = [peak - before, peak].map(|kilobytes| kilobytes / 1024.0);
             say(&format!(

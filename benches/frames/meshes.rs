@@ -14,7 +14,7 @@ fn race_on(MeshScene { name, scene }: &MeshScene, size: [u32; 2], budget: Budget
     let mut rivals: Vec<Rival<'_>> = [(1, 2), (1, 1), (16, 2), (16, 1)]
         .into_iter()
         .map(|(rate, threads)| {
-            let mut ours = Ours::new(scene, size, settings(rate), &pools[threads - 1]);
+            let mut ours = Ours::new(scene, size, settings(rate), pools[threads - 1]);
             Rival::new(move || {
                 ours.draw();
             })

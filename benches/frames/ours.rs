@@ -1,5 +1,7 @@
 //! Rasterscope itself as a rival: `render::draw` on a pool of one or two threads.
 
+use std::sync::OnceLock;
+
 use rasterscope::color::Rgba;
 use rasterscope::geometry::{View, ViewTransform};
 use rasterscope::raster::{Framebuffer, SampleRate};
@@ -17,12 +19,16 @@ pub(crate) struct Ours<'a> {
     pool: &'a ThreadPool,
 }
 
-/// A pool of `threads`.
-pub(crate) fn pool(threads: usize) -> ThreadPool {
-    ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .expect("threads can be started")
+/// A pool of one or two threads, always the same ones. Of two, the caller is one, as on the command line: nobody is woken
+/// up only to begin.
+pub(crate) fn pool(threads: usize) -> &'static ThreadPool {
+    static ONE: OnceLock<ThreadPool> = OnceLock::new();
+    static TWO: OnceLock<ThreadPool> = OnceLock::new();
+    let (pool, builder) = match threads {
+        1 => (&ONE, ThreadPoolBuilder::new().num_threads(1)),
+        _ => (&TWO, ThreadPoolBuilder::new().num_threads(2).use_current_thread()),
+    };
+    pool.get_or_init(|| builder.build().expect("threads can be started"))
 }
 
 /// How the tables draw: trilinear on white, no outline.

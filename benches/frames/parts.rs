@@ -70,7 +70,7 @@ pub(crate) fn stages() {
 
 fn line(name: &str, scene: &Scene, settings: RenderSettings) {
     let pool = pool(1);
-    let mut ours = Ours::new(scene, FRAMES[0], settings, &pool);
+    let mut ours = Ours::new(scene, FRAMES[0], settings, pool);
     ours.draw();
     let frames: Vec<FrameStats> = (0..FRAMES_PER_LINE).map(|_| ours.draw()).collect();
     let stages = STAGES.map(|(stage, time)| {

@@ -558,18 +558,45 @@ mod tests {
         }
     }
 
-    fn binned(context: &ListContext, triangles: &[[DVec2; 3]]) -> (Chunk, Bins) {
+    /// Bins of entries that were kept when they were counted; those of a second walk are the same, also row by row.
+    fn binned(context: &ListContext, triangles: &[[DVec2; 3]]) -> (Chunk, Arc<Bins>) {
         let mut builder = ChunkBuilder::new(context, triangles.len());
         for triangle in triangles {
             builder.triangle(*triangle, &Fill::Solid(Rgba::BLACK));
         }
         let chunk = builder.finish();
         let chunks = [chunk];
-        let plan = Plan::new(&chunks, context, &[]);
+        let mut plan = Plan::new(&chunks, context, &[]);
         let groups = plan.groups();
         assert_eq!(groups.len(), 1, "few entries are one group");
-        let bins = plan.bins(&chunks, context, &[], groups[0]).pop().expect("one chunk");
-        let [chunk] = chunks;
+        let bins = |plan: &Plan, rows| plan.bins(&chunks, context, &[], rows).pop().expect("one chunk");
+        let kept = bins(&plan, groups[0]);
+        assert!(plan.chunks[0].bins.take().is_some(), "few entries are kept");
+        let walked = bins(&plan, groups[0]);
+        assert_eq!(
+            (&walked.entries, &walked.starts),
+            (&kept.entries, &kept.starts),
+            "by a second walk"
+        );
+        let columns = context.tiles.columns as usize;
+        for row in 0..context.tiles.rows.cast_signed() {
+            let of_row = bins(
+                &plan,
+                Span {
+                    start: row,
+                    end: row + 1,
+                },
+            );
+            for column in 0..columns {
+                let tile = place(row) * columns + column;
+                assert_eq!(
+                    of_row.of_tile(column),
+                    kept.of_tile(tile),
+                    "tile {column} of row {row} alone"
+                );
+            }
+        }
+        let (bins, [chunk]) = (kept, chunks);
         (chunk, bins)
     }
 

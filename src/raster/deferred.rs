@@ -440,7 +440,7 @@ fn resolve_whole(known: &Known, shown: &[[Slot; BLOCK]], pixels: &mut [u32]) {
     for (pixels, slots) in whole.iter_mut().zip(groups) {
         let first = slots[0][0];
         // Without a way out in between: nobody can foresee where it would be taken.
-        if slots.iter().fold(true, |same, block| same & (*block == [first; BLOCK])) {
+        if slots.iter().filter(|block| **block != [first; BLOCK]).count() == 0 {
             *pixels = [known.pixel(first); GROUP * BLOCK];
         } else {
             for (pixel, slot) in pixels.iter_mut().zip(slots.as_flattened()) {

@@ -205,6 +205,7 @@ fn before(columns: [i32; ROWS]) -> u64 {
 /// Lets the slots from number `start` to `end` be the same one.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+#[expect(clippy::cast_possible_truncation, reason = "places in a row of 64")]
 pub(crate) fn fill(slots: &mut [Slot], start: usize, end: usize, slot: Slot) {
     let Ok(row) = <&mut [Slot; ROW]>::try_from(&mut *slots) else {
         return slots[start..end].fill(slot);
@@ -280,12 +281,17 @@ mod tests {
     }
 
     #[test]
-    fn slots_are_filled_from_end_to_end() {
-        for length in 0..70 {
-            let mut slots = vec![0; length + 2];
-            fill(&mut slots, 1, length + 1, 9);
-            assert_eq!([slots[0], slots[length + 1]], [0, 0], "{length} and no more");
-            assert!(slots[1..=length].iter().all(|slot| *slot == 9), "{length} of them");
+    fn slots_are_filled_from_start_to_end() {
+        for length in [ROW, 40] {
+            for start in 0..=length {
+                for end in start..=length {
+                    let mut slots: Vec<Slot> = (100..).take(length).collect();
+                    let mut expected = slots.clone();
+                    expected[start..end].fill(9);
+                    fill(&mut slots, start, end, 9);
+                    assert_eq!(slots, expected, "{start} to {end} of {length}");
+                }
+            }
         }
     }
 }

@@ -339,7 +339,8 @@ impl VisibilityTile {
     }
 
     /// Lets a pixel show two slots, or the one that is left of them.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
     fn set_pair(&mut self, pixel: usize, pair: Pair) {
         if pair.mask == 0 {
             self.whole[pixel] = pair.first;
@@ -380,12 +381,15 @@ impl VisibilityTile {
                 &mut change,
             );
         }
-        let (before, after) = row.beside_full();
-        for xs in [before, after] {
-            each_mask(row.spans(), xs, Ends::Both, |x, covered| {
-                self.change_samples((line + offset(left, x), x), (covered, row.spans()), &mut change);
-            });
+        let mut change_samples = |x, covered| {
+            self.change_samples((line + offset(left, x), x), (covered, row.spans()), &mut change);
+        };
+        if row.full.is_empty() {
+            return each_mask(row.spans(), row.touched, Ends::Both, change_samples);
         }
+        let (before, after) = row.beside_full();
+        each_mask(row.spans(), before, Ends::Left, &mut change_samples);
+        each_mask(row.spans(), after, Ends::Right, change_samples);
     }
 
     /// Lets the samples that `spans` cover in a pixel, by its index and its column in the frame, show what `change` makes

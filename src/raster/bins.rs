@@ -24,8 +24,10 @@ use crate::texture::Texture;
 /// Most entries that are held at once; more are made and painted in several passes over groups of tile rows.
 const MAX_ENTRIES: u64 = 1 << 22;
 
-/// Most entries of a chunk that are kept when they are counted, a third of a megabyte.
+/// Most entries of a chunk that are kept when they are counted, a third of a megabyte; and of how many ops at most: where
+/// there are more, most are tiny, and sooner met again than written and read.
 const MAX_KEPT: usize = 1 << 14;
+const MAX_KEPT_OPS: usize = 1 << 12;
 
 /// Room for entries to begin with.
 const FEW: usize = 1 << 10;
@@ -117,10 +119,10 @@ impl Plan {
             start: 0,
             end: tiles.rows.cast_signed(),
         };
-        let of_chunk = |chunk| {
+        let of_chunk = |chunk: &Chunk| {
             let mut counts = vec![0; tiles.columns as usize * tiles.rows as usize];
-            let mut kept = Vec::with_capacity(FEW);
-            let mut few = true;
+            let mut few = chunk.ops.len() <= MAX_KEPT_OPS;
+            let mut kept = Vec::with_capacity(if few { FEW } else { 0 });
             Walk::new(chunk, context, all).each(textures, |tile, entry| {
                 counts[tile] += 1;
                 few &= kept.len() < MAX_KEPT;

@@ -164,7 +164,7 @@ pub fn draw_cancellable(
 /// Fewest points that are worth another thread.
 const MIN_POINTS: usize = 192;
 
-/// Most primitives of a part, fewer than which a large scene is not cut into either unless into more than [`PARTS`].
+/// Most primitives of a part, and fewest of one of a large scene.
 const MAX_PRIMITIVES: usize = 65_536;
 const LARGE: usize = 1024;
 

@@ -24,7 +24,7 @@ use crate::texture::Texture;
 /// Most entries that are held at once; more are made and painted in several passes over groups of tile rows.
 const MAX_ENTRIES: u64 = 1 << 22;
 
-/// Most entries of a chunk that are kept when they are counted, a third of a megabyte; and of how many ops at most: where
+/// Most entries of a chunk that are kept when they are counted, half a megabyte; and of how many ops at most: where
 /// there are more, most are tiny, and sooner met again than written and read.
 const MAX_KEPT: usize = 1 << 14;
 const MAX_KEPT_OPS: usize = 1 << 12;

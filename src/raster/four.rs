@@ -172,11 +172,12 @@ pub(crate) fn each_mask(spans: &[Span], xs: Span, ends: Ends, mut visit: impl Fn
     let mut x = xs.start;
     while x < xs.end {
         let left = x * SIDE;
-        let before = |column: fn(&Span) -> i32| before(spans.each_ref().map(|span| column(span) - left));
+        let starts = spans.each_ref().map(|span| before(span.start - left));
+        let endings = spans.each_ref().map(|span| before(span.end - left));
         let mut masks = match ends {
-            Ends::Left => !before(|span| span.start),
-            Ends::Right => before(|span| span.end),
-            Ends::Both => before(|span| span.end) & !before(|span| span.start),
+            Ends::Left => !masks_of(starts),
+            Ends::Right => masks_of(endings),
+            Ends::Both => masks_of(std::array::from_fn(|row| endings[row] & !starts[row])),
         };
         let end = xs.end.min(x + WINDOW);
         for x in x..end {
@@ -187,13 +188,19 @@ pub(crate) fn each_mask(spans: &[Span], xs: Span, ends: Ends, mut visit: impl Fn
     }
 }
 
-/// The masks of four pixels side by side, from the lowest bits on: of the samples of each row before a column.
+/// The bits of the first [`COLUMNS`] samples of a row that lie before a column.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
-fn before(columns: [i32; ROWS]) -> u64 {
+fn before(column: i32) -> u64 {
+    !(u64::MAX << column.clamp(0, COLUMNS)) & ALL
+}
+
+/// The masks of four pixels side by side, from the lowest bits on: of the samples of each row.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+fn masks_of(rows: [u64; ROWS]) -> u64 {
     let mut masks = [0; ROWS];
-    for (row, (mask, column)) in masks.iter_mut().zip(columns).enumerate() {
-        let samples = !(u64::MAX << column.clamp(0, COLUMNS)) & ALL;
+    for (row, (mask, samples)) in masks.iter_mut().zip(rows).enumerate() {
         // Each four to the pixel that they belong to.
         let halves = (samples | samples << 24) & 0x0000_00FF_0000_00FF;
         *mask = ((halves | halves << 12) & 0x000F_000F_000F_000F) << (ROWS * row);

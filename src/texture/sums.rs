@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_are_within_a_quarter_of_a_byte_of_the_definition() {
+    fn sums_move_no_pixel_by_a_quarter_of_a_byte_from_the_definition() {
         arbtest::arbtest(|u| {
             let pyramid = oracle::pyramid(u)?;
             let map = oracle::map(u, &pyramid.levels()[0])?;
@@ -277,7 +277,9 @@ mod tests {
                 u64::MAX
             };
             let covered = |j: u32| j >= 64 || mask >> j & 1 == 1;
-            let count = (0..grid.side * grid.side).filter(|j| covered(*j)).count();
+            // Weights are rounded once a pixel, however few of its samples are covered: what counts is its colour, to which
+            // the sum over covered samples is added.
+            let samples = f64::from(grid.side * grid.side);
             for _ in 0..10 {
                 let at = [u.int_in_range(0..=70)?, u.int_in_range(0..=70)?];
                 let found = oracle::pixel_sum(&plan, grid.side, at, covered);
@@ -289,7 +291,7 @@ mod tests {
                     }
                 }
                 for (found, exact) in found.iter().zip(exact) {
-                    let error = (f64::from(*found) / 256.0 - exact).abs() / count.max(1) as f64;
+                    let error = (f64::from(*found) / 256.0 - exact).abs() / samples;
                     assert!(
                         error < 0.25,
                         "{error}: {found} / 256 is not {exact}: {filter:?} {grid:?} {at:?} {mask:x}"

@@ -13,13 +13,14 @@ use super::display_list::Chunk;
 use super::entry::{Entry, Work};
 use super::four;
 use super::fragments::{Fragment, Part, Unresolved};
+use super::pairs::Pair;
 use super::pixel_block::PixelBlock;
 use super::pixel_row::each_pixel_row_of_few;
 use super::shade::{Pixels, ShadeContext, Shader};
 use super::slots::{Known, Shaded, SlotColor, Slots, Spread};
 use super::small::SmallCoverage;
 use super::tile::PixelRect;
-use super::visibility::{BLOCK, MAX_SLOTS, PAIR, Pair, Run, STRETCH, Slot, Stretch, VisibilityTile, lanes, splat};
+use super::visibility::{BLOCK, MAX_SLOTS, PAIR, Run, STRETCH, Slot, Stretch, VisibilityTile, lanes, splat};
 use crate::color::{Premultiplied16, Resolver};
 use crate::simd;
 use crate::texture::SampleGrid;
@@ -264,13 +265,12 @@ impl<'a> DeferredPainter<'a> {
                 let at = rest.trailing_zeros() as usize;
                 rest &= rest - 1;
                 let slot = shown[at / BLOCK][at % BLOCK];
-                if slot == PAIR
-                    && let Some(pair) = pairs.get(at)
-                {
+                if slot == PAIR {
+                    let pair = pairs.get(at);
                     let of_second = count(pair.mask);
                     pixels[at] = match known.mixed(pair.first, pair.second, of_second) {
                         Some(pixel) => pixel,
-                        None => self.resolver.pixel_of_halves(self.pair_sum(*pair, of_second)),
+                        None => self.resolver.pixel_of_halves(self.pair_sum(pair, of_second)),
                     };
                 } else if usize::from(slot) > MAX_SLOTS {
                     pixels[at] = self.resolve_split(first + at, y);
@@ -285,9 +285,12 @@ impl<'a> DeferredPainter<'a> {
         let tile = &self.layers[0];
         let pairs = tile.pairs(y);
         for ((x, slot), pixel) in tile.row(y).iter().enumerate().zip(line) {
-            *pixel = match pairs.get(x) {
-                _ if usize::from(*slot) < MAX_SLOTS => self.slots.get(*slot).pixel,
-                Some(pair) if *slot == PAIR => self.resolver.pixel_of_halves(self.pair_sum(*pair, count(pair.mask))),
+            *pixel = match *slot {
+                PAIR => {
+                    let pair = pairs.get(x);
+                    self.resolver.pixel_of_halves(self.pair_sum(pair, count(pair.mask)))
+                }
+                slot if usize::from(slot) < MAX_SLOTS => self.slots.get(slot).pixel,
                 _ => self.resolve_split(x, y),
             };
         }
@@ -323,8 +326,9 @@ impl<'a> DeferredPainter<'a> {
                     }
                 }
                 Run::Pairs => {
-                    let pairs = &tile.pairs(y)[range];
-                    for (pair, x) in pairs.iter().zip(columns) {
+                    let pairs = tile.pairs(y);
+                    for x in columns {
+                        let pair = pairs.get(usize::from(x));
                         if [pair.first, pair.second]
                             .iter()
                             .all(|slot| slots.get(*slot).shaded.is_none())
@@ -403,7 +407,7 @@ fn opaque_four<S: Simd>(simd: S, (shape, bands): (Shape<'_>, &mut BandSpans), ti
                 shape,
                 tile.rect,
                 #[inline(always)]
-                |row| tile.paint_four(row, slot),
+                |row| tile.paint_four(simd, row, slot),
             );
         },
     );
@@ -425,7 +429,7 @@ fn translucent_four<S: Simd>(
                 shape,
                 tile.rect,
                 #[inline(always)]
-                |row| tile.change_four(row, |slot| slots.under(slot, color)),
+                |row| tile.change_four(simd, row, |slot| slots.under(slot, color)),
             );
         },
     );

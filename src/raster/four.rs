@@ -3,6 +3,9 @@
 //! Spans are not cut to the tile; only the pixels are. The masks of four neighbouring pixels are made as one word, so
 //! that nothing is clamped pixel by pixel.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, i8x16, i8x64, i32x4};
+
 use super::outline::RowSpans;
 use super::pixel_row::{PixelRow, scaled};
 use super::rows::{SortedTriangle, Span};
@@ -28,8 +31,16 @@ const ROW: usize = 64;
 const WINDOW: i32 = 4;
 const COLUMNS: i32 = WINDOW * SIDE;
 
-/// The bits of so many samples of a row.
-const ALL: u64 = (1 << COLUMNS) - 1;
+/// The sample column of each bit of such a word.
+const SAMPLE_COLUMNS: [i8; 64] = {
+    let mut columns = [0; 64];
+    let mut bit = 0;
+    while bit < 64_u8 {
+        columns[bit as usize] = (bit / 16 * 4 + bit % 4).cast_signed();
+        bit += 1;
+    }
+    columns
+};
 
 /// Which ends of spans may lie in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -161,52 +172,64 @@ fn each(y: i32, spans: &[Span; ROWS], columns: Span, paint: &mut impl FnMut(&Pix
     paint(&PixelRow::of_parts(y, spans, touched, full));
 }
 
-/// Calls `visit` with each pixel from `xs.start` to `xs.end` and the bits of its samples that the spans of a row of
-/// pixels cover; `ends` says which ends of these may lie there.
+/// Some samples of four pixels side by side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Window {
+    /// The first pixel.
+    pub(crate) x: i32,
+    /// All bits of the pixels that are meant, sixteen each, those of the first pixel lowest.
+    pub(crate) live: u64,
+    /// The samples of these that are covered.
+    pub(crate) masks: u64,
+}
+
+/// Calls `visit` with windows that hold each pixel from `xs.start` to `xs.end` once, and what the spans of a row of pixels
+/// cover there. No window begins beyond `last`. `ends` says which ends of spans may lie in these pixels.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "faster where `ends` is known")]
-pub(crate) fn each_mask(spans: &[Span], xs: Span, ends: Ends, mut visit: impl FnMut(i32, u64)) {
-    let Some(spans) = spans.first_chunk::<ROWS>() else {
+pub(crate) fn each_window<S: Simd>(
+    simd: S,
+    spans: &[Span],
+    (xs, last): (Span, i32),
+    ends: Ends,
+    mut visit: impl FnMut(Window),
+) {
+    let Some([a, b, c, d]) = spans.first_chunk::<ROWS>() else {
         return;
     };
-    let mut x = xs.start;
-    while x < xs.end {
-        let left = x * SIDE;
-        let starts = spans.each_ref().map(|span| before(span.start - left));
-        let endings = spans.each_ref().map(|span| before(span.end - left));
-        let mut masks = match ends {
-            Ends::Left => !masks_of(starts),
-            Ends::Right => masks_of(endings),
-            Ends::Both => masks_of(std::array::from_fn(|row| endings[row] & !starts[row])),
-        };
+    let starts = i32x4::simd_from(simd, [a.start, b.start, c.start, d.start]);
+    let endings = i32x4::simd_from(simd, [a.end, b.end, c.end, d.end]);
+    let mut from = xs.start;
+    while from < xs.end {
+        let x = from.min(last);
         let end = xs.end.min(x + WINDOW);
-        for x in x..end {
-            visit(x, masks & 0xFFFF);
-            masks >>= 16;
-        }
-        x = end;
+        let live = u64::MAX >> (16 * (WINDOW - (end - from))) << (16 * (from - x));
+        let masks = match ends {
+            Ends::Left => !before(simd, starts, x),
+            Ends::Right => before(simd, endings, x),
+            Ends::Both => before(simd, endings, x) & !before(simd, starts, x),
+        };
+        visit(Window {
+            x,
+            live,
+            masks: masks & live,
+        });
+        from = end;
     }
 }
 
-/// The bits of the first [`COLUMNS`] samples of a row that lie before a column.
+/// The samples of a window of pixels from pixel `x` on that lie before a column of the frame, one for each sample row:
+/// from the lowest bits on the masks of the pixels.
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
-fn before(column: i32) -> u64 {
-    !(u64::MAX << column.clamp(0, COLUMNS)) & ALL
-}
-
-/// The masks of four pixels side by side, from the lowest bits on: of the samples of each row.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
-fn masks_of(rows: [u64; ROWS]) -> u64 {
-    let mut masks = [0; ROWS];
-    for (row, (mask, samples)) in masks.iter_mut().zip(rows).enumerate() {
-        // Each four to the pixel that they belong to.
-        let halves = (samples | samples << 24) & 0x0000_00FF_0000_00FF;
-        *mask = ((halves | halves << 12) & 0x000F_000F_000F_000F) << (ROWS * row);
-    }
-    let [a, b, c, d] = masks;
-    (a | b) | (c | d)
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn before<S: Simd>(simd: S, columns: i32x4<S>, x: i32) -> u64 {
+    let number = |number: i32| i32x4::splat(simd, number);
+    let inside = (columns - number(x * SIDE)).max(number(0)).min(number(COLUMNS));
+    // A byte for each sample of a pixel: four times the number of its row.
+    let twice = inside | inside << 8;
+    let rows: i8x16<S> = (twice | twice << 16).bitcast();
+    let samples = i8x64::simd_from(simd, SAMPLE_COLUMNS);
+    samples.simd_lt(i8x64::block_splat(rows)).to_bitmask()
 }
 
 /// Lets the slots from number `start` to `end` be the same one.

@@ -20,6 +20,7 @@ mod hairline;
 mod outline;
 mod outline_tiles;
 mod paint;
+mod pairs;
 mod pattern;
 mod pixel_block;
 mod pixel_row;

@@ -9,7 +9,11 @@
 
 use std::ops::Range;
 
-use super::four::{Ends, each_mask, fill};
+use fearless_simd::Simd;
+use fearless_simd::prelude::*;
+
+use super::four::{Ends, Window, each_window, fill};
+use super::pairs::{self, Pair, PairRow, Pairs, QUAD, Quad};
 use super::pixel_row::PixelRow;
 use super::rows::Span;
 use super::tile::PixelRect;
@@ -22,6 +26,9 @@ const SPLIT: Slot = Slot::MAX;
 
 /// Stands for a pixel that shows a [`Pair`].
 pub(crate) const PAIR: Slot = Slot::MAX - 1;
+
+/// Bits of which one is set for each shared pixel of four, and perhaps for others.
+const PERHAPS_SHARED: u64 = 0x8000_8000_8000_8000;
 
 /// Most slots of a tile.
 pub(crate) const MAX_SLOTS: usize = PAIR as usize;
@@ -78,18 +85,9 @@ pub(crate) struct VisibilityTile {
     /// For each block of pixels side by side a bit for each that was a pair or split once; it need not be any more.
     shared: Vec<u8>,
     /// What pairs show, pixel by pixel.
-    pairs: Vec<Pair>,
+    pairs: Pairs,
     /// The slots of split pixels, pixel by pixel. Allocated with the first split.
     samples: Vec<u64>,
-}
-
-/// Two slots that share the samples of a pixel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Pair {
-    /// Bit `side * row + column` for each sample that shows `second`; neither all are set nor none.
-    pub(crate) mask: u64,
-    pub(crate) first: Slot,
-    pub(crate) second: Slot,
 }
 
 /// Pixels side by side, [`STRETCH`] or up to the tile's right side.
@@ -99,8 +97,8 @@ pub(crate) struct Stretch<'a> {
     pub(crate) shown: &'a [[Slot; BLOCK]],
     /// The pixels that may be pairs or split, a bit for each.
     pub(crate) shared: u64,
-    /// What those show that are pairs; of no account for others. Empty where none may be.
-    pub(crate) pairs: &'a [Pair],
+    /// What those show that are pairs; of no account for others.
+    pub(crate) pairs: PairRow<'a>,
 }
 
 /// Which ends of spans may lie in a pixel.
@@ -143,7 +141,7 @@ impl VisibilityTile {
             },
             whole: Vec::new(),
             shared: Vec::new(),
-            pairs: Vec::new(),
+            pairs: Pairs::new(side),
             samples: Vec::new(),
         }
     }
@@ -158,8 +156,8 @@ impl VisibilityTile {
         self.whole.resize(self.stride * length(rect.y), slot);
         self.shared.clear();
         self.shared.resize(self.whole.len() / BLOCK, 0);
-        if self.all != 0 && self.pairs.len() < self.whole.len() {
-            self.pairs.resize(self.whole.len(), Pair::default());
+        if self.all != 0 {
+            self.pairs.make_room(self.whole.len());
         }
     }
 
@@ -196,26 +194,38 @@ impl VisibilityTile {
         clippy::inline_always,
         reason = "a call for each row of pixels would cost as much as the rest"
     )]
-    pub(crate) fn paint_four(&mut self, row: &PixelRow<'_>, slot: Slot) {
+    pub(crate) fn paint_four<S: Simd>(&mut self, simd: S, row: &PixelRow<'_>, slot: Slot) {
         let left = self.rect.x.start;
         let line = offset(self.rect.y.start, row.y) * self.stride;
-        let (spans, xs) = (row.spans(), row.touched);
+        self.note_shared(line, row);
+        let last = left + self.last_quad();
         if row.full.is_empty() {
-            each_mask(spans, xs, Ends::Both, |x, covered| {
-                if covered != 0 {
-                    self.paint_samples(line + offset(left, x), covered, slot);
-                }
-            });
-            return;
+            return each_window(
+                simd,
+                row.spans(),
+                (row.touched, last),
+                Ends::Both,
+                #[inline(always)]
+                |window| self.paint_quad(simd, line + offset(left, window.x), window, slot),
+            );
         }
-        // Beside pixels that are full, each holds some covered samples, and none holds all.
         let (before, after) = row.beside_full();
-        each_mask(spans, before, Ends::Left, |x, covered| {
-            self.paint_samples(line + offset(left, x), covered, slot);
-        });
-        each_mask(spans, after, Ends::Right, |x, covered| {
-            self.paint_samples(line + offset(left, x), covered, slot);
-        });
+        each_window(
+            simd,
+            row.spans(),
+            (before, last),
+            Ends::Left,
+            #[inline(always)]
+            |window| self.paint_quad(simd, line + offset(left, window.x), window, slot),
+        );
+        each_window(
+            simd,
+            row.spans(),
+            (after, last),
+            Ends::Right,
+            #[inline(always)]
+            |window| self.paint_quad(simd, line + offset(left, window.x), window, slot),
+        );
         // Last: slots that were just written as vectors are read slowly.
         let slots = &mut self.whole[line..line + self.stride];
         fill(slots, offset(left, row.full.start), offset(left, row.full.end), slot);
@@ -254,11 +264,12 @@ impl VisibilityTile {
             return self.paint_shared(pixel, covered, slot);
         }
         self.share(pixel, PAIR);
-        self.pairs[pixel] = Pair {
+        let pair = Pair {
             mask: covered,
             first: shown,
             second: slot,
         };
+        self.pairs.set(pixel, pair);
     }
 
     /// Makes a pixel a [`PAIR`] or [`SPLIT`].
@@ -306,7 +317,7 @@ impl VisibilityTile {
     /// Lets samples of a pixel that is a pair show `slot`; false, and nothing done, where it would show three.
     #[inline]
     fn paint_pair(&mut self, pixel: usize, covered: u64, slot: Slot) -> bool {
-        let Pair { mask, first, second } = self.pairs[pixel];
+        let Pair { mask, first, second } = self.pairs.get(pixel);
         let pair = if second == slot {
             Pair {
                 mask: mask | covered,
@@ -348,7 +359,7 @@ impl VisibilityTile {
             self.whole[pixel] = pair.second;
         } else {
             self.share(pixel, PAIR);
-            self.pairs[pixel] = pair;
+            self.pairs.set(pixel, pair);
         }
     }
 
@@ -372,7 +383,7 @@ impl VisibilityTile {
         clippy::inline_always,
         reason = "a call for each row of pixels would cost as much as the rest"
     )]
-    pub(crate) fn change_four(&mut self, row: &PixelRow<'_>, mut change: impl FnMut(Slot) -> Slot) {
+    pub(crate) fn change_four<S: Simd>(&mut self, simd: S, row: &PixelRow<'_>, mut change: impl FnMut(Slot) -> Slot) {
         let left = self.rect.x.start;
         let line = offset(self.rect.y.start, row.y) * self.stride;
         if !row.full.is_empty() {
@@ -381,15 +392,122 @@ impl VisibilityTile {
                 &mut change,
             );
         }
-        let mut change_samples = |x, covered| {
-            self.change_samples((line + offset(left, x), x), (covered, row.spans()), &mut change);
-        };
+        self.note_shared(line, row);
+        let last = left + self.last_quad();
         if row.full.is_empty() {
-            return each_mask(row.spans(), row.touched, Ends::Both, change_samples);
+            return each_window(
+                simd,
+                row.spans(),
+                (row.touched, last),
+                Ends::Both,
+                #[inline(always)]
+                |window| self.change_quad(simd, line + offset(left, window.x), (window, row.spans()), &mut change),
+            );
         }
         let (before, after) = row.beside_full();
-        each_mask(row.spans(), before, Ends::Left, &mut change_samples);
-        each_mask(row.spans(), after, Ends::Right, change_samples);
+        each_window(
+            simd,
+            row.spans(),
+            (before, last),
+            Ends::Left,
+            #[inline(always)]
+            |window| self.change_quad(simd, line + offset(left, window.x), (window, row.spans()), &mut change),
+        );
+        each_window(
+            simd,
+            row.spans(),
+            (after, last),
+            Ends::Right,
+            #[inline(always)]
+            |window| self.change_quad(simd, line + offset(left, window.x), (window, row.spans()), &mut change),
+        );
+    }
+
+    /// The first of the last four pixels of a row.
+    fn last_quad(&self) -> i32 {
+        i32::try_from(self.stride.saturating_sub(QUAD)).unwrap_or(i32::MAX)
+    }
+
+    /// Notes which pixels of a row may be shared once those covered in part are; `line` is the index of its first pixel.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+    fn note_shared(&mut self, line: usize, row: &PixelRow<'_>) {
+        let left = self.rect.x.start;
+        let shared = &mut self.shared[line / BLOCK..][..self.stride / BLOCK];
+        let bits = |span: Span| bits(offset(left, span.start), offset(left, span.end));
+        if let Ok(bytes) = <&mut [u8; BLOCK]>::try_from(&mut *shared) {
+            let full = if row.full.is_empty() { 0 } else { bits(row.full) };
+            *bytes = ((u64::from_le_bytes(*bytes) | bits(row.touched)) & !full).to_le_bytes();
+            return;
+        }
+        for x in row.partial() {
+            let at = offset(left, x);
+            shared[at / BLOCK] |= 1 << (at % BLOCK);
+        }
+    }
+
+    /// Lets those samples of four pixels show `slot` that a window covers; pixels of which it covers all are left alone.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn paint_quad<S: Simd>(&mut self, simd: S, pixel: usize, Window { live, masks, .. }: Window, slot: Slot) {
+        let Some(whole) = self.whole[pixel..].first_chunk_mut() else {
+            return;
+        };
+        let word = joined(*whole);
+        if word & live & PERHAPS_SHARED != 0 {
+            return self.paint_shared_quad(pixel, masks, slot);
+        }
+        let number = |number| Quad::splat(simd, number);
+        let (shown, covered) = (pairs::quad(simd, word), pairs::quad(simd, masks));
+        let painted = in_part(simd, covered) & !shown.simd_eq(number(slot));
+        pairs::put(whole, painted.select(number(PAIR), shown));
+        self.pairs
+            .set_quad(simd, (pixel, painted), (covered, shown, number(slot)));
+    }
+
+    /// As [`VisibilityTile::paint_quad`] pixel by pixel.
+    #[inline(never)]
+    fn paint_shared_quad(&mut self, pixel: usize, masks: u64, slot: Slot) {
+        for (pixel, covered) in (pixel..).zip(lanes(masks)) {
+            if covered != 0 && covered != u16::MAX {
+                self.paint_samples(pixel, u64::from(covered), slot);
+            }
+        }
+    }
+
+    /// As [`VisibilityTile::change_samples`] for the four pixels of a window from index `pixel` on; those of which it
+    /// covers all samples are left alone.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn change_quad<S: Simd>(
+        &mut self,
+        simd: S,
+        pixel: usize,
+        (Window { x, live, masks }, spans): (Window, &[Span]),
+        change: &mut impl FnMut(Slot) -> Slot,
+    ) {
+        let Some(whole) = self.whole[pixel..].first_chunk_mut() else {
+            return;
+        };
+        let word = joined(*whole);
+        let first = (word >> (live.trailing_zeros() % 64)) as Slot;
+        if first >= PAIR || (word ^ splat(first)) & live != 0 {
+            for ((pixel, x), covered) in (pixel..).zip(x..).zip(lanes(masks)) {
+                if covered != 0 && covered != u16::MAX {
+                    self.change_samples((pixel, x), (u64::from(covered), spans), change);
+                }
+            }
+            return;
+        }
+        if masks == 0 {
+            return;
+        }
+        let number = |number| Quad::splat(simd, number);
+        let (shown, covered) = (pairs::quad(simd, word), pairs::quad(simd, masks));
+        let changed = in_part(simd, covered);
+        pairs::put(whole, changed.select(number(PAIR), shown));
+        self.pairs
+            .set_quad(simd, (pixel, changed), (covered, shown, number(change(first))));
     }
 
     /// Lets the samples that `spans` cover in a pixel, by its index and its column in the frame, show what `change` makes
@@ -418,7 +536,7 @@ impl VisibilityTile {
     fn change_pair(&mut self, pixel: usize, covered: u64, change: &mut impl FnMut(Slot) -> Slot) -> bool {
         let shown = self.whole[pixel];
         let pair = if shown == PAIR {
-            let Pair { mask, first, second } = self.pairs[pixel];
+            let Pair { mask, first, second } = self.pairs.get(pixel);
             let (of_first, of_second) = (self.all & !mask, mask);
             // Each is covered as a whole or not at all.
             if [of_first, of_second]
@@ -469,6 +587,13 @@ impl VisibilityTile {
         line + offset(left, xs.start)..line + offset(left, xs.end)
     }
 
+    /// Lets a pair show what `change` makes of its slots.
+    fn change_slots(&mut self, pixel: usize, mut change: impl FnMut(Slot) -> Slot) {
+        let Pair { mask, first, second } = self.pairs.get(pixel);
+        let (first, second) = (change(first), change(second));
+        self.pairs.set(pixel, Pair { mask, first, second });
+    }
+
     fn change_whole(&mut self, pixels: Range<usize>, change: &mut impl FnMut(Slot) -> Slot) {
         let per_pixel = self.side * self.words;
         let mut start = pixels.start;
@@ -482,8 +607,8 @@ impl VisibilityTile {
                     }
                 }
                 PAIR => {
-                    for pair in &mut self.pairs[start..end] {
-                        (pair.first, pair.second) = (change(pair.first), change(pair.second));
+                    for pixel in start..end {
+                        self.change_slots(pixel, &mut *change);
                     }
                 }
                 _ => self.whole[start..end].fill(change(shown)),
@@ -526,7 +651,7 @@ impl VisibilityTile {
     fn pair(&self, pixel: usize) -> Option<Pair> {
         match self.whole[pixel] {
             SPLIT => None,
-            PAIR => Some(self.pairs[pixel]),
+            PAIR => Some(self.pairs.get(pixel)),
             slot => Some(Pair {
                 mask: 0,
                 first: slot,
@@ -626,27 +751,20 @@ impl VisibilityTile {
         let blocks = self.stride / BLOCK;
         let first = offset(self.rect.y.start, y) * blocks;
         let (shown, _) = self.whole[first * BLOCK..][..self.stride].as_chunks();
-        let pairs = if self.all == 0 {
-            &[]
-        } else {
-            &self.pairs[first * BLOCK..][..self.stride]
-        };
-        let mut pairs = pairs.chunks(STRETCH);
         let shared = self.shared[first..][..blocks].chunks(BLOCK);
-        shown.chunks(BLOCK).zip(shared).map(move |(shown, shared)| Stretch {
+        let starts = (first * BLOCK..).step_by(STRETCH);
+        let parts = shown.chunks(BLOCK).zip(shared).zip(starts);
+        parts.map(|((shown, shared), start)| Stretch {
             shown,
             shared: word_of(shared),
-            pairs: pairs.next().unwrap_or_default(),
+            pairs: self.pairs.row(start, shown.len() * BLOCK),
         })
     }
 
-    /// What the pixels of row `y` show that are pairs; of no account for others. Empty where none may be.
+    /// What the pixels of row `y` show that are pairs; of no account for others.
     #[inline]
-    pub(crate) fn pairs(&self, y: i32) -> &[Pair] {
-        if self.all == 0 {
-            return &[];
-        }
-        &self.pairs[offset(self.rect.y.start, y) * self.stride..][..self.width]
+    pub(crate) fn pairs(&self, y: i32) -> PairRow<'_> {
+        self.pairs.row(offset(self.rect.y.start, y) * self.stride, self.width)
     }
 
     /// The bits of all samples of a pixel that may be a pair.
@@ -691,8 +809,9 @@ impl VisibilityTile {
         for (pixel, slot) in self.whole.iter_mut().enumerate() {
             match *slot {
                 PAIR => {
-                    let pair = &mut self.pairs[pixel];
-                    (pair.first, pair.second) = (renumber(pair.first), renumber(pair.second));
+                    let Pair { mask, first, second } = self.pairs.get(pixel);
+                    let (first, second) = (renumber(first), renumber(second));
+                    self.pairs.set(pixel, Pair { mask, first, second });
                     continue;
                 }
                 SPLIT => {}
@@ -718,7 +837,7 @@ impl VisibilityTile {
                     }
                 }
                 PAIR => {
-                    let pair = self.pairs[pixel];
+                    let pair = self.pairs.get(pixel);
                     [pair.first, pair.second].into_iter().for_each(&mut seen);
                 }
                 whole => seen(whole),
@@ -797,9 +916,24 @@ pub(crate) fn lanes(word: u64) -> [Slot; PER_WORD] {
     ]
 }
 
+/// Which of four masks name some samples but not all.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn in_part<S: Simd>(simd: S, masks: Quad<S>) -> pairs::QuadMask<S> {
+    // None becomes one, and all zero.
+    let one = Quad::splat(simd, 1);
+    (masks + one).simd_gt(one)
+}
+
+/// The bits from number `start` to `end` of a word, at least one.
+#[inline]
+fn bits(start: usize, end: usize) -> u64 {
+    u64::MAX >> (64 - (end - start)) << start
+}
+
 /// A word of four slots.
 #[inline]
-fn joined([a, b, c, d]: [Slot; PER_WORD]) -> u64 {
+pub(crate) fn joined([a, b, c, d]: [Slot; PER_WORD]) -> u64 {
     u64::from(a) | u64::from(b) << 16 | u64::from(c) << 32 | u64::from(d) << 48
 }
 

@@ -251,30 +251,29 @@ impl<'a> DeferredPainter<'a> {
     /// Resolves a row in which nothing is to be shaded.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn resolve_flat_row(&self, y: i32, line: &mut [u32]) {
+    fn resolve_flat_row<S: Simd>(&self, simd: S, y: i32, line: &mut [u32]) {
         let Some(known) = self.slots.known() else {
             return self.resolve_row_of_many(y, line);
         };
+        let mixer = known.mixer(simd);
         let stretches = self.layers[0].stretches(y).zip(line.chunks_mut(STRETCH));
         for ((stretch, pixels), first) in stretches.zip((0..).step_by(STRETCH)) {
-            let Stretch { shown, shared, pairs } = stretch;
-            resolve_whole(known, shown, pixels);
+            resolve_whole(known, stretch.shown, pixels);
             // Where pixels are shared, what they got there is written over.
-            let mut rest = shared;
-            while rest != 0 {
-                let at = rest.trailing_zeros() as usize;
-                rest &= rest - 1;
-                let slot = shown[at / BLOCK][at % BLOCK];
-                if slot == PAIR {
-                    let pair = pairs.get(at);
-                    let of_second = count(pair.mask);
-                    pixels[at] = match known.mixed(pair.first, pair.second, of_second) {
-                        Some(pixel) => pixel,
-                        None => self.resolver.pixel_of_halves(self.pair_sum(pair, of_second)),
-                    };
-                } else if usize::from(slot) > MAX_SLOTS {
-                    pixels[at] = self.resolve_split(first + at, y);
-                }
+            match &mixer {
+                Some(mixer) => each_shared(
+                    &stretch,
+                    pixels,
+                    #[inline(always)]
+                    |pair| mixer.pixel(pair.first, pair.second, pair.mask.count_ones()),
+                    |at| self.resolve_split(first + at, y),
+                ),
+                None => each_shared(
+                    &stretch,
+                    pixels,
+                    |pair| self.resolver.pixel_of_halves(self.pair_sum(pair, count(pair.mask))),
+                    |at| self.resolve_split(first + at, y),
+                ),
             }
         }
     }
@@ -459,6 +458,31 @@ fn resolve_whole(known: &Known, shown: &[[Slot; BLOCK]], pixels: &mut [u32]) {
     }
 }
 
+/// Resolves the pixels of a stretch that are pairs or split, by what each is and its number.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn each_shared(
+    stretch: &Stretch<'_>,
+    pixels: &mut [u32],
+    of_pair: impl Fn(Pair) -> u32,
+    of_split: impl Fn(usize) -> u32,
+) {
+    let shown = stretch.shown.as_flattened();
+    let mut rest = stretch.shared;
+    while rest != 0 {
+        let at = rest.trailing_zeros() as usize;
+        rest &= rest - 1;
+        let (Some(slot), Some(pixel)) = (shown.get(at), pixels.get_mut(at)) else {
+            return;
+        };
+        if *slot == PAIR {
+            *pixel = of_pair(stretch.pairs.get(at));
+        } else if usize::from(*slot) > MAX_SLOTS {
+            *pixel = of_split(at);
+        }
+    }
+}
+
 /// Resolves a tile in which nothing is to be shaded.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
@@ -468,7 +492,7 @@ fn resolve_flat<S: Simd>(simd: S, painter: &DeferredPainter<'_>, block: &mut Pix
         || {
             let rows = block.rect.y;
             for y in rows.start..rows.end {
-                painter.resolve_flat_row(y, block.line(y));
+                painter.resolve_flat_row(simd, y, block.line(y));
             }
         },
     );

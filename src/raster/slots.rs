@@ -2,6 +2,9 @@
 //!
 //! Painting a translucent colour over a slot makes a new slot: once for all samples that show the old one.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, i16x8, i32x4, u32x4, u64x2};
+
 use super::display_list::{Paint, ScreenTriangle};
 use super::visibility::{MAX_SLOTS, Slot};
 use crate::color::{Premultiplied16, Resolver};
@@ -14,23 +17,29 @@ const FIRST: usize = 1024;
 #[derive(Debug)]
 pub(crate) struct Known {
     resolver: Resolver,
-    /// What rounds a sum in three fields, and by how much it is to be shifted; where there are more samples than fit,
-    /// no slot is opaque here.
-    half: u64,
-    shift: Option<u32>,
+    /// Whether all are opaque.
+    opaque: bool,
     pixels: Box<[u32; FIRST]>,
-    /// Red, green and blue in fields of [`FIELD`] bits, from the lowest; [`OTHER`] of what is not opaque.
-    fields: Box<[u64; FIRST]>,
+    /// Blue, green, red and alpha from the lowest bits on, each less [`MIDDLE`].
+    channels: Box<[u64; FIRST]>,
 }
 
-/// Bits in which a channel's sum over [`MOST`] samples fits, rounded.
-const FIELD: u32 = 21;
+/// What is taken from channels so that they are signed numbers of 16 bits.
+const MIDDLE: u16 = 1 << 15;
 
-/// Most samples of a pixel that are summed up in fields.
-const MOST: u32 = 31;
+/// Most samples of a pixel whose mean a [`Mixer`] takes.
+const MOST: u32 = 64;
 
-/// Stands for no fields: the bit above them.
-const OTHER: u64 = 1 << (3 * FIELD);
+/// Takes the means of two opaque colours.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mixer<'k, S: Simd> {
+    simd: S,
+    channels: &'k [u64; FIRST],
+    count: u32,
+    /// What rounds a sum, and makes up for [`MIDDLE`].
+    offset: i32x4<S>,
+    shift: u32,
+}
 
 /// What samples may show.
 #[derive(Debug)]
@@ -88,6 +97,7 @@ impl<'a> Slots<'a> {
     /// Forgets all slots.
     pub(crate) fn clear(&mut self) {
         self.all.clear();
+        self.known.opaque = true;
         self.painted.clear();
         self.paint = 0;
         self.any_shaded = false;
@@ -214,26 +224,20 @@ impl<'a> Slots<'a> {
 
 impl Known {
     fn new(resolver: Resolver) -> Self {
-        let shift = resolver.shift().filter(|_| resolver.count() <= MOST);
-        let half = u64::from(resolver.half());
         Self {
             resolver,
-            half: half | half << FIELD | half << (2 * FIELD),
-            shift,
+            opaque: true,
             pixels: Box::new([0; FIRST]),
-            fields: Box::new([OTHER; FIRST]),
+            channels: Box::new([0; FIRST]),
         }
     }
 
     #[inline]
     fn set(&mut self, number: usize, slot: &SlotColor<'_>) {
+        self.opaque &= slot.flat.is_opaque();
         self.pixels[number % FIRST] = slot.pixel;
-        let [r, g, b, _] = slot.flat.0.map(u64::from);
-        self.fields[number % FIRST] = if slot.flat.is_opaque() && self.shift.is_some() {
-            r | g << FIELD | b << (2 * FIELD)
-        } else {
-            OTHER
-        };
+        let [r, g, b, a] = slot.flat.0.map(|channel| u64::from(channel ^ MIDDLE));
+        self.channels[number % FIRST] = b | g << 16 | r << 32 | a << 48;
     }
 
     /// The pixel that shows nothing but the flat colour of a slot; any for a number that is none.
@@ -242,22 +246,37 @@ impl Known {
         self.pixels[usize::from(slot) % FIRST]
     }
 
-    /// The pixel of which all samples show `first` but `of_second`, which show `second`; `None` unless both are opaque.
-    #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "fields of a number")]
-    pub(crate) fn mixed(&self, first: Slot, second: Slot, of_second: u32) -> Option<u32> {
-        let [first, second] = [first, second].map(|slot| self.fields[usize::from(slot) % FIRST]);
-        if (first | second) & OTHER != 0 {
-            return None;
-        }
-        // As a whole the difference may be below zero, the sum is not; no field overflows, and no mean exceeds 255.
-        let change = second.wrapping_sub(first).wrapping_mul(u64::from(of_second));
-        let sum = first
-            .wrapping_mul(u64::from(self.resolver.count()))
-            .wrapping_add(change);
-        let mean = (sum + self.half) >> self.shift?;
-        let field = |i: u32| (mean >> (i * FIELD)) as u32 & 0xFF;
-        Some(0xFF00_0000 | field(0) << 16 | field(1) << 8 | field(2))
+    /// What mixes two of these; `None` where one of them is not opaque, or means are no shifts.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub(crate) fn mixer<S: Simd>(&self, simd: S) -> Option<Mixer<'_, S>> {
+        let (count, shift) = (self.resolver.count(), self.resolver.shift()?);
+        let offset = self.resolver.half() + u32::from(MIDDLE) * count;
+        (self.opaque && count <= MOST).then_some(Mixer {
+            simd,
+            channels: &self.channels,
+            count,
+            offset: i32x4::splat(simd, offset.cast_signed()),
+            shift,
+        })
+    }
+}
+
+impl<S: Simd> Mixer<'_, S> {
+    /// The pixel of which all samples show `first` but `of_second`, which show `second`.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub(crate) fn pixel(&self, first: Slot, second: Slot, of_second: u32) -> u32 {
+        let channels =
+            |slot: Slot| -> i16x8<S> { u64x2::splat(self.simd, self.channels[usize::from(slot) % FIRST]).bitcast() };
+        let both = channels(first).zip_low(channels(second));
+        let weights: i16x8<S> = u32x4::splat(self.simd, of_second << 16 | (self.count - of_second)).bitcast();
+        // No sum exceeds that of opaque white, so that no mean exceeds 255.
+        let sums = both.pairwise_dot_product(weights) + self.offset;
+        let means = (sums.bitcast::<u32x4<S>>() >> self.shift).bitcast::<i32x4<S>>();
+        let halves = means.saturating_narrow(means);
+        let bytes: u32x4<S> = halves.narrow(halves).bitcast();
+        bytes.to_array()[0]
     }
 }
 

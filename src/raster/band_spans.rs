@@ -1,7 +1,9 @@
 //! What outlines enclose in one row of tiles, found once for all its tiles.
 
+use fearless_simd::Simd;
+
 use super::display_list::Chunk;
-use super::four;
+use super::four::{self, TileRow};
 use super::outline::{RowScanner, RowSpans, SpanStore, Stored};
 use super::pixel_row::{PixelRow, each_pixel_row, each_pixel_row_of_spans, scaled};
 use super::rows::Span;
@@ -68,11 +70,16 @@ impl BandSpans {
     /// As [`BandSpans::each_pixel_row`] where a pixel has 4 x 4 samples, without a call for each row.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "what paints is to be seen by the compiler")]
-    pub(crate) fn each_row_of_four(&mut self, shape: Shape<'_>, rect: PixelRect, paint: impl FnMut(&PixelRow<'_>)) {
+    pub(crate) fn each_row_of_four<S: Simd>(
+        &mut self,
+        simd: S,
+        (shape, rect): (Shape<'_>, PixelRect),
+        paint: impl FnMut(&TileRow<'_>),
+    ) {
         match shape {
-            Shape::Triangle(corners) => four::each_row_of_triangle(*corners, self.settings, rect, paint),
+            Shape::Triangle(corners) => four::each_row_of_triangle(simd, *corners, self.settings, rect, paint),
             Shape::Outline(chunk, index) => {
-                four::each_row_of_spans(self.of_outline(chunk, index, rect.y), rect, paint);
+                four::each_row_of_spans(simd, self.of_outline(chunk, index, rect.y), rect, paint);
             }
         }
     }

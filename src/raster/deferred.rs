@@ -20,7 +20,7 @@ use super::shade::{Pixels, ShadeContext, Shader};
 use super::slots::{Known, Shaded, SlotColor, Slots, Spread};
 use super::small::SmallCoverage;
 use super::tile::PixelRect;
-use super::visibility::{BLOCK, MAX_SLOTS, PAIR, Run, STRETCH, Slot, Stretch, VisibilityTile, lanes, splat};
+use super::visibility::{BLOCK, MAX_SLOTS, PAIR, ROW, Run, Shown, Slot, VisibilityTile, lanes, splat};
 use crate::color::{Premultiplied16, Resolver};
 use crate::simd;
 use crate::texture::SampleGrid;
@@ -255,26 +255,23 @@ impl<'a> DeferredPainter<'a> {
         let Some(known) = self.slots.known() else {
             return self.resolve_row_of_many(y, line);
         };
-        let mixer = known.mixer(simd);
-        let stretches = self.layers[0].stretches(y).zip(line.chunks_mut(STRETCH));
-        for ((stretch, pixels), first) in stretches.zip((0..).step_by(STRETCH)) {
-            resolve_whole(known, stretch.shown, pixels);
-            // Where pixels are shared, what they got there is written over.
-            match &mixer {
-                Some(mixer) => each_shared(
-                    &stretch,
-                    pixels,
-                    #[inline(always)]
-                    |pair| mixer.pixel(pair.first, pair.second, pair.mask.count_ones()),
-                    |at| self.resolve_split(first + at, y),
-                ),
-                None => each_shared(
-                    &stretch,
-                    pixels,
-                    |pair| self.resolver.pixel_of_halves(self.pair_sum(pair, count(pair.mask))),
-                    |at| self.resolve_split(first + at, y),
-                ),
-            }
+        let shown = self.layers[0].shown(y);
+        resolve_whole(known, shown.whole.as_chunks().0, line);
+        // Where pixels are shared, what they got there is written over.
+        match known.mixer(simd) {
+            Some(mixer) => each_shared(
+                &shown,
+                line,
+                #[inline(always)]
+                |pair| mixer.pixel(pair.first, pair.second, pair.mask.count_ones()),
+                |x| self.resolve_split(x, y),
+            ),
+            None => each_shared(
+                &shown,
+                line,
+                |pair| self.resolver.pixel_of_halves(self.pair_sum(pair, count(pair.mask))),
+                |x| self.resolve_split(x, y),
+            ),
         }
     }
 
@@ -403,8 +400,8 @@ fn opaque_four<S: Simd>(simd: S, (shape, bands): (Shape<'_>, &mut BandSpans), ti
         #[inline(always)]
         || {
             bands.each_row_of_four(
-                shape,
-                tile.rect,
+                simd,
+                (shape, tile.rect),
                 #[inline(always)]
                 |row| tile.paint_four(simd, row, slot),
             );
@@ -425,8 +422,8 @@ fn translucent_four<S: Simd>(
         #[inline(always)]
         || {
             bands.each_row_of_four(
-                shape,
-                tile.rect,
+                simd,
+                (shape, tile.rect),
                 #[inline(always)]
                 |row| tile.change_four(simd, row, |slot| slots.under(slot, color)),
             );
@@ -458,27 +455,22 @@ fn resolve_whole(known: &Known, shown: &[[Slot; BLOCK]], pixels: &mut [u32]) {
     }
 }
 
-/// Resolves the pixels of a stretch that are pairs or split, by what each is and its number.
+/// Resolves the pixels of a row that are pairs or split, by what each is and by its column.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn each_shared(
-    stretch: &Stretch<'_>,
-    pixels: &mut [u32],
-    of_pair: impl Fn(Pair) -> u32,
-    of_split: impl Fn(usize) -> u32,
-) {
-    let shown = stretch.shown.as_flattened();
-    let mut rest = stretch.shared;
+fn each_shared(shown: &Shown<'_>, pixels: &mut [u32], of_pair: impl Fn(Pair) -> u32, of_split: impl Fn(usize) -> u32) {
+    let mut rest = shown.shared;
     while rest != 0 {
-        let at = rest.trailing_zeros() as usize;
+        let x = rest.trailing_zeros() as usize;
         rest &= rest - 1;
-        let (Some(slot), Some(pixel)) = (shown.get(at), pixels.get_mut(at)) else {
+        let Some(pixel) = pixels.get_mut(x) else {
             return;
         };
-        if *slot == PAIR {
-            *pixel = of_pair(stretch.pairs.get(at));
-        } else if usize::from(*slot) > MAX_SLOTS {
-            *pixel = of_split(at);
+        let slot = shown.whole[x % ROW];
+        if slot == PAIR {
+            *pixel = of_pair(shown.pairs.get(x));
+        } else if usize::from(slot) > MAX_SLOTS {
+            *pixel = of_split(x);
         }
     }
 }

@@ -3,14 +3,17 @@
 //! Spans are not cut to the tile; only the pixels are. The masks of four neighbouring pixels are made as one word, so
 //! that nothing is clamped pixel by pixel.
 
+use std::ops::Range;
+
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, i8x16, i8x64, i32x4};
+use fearless_simd::{Simd, i8x16, i8x64, i32x4, mask32x4, u32x4, u64x2};
 
 use super::outline::RowSpans;
-use super::pixel_row::{PixelRow, scaled};
+use super::pairs::{LAST_QUAD, QUAD};
+use super::pixel_row::scaled;
 use super::rows::{SortedTriangle, Span};
 use super::tile::PixelRect;
-use super::visibility::Slot;
+use super::visibility::{ROW, Slot};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::rules::Rules;
 
@@ -20,18 +23,13 @@ pub(crate) const SIDE: i32 = 4;
 /// The same, as the number of sample rows.
 const ROWS: usize = SIDE as usize;
 
-/// Rows of pixels that a triangle is walked at once, and their sample rows.
-const BATCH: i32 = 32;
-const LINES: usize = BATCH as usize * ROWS;
+/// Rows of pixels that are looked at together: as many as tiles have.
+const BATCH: usize = 32;
 
-/// Pixels in a row of most tiles.
-const ROW: usize = 64;
+/// The sample columns of a window.
+const COLUMNS: i32 = SIDE * QUAD as i32;
 
-/// Pixels whose masks fit one word, and their sample columns.
-const WINDOW: i32 = 4;
-const COLUMNS: i32 = WINDOW * SIDE;
-
-/// The sample column of each bit of such a word.
+/// The sample column of each bit of a window's masks.
 const SAMPLE_COLUMNS: [i8; 64] = {
     let mut columns = [0; 64];
     let mut bit = 0;
@@ -42,6 +40,37 @@ const SAMPLE_COLUMNS: [i8; 64] = {
     columns
 };
 
+/// The spans of a row of pixels, one for each sample row.
+type Four = [Span; ROWS];
+
+/// A row of pixels without samples.
+const EMPTY: Four = [Span::EMPTY; ROWS];
+
+/// Some samples of a row of a tile's pixels.
+#[derive(Clone, Debug)]
+pub(crate) struct TileRow<'a> {
+    /// The row, counted from the tile's first.
+    pub(crate) y: usize,
+    /// Covered sample columns of the frame, perhaps beyond the tile, too.
+    pub(crate) spans: &'a Four,
+    /// The tile's first column of pixels.
+    left: i32,
+    /// Pixels of which any sample is covered, and among them those of which all are, counted from the tile's left side.
+    pub(crate) touched: Range<usize>,
+    pub(crate) full: Range<usize>,
+}
+
+/// Some samples of four pixels side by side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Window {
+    /// The first pixel, counted from the tile's left side.
+    pub(crate) x: usize,
+    /// All bits of the pixels that are meant, sixteen each, those of the first pixel lowest.
+    pub(crate) live: u64,
+    /// The samples of these that are covered.
+    pub(crate) masks: u64,
+}
+
 /// Which ends of spans may lie in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ends {
@@ -50,14 +79,15 @@ pub(crate) enum Ends {
     Both,
 }
 
-/// Calls `paint` for every row of pixels in `rect` of which the triangle covers any sample, from top to bottom.
+/// Calls `paint` for every row of pixels of the tile `rect` of which the triangle covers any sample, from top to bottom.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "what paints is to be seen by the compiler")]
-pub(crate) fn each_row_of_triangle(
+pub(crate) fn each_row_of_triangle<S: Simd>(
+    simd: S,
     corners: [GridPoint; 3],
     (grid, rules): (SubpixelGrid, Rules),
     rect: PixelRect,
-    mut paint: impl FnMut(&PixelRow<'_>),
+    mut paint: impl FnMut(&TileRow<'_>),
 ) {
     let Some(sorted) = SortedTriangle::new(corners, rules) else {
         return;
@@ -67,22 +97,23 @@ pub(crate) fn each_row_of_triangle(
         return;
     }
     let mut walker = sorted.walk_from(grid, rows.start);
-    let mut lines = [Span::EMPTY; LINES];
+    let mut fours = [EMPTY; BATCH];
     let mut line = rows.start;
     while line < rows.end {
         // Rows of a frame are never negative.
         let first = line >> 2;
-        let top = first * SIDE;
-        let end = rows.end.min(top + BATCH * SIDE);
-        let inside = |line: i32| ((line - top).cast_unsigned() as usize).min(LINES);
+        let lines = fours.as_flattened_mut();
+        let count = lines.len();
+        let inside = |line: i32| ((line - first * SIDE).cast_unsigned() as usize).min(count);
+        let end = inside(rows.end);
+        // Nothing above and below, up to an even number of rows of pixels.
         lines[..ROWS].fill(Span::EMPTY);
-        walker.next_spans(&mut lines[inside(line)..inside(end)]);
-        let last = inside(end).next_multiple_of(ROWS).min(LINES);
-        lines[inside(end)..last].fill(Span::EMPTY);
-        for (spans, y) in lines[..last].as_chunks::<ROWS>().0.iter().zip(first..) {
-            each(y, spans, rect.x, &mut paint);
-        }
-        line = end;
+        walker.next_spans(&mut lines[inside(line)..end]);
+        let used = end.next_multiple_of(2 * ROWS).min(count);
+        lines[end..used].fill(Span::EMPTY);
+        let y = place(first - rect.y.start);
+        each(simd, (&fours[..used / ROWS], rect.x), |i| y + i, &mut paint);
+        line = first * SIDE + (BATCH * ROWS) as i32;
     }
 }
 
@@ -90,38 +121,100 @@ pub(crate) fn each_row_of_triangle(
 /// times, each time with one of them.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "what paints is to be seen by the compiler")]
-pub(crate) fn each_row_of_spans(spans: RowSpans<'_>, rect: PixelRect, mut paint: impl FnMut(&PixelRow<'_>)) {
-    let rows = spans.rows.intersection(scaled(rect.y, SIDE));
-    let columns = scaled(rect.x, SIDE);
-    let mut line = rows.start;
-    while line < rows.end {
-        let y = line >> 2;
-        let end = rows.end.min((y + 1) * SIDE);
-        let all = spans.of_rows(line, end);
-        let mut left: [&[Span]; ROWS] = [&[]; ROWS];
-        let (mut four, most) = match <&[Span; ROWS]>::try_from(all) {
-            Ok(four) if end - line == SIDE => (*four, 1),
-            _ => {
-                // Of each sample row the spans that reach into the rectangle.
-                for line in line..end {
-                    left[(line & 3).cast_unsigned() as usize] = reaching(spans.of_row(line), columns);
-                }
-                let [a, b, c, d] = left.map(<[Span]>::len);
-                (of_each(left, 0), a.max(b).max(c.max(d)))
-            }
-        };
-        for i in 1..=most {
-            each(y, &four, rect.x, &mut paint);
-            four = if i < most { of_each(left, i) } else { four };
+pub(crate) fn each_row_of_spans<S: Simd>(
+    simd: S,
+    spans: RowSpans<'_>,
+    rect: PixelRect,
+    mut paint: impl FnMut(&TileRow<'_>),
+) {
+    let mut rows = FourRows::new(spans, rect);
+    let (mut fours, mut ys) = ([EMPTY; BATCH], [0; BATCH]);
+    loop {
+        let count = rows.take(&mut fours, &mut ys);
+        if count == 0 {
+            return;
         }
-        line = end;
+        let used = count.next_multiple_of(2);
+        fours[count..used].fill(EMPTY);
+        each(simd, (&fours[..used], rect.x), |i| ys[i % BATCH], &mut paint);
     }
 }
 
-/// Of each sample row the span number `i`.
-#[inline]
-fn of_each(rows: [&[Span]; ROWS], i: usize) -> [Span; ROWS] {
-    rows.map(|spans| spans.get(i).copied().unwrap_or(Span::EMPTY))
+/// The spans of an outline by rows of pixels.
+struct FourRows<'a> {
+    spans: RowSpans<'a>,
+    /// The columns of samples of the tile, and its first row of pixels.
+    columns: Span,
+    top: i32,
+    /// The sample rows to come.
+    rows: Span,
+    /// The spans of the row of pixels at work, which of them comes next, and how many there are.
+    left: [&'a [Span]; ROWS],
+    next: usize,
+    most: usize,
+    y: usize,
+}
+
+impl<'a> FourRows<'a> {
+    #[inline]
+    fn new(spans: RowSpans<'a>, rect: PixelRect) -> Self {
+        Self {
+            spans,
+            columns: scaled(rect.x, SIDE),
+            top: rect.y.start,
+            rows: spans.rows.intersection(scaled(rect.y, SIDE)),
+            left: [&[]; ROWS],
+            next: 0,
+            most: 0,
+            y: 0,
+        }
+    }
+
+    /// Puts spans of as many rows as there is room into `fours`, and the numbers of these rows into `ys`; how many.
+    fn take(&mut self, fours: &mut [Four; BATCH], ys: &mut [usize; BATCH]) -> usize {
+        let mut count = 0;
+        for (four, y) in fours.iter_mut().zip(ys) {
+            if self.next == self.most {
+                if self.rows.is_empty() {
+                    break;
+                }
+                let line = self.rows.start;
+                let end = self.rows.end.min(((line >> 2) + 1) * SIDE);
+                self.rows.start = end;
+                self.y = place((line >> 2) - self.top);
+                if end - line == SIDE
+                    && let Ok(all) = <&Four>::try_from(self.spans.of_rows(line, end))
+                {
+                    (*four, *y) = (*all, self.y);
+                    count += 1;
+                    continue;
+                }
+                self.begin(line, end);
+            }
+            *four = self
+                .left
+                .map(|spans| spans.get(self.next).copied().unwrap_or(Span::EMPTY));
+            *y = self.y;
+            self.next += 1;
+            count += 1;
+        }
+        count
+    }
+
+    /// Begins a row of pixels of which a sample row has several spans, or not all have any.
+    fn begin(&mut self, line: i32, end: i32) {
+        self.left = [&[]; ROWS];
+        for line in line..end {
+            // Those spans that reach into the tile.
+            self.left[place(line & 3)] = reaching(self.spans.of_row(line), self.columns);
+        }
+        let [a, b, c, d] = self.left.map(<[Span]>::len);
+        (self.next, self.most) = (0, a.max(b).max(c.max(d)));
+        if self.most == 0 {
+            // One row without samples does no harm.
+            self.most = 1;
+        }
+    }
 }
 
 /// Those of some spans that reach into `columns`, and perhaps a few others.
@@ -136,74 +229,109 @@ fn reaching(spans: &[Span], columns: Span) -> &[Span] {
     &spans[first..end]
 }
 
-/// Calls `paint` with the row `y` of pixels that has these spans, if any of its pixels in `columns` is touched.
+/// Calls `paint` for each of an even number of rows of pixels of which any pixel in `columns` is touched; `y_of` tells
+/// the numbers of rows.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
-fn each(y: i32, spans: &[Span; ROWS], columns: Span, paint: &mut impl FnMut(&PixelRow<'_>)) {
-    // The least and the greatest start and end, four numbers at a time.
-    let [a, b, c, d] = *spans;
-    let (ab, cd) = ([a.start, a.end, b.start, b.end], [c.start, c.end, d.start, d.end]);
-    let (mut least, mut most) = ([0; ROWS], [0; ROWS]);
-    for i in 0..ROWS {
-        least[i] = ab[i].min(cd[i]);
-        most[i] = ab[i].max(cd[i]);
+fn each<S: Simd>(
+    simd: S,
+    (fours, columns): (&[Four], Span),
+    y_of: impl Fn(usize) -> usize,
+    paint: &mut impl FnMut(&TileRow<'_>),
+) {
+    // The outer and the inner ends of two rows at a time.
+    let (mut outer, mut inner) = ([[0; 4]; BATCH / 2], [[0; 4]; BATCH / 2]);
+    for ((two, outer), inner) in fours.as_chunks::<2>().0.iter().zip(&mut outer).zip(&mut inner) {
+        [*outer, *inner] = ends(simd, two, columns);
     }
-    let outer = Span {
-        start: least[0].min(least[2]) >> 2,
-        end: (most[1].max(most[3]) + 3) >> 2,
-    };
-    let touched = outer.intersection(columns);
-    if touched.is_empty() {
-        return;
-    }
-    let inner = Span {
-        start: (most[0].max(most[2]) + 3) >> 2,
-        end: least[1].min(least[3]) >> 2,
-    };
-    let full = inner.intersection(columns);
-    let full = if full.is_empty() {
-        Span {
-            start: touched.end,
-            end: touched.end,
+    let (outer, inner) = (outer.as_flattened().as_chunks().0, inner.as_flattened().as_chunks().0);
+    for (i, ((spans, outer), inner)) in fours.iter().zip(outer).zip(inner).enumerate() {
+        let range = |[start, end]: [u32; 2]| start as usize..end as usize;
+        let touched = range(*outer);
+        if touched.is_empty() {
+            continue;
         }
-    } else {
-        full
+        paint(&TileRow {
+            y: y_of(i),
+            spans,
+            left: columns.start,
+            touched,
+            full: range(*inner),
+        });
+    }
+}
+
+/// Where the pixels begin and end of which two rows touch any sample, and where those of which they cover all, counted from
+/// the first of `columns` and cut to these.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn ends<S: Simd>(simd: S, rows: &[Four; 2], columns: Span) -> [[u32; 4]; 2] {
+    let vector = |numbers: [i32; 4]| i32x4::simd_from(simd, numbers);
+    // Starts and ends alternate: the least and the greatest of two sample rows each, then of all four.
+    let [upper, lower] = rows.each_ref().map(|[a, b, c, d]| {
+        let (first, second) = (
+            vector([a.start, a.end, b.start, b.end]),
+            vector([c.start, c.end, d.start, d.end]),
+        );
+        let wide = |vector: i32x4<S>| vector.bitcast::<u64x2<S>>();
+        (wide(first.min(second)), wide(first.max(second)))
+    });
+    let narrow = |vector: u64x2<S>| vector.bitcast::<i32x4<S>>();
+    let least = narrow(upper.0.zip_low(lower.0)).min(narrow(upper.0.zip_high(lower.0)));
+    let most = narrow(upper.1.zip_low(lower.1)).max(narrow(upper.1.zip_high(lower.1)));
+    let starts = mask32x4::from_bitmask(simd, 0b0101);
+    let left = columns.start * SIDE;
+    let width = i32x4::splat(simd, columns.end - columns.start);
+    let pixels = |samples: i32x4<S>, [start, end]: [i32; 2]| {
+        let pixels = (samples + vector([start - left, end - left, start - left, end - left])) >> 2;
+        let inside = pixels.max(i32x4::splat(simd, 0)).min(width);
+        inside.bitcast::<u32x4<S>>().to_array()
     };
-    paint(&PixelRow::of_parts(y, spans, touched, full));
+    [
+        pixels(starts.select(least, most), [0, 3]),
+        pixels(starts.select(most, least), [3, 0]),
+    ]
 }
 
-/// Some samples of four pixels side by side.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Window {
-    /// The first pixel.
-    pub(crate) x: i32,
-    /// All bits of the pixels that are meant, sixteen each, those of the first pixel lowest.
-    pub(crate) live: u64,
-    /// The samples of these that are covered.
-    pub(crate) masks: u64,
+impl TileRow<'_> {
+    /// The pixels that are covered in part beside those that are full, of which there must be some.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+    pub(crate) fn beside_full(&self) -> (Range<usize>, Range<usize>) {
+        (self.touched.start..self.full.start, self.full.end..self.touched.end)
+    }
+
+    /// The column of the frame in which pixel `x` lies.
+    #[inline]
+    pub(crate) fn column(&self, x: usize) -> i32 {
+        self.left + i32::try_from(x).unwrap_or(0)
+    }
 }
 
-/// Calls `visit` with windows that hold each pixel from `xs.start` to `xs.end` once, and what the spans of a row of pixels
-/// cover there. No window begins beyond `last`. `ends` says which ends of spans may lie in these pixels.
+/// Calls `visit` with windows that hold each of the pixels `xs` of a row once; `ends` says which ends of spans may lie in
+/// these pixels.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "faster where `ends` is known")]
 pub(crate) fn each_window<S: Simd>(
     simd: S,
-    spans: &[Span],
-    (xs, last): (Span, i32),
-    ends: Ends,
+    row: &TileRow<'_>,
+    (xs, ends): (Range<usize>, Ends),
     mut visit: impl FnMut(Window),
 ) {
-    let Some([a, b, c, d]) = spans.first_chunk::<ROWS>() else {
-        return;
-    };
-    let starts = i32x4::simd_from(simd, [a.start, b.start, c.start, d.start]);
-    let endings = i32x4::simd_from(simd, [a.end, b.end, c.end, d.end]);
+    let [a, b, c, d] = row.spans;
+    let vector = |numbers: [i32; 4]| i32x4::simd_from(simd, numbers);
+    let (upper, lower) = (
+        vector([a.start, a.end, b.start, b.end]),
+        vector([c.start, c.end, d.start, d.end]),
+    );
+    let left = i32x4::splat(simd, row.left * SIDE);
+    let (starts, endings) = (upper.unzip_low(lower) - left, upper.unzip_high(lower) - left);
     let mut from = xs.start;
     while from < xs.end {
-        let x = from.min(last);
-        let end = xs.end.min(x + WINDOW);
-        let live = u64::MAX >> (16 * (WINDOW - (end - from))) << (16 * (from - x));
+        let x = from.min(LAST_QUAD);
+        let end = xs.end.min(x + QUAD);
+        // At least one pixel and at most four.
+        let live = u64::MAX >> (16 * (QUAD - (end - from)) % 64) << (16 * (from - x) % 64);
         let masks = match ends {
             Ends::Left => !before(simd, starts, x),
             Ends::Right => before(simd, endings, x),
@@ -218,13 +346,18 @@ pub(crate) fn each_window<S: Simd>(
     }
 }
 
-/// The samples of a window of pixels from pixel `x` on that lie before a column of the frame, one for each sample row:
-/// from the lowest bits on the masks of the pixels.
+/// The samples of a window of pixels from pixel `x` on that lie before a column, one for each sample row: from the lowest
+/// bits on the masks of the pixels.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn before<S: Simd>(simd: S, columns: i32x4<S>, x: i32) -> u64 {
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "a place in a row of 64"
+)]
+fn before<S: Simd>(simd: S, columns: i32x4<S>, x: usize) -> u64 {
     let number = |number: i32| i32x4::splat(simd, number);
-    let inside = (columns - number(x * SIDE)).max(number(0)).min(number(COLUMNS));
+    let inside = (columns - number(x as i32 * SIDE)).max(number(0)).min(number(COLUMNS));
     // A byte for each sample of a pixel: four times the number of its row.
     let twice = inside | inside << 8;
     let rows: i8x16<S> = (twice | twice << 16).bitcast();
@@ -232,20 +365,23 @@ fn before<S: Simd>(simd: S, columns: i32x4<S>, x: i32) -> u64 {
     samples.simd_lt(i8x64::block_splat(rows)).to_bitmask()
 }
 
-/// Lets the slots from number `start` to `end` be the same one.
+/// Lets some slots of a row be the same one.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
 #[expect(clippy::cast_possible_truncation, reason = "places in a row of 64")]
-pub(crate) fn fill(slots: &mut [Slot], start: usize, end: usize, slot: Slot) {
-    let Ok(row) = <&mut [Slot; ROW]>::try_from(&mut *slots) else {
-        return slots[start..end].fill(slot);
-    };
+pub(crate) fn fill(slots: &mut [Slot; ROW], range: Range<usize>, slot: Slot) {
     // All of them anew: how many there are nobody can foresee, and vectors hold so few.
-    let (start, length) = (start as Slot, (end - start) as Slot);
-    for (at, shown) in (0..).zip(row) {
+    let (start, length) = (range.start as Slot, range.len() as Slot);
+    for (at, shown) in (0..).zip(slots) {
         let inside = Slot::wrapping_sub(at, start) < length;
         *shown = if inside { slot } else { *shown };
     }
+}
+
+/// A distance that is never negative.
+#[inline]
+fn place(distance: i32) -> usize {
+    distance.max(0).cast_unsigned() as usize
 }
 
 #[cfg(test)]

@@ -26,6 +26,7 @@ mod pixel_block;
 mod pixel_row;
 mod places;
 mod planes;
+mod quads;
 #[cfg(test)]
 mod random;
 mod rasterize;

@@ -420,17 +420,17 @@ impl SpanStore {
     }
 }
 
-impl RowSpans<'_> {
+impl<'a> RowSpans<'a> {
     /// The spans of some of the rows, row by row.
     #[inline]
-    pub(crate) fn of_rows(&self, start: i32, end: i32) -> &[Span] {
+    pub(crate) fn of_rows(&self, start: i32, end: i32) -> &'a [Span] {
         let [start, end] = [start, end].map(|row| place(row - self.rows.start));
         &self.spans[self.starts[start] as usize..self.starts[end] as usize]
     }
 
     /// The spans of one of the rows, from left to right; a single empty one where there are none.
     #[inline]
-    pub(crate) fn of_row(&self, row: i32) -> &[Span] {
+    pub(crate) fn of_row(&self, row: i32) -> &'a [Span] {
         let row = place(row - self.rows.start);
         &self.spans[self.starts[row] as usize..self.starts[row + 1] as usize]
     }

@@ -1,17 +1,23 @@
 //! What pixels show that two primitives share: two slots, and a bit for each sample.
 //!
-//! Masks, first and second slots each lie side by side, so that those of a few pixels are one vector.
+//! The masks, first and second slots of a row of pixels each lie side by side, so that those of a few pixels are a vector.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, mask16x8, u16x8, u64x2};
 
-use super::visibility::{Slot, joined, lanes};
+use super::visibility::{ROW, Slot, joined, lanes};
 
 /// Pixels of a [`Quad`].
 pub(crate) const QUAD: usize = 4;
 
 /// Most samples along the side of a pixel whose masks take 16 bits.
 const NARROW_SIDE: usize = 4;
+
+/// Four pixels side by side, in the lower half of a vector.
+pub(crate) type Quad<S> = u16x8<S>;
+
+/// Some of them.
+pub(crate) type QuadMask<S> = mask16x8<S>;
 
 /// Two slots that share the samples of a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -23,139 +29,138 @@ pub(crate) struct Pair {
 }
 
 /// One pair for each pixel of a tile, of account or not.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Pairs {
-    masks: Masks,
-    firsts: Vec<Slot>,
-    seconds: Vec<Slot>,
+    rows: Vec<Row>,
+    /// Whether masks need more than 16 bits, and these masks.
+    is_wide: bool,
+    wide: Vec<[u64; ROW]>,
 }
 
-/// The pairs of pixels side by side.
+/// The pairs of a row.
+#[derive(Clone, Debug)]
+struct Row {
+    masks: [u16; ROW],
+    firsts: [Slot; ROW],
+    seconds: [Slot; ROW],
+}
+
+/// The pairs of a row, or none.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PairRow<'a> {
-    narrow: &'a [u16],
-    wide: &'a [u64],
-    firsts: &'a [Slot],
-    seconds: &'a [Slot],
+    row: &'a Row,
+    wide: Option<&'a [u64; ROW]>,
 }
 
-/// Masks of as many bits as they need; one of the two is empty.
-#[derive(Debug, Default)]
-struct Masks {
-    is_wide: bool,
-    narrow: Vec<u16>,
-    wide: Vec<u64>,
+impl Row {
+    const NONE: Self = Self {
+        masks: [0; ROW],
+        firsts: [0; ROW],
+        seconds: [0; ROW],
+    };
 }
-
-/// Four pixels side by side, in the lower half of vectors.
-pub(crate) type Quad<S> = u16x8<S>;
-
-/// Which of them.
-pub(crate) type QuadMask<S> = mask16x8<S>;
 
 impl Pairs {
     /// None, for pixels of `side x side` samples, at most 64.
     pub(crate) fn new(side: usize) -> Self {
         Self {
-            masks: Masks {
-                is_wide: side > NARROW_SIDE,
-                ..Masks::default()
-            },
-            ..Self::default()
+            rows: Vec::new(),
+            is_wide: side > NARROW_SIDE,
+            wide: Vec::new(),
         }
     }
 
-    /// Makes room for those of `count` pixels.
-    pub(crate) fn make_room(&mut self, count: usize) {
-        if self.firsts.len() < count {
-            self.firsts.resize(count, 0);
-            self.seconds.resize(count, 0);
-            if self.masks.is_wide {
-                self.masks.wide.resize(count, 0);
-            } else {
-                self.masks.narrow.resize(count, 0);
+    /// Makes room for those of so many rows.
+    pub(crate) fn make_room(&mut self, rows: usize) {
+        if self.rows.len() < rows {
+            self.rows.resize(rows, Row::NONE);
+            if self.is_wide {
+                self.wide.resize(rows, [0; ROW]);
             }
         }
     }
 
+    /// That of column `x` in row `y`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
-    pub(crate) fn get(&self, pixel: usize) -> Pair {
-        let mask = if self.masks.is_wide {
-            self.masks.wide[pixel]
-        } else {
-            u64::from(self.masks.narrow[pixel])
-        };
-        Pair {
-            mask,
-            first: self.firsts[pixel],
-            second: self.seconds[pixel],
-        }
+    pub(crate) fn get(&self, (y, x): (usize, usize)) -> Pair {
+        self.row(y).get(x)
     }
 
+    /// Sets that of column `x` in row `y`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
     #[expect(clippy::cast_possible_truncation, reason = "narrow masks have sixteen bits")]
-    pub(crate) fn set(&mut self, pixel: usize, pair: Pair) {
-        if self.masks.is_wide {
-            self.masks.wide[pixel] = pair.mask;
+    pub(crate) fn set(&mut self, (y, x): (usize, usize), pair: Pair) {
+        let (row, x) = (&mut self.rows[y], x % ROW);
+        if self.is_wide {
+            self.wide[y][x] = pair.mask;
         } else {
-            self.masks.narrow[pixel] = pair.mask as u16;
+            row.masks[x] = pair.mask as u16;
         }
-        self.firsts[pixel] = pair.first;
-        self.seconds[pixel] = pair.second;
+        row.firsts[x] = pair.first;
+        row.seconds[x] = pair.second;
     }
 
-    /// Lets those of the pixels from `pixel` on that `which` names be pairs; masks must be narrow.
+    /// Sets those of the pixels from column `x` on in row `y` that `which` names; masks must be narrow.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     pub(crate) fn set_quad<S: Simd>(
         &mut self,
         simd: S,
-        (pixel, which): (usize, QuadMask<S>),
+        ((y, x), which): ((usize, usize), QuadMask<S>),
         (masks, firsts, seconds): (Quad<S>, Quad<S>, Quad<S>),
     ) {
-        let range = pixel..pixel + QUAD;
+        debug_assert!(!self.is_wide, "masks of sixteen bits");
+        let row = &mut self.rows[y];
         for (all, new) in [
-            (&mut self.masks.narrow, masks),
-            (&mut self.firsts, firsts),
-            (&mut self.seconds, seconds),
+            (&mut row.masks, masks),
+            (&mut row.firsts, firsts),
+            (&mut row.seconds, seconds),
         ] {
-            if let Some(four) = all.get_mut(range.clone()).and_then(<[u16]>::first_chunk_mut) {
-                put(four, which.select(new, quad(simd, joined(*four))));
-            }
+            let old = quad(simd, word_at(all, x));
+            put(all, x, which.select(new, old));
         }
     }
 
-    /// The pairs of `count` pixels from `first` on.
-    #[inline]
-    pub(crate) fn row(&self, first: usize, count: usize) -> PairRow<'_> {
-        let range = first..first + count;
+    /// Those of row `y`.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
+    pub(crate) fn row(&self, y: usize) -> PairRow<'_> {
         PairRow {
-            narrow: self.masks.narrow.get(range.clone()).unwrap_or_default(),
-            wide: self.masks.wide.get(range.clone()).unwrap_or_default(),
-            firsts: self.firsts.get(range.clone()).unwrap_or_default(),
-            seconds: self.seconds.get(range).unwrap_or_default(),
+            row: self.rows.get(y).unwrap_or(&Row::NONE),
+            wide: self.wide.get(y),
         }
     }
 }
 
 impl PairRow<'_> {
-    /// That of pixel number `at`; any for a number that is none.
+    /// That of column `x`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
-    pub(crate) fn get(&self, at: usize) -> Pair {
-        let mask = match self.narrow.get(at) {
-            Some(mask) => u64::from(*mask),
-            None => self.wide.get(at).copied().unwrap_or_default(),
-        };
+    pub(crate) fn get(&self, x: usize) -> Pair {
+        let x = x % ROW;
         Pair {
-            mask,
-            first: self.firsts.get(at).copied().unwrap_or_default(),
-            second: self.seconds.get(at).copied().unwrap_or_default(),
+            mask: match self.wide {
+                Some(masks) => masks[x],
+                None => u64::from(self.row.masks[x]),
+            },
+            first: self.row.firsts[x],
+            second: self.row.seconds[x],
         }
     }
 }
+
+/// The four numbers of a row from number `x` on, at most [`LAST_QUAD`], the first one lowest.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "one instruction, mostly")]
+pub(crate) fn word_at(row: &[u16; ROW], x: usize) -> u64 {
+    let x = x.min(LAST_QUAD);
+    joined([row[x], row[x + 1], row[x + 2], row[x + 3]])
+}
+
+/// The number of the first of the last four pixels of a row.
+pub(crate) const LAST_QUAD: usize = ROW - QUAD;
 
 /// Four numbers, the first one lowest, as a vector.
 #[inline(always)]
@@ -164,10 +169,11 @@ pub(crate) fn quad<S: Simd>(simd: S, word: u64) -> Quad<S> {
     u64x2::splat(simd, word).bitcast()
 }
 
-/// A vector as four numbers.
+/// Puts a vector where [`word_at`] finds it.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-pub(crate) fn put<S: Simd>(four: &mut [u16; QUAD], vector: Quad<S>) {
+pub(crate) fn put<S: Simd>(row: &mut [u16; ROW], x: usize, vector: Quad<S>) {
+    let x = x.min(LAST_QUAD);
     let [word, _] = vector.bitcast::<u64x2<S>>().to_array();
-    *four = lanes(word);
+    row[x..x + QUAD].copy_from_slice(&lanes(word));
 }

@@ -9,11 +9,7 @@
 
 use std::ops::Range;
 
-use fearless_simd::Simd;
-use fearless_simd::prelude::*;
-
-use super::four::{Ends, Window, each_window, fill};
-use super::pairs::{self, Pair, PairRow, Pairs, QUAD, Quad};
+use super::pairs::{Pair, PairRow, Pairs};
 use super::pixel_row::PixelRow;
 use super::rows::Span;
 use super::tile::PixelRect;
@@ -27,17 +23,14 @@ const SPLIT: Slot = Slot::MAX;
 /// Stands for a pixel that shows a [`Pair`].
 pub(crate) const PAIR: Slot = Slot::MAX - 1;
 
-/// Bits of which one is set for each shared pixel of four, and perhaps for others.
-const PERHAPS_SHARED: u64 = 0x8000_8000_8000_8000;
-
 /// Most slots of a tile.
 pub(crate) const MAX_SLOTS: usize = PAIR as usize;
 
+/// Pixels from one row of a tile to the next: no tile is wider. A word has a bit for each.
+pub(crate) const ROW: usize = 64;
+
 /// Pixels of a block.
 pub(crate) const BLOCK: usize = 8;
-
-/// Pixels of which a word has a bit each.
-pub(crate) const STRETCH: usize = BLOCK * BLOCK;
 
 /// Most samples along the side of a pixel that may be a pair.
 const MAX_PAIR_SIDE: usize = 8;
@@ -70,8 +63,6 @@ const SPREAD_BITS: [u64; 16] = {
 pub(crate) struct VisibilityTile {
     pub(crate) rect: PixelRect,
     width: usize,
-    /// Distance between two rows of pixels: whole blocks.
-    stride: usize,
     /// Samples along one side of a pixel.
     side: usize,
     /// Words that one sample row of a pixel takes: four samples each, the last one perhaps with some to spare.
@@ -80,26 +71,29 @@ pub(crate) struct VisibilityTile {
     used: Vec<u32>,
     /// The bits of all samples of a pixel; none where there are too many for pairs.
     all: u64,
-    /// One slot per pixel, or [`PAIR`], or [`SPLIT`].
-    whole: Vec<Slot>,
-    /// For each block of pixels side by side a bit for each that was a pair or split once; it need not be any more.
-    shared: Vec<u8>,
-    /// What pairs show, pixel by pixel.
-    pairs: Pairs,
+    /// Row by row one slot per pixel, or [`PAIR`], or [`SPLIT`]; beyond the tile's right side something.
+    pub(super) whole: Vec<[Slot; ROW]>,
+    /// For each row a bit for each pixel that was a pair or split once; it need not be any more.
+    pub(super) shared: Vec<u64>,
+    /// What pairs show.
+    pub(super) pairs: Pairs,
     /// The slots of split pixels, pixel by pixel. Allocated with the first split.
     samples: Vec<u64>,
 }
 
-/// Pixels side by side, [`STRETCH`] or up to the tile's right side.
+/// A row of a tile's pixels.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stretch<'a> {
+pub(crate) struct Shown<'a> {
     /// What each shows; beyond the tile's right side something.
-    pub(crate) shown: &'a [[Slot; BLOCK]],
+    pub(crate) whole: &'a [Slot; ROW],
     /// The pixels that may be pairs or split, a bit for each.
     pub(crate) shared: u64,
     /// What those show that are pairs; of no account for others.
     pub(crate) pairs: PairRow<'a>,
 }
+
+/// A pixel of a tile: its row and its column, counted from the tile's first pixel.
+type Place = (usize, usize);
 
 /// Which ends of spans may lie in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,7 +121,6 @@ impl VisibilityTile {
         Self {
             rect: PixelRect::NOTHING,
             width: 0,
-            stride: 0,
             side,
             words: side.div_ceil(PER_WORD),
             used: (0..side)
@@ -151,32 +144,34 @@ impl VisibilityTile {
         let length = |span: Span| usize::try_from(span.end - span.start).unwrap_or(0);
         self.rect = rect;
         self.width = length(rect.x);
-        self.stride = self.width.next_multiple_of(BLOCK);
+        debug_assert!(self.width <= ROW, "a tile is {} pixels wide", self.width);
+        let rows = length(rect.y);
         self.whole.clear();
-        self.whole.resize(self.stride * length(rect.y), slot);
+        self.whole.resize(rows, [slot; ROW]);
         self.shared.clear();
-        self.shared.resize(self.whole.len() / BLOCK, 0);
+        self.shared.resize(rows, 0);
         if self.all != 0 {
-            self.pairs.make_room(self.whole.len());
+            self.pairs.make_room(rows);
         }
     }
 
     /// Lets every sample show `slot`.
     pub(crate) fn cover(&mut self, slot: Slot) {
-        self.whole.fill(slot);
+        self.whole.fill([slot; ROW]);
     }
 
     /// Lets the samples that a row of pixels covers show `slot`.
     #[inline]
     pub(crate) fn paint(&mut self, row: &PixelRow<'_>, slot: Slot) {
-        let left = self.rect.x.start;
-        let line = offset(self.rect.y.start, row.y) * self.stride;
+        let y = offset(self.rect.y.start, row.y);
         if !row.full.is_empty() {
-            self.whole[line + offset(left, row.full.start)..line + offset(left, row.full.end)].fill(slot);
+            let full = self.columns(row.full);
+            self.whole[y][full].fill(slot);
         }
         if self.all == 0 {
+            let left = self.rect.x.start;
             for x in row.partial() {
-                let pixel = line + offset(left, x);
+                let pixel = (y, offset(left, x));
                 self.split(pixel);
                 let painted = splat(slot);
                 self.each_covered_word(pixel, x, row.spans(), |word, mask| {
@@ -185,78 +180,35 @@ impl VisibilityTile {
             }
             return;
         }
-        self.paint_partial(self.side, row, line, slot);
+        self.paint_partial(self.side, row, y, slot);
     }
 
-    /// As [`VisibilityTile::paint`] where a pixel has 4 x 4 samples.
-    #[inline(always)]
-    #[expect(
-        clippy::inline_always,
-        reason = "a call for each row of pixels would cost as much as the rest"
-    )]
-    pub(crate) fn paint_four<S: Simd>(&mut self, simd: S, row: &PixelRow<'_>, slot: Slot) {
-        let left = self.rect.x.start;
-        let line = offset(self.rect.y.start, row.y) * self.stride;
-        self.note_shared(line, row);
-        let last = left + self.last_quad();
-        if row.full.is_empty() {
-            return each_window(
-                simd,
-                row.spans(),
-                (row.touched, last),
-                Ends::Both,
-                #[inline(always)]
-                |window| self.paint_quad(simd, line + offset(left, window.x), window, slot),
-            );
-        }
-        let (before, after) = row.beside_full();
-        each_window(
-            simd,
-            row.spans(),
-            (before, last),
-            Ends::Left,
-            #[inline(always)]
-            |window| self.paint_quad(simd, line + offset(left, window.x), window, slot),
-        );
-        each_window(
-            simd,
-            row.spans(),
-            (after, last),
-            Ends::Right,
-            #[inline(always)]
-            |window| self.paint_quad(simd, line + offset(left, window.x), window, slot),
-        );
-        // Last: slots that were just written as vectors are read slowly.
-        let slots = &mut self.whole[line..line + self.stride];
-        fill(slots, offset(left, row.full.start), offset(left, row.full.end), slot);
-    }
-
-    /// Lets the samples of a row of pixels that is covered in part show `slot`; `line` is the index of its first pixel.
-    fn paint_partial(&mut self, side: usize, row: &PixelRow<'_>, line: usize, slot: Slot) {
+    /// Lets the samples of a row of pixels that is covered in part show `slot`; `y` is its number.
+    fn paint_partial(&mut self, side: usize, row: &PixelRow<'_>, y: usize, slot: Slot) {
         let (left, spans) = (self.rect.x.start, row.spans());
         if row.full.is_empty() {
             for x in row.touched.start..row.touched.end {
                 let covered = mask(side, x, spans, Sides::Both);
                 if covered != 0 {
-                    self.paint_samples(line + offset(left, x), covered, slot);
+                    self.paint_samples((y, offset(left, x)), covered, slot);
                 }
             }
             return;
         }
         // Beside pixels that are full, each holds some covered samples, and none holds all.
         for x in row.touched.start..row.full.start {
-            self.paint_samples(line + offset(left, x), mask(side, x, spans, Sides::Left), slot);
+            self.paint_samples((y, offset(left, x)), mask(side, x, spans, Sides::Left), slot);
         }
         for x in row.full.end..row.touched.end {
-            self.paint_samples(line + offset(left, x), mask(side, x, spans, Sides::Right), slot);
+            self.paint_samples((y, offset(left, x)), mask(side, x, spans, Sides::Right), slot);
         }
     }
 
     /// Lets some samples of a pixel show `slot`, at least one and not all.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
-    fn paint_samples(&mut self, pixel: usize, covered: u64, slot: Slot) {
-        let shown = self.whole[pixel];
+    pub(super) fn paint_samples(&mut self, pixel: Place, covered: u64, slot: Slot) {
+        let shown = self.whole[pixel.0][pixel.1 % ROW];
         if shown == slot {
             return;
         }
@@ -275,21 +227,22 @@ impl VisibilityTile {
     /// Makes a pixel a [`PAIR`] or [`SPLIT`].
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
-    fn share(&mut self, pixel: usize, kind: Slot) {
-        self.whole[pixel] = kind;
-        self.shared[pixel / BLOCK] |= 1 << (pixel % BLOCK);
+    fn share(&mut self, (y, x): Place, kind: Slot) {
+        self.whole[y][x % ROW] = kind;
+        self.shared[y] |= 1 << (x % ROW);
     }
 
     /// As [`VisibilityTile::paint_samples`] where samples differ already.
     #[inline(never)]
-    fn paint_shared(&mut self, pixel: usize, covered: u64, slot: Slot) {
-        if self.whole[pixel] == PAIR && self.paint_pair(pixel, covered, slot) {
+    fn paint_shared(&mut self, pixel: Place, covered: u64, slot: Slot) {
+        if self.whole[pixel.0][pixel.1] == PAIR && self.paint_pair(pixel, covered, slot) {
             return;
         }
         self.split(pixel);
         let painted = splat(slot);
         let (side, words) = (self.side, self.words);
-        let samples = &mut self.samples[pixel * side * words..][..side * words];
+        let first = self.first_word(pixel);
+        let samples = &mut self.samples[first..][..side * words];
         if words == 1 {
             for (word, shift) in samples.iter_mut().zip((0..).step_by(side)) {
                 let mask = SPREAD_BITS[(covered >> shift & 0xF) as usize];
@@ -316,7 +269,7 @@ impl VisibilityTile {
 
     /// Lets samples of a pixel that is a pair show `slot`; false, and nothing done, where it would show three.
     #[inline]
-    fn paint_pair(&mut self, pixel: usize, covered: u64, slot: Slot) -> bool {
+    fn paint_pair(&mut self, pixel: Place, covered: u64, slot: Slot) -> bool {
         let Pair { mask, first, second } = self.pairs.get(pixel);
         let pair = if second == slot {
             Pair {
@@ -352,11 +305,11 @@ impl VisibilityTile {
     /// Lets a pixel show two slots, or the one that is left of them.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
-    fn set_pair(&mut self, pixel: usize, pair: Pair) {
+    fn set_pair(&mut self, pixel: Place, pair: Pair) {
         if pair.mask == 0 {
-            self.whole[pixel] = pair.first;
+            self.whole[pixel.0][pixel.1] = pair.first;
         } else if pair.mask == self.all {
-            self.whole[pixel] = pair.second;
+            self.whole[pixel.0][pixel.1] = pair.second;
         } else {
             self.share(pixel, PAIR);
             self.pairs.set(pixel, pair);
@@ -366,161 +319,29 @@ impl VisibilityTile {
     /// Lets the samples that a row of pixels covers show what `change` makes of what they show.
     pub(crate) fn change(&mut self, row: &PixelRow<'_>, mut change: impl FnMut(Slot) -> Slot) {
         let left = self.rect.x.start;
-        let line = offset(self.rect.y.start, row.y) * self.stride;
-        self.change_whole(
-            line + offset(left, row.full.start.min(row.full.end))..line + offset(left, row.full.end),
-            &mut change,
-        );
+        let y = offset(self.rect.y.start, row.y);
+        if !row.full.is_empty() {
+            let full = self.columns(row.full);
+            self.change_whole(y, full, &mut change);
+        }
         for x in row.partial() {
             let covered = if self.all != 0 { self.mask(x, row.spans()) } else { 0 };
-            self.change_samples((line + offset(left, x), x), (covered, row.spans()), &mut change);
+            self.change_samples(((y, offset(left, x)), x), (covered, row.spans()), &mut change);
         }
     }
 
-    /// As [`VisibilityTile::change`] where a pixel has 4 x 4 samples.
-    #[inline(always)]
-    #[expect(
-        clippy::inline_always,
-        reason = "a call for each row of pixels would cost as much as the rest"
-    )]
-    pub(crate) fn change_four<S: Simd>(&mut self, simd: S, row: &PixelRow<'_>, mut change: impl FnMut(Slot) -> Slot) {
-        let left = self.rect.x.start;
-        let line = offset(self.rect.y.start, row.y) * self.stride;
-        if !row.full.is_empty() {
-            self.change_whole(
-                line + offset(left, row.full.start)..line + offset(left, row.full.end),
-                &mut change,
-            );
-        }
-        self.note_shared(line, row);
-        let last = left + self.last_quad();
-        if row.full.is_empty() {
-            return each_window(
-                simd,
-                row.spans(),
-                (row.touched, last),
-                Ends::Both,
-                #[inline(always)]
-                |window| self.change_quad(simd, line + offset(left, window.x), (window, row.spans()), &mut change),
-            );
-        }
-        let (before, after) = row.beside_full();
-        each_window(
-            simd,
-            row.spans(),
-            (before, last),
-            Ends::Left,
-            #[inline(always)]
-            |window| self.change_quad(simd, line + offset(left, window.x), (window, row.spans()), &mut change),
-        );
-        each_window(
-            simd,
-            row.spans(),
-            (after, last),
-            Ends::Right,
-            #[inline(always)]
-            |window| self.change_quad(simd, line + offset(left, window.x), (window, row.spans()), &mut change),
-        );
-    }
-
-    /// The first of the last four pixels of a row.
-    fn last_quad(&self) -> i32 {
-        i32::try_from(self.stride.saturating_sub(QUAD)).unwrap_or(i32::MAX)
-    }
-
-    /// Notes which pixels of a row may be shared once those covered in part are; `line` is the index of its first pixel.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
-    fn note_shared(&mut self, line: usize, row: &PixelRow<'_>) {
-        let left = self.rect.x.start;
-        let shared = &mut self.shared[line / BLOCK..][..self.stride / BLOCK];
-        let bits = |span: Span| bits(offset(left, span.start), offset(left, span.end));
-        if let Ok(bytes) = <&mut [u8; BLOCK]>::try_from(&mut *shared) {
-            let full = if row.full.is_empty() { 0 } else { bits(row.full) };
-            *bytes = ((u64::from_le_bytes(*bytes) | bits(row.touched)) & !full).to_le_bytes();
-            return;
-        }
-        for x in row.partial() {
-            let at = offset(left, x);
-            shared[at / BLOCK] |= 1 << (at % BLOCK);
-        }
-    }
-
-    /// Lets those samples of four pixels show `slot` that a window covers; pixels of which it covers all are left alone.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn paint_quad<S: Simd>(&mut self, simd: S, pixel: usize, Window { live, masks, .. }: Window, slot: Slot) {
-        let Some(whole) = self.whole[pixel..].first_chunk_mut() else {
-            return;
-        };
-        let word = joined(*whole);
-        if word & live & PERHAPS_SHARED != 0 {
-            return self.paint_shared_quad(pixel, masks, slot);
-        }
-        let number = |number| Quad::splat(simd, number);
-        let (shown, covered) = (pairs::quad(simd, word), pairs::quad(simd, masks));
-        let painted = in_part(simd, covered) & !shown.simd_eq(number(slot));
-        pairs::put(whole, painted.select(number(PAIR), shown));
-        self.pairs
-            .set_quad(simd, (pixel, painted), (covered, shown, number(slot)));
-    }
-
-    /// As [`VisibilityTile::paint_quad`] pixel by pixel.
-    #[inline(never)]
-    fn paint_shared_quad(&mut self, pixel: usize, masks: u64, slot: Slot) {
-        for (pixel, covered) in (pixel..).zip(lanes(masks)) {
-            if covered != 0 && covered != u16::MAX {
-                self.paint_samples(pixel, u64::from(covered), slot);
-            }
-        }
-    }
-
-    /// As [`VisibilityTile::change_samples`] for the four pixels of a window from index `pixel` on; those of which it
-    /// covers all samples are left alone.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn change_quad<S: Simd>(
-        &mut self,
-        simd: S,
-        pixel: usize,
-        (Window { x, live, masks }, spans): (Window, &[Span]),
-        change: &mut impl FnMut(Slot) -> Slot,
-    ) {
-        let Some(whole) = self.whole[pixel..].first_chunk_mut() else {
-            return;
-        };
-        let word = joined(*whole);
-        let first = (word >> (live.trailing_zeros() % 64)) as Slot;
-        if first >= PAIR || (word ^ splat(first)) & live != 0 {
-            for ((pixel, x), covered) in (pixel..).zip(x..).zip(lanes(masks)) {
-                if covered != 0 && covered != u16::MAX {
-                    self.change_samples((pixel, x), (u64::from(covered), spans), change);
-                }
-            }
-            return;
-        }
-        if masks == 0 {
-            return;
-        }
-        let number = |number| Quad::splat(simd, number);
-        let (shown, covered) = (pairs::quad(simd, word), pairs::quad(simd, masks));
-        let changed = in_part(simd, covered);
-        pairs::put(whole, changed.select(number(PAIR), shown));
-        self.pairs
-            .set_quad(simd, (pixel, changed), (covered, shown, number(change(first))));
-    }
-
-    /// Lets the samples that `spans` cover in a pixel, by its index and its column in the frame, show what `change` makes
+    /// Lets the samples that `spans` cover in a pixel, by its place and its column in the frame, show what `change` makes
     /// of what they show; `covered` are their bits, if it may be a pair.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
-    fn change_samples(
+    pub(super) fn change_samples(
         &mut self,
-        (pixel, x): (usize, i32),
+        (pixel, x): (Place, i32),
         (covered, spans): (u64, &[Span]),
         change: &mut impl FnMut(Slot) -> Slot,
     ) {
-        if self.whole[pixel] != SPLIT && self.all != 0 && (covered == 0 || self.change_pair(pixel, covered, change)) {
+        let shown = self.whole[pixel.0][pixel.1];
+        if shown != SPLIT && self.all != 0 && (covered == 0 || self.change_pair(pixel, covered, change)) {
             return;
         }
         self.split(pixel);
@@ -533,8 +354,8 @@ impl VisibilityTile {
 
     /// Lets samples of a pixel that is not split show what `change` makes of what they show; false, and nothing done,
     /// where the pixel would show three slots or more.
-    fn change_pair(&mut self, pixel: usize, covered: u64, change: &mut impl FnMut(Slot) -> Slot) -> bool {
-        let shown = self.whole[pixel];
+    fn change_pair(&mut self, pixel: Place, covered: u64, change: &mut impl FnMut(Slot) -> Slot) -> bool {
+        let shown = self.whole[pixel.0][pixel.1];
         let pair = if shown == PAIR {
             let Pair { mask, first, second } = self.pairs.get(pixel);
             let (of_first, of_second) = (self.all & !mask, mask);
@@ -564,63 +385,68 @@ impl VisibilityTile {
 
     /// As [`VisibilityTile::change`] for all samples.
     pub(crate) fn change_all(&mut self, mut change: impl FnMut(Slot) -> Slot) {
-        self.change_whole(0..self.whole.len(), &mut change);
+        for y in 0..self.whole.len() {
+            self.change_whole(y, 0..self.width, &mut change);
+        }
     }
 
     /// As [`VisibilityTile::change`] for all samples of the pixels `xs` of row `y`.
     pub(crate) fn change_pixels(&mut self, xs: Span, y: i32, mut change: impl FnMut(Slot) -> Slot) {
-        self.change_whole(self.pixels(xs, y), &mut change);
+        self.change_whole(offset(self.rect.y.start, y), self.columns(xs), &mut change);
     }
 
     /// Lets all samples of the pixels `xs` of row `y` show `slot`.
     #[inline]
     pub(crate) fn paint_pixels(&mut self, xs: Span, y: i32, slot: Slot) {
-        let pixels = self.pixels(xs, y);
-        self.whole[pixels].fill(slot);
+        let xs = self.columns(xs);
+        self.whole[offset(self.rect.y.start, y)][xs].fill(slot);
     }
 
-    /// The indices of pixels.
+    /// Columns counted from the tile's left side.
     #[inline]
-    fn pixels(&self, xs: Span, y: i32) -> Range<usize> {
-        let line = offset(self.rect.y.start, y) * self.stride;
+    fn columns(&self, xs: Span) -> Range<usize> {
         let left = self.rect.x.start;
-        line + offset(left, xs.start)..line + offset(left, xs.end)
+        offset(left, xs.start)..offset(left, xs.end)
     }
 
-    /// Lets a pair show what `change` makes of its slots.
-    fn change_slots(&mut self, pixel: usize, mut change: impl FnMut(Slot) -> Slot) {
-        let Pair { mask, first, second } = self.pairs.get(pixel);
-        let (first, second) = (change(first), change(second));
-        self.pairs.set(pixel, Pair { mask, first, second });
-    }
-
-    fn change_whole(&mut self, pixels: Range<usize>, change: &mut impl FnMut(Slot) -> Slot) {
-        let per_pixel = self.side * self.words;
-        let mut start = pixels.start;
-        while start < pixels.end {
-            let shown = self.whole[start];
-            let end = start + run_length(&self.whole[start..pixels.end], shown);
+    /// Lets all samples of the pixels `xs` of row number `y` show what `change` makes of what they show.
+    pub(super) fn change_whole(&mut self, y: usize, xs: Range<usize>, change: &mut impl FnMut(Slot) -> Slot) {
+        let mut start = xs.start;
+        while start < xs.end {
+            let row = &mut self.whole[y];
+            let shown = row[start];
+            let end = start + run_length(&row[start..xs.end], shown);
             match shown {
                 SPLIT => {
-                    for word in &mut self.samples[start * per_pixel..end * per_pixel] {
+                    let per_pixel = self.side * self.words;
+                    let first = self.first_word((y, start));
+                    for word in &mut self.samples[first..first + (end - start) * per_pixel] {
                         *word = changed(*word, u64::MAX, change);
                     }
                 }
                 PAIR => {
-                    for pixel in start..end {
-                        self.change_slots(pixel, &mut *change);
+                    for x in start..end {
+                        let Pair { mask, first, second } = self.pairs.get((y, x));
+                        let (first, second) = (change(first), change(second));
+                        self.pairs.set((y, x), Pair { mask, first, second });
                     }
                 }
-                _ => self.whole[start..end].fill(change(shown)),
+                _ => row[start..end].fill(change(shown)),
             }
             start = end;
         }
     }
 
+    /// All pixels.
+    fn places(&self) -> impl Iterator<Item = Place> + use<> {
+        let width = self.width;
+        (0..self.whole.len()).flat_map(move |y| (0..width).map(move |x| (y, x)))
+    }
+
     /// Lets each sample show what `mix` makes of its slot here and in a `layer` of the same rectangle.
     pub(crate) fn composite(&mut self, layer: &Self, mut mix: impl FnMut(Slot, Slot) -> Slot) {
         let per_pixel = self.side * self.words;
-        for pixel in 0..self.whole.len() {
+        for pixel in self.places() {
             if let (Some(below), Some(above)) = (self.pair(pixel), layer.pair(pixel))
                 && (below.mask == 0 || above.mask == 0 || below.mask == above.mask)
             {
@@ -633,23 +459,23 @@ impl VisibilityTile {
                 continue;
             }
             self.split(pixel);
+            let first = self.first_word(pixel);
             for i in 0..per_pixel {
                 let above = match layer.pair(pixel) {
-                    None => layer.samples[pixel * per_pixel + i],
+                    None => layer.samples[first + i],
                     Some(pair) => layer.word(pair, i),
                 };
-                let word = pixel * per_pixel + i;
-                let (below, above) = (lanes(self.samples[word]), lanes(above));
+                let (below, above) = (lanes(self.samples[first + i]), lanes(above));
                 let mixed = [0, 1, 2, 3].map(|i| mix(below[i], above[i]));
-                self.samples[word] = joined(mixed);
+                self.samples[first + i] = joined(mixed);
             }
         }
     }
 
     /// What a pixel shows that is not split; a single slot twice, with no bit set.
     #[inline]
-    fn pair(&self, pixel: usize) -> Option<Pair> {
-        match self.whole[pixel] {
+    fn pair(&self, pixel: Place) -> Option<Pair> {
+        match self.whole[pixel.0][pixel.1] {
             SPLIT => None,
             PAIR => Some(self.pairs.get(pixel)),
             slot => Some(Pair {
@@ -678,17 +504,18 @@ impl VisibilityTile {
     /// Calls `paint` for every word of a split pixel with the bits of the samples that `spans` cover; `x` is the pixel's
     /// column in the frame.
     #[inline]
-    fn each_covered_word(&mut self, pixel: usize, x: i32, spans: &[Span], mut paint: impl FnMut(&mut u64, u64)) {
+    fn each_covered_word(&mut self, pixel: Place, x: i32, spans: &[Span], mut paint: impl FnMut(&mut u64, u64)) {
         let left = x * i32::try_from(self.side).unwrap_or(1);
         if self.words == 1 {
-            let samples = &mut self.samples[pixel * self.side..][..self.side];
+            let first = self.first_word(pixel);
+            let samples = &mut self.samples[first..][..self.side];
             for (word, span) in samples.iter_mut().zip(spans) {
                 paint(word, covered(*span, left));
             }
             return;
         }
-        let per_pixel = self.side * self.words;
-        let samples = &mut self.samples[pixel * per_pixel..][..per_pixel];
+        let first = self.first_word(pixel);
+        let samples = &mut self.samples[first..][..self.side * self.words];
         for (words, span) in samples.chunks_exact_mut(self.words).zip(spans) {
             for (word, left) in words.iter_mut().zip((left..).step_by(PER_WORD)) {
                 paint(word, covered(*span, left));
@@ -698,31 +525,37 @@ impl VisibilityTile {
 
     /// Gives a pixel one slot per sample, if it is not split yet.
     #[inline]
-    fn split(&mut self, pixel: usize) {
+    fn split(&mut self, pixel: Place) {
         let Some(pair) = self.pair(pixel) else {
             return;
         };
         self.make_room();
-        let per_pixel = self.side * self.words;
         self.share(pixel, SPLIT);
-        for i in 0..per_pixel {
-            self.samples[pixel * per_pixel + i] = self.word(pair, i);
+        let first = self.first_word(pixel);
+        for i in 0..self.side * self.words {
+            self.samples[first + i] = self.word(pair, i);
         }
     }
 
     /// Makes sure that there is room for the samples of all pixels.
     #[inline]
     fn make_room(&mut self) {
-        let count = self.whole.len() * self.side * self.words;
+        let count = self.first_word((self.whole.len(), 0));
         if self.samples.len() < count {
             self.samples.resize(count, 0);
         }
     }
 
+    /// Where the samples of a split pixel begin.
+    #[inline]
+    fn first_word(&self, (y, x): Place) -> usize {
+        (y * self.width + x) * self.side * self.words
+    }
+
     /// What each pixel of row `y` shows.
     #[inline]
     pub(crate) fn row(&self, y: i32) -> &[Slot] {
-        &self.whole[offset(self.rect.y.start, y) * self.stride..][..self.width]
+        &self.whole[offset(self.rect.y.start, y)][..self.width]
     }
 
     /// The runs of row `y` from left to right, each with its range of pixels counted from the tile's left side.
@@ -744,27 +577,22 @@ impl VisibilityTile {
         })
     }
 
-    /// The pixels of row `y` from left to right.
+    /// The pixels of row `y`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    pub(crate) fn stretches(&self, y: i32) -> impl Iterator<Item = Stretch<'_>> {
-        let blocks = self.stride / BLOCK;
-        let first = offset(self.rect.y.start, y) * blocks;
-        let (shown, _) = self.whole[first * BLOCK..][..self.stride].as_chunks();
-        let shared = self.shared[first..][..blocks].chunks(BLOCK);
-        let starts = (first * BLOCK..).step_by(STRETCH);
-        let parts = shown.chunks(BLOCK).zip(shared).zip(starts);
-        parts.map(|((shown, shared), start)| Stretch {
-            shown,
-            shared: word_of(shared),
-            pairs: self.pairs.row(start, shown.len() * BLOCK),
-        })
+    pub(crate) fn shown(&self, y: i32) -> Shown<'_> {
+        let y = offset(self.rect.y.start, y);
+        Shown {
+            whole: &self.whole[y],
+            shared: self.shared[y],
+            pairs: self.pairs.row(y),
+        }
     }
 
     /// What the pixels of row `y` show that are pairs; of no account for others.
     #[inline]
     pub(crate) fn pairs(&self, y: i32) -> PairRow<'_> {
-        self.pairs.row(offset(self.rect.y.start, y) * self.stride, self.width)
+        self.pairs.row(offset(self.rect.y.start, y))
     }
 
     /// The bits of all samples of a pixel that may be a pair.
@@ -799,40 +627,36 @@ impl VisibilityTile {
 
     #[inline]
     fn words(&self, x: usize, y: i32) -> &[u64] {
-        let pixel = offset(self.rect.y.start, y) * self.stride + x;
-        &self.samples[pixel * self.side * self.words..][..self.side * self.words]
+        let first = self.first_word((offset(self.rect.y.start, y), x));
+        &self.samples[first..][..self.side * self.words]
     }
 
     /// Renumbers all slots in use: `renumber` is called once for each, in no particular order.
     pub(crate) fn renumber(&mut self, renumber: impl Fn(Slot) -> Slot) {
-        let per_pixel = self.side * self.words;
-        for (pixel, slot) in self.whole.iter_mut().enumerate() {
-            match *slot {
+        for pixel in self.places() {
+            match self.whole[pixel.0][pixel.1] {
                 PAIR => {
                     let Pair { mask, first, second } = self.pairs.get(pixel);
                     let (first, second) = (renumber(first), renumber(second));
                     self.pairs.set(pixel, Pair { mask, first, second });
-                    continue;
                 }
-                SPLIT => {}
-                whole => {
-                    *slot = renumber(whole);
-                    continue;
+                SPLIT => {
+                    let first = self.first_word(pixel);
+                    for word in &mut self.samples[first..][..self.side * self.words] {
+                        *word = joined(lanes(*word).map(&renumber));
+                    }
                 }
-            }
-            for word in &mut self.samples[pixel * per_pixel..][..per_pixel] {
-                *word = joined(lanes(*word).map(&renumber));
+                whole => self.whole[pixel.0][pixel.1] = renumber(whole),
             }
         }
     }
 
     /// Calls `seen` with every slot in use, often several times.
     pub(crate) fn each_slot(&self, mut seen: impl FnMut(Slot)) {
-        let per_pixel = self.side * self.words;
-        for (pixel, slot) in self.whole.iter().enumerate() {
-            match *slot {
+        for pixel in self.places() {
+            match self.whole[pixel.0][pixel.1] {
                 SPLIT => {
-                    for word in &self.samples[pixel * per_pixel..][..per_pixel] {
+                    for word in &self.samples[self.first_word(pixel)..][..self.side * self.words] {
                         lanes(*word).into_iter().for_each(&mut seen);
                     }
                 }
@@ -843,16 +667,6 @@ impl VisibilityTile {
                 whole => seen(whole),
             }
         }
-    }
-}
-
-/// Up to eight bytes, the first one lowest.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "one instruction, mostly")]
-fn word_of(bytes: &[u8]) -> u64 {
-    match <[u8; BLOCK]>::try_from(bytes) {
-        Ok(bytes) => u64::from_le_bytes(bytes),
-        Err(_) => bytes.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte)),
     }
 }
 
@@ -914,21 +728,6 @@ pub(crate) fn lanes(word: u64) -> [Slot; PER_WORD] {
         (word >> 32) as u16,
         (word >> 48) as u16,
     ]
-}
-
-/// Which of four masks name some samples but not all.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn in_part<S: Simd>(simd: S, masks: Quad<S>) -> pairs::QuadMask<S> {
-    // None becomes one, and all zero.
-    let one = Quad::splat(simd, 1);
-    (masks + one).simd_gt(one)
-}
-
-/// The bits from number `start` to `end` of a word, at least one.
-#[inline]
-fn bits(start: usize, end: usize) -> u64 {
-    u64::MAX >> (64 - (end - start)) << start
 }
 
 /// A word of four slots.

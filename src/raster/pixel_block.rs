@@ -1,7 +1,10 @@
 //! The part of a frame that one tile is painted into.
 
+use fearless_simd::{Simd, dispatch};
+
 use super::rows::Span;
 use super::tile::PixelRect;
+use crate::simd;
 
 /// A rectangle of a frame's pixels.
 #[derive(Debug)]
@@ -18,6 +21,13 @@ impl<'p> PixelBlock<'p> {
     /// The rectangle `rect` of a frame; `pixels` begins with its first pixel, and its rows lie `stride` apart.
     pub(crate) fn new(rect: PixelRect, pixels: &'p mut [u32], stride: usize) -> Self {
         Self { rect, pixels, stride }
+    }
+
+    /// The rectangle `rect` of a frame; `pixels` are rows of the frame, the rectangle's first one and more, and `stride`
+    /// wide.
+    pub(crate) fn in_rows(rect: PixelRect, pixels: &'p mut [u32], stride: usize) -> Self {
+        let left = usize::try_from(rect.x.start).unwrap_or(0);
+        Self::new(rect, &mut pixels[left..], stride)
     }
 
     /// The pixels of row `y` of the frame.
@@ -51,8 +61,13 @@ impl<'p> PixelBlock<'p> {
 
     /// Gives all pixels one value.
     pub(crate) fn fill(&mut self, pixel: u32) {
-        for y in self.rect.y.start..self.rect.y.end {
-            self.line(y).fill(pixel);
-        }
+        dispatch!(simd::level(), simd => simd.vectorize(
+            #[inline(always)]
+            || {
+                for y in self.rect.y.start..self.rect.y.end {
+                    self.line(y).fill(pixel);
+                }
+            },
+        ));
     }
 }

@@ -19,7 +19,7 @@ use super::rows::Span;
 use super::scattered::Scatter;
 use super::shade::{ShadeContext, Shader};
 use super::tally::{Counters, SharedTally, Tally};
-use super::tile::TileLayout;
+use super::tile::{PixelRect, TileLayout};
 use super::{Framebuffer, SamplePattern, SampleRate};
 use crate::color::{Premultiplied16, ResolveSpace, Rgba};
 use crate::rules::Rules;
@@ -363,14 +363,34 @@ impl<'a> DisplayList<'a> {
     /// Paints and resolves the tiles of one row.
     fn tile_row<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, row: u32, pixels: &mut [u32]) {
         let stride = self.context.size[0] as usize;
-        for column in 0..self.context.tiles.columns {
+        let columns = self.context.tiles.columns;
+        let first = ((row - pass.first_row) * columns) as usize;
+        // Neighbours of one colour are filled together: memory takes long rows faster.
+        let mut even: Option<(PixelRect, u32)> = None;
+        for (column, tile) in (0..columns).zip(first..) {
             if pass.cancelled.load(Ordering::Relaxed) {
                 return;
             }
             let rect = self.context.tiles.pixels(column, row, self.context.size);
-            let left = rect.x.start.cast_unsigned() as usize;
-            let mut block = PixelBlock::new(rect, &mut pixels[left..], stride);
-            self.tile(pass, painters, [column, row], &mut block);
+            let pixel = self.even_pixel(pass, painters, tile);
+            match &mut even {
+                Some((so_far, known)) if pixel == Some(*known) => so_far.x.end = rect.x.end,
+                _ => {
+                    if let Some((so_far, known)) = even.take() {
+                        PixelBlock::in_rows(so_far, pixels, stride).fill(known);
+                    }
+                    match pixel {
+                        Some(pixel) => even = Some((rect, pixel)),
+                        None => {
+                            let mut block = PixelBlock::in_rows(rect, pixels, stride);
+                            self.paint_tile(pass, painters, tile, &mut block);
+                        }
+                    }
+                }
+            }
+        }
+        if let Some((so_far, known)) = even {
+            PixelBlock::in_rows(so_far, pixels, stride).fill(known);
         }
         pass.tally.take(&mut painters.tally);
     }
@@ -395,31 +415,34 @@ impl<'a> DisplayList<'a> {
         tile: usize,
         block: &mut PixelBlock<'_>,
     ) {
-        self.paint_tile(pass, painters, tile, block);
-        if let Some(palette) = self.settings.palette {
-            block.map(|pixel| {
-                let [_, red, ..] = pixel.to_be_bytes();
-                palette[usize::from(red)]
-            });
+        match self.even_pixel(pass, painters, tile) {
+            Some(pixel) => block.fill(pixel),
+            None => self.paint_tile(pass, painters, tile, block),
         }
+    }
+
+    /// The pixel that all of a tile shows, where no sample needs to be looked at to know it.
+    fn even_pixel(&self, pass: &Pass<'_>, painters: &mut Painters<'_>, tile: usize) -> Option<u32> {
+        let color = if pass.bins.iter().all(|bins| bins.of_tile(tile).is_empty()) {
+            self.background()
+        } else {
+            let first = first_visible(&pass.bins, tile);
+            let color = self.only_color(pass, tile, first)?;
+            painters.tally.counters.blocks_whole += 1;
+            color
+        };
+        let pixel = color.to_pixel(self.settings.sampling.rules);
+        Some(self.settings.palette.map_or(pixel, |palette| recolor(palette, pixel)))
     }
 
     fn paint_tile<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, tile: usize, block: &mut PixelBlock<'_>) {
         let background = self.background();
         let rules = self.settings.sampling.rules;
-        if pass.bins.iter().all(|bins| bins.of_tile(tile).is_empty()) {
-            block.fill(background.to_pixel(rules));
-            return;
-        }
         let first = first_visible(&pass.bins, tile);
         for (_, entries) in visible(&pass.bins, tile, first) {
             let whole = entries.iter().filter(|entry| entry.covers_tile()).count() as u64;
             painters.tally.counters.blocks_whole += whole;
             painters.tally.counters.blocks_split += entries.len() as u64 - whole;
-        }
-        if let Some(color) = self.only_color(pass, tile, first) {
-            block.fill(color.to_pixel(rules));
-            return;
         }
         // Looking at the clock costs as much as resolving a few rows.
         let start = tile.is_multiple_of(TIMED).then(Instant::now);
@@ -468,7 +491,16 @@ impl<'a> DisplayList<'a> {
             painters.tally.timed += start.elapsed();
             painters.tally.resolving += resolving.map(|start| start.elapsed()).unwrap_or_default();
         }
+        if let Some(palette) = self.settings.palette {
+            block.map(|pixel| recolor(palette, pixel));
+        }
     }
+}
+
+/// What a palette makes of a pixel: its colour number red.
+fn recolor(palette: &[u32; 256], pixel: u32) -> u32 {
+    let [_, red, ..] = pixel.to_be_bytes();
+    palette[usize::from(red)]
 }
 
 /// The chunk and the entry in it that painting a tile may start with: the last opaque shape that covers it wholly.

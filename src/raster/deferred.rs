@@ -17,16 +17,13 @@ use super::pairs::Pair;
 use super::pixel_block::PixelBlock;
 use super::pixel_row::each_pixel_row_of_few;
 use super::shade::{Pixels, ShadeContext, Shader};
-use super::slots::{Known, Shaded, SlotColor, Slots, Spread};
+use super::slots::{Shaded, SlotColor, Slots, Spread};
 use super::small::SmallCoverage;
 use super::tile::PixelRect;
-use super::visibility::{BLOCK, MAX_SLOTS, PAIR, ROW, Run, Shown, Slot, VisibilityTile, lanes, splat};
+use super::visibility::{MAX_SLOTS, PAIR, ROW, Run, Shown, Slot, VisibilityTile, lanes, splat};
 use crate::color::{Premultiplied16, Resolver};
 use crate::simd;
 use crate::texture::SampleGrid;
-
-/// Blocks of pixels that are looked at together, whether they all show the same.
-const GROUP: usize = 4;
 
 /// Paints tiles in which only opaque primitives are shaded, one after the other, reusing its memory.
 #[derive(Debug)]
@@ -256,7 +253,7 @@ impl<'a> DeferredPainter<'a> {
             return self.resolve_row_of_many(y, line);
         };
         let shown = self.layers[0].shown(y);
-        resolve_whole(known, shown.whole.as_chunks().0, line);
+        known.row(simd, shown.whole, line);
         // Where pixels are shared, what they got there is written over.
         match known.mixer(simd) {
             Some(mixer) => each_shared(
@@ -429,30 +426,6 @@ fn translucent_four<S: Simd>(
             );
         },
     );
-}
-
-/// Resolves pixels side by side as if none was shared; `shown` may hold more of them than the frame.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn resolve_whole(known: &Known, shown: &[[Slot; BLOCK]], pixels: &mut [u32]) {
-    let (groups, rest) = shown.as_chunks::<GROUP>();
-    let (whole, last) = pixels.as_chunks_mut::<{ GROUP * BLOCK }>();
-    for (pixels, slots) in whole.iter_mut().zip(groups) {
-        let first = slots[0][0];
-        // Without a way out in between: nobody can foresee where it would be taken.
-        if slots.iter().filter(|block| **block != [first; BLOCK]).count() == 0 {
-            *pixels = [known.pixel(first); GROUP * BLOCK];
-        } else {
-            for (pixel, slot) in pixels.iter_mut().zip(slots.as_flattened()) {
-                *pixel = known.pixel(*slot);
-            }
-        }
-    }
-    // The frame's right end.
-    let beyond = groups.get(whole.len()).map_or(rest, |group| group);
-    for (pixel, slot) in last.iter_mut().zip(beyond.as_flattened()) {
-        *pixel = known.pixel(*slot);
-    }
 }
 
 /// Resolves the pixels of a row that are pairs or split, by what each is and by its column.

@@ -17,6 +17,7 @@ mod four;
 mod fragments;
 mod framebuffer;
 mod hairline;
+mod known;
 mod outline;
 mod outline_tiles;
 mod paint;

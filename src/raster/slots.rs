@@ -2,44 +2,11 @@
 //!
 //! Painting a translucent colour over a slot makes a new slot: once for all samples that show the old one.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, i16x8, i32x4, u32x4, u64x2};
-
 use super::display_list::{Paint, ScreenTriangle};
+use super::known::Known;
 use super::visibility::{MAX_SLOTS, Slot};
 use crate::color::{Premultiplied16, Resolver};
 use crate::rules::Rules;
-
-/// How many slots have a place in [`Known`]: a power of two.
-const FIRST: usize = 1024;
-
-/// What is needed again and again of the first slots, side by side.
-#[derive(Debug)]
-pub(crate) struct Known {
-    resolver: Resolver,
-    /// Whether all are opaque.
-    opaque: bool,
-    pixels: Box<[u32; FIRST]>,
-    /// Blue, green, red and alpha from the lowest bits on, each less [`MIDDLE`].
-    channels: Box<[u64; FIRST]>,
-}
-
-/// What is taken from channels so that they are signed numbers of 16 bits.
-const MIDDLE: u16 = 1 << 15;
-
-/// Most samples of a pixel whose mean a [`Mixer`] takes.
-const MOST: u32 = 64;
-
-/// Takes the means of two opaque colours.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Mixer<'k, S: Simd> {
-    simd: S,
-    channels: &'k [u64; FIRST],
-    count: u32,
-    /// What rounds a sum, and makes up for [`MIDDLE`].
-    offset: i32x4<S>,
-    shift: u32,
-}
 
 /// What samples may show.
 #[derive(Debug)]
@@ -97,7 +64,7 @@ impl<'a> Slots<'a> {
     /// Forgets all slots.
     pub(crate) fn clear(&mut self) {
         self.all.clear();
-        self.known.opaque = true;
+        self.known.clear();
         self.painted.clear();
         self.paint = 0;
         self.any_shaded = false;
@@ -117,7 +84,7 @@ impl<'a> Slots<'a> {
     /// What is known of all slots; `None` where there are too many.
     #[inline]
     pub(crate) fn known(&self) -> Option<&Known> {
-        (self.all.len() <= FIRST).then_some(&self.known)
+        self.known.is_all().then_some(&self.known)
     }
 
     /// Whether each slot in use may become another one, and one more may come, without running out of numbers.
@@ -199,6 +166,7 @@ impl<'a> Slots<'a> {
     pub(crate) fn keep(&mut self, used: &[bool]) -> Vec<Slot> {
         let mut numbers = vec![0; used.len()];
         let mut kept = 0;
+        self.known.clear();
         for (old, number) in numbers.iter_mut().enumerate().filter(|(old, _)| used[*old]) {
             self.all[kept] = self.all[old];
             self.known.set(kept, &self.all[kept]);
@@ -219,64 +187,6 @@ impl<'a> Slots<'a> {
     fn newest(&self) -> Slot {
         debug_assert!(self.all.len() <= MAX_SLOTS, "slots are made room for");
         Slot::try_from(self.all.len() - 1).unwrap_or(0)
-    }
-}
-
-impl Known {
-    fn new(resolver: Resolver) -> Self {
-        Self {
-            resolver,
-            opaque: true,
-            pixels: Box::new([0; FIRST]),
-            channels: Box::new([0; FIRST]),
-        }
-    }
-
-    #[inline]
-    fn set(&mut self, number: usize, slot: &SlotColor<'_>) {
-        self.opaque &= slot.flat.is_opaque();
-        self.pixels[number % FIRST] = slot.pixel;
-        let [r, g, b, a] = slot.flat.0.map(|channel| u64::from(channel ^ MIDDLE));
-        self.channels[number % FIRST] = b | g << 16 | r << 32 | a << 48;
-    }
-
-    /// The pixel that shows nothing but the flat colour of a slot; any for a number that is none.
-    #[inline]
-    pub(crate) fn pixel(&self, slot: Slot) -> u32 {
-        self.pixels[usize::from(slot) % FIRST]
-    }
-
-    /// What mixes two of these; `None` where one of them is not opaque, or means are no shifts.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    pub(crate) fn mixer<S: Simd>(&self, simd: S) -> Option<Mixer<'_, S>> {
-        let (count, shift) = (self.resolver.count(), self.resolver.shift()?);
-        let offset = self.resolver.half() + u32::from(MIDDLE) * count;
-        (self.opaque && count <= MOST).then_some(Mixer {
-            simd,
-            channels: &self.channels,
-            count,
-            offset: i32x4::splat(simd, offset.cast_signed()),
-            shift,
-        })
-    }
-}
-
-impl<S: Simd> Mixer<'_, S> {
-    /// The pixel of which all samples show `first` but `of_second`, which show `second`.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    pub(crate) fn pixel(&self, first: Slot, second: Slot, of_second: u32) -> u32 {
-        let channels =
-            |slot: Slot| -> i16x8<S> { u64x2::splat(self.simd, self.channels[usize::from(slot) % FIRST]).bitcast() };
-        let both = channels(first).zip_low(channels(second));
-        let weights: i16x8<S> = u32x4::splat(self.simd, of_second << 16 | (self.count - of_second)).bitcast();
-        // No sum exceeds that of opaque white, so that no mean exceeds 255.
-        let sums = both.pairwise_dot_product(weights) + self.offset;
-        let means = (sums.bitcast::<u32x4<S>>() >> self.shift).bitcast::<i32x4<S>>();
-        let halves = means.saturating_narrow(means);
-        let bytes: u32x4<S> = halves.narrow(halves).bitcast();
-        bytes.to_array()[0]
     }
 }
 

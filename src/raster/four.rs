@@ -173,30 +173,41 @@ impl<'a> FourRows<'a> {
     /// Puts spans of as many rows as there is room into `fours`, and the numbers of these rows into `ys`; how many.
     fn take(&mut self, fours: &mut [Four; BATCH], ys: &mut [usize; BATCH]) -> usize {
         let mut count = 0;
-        for (four, y) in fours.iter_mut().zip(ys) {
-            if self.next == self.most {
-                if self.rows.is_empty() {
-                    break;
-                }
-                let line = self.rows.start;
-                let end = self.rows.end.min(((line >> 2) + 1) * SIDE);
-                self.rows.start = end;
-                self.y = place((line >> 2) - self.top);
-                if end - line == SIDE
-                    && let Ok(all) = <&Four>::try_from(self.spans.of_rows(line, end))
-                {
-                    (*four, *y) = (*all, self.y);
-                    count += 1;
-                    continue;
-                }
-                self.begin(line, end);
+        while count < BATCH {
+            if self.next < self.most {
+                fours[count] = self
+                    .left
+                    .map(|spans| spans.get(self.next).copied().unwrap_or(Span::EMPTY));
+                ys[count] = self.y;
+                self.next += 1;
+                count += 1;
+                continue;
             }
-            *four = self
-                .left
-                .map(|spans| spans.get(self.next).copied().unwrap_or(Span::EMPTY));
-            *y = self.y;
-            self.next += 1;
-            count += 1;
+            let line = self.rows.start;
+            if line >= self.rows.end {
+                break;
+            }
+            self.y = place((line >> 2) - self.top);
+            // As many rows of pixels as have one span in each of their sample rows.
+            let whole = if line & 3 == 0 {
+                place(self.rows.end - line) / ROWS
+            } else {
+                0
+            };
+            let whole = whole.min(if self.spans.single { BATCH - count } else { 1 });
+            let end = line + (whole * ROWS) as i32;
+            let lines = self.spans.of_rows(line, end);
+            if whole > 0 && lines.len() == whole * ROWS {
+                fours[count..count + whole].as_flattened_mut().copy_from_slice(lines);
+                for (y, number) in ys[count..count + whole].iter_mut().zip(self.y..) {
+                    *y = number;
+                }
+                self.rows.start = end;
+                count += whole;
+            } else {
+                self.rows.start = self.rows.end.min(((line >> 2) + 1) * SIDE);
+                self.begin(line, self.rows.start);
+            }
         }
         count
     }

@@ -26,6 +26,7 @@ mod pattern;
 mod pixel_block;
 mod pixel_row;
 mod places;
+mod plain_rows;
 mod planes;
 mod quads;
 #[cfg(test)]

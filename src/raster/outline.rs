@@ -9,6 +9,7 @@ use std::ops::Range;
 
 use glam::DVec2;
 
+use super::plain_rows::PlainRows;
 use super::rows::Span;
 use super::small::{SMALL, SampleBox, SmallCoverage};
 use crate::geometry::FillRule;
@@ -60,16 +61,17 @@ pub(crate) struct OutlineBuilder<'a> {
 pub(crate) struct RowSpans<'a> {
     /// The rows.
     pub(crate) rows: Span,
-    /// Where the spans of each row begin, and one more.
+    /// Where the spans of each row begin, and one more; of no account where they are single.
     starts: &'a [u32],
     spans: &'a [Span],
-    /// Whether no row has more than one.
+    /// Whether each row has one, empty or not.
     pub(crate) single: bool,
 }
 
 /// Finds [`RowSpans`], reusing its memory.
 #[derive(Debug, Default)]
 pub(crate) struct RowScanner {
+    plain: PlainRows,
     /// Where the crossings of each row begin.
     next: Vec<u32>,
     /// Crossings row by row: the column, doubled, and one more where the edge runs downwards.
@@ -87,6 +89,8 @@ pub(crate) struct SpanStore {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Stored {
     rows: Span,
+    /// Its first span, and its first number in `starts`.
+    span: usize,
     first: usize,
     single: bool,
 }
@@ -284,8 +288,19 @@ impl RowScanner {
         store: &mut SpanStore,
     ) -> Stored {
         let rows = rows.intersection(outline.samples.rows);
-        let first = store.starts.len();
+        let (span, first) = (store.spans.len(), store.starts.len());
         let mut single = true;
+        let plain = self
+            .plain
+            .scan(outline.edges_in(all, rows), grid, (rows, end), &mut store.spans);
+        if plain {
+            return Stored {
+                rows,
+                span,
+                first,
+                single,
+            };
+        }
         let edges = outline.edges_in(all, rows).count();
         // All rows at once, unless so many edges cross them that nobody would want to hold it.
         let step = i32::try_from(MAX_CROSSINGS / edges.max(1)).unwrap_or(i32::MAX).max(1);
@@ -300,7 +315,12 @@ impl RowScanner {
             start = some.end;
         }
         store.starts.push(index(store.spans.len()));
-        Stored { rows, first, single }
+        Stored {
+            rows,
+            span,
+            first,
+            single,
+        }
     }
 
     /// Adds the spans of the rows whose crossings were found; whether no row has more than one.
@@ -411,10 +431,15 @@ impl SpanStore {
     #[inline]
     pub(crate) fn get(&self, stored: Stored) -> RowSpans<'_> {
         let count = place(stored.rows.end - stored.rows.start);
+        let (starts, spans): (&[u32], &[Span]) = if stored.single {
+            (&[], &self.spans[stored.span..stored.span + count])
+        } else {
+            (&self.starts[stored.first..=stored.first + count], &self.spans)
+        };
         RowSpans {
             rows: stored.rows,
-            starts: &self.starts[stored.first..=stored.first + count],
-            spans: &self.spans,
+            starts,
+            spans,
             single: stored.single,
         }
     }
@@ -425,14 +450,16 @@ impl<'a> RowSpans<'a> {
     #[inline]
     pub(crate) fn of_rows(&self, start: i32, end: i32) -> &'a [Span] {
         let [start, end] = [start, end].map(|row| place(row - self.rows.start));
+        if self.single {
+            return &self.spans[start..end];
+        }
         &self.spans[self.starts[start] as usize..self.starts[end] as usize]
     }
 
     /// The spans of one of the rows, from left to right; a single empty one where there are none.
     #[inline]
     pub(crate) fn of_row(&self, row: i32) -> &'a [Span] {
-        let row = place(row - self.rows.start);
-        &self.spans[self.starts[row] as usize..self.starts[row + 1] as usize]
+        self.of_rows(row, row + 1)
     }
 }
 

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use glam::DVec2;
 
-use super::plain_rows::PlainRows;
+use super::plain_rows::{Crossings, PlainRows};
 use super::rows::Span;
 use super::small::{SMALL, SampleBox, SmallCoverage};
 use crate::geometry::FillRule;
@@ -71,6 +71,7 @@ pub(crate) struct RowSpans<'a> {
 /// Finds [`RowSpans`], reusing its memory.
 #[derive(Debug, Default)]
 pub(crate) struct RowScanner {
+    numbers: Crossings,
     plain: PlainRows,
     /// Where the crossings of each row begin.
     next: Vec<u32>,
@@ -290,27 +291,22 @@ impl RowScanner {
         let rows = rows.intersection(outline.samples.rows);
         let (span, first) = (store.spans.len(), store.starts.len());
         let mut single = true;
-        let plain = self
-            .plain
-            .scan(outline.edges_in(all, rows), grid, (rows, end), &mut store.spans);
-        if plain {
-            return Stored {
-                rows,
-                span,
-                first,
-                single,
-            };
-        }
-        let edges = outline.edges_in(all, rows).count();
-        // All rows at once, unless so many edges cross them that nobody would want to hold it.
-        let step = i32::try_from(MAX_CROSSINGS / edges.max(1)).unwrap_or(i32::MAX).max(1);
+        // All rows at once, unless so many edges might cross them that nobody would want to hold it.
+        let step = i32::try_from(MAX_CROSSINGS / outline.edges.len().max(1));
+        let step = step.unwrap_or(i32::MAX).max(1);
         let mut start = rows.start;
         while start < rows.end {
             let some = Span {
                 start,
                 end: rows.end.min(start.saturating_add(step)),
             };
-            self.sort_crossings(outline.edges_in(all, some), grid, some, end);
+            let edges = outline.edges_in(all, some);
+            self.numbers.count(edges.clone(), some);
+            if some == rows && self.numbers.are_plain() {
+                self.plain.scan(edges, grid, (rows, end), &mut store.spans);
+                break;
+            }
+            self.sort_crossings(edges, grid, some, end);
             single &= self.spans_of_rows(outline.rule, end, store);
             start = some.end;
         }
@@ -362,22 +358,13 @@ impl RowScanner {
         rows: Span,
         end: i32,
     ) {
-        let count = place(rows.end - rows.start);
         self.next.clear();
-        self.next.resize(count + 1, 0);
-        // How many more, or fewer, edges cross a row than the one above: wrapping below zero is undone by the sums.
-        for (_, inside) in edges.clone() {
-            let (first, last) = (place(inside.start - rows.start), place(inside.end - rows.start));
-            self.next[first] = self.next[first].wrapping_add(1);
-            self.next[last] = self.next[last].wrapping_sub(1);
-        }
-        let (mut crossing, mut total) = (0_u32, 0_u32);
-        for next in &mut self.next {
-            crossing = crossing.wrapping_add(*next);
-            *next = total;
-            total += crossing;
-        }
-        self.next.truncate(count);
+        let mut total = 0;
+        self.next.extend(self.numbers.numbers().map(|number| {
+            let first = total;
+            total += number;
+            first
+        }));
         self.crossings.clear();
         self.crossings.resize(total as usize, 0);
         for (edge, inside) in edges {

@@ -16,29 +16,67 @@ const LONG: usize = 8;
 /// Looks at outlines, reusing its memory.
 #[derive(Debug, Default)]
 pub(super) struct PlainRows {
-    /// How the crossings of each row differ from those of the row above: their number, and in the upper half the sum of
-    /// their windings.
-    changes: Vec<i64>,
     /// The least and the greatest column in which an edge crosses each row.
     least: Vec<i32>,
     greatest: Vec<i32>,
 }
 
+/// How many edges cross each of some rows, and how they wind, kept as what changes from each row to the next.
+#[derive(Debug, Default)]
+pub(super) struct Crossings {
+    /// In the lower half the number, in the upper half the sum of the windings; one more than there are rows.
+    changes: Vec<i64>,
+}
+
+impl Crossings {
+    /// Counts edges, which come with those of `rows` that they cross.
+    pub(super) fn count<'c>(&mut self, edges: impl Iterator<Item = (&'c OutlineEdge, Span)>, rows: Span) {
+        self.changes.clear();
+        self.changes.resize(place(rows.end - rows.start) + 1, 0);
+        for (edge, inside) in edges {
+            let change = 1 + (i64::from(edge.winding) << 32);
+            self.changes[place(inside.start - rows.start)] += change;
+            self.changes[place(inside.end - rows.start)] -= change;
+        }
+    }
+
+    /// Number and windings, row by row.
+    fn rows(&self) -> impl Iterator<Item = i64> {
+        let rows = self.changes.split_last().map_or(&[][..], |(_, rows)| rows);
+        rows.iter().scan(0, |crossing, change| {
+            *crossing += change;
+            Some(*crossing)
+        })
+    }
+
+    /// Whether each row is crossed by two edges, one that runs up and one that runs down, or by none.
+    pub(super) fn are_plain(&self) -> bool {
+        // Windings that cancel out are zero.
+        self.rows().fold(0, |other, crossing| other | crossing & !2) == 0
+    }
+
+    /// The number of crossings in each row.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the lower half: far fewer than 2^32"
+    )]
+    pub(super) fn numbers(&self) -> impl Iterator<Item = u32> {
+        self.rows().map(|crossing| crossing as u32)
+    }
+}
+
 impl PlainRows {
-    /// Adds the span of each of `rows` to `spans`, left of the frame's end at column `end`; false, and nothing added, where
-    /// a row is crossed by other edges than one that runs up and one that runs down. `edges` come with those of the rows
-    /// that they cross.
+    /// Adds the span of each of `rows` to `spans`, left of the frame's end at column `end`; the rows' crossings must be
+    /// [plain](Crossings::are_plain). `edges` come with those of the rows that they cross.
     pub(super) fn scan<'c>(
         &mut self,
-        edges: impl Iterator<Item = (&'c OutlineEdge, Span)> + Clone,
+        edges: impl Iterator<Item = (&'c OutlineEdge, Span)>,
         grid: SubpixelGrid,
         (rows, end): (Span, i32),
         spans: &mut Vec<Span>,
-    ) -> bool {
+    ) {
         let count = place(rows.end - rows.start);
-        if !self.is_plain(edges.clone(), rows, count) {
-            return false;
-        }
         self.least.clear();
         self.least.resize(count, Span::EMPTY.start);
         self.greatest.clear();
@@ -52,24 +90,6 @@ impl PlainRows {
             };
             if span.is_empty() { Span::EMPTY } else { span }
         }));
-        true
-    }
-
-    fn is_plain<'c>(&mut self, edges: impl Iterator<Item = (&'c OutlineEdge, Span)>, rows: Span, count: usize) -> bool {
-        self.changes.clear();
-        self.changes.resize(count + 1, 0);
-        for (edge, inside) in edges {
-            let change = 1 + (i64::from(edge.winding) << 32);
-            self.changes[place(inside.start - rows.start)] += change;
-            self.changes[place(inside.end - rows.start)] -= change;
-        }
-        let (mut crossing, mut other) = (0, 0);
-        for change in &self.changes[..count] {
-            crossing += change;
-            // Neither none nor two with windings that cancel out.
-            other |= crossing & !2;
-        }
-        other == 0
     }
 
     #[inline(always)]

@@ -261,7 +261,11 @@ impl<'a> DeferredPainter<'a> {
                 line,
                 #[inline(always)]
                 |pair| mixer.pixel(pair.first, pair.second, pair.mask.count_ones()),
-                |x| self.resolve_split(x, y),
+                #[inline(always)]
+                |x| match self.layers[0].full_words(x, y) {
+                    Some(words) => mixer.pixel_of_words(words),
+                    None => self.resolve_split(x, y),
+                },
             ),
             None => each_shared(
                 &shown,

@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, i8x16, i16x8, i32x4, u8x16, u16x8, u32x4, u64x2};
 
 use super::slots::SlotColor;
-use super::visibility::{ROW, Slot};
+use super::visibility::{ROW, Slot, lanes};
 use crate::color::Resolver;
 
 /// How many slots have a place here: a power of two.
@@ -186,14 +186,39 @@ impl<S: Simd> Mixer<'_, S> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     pub(crate) fn pixel(&self, first: Slot, second: Slot, of_second: u32) -> u32 {
+        self.mean(self.weighed(first, second, self.count - of_second, of_second))
+    }
+
+    /// The pixel whose samples show these slots, four in a word.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub(crate) fn pixel_of_words(&self, words: &[u64]) -> u32 {
+        let zero = i32x4::splat(self.simd, 0);
+        let sums = words.iter().fold(zero, |sums, word| {
+            let [a, b, c, d] = lanes(*word);
+            sums + self.weighed(a, b, 1, 1) + self.weighed(c, d, 1, 1)
+        });
+        self.mean(sums)
+    }
+
+    /// Two colours, each so many times.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn weighed(&self, first: Slot, second: Slot, of_first: u32, of_second: u32) -> i32x4<S> {
         let color = |slot: Slot| -> i16x8<S> {
             let color = self.colors[usize::from(slot) % FIRST];
             u64x2::splat(self.simd, color).bitcast()
         };
-        let both = color(first).zip_low(color(second));
-        let weights: i16x8<S> = u32x4::splat(self.simd, of_second << 16 | (self.count - of_second)).bitcast();
+        let weights: i16x8<S> = u32x4::splat(self.simd, of_second << 16 | of_first).bitcast();
+        color(first).zip_low(color(second)).pairwise_dot_product(weights)
+    }
+
+    /// The pixel for the sum of all samples.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn mean(&self, sums: i32x4<S>) -> u32 {
         // No sum exceeds that of opaque white, so that no mean exceeds 255.
-        let sums = both.pairwise_dot_product(weights) + self.offset;
+        let sums = sums + self.offset;
         let means = (sums.bitcast::<u32x4<S>>() >> self.shift).bitcast::<i32x4<S>>();
         let halves = means.saturating_narrow(means);
         let bytes: u32x4<S> = halves.narrow(halves).bitcast();

@@ -492,13 +492,11 @@ impl VisibilityTile {
         if pair.mask == 0 {
             return splat(pair.first);
         }
-        let (row, column) = if self.words == 1 {
-            (i, 0)
-        } else {
-            (i / self.words, i % self.words * PER_WORD)
-        };
-        let second = SPREAD_BITS[(pair.mask >> (row * self.side + column) & 0xF) as usize];
-        splat(pair.first) & !second | splat(pair.second) & second
+        let (row, column) = (i / self.words, i % self.words * PER_WORD);
+        of_pair(
+            [splat(pair.first), splat(pair.second)],
+            pair.mask >> (row * self.side + column),
+        )
     }
 
     /// Calls `paint` for every word of a split pixel with the bits of the samples that `spans` cover; `x` is the pixel's
@@ -532,8 +530,15 @@ impl VisibilityTile {
         self.make_room();
         self.share(pixel, SPLIT);
         let first = self.first_word(pixel);
-        for i in 0..self.side * self.words {
-            self.samples[first + i] = self.word(pair, i);
+        let (side, words) = (self.side, self.words);
+        let slots = [splat(pair.first), splat(pair.second)];
+        for (y, row) in self.samples[first..][..side * words]
+            .chunks_exact_mut(words)
+            .enumerate()
+        {
+            for (word, shift) in row.iter_mut().zip((y * side..).step_by(PER_WORD)) {
+                *word = of_pair(slots, pair.mask >> shift % 64);
+            }
         }
     }
 
@@ -625,6 +630,12 @@ impl VisibilityTile {
         }
     }
 
+    /// The samples of a split pixel, four in each word; `None` where some words hold fewer.
+    #[inline]
+    pub(crate) fn full_words(&self, x: usize, y: i32) -> Option<&[u64]> {
+        self.side.is_multiple_of(PER_WORD).then(|| self.words(x, y))
+    }
+
     #[inline]
     fn words(&self, x: usize, y: i32) -> &[u64] {
         let first = self.first_word((offset(self.rect.y.start, y), x));
@@ -710,6 +721,13 @@ fn mask(side: usize, x: i32, spans: &[Span], sides: Sides) -> u64 {
 fn covered(span: Span, left: i32) -> u64 {
     let first = |at: i32| FIRST[(at - left).clamp(0, 4).cast_unsigned() as usize];
     first(span.end) & !first(span.start)
+}
+
+/// Four samples of which the second slot shows where the lowest bits are set, and the first elsewhere; four times each.
+#[inline]
+fn of_pair([first, second]: [u64; 2], bits: u64) -> u64 {
+    let mask = SPREAD_BITS[(bits & 0xF) as usize];
+    first & !mask | second & mask
 }
 
 /// Four times the same slot.

@@ -4,7 +4,8 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, i8x16, i16x8, i32x4, u8x16, u16x8, u32x4, u64x2};
 
 use super::slots::SlotColor;
-use super::visibility::{ROW, Slot, lanes};
+use super::visibility::{ROW, Slot};
+use super::words::lanes;
 use crate::color::Resolver;
 
 /// How many slots have a place here: a power of two.

@@ -49,6 +49,7 @@ mod tile;
 mod tile_rows;
 mod vertex;
 mod visibility;
+mod words;
 
 pub use chunk_builder::ChunkBuilder;
 pub use display_list::{Chunk, Fill, ListContext};

@@ -5,7 +5,8 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, mask16x8, u16x8, u64x2};
 
-use super::visibility::{ROW, Slot, joined, lanes};
+use super::visibility::{ROW, Slot};
+use super::words::{joined, lanes};
 
 /// Pixels of a [`Quad`].
 pub(crate) const QUAD: usize = 4;

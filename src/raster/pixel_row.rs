@@ -248,36 +248,10 @@ impl<'a> PixelRow<'a> {
         row
     }
 
-    /// As above where all is known.
-    #[inline]
-    pub(crate) fn of_parts(y: i32, spans: &'a [Span], touched: Span, full: Span) -> Self {
-        Self {
-            y,
-            spans,
-            touched,
-            full,
-        }
-    }
-
     /// Covered sample columns for each sample row of the row of pixels; perhaps beyond the rectangle, too.
     #[inline]
     pub(crate) fn spans(&self) -> &'a [Span] {
         self.spans
-    }
-
-    /// The pixels that are covered in part, before the full ones and after them.
-    #[inline]
-    pub(crate) fn beside_full(&self) -> (Span, Span) {
-        let Span { start, end } = self.touched;
-        let before = Span {
-            start,
-            end: self.full.start,
-        };
-        let after = Span {
-            start: self.full.end,
-            end,
-        };
-        (before, after)
     }
 
     /// The pixels that are covered in part.

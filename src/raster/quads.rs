@@ -8,7 +8,8 @@ use fearless_simd::prelude::*;
 
 use super::four::{Ends, TileRow, Window, each_window, fill};
 use super::pairs::{Quad, QuadMask, put, quad, word_at};
-use super::visibility::{PAIR, ROW, Slot, VisibilityTile, lanes, splat};
+use super::visibility::{PAIR, ROW, Slot, VisibilityTile};
+use super::words::{lanes, splat};
 
 /// Bits of which one is set for each shared pixel of four, and perhaps for others.
 const PERHAPS_SHARED: u64 = 0x8000_8000_8000_8000;

@@ -17,8 +17,9 @@ const MIDDLE: u16 = 1 << 15;
 /// Most samples of a pixel whose mean a [`Mixer`] takes.
 const MOST: u32 = 64;
 
-/// Entries of a table that vector instructions look up, and how many tables there are.
+/// Entries of a table that vector instructions look up, the first slot of the second table, and how many tables there are.
 const TABLE: usize = 16;
+const SECOND: i8 = 16;
 const TABLES: usize = 2;
 
 /// The channels of a pixel.
@@ -140,9 +141,9 @@ impl Known {
                 if !TWO {
                     return found;
                 }
-                let beyond = slots - u8x16::splat(simd, TABLE as u8);
-                let second = tables[1][channel].swizzle_dyn_within_blocks(beyond);
-                bytes.simd_lt(i8x16::splat(simd, TABLE as i8)).select(found, second)
+                let beyond = bytes - i8x16::splat(simd, SECOND);
+                let second = tables[1][channel].swizzle_dyn_within_blocks(beyond.bitcast::<u8x16<S>>());
+                bytes.simd_lt(i8x16::splat(simd, SECOND)).select(found, second)
             });
             let (low, high) = ((b.zip_low(g), r.zip_low(a)), (b.zip_high(g), r.zip_high(a)));
             for (four, (bg, ra)) in pixels.chunks_exact_mut(8).zip([low, high]) {
@@ -224,5 +225,108 @@ impl<S: Simd> Mixer<'_, S> {
         let halves = means.saturating_narrow(means);
         let bytes: u32x4<S> = halves.narrow(halves).bitcast();
         bytes.to_array()[0]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+    use fearless_simd::dispatch;
+
+    use super::super::slots::{Slots, Spread};
+    use super::super::visibility::PAIR;
+    use super::*;
+    use crate::color::Premultiplied16;
+    use crate::rules::Rules;
+    use crate::simd;
+
+    fn color(u: &mut Unstructured<'_>, opaque: bool) -> Result<Premultiplied16> {
+        let mut channel = || u.int_in_range(0..=Premultiplied16::ONE);
+        let alpha = if opaque { Premultiplied16::ONE } else { channel()? };
+        let mut below = || Ok(channel()?.min(alpha));
+        Ok(Premultiplied16([below()?, below()?, below()?, alpha]))
+    }
+
+    #[test]
+    fn means_of_opaque_colours_are_those_of_sums_on_every_level() {
+        arbtest::arbtest(|u| {
+            let rules = *u.choose(&Rules::ALL)?;
+            let side: u32 = u.int_in_range(1..=9)?;
+            let count = side * side;
+            let resolver = Resolver::new(count, rules);
+            let mut slots = Slots::new(rules, resolver);
+            let opaque = u.ratio(7, 8)?;
+            let numbers = [slots.flat(color(u, true)?), slots.flat(color(u, opaque)?)];
+            let of_second = u.int_in_range(0..=count)?;
+            let [first, second] = numbers.map(|slot| *slots.get(slot));
+            let mut sum = Spread::default();
+            sum.add(first.spread, count - of_second);
+            sum.add(second.spread, of_second);
+            assert_eq!(
+                first.spread.mixed(count, second.spread, of_second),
+                sum.halves(),
+                "as a difference"
+            );
+            let words: Vec<u64> = (0..count / 4)
+                .map(|_| u.arbitrary::<u64>().map(|bits| bits & 0x0001_0001_0001_0001))
+                .collect::<Result<_>>()?;
+            let mut of_words = Spread::default();
+            for slot in words.iter().flat_map(|word| lanes(*word)) {
+                of_words.add_one(slots.get(numbers[usize::from(slot) % 2]).spread);
+            }
+            let known = slots.known().expect("two slots");
+            // Equal colours share a slot.
+            let two = numbers[0] != numbers[1];
+            for (name, level) in simd::tested() {
+                let expected = (second.flat.is_opaque() && [1, 4, 16, 64].contains(&count))
+                    .then(|| resolver.pixel(sum.channels()));
+                let [first, second] = numbers;
+                let found =
+                    dispatch!(level, simd => known.mixer(simd).map(|mixer| mixer.pixel(first, second, of_second)));
+                assert_eq!(found, expected, "{name}: {of_second} of {count}");
+                if expected.is_some() && count >= 4 && two {
+                    let expected = resolver.pixel(of_words.channels());
+                    let found = dispatch!(level, simd => known.mixer(simd).map(|mixer| mixer.pixel_of_words(&words)));
+                    assert_eq!(found, Some(expected), "{name}: {words:x?}");
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(500);
+    }
+
+    #[test]
+    fn rows_of_pixels_are_looked_up_one_by_one_or_together() {
+        arbtest::arbtest(|u| {
+            let resolver = Resolver::new(16, Rules::Standard);
+            let mut slots = Slots::new(Rules::Standard, resolver);
+            let most = *u.choose(&[1, 3, 16, 17, 32, 33, 300])?;
+            for i in 0..most {
+                // All different.
+                let [_, g, b, _] = color(u, true)?.0;
+                slots.flat(Premultiplied16([i, g, b, Premultiplied16::ONE]));
+            }
+            let mut shown = [0; ROW];
+            let few = u.ratio(1, 4)?;
+            for slot in &mut shown {
+                *slot = if few { 0 } else { u.int_in_range(0..=most - 1)? };
+                if u.ratio(1, 8)? {
+                    *slot = *u.choose(&[PAIR, Slot::MAX])?;
+                }
+            }
+            let known = slots.known().expect("few slots");
+            let mut pixels = vec![0; u.int_in_range(1..=ROW)?];
+            for (name, level) in simd::tested() {
+                dispatch!(level, simd => known.row(simd, &shown, &mut pixels));
+                for (x, (pixel, slot)) in pixels.iter().zip(shown).enumerate() {
+                    assert!(
+                        slot >= PAIR || *pixel == slots.get(slot).pixel,
+                        "{name}: pixel {x} of {shown:?}"
+                    );
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(500);
     }
 }

@@ -409,6 +409,23 @@ impl SpanStore {
         self.spans.clear();
     }
 
+    /// Stores spans that are known, those of each of some rows.
+    #[cfg(test)]
+    pub(crate) fn put(&mut self, rows: Span, spans: &[Vec<Span>]) -> Stored {
+        let (span, first) = (self.spans.len(), self.starts.len());
+        for spans in spans {
+            self.starts.push(index(self.spans.len()));
+            self.spans.extend(spans);
+        }
+        self.starts.push(index(self.spans.len()));
+        Stored {
+            rows,
+            span,
+            first,
+            single: spans.iter().all(|spans| spans.len() == 1),
+        }
+    }
+
     /// How many spans there are.
     pub(crate) fn len(&self) -> usize {
         self.spans.len()
@@ -460,4 +477,76 @@ fn place(distance: i32) -> usize {
 #[inline]
 fn index(value: usize) -> u32 {
     u32::try_from(value).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plain_rows_hold_what_sorting_finds() {
+        let (mut plain, mut sorted) = (0, 0);
+        arbtest::arbtest(|u| {
+            let grid = SubpixelGrid::new(u.int_in_range(1..=4)?);
+            let extent = |end| Span { start: 0, end };
+            let frame = SampleBox {
+                columns: extent(40),
+                rows: extent(60),
+            };
+            let mut edges = Vec::new();
+            let mut builder = OutlineBuilder::new(grid, frame, &mut edges);
+            for _ in 0..u.int_in_range(1..=2)? {
+                let mut point = || {
+                    let mut eighths = |most: i32| Ok(f64::from(u.int_in_range(-20..=most)?) / 8.0);
+                    Ok(DVec2::new(eighths(400)?, eighths(600)?))
+                };
+                let points = (0..4)
+                    .map(|_| point())
+                    .collect::<arbtest::arbitrary::Result<Vec<_>>>()?;
+                builder.contour(points.into_iter());
+            }
+            let rule = *u.choose(&[FillRule::NonZero, FillRule::EvenOdd])?;
+            let Some(outline) = builder.finish(rule) else {
+                return Ok(());
+            };
+            let start = u.int_in_range(0..=59)?;
+            let rows = Span {
+                start,
+                end: u.int_in_range(start + 1..=60)?,
+            }
+            .intersection(outline.samples.rows);
+            if rows.is_empty() {
+                return Ok(());
+            }
+            let (mut scanner, mut store) = (RowScanner::default(), SpanStore::default());
+            let end = frame.columns.end;
+            let found = scanner.scan(&outline, (&edges, grid), (rows, end), &mut store);
+            scanner.numbers.count(outline.edges_in(&edges, rows), rows);
+            if scanner.numbers.are_plain() {
+                plain += 1;
+            } else {
+                sorted += 1;
+            }
+            let mut oracle = SpanStore::default();
+            scanner.sort_crossings(outline.edges_in(&edges, rows), grid, rows, end);
+            let single = scanner.spans_of_rows(rule, end, &mut oracle);
+            oracle.starts.push(index(oracle.spans.len()));
+            assert_eq!(found.single, single, "whether rows have one span: {edges:?}");
+            let expected = Stored {
+                rows,
+                single,
+                ..Stored::default()
+            };
+            for row in rows.start..rows.end {
+                let (found, expected) = (store.get(found).of_row(row), oracle.get(expected).of_row(row));
+                assert_eq!(found, expected, "row {row} of {edges:?}");
+            }
+            Ok(())
+        })
+        .budget_ms(500);
+        assert!(
+            plain > 20 && sorted > 20,
+            "both kinds were looked at: {plain} and {sorted}"
+        );
+    }
 }

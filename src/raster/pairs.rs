@@ -139,7 +139,7 @@ impl PairRow<'_> {
     /// That of column `x`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
-    pub(crate) fn get(&self, x: usize) -> Pair {
+    pub(crate) fn get(self, x: usize) -> Pair {
         let x = x % ROW;
         Pair {
             mask: match self.wide {

@@ -171,3 +171,142 @@ fn bits(xs: &Range<usize>) -> u64 {
 fn in_part<S: Simd>(simd: S, masks: Quad<S>) -> QuadMask<S> {
     !masks.simd_eq(Quad::splat(simd, 0))
 }
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+    use fearless_simd::dispatch;
+
+    use super::super::four::each_row_of_spans;
+    use super::super::outline::{RowSpans, SpanStore};
+    use super::super::pixel_row::each_pixel_row_of_spans;
+    use super::super::rows::Span;
+    use super::super::tile::PixelRect;
+    use super::super::visibility::Run;
+    use super::*;
+    use crate::simd;
+
+    const SIDE: i32 = 4;
+
+    /// What all samples of a tile show, pixel by pixel.
+    fn samples(tile: &VisibilityTile) -> Vec<Vec<Slot>> {
+        let mut all = Vec::new();
+        for y in tile.rect.y.start..tile.rect.y.end {
+            for (run, xs) in tile.runs(y) {
+                for x in xs {
+                    all.push(match run {
+                        Run::Whole(slot) => vec![slot; 16],
+                        Run::Pairs => {
+                            let pair = tile.pairs(y).get(x);
+                            let slot = |i: u64| {
+                                if pair.mask >> i & 1 == 1 {
+                                    pair.second
+                                } else {
+                                    pair.first
+                                }
+                            };
+                            (0..16).map(slot).collect()
+                        }
+                        Run::Split => tile.samples(x, y).collect(),
+                    });
+                }
+            }
+        }
+        all
+    }
+
+    /// Spans in the sample rows of a tile and around it, few or several in each.
+    fn shape(u: &mut Unstructured<'_>, rect: PixelRect) -> Result<(Span, Vec<Vec<Span>>)> {
+        let start = u.int_in_range(0..=rect.y.end * SIDE - 1)?;
+        let rows = Span {
+            start,
+            end: u.int_in_range(start + 1..=rect.y.end * SIDE + 3)?,
+        };
+        let (several, steep) = (u.ratio(1, 3)?, u.int_in_range(-6..=6)?);
+        let (mut from, mut to) = (u.int_in_range(-9..=300)?, u.int_in_range(-9..=400)?);
+        let mut all = Vec::new();
+        for _ in rows.start..rows.end {
+            from += steep + u.int_in_range(-1..=1)?;
+            to -= steep;
+            let mut spans = Vec::new();
+            let mut column = from.max(0);
+            for _ in 0..if several { u.int_in_range(0..=3)? } else { 1 } {
+                let end = if several { column + u.int_in_range(1..=90)? } else { to };
+                if end > column {
+                    spans.push(Span { start: column, end });
+                }
+                column = end.max(column) + u.int_in_range(1..=9)?;
+            }
+            if spans.is_empty() {
+                spans.push(Span::EMPTY);
+            }
+            all.push(spans);
+        }
+        Ok((rows, all))
+    }
+
+    /// Paints a shape of a slot, or changes what it covers, in four and pixel by pixel.
+    fn paint_both(level: simd::Level, tiles: &mut [VisibilityTile; 2], spans: RowSpans<'_>, slot: Option<Slot>) {
+        let [quick, slow] = tiles;
+        let rect = quick.rect;
+        let change = |slot: Slot| slot * 7 % 101;
+        dispatch!(level, simd => each_row_of_spans(simd, spans, rect, |row| match slot {
+            Some(slot) => quick.paint_four(simd, row, slot),
+            None => quick.change_four(simd, row, change),
+        }));
+        each_pixel_row_of_spans(spans, SIDE, rect, |row| match slot {
+            Some(slot) => slow.paint(row, slot),
+            None => slow.change(row, change),
+        });
+    }
+
+    #[test]
+    fn quads_paint_what_is_painted_pixel_by_pixel_on_every_level() {
+        let mut split = 0;
+        arbtest::arbtest(|u| {
+            let mut extent = |most: i32| {
+                let start = u.int_in_range(0..=3)?;
+                let end = start + u.int_in_range(1..=most)?;
+                Ok(Span { start, end })
+            };
+            let rect = PixelRect {
+                x: extent(64)?,
+                y: extent(40)?,
+            };
+            let levels = simd::tested();
+            let (name, level) = u.choose(&levels)?;
+            let mut tiles = [VisibilityTile::new(SIDE), VisibilityTile::new(SIDE)];
+            for tile in &mut tiles {
+                tile.reset(rect, 1);
+            }
+            for _ in 0..u.int_in_range(1..=6)? {
+                let (rows, spans) = shape(u, rect)?;
+                let slot = if u.ratio(1, 3)? {
+                    None
+                } else {
+                    Some(u.int_in_range(2..=5)?)
+                };
+                let mut store = SpanStore::default();
+                let stored = store.put(rows, &spans);
+                paint_both(*level, &mut tiles, store.get(stored), slot);
+                let [quick, slow] = &tiles;
+                assert_eq!(
+                    samples(quick),
+                    samples(slow),
+                    "{name}: {rect:?}, {slot:?} in {rows:?} {spans:?}"
+                );
+            }
+            let [quick, _] = &tiles;
+            for y in rect.y.start..rect.y.end {
+                for (x, slot) in quick.row(y).iter().enumerate() {
+                    let shared = quick.shown(y).shared >> x & 1 == 1;
+                    assert!(*slot < PAIR || shared, "what is shared has a bit");
+                }
+                split += quick.runs(y).filter(|(run, _)| *run == Run::Split).count();
+            }
+            Ok(())
+        })
+        .budget_ms(1500);
+        assert!(split > 20, "some pixels were split: {split}");
+    }
+}

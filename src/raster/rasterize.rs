@@ -379,12 +379,11 @@ impl<'a> DisplayList<'a> {
                     if let Some((so_far, known)) = even.take() {
                         PixelBlock::in_rows(so_far, pixels, stride).fill(known);
                     }
-                    match pixel {
-                        Some(pixel) => even = Some((rect, pixel)),
-                        None => {
-                            let mut block = PixelBlock::in_rows(rect, pixels, stride);
-                            self.paint_tile(pass, painters, tile, &mut block);
-                        }
+                    if let Some(pixel) = pixel {
+                        even = Some((rect, pixel));
+                    } else {
+                        let mut block = PixelBlock::in_rows(rect, pixels, stride);
+                        self.paint_tile(pass, painters, tile, &mut block);
                     }
                 }
             }
@@ -567,7 +566,7 @@ mod tests {
                 Ok(frame)
             };
             let expected = draw(TileLayout::for_rate(pattern.nearest(rate), SIZE))?;
-            for sides in [(0, 0), (3, 3), (2, 4), (5, 1), (7, 7)] {
+            for sides in [(0, 0), (3, 3), (2, 4), (5, 1), (6, 7)] {
                 assert!(
                     draw(TileLayout::new(sides, SIZE))? == expected,
                     "tiles of 2^{sides:?} pixels, {pattern:?} {rate:?}"

@@ -59,7 +59,7 @@ impl TileLayout {
         Self::new(sides_log2, size)
     }
 
-    /// Tiles of `2^sides_log2` pixels.
+    /// Tiles of `2^sides_log2` pixels, at most 64 wide.
     pub(crate) fn new((width_log2, height_log2): (u32, u32), size: [u32; 2]) -> Self {
         let count = |pixels: u32, log2: u32| pixels.div_ceil(1 << log2);
         Self {

@@ -515,7 +515,7 @@ impl VisibilityTile {
             .enumerate()
         {
             for (word, shift) in row.iter_mut().zip((y * side..).step_by(PER_WORD)) {
-                *word = of_pair(slots, pair.mask >> shift % 64);
+                *word = of_pair(slots, pair.mask >> (shift % 64));
             }
         }
     }

@@ -213,8 +213,12 @@ impl VisibilityTile {
     /// As [`VisibilityTile::paint_samples`] where samples differ already.
     #[inline(never)]
     fn paint_shared(&mut self, pixel: Place, covered: u64, slot: Slot) {
-        if self.whole[pixel.0][pixel.1] == PAIR && self.paint_pair(pixel, covered, slot) {
+        let shown = self.whole[pixel.0][pixel.1];
+        if shown == PAIR && self.paint_pair(pixel, covered, slot) {
             return;
+        }
+        if self.side == PER_WORD {
+            return self.paint_words(pixel, covered, slot);
         }
         self.split(pixel);
         let painted = splat(slot);
@@ -234,6 +238,30 @@ impl VisibilityTile {
                 *word = *word & !mask | painted & mask;
             }
         }
+    }
+
+    /// As [`VisibilityTile::paint_samples`] where a pixel that is a pair or split has 4 x 4 samples and shows three slots.
+    #[inline]
+    fn paint_words(&mut self, pixel: Place, covered: u64, slot: Slot) {
+        self.make_room();
+        let first = self.first_word(pixel);
+        let pair = self.pair(pixel);
+        let Some(words) = self.samples.get_mut(first..).and_then(<[u64]>::first_chunk_mut) else {
+            return;
+        };
+        let before: [u64; PER_WORD] = match pair {
+            None => *words,
+            Some(Pair { mask, first, second }) => {
+                let slots = [splat(first), splat(second)];
+                [0, 4, 8, 12].map(|shift| of_pair(slots, mask >> shift))
+            }
+        };
+        let painted = splat(slot);
+        for ((word, before), shift) in words.iter_mut().zip(before).zip([0, 4, 8, 12]) {
+            let mask = spread(covered >> shift);
+            *word = before & !mask | painted & mask;
+        }
+        self.share(pixel, SPLIT);
     }
 
     /// The bits of the samples that `spans` cover in the pixel in column `x` of the frame.

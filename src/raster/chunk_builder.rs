@@ -8,6 +8,7 @@ use super::outline::{OutlineBuilder, RowScanner, SpanStore};
 use super::planes::Planes;
 use super::shade::uv_map;
 use super::small::{SampleBox, SmallCoverage};
+use super::small_batch::{LANES, TriangleBatch};
 use super::tile::PixelRect;
 use crate::color::{Premultiplied16, Rgba, unit_to_16};
 use crate::geometry::Polygon;
@@ -32,6 +33,22 @@ pub struct ChunkBuilder<'a> {
     stamps: bool,
     /// Whether fragments are counted rather than painted.
     counts: bool,
+    /// Triangles that came last, yet to be added.
+    waiting: Waiting,
+}
+
+/// Where triangles are mostly too large to be looked at together, so many after them are not.
+const LARGE_RUN: u32 = 100;
+
+/// Triangles of one colour each that are looked at together.
+#[derive(Debug)]
+struct Waiting {
+    count: usize,
+    /// How many triangles to come are not worth waiting for.
+    hopeless: u32,
+    triangles: TriangleBatch,
+    colors: [Rgba; LANES],
+    sources: [u32; LANES],
 }
 
 impl<'a> ChunkBuilder<'a> {
@@ -52,6 +69,13 @@ impl<'a> ChunkBuilder<'a> {
             // A few points of a finer lattice need not be samples.
             stamps: context.is_grid(),
             counts: false,
+            waiting: Waiting {
+                count: 0,
+                hopeless: 0,
+                triangles: TriangleBatch::default(),
+                colors: [Rgba::BLACK; LANES],
+                sources: [0; LANES],
+            },
         }
     }
 
@@ -77,13 +101,71 @@ impl<'a> ChunkBuilder<'a> {
     }
 
     /// The finished chunk.
-    pub fn finish(self) -> Chunk {
+    pub fn finish(mut self) -> Chunk {
+        self.add_waiting();
         self.chunk
     }
 
     /// Adds a triangle in screen space; any finite coordinates.
     #[inline]
     pub fn triangle(&mut self, points: [DVec2; 3], fill: &Fill) {
+        if let Fill::Solid(color) = *fill
+            && self.stamps
+            && self.waiting.hopeless == 0
+        {
+            self.wait(points, color);
+        } else {
+            self.add_waiting();
+            self.waiting.hopeless = self.waiting.hopeless.saturating_sub(1);
+            self.alone(points, fill);
+        }
+    }
+
+    /// Keeps a triangle of one colour until there are some.
+    #[inline]
+    fn wait(&mut self, points: [DVec2; 3], color: Rgba) {
+        let waiting = &mut self.waiting;
+        waiting.triangles.set(waiting.count, points);
+        waiting.colors[waiting.count] = color;
+        waiting.sources[waiting.count] = self.source;
+        waiting.count += 1;
+        if waiting.count == LANES {
+            self.add_waiting();
+        }
+    }
+
+    /// Adds the triangles that wait.
+    fn add_waiting(&mut self) {
+        let count = std::mem::take(&mut self.waiting.count);
+        if count == 0 {
+            return;
+        }
+        let source = self.source;
+        let coverage = self
+            .waiting
+            .triangles
+            .coverage(self.frame, self.context.grid, self.context.rules);
+        if coverage.known() * 2 < LANES {
+            self.waiting.hopeless = LARGE_RUN;
+        }
+        for lane in 0..count {
+            self.source = self.waiting.sources[lane];
+            let color = self.waiting.colors[lane];
+            match coverage.get(lane) {
+                Some(coverage) if coverage.mask == 0 => {}
+                Some(coverage) => {
+                    self.stamp(coverage, color, Op::Samples);
+                    self.chunk.triangle_count += 1;
+                }
+                None => self.alone(self.waiting.triangles.get(lane), &Fill::Solid(color)),
+            }
+        }
+        self.source = source;
+    }
+
+    /// Adds a single triangle.
+    #[inline]
+    fn alone(&mut self, points: [DVec2; 3], fill: &Fill) {
         if points.iter().all(|point| in_guard(*point)) {
             self.snapped(points, fill);
         } else {
@@ -94,6 +176,7 @@ impl<'a> ChunkBuilder<'a> {
     /// Adds a triangle in the one colour that `color` gives to the change of `(u, v)` per pixel with which a texture
     /// would be read there.
     pub fn measured_triangle(&mut self, points: [DVec2; 3], uv: [[f32; 2]; 3], color: &dyn Fn(&Footprint) -> Rgba) {
+        self.add_waiting();
         let (texture, opacity) = (0, 1.0);
         let fill = Fill::Texture { texture, uv, opacity };
         if points.iter().all(|point| in_guard(*point)) {
@@ -125,6 +208,7 @@ impl<'a> ChunkBuilder<'a> {
     /// Adds a polygon of one colour, its points brought to screen space by `place`; nothing where any of them is not
     /// finite there.
     pub fn polygon(&mut self, polygon: &Polygon, place: impl Fn(DVec2) -> DVec2, color: Rgba) {
+        self.add_waiting();
         let (grid, frame) = (self.context.grid, self.frame);
         let mut builder = OutlineBuilder::new(grid, frame, &mut self.chunk.outline_edges);
         for contour in polygon.contours() {
@@ -153,6 +237,7 @@ impl<'a> ChunkBuilder<'a> {
 
     /// Adds a line one pixel wide; any finite coordinates.
     pub fn hairline(&mut self, ends: [DVec2; 2], color: Rgba) {
+        self.add_waiting();
         let color = self.color(color);
         if let Some(line) = Hairline::new(ends, self.context.size, color) {
             let index = index(self.chunk.hairlines.len());
@@ -163,6 +248,7 @@ impl<'a> ChunkBuilder<'a> {
 
     /// Adds a single pixel.
     pub fn point(&mut self, at: DVec2, color: Rgba) {
+        self.add_waiting();
         let (x, y) = (at.x.floor(), at.y.floor());
         let [width, height] = self.context.size.map(f64::from);
         if x >= 0.0 && x < width && y >= 0.0 && y < height {
@@ -186,6 +272,7 @@ impl<'a> ChunkBuilder<'a> {
     }
 
     fn layer(&mut self, opacity: u16, op: fn(u32) -> Op) {
+        self.add_waiting();
         let index = index(self.chunk.layers.len());
         let area = PixelRect::NOTHING;
         self.chunk.layers.push(LayerMark { area, opacity });

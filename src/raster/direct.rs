@@ -43,8 +43,7 @@ impl<'a> DirectPainter<'a> {
                 // With one sample per pixel these are the same.
                 Work::Samples(coverage, color) | Work::Pixels(coverage, color) => {
                     let pixel = color.to_pixel(rules);
-                    let coverage = coverage.moved(block.rect.x.start, block.rect.y.start);
-                    coverage.each_run(|y, xs| block.span(y, xs).fill(pixel));
+                    block.stamp(coverage, pixel);
                 }
                 Work::Flat(shape, color) => {
                     let pixel = color.to_pixel(rules);

@@ -44,6 +44,7 @@ mod scattered_outline;
 mod shade;
 mod slots;
 mod small;
+mod small_batch;
 mod tally;
 mod tile;
 mod tile_rows;

@@ -3,8 +3,12 @@
 use fearless_simd::{Simd, dispatch};
 
 use super::rows::Span;
+use super::small::SmallCoverage;
 use super::tile::PixelRect;
 use crate::simd;
+
+/// So many pixels of a stamp are set one by one.
+const FEW: usize = 6;
 
 /// A rectangle of a frame's pixels.
 #[derive(Debug)]
@@ -48,6 +52,25 @@ impl<'p> PixelBlock<'p> {
     #[inline]
     pub(crate) fn put(&mut self, [x, y]: [u16; 2], value: u32) {
         self.pixels[usize::from(y) * self.stride + usize::from(x)] = value;
+    }
+
+    /// Sets the pixels of a stamp, counted from the rectangle's first.
+    #[inline]
+    pub(crate) fn stamp(&mut self, mut stamp: SmallCoverage, pixel: u32) {
+        let place = |index: i32| usize::try_from(index).unwrap_or(0);
+        let origin = place(stamp.row) * self.stride + place(stamp.column);
+        // Most stamps have a few bits, for which runs would be more work.
+        for _ in 0..FEW {
+            if stamp.mask == 0 {
+                return;
+            }
+            let bit = stamp.mask.trailing_zeros() as usize;
+            self.pixels[origin + bit / 8 * self.stride + bit % 8] = pixel;
+            stamp.mask &= stamp.mask - 1;
+        }
+        let PixelRect { x, y } = self.rect;
+        let stamp = stamp.moved(x.start, y.start);
+        stamp.each_run(|y, xs| self.span(y, xs).fill(pixel));
     }
 
     /// Changes every pixel.

@@ -411,3 +411,82 @@ fn blend(weights: [f64; 3], values: [f32; 3]) -> f32 {
     let first = f64::from(values[0]);
     (first + weights[1] * (f64::from(values[1]) - first) + weights[2] * (f64::from(values[2]) - first)) as f32
 }
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+
+    use super::*;
+    use crate::color::ResolveSpace;
+    use crate::raster::{RasterSettings, SamplePattern, SampleRate};
+    use crate::rules::Rules;
+    use crate::texture::SamplingSettings;
+
+    const SIZE: [u32; 2] = [40, 30];
+
+    fn settings(u: &mut Unstructured<'_>) -> Result<RasterSettings> {
+        let side: u32 = u.int_in_range(1..=4)?;
+        Ok(RasterSettings {
+            rate: SampleRate::new(side * side).expect("a square number"),
+            pattern: SamplePattern::Grid,
+            sampling: SamplingSettings {
+                rules: *u.choose(&Rules::ALL)?,
+                ..SamplingSettings::default()
+            },
+            space: ResolveSpace::Stored,
+            background: Rgba::WHITE,
+            palette: None,
+        })
+    }
+
+    /// Adds anything, mostly tiny triangles.
+    fn add(u: &mut Unstructured<'_>, builders: &mut [ChunkBuilder<'_>; 2]) -> Result<()> {
+        let color = *u.choose(&[Rgba::BLACK, Rgba::WHITE, Rgba { a: 0.5, ..Rgba::BLACK }])?;
+        let fill = if u.ratio(1, 8)? {
+            Fill::Vertex([color, Rgba::BLACK, color])
+        } else {
+            Fill::Solid(color)
+        };
+        let reach = *u.choose(&[2.0, 2.0, 2.0, 2.0, 9.0, 1e5])?;
+        let mut at = |from: f64, to: f64| Ok(from + (to - from) * f64::from(u.int_in_range(0..=64_u32)?) / 64.0);
+        let corner = DVec2::new(at(-2.0, 40.0)?, at(-2.0, 30.0)?);
+        let mut point = || Ok(corner + DVec2::new(at(0.0, reach)?, at(0.0, reach)?));
+        let points = [point()?, point()?, point()?];
+        let kind = u.int_in_range(0..=20)?;
+        let layers = u.arbitrary()?;
+        for builder in builders {
+            match kind {
+                0 => builder.point(points[0], color),
+                1 => builder.hairline([points[0], points[1]], color),
+                2 if layers => builder.begin_layer(),
+                2 => builder.end_layer(0.5),
+                _ => builder.triangle(points, &fill),
+            }
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn chunks_are_the_same_whether_triangles_wait_or_not() {
+        let mut stamps = 0;
+        arbtest::arbtest(|u| {
+            let settings = settings(u)?;
+            let context = ListContext::new(SIZE, &settings);
+            let mut builders = [ChunkBuilder::new(&context, 9), ChunkBuilder::new(&context, 9)];
+            for source in 0..u.int_in_range(1..=60)? {
+                builders[1].waiting.hopeless = u32::MAX;
+                for builder in &mut builders {
+                    builder.set_source(source);
+                }
+                add(u, &mut builders)?;
+            }
+            let [waited, alone] = builders.map(ChunkBuilder::finish);
+            stamps += waited.stamps.len();
+            assert!(waited.sources.is_sorted(), "in painter's order: {:?}", waited.sources);
+            assert_eq!(format!("{waited:?}"), format!("{alone:?}"), "{settings:?}");
+            Ok(())
+        })
+        .budget_ms(400);
+        assert!(stamps > 100, "{stamps} stamps");
+    }
+}

@@ -94,3 +94,33 @@ impl<'p> PixelBlock<'p> {
         ));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stamps_set_the_pixels_of_their_bits() {
+        const WIDTH: usize = 20;
+        let span = |start: i32, end: i32| Span { start, end };
+        let rect = PixelRect {
+            x: span(100, 120),
+            y: span(50, 62),
+        };
+        arbtest::arbtest(|u| {
+            let (column, row) = (u.int_in_range(0..=12)?, u.int_in_range(0..=4)?);
+            // With few bits and with many.
+            let mask: u64 = u.arbitrary::<u64>()? & *u.choose(&[u64::MAX, 0x0303, 0x0408_0010_2000_0101])?;
+            let mut pixels = vec![0; WIDTH * 12];
+            let coverage = SmallCoverage { column, row, mask };
+            PixelBlock::new(rect, &mut pixels, WIDTH).stamp(coverage, 7);
+            for (i, pixel) in (0_i32..).zip(&pixels) {
+                let (x, y) = (i % 20 - column, i / 20 - row);
+                let inside = (0..8).contains(&x) && (0..8).contains(&y) && mask >> (8 * y + x) & 1 == 1;
+                assert_eq!(*pixel, if inside { 7 } else { 0 }, "{coverage:?}: {x}, {y}");
+            }
+            Ok(())
+        })
+        .budget_ms(200);
+    }
+}

@@ -50,6 +50,7 @@ mod tile;
 mod tile_rows;
 mod vertex;
 mod visibility;
+mod walk;
 mod words;
 
 pub use chunk_builder::ChunkBuilder;

@@ -1,12 +1,13 @@
 //! What is needed of slots again and again when pixels that show nothing but flat colours are resolved, side by side.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, i8x16, i16x8, i32x4, u8x16, u16x8, u32x4, u64x2};
+use fearless_simd::{Simd, i8x16, i16x8, i32x4, u8x16, u16x8, u32x4, u64x2};
 
 use super::slots::SlotColor;
 use super::visibility::{ROW, Slot};
 use super::words::lanes;
 use crate::color::Resolver;
+use crate::simd;
 
 /// How many slots have a place here: a power of two.
 const FIRST: usize = 1024;
@@ -175,10 +176,10 @@ impl Known {
 /// Whether tables are looked up by an instruction.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "known when compiled")]
-fn has_tables<S: Simd>(simd: S) -> bool {
-    match simd.level() {
+fn has_tables<S: Simd>(token: S) -> bool {
+    match token.level() {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        Level::Sse2(_) => false,
+        simd::Level::Sse2(_) => false,
         level => !level.is_fallback(),
     }
 }
@@ -238,7 +239,6 @@ mod tests {
     use super::*;
     use crate::color::Premultiplied16;
     use crate::rules::Rules;
-    use crate::simd;
 
     fn color(u: &mut Unstructured<'_>, opaque: bool) -> Result<Premultiplied16> {
         let mut channel = || u.int_in_range(0..=Premultiplied16::ONE);

@@ -15,8 +15,8 @@ use rayon::prelude::*;
 use crate::color::{ResolveSpace, Rgba};
 use crate::geometry::ViewTransform;
 use crate::raster::{
-    Chunk, ChunkBuilder, Counters, DisplayList, Fill, Framebuffer, ListContext, RasterSettings, SamplePattern,
-    SampleRate,
+    Chunk, ChunkBuilder, Counters, DisplayList, Fill, Framebuffer, ListContext, RasterSettings, RasterTimes,
+    SamplePattern, SampleRate,
 };
 use crate::rules::Rules;
 use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};
@@ -144,12 +144,37 @@ pub fn draw_cancellable(
     cancel: &CancelToken,
 ) -> Option<FrameStats> {
     let subject = Subject { scene, view, settings };
+    let size = [frame.width(), frame.height()];
+    rasterized(&subject, size, |list| list.rasterize(frame, &cancel.0))
+}
+
+/// As [`draw_cancellable`], but resolves into `surface`: as many pixels as the frame's, row by row, opaque where the
+/// background is. `frame` gets its copy of each tile as it is painted.
+///
+/// # Panics
+/// When the surface has another number of pixels.
+pub fn draw_onto(
+    subject: &Subject<'_>,
+    surface: &mut [u32],
+    frame: &mut Framebuffer,
+    cancel: &CancelToken,
+) -> Option<FrameStats> {
+    let size = [frame.width(), frame.height()];
+    rasterized(subject, size, |list| list.rasterize_onto(surface, frame, &cancel.0))
+}
+
+/// Makes the list of a frame of `size` pixels, and has it drawn.
+fn rasterized(
+    subject: &Subject<'_>,
+    size: [u32; 2],
+    rasterize: impl FnOnce(&DisplayList<'_>) -> Option<RasterTimes> + Send,
+) -> Option<FrameStats> {
     // The way into the pool, which wakes a thread, is gone once for all steps.
     rayon::scope(|_| {
         let start = Instant::now();
-        let list = display_list(&subject, [frame.width(), frame.height()]);
+        let list = display_list(subject, size);
         let transform = start.elapsed();
-        let times = list.rasterize(frame, &cancel.0)?;
+        let times = rasterize(&list)?;
         Some(FrameStats {
             transform,
             bin: times.bin,

@@ -9,6 +9,8 @@ pub(crate) struct Line {
     pub(crate) at: f64,
     pub(crate) shows: String,
     pub(crate) behind: f64,
+    pub(crate) draw: f64,
+    pub(crate) onto: f64,
     pub(crate) layout: f64,
     pub(crate) tessellate: f64,
     pub(crate) paint: f64,
@@ -24,13 +26,27 @@ impl Line {
             return None;
         };
         let numbers: Vec<f64> = rest.iter().filter_map(|word| word.parse().ok()).collect();
-        let [behind, _, layout, tessellate, paint, compose, present, _, pixels] = *numbers.as_slice() else {
+        let [
+            behind,
+            draw,
+            onto,
+            layout,
+            tessellate,
+            paint,
+            compose,
+            present,
+            _,
+            pixels,
+        ] = *numbers.as_slice()
+        else {
             return None;
         };
         Some(Self {
             at: at.parse().ok()?,
             shows: (*shows).to_owned(),
             behind,
+            draw,
+            onto,
             layout,
             tessellate,
             paint,
@@ -47,7 +63,7 @@ impl Line {
 
     /// What the thread of the window was busy with.
     pub(crate) fn work(&self) -> f64 {
-        self.panels() + self.compose + self.present
+        self.onto + self.panels() + self.compose + self.present
     }
 
     pub(crate) fn is_panels(&self) -> bool {

@@ -6,15 +6,15 @@ use super::log::{Line, spread};
 /// Its first two lines.
 pub(crate) fn head() {
     println!(
-        "| hand | pictures | apart | behind | window's thread | layout | tessellate | paint | compose | present | pixels |"
+        "| hand | pictures | apart | behind | draw | window's thread | drawn onto | layout | tessellate | paint | compose | present | pixels |"
     );
-    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+    println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
 }
 
 /// What was shown while the hand moved, pictures and panels apart.
 pub(crate) fn rows(measured: &Measurement, lines: &[Line], spans: &[[f64; 2]]) {
     let Measurement { name, does, .. } = measured;
-    println!("| **{name}**: {does} | | | | | | | | | | |");
+    println!("| **{name}**: {does} | | | | | | | | | | | | |");
     let moving = |line: &&Line| spans.iter().any(|[start, end]| (*start..=*end).contains(&line.at));
     let mut kinds: Vec<&str> = lines.iter().filter(moving).map(|line| line.shows.as_str()).collect();
     kinds.sort_unstable();
@@ -32,11 +32,13 @@ pub(crate) fn rows(measured: &Measurement, lines: &[Line], spans: &[[f64; 2]]) {
 fn row(kind: &str, lines: &[&Line], spans: &[[f64; 2]]) {
     let of = |number: fn(&Line) -> f64| words(spread(lines.iter().map(|line| number(line)).collect()));
     println!(
-        "| {kind} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+        "| {kind} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
         lines.len(),
         words(spread(gaps(lines, spans))),
         of(|line| line.behind),
+        of(|line| line.draw),
         of(Line::work),
+        of(|line| line.onto),
         of(|line| line.layout),
         of(|line| line.tessellate),
         of(|line| line.paint),

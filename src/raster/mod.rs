@@ -15,6 +15,7 @@ mod entry;
 mod explain;
 mod four;
 mod fragments;
+mod frame_row;
 mod framebuffer;
 mod hairline;
 mod known;

@@ -12,6 +12,7 @@ use super::deferred::DeferredPainter;
 use super::direct::DirectPainter;
 use super::display_list::{Chunk, ListContext, Paint, measure_layers};
 use super::entry::{Entry, Work};
+use super::frame_row::FrameRow;
 use super::paint::TilePainter;
 use super::pixel_block::PixelBlock;
 use super::places::lattice;
@@ -208,11 +209,40 @@ impl<'a> DisplayList<'a> {
     /// # Panics
     /// When the frame has another size.
     pub fn rasterize(&self, frame: &mut Framebuffer, cancelled: &AtomicBool) -> Option<RasterTimes> {
+        self.assert_size(frame);
+        self.rasterize_rows(frame.pixels_mut(), None, cancelled)
+    }
+
+    /// As [`DisplayList::rasterize`], but resolves into `surface`, which has as many pixels as the frame; `frame` gets its
+    /// copy of every tile while that is still in the processor's cache.
+    ///
+    /// # Panics
+    /// When the frame or the surface has another size.
+    pub fn rasterize_onto(
+        &self,
+        surface: &mut [u32],
+        frame: &mut Framebuffer,
+        cancelled: &AtomicBool,
+    ) -> Option<RasterTimes> {
+        self.assert_size(frame);
+        assert_eq!(surface.len(), frame.pixels().len(), "a surface as large as the frame");
+        self.rasterize_rows(surface, Some(frame.pixels_mut()), cancelled)
+    }
+
+    fn assert_size(&self, frame: &Framebuffer) {
         assert_eq!(
             [frame.width(), frame.height()],
             self.context.size,
             "the list is made for a frame of one size"
         );
+    }
+
+    fn rasterize_rows(
+        &self,
+        pixels: &mut [u32],
+        mut kept: Option<&mut [u32]>,
+        cancelled: &AtomicBool,
+    ) -> Option<RasterTimes> {
         let mut times = RasterTimes::default();
         let [width, height] = self.context.size;
         if width == 0 || height == 0 {
@@ -227,11 +257,10 @@ impl<'a> DisplayList<'a> {
             let pass = self.pass(&plan, group, cancelled);
             times.bin += start.elapsed();
             let start = Instant::now();
-            let rows = (frame.pixels_mut().chunks_mut(row_pixels))
-                .zip(0..self.context.tiles.rows)
-                .skip(group.start.cast_unsigned() as usize)
-                .take((group.end - group.start).cast_unsigned() as usize);
-            self.tile_rows(&pass, rows);
+            let count = (group.end - group.start).cast_unsigned() as usize;
+            let rows = FrameRow::all(pixels, kept.as_deref_mut(), row_pixels);
+            let rows = rows.skip(group.start.cast_unsigned() as usize).take(count);
+            self.tile_rows(&pass, count, rows);
             times.painted(start.elapsed(), &pass.tally.total());
             if cancelled.load(Ordering::Relaxed) {
                 return None;
@@ -240,18 +269,18 @@ impl<'a> DisplayList<'a> {
         Some(times)
     }
 
-    /// Paints and resolves rows of tiles, each with its number; every thread takes the next one that is left.
-    fn tile_rows<'f>(&self, pass: &Pass<'_>, rows: impl ExactSizeIterator<Item = (&'f mut [u32], u32)> + Send) {
-        let threads = rayon::current_num_threads().min(rows.len());
+    /// Paints and resolves so many rows of tiles; every thread takes the next one that is left.
+    fn tile_rows<'f>(&self, pass: &Pass<'_>, count: usize, rows: impl Iterator<Item = FrameRow<'f>> + Send) {
+        let threads = rayon::current_num_threads().min(count);
         let rows = Mutex::new(rows);
         let next = || rows.lock().unwrap_or_else(PoisonError::into_inner).next();
         // Painters are dear: one set for each thread that comes in time.
         let work = || {
-            if let Some((pixels, row)) = next() {
+            if let Some(row) = next() {
                 let mut painters = self.painters();
-                self.tile_row(pass, &mut painters, row, pixels);
-                while let Some((pixels, row)) = next() {
-                    self.tile_row(pass, &mut painters, row, pixels);
+                self.tile_row(pass, &mut painters, row);
+                while let Some(row) = next() {
+                    self.tile_row(pass, &mut painters, row);
                 }
             }
         };
@@ -361,36 +390,37 @@ impl<'a> DisplayList<'a> {
     }
 
     /// Paints and resolves the tiles of one row.
-    fn tile_row<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, row: u32, pixels: &mut [u32]) {
+    fn tile_row<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, mut row: FrameRow<'_>) {
         let stride = self.context.size[0] as usize;
         let columns = self.context.tiles.columns;
-        let first = ((row - pass.first_row) * columns) as usize;
+        let first = ((row.number - pass.first_row) * columns) as usize;
         // Neighbours of one colour are filled together: memory takes long rows faster.
         let mut even: Option<(PixelRect, u32)> = None;
         for (column, tile) in (0..columns).zip(first..) {
             if pass.cancelled.load(Ordering::Relaxed) {
                 return;
             }
-            let rect = self.context.tiles.pixels(column, row, self.context.size);
+            let rect = self.context.tiles.pixels(column, row.number, self.context.size);
             let pixel = self.even_pixel(pass, painters, tile);
             match &mut even {
                 Some((so_far, known)) if pixel == Some(*known) => so_far.x.end = rect.x.end,
                 _ => {
                     if let Some((so_far, known)) = even.take() {
-                        PixelBlock::in_rows(so_far, pixels, stride).fill(known);
+                        PixelBlock::in_rows(so_far, row.pixels, stride).fill(known);
                     }
                     if let Some(pixel) = pixel {
                         even = Some((rect, pixel));
                     } else {
-                        let mut block = PixelBlock::in_rows(rect, pixels, stride);
+                        let mut block = PixelBlock::in_rows(rect, row.pixels, stride);
                         self.paint_tile(pass, painters, tile, &mut block);
                     }
                 }
             }
         }
         if let Some((so_far, known)) = even {
-            PixelBlock::in_rows(so_far, pixels, stride).fill(known);
+            PixelBlock::in_rows(so_far, row.pixels, stride).fill(known);
         }
+        row.keep();
         pass.tally.take(&mut painters.tally);
     }
 
@@ -563,6 +593,11 @@ mod tests {
                 let mut frame = Framebuffer::new(SIZE[0], SIZE[1]);
                 list.rasterize(&mut frame, &AtomicBool::new(false))
                     .expect("not cancelled");
+                let mut surface = vec![0x1234_5678; frame.pixels().len()];
+                let mut kept = Framebuffer::new(SIZE[0], SIZE[1]);
+                list.rasterize_onto(&mut surface, &mut kept, &AtomicBool::new(false))
+                    .expect("not cancelled");
+                assert!(surface == frame.pixels() && kept == frame, "the same on a surface");
                 Ok(frame)
             };
             let expected = draw(TileLayout::for_rate(pattern.nearest(rate), SIZE))?;

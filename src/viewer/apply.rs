@@ -107,7 +107,7 @@ impl Viewer {
         }
     }
 
-    fn take_in(&mut self, finished: Finished) {
+    pub(super) fn take_in(&mut self, finished: Finished) {
         match finished {
             Finished::Read(read) => self.scene_read(read),
             Finished::Drawn(id, drawn) => {
@@ -453,6 +453,11 @@ impl Viewer {
     /// Asks for the frame of the current state. A minimised window keeps the one it has.
     pub(super) fn want_frame(&mut self) {
         self.comparison.forget_postponed();
+        let surface = self.screen.lends_surface && self.shows_plain_frame();
+        self.drawing.lend_surface(surface);
+        if let Some(other) = self.comparison.drawing_mut() {
+            other.lend_surface(false);
+        }
         let size = self.frame_size();
         let Some(entry) = self.scenes.get(self.current) else {
             return self.clear_frames();

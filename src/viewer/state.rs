@@ -108,6 +108,8 @@ pub struct Viewer {
 pub(super) struct Screen {
     pub(super) window: [u32; 2],
     pub(super) free_area: Option<PixelRect>,
+    /// Whoever shows frames draws quick ones himself.
+    pub(super) lends_surface: bool,
     pub(super) theme: Theme,
     pub(super) dialog: Option<Dialog>,
     /// Only the picture is to be seen; what is shown besides comes back as it was.
@@ -207,6 +209,7 @@ impl Viewer {
             screen: Screen {
                 window: options.window,
                 free_area: None,
+                lends_surface: false,
                 theme: options.theme,
                 dialog: None,
                 hidden: false,

@@ -1,8 +1,9 @@
 //! The window's pixels below the panels, and which of them changed.
 
-use super::drawing::Changes;
+use super::drawing::{Changes, Drawn};
 use super::present::{paste, show};
-use super::{PixelRect, PlacedInset, Viewer, WindowPixels};
+use super::state::Finished;
+use super::{PixelRect, PixelZoom, PlacedInset, Viewer, WindowPixels};
 use crate::figure::SampleMark;
 use crate::raster::{Framebuffer, Region};
 
@@ -27,6 +28,11 @@ impl Viewer {
         for part in parts {
             show(&composite, self.settings.pixel_zoom, window, part);
         }
+        self.draw_over(parts, window);
+    }
+
+    /// The part of [`Viewer::draw_parts`] that comes over the frame: the inspector's inset and legends.
+    pub fn draw_over(&self, parts: &[PixelRect], window: &mut WindowPixels<'_>) {
         if let Some((placed, frame)) = self.inset.zip(self.frame()) {
             let rgba = |x, y| frame.final_rgba(x, y);
             draw_inset((placed, &rgba), &self.sample_marks(), parts, window);
@@ -36,6 +42,50 @@ impl Viewer {
             draw_inset((placed, &rgba), &[], parts, window);
         }
         self.draw_legends(parts, window);
+    }
+
+    /// Whether the caller draws quick frames with [`Viewer::draw_frame`], soon after [`Viewer::waits_for_surface`] says so.
+    /// At first he does not, and all frames come from a thread.
+    pub fn lend_surface(&mut self, lends: bool) {
+        self.screen.lends_surface = lends;
+        self.update();
+    }
+
+    /// Whether a frame is quick to draw and waits for [`Viewer::draw_frame`].
+    pub fn waits_for_surface(&self) -> bool {
+        self.drawing.waits_for_surface()
+    }
+
+    /// Draws the frame that waits for it, if there is one, so that it is resolved in the window and need not be copied
+    /// there. True if `window` holds all of it now, without what [`Viewer::draw_over`] draws; then [`Viewer::take_damage`]
+    /// tells what changes from then on. Otherwise the window's pixels are of no use where a frame waited.
+    pub fn draw_frame(&mut self, window: &mut WindowPixels<'_>) -> bool {
+        if !self.waits_for_surface() {
+            return false;
+        }
+        let drawn = self.drawing.draw_onto(window.size, window.pixels);
+        let holds_frame = matches!(drawn, Some(Drawn::Frame { .. }));
+        match drawn {
+            Some(drawn) => self.take_in(Finished::Drawn(self.drawing.id(), drawn)),
+            None => self.drawing.lend_surface(false),
+        }
+        self.last_shown = None;
+        self.update();
+        if holds_frame {
+            self.take_damage();
+        }
+        holds_frame
+    }
+
+    /// Whether frames are what the window shows, pixel by pixel.
+    pub(super) fn shows_plain_frame(&self) -> bool {
+        let panes = self.panes();
+        self.settings.pixel_zoom == PixelZoom::ONE
+            && !self.comparison.shows_both()
+            && panes.first.corner == [0, 0]
+            && panes.frame == self.screen.window
+            && !panes.frame.contains(&0)
+            && self.settings.render.background.a >= 1.0
     }
 
     /// The parts of the window in which [`Viewer::draw_window`] may draw other pixels than when this was asked last;

@@ -57,6 +57,15 @@ pub(super) struct PanelTimes {
     pub(super) paint: Duration,
 }
 
+/// What a surface holds that is to be composed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Holds {
+    /// What [`Session::compose`] wrote so many calls ago; after 0 calls nothing of use.
+    Composed(u8),
+    /// The frame, all of it, and nothing else.
+    Frame,
+}
+
 /// A viewer with its panels.
 #[derive(Debug)]
 pub(super) struct Session {
@@ -386,19 +395,51 @@ impl Session {
         any
     }
 
-    /// Brings a surface up to date that shows what this wrote `age` calls ago, and says which parts it wrote. Its rows
-    /// are `width` pixels long; with an `age` of 0 its pixels are of no use. Where the size is not the window's, nothing
-    /// is written: another call with the right size follows.
-    pub(super) fn compose(&mut self, surface: &mut [u32], width: u32, age: u8) -> Vec<PixelRect> {
+    /// Whether quick frames wait for [`Session::draw_frame`] instead of being drawn by a thread.
+    pub(super) fn lend_surface(&mut self, lends: bool) {
+        self.viewer.lend_surface(lends);
+    }
+
+    /// Draws the frame that waits for it, if there is one, straight into a surface with rows of `width` pixels that was
+    /// composed `age` calls ago. What the surface holds then is for [`Session::compose`] to know.
+    pub(super) fn draw_frame(&mut self, surface: &mut [u32], width: u32, age: u8) -> Holds {
         let size = self.window();
-        let fits = size[0] == width && surface.len() == size[0] as usize * size[1] as usize;
-        if !fits {
+        let drawn = fits(size, surface, width) && self.viewer.draw_frame(&mut WindowPixels { size, pixels: surface });
+        if drawn { Holds::Frame } else { Holds::Composed(age) }
+    }
+
+    /// Brings a surface up to date and says which parts it wrote. Its rows are `width` pixels long. Where the size is not
+    /// the window's, nothing is written: another call with the right size follows.
+    pub(super) fn compose(&mut self, surface: &mut [u32], width: u32, holds: Holds) -> Vec<PixelRect> {
+        let size = self.window();
+        if !fits(size, surface, width) {
             return Vec::new();
         }
-        let mut now = self.take_damage(size);
+        let panels = std::mem::replace(&mut self.damage, Damage::none(size));
+        let picture = self.viewer.take_damage().filter(|_| panels.is_for(size));
         self.composed.truncate(LONGEST_AGE);
+        if let (Holds::Frame, Some(parts)) = (holds, &picture) {
+            // All of it is new, but only what changed since the frame was drawn must come from the frame.
+            self.composed.push_front(Damage::all(size));
+            let whole = PixelRect::of_size(size);
+            let mut window = WindowPixels { size, pixels: surface };
+            self.viewer.draw_parts(parts, &mut window);
+            self.viewer.draw_over(&[whole], &mut window);
+            self.overlay.canvas().lay_over(window.pixels);
+            return vec![whole];
+        }
+        let mut now = match picture {
+            Some(parts) => parts.iter().fold(panels, |mut damage, part| {
+                damage.add(part);
+                damage
+            }),
+            None => Damage::all(size),
+        };
         self.composed.push_front(now.clone());
-        let before = usize::from(age);
+        let before = match holds {
+            Holds::Composed(age) => usize::from(age),
+            Holds::Frame => 0,
+        };
         if before == 0 || before > self.composed.len() {
             now = Damage::all(size);
         }
@@ -406,16 +447,6 @@ impl Session {
         let parts = now.rects();
         self.write(surface, size, &parts);
         parts
-    }
-
-    /// Everything that changed since the last call.
-    fn take_damage(&mut self, size: [u32; 2]) -> Damage {
-        let mut damage = std::mem::replace(&mut self.damage, Damage::none(size));
-        match self.viewer.take_damage() {
-            Some(parts) if damage.is_for(size) => parts.iter().for_each(|part| damage.add(part)),
-            _ => damage = Damage::all(size),
-        }
-        damage
     }
 
     /// Writes parts of the window: the picture, straight from the frame, and the panels over it.
@@ -461,6 +492,11 @@ impl Session {
         };
         self.turn(input)
     }
+}
+
+/// Whether a surface has a window's size.
+fn fits(size: [u32; 2], surface: &[u32], width: u32) -> bool {
+    size[0] == width && surface.len() == size[0] as usize * size[1] as usize
 }
 
 /// A part of the window as a part of the overlay.

@@ -42,7 +42,8 @@ impl Desk {
             self.surface = vec![0x1234_5678; size[0] as usize * size[1] as usize];
             self.size = size;
         }
-        let parts = self.session.compose(&mut self.surface, size[0], age);
+        let holds = self.session.draw_frame(&mut self.surface, size[0], age);
+        let parts = self.session.compose(&mut self.surface, size[0], holds);
         parts
             .iter()
             .map(|part| u64::from(part.width) * u64::from(part.height))
@@ -90,9 +91,37 @@ fn compose_writes_only_what_changed() {
 }
 
 #[test]
+fn compose_lays_panels_over_what_was_drawn_on_the_surface() {
+    let mut desk = Desk::new([640, 480]);
+    desk.session.lend_surface(true);
+    desk.session.command(Command::Pin([300, 200]));
+    let mut drawn = 0;
+    // Where other work takes both processors, no frame may be quick for a while.
+    for step in 0..200 {
+        desk.session.settle();
+        desk.session.command(Command::PanBy {
+            by: DVec2::new(if step % 2 == 0 { 7.5 } else { -7.5 }, 3.25),
+        });
+        let waits = desk.session.viewer.waits_for_surface();
+        let shown = desk.session.viewer.frame().map(|frame| frame.picture.clone());
+        desk.compose();
+        desk.is_right("panels and inset over the frame");
+        let is_new = desk.session.viewer.frame().map(|frame| frame.picture.clone()) != shown;
+        assert_eq!(is_new, waits, "the frame is there before the panels");
+        drawn += u32::from(waits);
+        assert_eq!(desk.compose(), 0, "nothing is left to write");
+        if drawn > 5 {
+            return;
+        }
+    }
+    panic!("{drawn} frames were drawn on the surface");
+}
+
+#[test]
 fn compose_in_parts_is_the_whole() {
     arbtest::arbtest(|u| {
         let mut desk = Desk::new([640, 480]);
+        desk.session.lend_surface(u.arbitrary()?);
         for _ in 0..u.int_in_range(1..=15)? {
             let mut at = |side: u32| Ok(f64::from(u.int_in_range(0..=side)?));
             let point = DVec2::new(at(640)?, at(480)?);

@@ -10,7 +10,7 @@ use super::super::session::PanelTimes;
 use crate::viewer::{PixelRect, Viewer};
 
 /// The columns; all times are milliseconds, the first since 1970.
-const HEADER: &str = "at,shows,behind,draw,layout,tessellate,paint,compose,present,parts,pixels";
+const HEADER: &str = "at,shows,behind,draw,onto,layout,tessellate,paint,compose,present,parts,pixels";
 
 /// The file that gets the lines.
 #[derive(Debug)]
@@ -25,6 +25,8 @@ pub(super) struct FrameLog {
 pub(super) struct Shown<'a> {
     /// When the first event came that nothing was shown for.
     pub(super) event: Option<Instant>,
+    /// Drawing the frame straight into the surface, where it did.
+    pub(super) onto: Duration,
     pub(super) panels: PanelTimes,
     pub(super) compose: Duration,
     pub(super) present: Duration,
@@ -67,6 +69,7 @@ impl FrameLog {
         let times = [
             behind,
             drawn.map_or(Duration::ZERO, |frame| frame.stats.total()),
+            shown.onto,
             layout,
             tessellate,
             paint,

@@ -17,7 +17,7 @@ use super::super::session::{PanelTimes, Session};
 use super::frame_log::{FrameLog, Shown};
 use super::rhythm::Rhythm;
 use crate::raster::Framebuffer;
-use crate::viewer::PixelRect;
+use crate::viewer::{PixelRect, Viewer};
 
 /// Longest wait for the frame of a new size, so that a resized window shows no border.
 const RESIZE_WAIT: Duration = Duration::from_millis(24);
@@ -90,6 +90,7 @@ impl Opened {
             event: None,
             log: None,
         };
+        opened.session.lend_surface(true);
         opened.resized(size);
         Ok(opened)
     }
@@ -129,26 +130,26 @@ impl Opened {
         if self.session.viewer().due().is_some_and(|due| due <= now) {
             self.session.poll();
         }
+        let viewer = self.session.viewer();
+        let (picture, due) = (shown_next(viewer), viewer.due());
         self.dirty |= self.session.viewer().revision() != self.drawn_revision;
         if self.next_wish.is_some_and(|wish| wish <= now) {
             self.dirty = true;
         }
         if self.occluded || self.size.width == 0 || self.size.height == 0 {
-            return None;
+            return due;
         }
         if !self.dirty {
             self.event = None;
-            return [self.next_wish, self.session.viewer().due()]
-                .into_iter()
-                .flatten()
-                .min();
+            return [self.next_wish, due].into_iter().flatten().min();
         }
-        let due = self.rhythm.due(self.session.viewer().picture_revision(), now);
-        if due.is_none() {
+        let next_frame = self.rhythm.due(picture, now);
+        if next_frame.is_none() {
             self.asked = Some(now);
             self.window.request_redraw();
         }
-        due
+        // A window system that shows nothing at the moment must not hold up what waits for a frame.
+        [next_frame, due].into_iter().flatten().min()
     }
 
     /// Draws and presents a frame.
@@ -165,66 +166,51 @@ impl Opened {
         self.rhythm.begin(Instant::now());
         self.dirty = false;
         self.await_resized_frame();
-        let input = self.egui.take_egui_input(&self.window);
-        let mut turn = self.session.turn(input);
-        let panels = turn.times;
-        if let Some(picture) = self.session.take_copied_picture() {
-            turn.platform
-                .commands
-                .push(OutputCommand::CopyImage(image_of(&picture)));
-        }
-        self.egui.handle_platform_output(&self.window, turn.platform);
-        if let Some(text) = self.session.take_copied() {
-            self.egui.set_clipboard_text(text);
-        }
-        self.next_wish = Instant::now().checked_add(turn.next);
-        self.drawn_revision = self.session.viewer().revision();
-        self.rhythm.shows(self.session.viewer().picture_revision());
-        self.present([columns, rows], exposed, panels)?;
-        let title = self.session.viewer().title();
-        if title != self.title {
-            self.window.set_title(&title);
-            self.title = title;
-        }
-        Ok(())
-    }
-
-    /// Brings the surface up to date and hands what changed, or all that was `exposed`, to the display.
-    fn present(
-        &mut self,
-        [columns, rows]: [NonZeroU32; 2],
-        exposed: bool,
-        panels: PanelTimes,
-    ) -> Result<(), SoftBufferError> {
         let start = Instant::now();
         self.surface.resize(columns, rows)?;
         let mut buffer = self.surface.buffer_mut()?;
         // The display is done with what was presented before.
         let ready = Instant::now();
         let age = buffer.age();
-        let mut parts = self.session.compose(&mut buffer, columns.get(), age);
+        let holds = self.session.draw_frame(&mut buffer, columns.get(), age);
+        let drawn = Instant::now();
+        let (panels, next) = run_panels(&mut self.session, &mut self.egui, &self.window);
+        self.next_wish = Instant::now().checked_add(next);
+        self.drawn_revision = self.session.viewer().revision();
+        self.rhythm.shows(self.session.viewer().picture_revision());
+        let painted = Instant::now();
+        let mut parts = self.session.compose(&mut buffer, columns.get(), holds);
         if exposed || age == 0 {
             parts = vec![PixelRect::of_size([columns.get(), rows.get()])];
         }
         let composed = Instant::now();
         let event = self.event.take();
         let damage: Vec<Rect> = parts.iter().filter_map(surface_rect).collect();
-        if damage.is_empty() {
-            return Ok(());
+        if !damage.is_empty() {
+            self.window.pre_present_notify();
+            buffer.present_with_damage(&damage)?;
+            if let Some(log) = &mut self.log {
+                let shown = Shown {
+                    event,
+                    onto: drawn.saturating_duration_since(ready),
+                    panels,
+                    compose: composed.saturating_duration_since(painted),
+                    present: ready.saturating_duration_since(start) + composed.elapsed(),
+                    parts: &parts,
+                };
+                log.add(self.session.viewer(), &shown);
+            }
         }
-        self.window.pre_present_notify();
-        buffer.present_with_damage(&damage)?;
-        if let Some(log) = &mut self.log {
-            let shown = Shown {
-                event,
-                panels,
-                compose: composed.saturating_duration_since(ready),
-                present: ready.saturating_duration_since(start) + composed.elapsed(),
-                parts: &parts,
-            };
-            log.add(self.session.viewer(), &shown);
-        }
+        self.tell_title();
         Ok(())
+    }
+
+    fn tell_title(&mut self) {
+        let title = self.session.viewer().title();
+        if title != self.title {
+            self.window.set_title(&title);
+            self.title = title;
+        }
     }
 
     /// Gives the frame of a new size a moment to be finished.
@@ -234,12 +220,33 @@ impl Opened {
             self.session.poll();
             let viewer = self.session.viewer();
             let is_right = |frame: &crate::viewer::Frame| frame.picture.size == viewer.frame_size();
-            if viewer.is_settled() || viewer.frame().is_some_and(is_right) {
+            if viewer.is_settled() || viewer.waits_for_surface() || viewer.frame().is_some_and(is_right) {
                 return;
             }
             std::thread::sleep(Duration::from_millis(1));
         }
     }
+}
+
+/// Runs the panels and tells the window system what they ask of it; where their time went, and when they want to be shown
+/// next.
+fn run_panels(session: &mut Session, egui: &mut egui_winit::State, window: &Window) -> (PanelTimes, Duration) {
+    let mut turn = session.turn(egui.take_egui_input(window));
+    if let Some(picture) = session.take_copied_picture() {
+        turn.platform
+            .commands
+            .push(OutputCommand::CopyImage(image_of(&picture)));
+    }
+    egui.handle_platform_output(window, turn.platform);
+    if let Some(text) = session.take_copied() {
+        egui.set_clipboard_text(text);
+    }
+    (turn.times, turn.next)
+}
+
+/// The number of the picture that the next frame will show.
+fn shown_next(viewer: &Viewer) -> u64 {
+    viewer.picture_revision() + u64::from(viewer.waits_for_surface())
 }
 
 /// A part of the window as softbuffer names it.

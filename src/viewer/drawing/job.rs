@@ -1,5 +1,6 @@
 //! What the drawing thread does: whole frames, previews, and final tiles that come as they are painted.
 
+use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -8,12 +9,15 @@ use super::super::frame::ExactCells;
 use super::super::{Frame, Manner, Picture, Preview};
 use super::preview::{coarse_view, magnify, shift, view_of_part};
 use crate::raster::{Framebuffer, Region, SampleRate};
-use crate::render::{CancelToken, FrameStats, RenderSettings, Subject, draw_cancellable, draw_regions, refine};
+use crate::render::{
+    CancelToken, FrameStats, RenderSettings, Subject, draw_cancellable, draw_onto, draw_regions, refine,
+};
 
 /// Time between two messages with tiles: the window shows about thirty stages of a refinement a second.
 const TICK: Duration = Duration::from_millis(32);
 
 /// A frame to be drawn.
+#[derive(Debug)]
 pub(super) struct Job {
     pub(super) picture: Picture,
     pub(super) plan: Plan,
@@ -78,6 +82,31 @@ impl Job {
     pub(super) fn draw(self, post: &(impl Fn(Drawn) + Sync + Send)) {
         let ended = guarded(|| self.work(post)).unwrap_or(Some(Drawn::Failed));
         post(ended.unwrap_or(Drawn::GivenUp));
+    }
+
+    /// Draws a whole frame while the caller waits, resolved into `surface`, which has as many pixels. One that takes
+    /// longer than `limit` is given up half-way.
+    pub(super) fn draw_onto(mut self, surface: &mut [u32], limit: Duration) -> Drawn {
+        let mut pixels = self.pixels();
+        let subject = self.picture.subject();
+        let mut stats = None;
+        rayon::in_place_scope(|scope| {
+            let (done, ended) = channel();
+            let (pixels, stats, cancel) = (&mut pixels, &mut stats, &self.cancel);
+            scope.spawn(move |_| {
+                *stats = guarded(|| draw_onto(&subject, surface, pixels, cancel));
+                // Nobody waits any more for what was given up.
+                let _ = done.send(());
+            });
+            if ended.recv_timeout(limit).is_err() {
+                self.cancel.cancel();
+            }
+        });
+        match stats {
+            Some(Some(stats)) => self.frame(pixels, stats, None, true),
+            Some(None) => Drawn::GivenUp,
+            None => Drawn::Failed,
+        }
     }
 
     fn work(mut self, post: &(impl Fn(Drawn) + Sync + Send)) -> Option<Drawn> {

@@ -5,6 +5,8 @@
 //! nearest to the pointer first. A newer wish ends that at once. Without previews a quick frame is left to finish even
 //! if a newer one is wanted, since a drag would otherwise show nothing until it ends; a slow one is given up, but
 //! never for so long that the window seems dead.
+//!
+//! Frames that are known to be quick can be drawn by whoever shows them, straight into what he shows.
 
 mod job;
 mod pace;
@@ -24,13 +26,15 @@ use crate::raster::{Framebuffer, Region};
 use crate::render::{CancelToken, FrameStats};
 pub(super) use job::Drawn;
 use job::{Job, Plan, TilePixels};
-use pace::{BUDGET, Pace};
+use pace::{BUDGET, Pace, QUICK};
 use preview::whole_pixels;
 
 /// A final frame that takes longer is given up for a newer wish.
 const SLOW: Duration = Duration::from_millis(400);
 /// After so long without a new frame, the one that is drawn is left to finish.
 const PATIENCE: Duration = Duration::from_secs(2);
+/// A frame that is drawn where it is shown is given up after so long: the window must not stand still.
+const LONGEST: Duration = BUDGET.saturating_mul(2);
 /// So long after the last wish the hand counts as resting.
 const REST: Duration = Duration::from_millis(100);
 
@@ -63,6 +67,7 @@ pub(super) struct Drawing {
     progressive: bool,
     /// Somebody waits for the final frame: no previews, no rest.
     hurry: bool,
+    surface: Surface,
     last_finished: Instant,
     /// Grows with every change of `frame`.
     number: u64,
@@ -70,6 +75,17 @@ pub(super) struct Drawing {
     changes: Changes,
     /// Memory of an old frame.
     spare: Option<Framebuffer>,
+}
+
+/// Whether whoever shows frames draws quick ones himself, into what he shows.
+#[derive(Debug)]
+enum Surface {
+    /// He does not.
+    Kept,
+    /// He does.
+    Lent,
+    /// He does, and this one waits for him.
+    Awaited(Box<Job>),
 }
 
 /// What is wanted.
@@ -140,6 +156,7 @@ impl Drawing {
             pace: Pace::default(),
             progressive: true,
             hurry: false,
+            surface: Surface::Kept,
             last_finished: Instant::now(),
             number: 0,
             wishes: 0,
@@ -223,8 +240,12 @@ impl Drawing {
         is_fine.then_some((running.started, running.done as f64 / (width * height).max(1.0)))
     }
 
-    /// When the drawing is to be asked again: then the hand rests. `None` while there is nothing to wait for.
+    /// When the drawing is to be asked again: then the hand rests, or nobody came to draw what waits for him. `None` while
+    /// there is nothing to wait for.
     pub(super) fn due(&self) -> Option<Instant> {
+        if let Some(running) = self.running.as_ref().filter(|_| self.waits_for_surface()) {
+            return running.started.checked_add(REST);
+        }
         let wanted = self.wanted.as_ref().filter(|_| self.running.is_none())?;
         if self.is_current() {
             return None;
@@ -239,7 +260,65 @@ impl Drawing {
 
     /// Starts what is due.
     pub(super) fn look(&mut self) {
+        let waited = self.running.as_ref().map(|running| running.started.elapsed());
+        if waited.is_some_and(|waited| waited >= REST) {
+            self.wait_no_longer();
+        }
         self.next();
+    }
+
+    /// Whether whoever shows frames draws quick ones with [`Drawing::draw_onto`]: they are what he shows, pixel by pixel.
+    pub(super) fn lend_surface(&mut self, lends: bool) {
+        match (lends, &self.surface) {
+            (true, Surface::Kept) => self.surface = Surface::Lent,
+            (false, _) => {
+                self.wait_no_longer();
+                self.surface = Surface::Kept;
+            }
+            _ => {}
+        }
+    }
+
+    /// Whether a frame waits for [`Drawing::draw_onto`].
+    pub(super) fn waits_for_surface(&self) -> bool {
+        matches!(self.surface, Surface::Awaited(_))
+    }
+
+    /// Draws the frame that waits for that into `surface`, rows of the frame's `size`; what comes of it is to be taken in
+    /// with [`Drawing::finished`]. `None` where none waits or it has another size.
+    pub(super) fn draw_onto(&mut self, size: [u32; 2], surface: &mut [u32]) -> Option<Drawn> {
+        if !matches!(&self.surface, Surface::Awaited(job) if job.picture.size == size) {
+            return None;
+        }
+        let job = self.take_waiting()?;
+        if let Some(running) = &mut self.running {
+            running.started = Instant::now();
+        }
+        Some(job.draw_onto(surface, LONGEST))
+    }
+
+    fn take_waiting(&mut self) -> Option<Job> {
+        if !self.waits_for_surface() {
+            return None;
+        }
+        match std::mem::replace(&mut self.surface, Surface::Lent) {
+            Surface::Awaited(job) => Some(*job),
+            Surface::Kept | Surface::Lent => None,
+        }
+    }
+
+    /// Hands what waits to be drawn where it is shown to the thread.
+    fn wait_no_longer(&mut self) {
+        if let Some(job) = self.take_waiting() {
+            self.crew.push(job);
+        }
+    }
+
+    /// Drops it.
+    fn forget_waiting(&mut self) {
+        if let Some(job) = self.take_waiting() {
+            (self.running, self.spare) = (None, job.spare);
+        }
     }
 
     /// Whether previews may be shown.
@@ -254,6 +333,9 @@ impl Drawing {
     pub(super) fn set_hurry(&mut self, hurry: bool) {
         if self.hurry != hurry {
             self.hurry = hurry;
+            if hurry {
+                self.wait_no_longer();
+            }
             self.next();
         }
     }
@@ -261,6 +343,7 @@ impl Drawing {
     /// Nothing is to be seen: there is no scene.
     pub(super) fn clear(&mut self) {
         self.wanted = None;
+        self.forget_waiting();
         if self.frame.take().is_some() {
             self.changed(Changes::All);
         }
@@ -281,6 +364,7 @@ impl Drawing {
             (wanted.from, wanted.focus) = (wish.from, wish.focus);
             return;
         }
+        self.forget_waiting();
         if let Some(running) = &self.running
             && running.wish.picture != wish.picture
             && self.gives_up(running, &wish.picture)
@@ -424,15 +508,22 @@ impl Drawing {
         let Some(wish) = self.wanted.clone() else { return };
         let Some(plan) = self.plan(&wish) else { return };
         let stage = plan.stage();
+        let expected = self.pace.whole_frame(&wish.picture);
         let cancel = Arc::new(CancelToken::default());
-        self.crew.push(Job {
+        let job = Job {
             picture: wish.picture.clone(),
             plan,
             cancel: Arc::clone(&cancel),
             spare: self.spare.take(),
             from: wish.from,
             focus: wish.focus,
-        });
+        };
+        let quick = stage == Stage::Whole && expected.is_some_and(|expected| expected <= QUICK);
+        if quick && matches!(self.surface, Surface::Lent) && !self.hurry {
+            self.surface = Surface::Awaited(Box::new(job));
+        } else {
+            self.crew.push(job);
+        }
         self.running = Some(Running {
             wish,
             stage,

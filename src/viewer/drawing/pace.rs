@@ -13,8 +13,8 @@ use crate::scene::Scene;
 
 /// What a frame may take while the view moves.
 pub(super) const BUDGET: Duration = Duration::from_millis(16);
-/// A whole frame that takes no longer is drawn even where the one before could be moved.
-const QUICK: Duration = Duration::from_millis(8);
+/// A whole frame that takes no longer is drawn even where the one before could be moved, and by whoever shows it if he can.
+pub(super) const QUICK: Duration = Duration::from_millis(8);
 /// Settings whose times are remembered.
 const REMEMBERED: usize = 16;
 /// A coarser step must be that much quicker than a finer one to be worth its looks, when both are too slow.
@@ -41,16 +41,23 @@ impl Pace {
         self.follow(&picture.scene);
         let cost = took.as_secs_f64() / pixels(picture);
         match manner {
-            None => {
-                self.whole.retain(|(settings, _)| *settings != picture.settings);
-                if self.whole.len() >= REMEMBERED {
-                    self.whole.remove(0);
-                }
-                self.whole.push((picture.settings, cost));
-            }
+            // One frame that was held up by others does not make a scene slow.
+            None => self.set_whole(
+                picture,
+                self.whole_cost(picture)
+                    .map_or(cost, |known| cost.min(f64::midpoint(known, cost))),
+            ),
             Some(Manner::Moved) => self.moved = Some(cost),
             Some(manner) => self.note_step(manner, cost),
         }
+    }
+
+    fn set_whole(&mut self, picture: &Picture, cost: f64) {
+        self.whole.retain(|(settings, _)| *settings != picture.settings);
+        if self.whole.len() >= REMEMBERED {
+            self.whole.remove(0);
+        }
+        self.whole.push((picture.settings, cost));
     }
 
     fn note_step(&mut self, manner: Manner, cost: f64) {
@@ -72,15 +79,21 @@ impl Pace {
     pub(super) fn note_given_up(&mut self, picture: &Picture, after: Duration) {
         let known = self.whole_frame(picture).unwrap_or_default();
         if after > known.max(BUDGET) {
-            self.note(picture, None, after);
+            self.follow(&picture.scene);
+            self.set_whole(picture, after.as_secs_f64() / pixels(picture));
         }
     }
 
     /// What a whole frame is expected to take; `None` where nothing like it was drawn.
     pub(super) fn whole_frame(&self, picture: &Picture) -> Option<Duration> {
+        Some(seconds(self.whole_cost(picture)? * pixels(picture)))
+    }
+
+    /// Seconds per pixel of a whole frame.
+    fn whole_cost(&self, picture: &Picture) -> Option<f64> {
         let known = self.knows(&picture.scene).then_some(&self.whole)?;
         let found = known.iter().find(|(settings, _)| *settings == picture.settings);
-        found.map(|(_, cost)| seconds(cost * pixels(picture)))
+        found.map(|(_, cost)| *cost)
     }
 
     /// Whether a frame moved by whole pixels is the way to show `picture` at once.
@@ -239,6 +252,22 @@ mod tests {
         assert_eq!(pace.whole_frame(&other), None, "another scene");
         pace.note(&other, None, ms(1));
         assert_eq!(pace.whole_frame(&small), None, "one scene at a time");
+    }
+
+    #[test]
+    fn pace_believes_the_second_slow_frame() {
+        let (mut pace, picture) = (Pace::default(), picture(16));
+        pace.note(&picture, None, ms(2));
+        pace.note(&picture, None, ms(12));
+        assert_eq!(pace.whole_frame(&picture), Some(ms(7)), "half of what is new");
+        pace.note(&picture, None, ms(12));
+        assert!(pace.whole_frame(&picture) > Some(QUICK), "it is slow");
+        pace.note(&picture, None, ms(3));
+        assert_eq!(
+            pace.whole_frame(&picture),
+            Some(ms(3)),
+            "nothing makes a frame quicker than it is"
+        );
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! What a frame costs, ours and the peers': `cargo bench --bench frames -- [PART ...]`.
 //!
-//! Parts: `parts`, `stages`, `flat`, `slivers`, `textured`, `million`, `points`,
-//! `memory`; all of them without an argument. The last
-//! lines are the table of the README. `--export FOLDER` instead times us and writes what `benches/llvmpipe` draws.
+//! Parts: `parts`, `stages`, `flat`, `course`, `slivers`, `textured`, `million`, `points`, `memory`; all of them without an
+//! argument. The last lines are the table of the README. `--export FOLDER` instead times us and writes what `benches/llvmpipe` draws.
 
+mod course;
 mod export;
 mod flat;
 mod memory;
@@ -47,6 +47,9 @@ fn main() {
     say("\nmilliseconds, median (minimum); /1: one thread; @16: sixteen samples per pixel");
     if wanted("flat") {
         rows.extend(flat::flat(BUDGET));
+    }
+    if wanted("course") {
+        rows.extend(course::course(BUDGET));
     }
     if wanted("slivers") {
         rows.extend(flat::slivers(BUDGET));

@@ -84,12 +84,21 @@ impl Job {
         post(ended.unwrap_or(Drawn::GivenUp));
     }
 
-    /// Draws a whole frame while the caller waits, resolved into `surface`, which has as many pixels. One that takes
-    /// longer than `limit` is given up half-way.
+    /// Draws a whole frame, or a preview at rate 1, while the caller waits, resolved into `surface`, which has as many
+    /// pixels. One that takes longer than `limit` is given up half-way.
     pub(super) fn draw_onto(mut self, surface: &mut [u32], limit: Duration) -> Drawn {
         let mut pixels = self.pixels();
-        let subject = self.picture.subject();
+        let manner = match self.plan {
+            Plan::Coarse(manner) => Some(manner),
+            _ => None,
+        };
+        let settings = manner.map_or(self.picture.settings, |_| self.at_rate_one());
+        let subject = Subject {
+            settings: &settings,
+            ..self.picture.subject()
+        };
         let mut stats = None;
+        // The caller sleeps meanwhile, but not longer than that.
         rayon::in_place_scope(|scope| {
             let (done, ended) = channel();
             let (pixels, stats, cancel) = (&mut pixels, &mut stats, &self.cancel);
@@ -102,8 +111,12 @@ impl Job {
                 self.cancel.cancel();
             }
         });
+        let preview = manner.map(|manner| Preview {
+            manner,
+            exact: ExactCells::new(self.picture.size),
+        });
         match stats {
-            Some(Some(stats)) => self.frame(pixels, stats, None, true),
+            Some(Some(stats)) => self.frame(pixels, stats, preview, true),
             Some(None) => Drawn::GivenUp,
             None => Drawn::Failed,
         }
@@ -152,12 +165,16 @@ impl Job {
         Drawn::Frame { frame, ended }
     }
 
-    /// A preview on a step of the ladder.
-    fn coarse(&mut self, manner: Manner, ended: bool) -> Option<Drawn> {
-        let settings = RenderSettings {
+    fn at_rate_one(&self) -> RenderSettings {
+        RenderSettings {
             sample_rate: SampleRate::ONE,
             ..self.picture.settings
-        };
+        }
+    }
+
+    /// A preview on a step of the ladder.
+    fn coarse(&mut self, manner: Manner, ended: bool) -> Option<Drawn> {
+        let settings = self.at_rate_one();
         let mut pixels = self.pixels();
         let Picture { scene, view, .. } = &self.picture;
         let stats = match manner {

@@ -291,10 +291,14 @@ impl Drawing {
             return None;
         }
         let job = self.take_waiting()?;
-        if let Some(running) = &mut self.running {
-            running.started = Instant::now();
+        let running = self.running.as_mut()?;
+        running.started = Instant::now();
+        let drawn = job.draw_onto(surface, LONGEST);
+        if matches!(drawn, Drawn::GivenUp) && running.stage == Stage::Preview {
+            let (picture, took) = (&running.wish.picture, running.started.elapsed());
+            self.pace.note(picture, Some(Manner::RateOne), took);
         }
-        Some(job.draw_onto(surface, LONGEST))
+        Some(drawn)
     }
 
     fn take_waiting(&mut self) -> Option<Job> {
@@ -508,7 +512,7 @@ impl Drawing {
         let Some(wish) = self.wanted.clone() else { return };
         let Some(plan) = self.plan(&wish) else { return };
         let stage = plan.stage();
-        let expected = self.pace.whole_frame(&wish.picture);
+        let quick = self.is_quick(&plan, &wish);
         let cancel = Arc::new(CancelToken::default());
         let job = Job {
             picture: wish.picture.clone(),
@@ -518,7 +522,6 @@ impl Drawing {
             from: wish.from,
             focus: wish.focus,
         };
-        let quick = stage == Stage::Whole && expected.is_some_and(|expected| expected <= QUICK);
         if quick && matches!(self.surface, Surface::Lent) && !self.hurry {
             self.surface = Surface::Awaited(Box::new(job));
         } else {
@@ -531,6 +534,19 @@ impl Drawing {
             started: Instant::now(),
             done: 0,
         });
+    }
+
+    /// Whether a frame is known to take so little time that it can be drawn where it is shown.
+    fn is_quick(&self, plan: &Plan, wish: &Wish) -> bool {
+        let expected = match plan {
+            Plan::Whole => self.pace.whole_frame(&wish.picture),
+            // What the inspector shows is drawn over the preview, which takes two steps.
+            Plan::Coarse(Manner::RateOne) if wish.focus.is_none() => {
+                self.pace.step_cost(&wish.picture, Manner::RateOne)
+            }
+            _ => None,
+        };
+        expected.is_some_and(|expected| expected <= QUICK)
     }
 
     /// How to come to what is wanted; `None` while a preview of it is on the screen and the hand does not rest.

@@ -134,7 +134,8 @@ impl Pace {
         whole / (picture.settings.sample_rate.samples() * side * side).max(1)
     }
 
-    fn step_cost(&self, picture: &Picture, manner: Manner) -> Option<Duration> {
+    /// What a step of the ladder took, for so many pixels; `None` where it was not drawn yet.
+    pub(super) fn step_cost(&self, picture: &Picture, manner: Manner) -> Option<Duration> {
         let at = STEPS.iter().position(|step| *step == manner)?;
         let cost = self.steps[at].filter(|_| self.knows(&picture.scene))?;
         Some(seconds(cost * pixels(picture)))

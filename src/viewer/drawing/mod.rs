@@ -11,6 +11,7 @@
 mod job;
 mod pace;
 mod preview;
+mod surface;
 #[cfg(test)]
 mod tests;
 
@@ -26,15 +27,14 @@ use crate::raster::{Framebuffer, Region};
 use crate::render::{CancelToken, FrameStats};
 pub(super) use job::Drawn;
 use job::{Job, Plan, TilePixels};
-use pace::{BUDGET, Pace, QUICK};
+use pace::{BUDGET, Pace};
 use preview::whole_pixels;
+use surface::Surface;
 
 /// A final frame that takes longer is given up for a newer wish.
 const SLOW: Duration = Duration::from_millis(400);
 /// After so long without a new frame, the one that is drawn is left to finish.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// A frame that is drawn where it is shown is given up after so long: the window must not stand still.
-const LONGEST: Duration = BUDGET.saturating_mul(2);
 /// So long after the last wish the hand counts as resting.
 const REST: Duration = Duration::from_millis(100);
 
@@ -75,17 +75,6 @@ pub(super) struct Drawing {
     changes: Changes,
     /// Memory of an old frame.
     spare: Option<Framebuffer>,
-}
-
-/// Whether whoever shows frames draws quick ones himself, into what he shows.
-#[derive(Debug)]
-enum Surface {
-    /// He does not.
-    Kept,
-    /// He does.
-    Lent,
-    /// He does, and this one waits for him.
-    Awaited(Box<Job>),
 }
 
 /// What is wanted.
@@ -265,64 +254,6 @@ impl Drawing {
             self.wait_no_longer();
         }
         self.next();
-    }
-
-    /// Whether whoever shows frames draws quick ones with [`Drawing::draw_onto`]: they are what he shows, pixel by pixel.
-    pub(super) fn lend_surface(&mut self, lends: bool) {
-        match (lends, &self.surface) {
-            (true, Surface::Kept) => self.surface = Surface::Lent,
-            (false, _) => {
-                self.wait_no_longer();
-                self.surface = Surface::Kept;
-            }
-            _ => {}
-        }
-    }
-
-    /// Whether a frame waits for [`Drawing::draw_onto`].
-    pub(super) fn waits_for_surface(&self) -> bool {
-        matches!(self.surface, Surface::Awaited(_))
-    }
-
-    /// Draws the frame that waits for that into `surface`, rows of the frame's `size`; what comes of it is to be taken in
-    /// with [`Drawing::finished`]. `None` where none waits or it has another size.
-    pub(super) fn draw_onto(&mut self, size: [u32; 2], surface: &mut [u32]) -> Option<Drawn> {
-        if !matches!(&self.surface, Surface::Awaited(job) if job.picture.size == size) {
-            return None;
-        }
-        let job = self.take_waiting()?;
-        let running = self.running.as_mut()?;
-        running.started = Instant::now();
-        let drawn = job.draw_onto(surface, LONGEST);
-        if matches!(drawn, Drawn::GivenUp) && running.stage == Stage::Preview {
-            let (picture, took) = (&running.wish.picture, running.started.elapsed());
-            self.pace.note(picture, Some(Manner::RateOne), took);
-        }
-        Some(drawn)
-    }
-
-    fn take_waiting(&mut self) -> Option<Job> {
-        if !self.waits_for_surface() {
-            return None;
-        }
-        match std::mem::replace(&mut self.surface, Surface::Lent) {
-            Surface::Awaited(job) => Some(*job),
-            Surface::Kept | Surface::Lent => None,
-        }
-    }
-
-    /// Hands what waits to be drawn where it is shown to the thread.
-    fn wait_no_longer(&mut self) {
-        if let Some(job) = self.take_waiting() {
-            self.crew.push(job);
-        }
-    }
-
-    /// Drops it.
-    fn forget_waiting(&mut self) {
-        if let Some(job) = self.take_waiting() {
-            (self.running, self.spare) = (None, job.spare);
-        }
     }
 
     /// Whether previews may be shown.
@@ -534,19 +465,6 @@ impl Drawing {
             started: Instant::now(),
             done: 0,
         });
-    }
-
-    /// Whether a frame is known to take so little time that it can be drawn where it is shown.
-    fn is_quick(&self, plan: &Plan, wish: &Wish) -> bool {
-        let expected = match plan {
-            Plan::Whole => self.pace.whole_frame(&wish.picture),
-            // What the inspector shows is drawn over the preview, which takes two steps.
-            Plan::Coarse(Manner::RateOne) if wish.focus.is_none() => {
-                self.pace.step_cost(&wish.picture, Manner::RateOne)
-            }
-            _ => None,
-        };
-        expected.is_some_and(|expected| expected <= QUICK)
     }
 
     /// How to come to what is wanted; `None` while a preview of it is on the screen and the hand does not rest.

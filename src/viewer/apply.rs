@@ -72,7 +72,7 @@ impl Viewer {
     }
 
     /// When to call [`Viewer::poll`] even if nothing wakes the event loop: then the hand rests, and the preview on the
-    /// screen is to be refined. `None` while there is nothing to wait for.
+    /// screen is to be refined, or nobody came for [`Viewer::draw_frame`]. `None` while there is nothing to wait for.
     pub fn due(&self) -> Option<Instant> {
         [self.drawing.due(), self.comparison_due()].into_iter().flatten().min()
     }
@@ -453,7 +453,7 @@ impl Viewer {
     /// Asks for the frame of the current state. A minimised window keeps the one it has.
     pub(super) fn want_frame(&mut self) {
         self.comparison.forget_postponed();
-        let surface = self.screen.lends_surface && self.shows_plain_frame();
+        let surface = self.surface_pool.is_some() && self.shows_plain_frame();
         self.drawing.lend_surface(surface);
         if let Some(other) = self.comparison.drawing_mut() {
             other.lend_surface(false);

@@ -81,6 +81,8 @@ pub struct Viewer {
     pub(super) legends: Legends,
     pub(super) messages: Messages,
     pub(super) drawing: Drawing,
+    /// Draws quick frames for whoever shows them on a surface that he lends.
+    pub(super) surface_pool: Option<rayon::ThreadPool>,
     pub(super) comparison: Comparison,
     pub(super) probing: Probing,
     pub(super) explaining: Explaining,
@@ -108,8 +110,6 @@ pub struct Viewer {
 pub(super) struct Screen {
     pub(super) window: [u32; 2],
     pub(super) free_area: Option<PixelRect>,
-    /// Whoever shows frames draws quick ones himself.
-    pub(super) lends_surface: bool,
     pub(super) theme: Theme,
     pub(super) dialog: Option<Dialog>,
     /// Only the picture is to be seen; what is shown besides comes back as it was.
@@ -209,7 +209,6 @@ impl Viewer {
             screen: Screen {
                 window: options.window,
                 free_area: None,
-                lends_surface: false,
                 theme: options.theme,
                 dialog: None,
                 hidden: false,
@@ -226,6 +225,7 @@ impl Viewer {
             legends: Legends::default(),
             messages: Messages::default(),
             drawing: Drawing::start(&mailbox, DrawingId::First)?,
+            surface_pool: None,
             comparison: Comparison::new(mailbox.clone()),
             probing: probing::start(&mailbox)?,
             explaining: explaining::start(&mailbox)?,

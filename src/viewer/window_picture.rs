@@ -1,5 +1,7 @@
 //! The window's pixels below the panels, and which of them changed.
 
+use rayon::ThreadPoolBuilder;
+
 use super::drawing::{Changes, Drawn};
 use super::present::{paste, show};
 use super::state::Finished;
@@ -44,10 +46,14 @@ impl Viewer {
         self.draw_legends(parts, window);
     }
 
-    /// Whether the caller draws quick frames with [`Viewer::draw_frame`], soon after [`Viewer::waits_for_surface`] says so.
-    /// At first he does not, and all frames come from a thread.
-    pub fn lend_surface(&mut self, lends: bool) {
-        self.screen.lends_surface = lends;
+    /// From now on the caller draws quick frames with [`Viewer::draw_frame`], soon after [`Viewer::waits_for_surface`] says
+    /// so. Otherwise, or where the system gives no threads for it, all frames come from a thread.
+    pub fn lend_surface(&mut self) {
+        // Threads of their own: in the pool of all others, what is quick would wait for what is slow.
+        let threads = rayon::current_num_threads();
+        let name = |_| "surface".to_owned();
+        let pool = ThreadPoolBuilder::new().num_threads(threads).thread_name(name).build();
+        self.surface_pool = pool.ok();
         self.update();
     }
 
@@ -60,10 +66,10 @@ impl Viewer {
     /// there. True if `window` holds all of it now, without what [`Viewer::draw_over`] draws; then [`Viewer::take_damage`]
     /// tells what changes from then on. Otherwise the window's pixels are of no use where a frame waited.
     pub fn draw_frame(&mut self, window: &mut WindowPixels<'_>) -> bool {
-        if !self.waits_for_surface() {
+        let Some(pool) = self.surface_pool.as_ref().filter(|_| self.waits_for_surface()) else {
             return false;
-        }
-        let drawn = self.drawing.draw_onto(window.size, window.pixels);
+        };
+        let drawn = self.drawing.draw_onto(window.size, window.pixels, pool);
         let holds_frame = matches!(drawn, Some(Drawn::Frame { .. }));
         match drawn {
             Some(drawn) => self.take_in(Finished::Drawn(self.drawing.id(), drawn)),

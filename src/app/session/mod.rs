@@ -395,9 +395,9 @@ impl Session {
         any
     }
 
-    /// Whether quick frames wait for [`Session::draw_frame`] instead of being drawn by a thread.
-    pub(super) fn lend_surface(&mut self, lends: bool) {
-        self.viewer.lend_surface(lends);
+    /// From now on quick frames wait for [`Session::draw_frame`] instead of being drawn by a thread.
+    pub(super) fn lend_surface(&mut self) {
+        self.viewer.lend_surface();
     }
 
     /// Draws the frame that waits for it, if there is one, straight into a surface with rows of `width` pixels that was

@@ -90,7 +90,7 @@ impl Opened {
             event: None,
             log: None,
         };
-        opened.session.lend_surface(true);
+        opened.session.lend_surface();
         opened.resized(size);
         Ok(opened)
     }
@@ -132,12 +132,14 @@ impl Opened {
         }
         let viewer = self.session.viewer();
         let (picture, due) = (shown_next(viewer), viewer.due());
-        self.dirty |= self.session.viewer().revision() != self.drawn_revision;
+        // A window system that shows nothing at the moment must not hold up a frame that waits to be shown.
+        let patience = due.filter(|_| viewer.waits_for_surface());
+        self.dirty |= viewer.revision() != self.drawn_revision || viewer.waits_for_surface();
         if self.next_wish.is_some_and(|wish| wish <= now) {
             self.dirty = true;
         }
         if self.occluded || self.size.width == 0 || self.size.height == 0 {
-            return due;
+            return patience;
         }
         if !self.dirty {
             self.event = None;
@@ -148,8 +150,7 @@ impl Opened {
             self.asked = Some(now);
             self.window.request_redraw();
         }
-        // A window system that shows nothing at the moment must not hold up what waits for a frame.
-        [next_frame, due].into_iter().flatten().min()
+        [next_frame, patience].into_iter().flatten().min()
     }
 
     /// Draws and presents a frame.

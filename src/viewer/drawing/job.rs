@@ -4,6 +4,8 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use rayon::ThreadPool;
+
 use super::super::background::guarded;
 use super::super::frame::ExactCells;
 use super::super::{Frame, Manner, Picture, Preview};
@@ -84,9 +86,9 @@ impl Job {
         post(ended.unwrap_or(Drawn::GivenUp));
     }
 
-    /// Draws a whole frame, or a preview at rate 1, while the caller waits, resolved into `surface`, which has as many
-    /// pixels. One that takes longer than `limit` is given up half-way.
-    pub(super) fn draw_onto(mut self, surface: &mut [u32], limit: Duration) -> Drawn {
+    /// Draws a whole frame, or a preview at rate 1, in `pool` while the caller waits, resolved into `surface`, which has as
+    /// many pixels. One that takes longer than `limit` is given up half-way.
+    pub(super) fn draw_onto(mut self, surface: &mut [u32], pool: &ThreadPool, limit: Duration) -> Drawn {
         let mut pixels = self.pixels();
         let manner = match self.plan {
             Plan::Coarse(manner) => Some(manner),
@@ -98,8 +100,7 @@ impl Job {
             ..self.picture.subject()
         };
         let mut stats = None;
-        // The caller sleeps meanwhile, but not longer than that.
-        rayon::in_place_scope(|scope| {
+        pool.in_place_scope(|scope| {
             let (done, ended) = channel();
             let (pixels, stats, cancel) = (&mut pixels, &mut stats, &self.cancel);
             scope.spawn(move |_| {

@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use rayon::ThreadPool;
+
 use super::super::Manner;
 use super::job::{Drawn, Job, Plan};
 use super::pace::{BUDGET, QUICK};
@@ -39,16 +41,22 @@ impl Drawing {
         matches!(self.surface, Surface::Awaited(_))
     }
 
-    /// Draws the frame that waits for that into `surface`, rows of the frame's `size`; what comes of it is to be taken in
-    /// with [`Drawing::finished`]. `None` where none waits or it has another size.
-    pub(in super::super) fn draw_onto(&mut self, size: [u32; 2], surface: &mut [u32]) -> Option<Drawn> {
+    /// Draws the frame that waits for that into `surface`, rows of the frame's `size`, in `pool`, which must have nothing
+    /// else to do: in another the caller would wait for that, too. What comes of it is to be taken in with
+    /// [`Drawing::finished`]. `None` where none waits or it has another size.
+    pub(in super::super) fn draw_onto(
+        &mut self,
+        size: [u32; 2],
+        surface: &mut [u32],
+        pool: &ThreadPool,
+    ) -> Option<Drawn> {
         if !matches!(&self.surface, Surface::Awaited(job) if job.picture.size == size) {
             return None;
         }
         let job = self.take_waiting()?;
         let running = self.running.as_mut()?;
         running.started = Instant::now();
-        let drawn = job.draw_onto(surface, LONGEST);
+        let drawn = job.draw_onto(surface, pool, LONGEST);
         if matches!(drawn, Drawn::GivenUp) && running.stage == Stage::Preview {
             let (picture, took) = (&running.wish.picture, running.started.elapsed());
             self.pace.note(picture, Some(Manner::RateOne), took);

@@ -1,8 +1,10 @@
 //! Drawing step by step, with times as the tests would have them: no test depends on how quick the machine is.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 
 use glam::DVec2;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::*;
 use crate::color::Rgba;
@@ -342,6 +344,11 @@ fn whoever_waits_gets_final_frames() {
     desk.shows_final(&first, "previews turned off");
 }
 
+/// Threads that have nothing else to do.
+fn pool() -> ThreadPool {
+    ThreadPoolBuilder::new().num_threads(2).build().expect("threads")
+}
+
 /// Pixels to draw onto.
 fn surface() -> Vec<u32> {
     vec![0x1234_5678; SIZE[0] as usize * SIZE[1] as usize]
@@ -367,7 +374,7 @@ impl Desk {
 
     /// Draws what waits for the surface.
     fn draw_onto(&mut self, surface: &mut [u32]) {
-        let drawn = self.drawing.draw_onto(SIZE, surface).expect("a frame waits");
+        let drawn = self.drawing.draw_onto(SIZE, surface, &pool()).expect("a frame waits");
         self.drawing.finished(drawn);
     }
 }
@@ -380,7 +387,9 @@ fn quick_frames_are_drawn_where_they_are_shown() {
     let number = desk.drawing.number();
     let mut surface = surface();
     assert!(
-        desk.drawing.draw_onto([SIZE[1], SIZE[0]], &mut surface).is_none(),
+        desk.drawing
+            .draw_onto([SIZE[1], SIZE[0]], &mut surface, &pool())
+            .is_none(),
         "another size"
     );
     desk.draw_onto(&mut surface);
@@ -478,13 +487,35 @@ fn surface_is_given_up_for_what_takes_too_long() {
     desk.want(&second);
     let job = desk.drawing.take_waiting().expect("a frame waits");
     job.cancel.cancel();
-    let drawn = job.draw_onto(&mut surface(), Duration::ZERO);
+    let drawn = job.draw_onto(&mut surface(), &pool(), Duration::ZERO);
     assert!(matches!(drawn, Drawn::GivenUp), "half-way");
     desk.drawing.running.as_mut().expect("it was drawn").started -= SLOW_FRAME;
     desk.drawing.finished(drawn);
     assert!(!desk.drawing.waits_for_surface(), "it is slow");
     desk.rest();
     desk.shows_final(&second, "from the thread");
+}
+
+#[test]
+fn surface_does_not_wait_for_other_work() {
+    let (mut desk, second) = Desk::with_surface();
+    desk.want(&second);
+    let start = Instant::now();
+    let ended = Arc::new(AtomicBool::new(false));
+    for _ in 0..rayon::current_num_threads() {
+        let ended = Arc::clone(&ended);
+        rayon::spawn(move || {
+            while !ended.load(Ordering::Relaxed) && start.elapsed() < Duration::from_secs(10) {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        });
+    }
+    desk.draw_onto(&mut surface());
+    let took = start.elapsed();
+    ended.store(true, Ordering::Relaxed);
+    assert!(took < Duration::from_secs(5), "{took:?} for a quick frame");
+    desk.rest();
+    desk.shows_final(&second, "at last");
 }
 
 #[test]

@@ -149,7 +149,7 @@ pub fn draw_cancellable(
 }
 
 /// As [`draw_cancellable`], but resolves into `surface`: as many pixels as the frame's, row by row, opaque where the
-/// background is. `frame` gets its copy of each tile as it is painted.
+/// background is. `frame` gets its copy of each row of tiles once that is painted.
 ///
 /// # Panics
 /// When the surface has another number of pixels.

@@ -214,7 +214,7 @@ impl<'a> DisplayList<'a> {
     }
 
     /// As [`DisplayList::rasterize`], but resolves into `surface`, which has as many pixels as the frame; `frame` gets its
-    /// copy of every tile while that is still in the processor's cache.
+    /// copy of every row of tiles while that is still in the processor's cache.
     ///
     /// # Panics
     /// When the frame or the surface has another size.

@@ -27,6 +27,14 @@ impl Failure {
         Self::Other(what.to_string())
     }
 
+    /// What it says, without its exit status.
+    pub(super) fn into_line(self) -> String {
+        match self {
+            Self::Input(line) | Self::Other(line) | Self::Text(line) => line,
+            Self::Different => String::new(),
+        }
+    }
+
     /// Prints it and gives the exit status.
     pub(super) fn report(&self) -> ExitCode {
         match self {

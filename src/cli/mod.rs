@@ -48,6 +48,15 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
+/// Whether `text` is a file of pins that `writeup` takes: for tests and fuzzing, which start no program.
+///
+/// # Errors
+/// One line for the first mistake.
+#[doc(hidden)]
+pub fn check_pins(text: &str) -> Result<(), String> {
+    writeup::check_pins(text).map_err(Failure::into_line)
+}
+
 fn choose_simd() -> Result<(), Failure> {
     let Some(name) = std::env::var_os(SIMD_VARIABLE) else {
         return Ok(());

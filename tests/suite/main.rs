@@ -11,6 +11,7 @@ mod coverage;
 mod diff;
 mod figures;
 mod full_disk;
+mod fuzzing;
 mod gallery;
 mod golden;
 mod inspect;

@@ -4,13 +4,13 @@
 
 use std::time::{Duration, Instant};
 
-use arbtest::arbitrary::{Result, Unstructured};
 use rasterscope::geometry::View;
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::{RenderSettings, draw};
 use rasterscope::scene::{self, DialectChoice, PrimitiveKind};
 
 use crate::support::documents::{svg, try_read};
+use crate::support::mutation::mutate;
 
 /// How long one document may take in a checked build on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -146,24 +146,6 @@ fn robust_mutated_documents() {
         Ok(())
     })
     .budget_ms(2_000);
-}
-
-fn mutate(u: &mut Unstructured<'_>, bytes: &mut Vec<u8>, splices: &[&str]) -> Result<()> {
-    if bytes.is_empty() {
-        return Ok(());
-    }
-    let at = u.int_in_range(0..=bytes.len() - 1)?;
-    let end = (at + u.int_in_range(0..=20)?).min(bytes.len());
-    match u.int_in_range(0..=3)? {
-        0 => bytes[at] = u.arbitrary()?,
-        1 => drop(bytes.drain(at..end)),
-        2 => drop(bytes.splice(at..at, u.choose(splices)?.bytes())),
-        _ => {
-            let copy = bytes[at..end].to_vec();
-            bytes.splice(at..at, copy);
-        }
-    }
-    Ok(())
 }
 
 #[test]

@@ -35,8 +35,7 @@ pub(super) fn run(options: &WriteupOptions) -> Result<(), Failure> {
     }
     let scenes = Scenes::new(options)?;
     let pins_file = options.pins.clone().unwrap_or_else(|| folder.join(pins::FILE));
-    let known: Vec<&str> = ITEMS.iter().filter_map(|item| Some(item.pin?.0)).collect();
-    let mut pins = Pins::read(pins_file, &known)?;
+    let mut pins = Pins::read(pins_file, &known_pins())?;
     let inner = folder.join("scenes");
     std::fs::create_dir_all(&inner).map_err(|error| unwritable(&inner, &error))?;
     save_files(&scenes.files).map_err(|error| unwritable(&inner, &error))?;
@@ -52,6 +51,19 @@ pub(super) fn run(options: &WriteupOptions) -> Result<(), Failure> {
     save_files(&files).map_err(|error| unwritable(folder, &error))?;
     let (count, page) = (figures.len(), folder.join("index.html"));
     print(&format!("{count} figures; {} shows all", page.display()))
+}
+
+/// Whether `text` is a file of pins that `writeup` takes.
+///
+/// # Errors
+/// One line for the first mistake.
+pub(super) fn check_pins(text: &str) -> Result<(), Failure> {
+    Pins::parse(text, pins::FILE.into(), &known_pins()).map(drop)
+}
+
+/// The names that pins may have.
+fn known_pins() -> Vec<&'static str> {
+    ITEMS.iter().filter_map(|item| Some(item.pin?.0)).collect()
 }
 
 /// Draws the figures one after the other.

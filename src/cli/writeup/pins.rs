@@ -30,7 +30,6 @@ pub(super) struct Pins {
 impl Pins {
     /// Reads the file, which need not exist; its names must be among `known`.
     pub(super) fn read(path: PathBuf, known: &[&str]) -> Result<Self, Failure> {
-        let refused = |why: String| Failure::input(format!("{}: {why}", path.display()));
         let text = match text_of(&path) {
             Ok(text) => text,
             // What is wrong with the folder is told when it is made.
@@ -38,12 +37,19 @@ impl Pins {
                 String::new()
             }
             Err(error) => {
-                return Err(refused(format!(
-                    "cannot read the pins: {error}; give a text file or remove it"
+                return Err(Failure::input(format!(
+                    "{}: cannot read the pins: {error}; give a text file or remove it",
+                    path.display()
                 )));
             }
         };
-        let lines: BTreeMap<String, String> = toml::from_str(&text).map_err(|error| {
+        Self::parse(&text, path, known)
+    }
+
+    /// The pins in `text`, which is that of the file `path`.
+    pub(super) fn parse(text: &str, path: PathBuf, known: &[&str]) -> Result<Self, Failure> {
+        let refused = |why: String| Failure::input(format!("{}: {why}", path.display()));
+        let lines: BTreeMap<String, String> = toml::from_str(text).map_err(|error| {
             let line = error
                 .span()
                 .map_or(1, |span| text[..span.start.min(text.len())].lines().count().max(1));

@@ -91,6 +91,16 @@ impl fmt::Display for LessonError {
     }
 }
 
+impl Lesson {
+    /// Reads the lesson in the TOML `document`, called `name` in messages. Its scenes are those of the gallery.
+    ///
+    /// # Errors
+    /// For the first mistake, with its place.
+    pub fn parse(document: &str, name: &str) -> Result<Self, LessonError> {
+        parse::parse(document, name, None)
+    }
+}
+
 impl LessonSource {
     /// The lesson that a person writes as an address: `lesson:NAME` or the path of a TOML file; `None` for other paths.
     pub fn from_address(address: &Path) -> Option<Self> {
@@ -126,7 +136,7 @@ impl LessonSource {
             Self::BuiltIn(index) => {
                 let document = BUILT_IN.get(*index).map(|(_, document)| *document);
                 let document = document.ok_or_else(|| whole("no such lesson".to_owned()))?;
-                parse::parse(document, &self.address(), None)
+                Lesson::parse(document, &self.address())
             }
             Self::File(path) => {
                 let unreadable =

@@ -27,17 +27,17 @@ const LONGEST_LINE: usize = 1000;
 
 /// One way into the program.
 #[derive(Clone, Copy, Debug)]
-pub struct Target {
+pub(crate) struct Target {
     /// Its name, which is that of its file in `fuzz_targets`.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// Takes the bytes in.
-    pub run: fn(&[u8]),
+    pub(crate) run: fn(&[u8]),
     /// Files and folders of the repository that hold inputs to begin with.
-    pub seeds: &'static [&'static str],
+    pub(crate) seeds: &'static [&'static str],
 }
 
 /// All of them.
-pub const TARGETS: [Target; 7] = [
+pub(crate) const TARGETS: [Target; 7] = [
     Target {
         name: "scene",
         run: scene,
@@ -83,7 +83,7 @@ pub const TARGETS: [Target; 7] = [
 
 impl Target {
     /// The seeds, in the order of their names.
-    pub fn inputs(&self) -> Vec<Vec<u8>> {
+    pub(crate) fn inputs(&self) -> Vec<Vec<u8>> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let mut paths: Vec<PathBuf> = Vec::new();
         for folder in self.seeds {
@@ -97,7 +97,7 @@ impl Target {
 }
 
 /// A document: read in every dialect, drawn, and explained at a pixel, which must be the frame's.
-pub fn scene(bytes: &[u8]) {
+pub(crate) fn scene(bytes: &[u8]) {
     let mut choices = Choices::of(bytes);
     let settings = choices.settings();
     for dialect in DialectChoice::ALL {
@@ -142,7 +142,7 @@ fn explain(scene: &Scene, settings: &RenderSettings, pixel: [u32; 2]) {
 }
 
 /// A PNG or JPEG, as a texture.
-pub fn image(bytes: &[u8]) {
+pub(crate) fn image(bytes: &[u8]) {
     for decoded in [Texture::decode("fuzz", bytes), Texture::decode_opaque("fuzz", bytes)] {
         match decoded {
             Ok(texture) => assert!(!texture.pyramid.levels().is_empty(), "a texture has a level"),
@@ -152,7 +152,7 @@ pub fn image(bytes: &[u8]) {
 }
 
 /// The record of a picture: in a PNG file, and as the words of its command line.
-pub fn record(bytes: &[u8]) {
+pub(crate) fn record(bytes: &[u8]) {
     match Record::read(&mut Cursor::new(bytes)) {
         Ok(Some(record)) => {
             if let Err(problem) = (GRAMMAR.picture)(&record) {
@@ -165,7 +165,7 @@ pub fn record(bytes: &[u8]) {
 }
 
 /// A lesson in TOML.
-pub fn lesson(bytes: &[u8]) {
+pub(crate) fn lesson(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     match Lesson::parse(text, "fuzz.toml") {
         Ok(lesson) => assert!(!lesson.steps.is_empty(), "a lesson has a step"),
@@ -174,7 +174,7 @@ pub fn lesson(bytes: &[u8]) {
 }
 
 /// A script. It is read and not played, because its commands may save files.
-pub fn script(bytes: &[u8]) {
+pub(crate) fn script(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     if let Err(error) = Script::parse(text, "fuzz") {
         one_line(&error.to_string());
@@ -182,7 +182,7 @@ pub fn script(bytes: &[u8]) {
 }
 
 /// The pins of a write-up in TOML.
-pub fn pins(bytes: &[u8]) {
+pub(crate) fn pins(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     if let Err(problem) = check_pins(text) {
         one_line(&problem);
@@ -190,7 +190,7 @@ pub fn pins(bytes: &[u8]) {
 }
 
 /// The words of a command line, one a line.
-pub fn arguments(bytes: &[u8]) {
+pub(crate) fn arguments(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let words: Vec<String> = text.lines().map(str::to_owned).collect();
     let record = Record {

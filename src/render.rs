@@ -24,7 +24,7 @@ use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, Sa
 
 pub use legend::{Legend, LegendKey};
 pub use regions::{Subject, draw_regions, refine};
-pub use replay::{Explainer, Neighbourhood, replay};
+pub use replay::{Explainer, Neighbourhood, OpenSample, replay};
 pub use visualisation::Visualisation;
 use visualisation::Visualiser;
 
@@ -347,8 +347,8 @@ fn add(builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, kind: &PrimitiveKind
     match kind {
         PrimitiveKind::Triangle { points, paint } => builder.triangle(points.map(|p| screen.place(p)), &fill(paint)),
         PrimitiveKind::Polygon { polygon, color } => {
-            match polygon.triangles().filter(|_| screen.rules == Rules::Course) {
-                // The course knows triangles only, whose edges it counts twice.
+            match polygon.triangles().filter(|_| screen.rules.cut_polygons()) {
+                // The course knows triangles only, whose edges it counts twice; first drafts leave them to nobody.
                 Some(triangles) => {
                     for points in triangles {
                         builder.triangle(points.map(|p| screen.place(p)), &Fill::Solid(*color));
@@ -387,7 +387,7 @@ impl Screen<'_> {
         let exact = self.view.to_pixels(point);
         match self.rules {
             Rules::Standard => exact,
-            Rules::Course => exact.as_vec2().as_dvec2(),
+            Rules::Course | Rules::Float => exact.as_vec2().as_dvec2(),
         }
     }
 

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::display_list::{Chunk, Fill, LayerMark, ListContext, Op, Paint, ScreenTriangle, Stamp};
+use super::float_shape::FloatShape;
 use super::hairline::Hairline;
 use super::outline::{OutlineBuilder, RowScanner, SpanStore};
 use super::planes::Planes;
@@ -15,6 +16,7 @@ use crate::geometry::Polygon;
 use crate::geometry::clip::{ClipVertex, ClippedTriangle, in_guard};
 use crate::geometry::edge::doubled_area;
 use crate::geometry::subpixel::floor_to_i32;
+use crate::rules::Rules;
 use crate::texture::Footprint;
 
 /// Fills one chunk.
@@ -66,8 +68,8 @@ impl<'a> ChunkBuilder<'a> {
             source: 0,
             color: (Rgba::BLACK, stored),
             scanner: Default::default(),
-            // A few points of a finer lattice need not be samples.
-            stamps: context.is_grid(),
+            // A few points of a finer lattice need not be samples, and stamps are exact.
+            stamps: context.is_grid() && context.rules != Rules::Float,
             counts: false,
             waiting: Waiting {
                 count: 0,
@@ -299,6 +301,9 @@ impl<'a> ChunkBuilder<'a> {
     #[inline]
     fn snapped(&mut self, points: [DVec2; 3], fill: &Fill) {
         let (grid, rules) = (self.context.grid, self.context.rules);
+        if rules == Rules::Float {
+            return self.float(points, fill);
+        }
         let corners = points.map(|point| grid.snap(point));
         let samples = SampleBox::new(corners, grid, rules);
         let inside = samples.intersection(self.frame);
@@ -326,6 +331,23 @@ impl<'a> ChunkBuilder<'a> {
         let paint = self.paint(fill);
         let index = index(self.chunk.triangles.len());
         self.chunk.triangles.push(ScreenTriangle { corners, paint });
+        self.push(Op::Triangle(index));
+        self.chunk.triangle_count += 1;
+    }
+
+    /// Adds a triangle inside the guard band by the rules of first drafts. Colours and coordinates are interpolated as
+    /// everywhere, between its corners on the grid.
+    #[cold]
+    fn float(&mut self, points: [DVec2; 3], fill: &Fill) {
+        let grid = self.context.grid;
+        let corners = points.map(|point| grid.snap(point));
+        let Some(float) = FloatShape::new(points, grid, self.frame).filter(|_| doubled_area(corners) != 0) else {
+            return;
+        };
+        let paint = self.paint(fill);
+        let index = index(self.chunk.triangles.len());
+        self.chunk.triangles.push(ScreenTriangle { corners, paint });
+        self.chunk.floats.push(float);
         self.push(Op::Triangle(index));
         self.chunk.triangle_count += 1;
     }

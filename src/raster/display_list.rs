@@ -6,6 +6,7 @@
 //! nearly everything, is reduced to the bits of these samples and its colour at once and never looked at as a triangle
 //! again.
 
+use super::float_shape::FloatShape;
 use super::hairline::Hairline;
 use super::outline::{Outline, OutlineEdge};
 use super::rows::Span;
@@ -93,6 +94,8 @@ pub struct Chunk {
     pub(crate) sources: Vec<u32>,
     pub(crate) stamps: Vec<Stamp>,
     pub(crate) triangles: Vec<ScreenTriangle>,
+    /// By the rules of first drafts, what each triangle covers; else empty.
+    pub(crate) floats: Vec<FloatShape>,
     pub(crate) paints: Vec<Paint>,
     pub(crate) outlines: Vec<Outline>,
     /// The colour of each outline.
@@ -171,7 +174,8 @@ impl Chunk {
         match op {
             Op::Triangle(index) => {
                 let corners = self.triangles[index as usize].corners;
-                context.pixels_of(SampleBox::new(corners, context.grid, context.rules))
+                let float = self.floats.get(index as usize).map(|float| float.samples);
+                context.pixels_of(float.unwrap_or_else(|| SampleBox::new(corners, context.grid, context.rules)))
             }
             Op::Outline(index) => context.pixels_of(self.outlines[index as usize].samples),
             Op::Samples(index) => {

@@ -13,6 +13,7 @@ mod direct;
 mod display_list;
 mod entry;
 mod explain;
+mod float_shape;
 mod four;
 mod fragments;
 mod frame_row;

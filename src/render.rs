@@ -202,7 +202,7 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
     let Subject { scene, view, settings } = *subject;
     let kind = settings.visualisation;
     if kind == Visualisation::Color {
-        return picture_list(subject, size, |_| true);
+        return picture_list(subject, size, Hidden::Dropped, |_| true);
     }
     let mut raster = raster_settings(settings);
     Visualiser::change(kind, &mut raster);
@@ -239,11 +239,21 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
     DisplayList::new(context, raster, list, visualiser.textures())
 }
 
+/// What becomes of primitives that nobody will see.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Hidden {
+    /// They are dropped where that is found out cheaply.
+    Dropped,
+    /// Somebody asks what was painted.
+    Kept,
+}
+
 /// Transforms those primitives of a scene that are `wanted` to screen space, in parallel. It is the picture that they
 /// paint, whatever the settings show instead.
 fn picture_list<'a>(
     subject: &Subject<'a>,
     size: [u32; 2],
+    hidden: Hidden,
     wanted: impl Fn(&PrimitiveKind) -> bool + Sync,
 ) -> DisplayList<'a> {
     let Subject { scene, view, settings } = *subject;
@@ -255,6 +265,9 @@ fn picture_list<'a>(
     };
     let mut list = chunks(scene, |index, primitives| {
         let mut builder = ChunkBuilder::new(&context, primitives.len());
+        if hidden == Hidden::Kept {
+            builder = builder.with_hidden();
+        }
         for (source, primitive) in (index..).zip(primitives) {
             if wanted(&primitive.kind) {
                 builder.set_source(number(source));

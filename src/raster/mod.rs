@@ -19,6 +19,7 @@ mod fragments;
 mod frame_row;
 mod framebuffer;
 mod hairline;
+mod hidden;
 mod known;
 mod outline;
 mod outline_tiles;

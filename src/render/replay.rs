@@ -3,7 +3,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::{Screen, Subject, add, number, picture_list, raster_settings};
+use super::{Hidden, Screen, Subject, add, number, picture_list, raster_settings};
 use crate::color::Rgba;
 use crate::geometry::area_in_pixel;
 use crate::raster::{
@@ -81,7 +81,7 @@ impl<'a> Neighbourhood<'a> {
             shines_through(subject.scene, kind) || bounds(&screen, kind).is_none_or(|bounds| touch(bounds, near))
         };
         Self {
-            list: picture_list(&subject, size, wanted),
+            list: picture_list(&subject, size, Hidden::Kept, wanted),
             subject,
             size,
             region,

@@ -372,6 +372,31 @@ mod tests {
     }
 
     #[test]
+    fn bins_hold_nothing_that_a_later_entry_hides() {
+        let settings = settings(1, Rules::Standard);
+        let context = ListContext::with_tiles(SIZE, &settings, TileLayout::new((4, 4), SIZE));
+        let corner = |x: f64, y: f64| DVec2::new(x, y);
+        // Of growing triangles the last one covers nearly all; beside it each tile keeps what it had.
+        let triangles: Vec<[DVec2; 3]> = (10..20)
+            .map(|i| {
+                [
+                    corner(-5.0, -5.0),
+                    corner(f64::from(i) * 20.0, -5.0),
+                    corner(-5.0, f64::from(i) * 15.0),
+                ]
+            })
+            .collect();
+        let (_, bins) = binned(&context, &triangles);
+        let held = |column: u32, row: u32| bins.of_tile((row * context.tiles.columns + column) as usize);
+        assert_eq!(held(0, 0).len(), 1, "the last one, which hides nine");
+        assert!(held(0, 0)[0].hides_tile(), "it does");
+        assert!(
+            held(context.tiles.columns - 1, context.tiles.rows - 1).len() > 2,
+            "edges hide nothing"
+        );
+    }
+
+    #[test]
     fn stamps_in_tiles_are_the_samples_of_their_triangle() {
         arbtest::arbtest(|u| {
             // First drafts know no stamps.

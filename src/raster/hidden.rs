@@ -20,19 +20,17 @@ pub(crate) const MOST_CORNERS: usize = 4;
 /// Drops ops of a chunk that are wholly hidden by samples `cover`, all of which the last `above` ops hide.
 pub(crate) fn drop_hidden(chunk: &mut Chunk, context: &ListContext, cover: SampleBox, above: usize) {
     let end = chunk.ops.len().saturating_sub(above);
-    let mut kept = end.saturating_sub(LOOK_BACK);
+    let first = end.saturating_sub(LOOK_BACK);
+    // What was painted before a layer, or in it, is not below what comes after.
+    let is_mark = |op: &Op| matches!(op, Op::BeginLayer(_) | Op::EndLayer(_));
+    let mark = chunk.ops[first..end].iter().rposition(is_mark);
+    let mut kept = mark.map_or(first, |mark| first + mark + 1);
     for i in kept..end {
         let op = chunk.ops[i];
-        match op {
-            // What was painted before a layer, or in it, is not below what comes after.
-            Op::BeginLayer(_) | Op::EndLayer(_) => kept = i + 1,
-            _ if chunk
-                .sample_box(op, context)
-                .is_none_or(|samples| holds(cover, samples)) => {}
-            _ => {
-                (chunk.ops[kept], chunk.sources[kept]) = (op, chunk.sources[i]);
-                kept += 1;
-            }
+        let samples = chunk.sample_box(op, context);
+        if samples.is_some_and(|samples| !holds(cover, samples)) {
+            (chunk.ops[kept], chunk.sources[kept]) = (op, chunk.sources[i]);
+            kept += 1;
         }
     }
     chunk.ops.drain(kept..end);

@@ -74,7 +74,7 @@ impl Rgba {
 pub fn unit_to_byte(channel: f32, rules: Rules) -> u8 {
     let scaled = channel.clamp(0.0, 1.0) * 255.0;
     match rules {
-        Rules::Standard => (scaled + 0.5) as u8,
+        Rules::Standard | Rules::Float => (scaled + 0.5) as u8,
         Rules::Course => scaled as u8,
     }
 }
@@ -124,7 +124,7 @@ impl Premultiplied16 {
         let alpha = color.a.clamp(0.0, 1.0);
         let channel = |value: f32| match rules {
             Rules::Course if alpha >= 1.0 => unit_to_byte(value, rules).into_16(),
-            Rules::Standard | Rules::Course => unit_to_16(value.clamp(0.0, 1.0) * alpha),
+            Rules::Standard | Rules::Course | Rules::Float => unit_to_16(value.clamp(0.0, 1.0) * alpha),
         };
         Self([channel(color.r), channel(color.g), channel(color.b), unit_to_16(alpha)])
     }
@@ -144,7 +144,7 @@ impl Premultiplied16 {
         const WHOLE: f32 = 8_388_608.0;
         let whole = |value: f32| (value + WHOLE).to_bits().to_le_bytes();
         Self(channels.map(|channel| match rules {
-            Rules::Standard => {
+            Rules::Standard | Rules::Float => {
                 let [low, high, ..] = whole(channel * f32::from(Self::PER_BYTE));
                 u16::from_le_bytes([low, high])
             }
@@ -172,7 +172,7 @@ impl Premultiplied16 {
             u16::try_from(sum).unwrap_or(Self::ONE).min(Self::ONE)
         });
         match rules {
-            Rules::Standard => Self(mixed),
+            Rules::Standard | Rules::Float => Self(mixed),
             Rules::Course => Self(mixed.map(|channel| channel / Self::PER_BYTE * Self::PER_BYTE)),
         }
     }
@@ -183,7 +183,7 @@ impl Premultiplied16 {
         let rest = u32::from(Self::ONE - self.0[3]);
         let above = self.0.map(u32::from);
         let step = match rules {
-            Rules::Standard => 1,
+            Rules::Standard | Rules::Float => 1,
             Rules::Course => Self::PER_BYTE,
         };
         // A power of two: to multiples of it by clearing the bits below.
@@ -215,7 +215,7 @@ impl Premultiplied16 {
             return Self::resolve(self.0.map(u32::from), 1, rules);
         }
         let half = match rules {
-            Rules::Standard => Self::PER_BYTE / 2,
+            Rules::Standard | Rules::Float => Self::PER_BYTE / 2,
             Rules::Course => 0,
         };
         // A channel is at most `ONE`, so that the sum neither overflows nor exceeds a byte.
@@ -226,7 +226,7 @@ impl Premultiplied16 {
     /// [`Premultiplied16::to_pixel`] of many opaque colours; four channels at once in one 64-bit number.
     pub fn opaque_to_pixels(colors: &[Self], rules: Rules, pixels: &mut [u32]) {
         let half = match rules {
-            Rules::Standard => 0x0080_0080_0080_0080,
+            Rules::Standard | Rules::Float => 0x0080_0080_0080_0080,
             Rules::Course => 0,
         };
         for (pixel, Self([r, g, b, a])) in pixels.iter_mut().zip(colors) {
@@ -276,7 +276,7 @@ impl Resolver {
             rules,
             opaque: u32::from(Premultiplied16::ONE) * count,
             half: match rules {
-                Rules::Standard => full / 2,
+                Rules::Standard | Rules::Float => full / 2,
                 Rules::Course => 0,
             },
             shift: full.is_power_of_two().then(|| full.trailing_zeros()),
@@ -370,7 +370,7 @@ fn div_one(product: u32) -> u32 {
 #[inline]
 fn divide(sum: u32, full: u32, rules: Rules) -> u32 {
     let sum = match rules {
-        Rules::Standard => sum + full / 2,
+        Rules::Standard | Rules::Float => sum + full / 2,
         Rules::Course => sum,
     };
     let mean = if full.is_power_of_two() {
@@ -397,7 +397,7 @@ fn low_half(word: u64) -> u32 {
 
 fn divide_wide(sum: u64, full: u64, rules: Rules) -> u32 {
     let rounded = match rules {
-        Rules::Standard => (sum + full / 2) / full,
+        Rules::Standard | Rules::Float => (sum + full / 2) / full,
         Rules::Course => sum / full,
     };
     u32::try_from(rounded).unwrap_or(255).min(255)

@@ -24,7 +24,7 @@ use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, Sa
 
 pub use legend::{Legend, LegendKey};
 pub use regions::{Subject, draw_regions, refine};
-pub use replay::{Explainer, Neighbourhood, replay};
+pub use replay::{Explainer, Neighbourhood, OpenSample, replay};
 pub use visualisation::Visualisation;
 use visualisation::Visualiser;
 
@@ -202,7 +202,7 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
     let Subject { scene, view, settings } = *subject;
     let kind = settings.visualisation;
     if kind == Visualisation::Color {
-        return picture_list(subject, size, |_| true);
+        return picture_list(subject, size, Hidden::Dropped, |_| true);
     }
     let mut raster = raster_settings(settings);
     Visualiser::change(kind, &mut raster);
@@ -239,11 +239,21 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
     DisplayList::new(context, raster, list, visualiser.textures())
 }
 
+/// What becomes of primitives that nobody will see.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Hidden {
+    /// They are dropped where that is found out cheaply.
+    Dropped,
+    /// Somebody asks what was painted.
+    Kept,
+}
+
 /// Transforms those primitives of a scene that are `wanted` to screen space, in parallel. It is the picture that they
 /// paint, whatever the settings show instead.
 fn picture_list<'a>(
     subject: &Subject<'a>,
     size: [u32; 2],
+    hidden: Hidden,
     wanted: impl Fn(&PrimitiveKind) -> bool + Sync,
 ) -> DisplayList<'a> {
     let Subject { scene, view, settings } = *subject;
@@ -255,6 +265,9 @@ fn picture_list<'a>(
     };
     let mut list = chunks(scene, |index, primitives| {
         let mut builder = ChunkBuilder::new(&context, primitives.len());
+        if hidden == Hidden::Kept {
+            builder = builder.with_hidden();
+        }
         for (source, primitive) in (index..).zip(primitives) {
             if wanted(&primitive.kind) {
                 builder.set_source(number(source));
@@ -347,8 +360,8 @@ fn add(builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, kind: &PrimitiveKind
     match kind {
         PrimitiveKind::Triangle { points, paint } => builder.triangle(points.map(|p| screen.place(p)), &fill(paint)),
         PrimitiveKind::Polygon { polygon, color } => {
-            match polygon.triangles().filter(|_| screen.rules == Rules::Course) {
-                // The course knows triangles only, whose edges it counts twice.
+            match polygon.triangles().filter(|_| screen.rules.cut_polygons()) {
+                // The course knows triangles only, whose edges it counts twice; first drafts leave them to nobody.
                 Some(triangles) => {
                     for points in triangles {
                         builder.triangle(points.map(|p| screen.place(p)), &Fill::Solid(*color));
@@ -387,7 +400,7 @@ impl Screen<'_> {
         let exact = self.view.to_pixels(point);
         match self.rules {
             Rules::Standard => exact,
-            Rules::Course => exact.as_vec2().as_dvec2(),
+            Rules::Course | Rules::Float => exact.as_vec2().as_dvec2(),
         }
     }
 

@@ -121,7 +121,7 @@ fn linear_mean(samples: &[Premultiplied16], rules: Rules) -> u32 {
         return opacity;
     }
     let least = match rules {
-        Rules::Standard => &LEAST[0],
+        Rules::Standard | Rules::Float => &LEAST[0],
         Rules::Course => &LEAST[1],
     };
     // A mean is at least some light where as many of it are no more than the sum: nothing is rounded before.

@@ -57,6 +57,7 @@ impl fmt::Display for Cause {
             Self::Rules(Rules::Standard) => {
                 f.write_str("the standard rules: top-left edges, rounded bytes, the texel at the point")
             }
+            Self::Rules(Rules::Float) => f.write_str("the float rules: edges in 32-bit floats without a rule for ties"),
             Self::Truncated => f.write_str("bytes truncated instead of rounded"),
             Self::SampleRate(rate) if rate.samples() == 1 => f.write_str("1 sample per pixel"),
             Self::SampleRate(rate) => write!(f, "{} samples per pixel", rate.samples()),

@@ -195,19 +195,24 @@ impl EdgeTest {
         [0, 1, 2].map(|i| {
             let (from, to) = (corners[i], corners[(i + 1) % 3]);
             let (from, to) = if clockwise { (from, to) } else { (to, from) };
-            // Clockwise on the screen a top edge runs right and a left edge runs up.
-            let kind = if to.y < from.y {
-                EdgeKind::Left
-            } else if to.y == from.y && to.x > from.x {
-                EdgeKind::Top
-            } else {
-                EdgeKind::Other
-            };
-            Self {
-                value: edge_value(from, to, point),
-                kind,
-            }
+            Self::clockwise(from, to, point)
         })
+    }
+
+    /// An edge of a shape whose edges run clockwise on the screen.
+    pub fn clockwise(from: GridPoint, to: GridPoint, point: GridPoint) -> Self {
+        // There a top edge runs right and a left edge runs up.
+        let kind = if to.y < from.y {
+            EdgeKind::Left
+        } else if to.y == from.y && to.x > from.x {
+            EdgeKind::Top
+        } else {
+            EdgeKind::Other
+        };
+        Self {
+            value: edge_value(from, to, point),
+            kind,
+        }
     }
 
     /// Whether the point lies on the triangle's side of the edge, or on its line and belongs to the triangle. By the

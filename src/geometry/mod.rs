@@ -5,6 +5,7 @@
 mod area;
 pub mod clip;
 pub mod edge;
+pub mod float_edge;
 mod polygon;
 mod stroke;
 pub mod subpixel;

@@ -3,15 +3,15 @@
 use glam::DVec2;
 
 use super::model::{
-    Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Resolve, Rounding, Sample, Shape, Source, Tap,
-    Texel, Texture, VERSION, Verdict, View,
+    Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve, Rounding, Sample, Shape, Source,
+    Tap, Texel, Texture, VERSION, Verdict, View,
 };
 use super::samples::{SampleHit, shape_of, straight};
 use crate::color::{Premultiplied16, ResolveSpace};
 use crate::geometry::FillRule;
 use crate::geometry::edge::{EdgeKind, EdgeTest};
 use crate::raster::{Attributes, PaintedKind, PaintedOp, Piece, PieceShape, PixelReplay, SampleOfTriangle, TextureUse};
-use crate::render::{self, Explainer, RenderSettings, Subject};
+use crate::render::{self, Explainer, OpenSample, RenderSettings, Subject};
 use crate::rules::Rules;
 
 /// Primitives between the samples that are told at most.
@@ -50,7 +50,10 @@ impl Explanation {
             .collect();
         let [a, r, g, b] = replay.pixel.to_be_bytes();
         let center = DVec2::new(f64::from(pixel[0]), f64::from(pixel[1])) + 0.5;
-        let missed = explainer.missed(&replay.painted, MOST_MISSED);
+        let samples = samples(&replay, &paints, rules);
+        let pinholes = question.pinholes(&samples, &paints, &explainer);
+        let mut missed = explainer.missed(&replay.painted, MOST_MISSED);
+        missed.retain(|(primitive, _)| pinholes.iter().all(|pinhole| pinhole.primitive != *primitive));
         Some(Self {
             version: VERSION,
             pixel,
@@ -59,8 +62,9 @@ impl Explanation {
             color: [r, g, b, a],
             hex: hex([r, g, b, a]),
             resolve: resolve(&replay, (rules, subject.settings.resolve)),
-            samples: samples(&replay, &paints, rules),
+            samples,
             paints,
+            pinholes,
             missed: missed
                 .into_iter()
                 .filter_map(|(primitive, area)| {
@@ -136,6 +140,25 @@ impl Question<'_> {
             views,
             texture,
         }
+    }
+
+    /// The samples that the float rules leave open, though a triangle above what is seen there is theirs.
+    fn pinholes(&self, samples: &[Sample], paints: &[Paint], explainer: &Explainer<'_>) -> Vec<Pinhole> {
+        if self.subject.settings.rules != Rules::Float {
+            return Vec::new();
+        }
+        let seen = |sample: &Sample| sample.seen.map(|paint| paints[paint].primitive);
+        let seen: Vec<Option<u32>> = samples.iter().map(seen).collect();
+        let pinhole = |open: OpenSample| {
+            Some(Pinhole {
+                sample: open.sample,
+                source: self.source(open.source)?,
+                primitive: open.source,
+                corners: open.corners.map(|corner| corner.to_array()),
+                edges: edges(&open.view, &open.corners, Rules::Float),
+            })
+        };
+        explainer.left_open(&seen).into_iter().filter_map(pinhole).collect()
     }
 
     /// Where a primitive stands in the document.
@@ -273,7 +296,7 @@ fn resolve(replay: &PixelReplay, (rules, space): (Rules, ResolveSpace)) -> Resol
         weight,
         mean: sums.map(|sum| sum * weight),
         rounding: match rules {
-            Rules::Standard => Rounding::Nearest,
+            Rules::Standard | Rules::Float => Rounding::Nearest,
             Rules::Course => Rounding::Truncated,
         },
         summed_exactly: replay.summed_exactly,
@@ -281,40 +304,48 @@ fn resolve(replay: &PixelReplay, (rules, space): (Rules, ResolveSpace)) -> Resol
 }
 
 fn triangle_view(sample: &SampleOfTriangle, corners: &[DVec2; 3], rules: Rules) -> View {
-    let mut edges = sample.edges.iter().zip(0..).map(|(test, i)| {
-        let length = corners[i].distance(corners[(i + 1) % 3]);
-        edge(*test, length, sample.units_per_pixel, rules)
-    });
-    // There are three.
-    let mut next = || {
-        edges.next().unwrap_or(Edge {
-            value: 0,
-            distance: 0.0,
-            verdict: Verdict::Outside,
-        })
-    };
     View::Triangle {
-        edges: [next(), next(), next()],
+        edges: edges(sample, corners, rules),
         weights: sample.weights,
         value: interpolated(&sample.attributes),
     }
 }
 
-/// `length` is the edge's, in pixels.
-fn edge(test: EdgeTest, length: f64, units_per_pixel: f64, rules: Rules) -> Edge {
-    let square_pixels = test.value as f64 / (units_per_pixel * units_per_pixel);
-    let verdict = match (test.value.signum(), rules, test.kind) {
+/// What the edges of a triangle with these corners say of a sample.
+fn edges(sample: &SampleOfTriangle, corners: &[DVec2; 3], rules: Rules) -> [Edge; 3] {
+    [0, 1, 2].map(|i| {
+        let test = sample.edges[i];
+        let length = corners[i].distance(corners[(i + 1) % 3]);
+        let square_pixels = test.value as f64 / (sample.units_per_pixel * sample.units_per_pixel);
+        let float = sample.floats.map(|floats| floats[i]);
+        Edge {
+            value: test.value,
+            float,
+            distance: if length > 0.0 { square_pixels / length } else { 0.0 },
+            verdict: float.map_or_else(|| verdict(test, rules), float_verdict),
+        }
+    })
+}
+
+fn verdict(test: EdgeTest, rules: Rules) -> Verdict {
+    match (test.value.signum(), rules, test.kind) {
         (1, ..) => Verdict::Inside,
         (-1, ..) => Verdict::Outside,
         (_, Rules::Course, _) => Verdict::TieInclusive,
-        (_, Rules::Standard, EdgeKind::Top) => Verdict::TieTop,
-        (_, Rules::Standard, EdgeKind::Left) => Verdict::TieLeft,
-        (_, Rules::Standard, EdgeKind::Other) => Verdict::TieNeither,
-    };
-    Edge {
-        value: test.value,
-        distance: if length > 0.0 { square_pixels / length } else { 0.0 },
-        verdict,
+        (_, Rules::Standard | Rules::Float, EdgeKind::Top) => Verdict::TieTop,
+        (_, Rules::Standard | Rules::Float, EdgeKind::Left) => Verdict::TieLeft,
+        (_, Rules::Standard | Rules::Float, EdgeKind::Other) => Verdict::TieNeither,
+    }
+}
+
+/// By the float rules, which only ask whether a value is above zero.
+fn float_verdict(value: f32) -> Verdict {
+    if value > 0.0 {
+        Verdict::Inside
+    } else if value < 0.0 {
+        Verdict::Outside
+    } else {
+        Verdict::TieUndecided
     }
 }
 

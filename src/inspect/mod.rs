@@ -11,6 +11,7 @@ mod feeds;
 mod hints;
 mod model;
 mod numbers;
+mod pinholes;
 mod samples;
 mod seams;
 mod text;
@@ -21,8 +22,8 @@ pub use differences::Difference;
 pub use explanation::Question;
 pub use feeds::{FedPixel, Feeds, TexelPlace};
 pub use model::{
-    Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Resolve, Rounding, Sample, Shape, Source, Tap,
-    Texel, Texture, VERSION, Verdict, View,
+    Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve, Rounding, Sample, Shape, Source,
+    Tap, Texel, Texture, VERSION, Verdict, View,
 };
 pub use samples::{PixelSample, SampleHit, pixel_samples};
 pub use text::Detail;

@@ -35,6 +35,9 @@ pub struct Explanation {
     pub paints: Vec<Paint>,
     /// What passes through the pixel and misses every sample.
     pub missed: Vec<Missed>,
+    /// Samples that an edge in 32-bit floats leaves open; there are some by the float rules only.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pinholes: Vec<Pinhole>,
 }
 
 /// How samples became a pixel.
@@ -196,7 +199,10 @@ pub enum View {
 pub struct Edge {
     /// In square units of the sub-pixel grid: exact. Above zero on the triangle's side.
     pub value: i64,
-    /// The distance from the edge's line in pixels, with the same sign.
+    /// By the float rules, the same in 32-bit floats and square pixels, which is what decides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub float: Option<f32>,
+    /// The distance from the edge's line in pixels, with the sign of `value`.
     pub distance: f64,
     /// What follows.
     pub verdict: Verdict,
@@ -218,6 +224,8 @@ pub enum Verdict {
     TieNeither,
     /// On the line, and the course's rules count every line as inside.
     TieInclusive,
+    /// Zero in 32-bit floats, and the float rules count that as inside for nobody.
+    TieUndecided,
 }
 
 /// What a triangle interpolates at a sample.
@@ -321,10 +329,25 @@ pub struct Missed {
     pub area: f64,
 }
 
+/// A sample that is a triangle's by the standard rules, and by the float rules is not: what lies below shows.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Pinhole {
+    /// Number of the sample.
+    pub sample: usize,
+    /// Where the triangle stands in the document.
+    pub source: Source,
+    /// Index into the scene's primitives.
+    pub primitive: u32,
+    /// Its corners, in pixels of the frame.
+    pub corners: [[f64; 2]; 3],
+    /// Its edges there.
+    pub edges: [Edge; 3],
+}
+
 impl Verdict {
     /// Whether the sample is the triangle's, as far as this edge is concerned.
     pub fn is_inside(self) -> bool {
-        !matches!(self, Self::Outside | Self::TieNeither)
+        !matches!(self, Self::Outside | Self::TieNeither | Self::TieUndecided)
     }
 
     /// Whether the sample lies on the line.

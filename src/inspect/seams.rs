@@ -15,7 +15,12 @@ const SIDE_BY_SIDE: f64 = 0.98;
 impl Explanation {
     /// Where this pixel has a seam, what it comes of and what cures it.
     pub(super) fn seam_hints(&self) -> Vec<String> {
-        let hints = [self.painted_twice(), self.left_open(), self.step_of_levels()];
+        let hints = [
+            self.painted_twice(),
+            self.pinhole_hint(),
+            self.left_open(),
+            self.step_of_levels(),
+        ];
         hints.into_iter().flatten().collect()
     }
 
@@ -88,7 +93,9 @@ impl Explanation {
 
     /// A sample between two triangles that nearly meet.
     fn left_open(&self) -> Option<String> {
-        let (sample, [a, b], gap) = (0..self.samples.len()).find_map(|sample| self.gap_at(sample))?;
+        let (sample, [a, b], gap) = (0..self.samples.len())
+            .filter(|sample| !self.is_pinhole(*sample))
+            .find_map(|sample| self.gap_at(sample))?;
         Some(format!(
             "Sample {} lies between {} and {}, outside of both: the document leaves a gap of {} pixels there, and what is \
              below shows. No setting closes it; corners that are to meet need the same coordinates.",
@@ -187,7 +194,7 @@ impl Explanation {
     }
 
     /// Such as `3 of 4 samples lie`.
-    fn count_words(&self, count: usize) -> String {
+    pub(super) fn count_words(&self, count: usize) -> String {
         match (count, self.samples.len()) {
             (1, 1) => "Its only sample lies".to_owned(),
             (1, all) => format!("1 of {all} samples lies"),

@@ -90,6 +90,12 @@ impl Explanation {
         if !hints.is_empty() {
             topics.push(topic("What would help".to_owned(), hints));
         }
+        if !self.pinholes.is_empty() {
+            topics.push(topic(
+                "What the float rules leave open".to_owned(),
+                self.pinhole_lines(),
+            ));
+        }
         if !self.missed.is_empty() {
             topics.push(topic("What passes between the samples".to_owned(), self.missed_lines()));
         }

@@ -380,7 +380,7 @@ impl Source {
 }
 
 impl Edge {
-    fn words(&self) -> String {
+    pub(super) fn words(&self) -> String {
         let verdict = match self.verdict {
             Verdict::Inside => "inside",
             Verdict::Outside => "outside",
@@ -388,12 +388,35 @@ impl Edge {
             Verdict::TieLeft => "on the line: a left edge owns it, so inside",
             Verdict::TieNeither => "on the line: neither top nor left, so the neighbour's",
             Verdict::TieInclusive => "on the line: inside by the course's rules",
+            Verdict::TieUndecided => "on the line: no rule says whose it is, so nobody's",
         };
+        if let Some(float) = self.float {
+            let float = if self.verdict.is_tie() {
+                "0".to_owned()
+            } else {
+                format!("{float:+.3e}")
+            };
+            return format!("{verdict} (edge function {float} in 32-bit floats{})", self.exactly());
+        }
         if self.verdict.is_tie() {
             return format!("{verdict} (edge function 0)");
         }
         let distance = significant(self.distance.abs());
         format!("{distance} px {verdict} (edge function {:+})", self.value)
+    }
+
+    /// The exact edge function, where it says otherwise than 32-bit floats.
+    fn exactly(&self) -> String {
+        let agree = match self.value.signum() {
+            1 => self.verdict == Verdict::Inside,
+            0 => self.verdict.is_tie(),
+            _ => self.verdict == Verdict::Outside,
+        };
+        if agree {
+            String::new()
+        } else {
+            format!(", exactly {:+}", self.value)
+        }
     }
 }
 

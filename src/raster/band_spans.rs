@@ -3,6 +3,7 @@
 use fearless_simd::Simd;
 
 use super::display_list::Chunk;
+use super::float_shape::FloatShape;
 use super::four::{self, TileRow};
 use super::outline::{RowScanner, RowSpans, SpanStore, Stored};
 use super::pixel_row::{PixelRow, each_pixel_row, each_pixel_row_of_spans, scaled};
@@ -21,6 +22,8 @@ pub(crate) enum Shape<'c> {
     Triangle(&'c [GridPoint; 3]),
     /// An outline of a chunk, by its index.
     Outline(&'c Chunk, u32),
+    /// A triangle by the rules of first drafts.
+    Float(&'c FloatShape),
 }
 
 /// Remembers the spans of outlines in the tile row at work.
@@ -38,6 +41,8 @@ pub(crate) struct BandSpans {
     age: u32,
     scanner: RowScanner,
     store: SpanStore,
+    /// Memory for the spans of a single triangle.
+    single: SpanStore,
 }
 
 impl BandSpans {
@@ -51,6 +56,7 @@ impl BandSpans {
             age: 0,
             scanner: RowScanner::default(),
             store: SpanStore::default(),
+            single: SpanStore::default(),
         }
     }
 
@@ -63,6 +69,10 @@ impl BandSpans {
             Shape::Outline(chunk, index) => {
                 let side = self.settings.0.side();
                 each_pixel_row_of_spans(self.of_outline(chunk, index, rect.y), side, rect, paint);
+            }
+            Shape::Float(float) => {
+                let side = self.settings.0.side();
+                each_pixel_row_of_spans(self.of_float(float, rect), side, rect, paint);
             }
         }
     }
@@ -81,7 +91,18 @@ impl BandSpans {
             Shape::Outline(chunk, index) => {
                 four::each_row_of_spans(simd, self.of_outline(chunk, index, rect.y), rect, paint);
             }
+            Shape::Float(float) => four::each_row_of_spans(simd, self.of_float(float, rect), rect, paint),
         }
+    }
+
+    /// The spans in one tile.
+    fn of_float(&mut self, float: &FloatShape, rect: PixelRect) -> RowSpans<'_> {
+        let grid = self.settings.0;
+        let (columns, rows) = (scaled(rect.x, grid.side()), scaled(rect.y, grid.side()));
+        let rows = rows.intersection(float.samples.rows);
+        self.single.clear();
+        let stored = self.single.put_single(rows, |row| float.span(grid, row, columns));
+        self.single.get(stored)
     }
 
     fn of_outline(&mut self, chunk: &Chunk, index: u32, band: Span) -> RowSpans<'_> {

@@ -2,7 +2,7 @@
 //!
 //! Two walks over the ops of a chunk: the first counts the entries of each tile, the second writes them where they
 //! belong; where the first meets few entries, it keeps them, and there is no second. Nothing is allocated per op or per
-//! tile.
+//! tile. Entries that a later one of the chunk hides in their tile are not held: nobody would paint them.
 
 use std::sync::Arc;
 
@@ -39,6 +39,8 @@ pub(crate) struct Plan {
 struct ChunkPlan {
     /// How many there are in each tile of the frame.
     counts: Vec<u32>,
+    /// The op that hides those before it in each tile; empty where there is none in any.
+    hiding: Vec<u32>,
     /// All of them, if they are few.
     bins: Option<Arc<Bins>>,
 }
@@ -61,9 +63,15 @@ impl Plan {
         };
         let of_chunk = |chunk: &Chunk| {
             let mut counts = vec![0; tiles.columns as usize * tiles.rows as usize];
+            let mut hiding = Vec::new();
             let mut few = chunk.ops.len() <= MAX_KEPT_OPS;
             let mut kept = Vec::with_capacity(if few { FEW } else { 0 });
             Walk::new(chunk, context, all).each(textures, |tile, entry| {
+                if entry.hides_tile() {
+                    hiding.resize(counts.len(), 0);
+                    hiding[tile] = u32::try_from(entry.op()).unwrap_or(u32::MAX);
+                    counts[tile] = 0;
+                }
                 counts[tile] += 1;
                 few &= kept.len() < MAX_KEPT;
                 if few {
@@ -71,13 +79,13 @@ impl Plan {
                 }
             });
             let bins = few.then(|| {
-                let mut sorter = Sorter::new(&counts);
+                let mut sorter = Sorter::new(&counts, &hiding);
                 for (tile, entry) in kept {
                     sorter.add(tile as usize, entry);
                 }
                 Arc::new(sorter.bins)
             });
-            ChunkPlan { counts, bins }
+            ChunkPlan { counts, hiding, bins }
         };
         Self {
             chunks: chunks.par_iter().map(of_chunk).collect(),
@@ -121,7 +129,8 @@ impl Plan {
         }
         let of_chunk = |(chunk, plan): (&Chunk, &ChunkPlan)| {
             ready(plan).unwrap_or_else(|| {
-                let mut sorter = Sorter::new(&plan.counts[tiles.clone()]);
+                let hiding = plan.hiding.get(tiles.clone()).unwrap_or_default();
+                let mut sorter = Sorter::new(&plan.counts[tiles.clone()], hiding);
                 Walk::new(chunk, context, rows).each(textures, |tile, entry| sorter.add(tile, entry));
                 Arc::new(sorter.bins)
             })
@@ -131,15 +140,17 @@ impl Plan {
 }
 
 /// Sorts entries into tiles.
-struct Sorter {
+struct Sorter<'a> {
     bins: Bins,
     /// Where the next entry of each tile belongs.
     next: Vec<u32>,
+    /// The op that hides those before it in each tile, if any does.
+    hiding: &'a [u32],
 }
 
-impl Sorter {
-    /// For tiles with `counts` entries each.
-    fn new(counts: &[u32]) -> Self {
+impl<'a> Sorter<'a> {
+    /// For tiles with `counts` entries each, from the op on that is `hiding` those before it.
+    fn new(counts: &[u32], hiding: &'a [u32]) -> Self {
         let mut starts = Vec::with_capacity(counts.len() + 1);
         let mut total = 0;
         starts.push(0);
@@ -149,6 +160,7 @@ impl Sorter {
         }));
         Self {
             next: starts.clone(),
+            hiding,
             bins: Bins {
                 entries: vec![Entry::default(); total as usize],
                 starts,
@@ -158,6 +170,9 @@ impl Sorter {
 
     #[inline]
     fn add(&mut self, tile: usize, entry: Entry) {
+        if self.hiding.get(tile).is_some_and(|op| entry.op() < *op as usize) {
+            return;
+        }
         let place = &mut self.next[tile];
         self.bins.entries[*place as usize] = entry;
         *place += 1;
@@ -283,7 +298,13 @@ mod tests {
         };
         let (columns, rows) = (scaled(rect.x), scaled(rect.y));
         let mut samples = Vec::new();
-        for triangle in &chunk.triangles {
+        for float in &chunk.floats {
+            for row in rows.start..rows.end {
+                let inside = (columns.start..columns.end).filter(|column| float.covers(context.grid, [*column, row]));
+                samples.extend(inside.map(|column| (column - columns.start, row - rows.start)));
+            }
+        }
+        for triangle in chunk.triangles.iter().filter(|_| chunk.floats.is_empty()) {
             let Some(sorted) = SortedTriangle::new(triangle.corners, context.rules) else {
                 continue;
             };
@@ -351,9 +372,35 @@ mod tests {
     }
 
     #[test]
+    fn bins_hold_nothing_that_a_later_entry_hides() {
+        let settings = settings(1, Rules::Standard);
+        let context = ListContext::with_tiles(SIZE, &settings, TileLayout::new((4, 4), SIZE));
+        let corner = |x: f64, y: f64| DVec2::new(x, y);
+        // Of growing triangles the last one covers nearly all; beside it each tile keeps what it had.
+        let triangles: Vec<[DVec2; 3]> = (10..20)
+            .map(|i| {
+                [
+                    corner(-5.0, -5.0),
+                    corner(f64::from(i) * 20.0, -5.0),
+                    corner(-5.0, f64::from(i) * 15.0),
+                ]
+            })
+            .collect();
+        let (_, bins) = binned(&context, &triangles);
+        let held = |column: u32, row: u32| bins.of_tile((row * context.tiles.columns + column) as usize);
+        assert_eq!(held(0, 0).len(), 1, "the last one, which hides nine");
+        assert!(held(0, 0)[0].hides_tile(), "it does");
+        assert!(
+            held(context.tiles.columns - 1, context.tiles.rows - 1).len() > 2,
+            "edges hide nothing"
+        );
+    }
+
+    #[test]
     fn stamps_in_tiles_are_the_samples_of_their_triangle() {
         arbtest::arbtest(|u| {
-            let settings = settings(u.int_in_range(1..=4)?, *u.choose(&Rules::ALL)?);
+            // First drafts know no stamps.
+            let settings = settings(u.int_in_range(1..=4)?, *u.choose(&[Rules::Standard, Rules::Course])?);
             let sides = *u.choose(&[(3, 3), (6, 5), (1, 2), (0, 0)])?;
             let context = ListContext::with_tiles(SIZE, &settings, TileLayout::new(sides, SIZE));
             let side = f64::from(context.grid.side());

@@ -3,7 +3,9 @@
 use glam::DVec2;
 
 use super::display_list::{Chunk, Fill, LayerMark, ListContext, Op, Paint, ScreenTriangle, Stamp};
+use super::float_shape::FloatShape;
 use super::hairline::Hairline;
+use super::hidden::{MOST_CORNERS, covers, drop_hidden, is_large, joined};
 use super::outline::{OutlineBuilder, RowScanner, SpanStore};
 use super::planes::Planes;
 use super::shade::uv_map;
@@ -14,7 +16,8 @@ use crate::color::{Premultiplied16, Rgba, unit_to_16};
 use crate::geometry::Polygon;
 use crate::geometry::clip::{ClipVertex, ClippedTriangle, in_guard};
 use crate::geometry::edge::doubled_area;
-use crate::geometry::subpixel::floor_to_i32;
+use crate::geometry::subpixel::{GridPoint, floor_to_i32};
+use crate::rules::Rules;
 use crate::texture::Footprint;
 
 /// Fills one chunk.
@@ -33,6 +36,8 @@ pub struct ChunkBuilder<'a> {
     stamps: bool,
     /// Whether fragments are counted rather than painted.
     counts: bool,
+    /// Whether what nobody will see is kept.
+    keeps_hidden: bool,
     /// Triangles that came last, yet to be added.
     waiting: Waiting,
 }
@@ -66,9 +71,10 @@ impl<'a> ChunkBuilder<'a> {
             source: 0,
             color: (Rgba::BLACK, stored),
             scanner: Default::default(),
-            // A few points of a finer lattice need not be samples.
-            stamps: context.is_grid(),
+            // A few points of a finer lattice need not be samples, and stamps are exact.
+            stamps: context.is_grid() && context.rules != Rules::Float,
             counts: false,
+            keeps_hidden: false,
             waiting: Waiting {
                 count: 0,
                 hopeless: 0,
@@ -92,6 +98,13 @@ impl<'a> ChunkBuilder<'a> {
     #[must_use]
     pub fn with_all_shapes(mut self) -> Self {
         self.stamps = false;
+        self.with_hidden()
+    }
+
+    /// Keeps what lies below opaque shapes, for those who ask what was painted.
+    #[must_use]
+    pub fn with_hidden(mut self) -> Self {
+        self.keeps_hidden = true;
         self
     }
 
@@ -228,11 +241,61 @@ impl<'a> ChunkBuilder<'a> {
             return;
         }
         let index = index(self.chunk.outlines.len());
-        let color = self.color(color);
+        let (color, samples) = (self.color(color), outline.samples);
         self.chunk.outlines.push(outline);
         self.chunk.outline_colors.push(color);
         self.push(Op::Outline(index));
         self.chunk.triangle_count += 1;
+        if color.is_opaque() && polygon.points().len() <= MOST_CORNERS {
+            // So few are one contour.
+            let points = polygon.points().iter().map(|point| place(*point));
+            self.drop_below_polygon(points, samples);
+        }
+    }
+
+    /// Drops what a polygon of few corners hides that came last and holds `samples`.
+    fn drop_below_polygon(&mut self, points: impl Iterator<Item = DVec2>, samples: SampleBox) {
+        if self.keeps_hidden || !is_large(samples, self.context) {
+            return;
+        }
+        let grid = self.context.grid;
+        let snapped: Option<Vec<GridPoint>> = points.map(|point| in_guard(point).then(|| grid.snap(point))).collect();
+        // Outlines are exact by anybody's rules.
+        if snapped.is_some_and(|corners| covers(&corners, samples, grid, Rules::Standard)) {
+            drop_hidden(&mut self.chunk, self.context, samples, 1);
+        }
+    }
+
+    /// Drops what a triangle of one colour hides that came last, alone or with the one before.
+    fn drop_below_triangle(&mut self, corners: [GridPoint; 3]) {
+        let (grid, rules) = (self.context.grid, self.context.rules);
+        let samples = SampleBox::new(corners, grid, rules);
+        let inside = samples.intersection(self.frame);
+        // The corners of its own box are not all inside a triangle.
+        if inside != samples && is_large(inside, self.context) && covers(&corners, inside, grid, rules) {
+            drop_hidden(&mut self.chunk, self.context, inside, 1);
+        }
+        let [.., Op::Triangle(before), Op::Triangle(_)] = *self.chunk.ops else {
+            return;
+        };
+        let before = self.chunk.triangles[before as usize];
+        if self
+            .chunk
+            .triangles
+            .last()
+            .is_some_and(|last| last.paint == before.paint)
+            && let Some(quad) = joined(before.corners, corners)
+        {
+            let [a, b] = [before.corners, corners].map(|corners| SampleBox::new(corners, grid, rules));
+            let both = SampleBox {
+                columns: a.columns.union(b.columns),
+                rows: a.rows.union(b.rows),
+            };
+            let inside = both.intersection(self.frame);
+            if is_large(inside, self.context) && covers(&quad, inside, grid, rules) {
+                drop_hidden(&mut self.chunk, self.context, inside, 2);
+            }
+        }
     }
 
     /// Adds a line one pixel wide; any finite coordinates.
@@ -299,6 +362,9 @@ impl<'a> ChunkBuilder<'a> {
     #[inline]
     fn snapped(&mut self, points: [DVec2; 3], fill: &Fill) {
         let (grid, rules) = (self.context.grid, self.context.rules);
+        if rules == Rules::Float {
+            return self.float(points, fill);
+        }
         let corners = points.map(|point| grid.snap(point));
         let samples = SampleBox::new(corners, grid, rules);
         let inside = samples.intersection(self.frame);
@@ -326,6 +392,29 @@ impl<'a> ChunkBuilder<'a> {
         let paint = self.paint(fill);
         let index = index(self.chunk.triangles.len());
         self.chunk.triangles.push(ScreenTriangle { corners, paint });
+        self.push(Op::Triangle(index));
+        self.chunk.triangle_count += 1;
+        if let Paint::Solid(color) = self.chunk.paints[paint as usize]
+            && color.is_opaque()
+            && !self.keeps_hidden
+        {
+            self.drop_below_triangle(corners);
+        }
+    }
+
+    /// Adds a triangle inside the guard band by the rules of first drafts. Colours and coordinates are interpolated as
+    /// everywhere, between its corners on the grid.
+    #[cold]
+    fn float(&mut self, points: [DVec2; 3], fill: &Fill) {
+        let grid = self.context.grid;
+        let corners = points.map(|point| grid.snap(point));
+        let Some(float) = FloatShape::new(points, grid, self.frame).filter(|_| doubled_area(corners) != 0) else {
+            return;
+        };
+        let paint = self.paint(fill);
+        let index = index(self.chunk.triangles.len());
+        self.chunk.triangles.push(ScreenTriangle { corners, paint });
+        self.chunk.floats.push(float);
         self.push(Op::Triangle(index));
         self.chunk.triangle_count += 1;
     }

@@ -92,9 +92,9 @@ impl<'a> DeferredPainter<'a> {
                     self.opaque((shape, *entry), slot, bands);
                 }
                 Work::Flat(shape, color) => self.translucent((shape, *entry), color, bands),
-                Work::Shaded(triangle, paint) => {
+                Work::Shaded(shape, triangle, paint) => {
                     let slot = self.slots.shaded(triangle, paint);
-                    self.opaque((Shape::Triangle(&triangle.corners), *entry), slot, bands);
+                    self.opaque((shape, *entry), slot, bands);
                 }
                 Work::BeginLayer => self.begin_layer(),
                 Work::EndLayer(opacity) => self.end_layer(opacity),

@@ -51,22 +51,17 @@ impl<'a> DirectPainter<'a> {
                         block.span(y, xs).fill(pixel);
                     });
                 }
-                Work::Shaded(triangle, paint) => {
+                Work::Shaded(shape, triangle, paint) => {
                     let mut places = std::mem::take(&mut self.places);
                     places.clear();
                     let PixelRect { x: left, y: top } = block.rect;
                     let inside = |from: i32, to: i32| u16::try_from(to - from).unwrap_or(u16::MAX);
-                    covered(
-                        (Shape::Triangle(&triangle.corners), *entry),
-                        bands,
-                        block,
-                        |y, xs, _| {
-                            let row = inside(top.start, y);
-                            places.extend(
-                                (inside(left.start, xs.start)..inside(left.start, xs.end)).map(|column| [column, row]),
-                            );
-                        },
-                    );
+                    covered((shape, *entry), bands, block, |y, xs, _| {
+                        let row = inside(top.start, y);
+                        places.extend(
+                            (inside(left.start, xs.start)..inside(left.start, xs.end)).map(|column| [column, row]),
+                        );
+                    });
                     self.shaded(triangle, paint, &places, block);
                     self.places = places;
                 }

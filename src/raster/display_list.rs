@@ -6,8 +6,10 @@
 //! nearly everything, is reduced to the bits of these samples and its colour at once and never looked at as a triangle
 //! again.
 
+use super::float_shape::FloatShape;
 use super::hairline::Hairline;
 use super::outline::{Outline, OutlineEdge};
+use super::pixel_row::scaled;
 use super::rows::Span;
 use super::small::{SampleBox, SmallCoverage};
 use super::tile::{PixelRect, TileLayout};
@@ -93,6 +95,8 @@ pub struct Chunk {
     pub(crate) sources: Vec<u32>,
     pub(crate) stamps: Vec<Stamp>,
     pub(crate) triangles: Vec<ScreenTriangle>,
+    /// By the rules of first drafts, what each triangle covers; else empty.
+    pub(crate) floats: Vec<FloatShape>,
     pub(crate) paints: Vec<Paint>,
     pub(crate) outlines: Vec<Outline>,
     /// The colour of each outline.
@@ -168,39 +172,56 @@ impl Chunk {
 
     /// The pixels that an op may touch, clipped to the frame; `None` when there are none.
     pub(crate) fn area(&self, op: Op, context: &ListContext) -> Option<PixelRect> {
-        match op {
+        context.pixels_of(self.sample_box(op, context)?)
+    }
+
+    /// The box of the samples that an op may touch, clipped to the frame; `None` when there are none.
+    pub(crate) fn sample_box(&self, op: Op, context: &ListContext) -> Option<SampleBox> {
+        let side = context.grid.side();
+        let of_pixels = |columns, rows| SampleBox {
+            columns: scaled(columns, side),
+            rows: scaled(rows, side),
+        };
+        let samples = match op {
             Op::Triangle(index) => {
                 let corners = self.triangles[index as usize].corners;
-                context.pixels_of(SampleBox::new(corners, context.grid, context.rules))
+                let float = self.floats.get(index as usize).map(|float| float.samples);
+                float.unwrap_or_else(|| SampleBox::new(corners, context.grid, context.rules))
             }
-            Op::Outline(index) => context.pixels_of(self.outlines[index as usize].samples),
+            Op::Outline(index) => self.outlines[index as usize].samples,
             Op::Samples(index) => {
                 let coverage = self.stamps[index as usize].coverage;
-                context.pixels_of(SampleBox {
+                SampleBox {
                     columns: coverage.columns(),
                     rows: coverage.rows(),
-                })
+                }
             }
             Op::Pixels(index) => {
                 let coverage = self.stamps[index as usize].coverage;
-                Some(PixelRect {
-                    x: coverage.columns(),
-                    y: coverage.rows(),
-                })
+                of_pixels(coverage.columns(), coverage.rows())
             }
             Op::Hairline(index) => {
-                let mut area = PixelRect::NOTHING;
+                let mut area: Option<PixelRect> = None;
                 self.hairlines[index as usize].blocks(context.size, |pixels| {
-                    area = area.union(PixelRect {
+                    let pixels = PixelRect {
                         x: pixels.columns(),
                         y: pixels.rows(),
-                    });
+                    };
+                    area = Some(area.map_or(pixels, |area| area.union(pixels)));
                 });
-                Some(area)
+                let area = area?;
+                of_pixels(area.x, area.y)
             }
-            Op::BeginLayer(index) | Op::EndLayer(index) => Some(self.layers[index as usize].area),
+            Op::BeginLayer(index) | Op::EndLayer(index) => {
+                let area = self.layers[index as usize].area;
+                if area.x.is_empty() || area.y.is_empty() {
+                    return None;
+                }
+                of_pixels(area.x, area.y)
+            }
         }
-        .filter(|area| !area.x.is_empty() && !area.y.is_empty())
+        .intersection(context.samples());
+        (!samples.columns.is_empty() && !samples.rows.is_empty()).then_some(samples)
     }
 }
 

@@ -27,8 +27,8 @@ pub(crate) enum Work<'c> {
     Pixels(SmallCoverage, Premultiplied16),
     /// A triangle or polygon of one colour.
     Flat(Shape<'c>, Premultiplied16),
-    /// A triangle of any other paint.
-    Shaded(&'c ScreenTriangle, &'c Paint),
+    /// A triangle of any other paint, and what it covers.
+    Shaded(Shape<'c>, &'c ScreenTriangle, &'c Paint),
     BeginLayer,
     /// With the opacity to paint the layer with.
     EndLayer(u16),
@@ -45,7 +45,8 @@ impl Entry {
     /// The largest index of an op; a chunk is made from at most 65 536 primitives, which become five ops each at most.
     const MAX_OP: u32 = Self::OUTLINE - 1;
 
-    /// A triangle that touches the tile, number `triangle` of its chunk; `flat` is its colour, if it has just one.
+    /// A triangle that touches the tile, number `triangle` of its chunk; `flat` is its colour, if it has just one and is
+    /// covered exactly.
     pub(crate) fn triangle(op: usize, triangle: u32, flat: Option<Premultiplied16>, opaque: bool) -> Self {
         let flags = if flat.is_some() { Self::FLAT } else { 0 } | if opaque { Self::OPAQUE } else { 0 };
         Self {
@@ -174,7 +175,12 @@ impl Entry {
         match chunk.ops[self.op()] {
             Op::Triangle(index) => {
                 let triangle = &chunk.triangles[index as usize];
-                Work::Shaded(triangle, &chunk.paints[triangle.paint as usize])
+                let paint = &chunk.paints[triangle.paint as usize];
+                match (chunk.floats.get(index as usize), paint) {
+                    (None, _) => Work::Shaded(Shape::Triangle(&triangle.corners), triangle, paint),
+                    (Some(float), Paint::Solid(color)) => Work::Flat(Shape::Float(float), *color),
+                    (Some(float), _) => Work::Shaded(Shape::Float(float), triangle, paint),
+                }
             }
             Op::EndLayer(index) => Work::EndLayer(chunk.layers[index as usize].opacity),
             // Stamps, outlines and hairlines have returned above.

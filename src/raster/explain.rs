@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use super::DisplayList;
 use super::display_list::{Chunk, Op, Paint, ScreenTriangle};
+use super::float_shape::FloatShape;
 use super::outline::Outline;
 use super::places::Place;
 use super::planes::Planes;
@@ -56,6 +57,8 @@ pub struct SampleOfTriangle {
     pub units_per_pixel: f64,
     /// The edges from the first corner to the second, to the third, and back.
     pub edges: [EdgeTest; 3],
+    /// The same edge functions in 32-bit floats and square pixels, by the rules that decide by them.
+    pub floats: Option<[f32; 3]>,
     /// Barycentric weights of the whole triangle's corners there, also where a part of it was clipped.
     pub weights: [f64; 3],
     /// What is interpolated there.
@@ -89,6 +92,17 @@ pub struct TextureUse {
     pub opacity: f32,
 }
 
+impl SampleOfTriangle {
+    /// Whether the sample is the triangle's by exact edges, and not by those in 32-bit floats.
+    pub fn is_left_open(&self) -> bool {
+        let exact = self.edges.iter().all(|edge| edge.is_inside(Rules::Standard));
+        exact
+            && self
+                .floats
+                .is_some_and(|floats| floats.iter().any(|value| *value <= 0.0))
+    }
+}
+
 impl Piece {
     /// Whether an op of the same chunk is this one.
     pub fn is_of(&self, op: &PaintedOp) -> bool {
@@ -116,7 +130,8 @@ impl DisplayList<'_> {
                 let whole = weights.triangles.get(index as usize);
                 let weights = whole.map(|triangle| &weights.paints[triangle.paint as usize]);
                 let triangle = &chunk.triangles[index as usize];
-                Some(seen.triangle(triangle, &chunk.paints[triangle.paint as usize], weights))
+                let float = chunk.floats.get(index as usize);
+                Some(seen.triangle((triangle, float), &chunk.paints[triangle.paint as usize], weights))
             }
             Op::Outline(index) => Some(seen.outline(chunk, &chunk.outlines[index as usize])),
             Op::Hairline(_) | Op::Pixels(_) | Op::Samples(_) => Some(PieceShape::Pixels),
@@ -148,7 +163,12 @@ impl SeenFrom<'_> {
         self.places.iter().map(place)
     }
 
-    fn triangle(&self, triangle: &ScreenTriangle, paint: &Paint, weights: Option<&Paint>) -> PieceShape {
+    fn triangle(
+        &self,
+        (triangle, float): (&ScreenTriangle, Option<&FloatShape>),
+        paint: &Paint,
+        weights: Option<&Paint>,
+    ) -> PieceShape {
         let grid = self.grid();
         let corners = triangle.corners;
         let weights = match weights {
@@ -168,6 +188,7 @@ impl SeenFrom<'_> {
             SampleOfTriangle {
                 units_per_pixel: grid.units_per_pixel(),
                 edges: EdgeTest::of_triangle(corners, point),
+                floats: float.map(|float| float.edges(grid, [column, row])),
                 weights: [a, b, c],
                 attributes: attributes.at(&self.context, self.pixel, [column, row]),
             }

@@ -426,6 +426,18 @@ impl SpanStore {
         }
     }
 
+    /// Stores one span for each of some rows, empty or not.
+    pub(crate) fn put_single(&mut self, rows: Span, of_row: impl FnMut(i32) -> Span) -> Stored {
+        let span = self.spans.len();
+        self.spans.extend((rows.start..rows.end).map(of_row));
+        Stored {
+            rows,
+            span,
+            first: 0,
+            single: true,
+        }
+    }
+
     /// How many spans there are.
     pub(crate) fn len(&self) -> usize {
         self.spans.len()

@@ -71,8 +71,7 @@ impl<'a> TilePainter<'a> {
                         .each_run(|row, xs| self.fill(xs, row, color));
                 }
                 Work::Flat(shape, color) => self.covered((shape, *entry), bands, |_| Shader::flat(color)),
-                Work::Shaded(triangle, paint) => {
-                    let shape = Shape::Triangle(&triangle.corners);
+                Work::Shaded(shape, triangle, paint) => {
                     self.covered((shape, *entry), bands, |context| Shader::new(context, triangle, paint));
                 }
                 Work::BeginLayer => self.push_layer(self.layers[0].rect, Premultiplied16::TRANSPARENT),

@@ -576,10 +576,11 @@ mod tests {
         arbtest::arbtest(|u| {
             let pattern = *u.choose(&SamplePattern::ALL)?;
             let rate = SampleRate::new(*u.choose(&[1, 4, 5, 9, 16, 64, 100])?).expect("a rate");
+            let rules = *u.choose(&Rules::ALL)?;
             let settings = RasterSettings {
                 rate,
                 pattern,
-                sampling,
+                sampling: SamplingSettings { rules, ..sampling },
                 space: *u.choose(&ResolveSpace::ALL)?,
                 background: Rgba::WHITE,
                 palette: None,

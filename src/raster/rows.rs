@@ -228,7 +228,7 @@ impl RowWalker {
             self.take_lower_edge();
         }
         let end = match self.rules {
-            Rules::Standard => self.right.at_or_after(),
+            Rules::Standard | Rules::Float => self.right.at_or_after(),
             Rules::Course => self.right.after(),
         };
         let span = Span {
@@ -255,7 +255,7 @@ impl RowWalker {
 /// One beyond the last sample that belongs to what ends at `coordinate`.
 pub(crate) fn end_of(grid: SubpixelGrid, coordinate: i32, rules: Rules) -> i32 {
     match rules {
-        Rules::Standard => grid.sample_at_or_after(coordinate),
+        Rules::Standard | Rules::Float => grid.sample_at_or_after(coordinate),
         Rules::Course => grid.sample_after(coordinate),
     }
 }

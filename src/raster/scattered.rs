@@ -7,7 +7,9 @@
 use super::SampleRate;
 use super::band_spans::Shape;
 use super::display_list::ListContext;
+use super::float_shape::FloatShape;
 use super::outline::Outline;
+use super::outline_tiles::Reach;
 use super::places::{Place, SamplePlaces};
 use super::rows::Span;
 use super::sample_mask::SampleMask;
@@ -77,6 +79,7 @@ impl Scatter {
     pub(crate) fn each(&mut self, shape: Shape<'_>, rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
         match shape {
             Shape::Triangle(corners) => self.triangle(*corners, rect, visit),
+            Shape::Float(float) => self.float(float, rect, visit),
             Shape::Outline(chunk, index) => {
                 let outline: &Outline = &chunk.outlines[index as usize];
                 let number = chunk.first_outline + index as usize;
@@ -91,6 +94,44 @@ impl Scatter {
                 }
             }
         }
+    }
+
+    fn float(&mut self, float: &FloatShape, rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
+        let side = self.grid.side();
+        let of_pixel = |at: i32| Span {
+            start: at * side,
+            end: (at + 1) * side,
+        };
+        for y in rect.y.start..rect.y.end {
+            for x in rect.x.start..rect.x.end {
+                let samples = SampleBox {
+                    columns: of_pixel(x),
+                    rows: of_pixel(y),
+                };
+                let covered = match float.reach(self.grid, samples) {
+                    None => continue,
+                    Some(Reach::All) => self.all,
+                    Some(Reach::Part) => self.float_mask(float, [x, y]),
+                };
+                if covered == self.all {
+                    visit(y, Covered::Whole(Span { start: x, end: x + 1 }));
+                } else if !covered.is_empty() {
+                    visit(y, Covered::Part(x, covered));
+                }
+            }
+        }
+    }
+
+    /// The samples of a pixel that a triangle covers by the rules of first drafts.
+    fn float_mask(&mut self, float: &FloatShape, pixel: [i32; 2]) -> SampleMask {
+        let (grid, first) = (self.grid, pixel.map(|at| at * self.grid.side()));
+        let places = self.places.of_pixel(pixel, &mut self.memory);
+        let mut mask = SampleMask::default();
+        mask.set_each(places.len(), |sample| {
+            let [column, row] = places[sample].map(i32::from);
+            float.covers(grid, [first[0] + column, first[1] + row])
+        });
+        mask
     }
 
     fn triangle(&mut self, corners: [GridPoint; 3], rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {

@@ -93,7 +93,7 @@ impl<'a> Shader<'a> {
                 let map = uv_map(context.grid, &uv);
                 let sampling = context.sampling;
                 match rules {
-                    Rules::Standard => ShaderKind::Texture {
+                    Rules::Standard | Rules::Float => ShaderKind::Texture {
                         filter: Filter::new(pyramid, &map, &sampling),
                         opacity,
                     },
@@ -140,7 +140,7 @@ impl<'a> Shader<'a> {
         let Pixels { grid, places } = pixels;
         match &self.kind {
             ShaderKind::Solid(color) => values.fill(color.to_pixel(self.rules)),
-            ShaderKind::Vertex(vertex) if self.rules == Rules::Standard => {
+            ShaderKind::Vertex(vertex) if self.rules != Rules::Course => {
                 vertex.pixels(simd::level(), grid, places, values);
             }
             ShaderKind::Texture { filter, .. } => filter.pixels(simd::level(), grid, places, values),

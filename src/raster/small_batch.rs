@@ -135,7 +135,7 @@ impl Lattice {
     fn new(frame: SampleBox, grid: SubpixelGrid, rules: Rules) -> Self {
         let distance = f64::from(1 << grid.bits());
         let (tie, beyond) = match rules {
-            Rules::Standard => (1.0, 0.0),
+            Rules::Standard | Rules::Float => (1.0, 0.0),
             Rules::Course => (0.0, 1.0),
         };
         Self {

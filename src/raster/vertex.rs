@@ -49,7 +49,7 @@ impl VertexColors {
 
     /// The colours at samples, counted from the first sample of the grid's origin; opaque or not, by any rules.
     pub(crate) fn points(&self, grid: SampleGrid, rules: Rules, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
-        if self.is_opaque && rules == Rules::Standard {
+        if self.is_opaque && rules != Rules::Course {
             return dispatch!(simd::level(), simd => point_kernel(simd, &self.opaque, grid, points, colors));
         }
         let first = first_sample(grid);

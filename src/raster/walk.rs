@@ -6,6 +6,7 @@
 
 use super::display_list::{Chunk, ListContext, Op, Paint};
 use super::entry::Entry;
+use super::float_shape::FloatShape;
 use super::outline_tiles::{OutlineTiles, Reach};
 use super::rows::Span;
 use super::shade::Shader;
@@ -108,11 +109,16 @@ impl<'a> Walk<'a> {
                 Op::Triangle(index) => {
                     let triangle = &self.chunk.triangles[index as usize];
                     let paint = &self.chunk.paints[triangle.paint as usize];
+                    let opaque = Shader::is_opaque(paint, textures);
+                    if let Some(float) = self.chunk.floats.get(index as usize) {
+                        let entry = Entry::triangle(i, index, None, opaque);
+                        self.float(float, entry, depth == 0, &mut visit);
+                        continue;
+                    }
                     let flat = match paint {
                         Paint::Solid(color) => Some(*color),
                         Paint::Vertex(_) | Paint::Texture { .. } => None,
                     };
-                    let opaque = Shader::is_opaque(paint, textures);
                     let entry = Entry::triangle(i, index, flat, opaque);
                     self.triangle(triangle.corners, entry, depth == 0, &mut visit);
                 }
@@ -261,6 +267,35 @@ impl<'a> Walk<'a> {
                     entry.covering(base && entry.is_opaque())
                 } else {
                     entry
+                };
+                visit(self.tile(column, row), entry);
+            }
+        }
+    }
+
+    /// A triangle by the rules of first drafts in each tile it touches.
+    fn float(&self, float: &FloatShape, entry: Entry, base: bool, visit: &mut impl FnMut(usize, Entry)) {
+        let (grid, sides) = (self.context.grid, self.samples);
+        let SampleBox { columns, rows } = float.samples;
+        let of_tile = |tile: i32, side: u32, frame: Span| {
+            let side = side.cast_signed();
+            Span {
+                start: tile * side,
+                end: (tile + 1) * side,
+            }
+            .intersection(frame)
+        };
+        let (top, bottom) = (sides.row(rows.start), sides.row(rows.end - 1));
+        for row in top.max(self.rows.start)..=bottom.min(self.rows.end - 1) {
+            for column in sides.column(columns.start)..=sides.column(columns.end - 1) {
+                let samples = SampleBox {
+                    columns: of_tile(column, sides.width, self.frame.columns),
+                    rows: of_tile(row, sides.height, self.frame.rows),
+                };
+                let entry = match float.reach(grid, samples) {
+                    None => continue,
+                    Some(Reach::Part) => entry,
+                    Some(Reach::All) => entry.covering(base && entry.is_opaque()),
                 };
                 visit(self.tile(column, row), entry);
             }

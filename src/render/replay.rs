@@ -3,11 +3,12 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::{Screen, Subject, add, number, picture_list, raster_settings};
+use super::{Hidden, Screen, Subject, add, number, picture_list, raster_settings};
 use crate::color::Rgba;
 use crate::geometry::area_in_pixel;
 use crate::raster::{
-    ChunkBuilder, DisplayList, ListContext, PaintedKind, PaintedOp, Piece, PixelReplay, RasterSettings, Region,
+    ChunkBuilder, DisplayList, ListContext, PaintedKind, PaintedOp, Piece, PieceShape, PixelReplay, RasterSettings,
+    Region, SampleOfTriangle,
 };
 use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};
 
@@ -41,6 +42,19 @@ pub fn replay(subject: &Subject<'_>, size: [u32; 2], [x, y]: [u32; 2]) -> Option
     Neighbourhood::new(*subject, size, pixel).replay([x, y])
 }
 
+/// A sample that edges in 32-bit floats leave open.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpenSample {
+    /// Its number.
+    pub sample: usize,
+    /// The primitive that it is part of.
+    pub source: u32,
+    /// The corners of its triangle, in pixels of the frame.
+    pub corners: [DVec2; 3],
+    /// What it sees of that triangle.
+    pub view: SampleOfTriangle,
+}
+
 /// Some pixels of a picture that are drawn again, each alone: what is far from all of them was left out once.
 #[derive(Debug)]
 pub struct Neighbourhood<'a> {
@@ -67,7 +81,7 @@ impl<'a> Neighbourhood<'a> {
             shines_through(subject.scene, kind) || bounds(&screen, kind).is_none_or(|bounds| touch(bounds, near))
         };
         Self {
-            list: picture_list(&subject, size, wanted),
+            list: picture_list(&subject, size, Hidden::Kept, wanted),
             subject,
             size,
             region,
@@ -172,10 +186,19 @@ impl<'a> Explainer<'a> {
 
     /// The parts of a primitive that touch samples of the pixel, in painter's order.
     fn pieces_of(&self, source: u32) -> Vec<Piece> {
-        let scene = self.subject.scene;
-        let Some(primitive) = scene.primitives.get(source as usize) else {
+        let Some(primitive) = self.subject.scene.primitives.get(source as usize) else {
             return Vec::new();
         };
+        let (list, mut pieces) = self.all_pieces_of(primitive);
+        let [x, y] = self.pixel;
+        let painted = list.replay(x, y).map(|replay| replay.painted).unwrap_or_default();
+        let touched = |piece: &Piece| painted.iter().any(|op| piece.is_of(op) && !op.fragments.is_empty());
+        pieces.retain(touched);
+        pieces
+    }
+
+    /// The display list of a single primitive, and its parts, near the pixel or not.
+    fn all_pieces_of(&self, primitive: &Primitive) -> (DisplayList<'a>, Vec<Piece>) {
         let chunk = |primitive: &Primitive| {
             let mut builder = ChunkBuilder::new(&self.context, 1).with_all_shapes();
             builder.set_source(number(0));
@@ -183,14 +206,41 @@ impl<'a> Explainer<'a> {
             builder.finish()
         };
         let weights = chunk(&weighted(primitive));
-        let textures = scene.textures.iter().map(AsRef::as_ref).collect();
+        let textures = self.subject.scene.textures.iter().map(AsRef::as_ref).collect();
         let list = DisplayList::new(self.context, self.raster, vec![chunk(primitive)], textures);
-        let [x, y] = self.pixel;
-        let painted = list.replay(x, y).map(|replay| replay.painted).unwrap_or_default();
-        let touched = |piece: &Piece| painted.iter().any(|op| piece.is_of(op) && !op.fragments.is_empty());
-        let mut pieces = list.pieces(self.pixel, &weights);
-        pieces.retain(touched);
-        pieces
+        let pieces = list.pieces(self.pixel, &weights);
+        (list, pieces)
+    }
+
+    /// The samples of the pixel that are a triangle's by exact edges and not by edges in 32-bit floats, where that triangle
+    /// would hide what is seen: `seen` says for each sample which primitive that is. At most one for each sample.
+    pub fn left_open(&self, seen: &[Option<u32>]) -> Vec<OpenSample> {
+        let mut open: Vec<Option<OpenSample>> = vec![None; seen.len()];
+        let below = seen.iter().min().copied().flatten().map_or(0, |seen| seen as usize + 1);
+        let primitives = self.subject.scene.primitives.iter().enumerate().skip(below).rev();
+        for (index, primitive) in primitives.filter(|(_, primitive)| self.is_near(&primitive.kind)) {
+            let source = number(index);
+            for piece in self.all_pieces_of(primitive).1 {
+                let PieceShape::Triangle { corners, samples, .. } = piece.shape else {
+                    continue;
+                };
+                for (sample, view) in samples.into_iter().enumerate() {
+                    let hides = seen[sample].is_none_or(|seen| seen < source);
+                    if hides && open[sample].is_none() && view.is_left_open() {
+                        open[sample] = Some(OpenSample {
+                            sample,
+                            source,
+                            corners,
+                            view,
+                        });
+                    }
+                }
+            }
+            if open.iter().all(Option::is_some) {
+                break;
+            }
+        }
+        open.into_iter().flatten().collect()
     }
 
     fn screen(&self) -> Screen<'_> {

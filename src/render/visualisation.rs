@@ -383,7 +383,7 @@ fn single(value: f64) -> f32 {
 
 /// The triangles that a polygon is painted as, where it is.
 fn triangles_of<'p>(polygon: &'p Polygon, screen: &Screen<'_>) -> Option<&'p [[DVec2; 3]]> {
-    polygon.triangles().filter(|_| screen.rules == Rules::Course)
+    polygon.triangles().filter(|_| screen.rules.cut_polygons())
 }
 
 /// A closed line.

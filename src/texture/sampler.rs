@@ -87,7 +87,7 @@ impl<'a> Sampler<'a> {
     pub fn sample(&self, u: f32, v: f32) -> [f32; 4] {
         let at = DVec2::new(f64::from(u), f64::from(v));
         match self.rules {
-            Rules::Standard => {
+            Rules::Standard | Rules::Float => {
                 let mut sums = [0; 4];
                 let (level, mass) = self
                     .coarser

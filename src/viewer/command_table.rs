@@ -240,9 +240,10 @@ pub(super) static TABLE: &[CommandSpec] = &[
     spec(
         "rules",
         "Rules",
-        "Switches between the standard rules of the picture and the course's",
+        "Shows the picture by the next rules: standard, the course's, a first draft's",
         Group::Sampling,
     )
+    .more("A first draft has edges in 32-bit floats and no rule for ties: samples on a shared edge are nobody's")
     .run(&Command::NextRules)
     .argument(typed::RULES),
     spec(

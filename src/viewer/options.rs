@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn values_that_can_be_counted() {
-        assert_eq!(values("rules"), ["standard", "course"], "in their order");
+        assert_eq!(values("rules"), ["standard", "course", "float"], "in their order");
         assert_eq!(values("visualise").len(), 10, "every one");
         for name in ["sample-rate", "background", "lod-level", "no-such"] {
             assert!(values(name).is_empty(), "{name}");

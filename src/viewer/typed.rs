@@ -111,7 +111,7 @@ pub(super) const VISUALISE: Argument = argument(
     "color|coverage|overdraw|primitive|wireframe|barycentric|uv|lod|mip|anisotropy",
     |text| named(&Visualisation::ALL, Visualisation::name, text).map(Command::SetVisualisation),
 );
-pub(super) const RULES: Argument = argument("standard|course", |text| {
+pub(super) const RULES: Argument = argument("standard|course|float", |text| {
     named(&Rules::ALL, Rules::name, text).map(Command::SetRules)
 });
 pub(super) const BACKGROUND: Argument = argument("white|transparent|#RRGGBB", |text| {

@@ -17,7 +17,7 @@ use rasterscope::viewer::gallery::{SCENES, Textures};
 use rayon::prelude::*;
 
 /// What pictures are drawn with.
-fn settings() -> [RenderSettings; 8] {
+fn settings() -> [RenderSettings; 10] {
     let rate = |samples| SampleRate::new(samples).unwrap();
     let plain = RenderSettings::default();
     [
@@ -66,6 +66,17 @@ fn settings() -> [RenderSettings; 8] {
             pattern: SamplePattern::Halton,
             pixel_sampling: PixelSampling::Bilinear,
             rules: Rules::Course,
+            ..plain
+        },
+        RenderSettings {
+            rules: Rules::Float,
+            ..plain
+        },
+        RenderSettings {
+            sample_rate: rate(5),
+            pattern: SamplePattern::R2,
+            level_sampling: LevelSampling::Linear,
+            rules: Rules::Float,
             ..plain
         },
     ]
@@ -173,7 +184,7 @@ fn check_resolve(found: &Explanation, rules: Rules) {
         };
         let byte = f64::from(*byte);
         let right = match rules {
-            Rules::Standard => (byte - exact).abs() <= 0.5 + slack,
+            Rules::Standard | Rules::Float => (byte - exact).abs() <= 0.5 + slack,
             Rules::Course => byte <= exact + slack && exact < byte + 1.0 + slack,
         };
         assert!(right, "{exact} is rounded to {byte}: {found:?}");
@@ -339,7 +350,7 @@ fn check_colors(paint: &Paint, rules: Rules) {
         };
         for (found, expected) in fragment.color.iter().zip(expected) {
             let right = match rules {
-                Rules::Standard => (found - expected).abs() < 0.01,
+                Rules::Standard | Rules::Float => (found - expected).abs() < 0.01,
                 Rules::Course => *found < expected + 0.01 && expected < found + 1.01,
             };
             assert!(

@@ -10,6 +10,7 @@ mod cli;
 mod coverage;
 mod diff;
 mod figures;
+mod float_rules;
 mod full_disk;
 mod fuzzing;
 mod gallery;

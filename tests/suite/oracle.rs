@@ -3,6 +3,7 @@
 use rasterscope::color::ResolveSpace;
 use rasterscope::raster::{Framebuffer, SamplePattern};
 use rasterscope::render::RenderSettings;
+use rasterscope::rules::Rules;
 use rasterscope::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
 
 use crate::support::brute_force;
@@ -42,9 +43,18 @@ fn samples(u: &mut arbtest::arbitrary::Unstructured<'_>) -> arbtest::arbitrary::
 }
 
 /// Draws random scenes in both renderers for a while; `judge` looks at each pair.
-fn compare(fills: Fills, budget_ms: u64, mut judge: impl FnMut(&Framebuffer, &Framebuffer, &(RenderSettings, String))) {
+fn compare(fills: Fills, budget_ms: u64, judge: impl FnMut(&Framebuffer, &Framebuffer, &(RenderSettings, String))) {
+    compare_by(Rules::Standard, (fills, budget_ms), judge);
+}
+
+fn compare_by(
+    rules: Rules,
+    (fills, budget_ms): (Fills, u64),
+    mut judge: impl FnMut(&Framebuffer, &Framebuffer, &(RenderSettings, String)),
+) {
     arbtest::arbtest(|u| {
         let (scene, mut settings) = (random(u, SIDE, fills)?, samples(u)?);
+        settings.rules = rules;
         settings.pixel_sampling = *u.choose(&PixelSampling::ALL)?;
         settings.level_sampling = *u.choose(&LevelSampling::ALL)?;
         settings.anisotropy = *u.choose(&Anisotropy::STEPS)?;
@@ -104,4 +114,15 @@ fn oracle_agrees_on_colours_and_textures_within_one_level() {
         different * 2000 <= pixels,
         "{different} of {pixels} pixels differ by more than one level"
     );
+}
+
+#[test]
+fn oracle_agrees_on_edges_in_32_bit_floats_to_the_byte() {
+    compare_by(Rules::Float, (Fills::Flat, 1500), |fast, slow, (settings, what)| {
+        let tie = u8::from(settings.resolve == ResolveSpace::Linear);
+        assert_eq!(difference(fast, slow, tie).1, 0, "{what}");
+    });
+    compare_by(Rules::Float, (Fills::Translucent, 1000), |fast, slow, (_, what)| {
+        assert_eq!(difference(fast, slow, 1).1, 0, "{what}");
+    });
 }

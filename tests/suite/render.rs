@@ -1,10 +1,12 @@
 //! Whole pictures: threads, resolve, backgrounds, layers, points and hairlines, views.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 use rasterscope::color::{ResolveSpace, Rgba};
-use rasterscope::geometry::View;
+use rasterscope::geometry::{FillRule, Polygon, View};
 use rasterscope::raster::{Framebuffer, SamplePattern};
-use rasterscope::render::{CancelToken, RenderSettings, Subject, draw_cancellable, replay};
+use rasterscope::render::{CancelToken, RenderSettings, Subject, Visualisation, draw, draw_cancellable, replay};
 use rasterscope::scene::{DialectChoice, PrimitiveKind, ReadOptions, read};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 
@@ -266,4 +268,49 @@ fn study_of_half_the_light_is_what_it_says() {
     };
     assert_eq!(pixels(ResolveSpace::Stored), [128, 128, 188], "as stored");
     assert_eq!(pixels(ResolveSpace::Linear), [128, 188, 188], "in linear light");
+}
+
+#[test]
+fn render_drops_what_is_hidden_and_still_counts_and_tells_it() {
+    let corners = [(20.0, 10.0), (170.0, 10.0), (170.0, 190.0), (20.0, 190.0)].map(DVec2::from);
+    let square = |shade: f32| PrimitiveKind::Polygon {
+        polygon: Arc::new(Polygon::new([corners.to_vec()], FillRule::NonZero)),
+        color: Rgba::opaque(shade, 0.5, 0.2),
+    };
+    let half = |shade: f32, lower: bool| {
+        let last = if lower { (15.0, 195.0) } else { (175.0, 5.0) };
+        triangle([(15.0, 5.0), (175.0, 195.0), last], Rgba::opaque(shade, 0.1, 0.9))
+    };
+    let all: Vec<PrimitiveKind> = [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]
+        .into_iter()
+        .flat_map(|shade| [square(shade), half(shade, false), half(shade, true)])
+        .collect();
+    let last = all[all.len() - 2..].to_vec();
+    let (all, last) = (scene(200.0, all), scene(200.0, last));
+    let (view, size) = (one_to_one([200, 200]), [200, 200]);
+    for samples in [1, 4, 16] {
+        let settings = at_rate(samples);
+        assert!(
+            drawn(&all, &view, &settings, size) == drawn(&last, &view, &settings, size),
+            "rate {samples}"
+        );
+        let mut frame = Framebuffer::new(200, 200);
+        let stats = draw(&all, &view, &settings, &mut frame);
+        assert_eq!(stats.triangles, 18, "all are counted");
+        let overdraw = RenderSettings {
+            visualisation: Visualisation::Overdraw,
+            ..settings
+        };
+        assert!(
+            drawn(&all, &view, &overdraw, size) != drawn(&last, &view, &overdraw, size),
+            "overdraw shows them"
+        );
+        let subject = Subject {
+            scene: &all,
+            view: &view,
+            settings: &settings,
+        };
+        let told = replay(&subject, size, [100, 50]).expect("a pixel of the frame");
+        assert_eq!(told.painted.len(), 12, "of each six the pixel saw two");
+    }
 }

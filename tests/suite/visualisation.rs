@@ -73,7 +73,7 @@ fn is_near(a: u32, b: u32, most: i32) -> bool {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a byte")]
 fn resolved(mean: f64, rules: Rules) -> u8 {
     match rules {
-        Rules::Standard => mean.round() as u8,
+        Rules::Standard | Rules::Float => mean.round() as u8,
         Rules::Course => mean.floor() as u8,
     }
 }
@@ -189,6 +189,8 @@ fn visualised_overdraw_tells_edges_that_the_course_paints_twice() {
     assert_eq!(once, alone, "the shared edge belongs to one triangle");
     let [twice, alone] = counts(Rules::Course);
     assert_ne!(twice, alone, "to both");
+    let [none, alone] = counts(Rules::Float);
+    assert_ne!(none, alone, "to none");
 }
 
 #[test]

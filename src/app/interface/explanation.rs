@@ -116,6 +116,7 @@ impl ExplanationPanel {
                 &["Nothing paints this pixel: every sample shows the background.".to_owned()],
             );
         }
+        pinholes(ui, explanation);
         missed(ui, explanation, hovered);
     }
 
@@ -185,6 +186,14 @@ impl ExplanationPanel {
         if header.header_response.contains_pointer() || inside {
             hovered.primitive = Some(paint.primitive);
         }
+    }
+}
+
+fn pinholes(ui: &mut Ui, explanation: &Explanation) {
+    if !explanation.pinholes.is_empty() {
+        section(ui, "pinholes", "What the float rules leave open", true, |ui| {
+            lines(ui, &explanation.pinhole_lines());
+        });
     }
 }
 

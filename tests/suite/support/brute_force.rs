@@ -13,6 +13,7 @@ use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::{FillRule, View, ViewTransform};
 use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{RenderSettings, Subject, replay};
+use rasterscope::rules::Rules;
 use rasterscope::scene::{Dialect, Paint, PrimitiveKind, Scene};
 use rasterscope::texture::{Derivatives, FixedLevel, LevelSampling, MipLevel, PixelSampling, Texture};
 
@@ -28,7 +29,14 @@ struct Outline {
 
 struct Triangle<'a> {
     corners: [(i128, i128); 3],
-    paint: &'a Paint,
+    /// By the float rules, the corners in pixels.
+    float: Option<[(f32, f32); 3]>,
+    fill: Filling<'a>,
+}
+
+enum Filling<'a> {
+    Flat(Rgba),
+    Paint(&'a Paint),
 }
 
 enum Step<'a> {
@@ -39,14 +47,14 @@ enum Step<'a> {
     EndLayer(f64),
 }
 
-/// Draws a scene under the standard rules. Coordinates must stay small.
+/// Draws a scene under the standard rules or those of first drafts. Coordinates must stay small.
 pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSettings, size: [u32; 2]) -> Framebuffer {
     let (side, bits) = lattice(settings);
     let units = f64::from(side << bits);
     let steps: Vec<Step<'_>> = scene
         .primitives
         .iter()
-        .map(|primitive| step(&primitive.kind, view, units))
+        .flat_map(|primitive| steps_of(&primitive.kind, view, units, settings.rules))
         .collect();
     let mut frame = Framebuffer::new(size[0], size[1]);
     for y in 0..size[1] {
@@ -158,6 +166,42 @@ fn radical_inverse(number: u32, base: u32) -> f64 {
     sum
 }
 
+/// The steps of a primitive; first drafts cut polygons into triangles and place their corners in 32 bits.
+fn steps_of<'a>(kind: &'a PrimitiveKind, view: &ViewTransform, units: f64, rules: Rules) -> Vec<Step<'a>> {
+    let float = |points: &[DVec2; 3]| {
+        points.map(|point| {
+            let at = view.to_pixels(point);
+            (at.x as f32, at.y as f32)
+        })
+    };
+    // Attributes, too, follow from the corners in 32 bits.
+    let snap = |(x, y): (f32, f32)| {
+        let on_grid = |at: f32| (f64::from(at) * units + 0.5).floor() as i128;
+        (on_grid(x), on_grid(y))
+    };
+    let triangle = |points: &[DVec2; 3], fill| {
+        Step::Triangle(Triangle {
+            corners: float(points).map(snap),
+            float: Some(float(points)),
+            fill,
+        })
+    };
+    match kind {
+        _ if rules == Rules::Standard => vec![step(kind, view, units)],
+        PrimitiveKind::Triangle { points, paint } => vec![triangle(points, Filling::Paint(paint))],
+        PrimitiveKind::Polygon { polygon, color } => {
+            let Some(triangles) = polygon.triangles() else {
+                return vec![step(kind, view, units)];
+            };
+            triangles
+                .iter()
+                .map(|points| triangle(points, Filling::Flat(*color)))
+                .collect()
+        }
+        _ => vec![step(kind, view, units)],
+    }
+}
+
 fn step<'a>(kind: &'a PrimitiveKind, view: &ViewTransform, units: f64) -> Step<'a> {
     let snap = |point: DVec2| {
         let scaled = (view.to_pixels(point) * units + 0.5).floor();
@@ -166,7 +210,8 @@ fn step<'a>(kind: &'a PrimitiveKind, view: &ViewTransform, units: f64) -> Step<'
     match kind {
         PrimitiveKind::Triangle { points, paint } => Step::Triangle(Triangle {
             corners: points.map(snap),
-            paint,
+            float: None,
+            fill: Filling::Paint(paint),
         }),
         PrimitiveKind::Polygon { polygon, color } => {
             let mut edges = Vec::new();
@@ -282,17 +327,27 @@ impl Triangle<'_> {
             |a: (i128, i128), b: (i128, i128), p: (i128, i128)| (b.0 - a.0) * (p.1 - a.1) - (b.1 - a.1) * (p.0 - a.0);
         let [a, b, c] = self.corners;
         let area = cross(a, b, c);
+        if let Some(corners) = self.float {
+            let place = |index: u32| ((f64::from(index) + 0.5) / f64::from(side)) as f32;
+            if area == 0 || !is_inside_in_floats(corners, (place(i), place(j))) {
+                return None;
+            }
+        }
         let mut weights = [0.0; 3];
         for (k, (from, to)) in [(b, c), (c, a), (a, b)].into_iter().enumerate() {
             let value = cross(from, to, sample) * area.signum();
             let (dx, dy) = ((to.0 - from.0) * area.signum(), (to.1 - from.1) * area.signum());
             let top_left = dy < 0 || (dy == 0 && dx > 0);
-            if value < 0 || (value == 0 && !top_left) || area == 0 {
+            if self.float.is_none() && (value < 0 || (value == 0 && !top_left) || area == 0) {
                 return None;
             }
             weights[k] = value as f64 / area.abs() as f64;
         }
-        Some(match self.paint {
+        let paint = match self.fill {
+            Filling::Flat(color) => return Some(premultiply(color)),
+            Filling::Paint(paint) => paint,
+        };
+        Some(match paint {
             Paint::Solid(color) => premultiply(*color),
             Paint::Vertex(colors) => {
                 let mix = |channel: fn(&Rgba) -> f32| {
@@ -320,6 +375,18 @@ impl Triangle<'_> {
         };
         [per(|edge| -edge.y), per(|edge| edge.x)]
     }
+}
+
+/// First drafts: inside where all three line equations have one sign, and nobody looks beyond the box.
+fn is_inside_in_floats(corners: [(f32, f32); 3], at: (f32, f32)) -> bool {
+    let line = |a: (f32, f32), b: (f32, f32)| (b.0 - a.0) * (at.1 - a.1) - (b.1 - a.1) * (at.0 - a.0);
+    let [a, b, c] = corners;
+    let values = [line(a, b), line(b, c), line(c, a)];
+    let beyond = |of: fn((f32, f32)) -> f32| {
+        corners.iter().all(|corner| of(*corner) < of(at)) || corners.iter().all(|corner| of(*corner) > of(at))
+    };
+    let one_sign = values.iter().all(|value| *value > 0.0) || values.iter().all(|value| *value < 0.0);
+    one_sign && !beyond(|point| point.0) && !beyond(|point| point.1)
 }
 
 /// The mean of the taps along the longer side of the footprint.

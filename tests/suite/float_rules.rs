@@ -1,0 +1,121 @@
+//! The rules of first drafts: the pinholes that they leave are there to be seen, and told truly.
+
+use rasterscope::geometry::View;
+use rasterscope::inspect::{Explanation, Question, Verdict};
+use rasterscope::raster::Framebuffer;
+use rasterscope::render::{RenderSettings, Subject};
+use rasterscope::rules::Rules;
+use rasterscope::scene::{self, DialectChoice, ReadOptions, Scene};
+use rasterscope::viewer::gallery::{SCENES, Textures};
+
+use crate::support::scenes::{at_rate, drawn};
+
+fn own(name: &str) -> Scene {
+    let own = SCENES.iter().find(|scene| scene.name == name).unwrap();
+    let options = ReadOptions {
+        dialect: DialectChoice::Auto,
+    };
+    scene::read(own.document.as_bytes(), own.name, options, &Textures).unwrap()
+}
+
+fn picture(scene: &Scene, size: [u32; 2], settings: &RenderSettings) -> Framebuffer {
+    drawn(scene, &View::Default.transform(scene.canvas, size), settings, size)
+}
+
+fn by(rules: Rules) -> RenderSettings {
+    RenderSettings { rules, ..at_rate(1) }
+}
+
+fn explained(scene: &Scene, size: [u32; 2], settings: &RenderSettings, pixel: [u32; 2]) -> Explanation {
+    let view = View::Default.transform(scene.canvas, size);
+    let subject = Subject {
+        scene,
+        view: &view,
+        settings,
+    };
+    let question = Question {
+        subject,
+        file: "scene.svg",
+        size,
+        pixel,
+    };
+    Explanation::new(&question).unwrap()
+}
+
+/// The pixels that two pictures show differently.
+fn different(a: &Framebuffer, b: &Framebuffer) -> Vec<[u32; 2]> {
+    let pixels = a.pixels().iter().zip(b.pixels()).zip(0..);
+    pixels
+        .filter(|((a, b), _)| a != b)
+        .map(|(_, i)| [i % a.width(), i / a.width()])
+        .collect()
+}
+
+#[test]
+fn float_rules_show_pinholes_in_the_windows_first_size_and_the_standard_rules_close_them() {
+    let (scene, size) = (own("basic/test4.svg"), [1280, 800]);
+    let [float, standard] = [Rules::Float, Rules::Standard].map(|rules| picture(&scene, size, &by(rules)));
+    let holes = different(&float, &standard);
+    assert!(holes.len() > 300, "{} pixels differ", holes.len());
+    let mut told = 0;
+    for pixel in holes.iter().step_by(7) {
+        let found = explained(&scene, size, &by(Rules::Float), *pixel);
+        if let [hole] = &found.pinholes[..] {
+            told += 1;
+            let open = |verdict| matches!(verdict, Verdict::TieUndecided | Verdict::Outside);
+            assert!(hole.edges.iter().any(|edge| open(edge.verdict)), "{hole:?}");
+            assert!(found.hints()[0].contains("a pinhole"), "{:?}", found.hints());
+            assert!(found.hints()[0].contains("standard rules"), "{:?}", found.hints());
+        }
+        let cured = explained(&scene, size, &by(Rules::Standard), *pixel);
+        assert!(cured.pinholes.is_empty() && !cured.hints().concat().contains("pinhole"));
+    }
+    // Where 32 bits give a sample to a neighbour, nothing is open.
+    assert!(told * 7 > holes.len() * 3 / 4, "{told} of a seventh of {}", holes.len());
+}
+
+#[test]
+fn float_rules_leave_the_lines_of_the_colour_wheel_to_nobody() {
+    let (scene, size) = (own("basic/test7.svg"), [801, 801]);
+    let [float, standard] = [Rules::Float, Rules::Standard].map(|rules| picture(&scene, size, &by(rules)));
+    let white = |frame: &Framebuffer, x: u32, y: u32| frame.pixels()[(y * 801 + x) as usize] == 0xFFFF_FFFF;
+    for at in (150..650).filter(|at| (395..406).all(|middle| middle != *at)) {
+        assert!(white(&float, 400, at) && white(&float, at, 400), "a hole at {at}");
+        assert!(!white(&standard, 400, at) && !white(&standard, at, 400), "none at {at}");
+    }
+    let found = explained(&scene, size, &by(Rules::Float), [400, 380]);
+    let [hole] = &found.pinholes[..] else {
+        panic!("one sample, one hole: {found:?}");
+    };
+    let ties = hole.edges.iter().filter(|edge| edge.verdict == Verdict::TieUndecided);
+    assert_eq!(
+        ties.map(|edge| (edge.value, edge.float)).collect::<Vec<_>>(),
+        [(0, Some(0.0))]
+    );
+    let text = found.text(rasterscope::inspect::Detail::Telling);
+    assert!(text.contains("no rule says whose it is, so nobody's"), "{text}");
+    assert!(
+        text.contains("edge function 0 in 32-bit floats") || text.contains("0 in 32-bit floats"),
+        "{text}"
+    );
+    assert!(
+        found.missed.iter().all(|missed| missed.primitive != hole.primitive),
+        "it is not missed"
+    );
+}
+
+#[test]
+fn float_rules_leave_whole_frames_alike_however_they_are_drawn() {
+    let (scene, size) = (own("basic/test4.svg"), [203, 151]);
+    for samples in [1, 4, 16] {
+        let settings = RenderSettings {
+            rules: Rules::Float,
+            ..at_rate(samples)
+        };
+        let draw = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| picture(&scene, size, &settings))
+        };
+        assert!(draw(1) == draw(3), "rate {samples}");
+    }
+}

@@ -9,6 +9,7 @@ mod architecture;
 mod cli;
 mod coverage;
 mod diff;
+mod disk;
 mod figures;
 mod full_disk;
 mod gallery;

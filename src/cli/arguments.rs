@@ -339,6 +339,9 @@ pub(super) struct DiffOptions {
     /// Levels of 255 that a channel may differ by without an exit status of 1
     #[arg(long, default_value_t = 0, value_name = "T")]
     pub(super) tolerance: u8,
+    /// Most pixels of a picture; comparing takes about 16 bytes of memory for each
+    #[arg(long, default_value_t = MAX_PIXELS, value_name = "N")]
+    pub(super) max_pixels: u64,
     /// Print JSON instead of text
     #[arg(long)]
     pub(super) json: bool,
@@ -347,6 +350,9 @@ pub(super) struct DiffOptions {
     #[command(flatten)]
     pub(super) framing: FramingOptions,
 }
+
+/// Pixels of pictures that `diff` compares unasked: with all that it makes of them about 1.6 GB.
+pub(super) const MAX_PIXELS: u64 = 100_000_000;
 
 #[derive(Debug, Args)]
 pub(super) struct BenchOptions {
@@ -431,6 +437,14 @@ pub(super) struct SamplingOptions {
 }
 
 impl SamplingOptions {
+    /// How documents are read: the course's rules ask for the course's dialect where nothing else is said.
+    pub(super) fn reading(&self) -> DialectChoice {
+        match (self.dialect, self.rules) {
+            (DialectChoice::Auto, Rules::Course) => DialectChoice::Course,
+            (dialect, _) => dialect,
+        }
+    }
+
     /// Which options do not go together, and the cure.
     fn refusal(&self) -> Option<String> {
         let refusal = self.pattern.refusal(self.sample_rate)?;

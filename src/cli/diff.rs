@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::arguments::{DiffOptions, PictureOptions};
+use super::arguments::{DiffOptions, MAX_PIXELS, PictureOptions};
 use super::failure::{Failure, print};
 use super::picture::{Picture, on_threads};
 use super::recorded;
@@ -143,7 +143,7 @@ fn with_pair<R>(
             second.display()
         )));
     }
-    let b = Encoded::read(second)?;
+    let b = Encoded::read(second, options.max_pixels)?;
     if is_scene(first) {
         let mut ours = Picture::read(recorded::spec(first, &drawing(options, b.size)))?;
         let theirs = b.decode(second)?;
@@ -151,7 +151,7 @@ fn with_pair<R>(
         let pair = Pair::new(ours.frame(), &theirs).map_err(Failure::input)?;
         return work(pair, Some(&ours));
     }
-    let a = Encoded::read(first)?;
+    let a = Encoded::read(first, options.max_pixels)?;
     if a.size != b.size {
         let (ours, theirs) = (b.size, a.size);
         return Err(Failure::input(format!(
@@ -192,10 +192,20 @@ struct Encoded {
 }
 
 impl Encoded {
-    fn read(path: &Path) -> Result<Self, Failure> {
+    /// Refuses more than `most` pixels.
+    fn read(path: &Path, most: u64) -> Result<Self, Failure> {
         let bytes = FolderResources::read_file(path)
             .map_err(|error| Failure::input(format!("{}: {error}; give a PNG or JPEG picture", path.display())))?;
         let size = compare::encoded_size(&bytes).map_err(|error| unreadable(path, &error))?;
+        let [width, height] = size;
+        let pixels = u64::from(width) * u64::from(height);
+        if pixels > most {
+            return Err(Failure::input(format!(
+                "{}: {width} x {height} pixels are more than {most}; compare smaller pictures, or allow as many with \
+                 --max-pixels {pixels}",
+                path.display()
+            )));
+        }
         Ok(Self { bytes, size })
     }
 
@@ -252,6 +262,9 @@ fn record(size: [u32; 2], output: &Path, options: &DiffOptions) -> Record {
         words.push("--normalize".to_owned());
     } else {
         words.push(format!("--gain={}", options.gain));
+    }
+    if options.max_pixels != MAX_PIXELS {
+        words.extend(["--max-pixels".to_owned(), options.max_pixels.to_string()]);
     }
     if is_scene(&options.a) {
         // The size is that of B.

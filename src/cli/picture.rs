@@ -104,7 +104,19 @@ pub(super) fn read_scene(source: &SceneSource, dialect: DialectChoice) -> Result
     for line in scene.report.lines() {
         print_error(&format!("{}:{line}", source.address()));
     }
+    if dialect == DialectChoice::Auto {
+        tell_reading(source, &scene, "");
+    }
     Ok(scene)
+}
+
+/// Says on stderr how a file was read that may be meant in the other dialect, and `why`.
+pub(super) fn tell_reading(source: &SceneSource, scene: &Scene, why: &str) {
+    let note = scene.reading_note(why);
+    // The gallery's scenes say what they are.
+    if let (SceneSource::File(path), Some(note)) = (source, note) {
+        print_error(&format!("{}: {note}", path.display()));
+    }
 }
 
 /// Runs `work` on a pool of as many threads as the option says, or one per core.

@@ -67,7 +67,7 @@ pub(super) fn spec(scene: &Path, options: &PictureOptions) -> PictureSpec {
         size: options.size.0,
         view: options.framing.view,
         render: options.sampling.settings(options.framing.view),
-        dialect: options.sampling.dialect,
+        dialect: options.sampling.reading(),
         legend: true,
         insets: Vec::new(),
     }

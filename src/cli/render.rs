@@ -8,9 +8,10 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::arguments::RenderOptions;
 use super::failure::{Failure, print_error};
-use super::picture::{Picture, on_threads};
+use super::picture::{Picture, on_threads, tell_reading};
 use super::recorded;
 use crate::figure::save_recorded_png;
+use crate::scene::DialectChoice;
 use crate::viewer::{PictureSpec, Restored, SceneEntry, SceneSource, list_scenes};
 
 /// Draws what the options ask for.
@@ -20,12 +21,8 @@ pub(super) fn run(options: &RenderOptions, restored: Option<&Restored>) -> Resul
             folder(options)
         } else {
             name_for_png(&options.output)?;
-            one(
-                SceneSource::from_address(&options.scene),
-                &options.output,
-                options,
-                restored,
-            )
+            let entry = (SceneSource::from_address(&options.scene), false);
+            one(entry, &options.output, options, restored)
         }
     })?
 }
@@ -46,7 +43,7 @@ fn folder(options: &RenderOptions) -> Result<(), Failure> {
         bar.set_message(entry.label.clone());
         let output = picture_of(entry, options);
         let drawn = if taken.insert(output.clone()) {
-            one(entry.source.clone(), &output, options, None)
+            one((entry.source.clone(), entry.is_of_course), &output, options, None)
         } else {
             let (scene, output) = (entry.source.address(), output.display());
             Err(Failure::input(format!(
@@ -82,19 +79,30 @@ fn picture_of(entry: &SceneEntry, options: &RenderOptions) -> PathBuf {
     options.output.join(inner).with_extension("png")
 }
 
+/// Draws a scene, of which is known whether it lies in a folder of the course's.
 fn one(
-    source: SceneSource,
+    (source, is_of_course): (SceneSource, bool),
     output: &Path,
     options: &RenderOptions,
     restored: Option<&Restored>,
 ) -> Result<(), Failure> {
+    let sampling = &options.picture.sampling;
+    let (dialect, why) = match (sampling.dialect, sampling.reading()) {
+        (DialectChoice::Auto, DialectChoice::Course) => (DialectChoice::Course, ", as --rules course asks for"),
+        (DialectChoice::Auto, _) if is_of_course => (DialectChoice::Course, ", as other scenes of the folder are"),
+        (dialect, _) => (dialect, ""),
+    };
     let scene = PictureSpec {
-        scene: source,
+        scene: source.clone(),
+        dialect,
         legend: !options.no_legend,
         insets: options.insets.clone(),
         ..recorded::spec(&options.scene, &options.picture)
     };
     let mut picture = Picture::read(scene)?;
+    if !why.is_empty() {
+        tell_reading(&source, &picture.scene, why);
+    }
     picture.tell_changes(restored);
     picture.draw_figure()?;
     if let Some(folder) = folder_to_make(output, options) {

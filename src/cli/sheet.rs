@@ -10,6 +10,7 @@ use super::picture::{on_threads, read_scene};
 use super::render::{name_for_png, unwritable};
 use super::size::FrameSize;
 use crate::figure::Figure;
+use crate::rules::Rules;
 use crate::viewer::{Choice, PictureSpec, Restored, SceneSource, Sheet, SheetRequest};
 
 /// Draws the sheet and writes it, its panels and the snippets.
@@ -54,14 +55,20 @@ pub(super) fn spec(options: &SheetOptions) -> Result<PictureSpec, String> {
 /// # Errors
 /// One line.
 pub(super) fn request(options: &SheetOptions) -> Result<SheetRequest, String> {
-    let mut request = SheetRequest::new(options.axes.0.clone(), |choice| panel(options, choice))?;
+    let mut panels = Vec::new();
+    for choice in options.axes.0.choices() {
+        panels.push(sampling(&choice)?.rules);
+    }
+    // Panels that differ in their rules show one reading of the document.
+    let by_rules = panels.iter().all(|rules| *rules == Rules::Course);
+    let mut request = SheetRequest::new(options.axes.0.clone(), |choice| panel(options, choice, by_rules))?;
     request.theme = options.theme;
     request.note.clone_from(&options.note);
     Ok(request)
 }
 
-/// What a panel shows.
-fn panel(options: &SheetOptions, choice: &Choice) -> Result<PictureSpec, String> {
+/// What a panel shows; `by_rules` lets its rules decide how the document is read.
+fn panel(options: &SheetOptions, choice: &Choice, by_rules: bool) -> Result<PictureSpec, String> {
     let sampling = sampling(choice)?;
     let size = options.size.map_or_else(
         || [SheetRequest::page_panel(&options.axes.0); 2],
@@ -72,7 +79,7 @@ fn panel(options: &SheetOptions, choice: &Choice) -> Result<PictureSpec, String>
         size,
         view: options.framing.view,
         render: sampling.settings(options.framing.view),
-        dialect: sampling.dialect,
+        dialect: if by_rules { sampling.reading() } else { sampling.dialect },
         insets: options.insets.clone(),
         // The sheet has one for all panels.
         legend: false,

@@ -170,7 +170,7 @@ fn specs(options: &SweepOptions) -> Result<Vec<(Choice, PictureSpec)>, Failure> 
             size,
             view: options.framing.view,
             render: sampling.settings(options.framing.view),
-            dialect: sampling.dialect,
+            dialect: sampling.reading(),
             insets: Vec::new(),
             legend: false,
         };

@@ -62,7 +62,7 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
 fn settings(options: &ViewerOptions) -> crate::viewer::Settings {
     crate::viewer::Settings {
         render: options.sampling.settings(options.framing.view),
-        dialect: options.sampling.dialect,
+        dialect: options.sampling.reading(),
         ..Default::default()
     }
 }

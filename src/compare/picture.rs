@@ -18,16 +18,18 @@ pub fn encoded_size(bytes: &[u8]) -> Result<[u32; 2], DecodeError> {
 /// When the bytes are neither, are damaged, or the picture is larger than a frame may be.
 pub fn decode_picture(bytes: &[u8]) -> Result<Framebuffer, DecodeError> {
     let [width, height] = encoded_size(bytes)?;
-    let rgba = texture::decode_straight(bytes)?;
     let mut frame = Framebuffer::new(width, height);
-    let (pixels, _) = rgba.as_chunks::<4>();
-    for (out, [r, g, b, a]) in frame.pixels_mut().iter_mut().zip(pixels) {
-        *out = if *a == 0 {
-            0
-        } else {
-            u32::from_be_bytes([*a, *r, *g, *b])
-        };
-    }
+    let all = frame.pixels_mut();
+    texture::decode_rows(bytes, |run, pixels| {
+        let row = &mut all[run.y * width as usize..][..width as usize];
+        for (out, [r, g, b, a]) in row.iter_mut().skip(run.x).step_by(run.step).zip(pixels) {
+            *out = if *a == 0 {
+                0
+            } else {
+                u32::from_be_bytes([*a, *r, *g, *b])
+            };
+        }
+    })?;
     Ok(frame)
 }
 

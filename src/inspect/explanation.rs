@@ -2,10 +2,12 @@
 
 use glam::DVec2;
 
+use super::depth;
 use super::model::{
     Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve, Rounding, Sample, Shape, Source,
     Tap, Texel, Texture, VERSION, Verdict, View,
 };
+use super::numbers::one_line;
 use super::samples::{SampleHit, shape_of, straight};
 use crate::color::{Premultiplied16, ResolveSpace};
 use crate::geometry::FillRule;
@@ -13,6 +15,7 @@ use crate::geometry::edge::{EdgeKind, EdgeTest};
 use crate::raster::{Attributes, PaintedKind, PaintedOp, Piece, PieceShape, PixelReplay, SampleOfTriangle, TextureUse};
 use crate::render::{self, Explainer, OpenSample, RenderSettings, Subject};
 use crate::rules::Rules;
+use crate::scene::Quotes;
 
 /// Primitives between the samples that are told at most.
 const MOST_MISSED: usize = 100;
@@ -36,23 +39,27 @@ impl Explanation {
         let Question {
             subject, size, pixel, ..
         } = *question;
-        let replay = render::replay(&subject, size, pixel)?;
+        let mut replay = render::replay(&subject, size, pixel)?;
         let explainer = Explainer::new(subject, size, pixel);
+        let mut missed = explainer.missed(&replay.painted, MOST_MISSED);
+        let quotes = subject.scene.quotes();
+        let (seen, unlisted) = depth::list(&mut replay);
         let pieces = explainer.pieces(&replay.painted);
-        let seen = seen_fragments(&replay);
         let rules = subject.settings.rules;
         let paints: Vec<Paint> = replay
             .painted
             .iter()
             .zip(pieces)
             .zip(&seen)
-            .map(|((op, piece), seen)| question.paint(op, piece, seen, &explainer))
+            .map(|((op, piece), seen)| {
+                let source = question.source(op.source, quotes.as_ref());
+                question.paint((op, source), piece, seen, &explainer)
+            })
             .collect();
         let [a, r, g, b] = replay.pixel.to_be_bytes();
         let center = DVec2::new(f64::from(pixel[0]), f64::from(pixel[1])) + 0.5;
         let samples = samples(&replay, &paints, rules);
-        let pinholes = question.pinholes(&samples, &paints, &explainer);
-        let mut missed = explainer.missed(&replay.painted, MOST_MISSED);
+        let pinholes = question.pinholes(&samples, &paints, (&explainer, quotes.as_ref()));
         missed.retain(|(primitive, _)| pinholes.iter().all(|pinhole| pinhole.primitive != *primitive));
         Some(Self {
             version: VERSION,
@@ -65,10 +72,11 @@ impl Explanation {
             samples,
             paints,
             pinholes,
+            unlisted,
             missed: missed
                 .into_iter()
                 .filter_map(|(primitive, area)| {
-                    let source = question.source(primitive)?;
+                    let source = question.source(primitive, quotes.as_ref())?;
                     Some(Missed {
                         source,
                         primitive,
@@ -81,9 +89,15 @@ impl Explanation {
 }
 
 impl Question<'_> {
-    fn paint(&self, op: &PaintedOp, piece: Option<Piece>, seen: &[bool], explainer: &Explainer<'_>) -> Paint {
+    /// `op` comes with its place in the document.
+    fn paint(
+        &self,
+        (op, source): (&PaintedOp, Option<Source>),
+        piece: Option<Piece>,
+        seen: &[bool],
+        explainer: &Explainer<'_>,
+    ) -> Paint {
         let rules = self.subject.settings.rules;
-        let source = self.source(op.source);
         let (mut views, mut texture) = (Vec::new(), None);
         let shape = match (op.kind, piece.map(|piece| piece.shape)) {
             (PaintedKind::BeginLayer, _) => Shape::BeginLayer,
@@ -143,7 +157,12 @@ impl Question<'_> {
     }
 
     /// The samples that the float rules leave open, though a triangle above what is seen there is theirs.
-    fn pinholes(&self, samples: &[Sample], paints: &[Paint], explainer: &Explainer<'_>) -> Vec<Pinhole> {
+    fn pinholes(
+        &self,
+        samples: &[Sample],
+        paints: &[Paint],
+        (explainer, quotes): (&Explainer<'_>, Option<&Quotes<'_>>),
+    ) -> Vec<Pinhole> {
         if self.subject.settings.rules != Rules::Float {
             return Vec::new();
         }
@@ -152,7 +171,7 @@ impl Question<'_> {
         let pinhole = |open: OpenSample| {
             Some(Pinhole {
                 sample: open.sample,
-                source: self.source(open.source)?,
+                source: self.source(open.source, quotes)?,
                 primitive: open.source,
                 corners: open.corners.map(|corner| corner.to_array()),
                 edges: edges(&open.view, &open.corners, Rules::Float),
@@ -162,18 +181,18 @@ impl Question<'_> {
     }
 
     /// Where a primitive stands in the document.
-    fn source(&self, primitive: u32) -> Option<Source> {
+    fn source(&self, primitive: u32, quotes: Option<&Quotes<'_>>) -> Option<Source> {
         let scene = self.subject.scene;
         let SampleHit::Shape(shape) = shape_of(scene, primitive) else {
             return None;
         };
         Some(Source {
             element: shape.element.to_string(),
-            id: shape.id.as_deref().map(str::to_owned),
+            id: shape.id.as_deref().map(one_line),
             file: self.file.to_owned(),
             line: shape.location.line,
             column: shape.location.column,
-            text: scene.source_line(shape.location.line).map(str::to_owned),
+            text: quotes.and_then(|quotes| quotes.excerpt(shape.location)),
         })
     }
 
@@ -261,6 +280,7 @@ fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> 
             color: levels(sample.color),
             bytes: straight(sample.color, rules),
             stack: Vec::new(),
+            unlisted: 0,
             seen: None,
         })
         .collect();
@@ -273,6 +293,9 @@ fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> 
                 sample.seen = Some(number);
             }
         }
+    }
+    for (sample, replayed) in samples.iter_mut().zip(&replay.samples) {
+        sample.unlisted = replayed.fragments.saturating_sub(sample.stack.len());
     }
     samples
 }

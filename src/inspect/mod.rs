@@ -5,6 +5,7 @@
 //! other way: from a texel to the pixels around that read it.
 
 mod accumulation;
+mod depth;
 mod differences;
 mod explanation;
 mod feeds;

@@ -31,8 +31,11 @@ pub struct Explanation {
     pub resolve: Resolve,
     /// Its samples when everything is painted.
     pub samples: Vec<Sample>,
-    /// Everything that painted any of them, first to last.
+    /// Everything that painted any of them, first to last; of more than some hundred the last ones, and those that samples
+    /// show.
     pub paints: Vec<Paint>,
+    /// How many paints there are besides.
+    pub unlisted: usize,
     /// What passes through the pixel and misses every sample.
     pub missed: Vec<Missed>,
     /// Samples that an edge in 32-bit floats leaves open; there are some by the float rules only.
@@ -90,6 +93,8 @@ pub struct Sample {
     pub bytes: [u8; 4],
     /// The paints that touched it, first to last.
     pub stack: Vec<usize>,
+    /// How many more did that are not listed.
+    pub unlisted: usize,
     /// The primitive that is seen there; on top where several shine through. `None` where it is the background.
     pub seen: Option<usize>,
 }
@@ -155,7 +160,7 @@ pub struct Source {
     pub line: u32,
     /// See `line`.
     pub column: u32,
-    /// The line itself, where the document was kept.
+    /// The line itself, where the document was kept; of one longer than 200 characters an excerpt around the element.
     pub text: Option<String>,
 }
 

@@ -58,17 +58,14 @@ pub(super) fn significant(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// A line of a document, which may be megabytes long.
-pub(super) fn shortened(text: &str) -> String {
-    const MOST: usize = 60;
+/// What a document says, at most 200 characters of it and without control characters.
+pub(super) fn one_line(text: &str) -> String {
+    const MOST: usize = 200;
     let mut characters = text.chars();
-    let mut kept: String = characters
-        .by_ref()
-        .take(MOST)
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
+    let kept = characters.by_ref().take(MOST);
+    let mut kept: String = kept.map(|c| if c.is_control() { ' ' } else { c }).collect();
     if characters.next().is_some() {
-        kept.push_str(" ...");
+        kept.push_str("...");
     }
     kept
 }
@@ -110,8 +107,8 @@ mod tests {
     #[test]
     fn long_lines_are_cut() {
         let long = "\u{e9}\t".repeat(10_000);
-        let cut = shortened(&long);
-        assert!(cut.chars().count() <= 64 && cut.ends_with("..."), "{cut}");
+        let cut = one_line(&long);
+        assert!(cut.chars().count() <= 203 && cut.ends_with("..."), "{cut}");
         assert!(!cut.contains('\t'), "no control characters");
     }
 }

@@ -65,6 +65,9 @@ impl Explanation {
             topic("How samples became the colour".to_owned(), self.resolve_lines()),
             topic("What each sample shows".to_owned(), self.map_lines()),
         ];
+        if let Some(words) = self.unlisted_words() {
+            topics.push(topic("What is not listed".to_owned(), vec![words]));
+        }
         for paint in 0..self.paints.len() {
             let mut lines = self.paint_lines(paint);
             let sample = match detail {

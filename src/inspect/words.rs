@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use super::model::{Edge, Explanation, Fragment, Interpolated, Paint, Resolve, Rounding, Shape, Source, Verdict, View};
-use super::numbers::{number, percent, runs, shortened, significant};
+use super::numbers::{number, percent, runs, significant};
 use crate::color::{ResolveSpace, encoded};
 
 /// Different colours that a sum is written out for at most.
@@ -216,6 +216,9 @@ impl Explanation {
                 format!("{}{}", paint + 1, if hidden { " (hidden)" } else { "" })
             })
             .collect();
+        if found.unlisted > 0 {
+            words.push(format!("{} more", found.unlisted));
+        }
         words.push("the background".to_owned());
         words.join(" over ")
     }
@@ -314,6 +317,17 @@ impl Explanation {
         lines
     }
 
+    /// What is not listed of a deep stack, in one sentence.
+    pub fn unlisted_words(&self) -> Option<String> {
+        let listed = self.paints.len();
+        (self.unlisted > 0).then(|| {
+            format!(
+                "{} more paint this pixel below; the last ones are listed, and what samples show: {listed} in all.",
+                self.unlisted
+            )
+        })
+    }
+
     /// What passes between the samples.
     pub fn missed_lines(&self) -> Vec<String> {
         let line = |missed: &super::model::Missed| {
@@ -370,11 +384,10 @@ impl Source {
 
     fn lines(&self) -> Vec<String> {
         let mut lines = vec![format!("{}:{}:{}", self.file, self.line, self.column)];
-        lines.extend(
-            self.text
-                .iter()
-                .map(|text| format!("{} | {}", self.line, shortened(text))),
-        );
+        // An excerpt already.
+        let clean = |c: char| if c.is_control() { ' ' } else { c };
+        let quoted = self.text.iter().map(|text| text.chars().map(clean).collect::<String>());
+        lines.extend(quoted.map(|text| format!("{} | {text}", self.line)));
         lines
     }
 }

@@ -91,7 +91,7 @@ impl<'a> TilePainter<'a> {
         chunks: &[(&Chunk, &[Entry])],
         (pixel, background): ([i32; 2], Premultiplied16),
         bands: &mut BandSpans,
-    ) -> (Vec<PaintedOp>, Vec<Premultiplied16>) {
+    ) -> (Vec<PaintedOp>, Vec<(Premultiplied16, usize)>) {
         let one = |start: i32| Span { start, end: start + 1 };
         self.recorder = Some(Recorder::new(self.samples_per_pixel()));
         let rect = PixelRect {
@@ -103,8 +103,9 @@ impl<'a> TilePainter<'a> {
             self.paint(chunk, entries, bands);
         }
         let samples = self.pixel_samples(0);
-        let painted = self.recorder.take().map(|recorder| recorder.finish(&samples));
-        (painted.unwrap_or_default(), samples)
+        let recorded = self.recorder.take().map(|recorder| recorder.finish(&samples));
+        let (painted, depths) = recorded.unwrap_or_default();
+        (painted, samples.into_iter().zip(depths).collect())
     }
 
     fn samples_per_pixel(&self) -> usize {

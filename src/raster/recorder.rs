@@ -5,6 +5,9 @@ use super::rows::Span;
 use super::sample_mask::SampleMask;
 use crate::color::Premultiplied16;
 
+/// Fragments that are kept at most; beyond that those of the ops painted first are forgotten.
+const MOST_FRAGMENTS: usize = 1 << 19;
+
 /// What one op did to a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaintedOp {
@@ -16,8 +19,11 @@ pub struct PaintedOp {
     pub kind: PaintedKind,
     /// How many layers were open when it painted.
     pub layers: usize,
-    /// The samples that it painted, in the order of the pattern.
+    /// The samples that it painted, in the order of the pattern; empty where they were forgotten, under more than half a
+    /// million of later ones.
     pub fragments: Vec<PaintedSample>,
+    /// How many samples it painted, also where they were forgotten.
+    pub count: usize,
 }
 
 /// Kinds of ops.
@@ -52,6 +58,12 @@ pub(super) struct Recorder {
     before: Vec<Premultiplied16>,
     /// What it paints there.
     colors: Vec<Option<Premultiplied16>>,
+    /// How many fragments each sample got, and which op painted it last.
+    depths: Vec<usize>,
+    last: Vec<usize>,
+    /// How many fragments are kept, and how many ops from the first were forgotten.
+    kept: usize,
+    forgotten: usize,
 }
 
 impl PaintedKind {
@@ -71,6 +83,10 @@ impl Recorder {
             painted: Vec::new(),
             before: Vec::new(),
             colors: vec![None; samples],
+            depths: vec![0; samples],
+            last: vec![0; samples],
+            kept: 0,
+            forgotten: 0,
         }
     }
 
@@ -91,11 +107,13 @@ impl Recorder {
             kind,
             layers,
             fragments: Vec::new(),
+            count: 0,
         });
     }
 
     /// Ends the op at work, after which its layer holds `after`; how many layers are open then.
     fn close(&mut self, after: &[Premultiplied16]) -> usize {
+        let number = self.painted.len().saturating_sub(1);
         let Some(op) = self.painted.last_mut() else {
             return 0;
         };
@@ -108,12 +126,32 @@ impl Recorder {
                     before: *before,
                     after: *after,
                 });
+                self.depths[sample] += 1;
+                self.last[sample] = number;
             }
         }
-        match op.kind {
+        op.count = op.fragments.len();
+        let layers = match op.kind {
             PaintedKind::Primitive => op.layers,
             PaintedKind::BeginLayer => op.layers + 1,
             PaintedKind::EndLayer(_) => op.layers.saturating_sub(1),
+        };
+        self.kept += op.count;
+        self.forget();
+        layers
+    }
+
+    /// Forgets fragments from the bottom of the stack while there are too many; what painted a sample last stays.
+    fn forget(&mut self) {
+        while self.kept > MOST_FRAGMENTS {
+            let Some(op) = self.painted.get_mut(self.forgotten) else {
+                return;
+            };
+            if !self.last.contains(&self.forgotten) {
+                self.kept -= op.fragments.len();
+                op.fragments = Vec::new();
+            }
+            self.forgotten += 1;
         }
     }
 
@@ -145,9 +183,9 @@ impl Recorder {
         });
     }
 
-    /// What was painted, now that the samples hold `after`.
-    pub(super) fn finish(mut self, after: &[Premultiplied16]) -> Vec<PaintedOp> {
+    /// What was painted, now that the samples hold `after`; and how many fragments each sample got.
+    pub(super) fn finish(mut self, after: &[Premultiplied16]) -> (Vec<PaintedOp>, Vec<usize>) {
         self.close(after);
-        self.painted
+        (self.painted, self.depths)
     }
 }

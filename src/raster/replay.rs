@@ -42,6 +42,8 @@ pub struct ReplayedSample {
     pub position: [f64; 2],
     /// Its colour.
     pub color: Premultiplied16,
+    /// How many fragments it got, those included that are hidden or forgotten.
+    pub fragments: usize,
 }
 
 impl PixelReplay {
@@ -96,12 +98,16 @@ impl DisplayList<'_> {
         let shaded = deferred.then(|| painters.deferred.shaded_sums()).flatten();
         let positions = self.positions(at);
         Some(PixelReplay {
-            sums: shaded.unwrap_or_else(|| sums(&samples)),
+            sums: shaded.unwrap_or_else(|| sums(samples.iter().map(|(color, _)| color))),
             summed_exactly: shaded.is_some(),
             samples: positions
                 .into_iter()
                 .zip(samples)
-                .map(|(position, color)| ReplayedSample { position, color })
+                .map(|(position, (color, fragments))| ReplayedSample {
+                    position,
+                    color,
+                    fragments,
+                })
                 .collect(),
             painted,
             pixel: pixel[0],
@@ -146,7 +152,7 @@ impl DisplayList<'_> {
 }
 
 /// The sums of colours, channel by channel.
-fn sums(samples: &[Premultiplied16]) -> [u32; 4] {
+fn sums<'a>(samples: impl Iterator<Item = &'a Premultiplied16>) -> [u32; 4] {
     let mut sums = [0; 4];
     for sample in samples {
         for (sum, channel) in sums.iter_mut().zip(sample.0) {

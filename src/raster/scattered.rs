@@ -364,7 +364,8 @@ mod tests {
             .collect();
         let scatter = scattered.then(|| Scatter::new(&list.context, list.outlines(), column));
         let mut painter = TilePainter::new(list.shade_context(), scatter);
-        painter.replay(&chunks, (pixel, list.background()), &mut list.bands())
+        let (painted, samples) = painter.replay(&chunks, (pixel, list.background()), &mut list.bands());
+        (painted, samples.into_iter().map(|(color, _)| color).collect())
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Pixels drawn again, one by one: what painted each, op by op, and the shapes that did.
 
+use std::collections::HashSet;
+
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -120,7 +122,7 @@ fn drop_what_paints_nothing(painted: &mut Vec<PaintedOp>) {
     for (i, op) in painted.iter().enumerate() {
         let used = match op.kind {
             PaintedKind::Primitive => {
-                kept[i] = !op.fragments.is_empty();
+                kept[i] = op.count > 0;
                 kept[i]
             }
             PaintedKind::BeginLayer => {
@@ -279,11 +281,12 @@ impl<'a> Explainer<'a> {
         const LEAST: f64 = 1e-9;
         let primitives = self.subject.scene.primitives.par_iter().enumerate();
         let near = primitives.filter(|(_, primitive)| self.is_near(&primitive.kind));
+        let hits: HashSet<u32> = painted.iter().filter(|op| op.count > 0).map(|op| op.source).collect();
         let mut missed: Vec<(u32, f64)> = near
             .filter_map(|(index, primitive)| {
                 let source = number(index);
-                let hit = painted.iter().any(|op| op.source == source && !op.fragments.is_empty());
-                let area = if hit { None } else { self.area_of(&primitive.kind) };
+                let is_hit = hits.contains(&source);
+                let area = if is_hit { None } else { self.area_of(&primitive.kind) };
                 area.filter(|area| *area > LEAST).map(|area| (source, area))
             })
             .collect();

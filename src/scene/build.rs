@@ -191,6 +191,7 @@ impl<'doc> Builder<'doc> {
         Scene {
             canvas,
             dialect,
+            other_reading: None,
             shapes: self.shapes,
             primitives: self.primitives,
             textures,

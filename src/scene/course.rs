@@ -20,8 +20,9 @@ pub(super) const ELEMENTS: [&str; 9] = [
 ];
 
 /// Attributes that would change the picture in SVG and have no effect here.
-const IGNORED: [&str; 8] = [
+const IGNORED: [&str; 9] = [
     "style",
+    "stroke-dasharray",
     "class",
     "opacity",
     "clip-path",
@@ -33,6 +34,23 @@ const IGNORED: [&str; 8] = [
 
 /// Attributes that SVG hands down from a group and this dialect does not.
 const NOT_INHERITED: [&str; 4] = ["fill", "stroke", "fill-opacity", "stroke-opacity"];
+
+/// Whether SVG draws the element otherwise: its strokes have a width, and more attributes count.
+pub(super) fn is_read_otherwise(node: Node<'_, '_>) -> bool {
+    let name = node.tag_name().name();
+    let has_stroke = node.attribute("stroke").is_some_and(|stroke| stroke.trim() != "none");
+    let is_group = name == "g";
+    name == "polyline"
+        || has_stroke && !is_group
+        || IGNORED.iter().any(|attribute| node.has_attribute(*attribute))
+        || is_group && NOT_INHERITED.iter().any(|attribute| node.has_attribute(*attribute))
+        || is_round(node)
+}
+
+/// Whether a rect asks for round corners.
+fn is_round(node: Node<'_, '_>) -> bool {
+    node.tag_name().name() == "rect" && ["rx", "ry"].iter().any(|name| node.has_attribute(*name))
+}
 
 /// Reads one document.
 #[derive(Debug)]
@@ -91,6 +109,8 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
             } else if node.tag_name().name() == "g" && NOT_INHERITED.contains(&name) {
                 self.builder
                     .skip(SkippedKind::Attribute, &format!("{name} on <g>"), node);
+            } else if matches!(name, "rx" | "ry") && is_round(node) {
+                self.builder.skip(SkippedKind::Attribute, name, node);
             }
         }
     }
@@ -248,7 +268,14 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
 
     fn points(&mut self, node: Node<'doc, 'doc>) -> Result<Vec<DVec2>, Fault> {
         let numbers = triangles::numbers(self.builder, node, "points")?;
-        let (pairs, _) = numbers.as_chunks::<2>();
+        let (pairs, rest) = numbers.as_chunks::<2>();
+        if !rest.is_empty() {
+            let message = format!(
+                "points holds {} numbers; the last one has no partner and is left out",
+                numbers.len()
+            );
+            self.builder.warn(node, message);
+        }
         Ok(pairs.iter().map(|&[x, y]| DVec2::new(x.into(), y.into())).collect())
     }
 

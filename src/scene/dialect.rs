@@ -2,6 +2,7 @@
 
 use roxmltree::Node;
 
+use super::document::Source;
 use super::{Dialect, attributes, course, course_values, numbers};
 
 /// The dialect as a setting.
@@ -37,43 +38,131 @@ impl DialectChoice {
         }
     }
 
-    /// The dialect in which to read the document with this root.
-    pub(super) fn resolve(self, root: Node<'_, '_>) -> Dialect {
-        match self {
+    /// The dialect in which to read the document with this root; and the other, where the document may be meant in it and
+    /// is another picture then.
+    pub(super) fn resolve(self, root: Node<'_, '_>) -> (Dialect, Option<Dialect>) {
+        let traits = Traits::of(root);
+        let dialect = match self {
             Self::Course => Dialect::Course,
             Self::Svg => Dialect::Svg,
-            Self::Auto => recognise(root),
-        }
+            Self::Auto => traits.dialect(),
+        };
+        let other = match dialect {
+            Dialect::Course => Dialect::Svg,
+            Dialect::Svg => Dialect::Course,
+        };
+        (dialect, traits.may_be_either().then_some(other))
     }
 }
 
-/// The course's dialect if the document uses what only the course has; or nothing that the course does not have,
-/// colours that it reads as SVG does (named ones and `#fff` are others to it), no `style`, and a size in plain numbers,
-/// without which the course's reader has no canvas.
-fn recognise(root: Node<'_, '_>) -> Dialect {
-    let mut foreign = false;
-    let mut open = vec![root.children()];
-    while let Some(children) = open.last_mut() {
-        let Some(node) = children.next() else {
-            open.pop();
-            continue;
+/// Whether a document uses elements that only the course has, so that those beside it are the course's too.
+pub fn is_of_course(document: &[u8]) -> bool {
+    let names = ["colortri", "textri", "texture"];
+    let holds = |name: &str| document.windows(name.len()).any(|part| part == name.as_bytes());
+    if !names.into_iter().any(holds) {
+        return false;
+    }
+    let Ok(text) = super::document::decode(document) else {
+        return false;
+    };
+    let Ok(source) = Source::new(&text) else {
+        return false;
+    };
+    source.parse().is_ok_and(|tree| {
+        let mut elements = tree.root_element().descendants().filter(Node::is_element);
+        elements.any(|node| names.contains(&node.tag_name().name()) && !attributes::is_silent(node))
+    })
+}
+
+/// What tells the dialects apart in a document.
+#[derive(Clone, Copy, Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a question of its own")]
+struct Traits {
+    /// It uses what only the course has.
+    own: bool,
+    /// It uses elements that the course's reader skips, colours that it misreads, or `style`.
+    foreign: bool,
+    /// It uses more of SVG than lines, polygons and round shapes: nobody writes that for the course's reader.
+    rich: bool,
+    /// It has something that the course's reader draws.
+    drawn: bool,
+    /// It has strokes, a `viewBox` and the like, which mean something else to each reader.
+    differs: bool,
+    /// Its size is given in plain numbers, without which the course's reader has no canvas; or begins with numbers.
+    sized: bool,
+    measured: bool,
+}
+
+impl Traits {
+    fn of(root: Node<'_, '_>) -> Self {
+        let mut traits = Self {
+            sized: has_number(root, "width") && has_number(root, "height"),
+            measured: begins_with_number(root, "width") && begins_with_number(root, "height"),
+            differs: has_view_box(root),
+            ..Self::default()
         };
-        if !node.is_element() || attributes::is_silent(node) {
-            continue;
+        let mut open = vec![root.children()];
+        while let Some(children) = open.last_mut() {
+            let Some(node) = children.next() else {
+                open.pop();
+                continue;
+            };
+            if !node.is_element() || attributes::is_silent(node) {
+                continue;
+            }
+            traits.add(node);
+            if traits.own {
+                break;
+            }
+            open.push(node.children());
         }
+        traits
+    }
+
+    fn add(&mut self, node: Node<'_, '_>) {
         let name = node.tag_name().name();
-        if matches!(name, "colortri" | "textri" | "texture") || is_point(node) {
-            return Dialect::Course;
+        let is_known = course::ELEMENTS.contains(&name);
+        self.own |= matches!(name, "colortri" | "textri" | "texture") || is_point(node);
+        self.foreign |= !is_known || is_styled_as_svg(node);
+        self.rich |= !is_known && !matches!(name, "circle" | "ellipse");
+        self.drawn |= is_known && name != "g";
+        self.differs |= !is_known || is_styled_as_svg(node) || course::is_read_otherwise(node);
+    }
+
+    /// The course's dialect if the document uses what only the course has; or nothing that the course does not have,
+    /// colours that it reads as SVG does (named ones and `#fff` are others to it), no `style`, and a size in plain numbers.
+    fn dialect(self) -> Dialect {
+        if self.own || (self.sized && !self.foreign) {
+            Dialect::Course
+        } else {
+            Dialect::Svg
         }
-        foreign |= !course::ELEMENTS.contains(&name) || is_styled_as_svg(node);
-        open.push(node.children());
     }
-    let sized = has_number(root, "width") && has_number(root, "height");
-    if foreign || !sized {
-        Dialect::Svg
-    } else {
-        Dialect::Course
+
+    fn may_be_either(self) -> bool {
+        !self.own && !self.rich && self.drawn && self.measured && self.differs
     }
+}
+
+/// Whether a `viewBox` says something else than width and height do.
+fn has_view_box(root: Node<'_, '_>) -> bool {
+    let Some(text) = root.attribute("viewBox") else {
+        return false;
+    };
+    let number = |name| {
+        numbers::leading(name, root.attribute(name).unwrap_or(""))
+            .ok()
+            .flatten()
+    };
+    let plain = [Some(0.0), Some(0.0), number("width"), number("height")];
+    let found = numbers::all("viewBox", text).unwrap_or_default();
+    found.into_iter().map(Some).ne(plain)
+}
+
+/// Whether the course's reader finds a number above zero in the attribute.
+fn begins_with_number(node: Node<'_, '_>, name: &str) -> bool {
+    let number = numbers::leading(name, node.attribute(name).unwrap_or(""));
+    matches!(number, Ok(Some(number)) if number > 0.0)
 }
 
 /// Whether the attribute is a number, perhaps of pixels: what the course's reader takes for one.

@@ -26,11 +26,11 @@ const MAX_MESSAGE: usize = 200;
 /// Text between two marks of a [`LineIndex`], in bytes.
 const MARK_SPACING: usize = 1024;
 
-/// Finds line and column of a byte: O(log n), however long the lines are.
+/// Finds line and column of a byte, and back: O(log n), however long the lines are or many.
 #[derive(Debug)]
 pub(super) struct LineIndex<'text> {
     text: &'text str,
-    /// Known places: every line start, and some in between where lines are long.
+    /// Known places, at equal distances.
     marks: Vec<(usize, SourceLocation)>,
 }
 
@@ -44,31 +44,53 @@ impl<'text> LineIndex<'text> {
                 marks.push((offset, here));
                 next_mark = offset + MARK_SPACING;
             }
-            here.column = here.column.saturating_add(1);
-            if c == '\n' {
-                here = SourceLocation {
-                    line: here.line.saturating_add(1),
-                    column: 1,
-                };
-                marks.push((offset + 1, here));
-                next_mark = offset + 1 + MARK_SPACING;
-            }
+            here = after(here, c);
         }
         Self { text, marks }
     }
 
+    /// The text that places are of.
+    pub(super) fn text(&self) -> &'text str {
+        self.text
+    }
+
     /// The place of the character that starts at byte `offset`.
     pub(super) fn locate(&self, offset: usize) -> SourceLocation {
-        let after = self.marks.partition_point(|&(start, _)| start <= offset);
-        let Some(&(start, place)) = self.marks.get(after.saturating_sub(1)) else {
-            return SourceLocation { line: 1, column: 1 };
-        };
+        let (start, place) = self.mark(|(start, _)| *start <= offset);
         let between = self.text.get(start..offset.min(self.text.len())).unwrap_or("");
-        let columns = u32::try_from(between.chars().count()).unwrap_or(u32::MAX);
-        SourceLocation {
-            column: place.column.saturating_add(columns),
-            ..place
+        between.chars().fold(place, after)
+    }
+
+    /// The byte where the character at a place starts; `None` where the text has no such place.
+    pub(super) fn offset(&self, wanted: SourceLocation) -> Option<usize> {
+        let (start, mut here) = self.mark(|(_, place)| *place <= wanted);
+        for (i, c) in self.text.get(start..)?.char_indices() {
+            if here >= wanted {
+                return (here == wanted).then_some(start + i);
+            }
+            here = after(here, c);
         }
+        None
+    }
+
+    /// The last mark that is not beyond what is looked for.
+    fn mark(&self, before: impl Fn(&(usize, SourceLocation)) -> bool) -> (usize, SourceLocation) {
+        let after = self.marks.partition_point(before);
+        self.marks[after.saturating_sub(1)]
+    }
+}
+
+/// The place behind the character `c`.
+fn after(place: SourceLocation, c: char) -> SourceLocation {
+    if c == '\n' {
+        return SourceLocation {
+            line: place.line.saturating_add(1),
+            column: 1,
+        };
+    }
+    SourceLocation {
+        column: place.column.saturating_add(1),
+        ..place
     }
 }
 
@@ -290,7 +312,18 @@ mod tests {
                 place(2, count - 5000)
             };
             assert_eq!(lines.locate(offset), expected, "at {offset}");
+            assert_eq!(lines.offset(expected), Some(offset), "back from {expected}");
         }
+    }
+
+    #[test]
+    fn line_index_is_small_for_many_lines() {
+        let text = "\n".repeat(100_000);
+        let lines = LineIndex::new(&text);
+        assert!(lines.marks.len() < 200, "{} marks for 100 kB", lines.marks.len());
+        assert_eq!(lines.locate(99_999), place(100_000, 1), "counted from the mark");
+        assert_eq!(lines.offset(place(99_000, 1)), Some(98_999), "and back");
+        assert_eq!(lines.offset(place(99_000, 2)), None, "lines end");
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod entities;
 mod error;
 mod model;
 mod numbers;
+mod quotes;
 mod report;
 mod resources;
 mod svg;
@@ -29,10 +30,11 @@ use error::Fault;
 use svg::SvgReader;
 use textures::{Alpha, TextureTable};
 
-pub use dialect::{DialectChoice, ReadOptions};
+pub use dialect::{DialectChoice, ReadOptions, is_of_course};
 pub use digest::{FileDigest, SceneFiles};
 pub use error::{Problem, SceneError};
 pub use model::{Dialect, Paint, Primitive, PrimitiveKind, Scene, Shape, ShapeId, SourceLocation, TextureId};
+pub use quotes::Quotes;
 pub use report::{Report, Skipped, SkippedKind, Warning};
 pub use resources::{FolderResources, NoResources, ResourceError, Resources};
 
@@ -79,7 +81,7 @@ fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> 
         let name = root.tag_name().name().to_owned();
         return Err(Problem::NotSvg(name).at(lines.locate(source.original_offset(root.range().start))));
     }
-    let dialect = options.dialect.resolve(root);
+    let (dialect, other) = options.dialect.resolve(root);
     let alpha = match dialect {
         Dialect::Course => Alpha::Drop,
         Dialect::Svg => Alpha::Keep,
@@ -94,6 +96,7 @@ fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> 
         return Err(Problem::Canvas { width, height }.at(builder.locate(root)));
     }
     let mut scene = builder.finish(dialect, canvas);
+    scene.other_reading = other;
     scene.files.document = Some(FileDigest::of(bytes));
     scene.document = (text.len() <= MAX_KEPT_DOCUMENT).then(|| text.as_ref().into());
     Ok(scene)

@@ -25,6 +25,8 @@ pub struct Scene {
     pub canvas: DVec2,
     /// The dialect the document was read in.
     pub dialect: Dialect,
+    /// The other dialect, where the document may be meant in it and is another picture then.
+    pub other_reading: Option<Dialect>,
     /// The document's shapes, in document order; [`Primitive::shape`] points here.
     pub shapes: Vec<Shape>,
     /// What to paint, first to last.
@@ -33,7 +35,7 @@ pub struct Scene {
     pub textures: Vec<Arc<Texture>>,
     /// What the document asks for and the picture lacks.
     pub report: Report,
-    /// The document itself, for [`Scene::source_line`]; not kept when it is larger than 32 MB or the scene was made in
+    /// The document itself, for [`Scene::quotes`]; not kept when it is larger than 32 MB or the scene was made in
     /// code.
     pub document: Option<Arc<str>>,
     /// What it was read from.
@@ -46,6 +48,7 @@ impl Scene {
         Self {
             canvas,
             dialect,
+            other_reading: None,
             shapes: Vec::new(),
             primitives: Vec::new(),
             textures: Vec::new(),
@@ -54,12 +57,17 @@ impl Scene {
             files: SceneFiles::default(),
         }
     }
+}
 
-    /// A line of the document, counted from 1, without spaces around it.
-    pub fn source_line(&self, line: u32) -> Option<&str> {
-        let before = usize::try_from(line).ok()?.checked_sub(1)?;
-        // Lines end where those that locations count do.
-        self.document.as_deref()?.split('\n').nth(before).map(str::trim)
+impl Scene {
+    /// Where the document may be meant in the other dialect: which reading this is, `why`, and which option asks for the
+    /// other, in one line.
+    pub fn reading_note(&self, why: &str) -> Option<String> {
+        let other = self.other_reading?.name();
+        let taken = self.dialect.name();
+        Some(format!(
+            "read as {taken}{why}; --dialect {other} makes another picture of it"
+        ))
     }
 }
 

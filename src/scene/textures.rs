@@ -9,10 +9,12 @@ use rayon::prelude::*;
 
 use super::report::{quote, shorten};
 use super::{FileDigest, Report, ResourceError, Resources, SourceLocation, TextureId};
-use crate::texture::{DecodeError, Texture};
+use crate::texture::{DecodeError, Memory, Texture};
 
-/// Most texels of all textures of a scene: with pyramids 1.4 GB.
-const MAX_TEXELS: u64 = 1 << 28;
+/// Most bytes that all images of a scene may take together, encoded and as textures.
+const MAX_HELD: u64 = 1_200 << 20;
+/// Most bytes that decoding may take besides at any time.
+const MAX_PASSING: u64 = 600 << 20;
 /// Most bytes of all encoded images of a scene.
 const MAX_BYTES: u64 = 512 << 20;
 /// Most characters of the decoder's own message.
@@ -21,9 +23,6 @@ const MAX_MESSAGE: usize = 160;
 const MAX_ADDRESS: usize = 400;
 /// Most different textures of a scene.
 const MAX_TEXTURES: usize = 4_096;
-/// Schemes of addresses elsewhere, which are never fetched.
-const REMOTE: [&str; 4] = ["http:", "https:", "ftp:", "//"];
-
 /// The textures that the document refers to so far: read as they are asked for, decoded all together in the end.
 pub(super) struct TextureTable<'doc> {
     resources: &'doc dyn Resources,
@@ -31,7 +30,7 @@ pub(super) struct TextureTable<'doc> {
     ids: HashMap<&'doc str, TextureId>,
     entries: Vec<Entry<'doc>>,
     bytes_left: u64,
-    texels_left: u64,
+    held_left: u64,
 }
 
 /// Whether a texture's transparency counts.
@@ -59,6 +58,7 @@ struct EncodedImage {
     bytes: Vec<u8>,
     /// Width and height in texels.
     size: [u32; 2],
+    memory: Memory,
 }
 
 impl<'doc> TextureTable<'doc> {
@@ -69,7 +69,7 @@ impl<'doc> TextureTable<'doc> {
             ids: HashMap::new(),
             entries: Vec::new(),
             bytes_left: MAX_BYTES,
-            texels_left: MAX_TEXELS,
+            held_left: MAX_HELD,
         }
     }
 
@@ -116,27 +116,40 @@ impl<'doc> TextureTable<'doc> {
             .into_iter()
             .map(|entry| ((name_of(entry.address), entry.location), entry.file))
             .unzip();
-        let results: Vec<Result<Texture, String>> = files
-            .into_par_iter()
-            .zip(&places)
-            .map(|(file, (name, _))| decode(name, &file?.bytes, alpha))
-            .collect();
-        let named = results.into_iter().zip(places);
-        let texture = |(result, (name, location)): (Result<Texture, String>, (String, _))| {
-            Arc::new(result.unwrap_or_else(|trouble| {
-                report.warn(location, format!("texture {name}: {trouble}; a checker is drawn"));
-                Texture::missing(&name)
-            }))
-        };
-        named.map(texture).collect()
+        let mut textures = Vec::with_capacity(places.len());
+        let mut places = places.into_iter();
+        for batch in batches(files) {
+            let named: Vec<_> = batch.into_iter().zip(places.by_ref()).collect();
+            let decoded: Vec<_> = named
+                .into_par_iter()
+                .map(|(file, place)| (file.and_then(|file| decode(&place.0, &file.bytes, alpha)), place))
+                .collect();
+            for (result, (name, location)) in decoded {
+                let (texture, dropped) = result.unwrap_or_else(|trouble| {
+                    report.warn(location, format!("texture {name}: {trouble}; a checker is drawn"));
+                    (Texture::missing(&name), false)
+                });
+                if dropped {
+                    let message = format!("texture {name}: its transparency has no effect; --dialect svg keeps it");
+                    report.warn(location, message);
+                }
+                textures.push(Arc::new(texture));
+            }
+        }
+        textures
     }
 
     /// The bytes of the image, if they fit what is left of the ceilings.
     fn read(&mut self, address: &str) -> Result<EncodedImage, String> {
         let address = address.trim();
-        let scheme = address.get(..8.min(address.len())).unwrap_or("").to_ascii_lowercase();
-        if REMOTE.iter().any(|remote| scheme.starts_with(remote)) {
+        if !is_data(address) && is_elsewhere(address) {
             return Err("addresses in the net are not fetched".to_owned());
+        }
+        if self.bytes_left == 0 {
+            return Err(format!(
+                "the files of all images together have more than {} MB",
+                MAX_BYTES >> 20
+            ));
         }
         let bytes = if is_data(address) {
             embedded(address)?
@@ -145,17 +158,25 @@ impl<'doc> TextureTable<'doc> {
         } else {
             linked(address, self.resources)?
         };
+        let length = bytes.len() as u64;
+        let fits = length <= self.bytes_left;
+        // What turns out to be no image was read all the same.
+        self.bytes_left = self.bytes_left.saturating_sub(length);
         let (width, height) = Texture::size_of_encoded(&bytes).map_err(explain)?;
-        let texels = u64::from(width) * u64::from(height);
-        let bytes_left = self.bytes_left.checked_sub(bytes.len() as u64);
-        let (Some(bytes_left), Some(texels_left)) = (bytes_left, self.texels_left.checked_sub(texels)) else {
-            return Err(format!(
-                "with its {width} x {height} texels the scene's textures are too large"
-            ));
-        };
-        (self.bytes_left, self.texels_left) = (bytes_left, texels_left);
         let size = [width, height];
-        Ok(EncodedImage { bytes, size })
+        let memory = Texture::memory_of_encoded(&bytes, size);
+        let held_left = self.held_left.checked_sub(length + memory.held);
+        match held_left.filter(|_| fits && memory.passing <= MAX_PASSING) {
+            Some(left) => self.held_left = left,
+            None => {
+                let most = (MAX_HELD + MAX_PASSING) >> 20;
+                return Err(format!(
+                    "with its {width} x {height} texels the images of the scene would take more than {most} MB; make it \
+                     smaller"
+                ));
+            }
+        }
+        Ok(EncodedImage { bytes, size, memory })
     }
 }
 
@@ -176,9 +197,28 @@ fn name_of(address: &str) -> String {
     }
 }
 
-fn decode(name: &str, bytes: &[u8], alpha: Alpha) -> Result<Texture, String> {
+/// The images in their order, in groups that may be decoded at the same time.
+fn batches(files: Vec<Result<EncodedImage, String>>) -> Vec<Vec<Result<EncodedImage, String>>> {
+    let mut batches = Vec::new();
+    let mut batch = Vec::new();
+    let mut passing = 0;
+    for file in files {
+        let more = file.as_ref().map_or(0, |file| file.memory.passing);
+        if passing + more > MAX_PASSING {
+            batches.push(std::mem::take(&mut batch));
+            passing = 0;
+        }
+        passing += more;
+        batch.push(file);
+    }
+    batches.push(batch);
+    batches
+}
+
+/// The texture, and whether it lost its transparency.
+fn decode(name: &str, bytes: &[u8], alpha: Alpha) -> Result<(Texture, bool), String> {
     let texture = match alpha {
-        Alpha::Keep => Texture::decode(name, bytes),
+        Alpha::Keep => Texture::decode(name, bytes).map(|texture| (texture, false)),
         Alpha::Drop => Texture::decode_opaque(name, bytes),
     };
     texture.map_err(explain)
@@ -194,6 +234,19 @@ fn is_data(address: &str) -> bool {
         .trim_start()
         .get(..5)
         .is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
+}
+
+/// Whether an address, as written or decoded, names something on another machine: by a scheme, or as a share of one.
+fn is_elsewhere(address: &str) -> bool {
+    let is_share = |path: &str| path.starts_with("//") || path.starts_with("\\\\");
+    let decoded = percent_decoded(address);
+    [address, &decoded]
+        .into_iter()
+        .any(|address| match address.split_once("://") {
+            Some((scheme, path)) if scheme.eq_ignore_ascii_case("file") => is_share(path),
+            Some((scheme, _)) => !scheme.is_empty() && scheme.bytes().all(|byte| byte.is_ascii_alphanumeric()),
+            None => is_share(address),
+        })
 }
 
 /// The bytes in a `data:` address.
@@ -285,6 +338,76 @@ mod tests {
         );
         assert!(lines[1].contains("not fetched"), "{}", lines[1]);
         assert!(lines.iter().all(|line| !line.contains('\n')), "{lines:?}");
+    }
+
+    /// Every name is a PNG of 8192 x 8192 texels, of which only the header is there.
+    struct Headers;
+
+    impl Resources for Headers {
+        fn read(&self, _address: &str) -> Result<Vec<u8>, ResourceError> {
+            let mut header = b"IHDR\0\0\x20\0\0\0\x20\0\x10\x06\0\0\0".to_vec();
+            let rest = header.iter().fold(u32::MAX, |rest, byte| {
+                (0..8).fold(rest ^ u32::from(*byte), |rest, _| {
+                    if rest & 1 == 1 {
+                        (rest >> 1) ^ 0xEDB8_8320
+                    } else {
+                        rest >> 1
+                    }
+                })
+            });
+            header.extend((!rest).to_be_bytes());
+            Ok([b"\x89PNG\r\n\x1a\n\0\0\0\x0d".as_slice(), &header].concat())
+        }
+    }
+
+    #[test]
+    fn texture_table_counts_all_images_together_before_it_decodes() {
+        let mut table = TextureTable::new(&Headers, Alpha::Keep);
+        let names: Vec<String> = (0..16).map(|i| format!("{}a.png", "./".repeat(i))).collect();
+        let names: &'static [String] = names.leak();
+        let sizes: Vec<_> = names
+            .iter()
+            .map(|name| table.request(name, HERE).and_then(|id| table.size(id)))
+            .collect();
+        let fit = sizes.iter().flatten().count();
+        assert_eq!(fit, 3, "358 MB each, of 1200");
+        assert!(sizes[..3].iter().all(Option::is_some), "the first ones: {sizes:?}");
+        let refusals: Vec<&String> = table
+            .entries
+            .iter()
+            .filter_map(|entry| entry.file.as_ref().err())
+            .collect();
+        assert_eq!(refusals.len(), 13, "the others are refused");
+        assert!(
+            refusals[0].contains("8192 x 8192 texels") && refusals[0].contains("more than 1800 MB"),
+            "{}",
+            refusals[0]
+        );
+        let together = table.entries.iter().filter_map(|entry| entry.file.as_ref().ok());
+        let passing: u64 = together.map(|file| file.memory.passing).sum();
+        let files = table.entries.into_iter().map(|entry| entry.file).collect();
+        assert!(passing > MAX_PASSING, "all at once would be too much: {passing}");
+        assert_eq!(batches(files).len(), 3, "one after the other");
+    }
+
+    /// Names of a file that is large and no image.
+    struct Junk(std::sync::atomic::AtomicU64);
+
+    impl Resources for Junk {
+        fn read(&self, _address: &str) -> Result<Vec<u8>, ResourceError> {
+            self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            Ok(vec![b'x'; 200 << 20])
+        }
+    }
+
+    #[test]
+    fn texture_table_reads_no_more_than_it_may_keep() {
+        let junk = Junk(0.into());
+        let mut table = TextureTable::new(&junk, Alpha::Keep);
+        for name in ["a", "b", "c", "d", "e", "f"] {
+            table.request(name, HERE).expect("few");
+        }
+        assert_eq!(junk.0.into_inner(), 3, "600 MB of names is enough");
     }
 
     #[test]

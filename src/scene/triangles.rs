@@ -7,7 +7,7 @@ use roxmltree::Node;
 
 use super::build::Builder;
 use super::error::Fault;
-use super::{Paint, ShapeId, TextureId, numbers};
+use super::{Paint, ShapeId, SkippedKind, TextureId, numbers};
 use crate::color::Rgba;
 
 /// An element on its way to primitives.
@@ -85,20 +85,29 @@ pub(super) fn numbers(builder: &Builder<'_>, node: Node<'_, '_>, name: &str) -> 
     numbers::all(name, text).map_err(|problem| problem.at(builder.locate_attribute(node, name)))
 }
 
-/// The first `N` numbers of an attribute, or a warning that there are fewer.
-fn first<const N: usize>(builder: &mut Builder<'_>, node: Node<'_, '_>, name: &str) -> Result<Option<[f32; N]>, Fault> {
+/// The first `N` numbers of an attribute, or a warning that there are fewer; another where there are more than `most`.
+fn first<const N: usize>(
+    builder: &mut Builder<'_>,
+    node: Node<'_, '_>,
+    (name, most): (&str, usize),
+) -> Result<Option<[f32; N]>, Fault> {
     let numbers = numbers(builder, node, name)?;
     let first = numbers.first_chunk::<N>().copied();
+    let count = numbers.len();
     if first.is_none() {
-        let message = format!("not drawn: {name} holds {} numbers, not {N}", numbers.len());
-        builder.warn(node, message);
+        builder.warn(node, format!("not drawn: {name} holds {count} numbers, not {N}"));
+    } else if count > most {
+        builder.warn(
+            node,
+            format!("{name} holds {count} numbers; those after the first {most} have no effect"),
+        );
     }
     Ok(first)
 }
 
 /// Three `x y` in `points`, in user space.
 fn corners(builder: &mut Builder<'_>, element: Element<'_>) -> Result<Option<[DVec2; 3]>, Fault> {
-    let numbers = first::<6>(builder, element.node, "points")?;
+    let numbers = first::<6>(builder, element.node, ("points", 6))?;
     let corner = |n: [f32; 6], i: usize| {
         element
             .to_user
@@ -109,13 +118,17 @@ fn corners(builder: &mut Builder<'_>, element: Element<'_>) -> Result<Option<[DV
 
 /// Three `r g b a` in `colors`; the opacity means nothing, and the last one may be missing.
 fn corner_colors(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Result<Option<[Rgba; 3]>, Fault> {
-    let numbers = first::<11>(builder, node, "colors")?;
+    let numbers = first::<11>(builder, node, ("colors", 12))?;
+    let last = self::numbers(builder, node, "colors")?.get(11).copied();
+    if numbers.is_some_and(|n| n[3] < 1.0 || n[7] < 1.0) || last.is_some_and(|alpha| alpha < 1.0) {
+        builder.skip(SkippedKind::Attribute, "alpha in colors", node);
+    }
     let unit = |channel: f32| channel.clamp(0.0, 1.0);
     Ok(numbers.map(|n| [0, 4, 8].map(|i| Rgba::opaque(unit(n[i]), unit(n[i + 1]), unit(n[i + 2])))))
 }
 
 /// Three `u v` in `uvs`.
 fn corner_uvs(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Result<Option<[Vec2; 3]>, Fault> {
-    let numbers = first::<6>(builder, node, "uvs")?;
+    let numbers = first::<6>(builder, node, ("uvs", 6))?;
     Ok(numbers.map(|n| [0, 2, 4].map(|i| Vec2::new(n[i], n[i + 1]))))
 }

@@ -21,7 +21,7 @@ mod taps;
 mod uv_map;
 
 pub use anisotropy::{Anisotropy, Taps};
-pub use decode::{DecodeError, decode_straight};
+pub use decode::{DecodeError, Memory, Run, decode_rows};
 pub use detail::{Derivatives, FixedLevel, LevelChoice, LevelOfDetail, LodBias, Reading};
 pub use filter::{Filter, PixelList, SampleGrid};
 pub use footprint::Footprint;
@@ -101,16 +101,18 @@ impl Texture {
         })
     }
 
-    /// As [`Texture::decode`], but every texel counts as opaque: the image's own alpha is dropped.
+    /// As [`Texture::decode`], but every texel counts as opaque: the image's own alpha is dropped. Also says whether it had
+    /// any.
     ///
     /// # Errors
     /// As [`Texture::decode`].
-    pub fn decode_opaque(name: &str, bytes: &[u8]) -> Result<Self, DecodeError> {
-        let base = decode::decode_opaque(bytes)?;
-        Ok(Self {
+    pub fn decode_opaque(name: &str, bytes: &[u8]) -> Result<(Self, bool), DecodeError> {
+        let (base, dropped) = decode::decode_opaque(bytes)?;
+        let texture = Self {
             name: name.to_owned(),
             pyramid: MipPyramid::build(base),
-        })
+        };
+        Ok((texture, dropped))
     }
 
     /// Width and height of an image in texels, from its header alone.
@@ -119,6 +121,11 @@ impl Texture {
     /// When the bytes are neither PNG nor JPEG, or the size is above the limits.
     pub fn size_of_encoded(bytes: &[u8]) -> Result<(u32, u32), DecodeError> {
         decode::size(bytes)
+    }
+
+    /// What an encoded image takes in memory as a texture of `size`.
+    pub fn memory_of_encoded(bytes: &[u8], size: [u32; 2]) -> Memory {
+        Memory::of(bytes, size)
     }
 
     /// The magenta checker that stands for a texture that could not be read.

@@ -98,7 +98,8 @@ impl MipLevel {
         level
     }
 
-    fn blank(width: u32, height: u32) -> Self {
+    /// A level that is transparent yet.
+    pub(super) fn blank(width: u32, height: u32) -> Self {
         Self::check(width, height);
         let stride = stride(width);
         Self {
@@ -152,6 +153,11 @@ impl MipLevel {
     }
 
     /// The rows without padding.
+    /// A row, counted from the top.
+    pub(super) fn row_mut(&mut self, y: usize) -> &mut [[u8; 4]] {
+        &mut self.texels[y * self.stride as usize..][..self.width as usize]
+    }
+
     fn rows_mut(&mut self) -> impl IndexedParallelIterator<Item = &mut [[u8; 4]]> {
         let (width, stride) = (self.width as usize, self.stride as usize);
         let used = stride * self.height as usize;

@@ -285,6 +285,7 @@ impl Viewer {
             Command::SetBackground(color) => render.background = color,
             Command::NextDialect => self.settings.dialect = next_of(&DialectChoice::ALL, self.settings.dialect),
             Command::SetDialect(dialect) => self.settings.dialect = dialect,
+            Command::OtherReading => self.choose_other_reading(),
             Command::Progressive(toggle) => {
                 self.settings.progressive = toggle.of(self.settings.progressive);
                 self.drawing.set_progressive(self.settings.progressive);

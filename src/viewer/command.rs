@@ -129,6 +129,8 @@ pub enum Command {
     NextDialect,
     /// This dialect; the scene is read again.
     SetDialect(DialectChoice),
+    /// The other dialect for the current scene and its folder.
+    OtherReading,
     /// What lies below the first primitive.
     SetBackground(Rgba),
     /// Whether coarse pictures may stand in for slow ones while the view moves.

@@ -57,7 +57,7 @@ impl Viewer {
             size,
             view: entry.camera.view(),
             render: self.settings.render,
-            dialect: self.settings.dialect,
+            dialect: self.dialect_of_picture(),
             legend: true,
             insets: self.inset_spec().into_iter().collect(),
         })

@@ -485,6 +485,13 @@ pub(super) static TABLE: &[CommandSpec] = &[
     )
     .run(&Command::NextDialect)
     .argument(typed::DIALECT),
+    spec(
+        "other-reading",
+        "Read in the other dialect",
+        "Reads the scene, and those of its folder, as course instead of svg, or the other way",
+        Group::Scenes,
+    )
+    .run(&Command::OtherReading),
     // Inspector.
     spec(
         "inspector",

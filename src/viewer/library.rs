@@ -15,6 +15,9 @@ const MAX_DEPTH: usize = 6;
 /// Most scenes in a list.
 pub(super) const MAX_SCENES: usize = 2000;
 
+/// Most bytes of a folder that are looked at to find out whose its scenes are.
+const MOST_LOOKED_AT: u64 = 64 << 20;
+
 /// Where a scene is read from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SceneSource {
@@ -31,6 +34,8 @@ pub struct SceneEntry {
     pub source: SceneSource,
     /// Its name in the list, the title and messages: the path below the folder that was opened.
     pub label: String,
+    /// Whether it was found in a folder whose scenes are the course's.
+    pub(crate) is_of_course: bool,
     /// What became of reading it.
     pub state: SceneState,
     /// The same for B, where B has a dialect of its own.
@@ -79,6 +84,7 @@ impl SceneEntry {
         Self {
             source,
             label,
+            is_of_course: false,
             state: SceneState::Unread,
             other_state: SceneState::Unread,
             document: 0,
@@ -215,9 +221,13 @@ pub fn list_scenes(paths: &[PathBuf]) -> (Vec<SceneEntry>, Vec<String>) {
                 ));
             }
             files.sort_by(|a, b| natural_order(&a.to_string_lossy(), &b.to_string_lossy()));
+            let is_of_course = any_of_course(&files);
             entries.extend(files.into_iter().map(|file| {
                 let label = file.strip_prefix(path).unwrap_or(&file).display().to_string();
-                SceneEntry::new(SceneSource::File(file), label)
+                SceneEntry {
+                    is_of_course,
+                    ..SceneEntry::new(SceneSource::File(file), label)
+                }
             }));
         } else {
             let source = SceneSource::from_address(path);
@@ -258,6 +268,27 @@ fn search(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) -> std::io::Res
         }
     }
     Ok(())
+}
+
+/// Whether a folder is opened whole in which any document uses elements that only the course has.
+pub fn is_folder_of_course(folder: &Path) -> bool {
+    let mut files = Vec::new();
+    // What cannot be listed holds nothing.
+    let _ = search(folder, 0, &mut files);
+    any_of_course(&files)
+}
+
+/// Whether any of the documents uses elements that only the course has. Looks at the small ones, which is where those are,
+/// and not at more of them than can be read in a moment.
+fn any_of_course(files: &[PathBuf]) -> bool {
+    let mut left = MOST_LOOKED_AT;
+    let mut small = files.iter().filter(|file| {
+        let length = fs::metadata(file).map_or(u64::MAX, |about| about.len());
+        let fits = length <= left;
+        left -= if fits { length } else { 0 };
+        fits
+    });
+    small.any(|file| fs::read(file).is_ok_and(|document| scene::is_of_course(&document)))
 }
 
 /// Order of names for people: `test2` comes before `test10`.

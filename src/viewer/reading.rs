@@ -190,7 +190,7 @@ impl Viewer {
         };
         match entry.state.dialect() {
             None => self.read_current(),
-            Some(dialect) if dialect != self.settings.dialect => self.read_for(Side::A),
+            Some(dialect) if dialect != self.reading_of(self.current, self.settings.dialect) => self.read_for(Side::A),
             Some(_) => {}
         }
         self.let_go_of_old_scenes();
@@ -199,7 +199,8 @@ impl Viewer {
 
     /// The same for B where it has a dialect of its own; else B shares A's scene.
     fn want_other_scene(&mut self) {
-        let wanted = self.own_dialect_of_b();
+        let own = self.own_dialect_of_b();
+        let wanted = own.map(|dialect| self.reading_of(self.current, dialect));
         let Some(entry) = self.scenes.get_mut(self.current) else {
             return;
         };
@@ -231,6 +232,7 @@ impl Viewer {
             Side::A => self.settings.dialect,
             Side::B => self.own_dialect_of_b().unwrap_or(self.settings.dialect),
         };
+        let dialect = self.reading_of(index, dialect);
         let Some(entry) = self.scenes.get_mut(index) else {
             return;
         };
@@ -320,7 +322,8 @@ impl Viewer {
     /// Asks for the thumbnail of a scene in the list: it is read and drawn when nothing else is to be done, and stands
     /// in [`super::SceneEntry::thumbnail`] then. To be called for the scenes that a panel shows.
     pub fn request_thumbnail(&mut self, index: usize) {
-        let (generation, dialect) = (self.generation, self.settings.dialect);
+        let generation = self.generation;
+        let dialect = self.reading_of(index, self.settings.dialect);
         let Some(entry) = self.scenes.get_mut(index).filter(|entry| !entry.thumbnail_asked) else {
             return;
         };

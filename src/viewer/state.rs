@@ -1,5 +1,6 @@
 //! The viewer itself: what it keeps, how it starts, what can be asked of it.
 
+use std::collections::HashMap;
 use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -25,6 +26,7 @@ use super::{
 };
 use crate::geometry::View;
 use crate::inspect::{Feeds, TexelPlace};
+use crate::scene::Dialect;
 
 /// Called from other threads when [`Viewer::poll`] has something to take in.
 pub type Waker = Arc<dyn Fn() + Send + Sync>;
@@ -60,6 +62,8 @@ pub struct ViewerOptions {
 #[derive(Debug)]
 pub struct Viewer {
     pub(super) scenes: Vec<SceneEntry>,
+    /// The dialects that were chosen for the scenes of folders.
+    pub(super) chosen_readings: HashMap<PathBuf, Dialect>,
     /// Below `scenes.len()`, unless there are none.
     pub(super) current: usize,
     /// Grows when the list is replaced: results for an older list are dropped.
@@ -199,6 +203,7 @@ impl Viewer {
         let mailbox = Mailbox::new(sender, Arc::clone(&options.waker));
         let mut viewer = Self {
             scenes: Vec::new(),
+            chosen_readings: HashMap::new(),
             current: 0,
             generation: 0,
             documents: 0,

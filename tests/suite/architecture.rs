@@ -81,7 +81,7 @@ const ROOMS: &[Room] = &[
     Room {
         name: "scene",
         rooms: &["texture", "color", "geometry", "rules", "simd"],
-        crates: &["roxmltree", "svgtypes", "simplecss", "data_url", "sha2"],
+        crates: &["roxmltree", "svgtypes", "data_url", "sha2"],
     },
     Room {
         name: "raster",
@@ -91,7 +91,7 @@ const ROOMS: &[Room] = &[
     Room {
         name: "texture",
         rooms: BOTTOM,
-        crates: &["image", "fearless_simd"],
+        crates: &["image", "png", "fearless_simd"],
     },
     Room {
         name: "geometry",
@@ -123,7 +123,6 @@ const GUARDED: &[&str] = &[
     "egui_winit",
     "roxmltree",
     "svgtypes",
-    "simplecss",
     "data_url",
     "image",
     "ab_glyph",

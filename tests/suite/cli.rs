@@ -98,6 +98,72 @@ fn cli_renders_what_the_library_draws() {
     }
 }
 
+/// Lines beside a circle: both dialects read it, each in its way.
+const EITHER: &str = r##"<svg width="40" height="30"><line x1="2" y1="3" x2="37" y2="9" stroke="#123456"/><circle cx="9" cy="9" r="5"/></svg>"##;
+
+#[test]
+fn cli_says_which_of_two_readings_was_taken() {
+    let folder = folder_with(&[("a.svg", EITHER)]);
+    let render = |more: &[&str]| {
+        let arguments = [&["render", "a.svg", "-o", "b.png", "--size", "40x30"], more].concat();
+        let output = run(folder.path(), &arguments);
+        assert!(output.status.success(), "{output:?}");
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        (fs::read(folder.path().join("b.png")).expect("a picture"), told)
+    };
+    let pixels = |png: &[u8]| image::load_from_memory(png).expect("a PNG").into_rgba8();
+    let (svg, told) = render(&[]);
+    assert!(
+        told.contains("a.svg: read as svg; --dialect course makes another picture"),
+        "{told}"
+    );
+    assert_eq!(render(&["--dialect", "svg"]).1, "", "asked for, nothing to tell");
+    let (course, told) = render(&["--rules", "course"]);
+    assert!(
+        told.contains("read as course, as --rules course asks for; --dialect svg makes"),
+        "{told}"
+    );
+    let (asked, _) = render(&["--rules", "course", "--dialect", "course"]);
+    assert!(pixels(&course) == pixels(&asked), "--rules course means the dialect");
+    assert!(pixels(&course) != pixels(&svg), "another picture");
+    let (kept, _) = render(&["--rules", "course", "--dialect", "svg"]);
+    assert!(pixels(&kept) != pixels(&asked), "the option decides");
+}
+
+#[test]
+fn cli_reads_a_folder_of_the_course_as_a_whole() {
+    let own = r##"<svg width="4" height="3"><colortri points="0 0 4 0 0 3" colors="1 0 0 1 0 1 0 1 0 0 1 1"/></svg>"##;
+    let folder = folder_with(&[("in/a.svg", EITHER), ("in/deep/b.svg", own), ("out/c.svg", EITHER)]);
+    let args = ["render", "in", "-o", "pictures", "--size", "40x30"];
+    let output = run(folder.path(), &args);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        told.contains("read as course, as other scenes of the folder are; --dialect svg makes another"),
+        "{told}"
+    );
+    let alone = [
+        "render",
+        "in/a.svg",
+        "-o",
+        "c.png",
+        "--size",
+        "40x30",
+        "--dialect",
+        "course",
+    ];
+    assert!(run(folder.path(), &alone).status.success(), "alone");
+    let open = |name: &str| image::open(folder.path().join(name)).expect("a PNG").into_rgba8();
+    assert!(open("pictures/a.png") == open("c.png"), "as the course's");
+    let check = ["rerun", "pictures/a.png", "--check", "--threads", "1"];
+    assert!(run(folder.path(), &check).status.success(), "its record says so");
+    let (entries, _) = rasterscope::viewer::list_scenes(&[folder.path().join("out")]);
+    assert_eq!(entries.len(), 1, "another folder");
+    assert!(
+        !rasterscope::viewer::is_folder_of_course(&folder.path().join("out")),
+        "is not the course's"
+    );
+}
+
 #[test]
 fn cli_renders_transparent_canvas() {
     let folder = folder_with(&[("a.svg", SCENE)]);

@@ -255,3 +255,46 @@ fn diff_answers_mistakes_in_one_line() {
         assert_refused(&run(folder.path(), arguments), arguments, words);
     }
 }
+
+#[test]
+fn diff_refuses_more_pixels_than_memory_is_meant_for() {
+    let folder = folder();
+    for name in ["a.png", "b.png"] {
+        let mut bytes = fs::read(folder.path().join(name)).unwrap();
+        // Width and height in the header, and its checksum.
+        for (i, byte) in [0, 0, 64, 0, 0, 0, 64, 0].into_iter().enumerate() {
+            bytes[16 + i] = byte;
+        }
+        let checksum = crc32(&bytes[12..29]);
+        bytes[29..33].copy_from_slice(&checksum.to_be_bytes());
+        fs::write(folder.path().join(format!("large-{name}")), bytes).unwrap();
+    }
+    let arguments = ["large-a.png", "large-b.png"];
+    let words = [
+        "large-b.png: 16384 x 16384 pixels",
+        "100000000",
+        "--max-pixels 268435456",
+    ];
+    assert_refused(&run(folder.path(), &arguments), &arguments, &words);
+    let small = ["a.png", "b.png", "--max-pixels", "1199"];
+    assert_refused(&run(folder.path(), &small), &small, &["40 x 30", "--max-pixels 1200"]);
+    let enough = run(
+        folder.path(),
+        &["a.png", "b.png", "--max-pixels", "1200", "-o", "d.png"],
+    );
+    assert_eq!(enough.status.code(), Some(1), "they differ: {enough:?}");
+}
+
+/// The checksum of PNG chunks, bit by bit.
+fn crc32(bytes: &[u8]) -> u32 {
+    let rest = bytes.iter().fold(u32::MAX, |rest, byte| {
+        (0..8).fold(rest ^ u32::from(*byte), |rest, _| {
+            if rest & 1 == 1 {
+                (rest >> 1) ^ 0xEDB8_8320
+            } else {
+                rest >> 1
+            }
+        })
+    });
+    !rest
+}

@@ -468,3 +468,71 @@ fn explanations_know_what_lies_far_away() {
         assert_eq!(found, frame.pixels()[i as usize], "{pixel:?}");
     });
 }
+
+#[test]
+fn deep_stacks_of_one_line_stay_small() {
+    let body: String = (0..20_000)
+        .map(|i| {
+            format!(
+                "<rect x='{}' width='9' height='9' fill='#0{}{}040' fill-opacity='.5'/>",
+                i % 3,
+                i % 10,
+                i % 7
+            )
+        })
+        .collect();
+    let document = format!("<svg width='8' height='8'>{body}<rect width='9' height='9' fill='none'/></svg>");
+    let scene = read("one-line.svg", &document);
+    let settings = RenderSettings {
+        sample_rate: SampleRate::new(4).unwrap(),
+        ..RenderSettings::default()
+    };
+    let found = explain(&scene, &settings, [8, 8], [4, 4]);
+    assert_eq!(found.paints.len() + found.unlisted, 20_000, "all are counted");
+    assert!(found.paints.len() <= 400, "{} are listed", found.paints.len());
+    for sample in &found.samples {
+        assert_eq!(sample.stack.len() + sample.unlisted, 20_000, "at each sample too");
+    }
+    let last = found.paints.last().unwrap();
+    assert_eq!(last.primitive, 19_999, "the uppermost");
+    for paint in &found.paints {
+        let source = paint.source.as_ref().unwrap();
+        let text = source.text.as_deref().unwrap();
+        assert!(text.chars().count() <= 206 && text.starts_with("..."), "{text}");
+        let start = document.char_indices().nth(source.column as usize - 1).unwrap().0;
+        let tag: String = document[start..].chars().take(60).collect();
+        assert!(text.contains(&tag), "around {tag}: {text}");
+    }
+    let json = serde_json::to_string(&found).unwrap();
+    assert!(json.len() < 2_000_000, "{} bytes", json.len());
+    let text = found.text(rasterscope::inspect::Detail::Telling);
+    assert!(
+        text.contains(&format!("{} more paint this pixel below", found.unlisted)),
+        "summed up"
+    );
+    assert!(text.len() < 1_000_000, "{} bytes", text.len());
+}
+
+#[test]
+fn deep_stacks_keep_what_is_seen_at_the_bottom() {
+    let covers = "<rect width='4' height='8' fill='#102030' fill-opacity='.5'/>".repeat(2000);
+    let document = format!(
+        "<svg width='8' height='8'><g opacity='.5'><rect width='8' height='8' fill='#ff0000'/></g>{covers}</svg>"
+    );
+    let scene = read("bottom.svg", &document);
+    let settings = RenderSettings {
+        sample_rate: SampleRate::new(4).unwrap(),
+        ..RenderSettings::default()
+    };
+    // Left and right half of the pixel differ.
+    let found = explain(&scene, &settings, [1, 1], [0, 0]);
+    let right = found.samples.last().unwrap();
+    let seen = right.seen.unwrap();
+    assert_eq!(
+        found.paints[seen].source.as_ref().unwrap().element,
+        "rect",
+        "the red one, in its layer"
+    );
+    assert_eq!(found.paints[seen].layers, 1, "which is listed with it");
+    assert!(found.unlisted > 1000, "{}", found.unlisted);
+}

@@ -9,6 +9,7 @@ mod architecture;
 mod cli;
 mod coverage;
 mod diff;
+mod disk;
 mod figures;
 mod float_rules;
 mod full_disk;

@@ -178,7 +178,10 @@ fn course_colortri_and_textri() {
     assert_eq!(scene.textures.len(), 1, "one texture");
     assert_eq!(
         lines(&scene),
-        ["1:151: texture no.png: there is no such file; a checker is drawn"],
+        [
+            "1:85: alpha in colors has no effect",
+            "1:151: texture no.png: there is no such file; a checker is drawn"
+        ],
         "reported"
     );
 }
@@ -193,6 +196,98 @@ fn course_incomplete_triangles_are_reported() {
         "{lines:?}"
     );
     assert_eq!(lines.len(), 3, "textri lacks points and uvs: {lines:?}");
+}
+
+#[test]
+fn course_tells_what_it_leaves_out() {
+    let body = "<colortri points='0 0 1 0 0 1 7' colors='1 0 0 1 0 1 0 .5 0 0 1 1'/>\
+                <polygon points='0,0 4,0 4,4 9' fill='#ff0000'/>\
+                <polyline points='0,0 1,1 2' stroke-dasharray='2 1'/>\
+                <rect width='4' height='2' rx='1' ry='1'/>\
+                <colortri points='0 0 1 0 0' colors='1 0 0 1 1 0 0 1 1 0 0 1'/>";
+    let scene = course(body);
+    let expected = [
+        "1:85: alpha in colors has no effect",
+        "1:206: stroke-dasharray has no effect",
+        "1:259: rx has no effect",
+        "1:259: ry has no effect",
+        "1:85: points holds 7 numbers; those after the first 6 have no effect",
+        "1:159: points holds 7 numbers; the last one has no partner and is left out",
+        "1:206: points holds 5 numbers; the last one has no partner and is left out",
+        "1:301: not drawn: points holds 5 numbers, not 6",
+    ];
+    assert_eq!(lines(&scene), expected, "each in its line");
+    assert_eq!(
+        scene.primitives.len(),
+        1 + 1 + 1 + 2,
+        "what is left is drawn: triangles, a line, a polygon"
+    );
+}
+
+#[test]
+fn course_forgets_the_alpha_of_textures_and_says_so() {
+    let mut png = Vec::new();
+    let encoder = image::codecs::png::PngEncoder::new(&mut png);
+    let pixels = [255, 0, 0, 255, 0, 0, 255, 100];
+    image::ImageEncoder::write_image(encoder, &pixels, 2, 1, image::ExtendedColorType::Rgba8).unwrap();
+    let bytes: String = png.iter().map(|byte| format!("%{byte:02x}")).collect();
+    let body = format!("<image width='9' height='9' href='data:image/png,{bytes}'/>");
+    let told = "transparency has no effect; --dialect svg keeps it";
+    let course = course(&body);
+    assert!(
+        matches!(lines(&course).as_slice(), [line] if line.ends_with(told)),
+        "{:?}",
+        course.report
+    );
+    assert!(course.textures[0].pyramid.is_opaque(), "as the course has it");
+    let svg = read(&svg("width='9' height='9'", &body), DialectChoice::Svg);
+    assert!(
+        svg.report.is_empty() && !svg.textures[0].pyramid.is_opaque(),
+        "{:?}",
+        svg.report
+    );
+}
+
+#[test]
+fn auto_says_where_another_reading_is_another_picture() {
+    use Dialect::{Course, Svg};
+    let size = "width='10' height='10'";
+    let boxed = "width='12cm' height='4cm' viewBox='0 0 1200 400'";
+    for (attributes, body, taken, other) in [
+        (
+            size,
+            "<line x2='1' stroke='#000000'/><circle r='1'/>",
+            Svg,
+            Some(Course),
+        ),
+        (boxed, "<polygon fill='red' points='0 0 1 0 1 1'/>", Svg, Some(Course)),
+        (size, "<line x2='1' stroke='#000000'/>", Course, Some(Svg)),
+        (
+            "width='10' height='10' viewBox='0 0 5 5'",
+            "<polygon/>",
+            Course,
+            Some(Svg),
+        ),
+        ("width='10' height='10' viewBox='0 0 10 10'", "<polygon/>", Course, None),
+        (size, "<polygon fill='#102030' points='0 0 1 0 1 1'/>", Course, None),
+        (size, "<colortri/><circle r='1'/><line stroke='#000000'/>", Course, None),
+        (size, "<path d='M0 0'/><line stroke='#000000'/>", Svg, None),
+        (size, "<circle r='1'/>", Svg, None),
+        ("viewBox='0 0 1 1'", "<line stroke='#000000'/>", Svg, None),
+    ] {
+        let scene = read(&svg(attributes, body), DialectChoice::Auto);
+        let found = (scene.dialect, scene.other_reading);
+        assert_eq!(found, (taken, other), "<svg {attributes}>{body}");
+        let note = scene.reading_note("");
+        assert_eq!(note.is_some(), other.is_some(), "told: {note:?}");
+    }
+    let scene = read(
+        &svg(size, "<circle r='1'/><line stroke='#000000'/>"),
+        DialectChoice::Auto,
+    );
+    let note = scene.reading_note(", for a reason").unwrap();
+    let expected = "read as svg, for a reason; --dialect course makes another picture of it";
+    assert_eq!(note, expected, "which, why, and the option for the other");
 }
 
 #[test]

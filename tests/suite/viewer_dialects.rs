@@ -91,6 +91,47 @@ fn dialects_of_a_and_b_are_their_own() {
 }
 
 #[test]
+fn other_reading_holds_for_the_folder() {
+    use DialectChoice::{Auto, Course, Svg};
+    let mut session = Session::open(&[BOXED, BOXED], [120, 100]);
+    let is_read = |session: &Session, dialect, when: &str| {
+        let own = drawn(session, dialect, &session.viewer.settings().render);
+        assert!(*session.pixels() == own, "{when}");
+    };
+    is_read(&session, Svg, "at first");
+    let note = session.viewer.reading_note().unwrap();
+    assert_eq!(note, "read as svg; as course it is another picture", "the note");
+    session.run(Command::OtherReading);
+    assert_eq!(session.viewer.settings().dialect, Auto, "the setting stays");
+    is_read(&session, Course, "after the button");
+    let note = session.viewer.reading_note().unwrap();
+    assert!(
+        note.starts_with("read as course, as you chose for its folder"),
+        "{note}"
+    );
+    let line = session.viewer.command_line().unwrap();
+    assert!(
+        line.contains("--dialect course"),
+        "the command line makes the same: {line}"
+    );
+    session.run(Command::Scene(1));
+    is_read(&session, Course, "the next of the folder");
+    session.run(Command::OtherReading);
+    session.run(Command::Scene(0));
+    is_read(&session, Svg, "back again, for both");
+    session.run(Command::SetRules(rasterscope::rules::Rules::Course));
+    let line = session.viewer.command_line().unwrap();
+    assert!(line.contains("--dialect svg"), "rules alone would say course: {line}");
+    session.run(Command::SetDialect(Course));
+    session.run(Command::OtherReading);
+    assert_eq!(
+        session.viewer.settings().dialect,
+        Svg,
+        "a setting is what changes where there is one"
+    );
+}
+
+#[test]
 fn dialects_change_with_scenes() {
     let mut session = Session::open(&[BOXED, BOXED], [120, 100]);
     session.run(Command::Compare(Against::Settings));

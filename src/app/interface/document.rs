@@ -4,14 +4,14 @@ use std::time::Duration;
 
 use egui::{RichText, Sense, Ui, vec2};
 
-use super::controls::heading;
-use crate::viewer::Viewer;
+use super::controls::{command_button, heading};
+use crate::viewer::{Command, Viewer};
 
 /// Lines of the reader's report that are shown at once.
 const MAX_LINES: usize = 200;
 
-/// The reader's report, where there is one; and why a scene could not be read.
-pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
+/// The reader's report, where there is one, and which of two readings was taken; and why a scene could not be read.
+pub(super) fn report(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let Some(entry) = viewer.current() else {
         return;
     };
@@ -19,6 +19,13 @@ pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
         heading(ui, "Not read");
         ui.label(RichText::new(message).color(ui.visuals().error_fg_color));
         return;
+    }
+    if let Some(note) = viewer.reading_note() {
+        heading(ui, "Two readings");
+        ui.label(RichText::new(note).small());
+        if command_button(ui, "other-reading", "The other reading").clicked() {
+            commands.push(Command::OtherReading);
+        }
     }
     let Some(scene) = entry.scene().filter(|scene| !scene.report.is_empty()) else {
         return;

@@ -110,6 +110,9 @@ impl ExplanationPanel {
             let is_lit = lit.is_some_and(|sample| sample.stack.contains(&paint));
             self.paint(ui, viewer, (explanation, paint, is_lit), hovered);
         }
+        if let Some(words) = explanation.unlisted_words() {
+            lines(ui, &[words]);
+        }
         if explanation.paints.is_empty() {
             lines(
                 ui,

@@ -278,7 +278,7 @@ impl Interface {
                 .id_salt("report")
                 .auto_shrink([false, true])
                 .max_height(report_room)
-                .show(ui, |ui| document::report(ui, viewer))
+                .show(ui, |ui| document::report(ui, viewer, &mut asked.commands))
         });
         document::timing(ui, viewer, self.timed);
         self.heights.report = report.inner.content_size.y;

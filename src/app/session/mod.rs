@@ -175,6 +175,13 @@ impl Session {
             // Whoever closed stderr does not want to read it.
             let _ = writeln!(stderr, "{}: {line}", entry.source.address());
         }
+        if let Some(note) = self.viewer.reading_note() {
+            let _ = writeln!(
+                stderr,
+                "{}: {note}; the command other-reading shows it",
+                entry.source.address()
+            );
+        }
         self.told = Some(std::sync::Arc::clone(scene));
     }
 

@@ -7,7 +7,7 @@ use crate::cli::arguments::WriteupOptions;
 use crate::cli::failure::{Failure, print_error};
 use crate::compare;
 use crate::scene::FolderResources;
-use crate::viewer::gallery;
+use crate::viewer::{gallery, is_folder_of_course};
 
 /// A figure.
 #[derive(Debug)]
@@ -186,6 +186,8 @@ pub(super) struct Scenes<'a> {
     pub(super) files: Vec<(PathBuf, Vec<u8>)>,
     /// The view of the student's own picture: it is seen from so far that its texture is minified.
     own_view: String,
+    /// Whether the folder of scenes is read as the course's.
+    is_of_course: bool,
 }
 
 impl<'a> Scenes<'a> {
@@ -197,6 +199,7 @@ impl<'a> Scenes<'a> {
             files: vec![(folder.join("triangle.svg"), TRIANGLE.as_bytes().to_vec())],
             folder,
             own_view: String::new(),
+            is_of_course: options.scenes.as_deref().is_some_and(is_folder_of_course),
         };
         scenes.make_own()?;
         scenes.tell_missing();
@@ -224,7 +227,9 @@ impl<'a> Scenes<'a> {
                 None => "gallery:illustration/02_fox.svg".to_owned(),
             },
         };
-        (scene, None)
+        let is_of_course = self.is_of_course && !scene.starts_with("gallery:");
+        let found = matches!(subject, Subject::Scene(_) | Subject::Competition);
+        (scene, (is_of_course && found).then(|| "--dialect=course".to_owned()))
     }
 
     /// A scene in the folder of scenes.

@@ -3,6 +3,7 @@
 //! Styles come from presentation attributes and the `style` attribute and are inherited; strokes have widths; the
 //! canvas is the document's viewport. What is not drawn is reported.
 
+mod declarations;
 mod outline;
 mod shapes;
 mod style;

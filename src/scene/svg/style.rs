@@ -1,9 +1,9 @@
 //! Properties: from presentation attributes and the `style` attribute, inherited from element to element.
 
 use roxmltree::Node;
-use simplecss::DeclarationTokenizer;
 use svgtypes::{Length, LengthUnit};
 
+use super::declarations::declarations;
 use super::values::{self, Along, SvgPaint, Units};
 use crate::color::Rgba;
 use crate::geometry::{FillRule, LineCap, LineJoin};
@@ -181,8 +181,8 @@ fn declared<'doc>(node: Node<'doc, 'doc>, complaints: &mut Complaints<'doc>) -> 
     for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
         declare(attribute.name(), attribute.value());
     }
-    for declaration in DeclarationTokenizer::from(node.attribute("style").unwrap_or("")) {
-        declare(declaration.name, declaration.value);
+    for (name, value) in declarations(node.attribute("style").unwrap_or("")) {
+        declare(name, value);
     }
     values
 }

@@ -146,7 +146,7 @@ impl Viewer {
         let entry = self.current().filter(|entry| !entry.is_reading())?;
         Some(KnownScene {
             scene: Arc::clone(entry.scene()?),
-            dialect: self.settings.dialect,
+            dialect: self.dialect_of_picture(),
             document: entry.document,
         })
     }

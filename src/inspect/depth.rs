@@ -1,0 +1,59 @@
+//! Deep stacks: which paints of a pixel are listed one by one.
+
+use std::collections::HashSet;
+
+use super::explanation::seen_fragments;
+use crate::raster::{PaintedKind, PixelReplay};
+
+/// Paints that are listed, from the last; what samples show is listed besides.
+const MOST_PAINTS: usize = 300;
+
+/// Leaves in `replay` what is listed: the last paints, those that samples show, and the layers that they lie on. Answers with
+/// what of their fragments is seen, and with how many paints were left out.
+pub(super) fn list(replay: &mut PixelReplay) -> (Vec<Vec<bool>>, usize) {
+    let mut seen = seen_fragments(replay);
+    let all = replay.painted.len();
+    if all <= MOST_PAINTS {
+        return (seen, 0);
+    }
+    let mut listed = listed(replay, &seen).into_iter();
+    let mut also = listed.clone();
+    replay.painted.retain(|_| listed.next().unwrap_or(true));
+    seen.retain(|_| also.next().unwrap_or(true));
+    let left = replay.painted.len();
+    (seen, all - left)
+}
+
+/// For each op whether it is listed. All ops of one primitive are, or none.
+fn listed(replay: &PixelReplay, seen: &[Vec<bool>]) -> Vec<bool> {
+    let ops = || replay.painted.iter().zip(seen);
+    let mut shown = vec![None; replay.samples.len()];
+    for (op, seen) in ops().filter(|(op, _)| op.kind == PaintedKind::Primitive) {
+        for (fragment, _) in op.fragments.iter().zip(seen).filter(|(_, seen)| **seen) {
+            shown[fragment.sample] = Some(op.source);
+        }
+    }
+    let last = replay.painted.iter().rev().take(MOST_PAINTS).map(|op| op.source);
+    let sources: HashSet<u32> = shown.into_iter().flatten().chain(last).collect();
+    let mut listed = vec![false; replay.painted.len()];
+    let mut open: Vec<(usize, bool)> = Vec::new();
+    for (i, op) in replay.painted.iter().enumerate() {
+        let is_used = match op.kind {
+            PaintedKind::Primitive => sources.contains(&op.source),
+            PaintedKind::BeginLayer => {
+                open.push((i, false));
+                continue;
+            }
+            PaintedKind::EndLayer(_) => {
+                let (begin, is_used) = open.pop().unwrap_or((i, false));
+                listed[begin] = is_used;
+                is_used
+            }
+        };
+        listed[i] = is_used;
+        if let Some((_, any)) = open.last_mut() {
+            *any |= is_used;
+        }
+    }
+    listed
+}

@@ -1,0 +1,72 @@
+//! Places of a document, quoted: the line that an element stands on, or a piece of one that is long.
+
+use super::document::LineIndex;
+use super::{Scene, SourceLocation};
+
+/// Most characters of a quotation, without the dots where it is cut.
+const MOST: usize = 200;
+/// Characters before the element in a quotation of a long line.
+const BEFORE: usize = 20;
+
+/// Quotes places of one document.
+#[derive(Debug)]
+pub struct Quotes<'doc> {
+    lines: LineIndex<'doc>,
+}
+
+impl Scene {
+    /// The document, to be quoted; `None` where it was not kept. It is looked through once for all quotations.
+    pub fn quotes(&self) -> Option<Quotes<'_>> {
+        let lines = LineIndex::new(self.document.as_deref()?);
+        Some(Quotes { lines })
+    }
+}
+
+impl Quotes<'_> {
+    /// The line of a place without spaces around it; of one longer than 200 characters as many around the place, with
+    /// `...` where it is cut.
+    pub fn excerpt(&self, place: SourceLocation) -> Option<String> {
+        let (head, tail) = self.lines.text().split_at(self.lines.offset(place)?);
+        // Lines may be as long as documents: no more is looked at than may be quoted.
+        let head: Vec<char> = head.chars().rev().take_while(|c| *c != '\n').take(MOST + 1).collect();
+        let tail: Vec<char> = tail.chars().take_while(|c| *c != '\n').take(MOST + 1).collect();
+        let (mut before, mut after) = (head.len(), tail.len());
+        if before + after > MOST {
+            before = before.min(BEFORE.max(MOST.saturating_sub(after)));
+            after = after.min(MOST - before);
+        }
+        let piece: String = head[..before].iter().rev().chain(&tail[..after]).collect();
+        let dots = |cut: bool| if cut { "..." } else { "" };
+        let (start, end) = (dots(before < head.len()), dots(after < tail.len()));
+        Some(format!("{start}{}{end}", piece.trim()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::document::LineIndex;
+
+    fn excerpt(text: &str, line: u32, column: u32) -> Option<String> {
+        let lines = LineIndex::new(text);
+        Quotes { lines }.excerpt(SourceLocation { line, column })
+    }
+
+    #[test]
+    fn excerpt_is_the_line_or_a_piece_around_the_element() {
+        let short = "<svg>\n  <g><rect/></g> \r\n</svg>";
+        assert_eq!(excerpt(short, 2, 6).as_deref(), Some("<g><rect/></g>"), "a short line");
+        assert_eq!(excerpt(short, 9, 1), None, "no such line");
+        let long = "\u{e9}".repeat(5000) + "<rect/>" + &"\u{4e2d}".repeat(5000);
+        let found = excerpt(&long, 1, 5001).expect("a place");
+        assert!(
+            found.starts_with("...\u{e9}") && found.ends_with("\u{4e2d}..."),
+            "{found}"
+        );
+        assert!(found.contains("<rect/>"), "{found}");
+        assert_eq!(found.chars().count(), MOST + 6, "so many characters and the dots");
+        let last = excerpt(&("x".repeat(5000) + "<rect/>"), 1, 5001).expect("a place");
+        assert!(last.starts_with("...x") && last.ends_with("<rect/>"), "{last}");
+        assert_eq!(last.chars().count(), MOST + 3, "as much before where nothing follows");
+    }
+}

@@ -13,6 +13,7 @@ mod figures;
 mod full_disk;
 mod gallery;
 mod golden;
+mod guess;
 mod inspect;
 mod inspect_feeds;
 mod inspect_seams;

@@ -364,7 +364,7 @@ pub(super) static TABLE: &[CommandSpec] = &[
         "Compares A with the same scene at 256 samples per pixel",
         Group::Compare,
     )
-    .more("Each of them reads textures at level zero; all else is A's, the values that are averaged, too, unless they are given")
+    .more("Each of them reads textures at level zero; all else is A's, and so are the values that are averaged")
     .run(&Command::Compare(Against::Truth(None)))
     .argument(typed::TRUTH),
     spec(

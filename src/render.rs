@@ -74,8 +74,9 @@ impl Default for RenderSettings {
 }
 
 impl RenderSettings {
-    /// The truth about a picture: as many samples as there can be, each of which reads the texture itself, averaged in
-    /// linear light. Rules, background and how a texture is continued between its texels are the picture's own.
+    /// The truth about a picture: as many samples as there can be, each of which reads the texture itself. Rules,
+    /// background, how a texture is continued between its texels and in which values samples are averaged are the
+    /// picture's own: what is then left of a difference is sampling.
     #[must_use]
     pub fn truth(self) -> Self {
         Self {
@@ -84,7 +85,6 @@ impl RenderSettings {
             level_sampling: LevelSampling::Zero,
             anisotropy: Anisotropy::OFF,
             detail: LevelOfDetail::default(),
-            resolve: ResolveSpace::Linear,
             ..self
         }
     }

@@ -121,7 +121,7 @@ pub(super) struct ViewerOptions {
     /// The window's size in device pixels [default: 1280x800]
     #[arg(long, value_name = "WxH")]
     pub(super) size: Option<FrameSize>,
-    /// Compare with this from the start: `truth`, `settings`, settings such as "sample-rate 16, dialect svg", or the file of a
+    /// Compare with this from the start: `truth` (or `truth stored`, `truth linear`), `settings`, settings such as "sample-rate 16, dialect svg", or the file of a
     /// PNG or JPEG
     #[arg(long, value_name = "FILE|truth|SETTINGS", value_parser = against)]
     pub(super) against: Option<Against>,
@@ -533,7 +533,7 @@ fn lod_level(text: &str) -> Result<FixedLevel, String> {
 
 fn against(text: &str) -> Result<Against, String> {
     let against = Against::from_text(text).filter(|against| *against != Against::Nothing);
-    against.ok_or_else(|| "compare with truth, settings, settings such as \"sample-rate 16, dialect svg\", or the file of a PNG or JPEG".to_owned())
+    against.ok_or_else(|| "compare with truth, \"truth stored\", \"truth linear\", settings, settings such as \"sample-rate 16, dialect svg\", or the file of a PNG or JPEG".to_owned())
 }
 
 fn gain(text: &str) -> Result<f32, String> {

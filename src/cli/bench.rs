@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::arguments::BenchOptions;
 use super::failure::{Failure, print};
+use super::memory::peak_megabytes;
 use super::picture::{Picture, on_threads};
 use super::recorded;
 use crate::render::FrameStats;
@@ -27,6 +28,8 @@ struct Report {
     /// Triangles that reached the tiles in one frame.
     triangles: u64,
     counters: Counters,
+    /// The most memory that the process has had so far, in megabytes of 2^20 bytes; `null` where the system does not tell.
+    peak_mb: Option<f64>,
 }
 
 /// What one frame did.
@@ -77,9 +80,9 @@ fn measure(scene: &Path, options: &BenchOptions) -> Result<Report, Failure> {
     let mut picture = Picture::read(recorded::spec(scene, &options.picture))?;
     // The first frame pays for memory that later ones find in place.
     picture.draw();
-    // It takes the system a while to give every thread a core of its own.
+    // It takes the system a while to give every thread a core of its own. A single frame is no measure of time anyway.
     let start = Instant::now();
-    while rayon::current_num_threads() > 1 && start.elapsed() < WARM_UP {
+    while options.frames > 1 && rayon::current_num_threads() > 1 && start.elapsed() < WARM_UP {
         picture.draw();
     }
     let frames: Vec<FrameStats> = (0..options.frames).map(|_| picture.draw()).collect();
@@ -109,6 +112,7 @@ fn measure(scene: &Path, options: &BenchOptions) -> Result<Report, Failure> {
             blocks_split: last.counters.blocks_split,
             samples_shaded: last.counters.samples_shaded,
         },
+        peak_mb: peak_megabytes(),
     })
 }
 

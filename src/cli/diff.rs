@@ -55,10 +55,12 @@ struct Report {
 
 #[derive(Debug, Serialize)]
 struct GuessReport {
-    /// In words, the weightiest first; empty where nothing known makes the pictures more alike.
+    /// In words, the weightiest first; empty where nothing known explains the difference.
     causes: Vec<String>,
     /// The share of the squared difference that they explain together, from 0 to 1.
     explained: f64,
+    /// Whether time was up before everything was tried.
+    stopped: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -116,7 +118,7 @@ fn measure(options: &DiffOptions) -> Result<Report, Failure> {
             report.picture = Some(save(pair, output, options)?);
         }
         if let Some(ours) = ours.filter(|_| report.differing_pixels > 0) {
-            let guess = compare::guess(&ours.subject(), pair.b(), &CancelToken::default());
+            let guess = compare::guess(&ours.subject(), pair.b(), Guess::BUDGET, &CancelToken::default());
             report.guess = guess.map(|guess| GuessReport::new(&guess));
         }
         Ok(report)
@@ -369,17 +371,24 @@ impl GuessReport {
         Self {
             causes: guess.causes.iter().map(ToString::to_string).collect(),
             explained: guess.explained(),
+            stopped: guess.stopped,
         }
     }
 
     fn text(&self) -> String {
+        let stopped = if self.stopped {
+            let seconds = Guess::BUDGET.as_secs();
+            format!("\n  (not all was tried in {seconds} s; a smaller picture takes less time)")
+        } else {
+            String::new()
+        };
         if self.causes.is_empty() {
-            return "guess at the cause none: nothing known makes the pictures more alike".to_owned();
+            return format!("guess at the cause no known cause explains the difference{stopped}");
         }
         // Rounded down, so that 100 % means all of it.
         let percent = (self.explained * 1000.0).floor() / 10.0;
         format!(
-            "guess at the cause explains {percent} % of the squared difference:\n  {}",
+            "guess at the cause explains {percent} % of the squared difference:\n  {}{stopped}",
             self.causes.join("\n  and ")
         )
     }

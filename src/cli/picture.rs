@@ -60,7 +60,12 @@ impl Picture {
         self.draw();
         let legend = self.spec.legend.then(|| self.legend()).flatten();
         let legends = legend.as_slice();
-        let drawn = add_furniture(&mut self.frame, &self.spec.insets, &self.view, legends).map_err(Failure::input)?;
+        let subject = Subject {
+            scene: &self.scene,
+            view: &self.view,
+            settings: &self.spec.render,
+        };
+        let drawn = add_furniture(&mut self.frame, &self.spec.insets, &subject, legends).map_err(Failure::input)?;
         if drawn < legends.len() {
             let [width, height] = [self.frame.width(), self.frame.height()];
             print_error(&format!(

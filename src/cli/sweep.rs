@@ -11,7 +11,7 @@ use super::arguments::SweepOptions;
 use super::axes::sampling;
 use super::bench::{median, milliseconds};
 use super::failure::{Failure, print, print_error};
-use super::memory::{forget_peak, peak_megabytes};
+use super::memory::peak_of_drawing;
 use super::picture::{Picture, on_threads};
 use super::render::{name_for_png, unwritable};
 use super::size::FrameSize;
@@ -48,7 +48,7 @@ pub(super) enum Quality {
 struct Row {
     median_ms: f64,
     min_ms: f64,
-    /// Of the whole process while it drew, where the system tells.
+    /// Of a process that draws it and nothing else, where the system tells.
     peak_mb: Option<f64>,
     rmse: f64,
     psnr: f64,
@@ -209,9 +209,10 @@ fn measure(
         let mut picture = Picture::of(spec.clone(), Arc::clone(&scene));
         let times = times(&mut picture, options.frames, stop);
         let truth = truth(&mut truths, spec, &scene, stop);
-        let row = times
-            .zip(truth)
-            .and_then(|(times, truth)| row(times, (picture.frame(), truth), stop));
+        let row = times.zip(truth).and_then(|(times, truth)| {
+            let peak = peak_of_drawing(spec, options.framing.threads);
+            row((times, peak), (picture.frame(), truth), stop)
+        });
         // Half a combination is none.
         let Some(row) = row else { break };
         rows.push(row);
@@ -225,9 +226,8 @@ fn measure(
     })
 }
 
-/// The times of some frames, after one that does not count, and the peak of memory meanwhile; `None` when stopped.
-fn times(picture: &mut Picture, frames: u32, stop: &CancelToken) -> Option<(Vec<Duration>, Option<f64>)> {
-    let counts = forget_peak();
+/// The times of some frames, after one that does not count; `None` when stopped.
+fn times(picture: &mut Picture, frames: u32, stop: &CancelToken) -> Option<Vec<Duration>> {
     picture.draw();
     let mut times = Vec::new();
     for _ in 0..frames {
@@ -236,7 +236,7 @@ fn times(picture: &mut Picture, frames: u32, stop: &CancelToken) -> Option<(Vec<
         }
         times.push(picture.draw().total());
     }
-    Some((times, peak_megabytes().filter(|_| counts)))
+    Some(times)
 }
 
 /// The truth of a picture; drawn unless it is known. `None` when stopped.

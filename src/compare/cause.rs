@@ -3,8 +3,8 @@
 use std::fmt;
 use std::mem::discriminant;
 
-use crate::color::{linear_to_srgb, srgb_to_linear, unit_to_byte};
-use crate::raster::{Framebuffer, SampleRate};
+use crate::color::{ResolveSpace, linear_to_srgb, srgb_to_linear, unit_to_byte};
+use crate::raster::{Framebuffer, SamplePattern, SampleRate};
 use crate::render::Subject;
 use crate::rules::Rules;
 use crate::texture::{LevelSampling, PixelSampling};
@@ -14,6 +14,9 @@ use crate::texture::{LevelSampling, PixelSampling};
 pub enum Cause {
     /// Everything lies so many pixels further to the right and down.
     Shifted([f64; 2]),
+    /// Samples lie in a corner of their cells, which are pixels where there is one sample in each. Shapes are then seen as
+    /// if they were shifted; hairlines and points, which have no samples, stay.
+    Corners(CellCorner),
     /// It follows these rules.
     Rules(Rules),
     /// Bytes are truncated where ours are rounded.
@@ -34,16 +37,31 @@ pub enum Cause {
     EncodedTwice,
     /// Linear light was stored without the sRGB curve: too dark.
     NotEncoded,
-    /// The samples of a pixel were mixed in linear light.
-    LinearResolve,
+    /// The samples of a pixel were averaged in these values.
+    Resolve(ResolveSpace),
+}
+
+/// The corner of a sample's cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CellCorner {
+    /// Where the cell begins: the half that leads to its centre was not added.
+    UpperLeft,
+    /// Where it ends.
+    LowerRight,
 }
 
 impl Cause {
-    /// Whether it may be tried together with `others`: one of a kind, and only one curve.
+    /// Whether it may be tried together with `others`: one of a kind.
     pub(super) fn goes_with(self, others: &[Self]) -> bool {
+        !others.iter().any(|other| other.is_akin(self))
+    }
+
+    /// Whether both are of a kind: places, curves, or the same thing with another value.
+    pub(super) fn is_akin(self, other: Self) -> bool {
+        let place = |cause: Self| matches!(cause, Self::Shifted(_) | Self::Corners(_));
         let curve = |cause: Self| matches!(cause, Self::EncodedTwice | Self::NotEncoded);
-        let clash = |other: &Self| discriminant(other) == discriminant(&self) || curve(*other) && curve(self);
-        !others.iter().any(clash)
+        let both = |kind: &dyn Fn(Self) -> bool| kind(self) && kind(other);
+        discriminant(&self) == discriminant(&other) || both(&place) || both(&curve)
     }
 }
 
@@ -51,6 +69,12 @@ impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Shifted([x, y]) => write!(f, "shifted by {x:+} pixels across and {y:+} down"),
+            Self::Corners(CellCorner::UpperLeft) => {
+                f.write_str("samples in the upper left corners, not in the centres (+ 0.5 forgotten)")
+            }
+            Self::Corners(CellCorner::LowerRight) => {
+                f.write_str("samples in the lower right corners, not in the centres")
+            }
             Self::Rules(Rules::Course) => {
                 f.write_str("the course's rules: inclusive edges, truncated bytes, texels by w - 1")
             }
@@ -68,60 +92,55 @@ impl fmt::Display for Cause {
             Self::SwappedChannels => f.write_str("red and blue swapped"),
             Self::EncodedTwice => f.write_str("gamma: the sRGB curve applied twice (too light)"),
             Self::NotEncoded => f.write_str("gamma: linear light stored without the sRGB curve (too dark)"),
-            Self::LinearResolve => f.write_str("gamma: samples mixed in linear light"),
+            Self::Resolve(ResolveSpace::Linear) => f.write_str("gamma: samples mixed in linear light"),
+            Self::Resolve(ResolveSpace::Stored) => f.write_str("gamma: samples mixed in stored values"),
         }
     }
 }
 
-/// What is worth trying for a subject, plain causes first.
-pub(super) fn candidates(subject: &Subject<'_>) -> Vec<Cause> {
+/// What is worth trying of how a subject is drawn, plain causes first.
+pub(super) fn drawn_otherwise(subject: &Subject<'_>) -> Vec<Cause> {
     let settings = subject.settings;
-    let mut causes = vec![
-        Cause::Truncated,
-        Cause::UpsideDown,
-        Cause::SwappedChannels,
-        Cause::EncodedTwice,
-        Cause::NotEncoded,
-    ];
-    causes.extend(
-        Rules::ALL
-            .into_iter()
-            .filter(|rules| *rules != settings.rules)
-            .map(Cause::Rules),
-    );
-    let rates = [1, 4, 9, 16].into_iter().filter_map(SampleRate::new);
-    causes.extend(
-        rates
-            .filter(|rate| *rate != settings.sample_rate)
-            .map(Cause::SampleRate),
-    );
-    if settings.sample_rate.side() > 1 {
-        causes.push(Cause::LinearResolve);
+    let mut causes = Vec::new();
+    if settings.pattern.simplest(settings.sample_rate) == SamplePattern::Grid {
+        causes.extend([CellCorner::UpperLeft, CellCorner::LowerRight].map(Cause::Corners));
     }
+    causes.extend(others(&Rules::ALL, settings.rules).map(Cause::Rules));
+    let rates: Vec<SampleRate> = [1, 4, 9, 16].into_iter().filter_map(SampleRate::new).collect();
+    causes.extend(others(&rates, settings.sample_rate).map(Cause::SampleRate));
+    causes.extend(others(&ResolveSpace::ALL, settings.resolve).map(Cause::Resolve));
     if !subject.scene.textures.is_empty() {
         causes.push(Cause::FlippedV);
-        let pixel = PixelSampling::ALL
-            .into_iter()
-            .filter(|sampling| *sampling != settings.pixel_sampling);
-        causes.extend(pixel.map(Cause::PixelSampling));
-        let level = LevelSampling::ALL
-            .into_iter()
-            .filter(|sampling| *sampling != settings.level_sampling);
-        causes.extend(level.map(Cause::LevelSampling));
+        causes.extend(others(&PixelSampling::ALL, settings.pixel_sampling).map(Cause::PixelSampling));
+        causes.extend(others(&LevelSampling::ALL, settings.level_sampling).map(Cause::LevelSampling));
     }
-    causes.extend(shifts(settings.sample_rate));
+    let steps = [0.0, -0.5, 0.5, -1.0, 1.0];
+    let shifts = steps.into_iter().flat_map(|y| steps.map(|x| [x, y])).skip(1);
+    causes.extend(shifts.map(Cause::Shifted));
     causes
 }
 
-/// By half a pixel and by a whole one in every direction, and what corners of samples' cells instead of their centres do.
-fn shifts(rate: SampleRate) -> Vec<Cause> {
-    let steps = [0.0, -0.5, 0.5, -1.0, 1.0];
-    let mut found: Vec<[f64; 2]> = steps.into_iter().flat_map(|y| steps.map(|x| [x, y])).skip(1).collect();
-    if rate.side() > 1 {
-        let corner = 0.5 / f64::from(rate.side());
-        found.extend([[corner, corner], [-corner, -corner]]);
+/// All values but one.
+fn others<T: Copy + PartialEq>(all: &[T], own: T) -> impl Iterator<Item = T> {
+    all.iter().copied().filter(move |value| *value != own)
+}
+
+/// What may have happened to a frame when it was finished: nothing first, then every combination.
+pub(super) fn finished_otherwise() -> Vec<Vec<Cause>> {
+    let mut combinations = vec![Vec::new()];
+    for kind in [
+        &[Cause::UpsideDown][..],
+        &[Cause::SwappedChannels],
+        &[Cause::EncodedTwice, Cause::NotEncoded],
+    ] {
+        for index in 0..combinations.len() {
+            for cause in kind {
+                combinations.push([combinations[index].as_slice(), &[*cause]].concat());
+            }
+        }
     }
-    found.into_iter().map(Cause::Shifted).collect()
+    combinations.sort_by_key(Vec::len);
+    combinations
 }
 
 /// What a cause does to a frame when it is finished; nothing for causes of how it is drawn.

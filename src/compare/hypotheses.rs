@@ -1,37 +1,47 @@
-//! A guess at why a picture from outside differs from ours: our scene is drawn under one known cause after the other,
-//! and the cause that leaves the smallest squared error is kept; then the next one beside it.
+//! A guess at why a picture from outside differs from ours: our scene is drawn under known causes, one by one and together,
+//! and those count that explain what others do not.
+//!
+//! A cause must leave at most two fifths of the squared error that is left without it. Less would prove nothing: where two
+//! pictures have nothing in common, a smoother one of them leaves up to a half.
 
-use glam::{DAffine2, DVec2};
-use rayon::prelude::*;
+use std::time::{Duration, Instant};
 
-use super::cause::{self, Cause, candidates};
-use crate::color::{linear_to_srgb, srgb_to_linear, unit_to_byte};
-use crate::geometry::ViewTransform;
-use crate::raster::{Framebuffer, SampleRate};
-use crate::render::{self, CancelToken, RenderSettings, Subject};
+use super::cause::{Cause, drawn_otherwise, finished_otherwise};
+use super::trial::Trial;
+use super::truncation::truncated_errors;
+use crate::raster::Framebuffer;
+use crate::render::{CancelToken, Subject};
 use crate::rules::Rules;
-use crate::scene::{Paint, PrimitiveKind, Scene};
 
 /// Most causes that are told together.
 const MAX_CAUSES: usize = 3;
-/// A cause beside others must at least halve the error that they leave.
-const WORTH: f64 = 0.5;
-/// Most samples of a picture that is resolved in linear light.
-const MAX_SAMPLES: u64 = 1 << 26;
+/// The part of the error that a cause may leave of what is left without it.
+const MARGIN: f64 = 0.4;
+/// How many of the best combinations of one, and of two causes, are tried with one cause more; of single causes all kinds.
+const BEAMS: [usize; MAX_CAUSES - 1] = [8, 3];
+/// The part of the error that is not worth looking for causes.
+const NEGLIGIBLE: f64 = 1e-3;
+/// Ways to finish a frame that are tried with everything else.
+const FINISHES: usize = 3;
 
 /// What makes our picture most like another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guess {
-    /// What the other renderer does otherwise, all of it at once, the weightiest first. Empty where nothing known makes
-    /// the pictures more alike.
+    /// What the other renderer does otherwise, all of it at once, the weightiest first. Empty where nothing known explains
+    /// the difference.
     pub causes: Vec<Cause>,
     /// The sum of squared differences over pixels and channels that our picture has, in levels of 255 squared.
     pub before: u64,
     /// The same when our picture is drawn under these causes.
     pub after: u64,
+    /// Whether time was up before everything was tried.
+    pub stopped: bool,
 }
 
 impl Guess {
+    /// How long is searched at most, but for the drawing that is under way then.
+    pub const BUDGET: Duration = Duration::from_secs(8);
+
     /// The share of the squared difference that the causes explain, from 0 to 1.
     pub fn explained(&self) -> f64 {
         if self.before == 0 {
@@ -43,216 +53,247 @@ impl Guess {
 }
 
 /// Finds what makes the picture of `subject` most like `other`, a picture of the same scene by another renderer. Draws
-/// the scene some dozen times at the size of `other`. `None` once `cancel` says so.
-pub fn guess(subject: &Subject<'_>, other: &Framebuffer, cancel: &CancelToken) -> Option<Guess> {
-    let trial = Trial {
-        subject,
-        flipped: flipped_v(subject.scene),
-        other,
-        cancel,
-    };
-    let before = trial.error(&[])?;
-    let mut guess = Guess {
-        causes: Vec::new(),
-        before,
-        after: before,
-    };
-    let candidates = candidates(subject);
-    while guess.after > 0 && guess.causes.len() < MAX_CAUSES {
-        let mut best: Option<(u64, Cause)> = None;
-        for cause in candidates.iter().filter(|cause| cause.goes_with(&guess.causes)) {
-            let causes = [guess.causes.as_slice(), &[*cause]].concat();
-            let error = trial.error(&causes)?;
-            if best.is_none_or(|(least, _)| error < least) {
-                best = Some((error, *cause));
-            }
-        }
-        let worth = if guess.causes.is_empty() { 1.0 } else { WORTH };
-        match best {
-            Some((error, cause)) if error < guess.after && error as f64 <= worth * guess.after as f64 => {
-                guess.causes.push(cause);
-                guess.after = error;
-            }
-            _ => break,
-        }
+/// the scene some hundred times at the size of `other`, for as long as `budget` allows. `None` once `cancel` says so.
+pub fn guess(subject: &Subject<'_>, other: &Framebuffer, budget: Duration, cancel: &CancelToken) -> Option<Guess> {
+    let trial = Trial { subject, other, cancel };
+    let mut search = Search::new(&trial, budget)?;
+    search.run()?;
+    let mut guess = search.guess();
+    // Truncated bytes alone look like the course's rules, of which they are a part.
+    let course = Cause::Rules(Rules::Course);
+    if (guess.after > 0 || guess.causes.contains(&course)) && !search.stopped {
+        consider_truncation(&trial, &mut guess)?;
     }
     Some(guess)
 }
 
-/// What hypotheses are tried on.
-struct Trial<'a> {
-    subject: &'a Subject<'a>,
-    /// The scene with its textures upside down.
-    flipped: Scene,
-    other: &'a Framebuffer,
-    cancel: &'a CancelToken,
+/// Some causes and the error that they leave.
+#[derive(Clone, Debug)]
+struct Found {
+    causes: Vec<Cause>,
+    error: u64,
 }
 
-impl Trial<'_> {
-    /// How far the picture under `causes` is from the other: the sum of squared differences.
-    fn error(&self, causes: &[Cause]) -> Option<u64> {
-        let frame = self.draw(causes)?;
-        let width = self.other.width() as usize;
-        let truncated = causes.contains(&Cause::Truncated);
-        let rows = frame.pixels().par_chunks(width.max(1));
-        let rows = rows.zip(self.other.pixels().par_chunks(width.max(1)));
-        let error = |(ours, theirs): (&[u32], &[u32])| -> u64 {
-            ours.iter().zip(theirs).map(|(a, b)| squared(*a, *b, truncated)).sum()
+/// The way through combinations of causes.
+struct Search<'a> {
+    trial: &'a Trial<'a>,
+    /// Nothing, and the best of one cause, of two and of three.
+    best: Vec<Option<Found>>,
+    /// What single causes leave.
+    alone: Vec<(Cause, u64)>,
+    /// Ways to finish a frame that are worth trying with others; the first is none.
+    finishes: Vec<Vec<Cause>>,
+    until: Option<Instant>,
+    /// How long one drawing took.
+    one: Duration,
+    stopped: bool,
+}
+
+impl<'a> Search<'a> {
+    /// Draws the scene as it is.
+    fn new(trial: &'a Trial<'a>, budget: Duration) -> Option<Self> {
+        let start = Instant::now();
+        let mut search = Self {
+            trial,
+            best: vec![None; MAX_CAUSES + 1],
+            alone: Vec::new(),
+            finishes: finished_otherwise(),
+            until: start.checked_add(budget),
+            one: Duration::ZERO,
+            stopped: false,
         };
-        Some(rows.map(error).sum())
+        let mut errors = search.consider(&[])?;
+        search.one = start.elapsed();
+        // The first is nothing, which stays.
+        errors[1..].sort_by_key(|(error, _)| *error);
+        search.finishes = errors.into_iter().take(FINISHES).map(|(_, finish)| finish).collect();
+        Some(search)
     }
 
-    /// Our picture under `causes`.
-    fn draw(&self, causes: &[Cause]) -> Option<Framebuffer> {
-        let mut settings = *self.subject.settings;
-        let mut view = *self.subject.view;
-        let mut scene = self.subject.scene;
-        for cause in causes {
-            match *cause {
-                Cause::Shifted(pixels) => view = moved(&view, pixels),
-                Cause::Rules(rules) => settings.rules = rules,
-                Cause::SampleRate(rate) => settings.sample_rate = rate,
-                Cause::PixelSampling(sampling) => settings.pixel_sampling = sampling,
-                Cause::LevelSampling(sampling) => settings.level_sampling = sampling,
-                Cause::FlippedV => scene = &self.flipped,
-                _ => {}
+    /// Tries single causes, then what goes with the best of them.
+    fn run(&mut self) -> Option<()> {
+        let causes = drawn_otherwise(self.trial.subject);
+        let mut beam: Vec<Vec<Cause>> = vec![Vec::new()];
+        for count in 0..MAX_CAUSES {
+            let mut next: Vec<(u64, Vec<Cause>)> = Vec::new();
+            for (set, cause) in beam
+                .iter()
+                .flat_map(|set| causes.iter().map(move |cause| (set, *cause)))
+            {
+                let together = [set.as_slice(), &[cause]].concat();
+                let known = next.iter().any(|(_, known)| is_same(known, &together));
+                if known || !cause.goes_with(set) || !self.makes_sense(&together) {
+                    continue;
+                }
+                if self.is_exact() {
+                    return Some(());
+                }
+                if !self.has_time_for(&together) {
+                    self.stopped = true;
+                    continue;
+                }
+                let errors = self.consider(&together)?;
+                let least = errors.iter().map(|(error, _)| *error).min().unwrap_or(u64::MAX);
+                next.push((least, together));
+            }
+            if self.is_all_but_exact() {
+                return Some(());
+            }
+            next.sort_by_key(|(error, _)| *error);
+            beam.clear();
+            for (_, set) in next {
+                // The best of a kind: two shifts are better than no sample rate, but each goes with others.
+                let is_new = beam.iter().all(|known| !is_akin(known, &set));
+                if is_new && beam.len() < BEAMS.get(count).copied().unwrap_or(0) {
+                    beam.push(set);
+                }
             }
         }
-        let subject = Subject {
-            scene,
-            view: &view,
-            settings: &settings,
-        };
-        let mut frame = self.render(&subject, 1)?;
-        if causes.contains(&Cause::LinearResolve) {
-            self.resolve_linear(&subject, &mut frame)?;
-        }
-        for cause in causes {
-            cause::apply(*cause, &mut frame);
-        }
-        Some(frame)
-    }
-
-    /// The picture, `times` as wide and as high as the other.
-    fn render(&self, subject: &Subject<'_>, times: u32) -> Option<Framebuffer> {
-        let mut frame = Framebuffer::new(self.other.width() * times, self.other.height() * times);
-        render::draw_cancellable(subject.scene, subject.view, subject.settings, &mut frame, self.cancel)?;
-        Some(frame)
-    }
-
-    /// Mixes the samples of each pixel in linear light. They are the pixels of a picture that is as many times larger,
-    /// and count only where their mean in stored values is what `frame` holds: hairlines and points keep their pixels,
-    /// and textures of other mip levels their colours.
-    fn resolve_linear(&self, subject: &Subject<'_>, frame: &mut Framebuffer) -> Option<()> {
-        let side = subject.settings.sample_rate.side();
-        let [width, height] = [frame.width(), frame.height()];
-        let samples = u64::from(width) * u64::from(height) * u64::from(side * side);
-        if side < 2 || width.max(height) * side > Framebuffer::MAX_SIDE || samples > MAX_SAMPLES {
-            return Some(());
-        }
-        let view = ViewTransform {
-            scene_to_pixels: DAffine2::from_scale(DVec2::splat(f64::from(side))) * subject.view.scene_to_pixels,
-        };
-        let settings = RenderSettings {
-            sample_rate: SampleRate::ONE,
-            ..*subject.settings
-        };
-        let large = Subject {
-            view: &view,
-            settings: &settings,
-            ..*subject
-        };
-        let large = self.render(&large, side)?;
-        let linear: Vec<f32> = (0..=255_u8)
-            .map(|byte| srgb_to_linear(f32::from(byte) / 255.0))
-            .collect();
-        let (width, side) = (width as usize, side as usize);
-        let rows = large.pixels().par_chunks_exact((width * side * side).max(1));
-        frame
-            .pixels_mut()
-            .par_chunks_mut(width.max(1))
-            .zip(rows)
-            .for_each(|(row, samples)| {
-                for (x, pixel) in row.iter_mut().enumerate() {
-                    let lines = samples
-                        .chunks_exact(width * side)
-                        .map(|line| &line[x * side..(x + 1) * side]);
-                    *pixel = mixed_linear(*pixel, lines.flatten().copied(), &linear).unwrap_or(*pixel);
-                }
-            });
         Some(())
     }
-}
 
-/// The linear mean of `samples`, all of them opaque, if their mean in stored values is `pixel` to two levels.
-fn mixed_linear(pixel: u32, samples: impl Iterator<Item = u32>, linear: &[f32]) -> Option<u32> {
-    let (mut stored, mut light, mut count) = ([0.0; 3], [0.0; 3], 0.0);
-    for sample in samples {
-        let [a, rgb @ ..] = sample.to_be_bytes();
-        if a != 255 {
-            return None;
-        }
-        for (i, byte) in rgb.into_iter().enumerate() {
-            stored[i] += f32::from(byte);
-            light[i] += linear[usize::from(byte)];
-        }
-        count += 1.0;
-    }
-    let [_, rgb @ ..] = pixel.to_be_bytes();
-    let alike = rgb
-        .into_iter()
-        .zip(stored)
-        .all(|(byte, sum)| (f32::from(byte) - sum / count).abs() <= 2.0);
-    let [r, g, b] = light.map(|sum| unit_to_byte(linear_to_srgb(sum / count), Rules::Standard));
-    alike.then(|| u32::from_be_bytes([255, r, g, b]))
-}
-
-/// The squared difference of two pixels over their channels. Bytes that were truncated may be one level lower.
-fn squared(ours: u32, theirs: u32, truncated: bool) -> u64 {
-    if ours == theirs {
-        return 0;
-    }
-    let channels = ours.to_be_bytes().into_iter().zip(theirs.to_be_bytes());
-    channels
-        .map(|(a, b)| match a.abs_diff(b) {
-            1 if truncated && b < a => 0,
-            difference => u64::from(difference) * u64::from(difference),
-        })
-        .sum()
-}
-
-/// The view under which everything appears moved by so many pixels to the right and down.
-fn moved(view: &ViewTransform, pixels: [f64; 2]) -> ViewTransform {
-    ViewTransform {
-        scene_to_pixels: DAffine2::from_translation(DVec2::from_array(pixels)) * view.scene_to_pixels,
-    }
-}
-
-/// The same scene with its textures upside down.
-fn flipped_v(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    for primitive in &mut scene.primitives {
-        if let PrimitiveKind::Triangle {
-            paint: Paint::Texture { uv, .. },
-            ..
-        } = &mut primitive.kind
-        {
-            for corner in uv {
-                corner.y = 1.0 - corner.y;
+    /// Draws under causes, and notes what is left with each way to finish the frame.
+    fn consider(&mut self, causes: &[Cause]) -> Option<Vec<(u64, Vec<Cause>)>> {
+        let frame = self.trial.draw(causes)?;
+        let mut errors = Vec::new();
+        for finish in self.finishes.clone() {
+            let together = [causes, &finish].concat();
+            if together.len() > MAX_CAUSES {
+                continue;
+            }
+            let error = self.trial.error(&frame, &finish);
+            errors.push((error, finish));
+            if let [cause] = together.as_slice() {
+                self.alone.push((*cause, error));
+            }
+            let best = &mut self.best[together.len()];
+            // What looks the same without hairlines and points is told as what is known to happen.
+            let rank = |causes: &[Cause]| causes.iter().any(|cause| matches!(cause, Cause::Shifted(_)));
+            let is_better = |best: &Found| (error, rank(&together)) < (best.error, rank(&best.causes));
+            if best.as_ref().is_none_or(is_better) {
+                *best = Some(Found {
+                    causes: together,
+                    error,
+                });
             }
         }
+        Some(errors)
     }
-    scene
+
+    /// Whether some causes explain everything.
+    fn is_exact(&self) -> bool {
+        self.best.iter().flatten().any(|found| found.error == 0)
+    }
+
+    /// Whether what is left is not worth the time.
+    fn is_all_but_exact(&self) -> bool {
+        let before = self.best[0].as_ref().map_or(0, |found| found.error) as f64;
+        let mut found = self.best.iter().flatten();
+        found.any(|found| found.error as f64 <= NEGLIGIBLE * before)
+    }
+
+    /// In which values a single sample is averaged makes no difference.
+    fn makes_sense(&self, causes: &[Cause]) -> bool {
+        let samples = self.trial.settings(causes).sample_rate.samples();
+        samples > 1 || !causes.iter().any(|cause| matches!(cause, Cause::Resolve(_)))
+    }
+
+    /// Whether another drawing will be done in time: as many times more samples take as many times longer at most.
+    fn has_time_for(&self, causes: &[Cause]) -> bool {
+        let samples = |causes| f64::from(self.trial.settings(causes).sample_rate.samples());
+        let needed = self.one.mul_f64((samples(causes) / samples(&[])).max(1.0));
+        let left = self.until.map(|until| until.saturating_duration_since(Instant::now()));
+        left.is_none_or(|left| needed < left)
+    }
+
+    /// The most causes of which each explains what the others do not.
+    fn guess(&self) -> Guess {
+        let error_of = |count: usize| self.best[count].as_ref().map(|found| found.error);
+        let before = error_of(0).unwrap_or(0);
+        let mut chosen = 0;
+        for count in 1..=MAX_CAUSES {
+            let Some(error) = error_of(count) else { continue };
+            let fewer = (0..count).filter_map(|fewer| Some((fewer, error_of(fewer)?)));
+            // As far below none as so many causes ask for, and once below any other number.
+            let is_far_below = |(fewer, error_of_fewer): (usize, u64)| {
+                let times = if fewer == 0 { count } else { 1 };
+                error as f64 <= (0..times).fold(error_of_fewer as f64, |error, _| error * MARGIN)
+            };
+            if error < before && fewer.map(is_far_below).all(|far| far) {
+                chosen = count;
+            }
+        }
+        let found = self.best[chosen].clone();
+        let mut causes = found.as_ref().map_or_else(Vec::new, |found| found.causes.clone());
+        let alone = |cause: &Cause| {
+            self.alone
+                .iter()
+                .find(|(known, _)| known == cause)
+                .map(|(_, error)| *error)
+        };
+        causes.sort_by_key(|cause| alone(cause).unwrap_or(u64::MAX));
+        Guess {
+            causes,
+            before,
+            after: found.map_or(before, |found| found.error),
+            stopped: self.stopped,
+        }
+    }
+}
+
+/// Whether two lists hold the same causes.
+fn is_same(a: &[Cause], b: &[Cause]) -> bool {
+    a.len() == b.len() && a.iter().all(|cause| b.contains(cause))
+}
+
+/// Whether two lists hold causes of the same kinds.
+fn is_akin(a: &[Cause], b: &[Cause]) -> bool {
+    a.len() == b.len() && a.iter().all(|cause| b.iter().any(|other| other.is_akin(*cause)))
+}
+
+/// Adds truncated bytes to a guess where they explain what is left; in place of the course's rules, of which they are a part,
+/// where those explain no more.
+fn consider_truncation(trial: &Trial<'_>, guess: &mut Guess) -> Option<()> {
+    let course = Cause::Rules(Rules::Course);
+    if trial.settings(&guess.causes).rules == Rules::Course && !guess.causes.contains(&course) {
+        return Some(());
+    }
+    let others: Vec<Cause> = guess.causes.iter().copied().filter(|cause| *cause != course).collect();
+    if others.len() == MAX_CAUSES {
+        return Some(());
+    }
+    let [before, after] = truncated_errors(trial, &others)?;
+    // What those rules explain beside truncation, of two roundings that are never quite the same.
+    let less = after - guess.after as f64;
+    let explains = after <= MARGIN * before && before > 0.0;
+    if explains && (less <= NEGLIGIBLE.sqrt() * before || guess.after as f64 > MARGIN * after) {
+        guess.causes = [others.as_slice(), &[Cause::Truncated]].concat();
+        guess.after = whole(after);
+    }
+    Some(())
+}
+
+/// An estimate that is not nothing stays above it.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "sums stay far below 2^53"
+)]
+fn whole(error: f64) -> u64 {
+    error.ceil() as u64
 }
 
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
 
+    use glam::DVec2;
+
     use super::*;
     use crate::color::Rgba;
     use crate::geometry::View;
-    use crate::scene::{Dialect, Primitive, ShapeId, TextureId};
+    use crate::render::{self, RenderSettings};
+    use crate::scene::{Dialect, Paint, Primitive, PrimitiveKind, Scene, ShapeId, TextureId};
     use crate::texture::Texture;
 
     const SIZE: [u32; 2] = [64, 48];
@@ -286,94 +327,67 @@ mod tests {
         scene
     }
 
-    /// What is guessed for our own picture under `causes`.
-    fn found(causes: &[Cause], rate: u32) -> Guess {
-        let scene = scene();
-        let view = View::Canvas.transform(scene.canvas, SIZE);
-        let settings = RenderSettings {
-            sample_rate: SampleRate::new(rate).expect("a square number"),
-            outline: false,
-            ..RenderSettings::default()
-        };
-        let subject = Subject {
-            scene: &scene,
-            view: &view,
-            settings: &settings,
-        };
-        let blank = Framebuffer::new(SIZE[0], SIZE[1]);
-        let cancel = CancelToken::default();
-        let trial = Trial {
-            subject: &subject,
-            flipped: flipped_v(&scene),
-            other: &blank,
-            cancel: &cancel,
-        };
-        let other = trial.draw(causes).expect("not cancelled");
-        guess(&subject, &other, &cancel).expect("not cancelled")
-    }
-
-    #[test]
-    fn hypotheses_find_each_cause() {
-        for cause in [
-            Cause::Shifted([0.5, 0.5]),
-            Cause::Shifted([-0.5, 0.0]),
-            Cause::Shifted([0.0, 1.0]),
-            Cause::Rules(Rules::Course),
-            Cause::FlippedV,
-            Cause::UpsideDown,
-            Cause::SwappedChannels,
-            Cause::EncodedTwice,
-            Cause::NotEncoded,
-            Cause::LinearResolve,
-            Cause::SampleRate(SampleRate::ONE),
-            Cause::PixelSampling(crate::texture::PixelSampling::Bilinear),
-        ] {
-            let guess = found(&[cause], 4);
-            assert_eq!(guess.causes, [cause], "{cause:?}: {guess:?}");
-            assert!(guess.before > 0 && guess.after == 0, "{cause:?}: {guess:?}");
-            assert!((guess.explained() - 1.0).abs() < 1e-12, "{cause:?}: all of it");
-        }
-    }
-
-    #[test]
-    fn hypotheses_find_two_causes_at_once() {
-        let both = [Cause::Shifted([0.5, 0.5]), Cause::SwappedChannels];
-        let mut guess = found(&both, 4);
-        guess.causes.sort_by_key(|cause| *cause == Cause::SwappedChannels);
-        assert_eq!((guess.causes.as_slice(), guess.after), (&both[..], 0), "both");
-    }
-
-    #[test]
-    fn hypotheses_see_truncated_bytes() {
+    /// What is guessed within a time where `change` was done to our own picture.
+    fn guessed(change: impl Fn(usize, u32) -> u32, budget: Duration) -> Guess {
         let scene = scene();
         let view = View::Canvas.transform(scene.canvas, SIZE);
         let settings = RenderSettings::default();
         let mut other = Framebuffer::new(SIZE[0], SIZE[1]);
         render::draw(&scene, &view, &settings, &mut other);
-        for pixel in other.pixels_mut().iter_mut().step_by(3) {
-            let [a, rgb @ ..] = pixel.to_be_bytes();
-            let [r, g, b] = rgb.map(|channel| channel.saturating_sub(1));
-            *pixel = u32::from_be_bytes([a, r, g, b]);
+        for (index, pixel) in other.pixels_mut().iter_mut().enumerate() {
+            *pixel = change(index, *pixel);
         }
         let subject = Subject {
             scene: &scene,
             view: &view,
             settings: &settings,
         };
-        let guess = guess(&subject, &other, &CancelToken::default()).expect("not cancelled");
+        guess(&subject, &other, budget, &CancelToken::default()).expect("not cancelled")
+    }
+
+    #[test]
+    fn hypotheses_ask_for_more_than_smoothness() {
+        // Random pixels: whatever is smooth is nearer to them than what is not.
+        let random = |index: usize, _| {
+            let number = u32::try_from(index).expect("a small picture");
+            0xFF00_0000 | number.wrapping_mul(2_654_435_761) >> 8
+        };
+        let guess = guessed(random, Guess::BUDGET);
+        assert_eq!((guess.causes.as_slice(), guess.stopped), (&[][..], false), "{guess:?}");
+        assert_eq!(guess.after, guess.before, "nothing is explained");
+    }
+
+    #[test]
+    fn hypotheses_tell_truncated_bytes_from_lower_ones() {
+        // Every byte one lower, whether or not truncating would have lowered it.
+        let lower = |_, pixel: u32| {
+            let [a, rgb @ ..] = pixel.to_be_bytes();
+            let [r, g, b] = rgb.map(|channel| channel.saturating_sub(1));
+            u32::from_be_bytes([a, r, g, b])
+        };
+        let guess = guessed(lower, Guess::BUDGET);
+        assert_eq!(guess.causes, [], "{guess:?}");
+    }
+
+    #[test]
+    fn hypotheses_stop_when_time_is_up() {
+        let swapped = |_, pixel: u32| pixel & 0xFF00_FF00 | (pixel & 0xFF) << 16 | pixel >> 16 & 0xFF;
+        let moved = |index: usize, pixel: u32| if index < 64 * 7 { 0xFF00_0000 } else { pixel };
+        assert!(guessed(moved, Duration::ZERO).stopped, "more could be tried");
+        let guess = guessed(swapped, Duration::ZERO);
         assert_eq!(
-            (guess.causes.as_slice(), guess.after),
-            (&[Cause::Truncated][..], 0),
-            "one level lower"
+            (guess.causes.as_slice(), guess.stopped),
+            (&[Cause::SwappedChannels][..], false),
+            "nothing more is needed"
         );
     }
 
     #[test]
     fn hypotheses_of_equal_pictures_are_none() {
-        let guess = found(&[], 1);
+        let guess = guessed(|_, pixel| pixel, Duration::ZERO);
         assert_eq!(
-            (guess.causes.len(), guess.before, guess.after),
-            (0, 0, 0),
+            (guess.causes.len(), guess.before, guess.after, guess.stopped),
+            (0, 0, 0, false),
             "nothing to explain"
         );
         assert!((guess.explained() - 1.0).abs() < 1e-12, "nothing is unexplained");
@@ -391,7 +405,7 @@ mod tests {
         let cancel = CancelToken::default();
         cancel.cancel();
         assert_eq!(
-            guess(&subject, &Framebuffer::new(SIZE[0], SIZE[1]), &cancel),
+            guess(&subject, &Framebuffer::new(SIZE[0], SIZE[1]), Guess::BUDGET, &cancel),
             None,
             "cancelled"
         );

@@ -17,8 +17,10 @@ mod region;
 mod show;
 mod ssim;
 mod tiles;
+mod trial;
+mod truncation;
 
-pub use cause::Cause;
+pub use cause::{Cause, CellCorner};
 pub use hypotheses::{Guess, guess};
 pub use levels::{Largest, Levels};
 pub use pair::{Pair, SizeMismatch};

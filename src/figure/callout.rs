@@ -1,7 +1,8 @@
 //! Insets as figures carry them: a region of a picture magnified in a corner, with its scale, a frame around the region and
 //! leader lines between both.
 //!
-//! All insets of a picture are laid out before one is drawn: none hides a region that is magnified, nor another inset.
+//! All insets of a picture are laid out before one is drawn: none hides a region that is magnified, nor another inset. One
+//! that may go anywhere goes where the picture is empty.
 
 use std::fmt;
 use std::str::FromStr;
@@ -10,11 +11,12 @@ use glam::DVec2;
 
 use super::lines::{Stroke, draw_frame, draw_line};
 use super::paint::{copy, fill, inner, outer};
-use super::placement::{Corner, in_corner};
+use super::placement::{Corner, along_sides, in_corner};
+use super::vacancy::Vacancy;
 use super::{Anchor, Inset, PixelRect, TextBlock, TextStyle, add_legends};
 use crate::geometry::ViewTransform;
 use crate::raster::Framebuffer;
-use crate::render::Legend;
+use crate::render::{Legend, Subject};
 
 /// Ground and letters of the scale.
 const PLATE_COLOR: u32 = 0xfff4_f4f2;
@@ -111,7 +113,24 @@ impl InsetSpec {
             magnification: *Inset::MAGNIFICATION.start(),
             ..self
         });
-        smaller.chain(fewer).find(|spec| layout(&[*spec], size, view).is_ok())
+        smaller
+            .chain(fewer)
+            .find(|spec| layout(&[*spec], size, view, None).is_ok())
+    }
+
+    /// The largest inset up to this one, and no less than half of it, that hides nothing painted in a picture of `size`; this
+    /// one where there is none.
+    #[must_use]
+    pub fn beside(self, subject: &Subject<'_>, size: [u32; 2]) -> Self {
+        let vacancy = Vacancy::of(subject, size);
+        let least = self.magnification.div_ceil(2).max(*Inset::MAGNIFICATION.start());
+        let smaller = (least..=self.magnification).rev();
+        let mut smaller = smaller.map(|magnification| Self { magnification, ..self });
+        let hides_nothing = |spec: &Self| {
+            let placed = layout(&[*spec], size, subject.view, Some(&vacancy));
+            placed.is_ok_and(|placed| placed.iter().all(|placed| vacancy.hidden(&placed.rect) == 0))
+        };
+        smaller.find(hides_nothing).unwrap_or(self)
     }
 }
 
@@ -212,7 +231,7 @@ impl Scale {
     }
 }
 
-/// Adds to a picture that was drawn from `view` what makes it a figure: insets, then legends in corners where they hide
+/// Adds to a picture of `subject` what makes it a figure: insets, then legends in corners where they hide
 /// neither an inset nor what it magnifies. Gives how many legends there was room for.
 ///
 /// # Errors
@@ -220,10 +239,12 @@ impl Scale {
 pub fn add_furniture(
     picture: &mut Framebuffer,
     insets: &[InsetSpec],
-    view: &ViewTransform,
+    subject: &Subject<'_>,
     legends: &[Legend],
 ) -> Result<usize, InsetError> {
-    let spared = draw_insets(picture, insets, view)?;
+    let chooses = insets.iter().any(|inset| inset.corner.is_none());
+    let vacancy = chooses.then(|| Vacancy::of(subject, [picture.width(), picture.height()]));
+    let spared = draw_insets(picture, insets, subject.view, vacancy.as_ref())?;
     Ok(add_legends(picture, legends, &spared))
 }
 
@@ -232,12 +253,13 @@ fn draw_insets(
     picture: &mut Framebuffer,
     specs: &[InsetSpec],
     view: &ViewTransform,
+    vacancy: Option<&Vacancy>,
 ) -> Result<Vec<PixelRect>, InsetError> {
     if specs.is_empty() {
         return Ok(Vec::new());
     }
     let size = [picture.width(), picture.height()];
-    let all = layout(specs, size, view)?;
+    let all = layout(specs, size, view, vacancy)?;
     let (source, scale) = (picture.clone(), Scale::of(size));
     let stroke = Stroke {
         color: INK,
@@ -278,7 +300,12 @@ fn draw_placed(picture: &mut Framebuffer, source: &Framebuffer, placed: &Placed,
 }
 
 /// Where every inset goes: those with a corner of their own first.
-fn layout(specs: &[InsetSpec], size: [u32; 2], view: &ViewTransform) -> Result<Vec<Placed>, InsetError> {
+fn layout(
+    specs: &[InsetSpec],
+    size: [u32; 2],
+    view: &ViewTransform,
+    vacancy: Option<&Vacancy>,
+) -> Result<Vec<Placed>, InsetError> {
     let (area, scale) = (PixelRect::of_size(size), Scale::of(size));
     let insets: Vec<Inset> = specs
         .iter()
@@ -294,9 +321,6 @@ fn layout(specs: &[InsetSpec], size: [u32; 2], view: &ViewTransform) -> Result<V
         let [grid_width, grid_height] = inset.size();
         let [label_width, label_height] = scale.label(&inset).size();
         let whole = [grid_width.max(label_width + 8), grid_height + label_height];
-        let mut corners = spec.corner.map_or(Corner::ALL.to_vec(), |corner| vec![corner]);
-        // Short leader lines cross little of the picture.
-        corners.sort_by_key(|corner| in_corner(&area, whole, *corner).map(|rect| distance(&rect, inset.center)));
         let mut hides = "its own subject";
         let mut is_free = |rect: &PixelRect| {
             let covers_subject = sources.iter().any(|source| source.overlaps(rect));
@@ -306,9 +330,10 @@ fn layout(specs: &[InsetSpec], size: [u32; 2], view: &ViewTransform) -> Result<V
             }
             !covers_subject && !covers_inset
         };
-        let free = corners
-            .into_iter()
-            .find_map(|corner| in_corner(&area, whole, corner).filter(|rect| is_free(rect)));
+        let mut free = candidates(spec, &inset, &area, whole);
+        free.retain(|rect| is_free(rect));
+        let hidden = |rect: &&PixelRect| vacancy.map_or(0, |vacancy| vacancy.hidden(rect));
+        let free = free.iter().min_by_key(hidden).copied();
         let [width, height] = whole;
         places[index] = Some(free.ok_or(InsetError::NoRoom {
             spec,
@@ -321,6 +346,24 @@ fn layout(specs: &[InsetSpec], size: [u32; 2], view: &ViewTransform) -> Result<V
     Ok(both
         .filter_map(|(inset, rect)| Some(Placed { inset, rect: rect? }))
         .collect())
+}
+
+/// Where an inset of `size` may go, the best places first: corners, where eyes look for it, then all along the sides. Short
+/// leader lines cross little of the picture.
+fn candidates(spec: InsetSpec, inset: &Inset, area: &PixelRect, size: [u32; 2]) -> Vec<PixelRect> {
+    let nearest_first = |mut rects: Vec<PixelRect>| {
+        rects.sort_by_key(|rect| distance(rect, inset.center));
+        rects
+    };
+    let corner = |corner| in_corner(area, size, corner);
+    match spec.corner {
+        Some(own) => corner(own).into_iter().collect(),
+        None => {
+            let mut rects = nearest_first(Corner::ALL.into_iter().filter_map(corner).collect());
+            rects.extend(nearest_first(along_sides(area, size).collect()));
+            rects
+        }
+    }
 }
 
 /// The square of the distance from a rectangle's middle to a pixel, for comparisons.
@@ -477,7 +520,7 @@ mod tests {
                     ..InsetSpec::around(at, u.int_in_range(8..=20)?, u.int_in_range(2..=8)?)
                 });
             }
-            if let Ok(placed) = layout(&specs, size, &view()) {
+            if let Ok(placed) = layout(&specs, size, &view(), None) {
                 let area = PixelRect::of_size(size);
                 for (i, one) in placed.iter().enumerate() {
                     assert_eq!(one.rect.intersection(&area), one.rect, "inside");
@@ -492,7 +535,7 @@ mod tests {
                 }
             }
             let mut picture = Framebuffer::new(size[0], size[1]);
-            let _ = draw_insets(&mut picture, &specs, &view());
+            let _ = draw_insets(&mut picture, &specs, &view(), None);
             Ok(())
         })
         .budget_ms(400);
@@ -503,8 +546,8 @@ mod tests {
         let mut picture = colorful(400, 300);
         let before = picture.clone();
         let specs = ["100,150:9@6:top-right", "110,150:9@6"].map(|text| text.parse().expect("a spec"));
-        draw_insets(&mut picture, &specs, &view()).expect("there is room");
-        for placed in layout(&specs, [400, 300], &view()).expect("there is room") {
+        draw_insets(&mut picture, &specs, &view(), None).expect("there is room");
+        for placed in layout(&specs, [400, 300], &view(), None).expect("there is room") {
             let block = placed.inset.block(placed.inset.center).expect("the middle");
             let at = [placed.rect.x + block.x + 2, placed.rect.y + block.y + 2]
                 .map(|side| u32::try_from(side).expect("inside"));
@@ -517,10 +560,38 @@ mod tests {
             "its subject stays in sight"
         );
         let crowded = ["100,150:9@6:top-right", "110,150:9@6:top-right"].map(|text| text.parse().expect("a spec"));
-        let error = draw_insets(&mut picture, &crowded, &view())
+        let error = draw_insets(&mut picture, &crowded, &view(), None)
             .expect_err("one corner")
             .to_string();
         assert!(error.contains("another inset"), "{error}");
+    }
+
+    #[test]
+    fn insets_go_where_the_picture_is_empty() {
+        use crate::render::RenderSettings;
+        use crate::scene::{DialectChoice, NoResources, ReadOptions, read};
+        // Only the lower part of the right margin is free.
+        let text = "<svg width='300' height='200'><rect width='200' height='200' fill='#123456'/>\
+                    <rect x='200' width='100' height='90' fill='#654321'/></svg>";
+        let options = ReadOptions {
+            dialect: DialectChoice::Svg,
+        };
+        let scene = read(text.as_bytes(), "a", options, &NoResources).expect("a good document");
+        let size = [300, 200];
+        let view = View::Canvas.transform(scene.canvas, size);
+        let subject = Subject {
+            scene: &scene,
+            view: &view,
+            settings: &RenderSettings::default(),
+        };
+        let spec = InsetSpec::around(InsetPlace::Pixel([20, 20]), 8, 14).beside(&subject, size);
+        assert!((7..14).contains(&spec.magnification), "small enough: {spec}");
+        let vacancy = Vacancy::of(&subject, size);
+        let placed = layout(&[spec], size, &view, Some(&vacancy)).expect("there is room");
+        let rect = placed[0].rect;
+        assert!(rect.x >= 200 && rect.y >= 90, "hides nothing: {rect:?}");
+        let near = layout(&[spec], size, &view, None).expect("there is room");
+        assert!(near[0].rect.x < 200, "the nearest corner would have hidden much");
     }
 
     #[test]

@@ -15,6 +15,7 @@ mod sheet;
 mod shrink;
 mod snippets;
 mod text;
+mod vacancy;
 
 pub use self::png::{encode_png, save_files, save_png, save_recorded_png};
 pub use callout::{InsetError, InsetPlace, InsetSpec, add_furniture};

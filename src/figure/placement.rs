@@ -58,6 +58,31 @@ pub(super) fn in_corner(area: &PixelRect, size: [u32; 2], corner: Corner) -> Opt
     corner.rect(area, size, MARGIN)
 }
 
+/// Rectangles of `size` along the sides of `area`, from corner to corner; none where it is larger than that.
+pub(super) fn along_sides(area: &PixelRect, size: [u32; 2]) -> impl Iterator<Item = PixelRect> {
+    /// From one corner to the next in so many steps.
+    const STEPS: u32 = 24;
+    let between = |from: i64, to: i64| move |step: u32| from + (to - from) * i64::from(step) / i64::from(STEPS);
+    let ends = [Corner::TopLeft, Corner::BottomRight].map(|corner| in_corner(area, size, corner));
+    let sides = ends[0].zip(ends[1]).into_iter().flat_map(move |(first, last)| {
+        let (x, y) = (between(first.x, last.x), between(first.y, last.y));
+        (0..=STEPS).flat_map(move |step| {
+            [
+                [x(step), first.y],
+                [x(step), last.y],
+                [first.x, y(step)],
+                [last.x, y(step)],
+            ]
+        })
+    });
+    sides.map(move |[x, y]| PixelRect {
+        x,
+        y,
+        width: size[0],
+        height: size[1],
+    })
+}
+
 /// A place for an inset of `size` inside `area` that leaves `shown` uncovered: `preferred` if that will do, else the
 /// first other corner. `None` where every corner covers it.
 pub fn place(area: &PixelRect, size: [u32; 2], shown: &PixelRect, preferred: Corner) -> Option<(Corner, PixelRect)> {

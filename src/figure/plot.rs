@@ -3,9 +3,10 @@
 use std::sync::LazyLock;
 
 use plotters::backend::BitMapBackend;
-use plotters::chart::{ChartBuilder, SeriesLabelPosition};
+use plotters::chart::ChartBuilder;
+use plotters::coord::Shift;
 use plotters::coord::combinators::IntoLogRange as _;
-use plotters::drawing::{DrawingAreaErrorKind, IntoDrawingArea as _};
+use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea as _};
 use plotters::element::{Circle, PathElement, Text};
 use plotters::series::LineSeries;
 use plotters::style::{BLACK, Color as _, FontStyle, IntoFont as _, RGBColor, ShapeStyle, WHITE, register_font};
@@ -119,7 +120,10 @@ fn draw<'b>(
     let px = |units: f64| (unit * units).round() as u32;
     let root = BitMapBackend::with_buffer(bytes, (size[0], size[1])).into_drawing_area();
     root.fill(&WHITE)?;
-    let mut chart = ChartBuilder::on(&root)
+    // Beside the chart, where no point can be.
+    let (area, legend) = root.split_horizontally(size[0] - legend_width(plot, px(1.1), size[0]));
+    draw_legend(plot, &legend, px(1.1))?;
+    let mut chart = ChartBuilder::on(&area)
         .margin(px(0.8))
         .caption(&plot.title, (FONT, px(1.5)).into_font())
         .x_label_area_size(px(3.4))
@@ -140,13 +144,7 @@ fn draw<'b>(
         let line = ShapeStyle::from(color).stroke_width(px(0.12).max(1));
         let points: Vec<&([f64; 2], String)> = shown(series).collect();
         let places = points.iter().map(|(at, _)| (at[0], at[1]));
-        let drawn = chart.draw_series(LineSeries::new(places, line))?;
-        if !series.name.is_empty() {
-            let length = i32::try_from(px(1.6)).unwrap_or(16);
-            drawn
-                .label(&series.name)
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + length, y)], line));
-        }
+        chart.draw_series(LineSeries::new(places, line))?;
         let dots = points
             .iter()
             .map(|(at, _)| Circle::new((at[0], at[1]), px(0.3), ShapeStyle::from(color).filled()));
@@ -157,17 +155,52 @@ fn draw<'b>(
         });
         chart.draw_series(words)?;
     }
-    if plot.series.iter().any(|series| !series.name.is_empty()) {
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .label_font((FONT, px(1.1)).into_font())
-            .legend_area_size(px(2.2))
-            .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.4))
-            .draw()?;
-    }
     root.present()
+}
+
+/// Pixels that the legend takes of a chart's width, for letters of this height; none where no series has a name.
+fn legend_width(plot: &Plot, letters: u32, width: u32) -> u32 {
+    let longest = plot.series.iter().map(|series| series.name.chars().count()).max();
+    let longest = u32::try_from(longest.unwrap_or(0)).unwrap_or(u32::MAX);
+    match longest {
+        0 => 0,
+        // A letter is about half as wide as high. A line before the name, and room around both.
+        longest => (longest.saturating_mul(letters) / 2)
+            .saturating_add(letters * 3)
+            .min(width / 3),
+    }
+}
+
+/// The names of series, one below the other, each after a line of its colour; how many there was no room for.
+fn draw_legend<'b>(plot: &Plot, area: &DrawingArea<BitMapBackend<'b>, Shift>, letters: u32) -> Result<(), Problem<'b>> {
+    let (_, height) = area.dim_in_pixel();
+    let room = (height / (letters * 3 / 2).max(1)).saturating_sub(3) as usize;
+    let named = || {
+        plot.series
+            .iter()
+            .zip(COLORS.into_iter().cycle())
+            .filter(|(series, _)| !series.name.is_empty())
+    };
+    let letters = i32::try_from(letters).unwrap_or(16);
+    let row = |index: usize| letters * 5 / 2 + i32::try_from(index).unwrap_or(0) * letters * 3 / 2;
+    for (index, (series, color)) in named().take(room).enumerate() {
+        let y = row(index);
+        let style = ShapeStyle::from(color).stroke_width((letters.unsigned_abs() / 9).max(1));
+        area.draw(&PathElement::new(
+            [(0, y + letters / 2), (letters * 3 / 2, y + letters / 2)],
+            style,
+        ))?;
+        area.draw(&Text::new(
+            series.name.clone(),
+            (letters * 2, y),
+            (FONT, letters).into_font(),
+        ))?;
+    }
+    if let Some(more) = named().count().checked_sub(room).filter(|more| *more > 0) {
+        let words = format!("and {more} more");
+        area.draw(&Text::new(words, (letters * 2, row(room)), (FONT, letters).into_font()))?;
+    }
+    Ok(())
 }
 
 /// A number with as many digits as a reader needs.
@@ -224,6 +257,26 @@ mod tests {
         assert!(last > columns[0] + 200, "from the first to the last point");
         let (left, right) = (rows(columns[0]..columns[0] + 6), rows(last - 5..last + 1));
         assert!(left.iter().min() < right.iter().min(), "errors fall to the right");
+    }
+
+    #[test]
+    fn plot_hides_no_point_behind_its_legend() {
+        // The best and the dearest are in the upper corners, and one point is in the middle of the right side.
+        let mut plot = plot(&[[1.0, 0.2], [100.0, 0.2], [100.0, 0.1], [100.0, 0.05]]);
+        plot.series[0].name = "pixel sampling bilinear, level sampling linear".to_owned();
+        let picture = draw_plot(&plot, [900, 600]).expect("a chart");
+        let color = COLORS[0];
+        let color = u32::from_be_bytes([0xFF, color.0, color.1, color.2]);
+        // Dots are the only squares of six pixels a side in the colour of the series.
+        let is_dot =
+            |x: usize, y: usize| (0..6).all(|i| (0..6).all(|j| picture.pixels()[(y + j) * 900 + x + i] == color));
+        let mut dots: Vec<(usize, usize)> = Vec::new();
+        for (x, y) in (0..600 - 6).flat_map(|y| (0..900 - 6).map(move |x| (x, y))) {
+            if is_dot(x, y) && dots.iter().all(|(a, b)| x.abs_diff(*a) > 9 || y.abs_diff(*b) > 9) {
+                dots.push((x, y));
+            }
+        }
+        assert_eq!(dots.len(), 4, "{dots:?}");
     }
 
     #[test]

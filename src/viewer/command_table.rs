@@ -362,11 +362,12 @@ pub(super) static TABLE: &[CommandSpec] = &[
     spec(
         "truth",
         "Compare with the truth",
-        "Compares A with the same scene at 256 samples per pixel, averaged in linear light",
+        "Compares A with the same scene at 256 samples per pixel",
         Group::Compare,
     )
-    .more("Each of them reads textures at level zero; rules, background and pixel sampling are those of A")
-    .run(&Command::Compare(Against::Truth)),
+    .more("Each of them reads textures at level zero; all else is A's, and so are the values that are averaged")
+    .run(&Command::Compare(Against::Truth(None)))
+    .argument(typed::TRUTH),
     spec(
         "compare-picture",
         "Compare with a picture",

@@ -287,7 +287,7 @@ impl Shot {
         match self {
             Self::Frame { frame, insets, legends } => {
                 let mut picture = frame.pixels.clone();
-                add_furniture(&mut picture, &insets, &frame.picture.view, &legends)
+                add_furniture(&mut picture, &insets, &frame.picture.subject(), &legends)
                     .map_err(|error| error.to_string())?;
                 Ok(picture)
             }

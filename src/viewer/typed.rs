@@ -134,8 +134,12 @@ pub(super) const GAIN: Argument = argument("a number from 0.000001 to 1000000", 
 pub(super) const ARRANGE: Argument = argument("alone|wipe|side|difference|flip", |text| {
     named(&Arrangement::ALL, Arrangement::name, text).map(Command::Arrange)
 });
+pub(super) const TRUTH: Argument = argument("stored|linear", |text| {
+    let resolve = named(&ResolveSpace::ALL, ResolveSpace::name, text)?;
+    Some(Command::Compare(Against::Truth(Some(resolve))))
+});
 pub(super) const AGAINST: Argument = argument(
-    "settings|truth|none, settings such as \"sample-rate 16, dialect svg\", or a picture's path",
+    "settings|truth|truth stored|truth linear|none, settings such as \"sample-rate 16, dialect svg\", or a picture's path",
     |text| Against::from_text(text).map(Command::Compare),
 );
 pub(super) const SCENE: Argument = argument("a scene's number, from 1", |text| {

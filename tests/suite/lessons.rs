@@ -5,7 +5,8 @@ use std::path::Path;
 use std::process::Command as Process;
 
 use glam::dvec2;
-use rasterscope::scene::DialectChoice;
+use rasterscope::render::{LegendKey, Visualisation};
+use rasterscope::scene::{Dialect, DialectChoice, Scene};
 use rasterscope::viewer::{Arrangement, BUILT_IN, Command, LessonSource, Viewer};
 
 use crate::support::session::{SQUARE, Session, TRIANGLES};
@@ -260,4 +261,37 @@ fn lesson(arguments: &[&str]) -> (Option<i32>, String) {
         .output()
         .unwrap();
     (run.status.code(), String::from_utf8_lossy(&run.stderr).into_owned())
+}
+
+#[test]
+fn lesson_names_the_colours_of_the_weights() {
+    let scene = Scene::empty(dvec2(1.0, 1.0), Dialect::Svg);
+    let legend = Visualisation::Barycentric.legend(&scene).unwrap();
+    let LegendKey::Triangle(corners) = legend.key else {
+        panic!("{legend:?}")
+    };
+    let names = corners.map(|(color, corner)| {
+        let [_, r, g, b] = color.to_be_bytes();
+        let name = match (r > 150, g > 150, b > 150) {
+            (true, true, false) => "yellow",
+            (true, false, false) if g > 60 => "orange",
+            (true, false, false) => "red",
+            (false, true, false) => "green",
+            (false, false, true) => "blue",
+            _ => panic!("{color:x} has no name"),
+        };
+        (name, corner)
+    });
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    session.run(Command::OpenLesson(LessonSource::BuiltIn(0)));
+    let (lesson, _) = session.viewer.lesson().unwrap();
+    let step = lesson.steps.iter().find(|step| step.title == "The weights themselves");
+    let text = format!("{:?}", step.unwrap().text);
+    for (name, corner) in names {
+        let corner = corner.split(' ').next().unwrap();
+        assert!(
+            text.contains(&format!("{name} for the {corner}")),
+            "{name}, {corner}: {text}"
+        );
+    }
 }

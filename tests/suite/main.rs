@@ -16,6 +16,7 @@ mod full_disk;
 mod fuzzing;
 mod gallery;
 mod golden;
+mod guess;
 mod inspect;
 mod inspect_feeds;
 mod inspect_seams;

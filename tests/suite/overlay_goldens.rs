@@ -280,7 +280,7 @@ fn overlay_against_from_the_start() {
         run(options(against, Some(script))).unwrap();
         image::open(&file).unwrap().into_rgba8()
     };
-    let truth = shot(Some(Against::Truth), "");
+    let truth = shot(Some(Against::Truth(None)), "");
     assert!(truth == shot(None, "truth; "), "as if the command had been given");
     assert!(truth != shot(None, ""), "it is to be seen");
     let error = run(options(Some(Against::File("/nowhere/theirs.png".into())), None)).unwrap_err();

@@ -129,6 +129,39 @@ fn sweep_measures_every_combination_against_the_truth() {
     assert_eq!(names.len(), 3, "nothing else is left: {names:?}");
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn sweep_memory_does_not_depend_on_the_order() {
+    let folder = folder();
+    let peaks = |rates: &str| {
+        let lists = [
+            "a.svg",
+            "--csv",
+            "t.csv",
+            "--size",
+            "900x900",
+            "--frames=1",
+            "--threads=1",
+        ];
+        let output = sweep(folder.path(), &lists)
+            .arg(format!("--sample-rate={rates}"))
+            .output();
+        assert!(output.unwrap().status.success(), "{rates}");
+        let table = cells(&folder.path().join("t.csv"));
+        let column = table[0].iter().position(|name| name == "peak_mb").unwrap();
+        let mut peaks: Vec<(u32, f64)> = table[1..]
+            .iter()
+            .map(|line| (line[0].parse().unwrap(), line[column].parse().unwrap()))
+            .collect();
+        peaks.sort_by_key(|(rate, _)| *rate);
+        peaks
+    };
+    let (up, down) = (peaks("1,4,16"), peaks("16,4,1"));
+    for ((rate, first), (_, second)) in up.iter().zip(&down) {
+        assert!((first - second).abs() < 2.0, "rate {rate}: {up:?} and {down:?}");
+    }
+}
+
 #[test]
 fn sweep_refuses_before_it_measures() {
     let folder = folder();

@@ -608,18 +608,17 @@ fn comparison_without_a_window_or_a_scene_ends() {
 fn comparison_with_the_truth() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
     session.keys(&["p", "l", "t", "."]);
-    session.run(Command::Compare(Against::Truth));
+    session.run(Command::Compare(Against::Truth(None)));
     assert_eq!(session.viewer.arrangement(), Arrangement::Wipe, "to be seen at once");
     let truth = RenderSettings {
         sample_rate: SampleRate::new(256).unwrap(),
         pixel_sampling: PixelSampling::Bilinear,
-        resolve: ResolveSpace::Linear,
         ..RenderSettings::default()
     };
     assert_eq!(
         session.viewer.other_settings(),
         Some(truth),
-        "level zero, no anisotropy, no bias"
+        "level zero, no anisotropy, no bias, averaged as A"
     );
     let title = session.viewer.title();
     assert!(title.contains("A against the truth: sample rate 1 | 256"), "{title}");
@@ -661,6 +660,41 @@ fn comparison_with_the_truth() {
     assert_eq!(window.rgba(80, 60), session.pixels().rgba(80, 60), "A on the right");
     assert_eq!(session.run(Command::Escape), [], "the wipe");
     assert!(session.viewer.window_picture() == *session.pixels(), "A in front again");
+}
+
+#[test]
+fn truth_averages_as_a_does_unless_asked() {
+    use ResolveSpace::{Linear, Stored};
+    let mut session = Session::open(&[TRIANGLES], WINDOW);
+    let psnr = |session: &Session| {
+        let [a, b] = frames(session);
+        Pair::new(&a, &b).unwrap().levels().psnr()
+    };
+    for own in ResolveSpace::ALL {
+        session.run(Command::SetResolveSpace(own));
+        session.run(Command::SetSampleRate(SampleRate::new(64).unwrap()));
+        let mut ratios = Vec::new();
+        for (text, resolve) in [("truth", own), ("truth stored", Stored), ("truth linear", Linear)] {
+            session.run(Command::Compare(Against::from_text(text).unwrap()));
+            assert_eq!(session.viewer.other_settings().unwrap().resolve, resolve, "{text}");
+            let [_, told] = session.viewer.comparison_sides().unwrap();
+            let words = if resolve == Linear {
+                "linear light"
+            } else {
+                "stored values"
+            };
+            assert!(told.contains(words), "{text}: {told}");
+            ratios.push(psnr(&session));
+        }
+        let other = if own == Stored { ratios[2] } else { ratios[1] };
+        assert!(
+            ratios[0] > other + 3.0,
+            "{own:?}: the same values leave sampling alone: {ratios:?}"
+        );
+    }
+    session.run(Command::Compare(Against::Truth(None)));
+    session.run(Command::SetResolveSpace(Stored));
+    assert_eq!(session.viewer.other_settings().unwrap().resolve, Stored, "it follows A");
 }
 
 /// A picture of [`TRIANGLES`] with four samples per pixel, in the session's folder.
@@ -780,9 +814,13 @@ fn comparison_newest_picture_wins() {
         "arranged as asked meanwhile"
     );
     let _ = session.viewer.apply(Command::Compare(Against::File(path)));
-    let _ = session.viewer.apply(Command::Compare(Against::Truth));
+    let _ = session.viewer.apply(Command::Compare(Against::Truth(None)));
     session.viewer.finish();
-    assert_eq!(session.viewer.other(), Some(&Other::Truth), "what was asked for last");
+    assert_eq!(
+        session.viewer.other(),
+        Some(&Other::Truth(None)),
+        "what was asked for last"
+    );
 }
 
 #[test]

@@ -85,7 +85,7 @@ fn dialects_of_a_and_b_are_their_own() {
         "{}",
         session.viewer.title()
     );
-    session.run(Command::Compare(Against::Truth));
+    session.run(Command::Compare(Against::Truth(None)));
     session.run(Command::SetDialect(Svg));
     assert_both(&session, [Svg, Svg], "the truth is that of A's dialect");
 }

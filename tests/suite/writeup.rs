@@ -4,8 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use rasterscope::figure::{Record, encode_png};
-use rasterscope::raster::Framebuffer;
+use glam::DVec2;
+use rasterscope::figure::{InsetPlace, InsetSpec, Record, encode_png};
+use rasterscope::geometry::View;
+use rasterscope::raster::{Framebuffer, SampleRate};
+use rasterscope::render::{RenderSettings, draw};
+use rasterscope::scene::{DialectChoice, load};
 
 use crate::support::refusal::assert_refused;
 
@@ -123,5 +127,91 @@ fn writeup_at_fault_is_told_in_one_line() {
     refused(
         &["-o", "out", "--pins", "pins.toml"],
         &["pins.toml", "no figure has the pin test9"],
+    );
+}
+
+/// Fat corners and thin slivers; a lower edge that nearly fills a row of pixels at the size of one figure but not of another.
+const SLIVERS: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="500" height="620">
+<polygon fill="#1850D0" points="0,199.772 118,6 239,199.772"/>
+<polygon fill="#20A040" points="320,160 440,3 488,131"/>
+<polygon fill="#D02020" points="12,290.5 250,281 492,252.5"/>
+<polygon fill="#C09020" points="240,560 22,560 22,348"/>
+<polygon fill="#B020B0" points="461,612 477,300 470,616"/>
+</svg>"##;
+
+/// The squared differences of both pictures in the square of 16 pixels around a place.
+fn squared_around(a: &Framebuffer, b: &Framebuffer, [x, y]: [u32; 2]) -> u64 {
+    let pixels = (y - 8..y + 8).flat_map(|y| (x - 8..x + 8).map(move |x| (y * a.width() + x) as usize));
+    let squared = |i: usize| -> u64 {
+        let pairs = a.pixels()[i].to_be_bytes().into_iter().zip(b.pixels()[i].to_be_bytes());
+        pairs.map(|(a, b)| u64::from(a.abs_diff(b)).pow(2)).sum()
+    };
+    pixels.map(squared).sum()
+}
+
+#[test]
+fn writeup_shows_a_scene_whole_and_looks_where_most_differs() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir_all(folder.path().join("svg/basic")).unwrap();
+    let file = folder.path().join("svg/basic/test4.svg");
+    fs::write(&file, SLIVERS).unwrap();
+    let output = run(folder.path(), &["writeup", "-o", "out", "--scenes", "svg"]);
+    assert!(output.status.success(), "{output:?}");
+    let line = |name: &str| {
+        let record = Record::of_file(&folder.path().join("out").join(name)).unwrap().unwrap();
+        record.command_line
+    };
+    let scene = load(&file, DialectChoice::Auto).unwrap();
+    let size = [594; 2];
+    let view = View::Default.transform(scene.canvas, size);
+    let [one, sixteen] = [1, 16].map(|samples| {
+        let settings = RenderSettings {
+            sample_rate: SampleRate::new(samples).unwrap(),
+            ..RenderSettings::default()
+        };
+        let mut frame = Framebuffer::new(size[0], size[1]);
+        draw(&scene, &view, &settings, &mut frame);
+        frame
+    });
+    let supersampling = line("T2_supersampling.png");
+    let inset = supersampling
+        .split("--inset ")
+        .nth(1)
+        .unwrap()
+        .split(' ')
+        .next()
+        .unwrap();
+    let inset: InsetSpec = inset.parse().unwrap();
+    let InsetPlace::User(at) = inset.at else {
+        panic!("{supersampling}")
+    };
+    let at = view.to_pixels(at).floor();
+    let chosen = [at.x, at.y].map(|side| (8..586_u32).find(|pixel| f64::from(*pixel) >= side).unwrap());
+    let most = (8..586_u32)
+        .step_by(2)
+        .flat_map(|y| (8..586_u32).step_by(2).map(move |x| [x, y]));
+    let most = most.map(|place| squared_around(&one, &sixteen, place)).max().unwrap();
+    let found = squared_around(&one, &sixteen, chosen);
+    assert!(found * 4 > most * 3, "{found} of {most}: {supersampling}");
+    // The rotated view shows all four corners of the canvas.
+    let rotated = line("X2_rotated.png");
+    let numbers = rotated.split("--view=").nth(1).unwrap().split(' ').next().unwrap();
+    let numbers: Vec<f64> = numbers.split(',').map(|number| number.parse().unwrap()).collect();
+    let view = View::At {
+        center: DVec2::new(numbers[0], numbers[1]),
+        scale: numbers[2],
+        rotation: numbers[3],
+    };
+    let view = view.transform(scene.canvas, [800; 2]);
+    for corner in [[0.0, 0.0], [500.0, 0.0], [0.0, 620.0], [500.0, 620.0]] {
+        let at = view.to_pixels(DVec2::from(corner));
+        assert!(
+            at.min_element() > 0.0 && at.max_element() < 800.0,
+            "{corner:?}: {rotated}"
+        );
+    }
+    assert!(
+        line("T6_levels.png").contains("--level-sampling=zero,nearest,linear"),
+        "every level sampling"
     );
 }

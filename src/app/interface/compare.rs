@@ -4,9 +4,9 @@ use egui::{Button, DragValue, Grid, Layout, RichText, Sense, Ui, pos2, vec2};
 
 use super::controls::{choice, command_button, heading, row, tip};
 use super::look::CONTROL;
-use crate::color::Colormap;
-use crate::compare::{Gain, Measure};
-use crate::viewer::{Action, Arrangement, Command, Measures, Other, Toggle, Viewer, commands};
+use crate::color::{Colormap, ResolveSpace};
+use crate::compare::{Gain, Guess, Measure};
+use crate::viewer::{Action, Against, Arrangement, Command, Measures, Other, Toggle, Viewer, commands};
 
 /// Height of the legend's colours, in points.
 const LEGEND: f32 = 12.0;
@@ -50,6 +50,9 @@ fn what(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let hint = "Both have the same settings: change A with its keys.";
         ui.label(RichText::new(hint).small().color(ui.visuals().warn_fg_color));
     }
+    if let Some(Other::Truth(resolve)) = viewer.other() {
+        truth(ui, *resolve, commands);
+    }
     ui.add_space(2.0);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
@@ -64,8 +67,21 @@ fn what(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             .add(close)
             .on_hover_text("Forgets B. The settings of A stay as they are.");
         if response.accessible_name("Close comparison").clicked() {
-            commands.push(Command::Compare(crate::viewer::Against::Nothing));
+            commands.push(Command::Compare(Against::Nothing));
         }
+    });
+}
+
+/// In which values the truth averages its samples.
+fn truth(ui: &mut Ui, current: Option<ResolveSpace>, commands: &mut Vec<Command>) {
+    let tip = "In which values the 256 samples of the truth are averaged. \
+               As A: what differs then is sampling alone, and no gamma.";
+    let values = std::iter::once((None, "as A".to_owned()));
+    let values = values.chain(ResolveSpace::ALL.map(|space| (Some(space), space.name().to_owned())));
+    let values: Vec<_> = values.collect();
+    row(ui, "Averages", |ui| {
+        let chosen = choice(ui, "The truth averages", tip, current, &values);
+        commands.extend(chosen.map(|resolve| Command::Compare(Against::Truth(resolve))));
     });
 }
 
@@ -263,8 +279,13 @@ fn guess(ui: &mut Ui, viewer: &Viewer) {
         ui.label(RichText::new("trying …").weak());
         return;
     };
+    if guess.stopped {
+        let text = format!("stopped after {} s: not all was tried", Guess::BUDGET.as_secs());
+        let tip = "Drawing takes long here. A picture with fewer pixels or samples is guessed at sooner.";
+        ui.label(RichText::new(text).small().weak()).on_hover_text(tip);
+    }
     if guess.causes.is_empty() {
-        ui.label("none: nothing known makes the pictures more alike");
+        ui.label("no known cause explains the difference");
         return;
     }
     for cause in &guess.causes {

@@ -3,6 +3,8 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use glam::DVec2;
+
 use crate::cli::arguments::WriteupOptions;
 use crate::cli::failure::{Failure, print_error};
 use crate::compare;
@@ -25,6 +27,8 @@ pub(super) struct Item {
     pub(super) pin: Option<(&'static str, [&'static [&'static str]; 2])>,
     /// Whether the caption tells how long each panel takes to draw.
     pub(super) timed: bool,
+    /// By how many degrees the scene is turned; its whole canvas is shown then.
+    pub(super) turned: Option<f64>,
 }
 
 /// What a figure shows.
@@ -65,6 +69,7 @@ const fn plain(name: &'static str, says: &'static str, subject: Subject) -> Item
         words: &["--size=800x800"],
         pin: None,
         timed: false,
+        turned: None,
     }
 }
 
@@ -125,7 +130,7 @@ pub(super) static ITEMS: &[Item] = &[
             "Task 6: level sampling, zoomed out",
             "",
             &[
-                "--level-sampling=zero,nearest",
+                "--level-sampling=zero,nearest,linear",
                 "--pixel-sampling=nearest,bilinear",
                 "--size=480x480",
             ],
@@ -146,7 +151,8 @@ pub(super) static ITEMS: &[Item] = &[
         ),
     ),
     Item {
-        words: &["--size=800x800", "--view=500,500,0.66,30", "--sample-rate=4"],
+        words: &["--size=800x800", "--sample-rate=4"],
+        turned: Some(30.0),
         ..plain("X2_rotated", "Extra: a rotated view", Subject::Scene("basic/test4.svg"))
     },
     Item {
@@ -302,6 +308,19 @@ impl<'a> Scenes<'a> {
     }
 }
 
+/// The view that shows the whole of a turned canvas in a picture of `size`, with a margin.
+pub(super) fn turned_view(canvas: DVec2, size: [u32; 2], degrees: f64) -> String {
+    const MARGIN: f64 = 1.08;
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let (sin, cos) = (sin.abs(), cos.abs());
+    let extent = DVec2::new(canvas.x * cos + canvas.y * sin, canvas.x * sin + canvas.y * cos);
+    let scale = (DVec2::from(size.map(f64::from)) / extent).min_element() / MARGIN;
+    // Four digits are short to read and exact enough.
+    let digits = 10.0_f64.powf(3.0 - scale.log10().floor());
+    let scale = (scale * digits).round() / digits;
+    format!("--view={},{},{scale},{degrees}", canvas.x / 2.0, canvas.y / 2.0)
+}
+
 const TRIANGLE: &str = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n\
     <!-- One triangle with a red, a green and a blue corner. -->\n\
     <svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"1000\" height=\"1000\">\n\
@@ -321,4 +340,44 @@ fn own_scene([width, height]: [u32; 2], texture: &str) -> String {
          <textri texid=\"own\" uvs=\"0 0 1 1 0 1\" points=\"0,0 {width},{height} 0,{height}\"/>\n</svg>\n"
     );
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turned_canvases_are_seen_whole() {
+        for (canvas, size) in [
+            ([1000.0, 1000.0], [800, 800]),
+            ([487.211, 642.045], [800, 600]),
+            ([0.02, 3.0], [64, 64]),
+        ] {
+            let canvas = DVec2::from(canvas);
+            for degrees in [30.0, -75.0, 180.0] {
+                let text = turned_view(canvas, size, degrees);
+                let numbers: Vec<f64> = text["--view=".len()..]
+                    .split(',')
+                    .map(|n| n.parse().expect("a number"))
+                    .collect();
+                let view = crate::geometry::View::At {
+                    center: DVec2::new(numbers[0], numbers[1]),
+                    scale: numbers[2],
+                    rotation: numbers[3],
+                };
+                let view = view.transform(canvas, size);
+                let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+                let corners = corners.map(|corner| view.to_pixels(DVec2::from(corner) * canvas));
+                let frame = DVec2::from(size.map(f64::from));
+                assert!(
+                    corners
+                        .iter()
+                        .all(|at| at.cmpgt(DVec2::ONE).all() && at.cmplt(frame - 1.0).all()),
+                    "{text}: {corners:?}"
+                );
+                let reach = (corners.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max) / frame).max_element();
+                assert!(reach > 0.9, "and large: {text}: {corners:?}");
+            }
+        }
+    }
 }

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use self::course::{ITEMS, Item, Scenes};
+use self::course::{ITEMS, Item, Scenes, turned_view};
 use self::pins::Pins;
 use super::arguments::{self, Verb, WriteupOptions};
 use super::failure::{Failure, print};
@@ -90,13 +90,16 @@ fn all(options: &WriteupOptions, scenes: &Scenes<'_>, pins: &mut Pins) -> Result
 
 /// Draws one figure and writes it.
 fn one(item: &Item, output: &Path, scenes: &Scenes<'_>, pins: &mut Pins) -> Result<Figure, Failure> {
-    let (scene, more) = scenes.find(item.subject);
-    let mut words = vec!["rasterscope".to_owned(), item.verb.to_owned()];
-    words.extend([format!("--output={}", output.display())]);
-    words.extend(item.words.iter().map(|word| (*word).to_owned()));
-    words.extend(more);
+    let (mut words, scene) = words_of(item, output, scenes)?;
     if let Some((name, compared)) = item.pin {
-        let pin = pins.get(name, &pair(&spec_of(&words, &scene)?, compared)?)?;
+        // A sheet has the smaller panels: what is to be seen in one is to be seen in a larger picture.
+        let shares = |other: &&Item| other.verb == "sheet" && other.pin.is_some_and(|(known, _)| known == name);
+        let proposes = || {
+            let sheet = ITEMS.iter().find(shares).unwrap_or(item);
+            let (words, scene) = words_of(sheet, output, scenes)?;
+            pair(&spec_of(&words, &scene)?, compared)
+        };
+        let pin = pins.get(name, proposes)?;
         words.push(format!("--inset={pin}"));
     }
     match parsed(&words, &scene)? {
@@ -111,6 +114,21 @@ fn one(item: &Item, output: &Path, scenes: &Scenes<'_>, pins: &mut Pins) -> Resu
         }
         _ => render(spec_of(&words, &scene)?, output),
     }
+}
+
+/// The words of a figure but for its inset, and its scene.
+fn words_of(item: &Item, output: &Path, scenes: &Scenes<'_>) -> Result<(Vec<String>, String), Failure> {
+    let (scene, more) = scenes.find(item.subject);
+    let mut words = vec!["rasterscope".to_owned(), item.verb.to_owned()];
+    words.extend([format!("--output={}", output.display())]);
+    words.extend(item.words.iter().map(|word| (*word).to_owned()));
+    words.extend(more);
+    if let Some(degrees) = item.turned {
+        let picture = Picture::read(spec_of(&words, &scene)?)?;
+        let size = [picture.frame().width(), picture.frame().height()];
+        words.push(turned_view(picture.scene.canvas, size, degrees));
+    }
+    Ok((words, scene))
 }
 
 /// Draws and writes a single picture.

@@ -72,12 +72,16 @@ impl Pins {
         Ok(Self { path, pins })
     }
 
-    /// The pin of that name; a new one lies where the pictures of `specs` differ most.
-    pub(super) fn get(&mut self, name: &str, specs: &[PictureSpec; 2]) -> Result<InsetSpec, Failure> {
+    /// The pin of that name; a new one lies where the pictures that `specs` gives differ most.
+    pub(super) fn get(
+        &mut self,
+        name: &str,
+        specs: impl FnOnce() -> Result<[PictureSpec; 2], Failure>,
+    ) -> Result<InsetSpec, Failure> {
         if let Some(pin) = self.pins.get(name) {
             return Ok(*pin);
         }
-        let pin = propose(specs)?;
+        let pin = propose(&specs()?)?;
         self.pins.insert(name.to_owned(), pin);
         Ok(pin)
     }
@@ -127,7 +131,8 @@ fn propose(specs: &[PictureSpec; 2]) -> Result<InsetSpec, Failure> {
             + 2.0,
     );
     let short = (place * digits).round() / digits;
-    Ok(InsetSpec::around(InsetPlace::User(short), region, factor))
+    let inset = InsetSpec::around(InsetPlace::User(short), region, factor);
+    Ok(inset.beside(&a.subject(), specs[0].size))
 }
 
 #[cfg(test)]

@@ -141,7 +141,7 @@ impl Viewer {
                 }
                 self.swap_frames();
             }
-            Some(Other::Truth | Other::Picture(_)) => {
+            Some(Other::Truth(_) | Other::Picture(_)) => {
                 self.comparison.swapped = !self.comparison.swapped;
                 self.comparison.swaps += 1;
             }
@@ -172,8 +172,8 @@ impl Viewer {
                 self.set_other(Some(other));
                 self.show_somehow();
             }
-            Against::Truth => {
-                self.set_other(Some(Other::Truth));
+            Against::Truth(resolve) => {
+                self.set_other(Some(Other::Truth(resolve)));
                 self.show_somehow();
             }
             Against::File(path) => self.load_picture(path),

@@ -213,7 +213,7 @@ impl Job {
         measures.seen = Some(Seen { ssim, flip });
         if let Some(subject) = self.subject.as_ref().filter(|_| measures.levels.differing() > 0) {
             post(measures.clone());
-            measures.guess = Some(compare::guess(&subject.subject(), b, &self.cancel)?);
+            measures.guess = Some(compare::guess(&subject.subject(), b, Guess::BUDGET, &self.cancel)?);
         }
         Some(measures)
     }

@@ -20,6 +20,7 @@ use super::background::Mailbox;
 use super::drawing::Drawing;
 use super::state::Finished;
 use super::{Command, Frame};
+use crate::color::ResolveSpace;
 use crate::compare::{DifferencePaint, DifferenceStyle};
 use crate::render::RenderSettings;
 use crate::scene::DialectChoice;
@@ -47,9 +48,9 @@ pub enum Other {
         /// Where it is not A's, the scene is read a second time.
         dialect: DialectChoice,
     },
-    /// The same scene with 256 samples per pixel that read textures at level zero and are averaged in linear light; else as
-    /// A.
-    Truth,
+    /// The same scene with 256 samples per pixel that read textures at level zero, averaged in these values or in those
+    /// of A; else as A.
+    Truth(Option<ResolveSpace>),
     /// A picture from outside: A then has its size.
     Picture(Arc<OutsidePicture>),
 }
@@ -61,8 +62,8 @@ pub enum Against {
     Settings,
     /// A copy of the settings of this moment, to which these commands are given.
     Changed(Vec<Command>),
-    /// The same scene with 256 samples per pixel in linear light.
-    Truth,
+    /// The same scene with 256 samples per pixel, averaged in these values or in those of A.
+    Truth(Option<ResolveSpace>),
     /// The PNG or JPEG in this file.
     File(PathBuf),
     /// Nothing: the comparison is closed.

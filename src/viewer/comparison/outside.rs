@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::super::background::guarded;
 use super::super::{Viewer, options};
 use super::{Against, Arrangement, Other};
+use crate::color::ResolveSpace;
 use crate::compare;
 use crate::raster::Framebuffer;
 use crate::scene::FolderResources;
@@ -133,14 +134,16 @@ impl Viewer {
 }
 
 impl Against {
-    /// What a person writes: `settings`, `truth`, `none`, settings such as `sample-rate 16, dialect svg`, or the path of a
-    /// picture; nothing for no text and for settings that are none.
+    /// What a person writes: `settings`, `truth`, `truth stored`, `truth linear`, `none`, settings such as `sample-rate 16,
+    /// dialect svg`, or the path of a picture; nothing for no text and for settings that are none.
     pub fn from_text(text: &str) -> Option<Self> {
         match text {
             "" => None,
             text if options::are_meant(text) => options::parse(text).map(Self::Changed),
             "settings" => Some(Self::Settings),
-            "truth" => Some(Self::Truth),
+            "truth" => Some(Self::Truth(None)),
+            "truth stored" => Some(Self::Truth(Some(ResolveSpace::Stored))),
+            "truth linear" => Some(Self::Truth(Some(ResolveSpace::Linear))),
             "none" => Some(Self::Nothing),
             path => Some(Self::File(path.into())),
         }

@@ -25,7 +25,7 @@ impl Comparison {
     pub(super) fn drawn_other(&self) -> Option<&Drawing> {
         self.drawing
             .as_ref()
-            .filter(|_| matches!(self.other, Some(Other::Settings { .. } | Other::Truth)))
+            .filter(|_| matches!(self.other, Some(Other::Settings { .. } | Other::Truth(_))))
     }
 
     pub(in super::super) fn drawing_mut(&mut self) -> Option<&mut Drawing> {
@@ -64,7 +64,13 @@ impl Viewer {
     pub fn other_settings(&self) -> Option<RenderSettings> {
         match self.comparison.other.as_ref()? {
             Other::Settings { render, .. } => Some(*render),
-            Other::Truth => Some(self.settings.render.truth()),
+            Other::Truth(resolve) => {
+                let own = self.settings.render;
+                Some(RenderSettings {
+                    resolve: resolve.unwrap_or(own.resolve),
+                    ..own.truth()
+                })
+            }
             Other::Picture(_) => None,
         }
     }
@@ -73,7 +79,7 @@ impl Viewer {
     pub fn own_dialect_of_b(&self) -> Option<DialectChoice> {
         match self.comparison.other.as_ref()? {
             Other::Settings { dialect, .. } => Some(*dialect).filter(|dialect| *dialect != self.settings.dialect),
-            Other::Truth | Other::Picture(_) => None,
+            Other::Truth(_) | Other::Picture(_) => None,
         }
     }
 

@@ -90,7 +90,7 @@ impl Viewer {
     pub(in super::super) fn fixed_size(&self) -> Option<[u32; 2]> {
         match self.comparison.other.as_ref()? {
             Other::Picture(picture) => Some([picture.pixels.width(), picture.pixels.height()]),
-            Other::Settings { .. } | Other::Truth => None,
+            Other::Settings { .. } | Other::Truth(_) => None,
         }
     }
 

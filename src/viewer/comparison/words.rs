@@ -3,6 +3,7 @@
 use super::super::Viewer;
 use super::super::settings::{sample_words, settings_words, texture_words};
 use super::Other;
+use crate::color::ResolveSpace;
 use crate::render::RenderSettings;
 
 impl Viewer {
@@ -17,7 +18,7 @@ impl Viewer {
     pub fn comparison_title(&self) -> Option<String> {
         let other = match self.other()? {
             Other::Settings { .. } => "B".to_owned(),
-            Other::Truth => "the truth".to_owned(),
+            Other::Truth(_) => "the truth".to_owned(),
             Other::Picture(picture) => picture.name(),
         };
         let words = match self.comparison_words() {
@@ -41,7 +42,7 @@ impl Viewer {
         let b = match self.other()? {
             Other::Settings { .. } if b.is_empty() => "B".to_owned(),
             Other::Settings { .. } => format!("B: {}", b.join(", ")),
-            Other::Truth => "B: the truth, 256 samples".to_owned(),
+            Other::Truth(resolve) => truth_words(resolve.unwrap_or(self.settings.render.resolve)),
             Other::Picture(picture) => format!("B: {}", picture.name()),
         };
         Some([a, b])
@@ -69,6 +70,15 @@ impl Viewer {
         }
         Some(words)
     }
+}
+
+/// What the truth is.
+fn truth_words(resolve: ResolveSpace) -> String {
+    let values = match resolve {
+        ResolveSpace::Stored => "stored values",
+        ResolveSpace::Linear => "linear light",
+    };
+    format!("B: the truth, 256 samples in {values}")
 }
 
 /// A setting by its name, its value in A, its value in B.

@@ -204,7 +204,7 @@ fn pin(value: &Value<'_>) -> Found<DVec2> {
 
 fn against(value: &Value<'_>) -> Found<Against> {
     match Against::from_text(&text(value)?) {
-        Some(against @ (Against::Truth | Against::Changed(_))) => Ok(against),
+        Some(against @ (Against::Truth(_) | Against::Changed(_))) => Ok(against),
         _ => mistake(
             value.span(),
             "compare with \"truth\", or with settings such as \"sample-rate 16, level-sampling linear\"",

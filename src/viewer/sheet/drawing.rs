@@ -7,7 +7,7 @@ use super::captions::{caption, difference};
 use super::{Axis, AxisLists, Choice};
 use crate::figure::{Ground, Record, SheetPlan, add_furniture, draw_legends};
 use crate::raster::Framebuffer;
-use crate::render;
+use crate::render::{self, Subject};
 use crate::scene::{DialectChoice, Scene};
 use crate::viewer::{PictureSpec, as_path, plain_record};
 
@@ -146,7 +146,12 @@ impl SheetRequest {
             let mut frame = Framebuffer::new(width, height);
             let view = spec.view.transform(scene.canvas, spec.size);
             render::draw(&scene, &view, &spec.render, &mut frame);
-            add_furniture(&mut frame, &spec.insets, &view, &[]).map_err(|error| error.to_string())?;
+            let subject = Subject {
+                scene: &scene,
+                view: &view,
+                settings: &spec.render,
+            };
+            add_furniture(&mut frame, &spec.insets, &subject, &[]).map_err(|error| error.to_string())?;
             panels.push(Panel {
                 spec: spec.clone(),
                 scene,

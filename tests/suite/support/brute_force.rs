@@ -18,7 +18,7 @@ use rasterscope::scene::{Dialect, Paint, PrimitiveKind, Scene};
 use rasterscope::texture::{Derivatives, FixedLevel, LevelSampling, MipLevel, PixelSampling, Texture};
 
 /// Premultiplied, `0.0..=1.0`.
-type Color = [f64; 4];
+pub(crate) type Color = [f64; 4];
 
 /// The edges of a polygon.
 struct Outline {
@@ -94,7 +94,7 @@ fn each_straight([r, g, b, alpha]: Color, curve: fn(f64) -> f64) -> Color {
 }
 
 /// IEC 61966-2-1, and its inverse.
-fn to_light(stored: f64) -> f64 {
+pub(crate) fn to_light(stored: f64) -> f64 {
     if stored <= 0.040_45 {
         stored / 12.92
     } else {
@@ -102,7 +102,7 @@ fn to_light(stored: f64) -> f64 {
     }
 }
 
-fn to_stored(light: f64) -> f64 {
+pub(crate) fn to_stored(light: f64) -> f64 {
     if light <= 0.003_130_8 {
         light * 12.92
     } else {
@@ -236,7 +236,7 @@ fn step<'a>(kind: &'a PrimitiveKind, view: &ViewTransform, units: f64) -> Step<'
 }
 
 /// The course's digital differential analyser.
-fn hairline(ends: [DVec2; 2]) -> Vec<(i64, i64)> {
+pub(crate) fn hairline(ends: [DVec2; 2]) -> Vec<(i64, i64)> {
     let mut ends = ends.map(|end| (end.x as f32, end.y as f32));
     if ends[0].0 > ends[1].0 {
         ends.swap(0, 1);
@@ -390,7 +390,7 @@ fn is_inside_in_floats(corners: [(f32, f32); 3], at: (f32, f32)) -> bool {
 }
 
 /// The mean of the taps along the longer side of the footprint.
-fn filtered(texture: &Texture, uv: DVec2, per_pixel: [DVec2; 2], settings: &RenderSettings) -> Color {
+pub(crate) fn filtered(texture: &Texture, uv: DVec2, per_pixel: [DVec2; 2], settings: &RenderSettings) -> Color {
     let base = &texture.pyramid.levels()[0];
     let size = DVec2::new(f64::from(base.width()), f64::from(base.height()));
     let step = match settings.detail.derivatives {
@@ -459,7 +459,7 @@ fn read_level(level: &MipLevel, uv: DVec2, sampling: PixelSampling) -> Color {
     }
 }
 
-fn premultiply(color: Rgba) -> Color {
+pub(crate) fn premultiply(color: Rgba) -> Color {
     let [r, g, b, a] = [color.r, color.g, color.b, color.a].map(f64::from);
     [r * a, g * a, b * a, a]
 }

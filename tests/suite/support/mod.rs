@@ -1,8 +1,10 @@
-//! What many tests need: small scenes, and the brute-force renderer that knows no tiles.
+//! What many tests need: small scenes, the brute-force renderer that knows no tiles, and one
+//! that makes mistakes.
 
 pub(crate) mod brute_force;
 pub(crate) mod documents;
 pub(crate) mod folder;
+pub(crate) mod foreign;
 pub(crate) mod golden;
 pub(crate) mod mutation;
 pub(crate) mod program;

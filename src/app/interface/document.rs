@@ -5,10 +5,18 @@ use std::time::Duration;
 use egui::{RichText, Sense, Ui, vec2};
 
 use super::controls::heading;
-use crate::viewer::Viewer;
+use crate::viewer::{SceneEntry, Viewer};
 
 /// Lines of the reader's report that are shown at once.
 const MAX_LINES: usize = 200;
+
+/// Whether [`report`] has something to say.
+pub(super) fn has_report(viewer: &Viewer) -> bool {
+    let noted = |entry: &SceneEntry| entry.scene().is_some_and(|scene| !scene.report.is_empty());
+    viewer
+        .current()
+        .is_some_and(|entry| entry.failure().is_some() || noted(entry))
+}
 
 /// The reader's report, where there is one; and why a scene could not be read.
 pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {

@@ -61,10 +61,9 @@ pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
     } else {
         ui.add_space(4.0);
     }
-    // Points and hairlines fill nothing.
-    if let Some(text) = filled(stats.triangles) {
-        ui.label(RichText::new(text).small().weak());
-    }
+    // Points and hairlines fill nothing; the line stays, so that what is below does not move from scene to scene.
+    let text = filled(stats.triangles).unwrap_or_default();
+    ui.label(RichText::new(text).small().weak());
 }
 
 /// So many triangles and polygons in words; nothing where there are none.

@@ -27,8 +27,9 @@ mod twin;
 mod view_numbers;
 
 use egui::{Context, Frame, Margin, Panel, Pos2, Rect, ScrollArea, Ui};
+use glam::DVec2;
 
-use crate::viewer::{Command, PixelRect, Theme, Viewer};
+use crate::viewer::{Command, PixelRect, Theme, ViewNumbers, Viewer};
 use dialogs::Dialogs;
 use explanation::{ExplanationPanel, Hovered};
 use floating::MessageClock;
@@ -47,6 +48,8 @@ pub(super) struct Interface {
     /// Whether times of redraws are shown: pictures that must be alike leave them out.
     timed: bool,
     thumbnails: Thumbnails,
+    /// The view of the scene that was read last.
+    view: ViewNumbers,
     dialogs: Dialogs,
     explanation: ExplanationPanel,
     clock: MessageClock,
@@ -73,6 +76,11 @@ impl Interface {
             theme: None,
             timed,
             thumbnails: Thumbnails::default(),
+            view: ViewNumbers {
+                center: DVec2::ZERO,
+                scale: 1.0,
+                rotation: 0.0,
+            },
             dialogs: Dialogs::default(),
             explanation: ExplanationPanel::default(),
             clock: MessageClock::default(),
@@ -187,8 +195,9 @@ impl Interface {
         let panel = Panel::left("compare panel")
             .resizable(false)
             .exact_size(look::PANEL_WIDTH)
-            .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 4)))
+            .frame(panel_frame(ui, look::scrolling_margin(4)))
             .show(ui, |ui| {
+                look::bars_beside(ui);
                 let area = ScrollArea::vertical().id_salt("compare").auto_shrink(false);
                 area.show(ui, |ui| compare::show(ui, viewer, &mut asked.commands));
             });

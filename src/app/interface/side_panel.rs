@@ -5,7 +5,7 @@
 //! that the last pass measured: those follow from the layout, and the panel would alternate between both for ever.
 
 use egui::style::ScrollStyle;
-use egui::{Margin, Panel, ScrollArea, Ui};
+use egui::{Panel, ScrollArea, Ui};
 
 use super::scenes::{self, Wishes};
 use super::{Asked, Interface, compare, document, look, panel_frame, sampling, view_numbers};
@@ -25,20 +25,23 @@ impl Interface {
         let panel = Panel::right("side panel")
             .resizable(false)
             .exact_size(look::PANEL_WIDTH)
-            .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 4)))
-            .show(ui, |ui| match report_room(ui.available_height(), viewer) {
-                Some(room) => {
-                    self.settings(ui, viewer, room, asked);
-                    self.scenes(ui, viewer, true, asked);
-                }
-                None => {
+            .frame(panel_frame(ui, look::scrolling_margin(4)))
+            .show(ui, |ui| {
+                look::bars_beside(ui);
+                let Some(report_room) = report_room(ui.available_height(), viewer) else {
                     let area = ScrollArea::vertical().id_salt("panel").auto_shrink(false);
                     area.show(ui, |ui| {
                         self.settings(ui, viewer, LONG_REPORT, asked);
                         // Scrolling to the scene would scroll the settings away.
                         self.scenes(ui, viewer, false, asked);
                     });
-                }
+                    return;
+                };
+                ui.scope(|ui| {
+                    ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
+                    self.settings(ui, viewer, report_room, asked);
+                });
+                self.scenes(ui, viewer, true, asked);
             });
         self.covered.push(panel.response.rect);
     }
@@ -50,7 +53,7 @@ impl Interface {
         if viewer.other().is_none() {
             compare::offer(ui, &mut asked.commands);
         }
-        view_numbers::show(ui, viewer, &mut asked.commands);
+        view_numbers::show(ui, viewer, &mut self.view, &mut asked.commands);
         let report = ui.scope(|ui| {
             // A bar that is always to be seen tells that there is more.
             ui.spacing_mut().scroll = ScrollStyle {
@@ -70,7 +73,14 @@ impl Interface {
 
     /// The scenes with their heading. With `own_scroll` the list scrolls by itself and follows the current scene.
     fn scenes(&mut self, ui: &mut Ui, viewer: &Viewer, own_scroll: bool, asked: &mut Asked) {
-        scenes::title(ui, viewer, &mut asked.commands);
+        if own_scroll {
+            ui.scope(|ui| {
+                ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
+                scenes::title(ui, viewer, &mut asked.commands);
+            });
+        } else {
+            scenes::title(ui, viewer, &mut asked.commands);
+        }
         let mut wishes = Wishes {
             follow: own_scroll,
             ..Wishes::default()
@@ -123,7 +133,7 @@ mod tests {
             let mut output = ctx.run_ui(input, |ui| {
                 let panel = Panel::right("side panel")
                     .exact_size(look::PANEL_WIDTH)
-                    .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 4)));
+                    .frame(panel_frame(ui, look::scrolling_margin(4)));
                 height = panel.show(ui, |ui| lay_out(&mut interface, ui)).inner;
             });
             output.textures_delta.clear();
@@ -146,14 +156,18 @@ mod tests {
     #[test]
     fn side_panel_knows_the_height_of_its_settings() {
         let mut viewer = viewer(&["svg/basic/test4.svg"]);
-        let whole = measured(|interface, ui| interface.settings(ui, &viewer, 0.0, &mut Asked::default()));
+        let settings = |interface: &mut Interface, ui: &mut Ui, viewer: &Viewer| {
+            ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
+            interface.settings(ui, viewer, 0.0, &mut Asked::default())
+        };
+        let whole = measured(|interface, ui| settings(interface, ui, &viewer));
         assert!(
             (SETTINGS - 6.0..=SETTINGS).contains(&whole),
             "{whole} points, not {SETTINGS}: all rows are shown"
         );
         let _ = viewer.apply(Command::SwapAb);
         viewer.finish();
-        let without = measured(|interface, ui| interface.settings(ui, &viewer, 0.0, &mut Asked::default()));
+        let without = measured(|interface, ui| settings(interface, ui, &viewer));
         assert!(
             without < whole,
             "{without} points: what offers a comparison is gone while there is one"
@@ -165,6 +179,7 @@ mod tests {
         for paths in [&["svg/basic/test4.svg"][..], &["svg/basic"], &["svg"]] {
             let viewer = viewer(paths);
             let laid_out = measured(|interface, ui| {
+                ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
                 let top = ui.cursor().top();
                 interface.scenes(ui, &viewer, false, &mut Asked::default());
                 ui.cursor().top() - top

@@ -59,6 +59,28 @@ fn rest_and_clicks_with_notes() {
     rests_and_hears(Some(file));
 }
 
+#[test]
+fn rest_the_bar_takes_no_clicks_from_what_is_beside_it() {
+    /// The choice `linear` of the row `Resolve`: the last pixels of its button, from the window's right edge.
+    const LINEAR: [u32; 2] = [14, 299];
+    let program = Program::open(&[&flat()], &["--theme", "dark", "--do", "panel on"]);
+    let size = [1280, 800];
+    program.resize(size);
+    rests(&program, "before");
+    let button = [size[0] - LINEAR[0], LINEAR[1]];
+    let [x, y] = button.map(|at| i16::try_from(at).unwrap());
+    // The bar grows when the pointer comes near.
+    program.desktop.point(x - 3, y - 10);
+    rests(&program, "near the bar");
+    program.desktop.point(x, y);
+    rests(&program, "at the button's edge");
+    program.desktop.button(1, true);
+    program.desktop.button(1, false);
+    until("the click's effect", || {
+        (colour_beside(&program, button) == [44, 104, 186]).then_some(())
+    });
+}
+
 /// At every size and in both themes: a click on a sample rate takes effect, and then nothing happens any more.
 fn rests_and_hears(path: Option<PathBuf>) {
     for (theme, accent) in [("dark", [44, 104, 186]), ("light", [36, 98, 184])] {

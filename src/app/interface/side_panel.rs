@@ -12,7 +12,7 @@ use super::{Asked, Interface, compare, document, look, panel_frame, sampling, vi
 use crate::viewer::Viewer;
 
 /// Height of everything above the scenes but the report where all of it is shown, in points.
-const SETTINGS: f32 = 722.0;
+const SETTINGS: f32 = 714.0;
 /// Height that the scenes have at least where their list scrolls by itself, in points.
 const LEAST_LIST: f32 = 170.0;
 /// The same for the reader's report.
@@ -68,7 +68,7 @@ impl Interface {
                 .show(ui, |ui| document::report(ui, viewer))
         });
         document::timing(ui, viewer, self.timed);
-        ui.cursor().top() - top - report.inner.inner_rect.height()
+        ui.cursor().top() - top - report.response.rect.height()
     }
 
     /// The scenes with their heading. With `own_scroll` the list scrolls by itself and follows the current scene.
@@ -172,6 +172,30 @@ mod tests {
             without < whole,
             "{without} points: what offers a comparison is gone while there is one"
         );
+    }
+
+    #[test]
+    fn side_panel_stays_as_high_while_scenes_are_read() {
+        let settings = |viewer: &Viewer| {
+            measured(|interface, ui| {
+                ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
+                interface.settings(ui, viewer, 0.0, &mut Asked::default())
+            })
+        };
+        let near = |a: f32, b: f32| (a - b).abs() < 0.5;
+        let mut viewer = viewer(&["svg/basic"]);
+        let before = settings(&viewer);
+        for _ in 0..viewer.scenes().len() {
+            let _ = viewer.apply(Command::NextScene);
+            let meanwhile = settings(&viewer);
+            assert!(
+                near(meanwhile, before),
+                "{meanwhile}, not {before} points: the arrows must stay under the pointer"
+            );
+            viewer.finish();
+            let after = settings(&viewer);
+            assert!(near(after, before), "{after}, not {before} points for another scene");
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::drawing::Wish;
 use super::settings::next_of;
 use super::state::Finished;
-use super::{Camera, Command, Effect, PixelRect, PixelZoom, Sight, Theme, Viewer, library};
+use super::{Camera, Command, Effect, PixelRect, PixelZoom, Sight, Theme, Viewer, ending, library};
 use crate::color::ResolveSpace;
 use crate::geometry::View;
 use crate::raster::{Region, SamplePattern, SampleRate};
@@ -353,19 +353,28 @@ impl Viewer {
         }
     }
 
-    /// Closes or unpins what is open, the latest first; quits when nothing is.
+    /// Closes or unpins what is open, the latest first; when nothing is, asks once and then ends the program.
     fn escape(&mut self) -> Vec<Effect> {
-        let had_dialog = self.screen.dialog.take().is_some();
-        if had_dialog || std::mem::take(&mut self.screen.hidden) || self.escape_arrangement() {
+        if self.close_latest() {
+            self.ending.forget();
             return Vec::new();
         }
-        if self.inspector.pin.take().is_some() || std::mem::take(&mut self.inspector.open) {
-            return Vec::new();
+        if self.ending.escape(Instant::now()) {
+            return vec![Effect::Quit];
         }
-        if self.escape_comparison() || self.close_lesson() {
-            return Vec::new();
-        }
-        vec![Effect::Quit]
+        self.messages.question(ending::QUESTION.to_owned());
+        Vec::new()
+    }
+
+    /// Closes or unpins one thing; false when nothing is open.
+    fn close_latest(&mut self) -> bool {
+        self.screen.dialog.take().is_some()
+            || std::mem::take(&mut self.screen.hidden)
+            || self.escape_arrangement()
+            || self.inspector.pin.take().is_some()
+            || std::mem::take(&mut self.inspector.open)
+            || self.escape_comparison()
+            || self.close_lesson()
     }
 
     fn wheel(&mut self, clicks: f64) {

@@ -755,12 +755,12 @@ pub(super) static TABLE: &[CommandSpec] = &[
     spec(
         "escape",
         "Close",
-        "Closes or unpins what is open, then quits",
+        "Closes or unpins what is open; when nothing is, pressed twice ends the program",
         Group::Window,
     )
     .keys(&[Chord::named(Key::Escape)])
     .run(&Command::Escape),
-    spec("quit", "Quit", "Ends the program", Group::Window)
+    spec("quit", "Quit", "Ends the program at once", Group::Window)
         .keys(&[Chord::ctrl('q')])
         .run(&Command::Quit),
 ];

@@ -21,6 +21,8 @@ pub enum MessageKind {
     Done,
     /// Something could not be done.
     Error,
+    /// Waits [`super::ASKS_FOR`] for the same key again.
+    Question,
 }
 
 /// The messages on the screen, oldest first.
@@ -48,6 +50,10 @@ impl Messages {
 
     pub(super) fn done(&mut self, text: String) {
         self.add(MessageKind::Done, text);
+    }
+
+    pub(super) fn question(&mut self, text: String) {
+        self.add(MessageKind::Question, text);
     }
 
     pub(super) fn error(&mut self, text: String) {

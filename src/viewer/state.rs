@@ -9,6 +9,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use super::background::Mailbox;
 use super::comparison::{Against, Comparison, Measured, Panes, ReadPicture, is_picture};
 use super::drawing::{Drawing, DrawingId, Drawn};
+use super::ending::Ending;
 use super::explaining::{self, Asked, Explained, Explaining};
 use super::feeding::{self, Feeding};
 use super::legends::{Legends, PlacedLegends};
@@ -84,6 +85,7 @@ pub struct Viewer {
     pub(super) other_inset: Option<PlacedInset>,
     pub(super) legends: Legends,
     pub(super) messages: Messages,
+    pub(super) ending: Ending,
     pub(super) drawing: Drawing,
     /// Draws quick frames for whoever shows them on a surface that he lends.
     pub(super) surface_pool: Option<rayon::ThreadPool>,
@@ -229,6 +231,7 @@ impl Viewer {
             other_inset: None,
             legends: Legends::default(),
             messages: Messages::default(),
+            ending: Ending::default(),
             drawing: Drawing::start(&mailbox, DrawingId::First)?,
             surface_pool: None,
             comparison: Comparison::new(mailbox.clone()),

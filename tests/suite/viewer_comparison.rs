@@ -266,7 +266,8 @@ fn comparison_escape_leaves_the_mode_first_and_b_last() {
         assert_eq!(state(&session), expected, "arrangement, pin, inspector, B");
     }
     assert!(session.viewer.other_pixels().is_none(), "B's frame is let go");
-    assert_eq!(session.run(Command::Escape), [Effect::Quit], "nothing is open any more");
+    assert_eq!(session.run(Command::Escape), [], "nothing is open any more: it asks");
+    assert_eq!(session.run(Command::Escape), [Effect::Quit], "and ends");
 }
 
 #[test]

@@ -183,7 +183,30 @@ fn replay_escape_closes_one_thing_at_a_time() {
         assert_eq!(session.run(Command::Escape), [], "not yet");
         assert_eq!(state(&session), expected, "dialog, pin, inspector, hidden");
     }
-    assert_eq!(session.run(Command::Escape), [Effect::Quit], "nothing is open any more");
+    assert_eq!(session.run(Command::Escape), [], "nothing is open any more: it asks");
+    assert_eq!(session.run(Command::Escape), [Effect::Quit], "and ends");
+}
+
+#[test]
+fn replay_escape_asks_before_it_ends() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    let questions = |session: &Session| {
+        let asked = |message: &&rasterscope::viewer::Message| message.kind == MessageKind::Question;
+        session.viewer.messages().iter().filter(asked).count()
+    };
+    assert_eq!(session.run(Command::Escape), [], "it asks");
+    let text = session.viewer.messages().last().map(|message| message.text.clone());
+    assert_eq!(text.as_deref(), Some("Esc again ends the program"));
+    session.keys(&["z"]);
+    assert_eq!(session.run(Command::Escape), [], "the inspector was open");
+    assert_eq!(
+        session.run(Command::Escape),
+        [],
+        "another thing was closed: it asks anew"
+    );
+    assert_eq!(questions(&session), 1, "one question at a time");
+    assert_eq!(session.run(Command::Escape), [Effect::Quit], "the answer");
+    assert_eq!(session.run(Command::Quit), [Effect::Quit], "Ctrl+Q never asks");
 }
 
 #[test]

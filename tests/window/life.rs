@@ -4,7 +4,7 @@ use std::process::Command as Process;
 use std::time::Duration;
 
 use super::desktop::keysym;
-use super::program::{Program, flat, viewed};
+use super::program::{Program, flat, until, viewed};
 
 #[test]
 fn close_ends_with_success() {
@@ -14,13 +14,62 @@ fn close_ends_with_success() {
 }
 
 #[test]
-fn escape_quits_when_nothing_is_open() {
+fn escape_twice_ends_when_nothing_is_open() {
     let mut program = Program::start_bare(&flat());
     program.shows(&viewed(&flat(), &[]), "the first picture");
-    // The first shows the panels again.
+    // The first shows the panels again, the second asks.
+    for _ in 0..3 {
+        program.desktop.press(keysym::ESCAPE, &[]);
+    }
+    assert!(program.ended().success(), "Esc ends");
+}
+
+#[test]
+fn escape_closes_a_list_and_then_asks_for_two_seconds() {
+    /// The box of values, the list below it, and where the question stands: corner, width and height.
+    const SHOW: [i16; 2] = [1180, 326];
+    const LIST: [u16; 4] = [1120, 345, 100, 60];
+    const QUESTION: [u16; 4] = [14, 730, 120, 24];
+    let mut program = Program::start_with(&flat(), &["--do", "panel on"]);
+    program.resize([1280, 800]);
+    // Where nothing has a tool tip.
+    program.desktop.point(40, 200);
+    let part = |program: &Program, part| program.desktop.part(program.window, part);
+    let still = |program: &Program, place| {
+        until("a picture at rest", || {
+            let before = part(program, place);
+            std::thread::sleep(Duration::from_millis(400));
+            (part(program, place) == before).then_some(before)
+        })
+    };
+    let (closed, unasked) = (still(&program, LIST), still(&program, QUESTION));
+    program.desktop.point(SHOW[0], SHOW[1]);
+    std::thread::sleep(Duration::from_millis(60));
+    program.desktop.button(1, true);
+    program.desktop.button(1, false);
+    program.desktop.point(40, 200);
+    until("the open list", || (part(&program, LIST) != closed).then_some(()));
+    let _ = still(&program, LIST);
     program.desktop.press(keysym::ESCAPE, &[]);
+    until("the closed list", || (part(&program, LIST) == closed).then_some(()));
+    assert!(still(&program, QUESTION) == unasked, "only the list was closed");
     program.desktop.press(keysym::ESCAPE, &[]);
-    assert!(program.ended().success(), "Esc quits");
+    until("the question", || (part(&program, QUESTION) != unasked).then_some(()));
+    until("its end", || (part(&program, QUESTION) == unasked).then_some(()));
+    program.desktop.press(keysym::ESCAPE, &[]);
+    until("the question again", || {
+        (part(&program, QUESTION) != unasked).then_some(())
+    });
+    program.desktop.press(keysym::ESCAPE, &[]);
+    assert!(program.ended().success(), "the answer");
+}
+
+#[test]
+fn control_q_ends_at_once() {
+    let mut program = Program::start_bare(&flat());
+    program.shows(&viewed(&flat(), &[]), "the first picture");
+    program.desktop.type_char('q', &[keysym::CONTROL]);
+    assert!(program.ended().success(), "Ctrl+Q ends");
 }
 
 #[test]

@@ -15,4 +15,5 @@ mod life;
 mod pacing;
 mod pointer;
 mod program;
+mod rest;
 mod sheets;

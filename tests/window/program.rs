@@ -45,16 +45,18 @@ impl Program {
 
     /// As [`Program::start`], with more arguments.
     pub(crate) fn start_with(path: &Path, arguments: &[&str]) -> Self {
+        Self::open(&[path], arguments)
+    }
+
+    /// Opens `paths`, without any the gallery.
+    pub(crate) fn open(paths: &[&Path], arguments: &[&str]) -> Self {
         let desktop = Desktop::start();
         let folder = tempfile::tempdir().unwrap();
         let [width, height] = SIZE;
         let child = Process::new(env!("CARGO_BIN_EXE_rasterscope"))
-            .args([
-                "view".as_ref(),
-                path.as_os_str(),
-                "--size".as_ref(),
-                format!("{width}x{height}").as_ref(),
-            ])
+            .arg("view")
+            .args(paths)
+            .args(["--size", &format!("{width}x{height}")])
             .args(arguments)
             .env("DISPLAY", &desktop.name)
             .env_remove("WAYLAND_DISPLAY")

@@ -1,6 +1,6 @@
 //! What lies over the picture while A and B share the window: the line of the wipe, and which picture is which.
 
-use egui::{Align2, Color32, CursorIcon, FontId, Rect, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, Color32, CursorIcon, FontId, Rangef, Rect, Stroke, Ui, Vec2, pos2, vec2};
 
 use super::floating::points;
 use crate::viewer::{Arrangement, Viewer};
@@ -22,10 +22,8 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<
     let [front, back] = if viewer.is_swapped() { [b, a] } else { [a, b] };
     let scale = ui.pixels_per_point();
     let insets = viewer.inset().into_iter().chain(viewer.other_inset());
-    let taken: Vec<Rect> = insets
-        .map(|placed| points(&placed.rect, scale))
-        .chain(taken.iter().copied())
-        .collect();
+    let insets: Vec<Rect> = insets.map(|placed| points(&placed.rect, scale)).collect();
+    let taken = [&insets, taken].concat();
     let left = free.left() + MARGIN;
     let places: Vec<(String, f32, Align2)> = match viewer.arrangement() {
         Arrangement::Alone if !viewer.is_swapped() => return Vec::new(),
@@ -36,7 +34,7 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<
             };
             #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
             let line = line as f32 / scale;
-            draw_line(ui, viewer, free, line);
+            draw_line(ui, viewer, free, (line, &insets));
             vec![
                 (front, line - MARGIN, Align2::RIGHT_TOP),
                 (back, line + MARGIN, Align2::LEFT_TOP),
@@ -87,8 +85,9 @@ fn letters(ui: &Ui, viewer: &Viewer, free: Rect) {
     }
 }
 
-/// The line with its handle; the pointer tells that it can be dragged.
-fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, x: f32) {
+/// The line with its handle; the pointer tells that it can be dragged. It passes behind the insets, where no hand can
+/// take it.
+fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, (x, insets): (f32, &[Rect])) {
     if viewer.pointer_over_line() {
         ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
     }
@@ -96,10 +95,17 @@ fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, x: f32) {
         return;
     }
     let painter = ui.painter();
-    let middle = pos2(x, free.center().y);
+    let pieces = free_pieces(free, x, insets);
     for (width, color) in [(4.0, Color32::from_black_alpha(150)), (2.0, Color32::WHITE)] {
-        painter.vline(x, free.y_range(), Stroke::new(width, color));
+        for piece in &pieces {
+            painter.vline(x, *piece, Stroke::new(width, color));
+        }
     }
+    let longest = pieces.into_iter().max_by(|a, b| a.span().total_cmp(&b.span()));
+    let Some(longest) = longest.filter(|piece| piece.span() >= 2.0 * HANDLE) else {
+        return;
+    };
+    let middle = pos2(x, longest.center());
     painter.circle(
         middle,
         HANDLE,
@@ -113,6 +119,22 @@ fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, x: f32) {
             painter.line_segment([tip, tip + vec2(-3.0 * side, up)], ink);
         }
     }
+}
+
+/// The parts of the vertical line at `x` that lie behind no inset, from above.
+fn free_pieces(free: Rect, x: f32, insets: &[Rect]) -> Vec<Rangef> {
+    let crosses = |inset: &&Rect| inset.x_range().contains(x);
+    let mut behind: Vec<Rangef> = insets.iter().filter(crosses).map(|inset| inset.y_range()).collect();
+    behind.sort_by(|a, b| a.min.total_cmp(&b.min));
+    let mut pieces = Vec::new();
+    let mut top = free.top();
+    for inset in behind {
+        pieces.push(Rangef::new(top, inset.min.min(free.bottom())));
+        top = top.max(inset.max);
+    }
+    pieces.push(Rangef::new(top, free.bottom()));
+    pieces.retain(|piece| piece.max > piece.min);
+    pieces
 }
 
 /// Words on a dark ground at `x`, as high up as nothing is in their way; none where they do not fit.
@@ -132,4 +154,22 @@ fn tag(ui: &Ui, free: Rect, taken: &[Rect], (text, x, align): (String, f32, Alig
     ui.painter().rect_filled(place, 5.0, Color32::from_black_alpha(190));
     ui.painter().galley(place.min + PADDING, galley, Color32::WHITE);
     Some(place)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn line_passes_behind_insets() {
+        let free = Rect::from_min_max(pos2(0.0, 10.0), pos2(400.0, 310.0));
+        let inset = |top, bottom| Rect::from_min_max(pos2(100.0, top), pos2(200.0, bottom));
+        let insets = [inset(150.0, 200.0), inset(10.0, 100.0)];
+        let pieces = |x| free_pieces(free, x, &insets);
+        assert_eq!(pieces(50.0), [Rangef::new(10.0, 310.0)], "beside the insets");
+        let expected = [Rangef::new(100.0, 150.0), Rangef::new(200.0, 310.0)];
+        assert_eq!(pieces(150.0), expected, "between and below them");
+        let all = [inset(0.0, 400.0)];
+        assert!(free_pieces(free, 150.0, &all).is_empty(), "nothing is free");
+    }
 }

@@ -172,6 +172,7 @@ impl Dialogs {
                 self.chosen = (self.chosen + usize::from(down)).saturating_sub(usize::from(up));
                 self.chosen = self.chosen.min(found.len().saturating_sub(1));
                 let mut run = found.get(self.chosen).copied().filter(|_| enter);
+                super::look::bars_beside(ui);
                 ScrollArea::vertical().max_height(screen.height() * 0.6).show(ui, |ui| {
                     ui.spacing_mut().item_spacing.y = 1.0;
                     for (index, spec) in found.iter().enumerate() {

@@ -5,10 +5,18 @@ use std::time::Duration;
 use egui::{RichText, Sense, Ui, vec2};
 
 use super::controls::{command_button, heading};
-use crate::viewer::{Command, Viewer};
+use crate::viewer::{Command, SceneEntry, Viewer};
 
 /// Lines of the reader's report that are shown at once.
 const MAX_LINES: usize = 200;
+
+/// Whether [`report`] has something to say.
+pub(super) fn has_report(viewer: &Viewer) -> bool {
+    let noted = |entry: &SceneEntry| entry.scene().is_some_and(|scene| !scene.report.is_empty());
+    viewer
+        .current()
+        .is_some_and(|entry| entry.failure().is_some() || viewer.reading_note().is_some() || noted(entry))
+}
 
 /// The reader's report, where there is one, and which of two readings was taken; and why a scene could not be read.
 pub(super) fn report(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
@@ -60,10 +68,9 @@ pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
     } else {
         ui.add_space(4.0);
     }
-    // Points and hairlines fill nothing.
-    if let Some(text) = filled(stats.triangles) {
-        ui.label(RichText::new(text).small().weak());
-    }
+    // Points and hairlines fill nothing; the line stays, so that what is below does not move from scene to scene.
+    let text = filled(stats.triangles).unwrap_or_default();
+    ui.label(RichText::new(text).small().weak());
 }
 
 /// So many triangles and polygons in words; nothing where there are none.

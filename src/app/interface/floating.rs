@@ -8,7 +8,7 @@ use egui::{Align2, Area, Color32, FontId, Frame, Id, Order, Rect, RichText, Sens
 use crate::color::ResolveSpace;
 use crate::raster::SamplePattern;
 use crate::render::Visualisation;
-use crate::viewer::{Arrangement, Command, Message, MessageKind, PixelRect, Viewer, texture_words};
+use crate::viewer::{ASKS_FOR, Arrangement, Command, Message, MessageKind, PixelRect, Viewer, texture_words};
 
 /// Seconds that a message stays.
 const DONE_SECONDS: f64 = 5.0;
@@ -161,10 +161,10 @@ impl MessageClock {
         let mut covered = Vec::new();
         let mut bottom = free.bottom() - 10.0;
         for message in viewer.messages().iter().rev() {
-            let seconds = if message.kind == MessageKind::Done {
-                DONE_SECONDS
-            } else {
-                ERROR_SECONDS
+            let seconds = match message.kind {
+                MessageKind::Done => DONE_SECONDS,
+                MessageKind::Error => ERROR_SECONDS,
+                MessageKind::Question => ASKS_FOR.as_secs_f64(),
             };
             let end = *self.ends.entry(message.id).or_insert(now + seconds);
             let rect = toast(ui, message, pos2(free.left() + 10.0, bottom), free.width() - 20.0);
@@ -185,7 +185,7 @@ impl MessageClock {
 fn toast(ui: &Ui, message: &Message, corner: egui::Pos2, width: f32) -> (Rect, bool) {
     let visuals = ui.visuals();
     let color = match message.kind {
-        MessageKind::Done => visuals.strong_text_color(),
+        MessageKind::Done | MessageKind::Question => visuals.strong_text_color(),
         MessageKind::Error => visuals.error_fg_color,
     };
     let text = RichText::new(&message.text).color(color);

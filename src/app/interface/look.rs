@@ -1,6 +1,7 @@
 //! How the panels look: sizes, type and colours of both themes, set once per change of theme.
 
-use egui::{Color32, Context, CornerRadius, FontFamily, FontId, Shadow, Stroke, TextStyle, Vec2, vec2};
+use egui::style::ScrollStyle;
+use egui::{Color32, Context, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Ui, Vec2, vec2};
 
 use crate::viewer::Theme;
 
@@ -8,6 +9,9 @@ use crate::viewer::Theme;
 pub(super) const PANEL_WIDTH: f32 = 264.0;
 /// Free space inside the panels, in points.
 pub(super) const MARGIN: i8 = 12;
+
+/// Room for the bar beside what scrolls, in points.
+pub(super) const BAR_ROOM: i8 = 8;
 
 /// The few colours that all else is made of.
 struct Palette {
@@ -79,7 +83,7 @@ pub(super) fn install(ctx: &Context, animated: bool) {
             style.spacing.button_padding = vec2(6.0, 3.0);
             style.spacing.interact_size = vec2(28.0, 22.0);
             style.spacing.tooltip_width = 300.0;
-            style.spacing.window_margin = egui::Margin::same(MARGIN);
+            style.spacing.window_margin = Margin::same(MARGIN);
             // Dialogs grow with what they hold; each limits itself to the window.
             style.spacing.default_area_size = vec2(600.0, 4000.0);
             style.interaction.selectable_labels = false;
@@ -92,6 +96,30 @@ pub(super) fn install(ctx: &Context, animated: bool) {
             paint(&mut style.visuals, palette);
         });
     }
+}
+
+/// Free space inside a panel that scrolls: the bar's room is a part of that on the right.
+pub(super) fn scrolling_margin(above: i8) -> Margin {
+    Margin {
+        right: MARGIN - BAR_ROOM,
+        ..Margin::symmetric(MARGIN, above)
+    }
+}
+
+/// From here on bars are always to be seen, since they tell that there is more, and stand beside the contents: over
+/// controls they would take the clicks.
+pub(super) fn bars_beside(ui: &mut Ui) {
+    ui.spacing_mut().scroll = ScrollStyle {
+        bar_width: f32::from(BAR_ROOM),
+        floating_width: 4.0,
+        floating_allocated_width: 0.0,
+        content_margin: Margin {
+            right: BAR_ROOM,
+            ..Margin::ZERO
+        },
+        foreground_color: true,
+        ..ScrollStyle::thin()
+    };
 }
 
 /// Chooses the theme.

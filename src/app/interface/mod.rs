@@ -21,29 +21,24 @@ mod sampling;
 mod scenes;
 mod scrubber;
 mod sheet;
+mod side_panel;
 mod status;
 mod twin;
 mod view_numbers;
 
-use egui::style::ScrollStyle;
 use egui::{Context, Frame, Margin, Panel, Pos2, Rect, ScrollArea, Ui};
+use glam::DVec2;
 
-use crate::viewer::{Command, PixelRect, Theme, Viewer};
+use crate::viewer::{Command, PixelRect, Theme, ViewNumbers, Viewer};
 use dialogs::Dialogs;
 use explanation::{ExplanationPanel, Hovered};
 use floating::MessageClock;
-use scenes::{Thumbnails, Wishes};
+use scenes::Thumbnails;
 
 /// Width of the picture that two panels leave at least, in points.
 const LEAST_PICTURE: f32 = 160.0;
 /// Width of the picture below which panels give way to each other, in points.
 const USEFUL_PICTURE: f32 = 560.0;
-/// Height that the scenes need lest the whole panel scrolls instead of the list alone, in points.
-const LEAST_LIST: f32 = 170.0;
-/// The same for the reader's report.
-const LEAST_REPORT: f32 = 96.0;
-/// Longest report in a panel that scrolls as a whole, in points.
-const LONG_REPORT: f32 = 240.0;
 
 /// egui's context and what the panels remember.
 #[derive(Debug)]
@@ -53,23 +48,13 @@ pub(super) struct Interface {
     /// Whether times of redraws are shown: pictures that must be alike leave them out.
     timed: bool,
     thumbnails: Thumbnails,
+    /// The view of the scene that was read last.
+    view: ViewNumbers,
     dialogs: Dialogs,
     explanation: ExplanationPanel,
     clock: MessageClock,
     /// What the panels covered in the last pass, in points.
     covered: Vec<Rect>,
-    heights: Heights,
-}
-
-/// How much the parts of the side panel needed in the last pass, in points.
-#[derive(Clone, Copy, Debug)]
-struct Heights {
-    /// Everything above the scenes but the report.
-    settings: f32,
-    /// The whole report.
-    report: f32,
-    /// All scenes, with their heading.
-    list: f32,
 }
 
 /// What a pass asks for.
@@ -91,15 +76,15 @@ impl Interface {
             theme: None,
             timed,
             thumbnails: Thumbnails::default(),
+            view: ViewNumbers {
+                center: DVec2::ZERO,
+                scale: 1.0,
+                rotation: 0.0,
+            },
             dialogs: Dialogs::default(),
             explanation: ExplanationPanel::default(),
             clock: MessageClock::default(),
             covered: Vec::new(),
-            heights: Heights {
-                settings: 400.0,
-                report: 0.0,
-                list: LEAST_LIST,
-            },
         }
     }
 
@@ -120,6 +105,11 @@ impl Interface {
     /// Whether a line of text has the keyboard.
     pub(super) fn has_keyboard(&self) -> bool {
         self.ctx.text_edit_focused()
+    }
+
+    /// Whether a list of values hangs open, which Esc closes.
+    pub(super) fn list_is_open(&self) -> bool {
+        egui::Popup::is_any_open(&self.ctx)
     }
 
     /// Whether a side panel beside the canvas of the default view leaves all of it free, in a window of `size` points.
@@ -205,8 +195,9 @@ impl Interface {
         let panel = Panel::left("compare panel")
             .resizable(false)
             .exact_size(look::PANEL_WIDTH)
-            .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 4)))
+            .frame(panel_frame(ui, look::scrolling_margin(4)))
             .show(ui, |ui| {
+                look::bars_beside(ui);
                 let area = ScrollArea::vertical().id_salt("compare").auto_shrink(false);
                 area.show(ui, |ui| compare::show(ui, viewer, &mut asked.commands));
             });
@@ -229,92 +220,6 @@ impl Interface {
             .show(ui, |ui| memory.show(ui, viewer, &mut asked.commands));
         self.covered.push(panel.response.rect);
         panel.inner
-    }
-
-    fn side_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
-        let before = self.heights;
-        let panel = Panel::right("side panel")
-            .resizable(false)
-            .exact_size(look::PANEL_WIDTH)
-            .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 4)))
-            .show(ui, |ui| {
-                let room = ui.available_height() - before.settings - before.list.min(LEAST_LIST);
-                if room >= before.report.min(LEAST_REPORT) {
-                    self.settings(ui, viewer, room, asked);
-                    self.scenes(ui, viewer, true, asked);
-                } else {
-                    ScrollArea::vertical()
-                        .id_salt("panel")
-                        .auto_shrink(false)
-                        .show(ui, |ui| {
-                            self.settings(ui, viewer, LONG_REPORT, asked);
-                            // Scrolling to the scene would scroll the settings away.
-                            self.scenes(ui, viewer, false, asked);
-                        });
-                }
-            });
-        if self.heights.differs_from(before) {
-            ui.ctx().request_repaint();
-        }
-        self.covered.push(panel.response.rect);
-    }
-
-    /// What lies above the scenes; the report is at most `report_room` points high.
-    fn settings(&mut self, ui: &mut Ui, viewer: &Viewer, report_room: f32, asked: &mut Asked) {
-        let top = ui.cursor().top();
-        sampling::show(ui, viewer, &mut asked.commands);
-        if viewer.other().is_none() {
-            compare::offer(ui, &mut asked.commands);
-        }
-        view_numbers::show(ui, viewer, &mut asked.commands);
-        let report = ui.scope(|ui| {
-            // A bar that is always to be seen tells that there is more.
-            ui.spacing_mut().scroll = ScrollStyle {
-                floating_width: 4.0,
-                foreground_color: true,
-                ..ScrollStyle::thin()
-            };
-            ScrollArea::vertical()
-                .id_salt("report")
-                .auto_shrink([false, true])
-                .max_height(report_room)
-                .show(ui, |ui| document::report(ui, viewer, &mut asked.commands))
-        });
-        document::timing(ui, viewer, self.timed);
-        self.heights.report = report.inner.content_size.y;
-        self.heights.settings = ui.cursor().top() - top - report.inner.inner_rect.height();
-    }
-
-    /// The scenes with their heading. With `own_scroll` the list scrolls by itself and follows the current scene.
-    fn scenes(&mut self, ui: &mut Ui, viewer: &Viewer, own_scroll: bool, asked: &mut Asked) {
-        let top = ui.cursor().top();
-        scenes::title(ui, viewer, &mut asked.commands);
-        let title = ui.cursor().top() - top;
-        let mut wishes = Wishes {
-            follow: own_scroll,
-            ..Wishes::default()
-        };
-        let mut list = |ui: &mut Ui| {
-            let thumbnails = &mut self.thumbnails;
-            let list = ui.scope(|ui| scenes::list(ui, viewer, thumbnails, &mut wishes, &mut asked.commands));
-            list.response.rect.height()
-        };
-        let list = if own_scroll {
-            let area = ScrollArea::vertical().id_salt("scenes").auto_shrink(false);
-            area.show(ui, list).inner
-        } else {
-            list(ui)
-        };
-        self.heights.list = title + list;
-        asked.thumbnails.extend(wishes.thumbnails);
-    }
-}
-
-impl Heights {
-    /// Whether the parts moved.
-    fn differs_from(self, other: Self) -> bool {
-        let moved = |a: f32, b: f32| (a - b).abs() > 0.5;
-        moved(self.settings, other.settings) || moved(self.report, other.report) || moved(self.list, other.list)
     }
 }
 

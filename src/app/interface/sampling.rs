@@ -10,7 +10,7 @@ use crate::render::Visualisation;
 use crate::rules::Rules;
 use crate::scene::{Dialect, DialectChoice};
 use crate::texture::{LevelSampling, PixelSampling};
-use crate::viewer::{Command, PixelZoom, Toggle, Viewer};
+use crate::viewer::{Command, PixelZoom, SceneEntry, Toggle, Viewer};
 
 /// Shows the settings and adds what was changed to `commands`.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
@@ -115,13 +115,11 @@ fn sample_rates(current: SampleRate) -> Vec<(SampleRate, String)> {
 
 /// In which dialect the current scene was read.
 fn dialect_in_force(viewer: &Viewer) -> &'static str {
-    match viewer
-        .current()
-        .and_then(|entry| entry.scene())
-        .map(|scene| scene.dialect)
-    {
+    let entry = viewer.current();
+    match entry.and_then(|entry| entry.scene()).map(|scene| scene.dialect) {
         Some(Dialect::Course) => "read as course",
         Some(Dialect::Svg) => "read as svg",
+        None if entry.is_some_and(SceneEntry::is_reading) => "reading …",
         None => "not read",
     }
 }

@@ -97,6 +97,20 @@ pub(super) fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     });
 }
 
+/// Height of the list with its heading, in points, known before it is laid out.
+pub(super) fn height(viewer: &Viewer) -> f32 {
+    /// Heading, and the name of a folder with the gap below it.
+    const TITLE: f32 = 32.0;
+    const FOLDER: f32 = 14.0 + GAP;
+    let folders = viewer.scenes().chunk_by(|a, b| folder(a) == folder(b));
+    let heights = folders.map(|scenes| {
+        let rows = scenes.len().div_ceil(COLUMNS) as f32;
+        let name = if folder(&scenes[0]).is_empty() { 0.0 } else { FOLDER };
+        name + rows * (PICTURE_HEIGHT + NAME_HEIGHT + GAP)
+    });
+    TITLE + heights.sum::<f32>()
+}
+
 /// The list itself.
 pub(super) fn list(
     ui: &mut Ui,

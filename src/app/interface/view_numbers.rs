@@ -4,7 +4,7 @@ use egui::text::CCursorRange;
 use egui::{Color32, DragValue, Layout, TextEdit, Ui, vec2};
 
 use super::controls::{command_button, heading, row};
-use crate::viewer::{Command, ViewNumbers, Viewer};
+use crate::viewer::{Command, SceneEntry, ViewNumbers, Viewer};
 
 /// Window pixels that the picture moves per pixel of dragging a number.
 const DRAG_SPEED: f64 = 1.0;
@@ -22,12 +22,23 @@ struct Number<'a> {
     decimals: Option<usize>,
 }
 
-/// Shows the numbers and adds what was changed to `commands`.
-pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    let Some(before) = viewer.view_numbers() else {
-        return;
-    };
+/// Shows the numbers and adds what was changed to `commands`. Before a scene was read there are none: those of `last` stay
+/// meanwhile, so that nothing below moves under the pointer that goes from scene to scene.
+pub(super) fn show(ui: &mut Ui, viewer: &Viewer, last: &mut ViewNumbers, commands: &mut Vec<Command>) {
     heading(ui, "View");
+    match viewer.view_numbers() {
+        Some(numbers) => {
+            *last = numbers;
+            rows(ui, numbers, commands);
+        }
+        None => {
+            let is_reading = viewer.current().is_some_and(SceneEntry::is_reading);
+            ui.add_enabled_ui(is_reading, |ui| rows(ui, *last, &mut Vec::new()));
+        }
+    }
+}
+
+fn rows(ui: &mut Ui, before: ViewNumbers, commands: &mut Vec<Command>) {
     let mut numbers = before;
     row(ui, "Centre", |ui| {
         let width = (ui.available_width() - 4.0) / 2.0;

@@ -236,8 +236,11 @@ impl Session {
         }
     }
 
-    /// The command that a key asks for, unless a line of text wants the key.
+    /// The command that a key asks for, unless a line of text or an open list wants the key.
     pub(super) fn command_for(&self, press: &KeyPress) -> Option<Command> {
+        if press.logical == Some(Key::Escape) && self.interface.list_is_open() {
+            return None;
+        }
         let command = commands::for_key(press)?;
         let typing = self.interface.has_keyboard();
         let asks = matches!(

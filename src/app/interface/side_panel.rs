@@ -1,0 +1,218 @@
+//! The side panel: settings above, the reader's report, the scenes below.
+//!
+//! In a high window the settings stay and the list of scenes scrolls by itself; in a low one all of it scrolls as one.
+//! Which of both follows from the window's height and from what is known before anything is laid out, never from heights
+//! that the last pass measured: those follow from the layout, and the panel would alternate between both for ever.
+
+use egui::style::ScrollStyle;
+use egui::{Panel, ScrollArea, Ui};
+
+use super::scenes::{self, Wishes};
+use super::{Asked, Interface, compare, document, look, panel_frame, sampling, view_numbers};
+use crate::viewer::Viewer;
+
+/// Height of everything above the scenes but the report where all of it is shown, in points.
+const SETTINGS: f32 = 714.0;
+/// Height that the scenes have at least where their list scrolls by itself, in points.
+const LEAST_LIST: f32 = 170.0;
+/// The same for the reader's report.
+const LEAST_REPORT: f32 = 96.0;
+/// Longest report in a panel that scrolls as a whole, in points.
+const LONG_REPORT: f32 = 240.0;
+
+impl Interface {
+    pub(super) fn side_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
+        let panel = Panel::right("side panel")
+            .resizable(false)
+            .exact_size(look::PANEL_WIDTH)
+            .frame(panel_frame(ui, look::scrolling_margin(4)))
+            .show(ui, |ui| {
+                look::bars_beside(ui);
+                let Some(report_room) = report_room(ui.available_height(), viewer) else {
+                    let area = ScrollArea::vertical().id_salt("panel").auto_shrink(false);
+                    area.show(ui, |ui| {
+                        self.settings(ui, viewer, LONG_REPORT, asked);
+                        // Scrolling to the scene would scroll the settings away.
+                        self.scenes(ui, viewer, false, asked);
+                    });
+                    return;
+                };
+                ui.scope(|ui| {
+                    ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
+                    self.settings(ui, viewer, report_room, asked);
+                });
+                self.scenes(ui, viewer, true, asked);
+            });
+        self.covered.push(panel.response.rect);
+    }
+
+    /// What lies above the scenes; the report is at most `report_room` points high. The height of all but the report.
+    fn settings(&mut self, ui: &mut Ui, viewer: &Viewer, report_room: f32, asked: &mut Asked) -> f32 {
+        let top = ui.cursor().top();
+        sampling::show(ui, viewer, &mut asked.commands);
+        if viewer.other().is_none() {
+            compare::offer(ui, &mut asked.commands);
+        }
+        view_numbers::show(ui, viewer, &mut self.view, &mut asked.commands);
+        let report = ui.scope(|ui| {
+            // A bar that is always to be seen tells that there is more.
+            ui.spacing_mut().scroll = ScrollStyle {
+                floating_width: 4.0,
+                foreground_color: true,
+                ..ScrollStyle::thin()
+            };
+            ScrollArea::vertical()
+                .id_salt("report")
+                .auto_shrink([false, true])
+                .max_height(report_room)
+                .show(ui, |ui| document::report(ui, viewer))
+        });
+        document::timing(ui, viewer, self.timed);
+        ui.cursor().top() - top - report.response.rect.height()
+    }
+
+    /// The scenes with their heading. With `own_scroll` the list scrolls by itself and follows the current scene.
+    fn scenes(&mut self, ui: &mut Ui, viewer: &Viewer, own_scroll: bool, asked: &mut Asked) {
+        if own_scroll {
+            ui.scope(|ui| {
+                ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
+                scenes::title(ui, viewer, &mut asked.commands);
+            });
+        } else {
+            scenes::title(ui, viewer, &mut asked.commands);
+        }
+        let mut wishes = Wishes {
+            follow: own_scroll,
+            ..Wishes::default()
+        };
+        let thumbnails = &mut self.thumbnails;
+        let mut list = |ui: &mut Ui| scenes::list(ui, viewer, thumbnails, &mut wishes, &mut asked.commands);
+        if own_scroll {
+            let area = ScrollArea::vertical().id_salt("scenes").auto_shrink(false);
+            area.show(ui, list);
+        } else {
+            list(ui);
+        }
+        asked.thumbnails.extend(wishes.thumbnails);
+    }
+}
+
+/// How high the report may be in a panel of `height` points whose list scrolls by itself; `None` where the panel is too
+/// low for that.
+fn report_room(height: f32, viewer: &Viewer) -> Option<f32> {
+    let least = if document::has_report(viewer) {
+        LEAST_REPORT
+    } else {
+        0.0
+    };
+    let room = height - SETTINGS - scenes::height(viewer).min(LEAST_LIST);
+    (room >= least).then_some(room)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+    use std::sync::Arc;
+
+    use egui::{Pos2, RawInput, Rect, vec2};
+
+    use super::*;
+    use crate::viewer::{Command, ViewerOptions};
+
+    /// Height of a part of the panel, which `lay_out` lays out.
+    fn measured(mut lay_out: impl FnMut(&mut Interface, &mut Ui) -> f32) -> f32 {
+        let mut interface = Interface::new(true);
+        let ctx = interface.ctx().clone();
+        let mut height = 0.0;
+        // Fonts and sizes settle.
+        for _ in 0..3 {
+            let input = RawInput {
+                screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(1000.0, 3000.0))),
+                ..RawInput::default()
+            };
+            let mut output = ctx.run_ui(input, |ui| {
+                let panel = Panel::right("side panel")
+                    .exact_size(look::PANEL_WIDTH)
+                    .frame(panel_frame(ui, look::scrolling_margin(4)));
+                height = panel.show(ui, |ui| lay_out(&mut interface, ui)).inner;
+            });
+            output.textures_delta.clear();
+        }
+        height
+    }
+
+    fn viewer(paths: &[&str]) -> Viewer {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let options = ViewerOptions {
+            paths: paths.iter().map(|path| root.join(path)).collect(),
+            waker: Arc::new(|| {}),
+            ..ViewerOptions::default()
+        };
+        let mut viewer = Viewer::new(options).expect("threads");
+        viewer.finish();
+        viewer
+    }
+
+    #[test]
+    fn side_panel_knows_the_height_of_its_settings() {
+        let mut viewer = viewer(&["svg/basic/test4.svg"]);
+        let settings = |interface: &mut Interface, ui: &mut Ui, viewer: &Viewer| {
+            ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
+            interface.settings(ui, viewer, 0.0, &mut Asked::default())
+        };
+        let whole = measured(|interface, ui| settings(interface, ui, &viewer));
+        assert!(
+            (SETTINGS - 6.0..=SETTINGS).contains(&whole),
+            "{whole} points, not {SETTINGS}: all rows are shown"
+        );
+        let _ = viewer.apply(Command::SwapAb);
+        viewer.finish();
+        let without = measured(|interface, ui| settings(interface, ui, &viewer));
+        assert!(
+            without < whole,
+            "{without} points: what offers a comparison is gone while there is one"
+        );
+    }
+
+    #[test]
+    fn side_panel_stays_as_high_while_scenes_are_read() {
+        let settings = |viewer: &Viewer| {
+            measured(|interface, ui| {
+                ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
+                interface.settings(ui, viewer, 0.0, &mut Asked::default())
+            })
+        };
+        let near = |a: f32, b: f32| (a - b).abs() < 0.5;
+        let mut viewer = viewer(&["svg/basic"]);
+        let before = settings(&viewer);
+        for _ in 0..viewer.scenes().len() {
+            let _ = viewer.apply(Command::NextScene);
+            let meanwhile = settings(&viewer);
+            assert!(
+                near(meanwhile, before),
+                "{meanwhile}, not {before} points: the arrows must stay under the pointer"
+            );
+            viewer.finish();
+            let after = settings(&viewer);
+            assert!(near(after, before), "{after}, not {before} points for another scene");
+        }
+    }
+
+    #[test]
+    fn side_panel_knows_the_height_of_the_scenes() {
+        for paths in [&["svg/basic/test4.svg"][..], &["svg/basic"], &["svg"]] {
+            let viewer = viewer(paths);
+            let laid_out = measured(|interface, ui| {
+                ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
+                let top = ui.cursor().top();
+                interface.scenes(ui, &viewer, false, &mut Asked::default());
+                ui.cursor().top() - top
+            });
+            let known = scenes::height(&viewer);
+            assert!(
+                (known - laid_out).abs() <= 6.0,
+                "{paths:?}: {laid_out} points, not {known}"
+            );
+        }
+    }
+}

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::background::guarded;
+use super::super::typed::path;
 use super::super::{Viewer, options};
 use super::{Against, Arrangement, Other};
 use crate::compare;
@@ -142,7 +143,7 @@ impl Against {
             "settings" => Some(Self::Settings),
             "truth" => Some(Self::Truth),
             "none" => Some(Self::Nothing),
-            path => Some(Self::File(path.into())),
+            text => Some(Self::File(path(text))),
         }
     }
 }

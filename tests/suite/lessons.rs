@@ -261,3 +261,15 @@ fn lesson(arguments: &[&str]) -> (Option<i32>, String) {
         .unwrap();
     (run.status.code(), String::from_utf8_lossy(&run.stderr).into_owned())
 }
+
+/// The panel counts steps; a number before a title would be taken for another count of the same thing.
+#[test]
+fn lesson_titles_do_not_count_steps() {
+    for (name, _) in BUILT_IN {
+        let source = LessonSource::from_address(Path::new(&format!("lesson:{name}"))).unwrap();
+        for step in source.read().unwrap().steps {
+            let counts = step.title.starts_with(|first: char| first.is_ascii_digit());
+            assert!(!counts, "{name}: {}", step.title);
+        }
+    }
+}

@@ -428,7 +428,7 @@ pub(super) struct SamplingOptions {
     /// In which values the samples of a pixel are averaged
     #[arg(long, default_value = ResolveSpace::default().name(), value_enum)]
     pub(super) resolve: ResolveSpace,
-    /// What the pixels show; all but color come with a legend
+    /// What the pixels show; all but colour come with a legend
     #[arg(long, default_value = Visualisation::default().name(), value_enum, value_name = "WHAT")]
     pub(super) visualise: Visualisation,
     /// Whose conventions decide edges, texels and bytes
@@ -491,7 +491,6 @@ macro_rules! named_values {
 named_values!(
     Quality,
     ResolveSpace,
-    Visualisation,
     SamplePattern,
     PixelSampling,
     LevelSampling,
@@ -503,6 +502,16 @@ named_values!(
     Ground,
     Assignment
 );
+
+impl ValueEnum for Visualisation {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.name()).aliases(self.former_name()))
+    }
+}
 
 fn sample_rate(text: &str) -> Result<SampleRate, String> {
     let rate = text.parse().ok().and_then(SampleRate::new);
@@ -717,6 +726,19 @@ mod tests {
         assert_eq!(settings.visualisation, Visualisation::MipLevels, "visualisation");
         assert!(settings.outline, "a free view has the outline");
         assert_eq!(options.picture.framing.threads, Some(2), "threads");
+    }
+
+    #[test]
+    fn visualisation_takes_its_former_name() {
+        for name in ["colour", "color"] {
+            let line = format!("rasterscope render a.svg -o b.png --visualise {name}");
+            match parsed(&line) {
+                Ok(Arguments {
+                    verb: Verb::Render(options),
+                }) => assert_eq!(options.picture.sampling.visualise, Visualisation::Color, "{name}"),
+                other => panic!("{line}: {other:?}"),
+            }
+        }
     }
 
     #[test]

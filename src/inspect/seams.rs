@@ -7,7 +7,7 @@ use super::numbers::{number, significant};
 
 /// Gaps wider than this, in pixels, are there to be seen and nobody's mistake.
 const WIDEST_GAP: f64 = 0.25;
-/// A color of less alpha than this, in levels, lets what is below shine through.
+/// A colour of less alpha than this, in levels, lets what is below shine through.
 const OPAQUE: f64 = 254.99;
 /// Cosine of the angle between edges that run side by side.
 const SIDE_BY_SIDE: f64 = 0.98;

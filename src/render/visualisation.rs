@@ -133,7 +133,7 @@ impl Visualisation {
     /// The name used in the command line and the interface.
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Color => "color",
+            Self::Color => "colour",
             Self::Coverage => "coverage",
             Self::Overdraw => "overdraw",
             Self::Primitive => "primitive",
@@ -143,6 +143,14 @@ impl Visualisation {
             Self::LevelOfDetail => "lod",
             Self::MipLevels => "mip",
             Self::Anisotropy => "anisotropy",
+        }
+    }
+
+    /// A name that it had once: scripts, and the records of pictures that were saved then, still have it.
+    pub const fn former_name(self) -> Option<&'static str> {
+        match self {
+            Self::Color => Some("color"),
+            _ => None,
         }
     }
 

@@ -325,6 +325,7 @@ impl Viewer {
             Command::Nudge(by) => self.nudge(by),
             Command::Unpin => self.inspector.pin = None,
             Command::PointAtTexel(texel) => self.pointed_texel = texel,
+            Command::Explanation(toggle) => self.show_explanation(toggle),
             command => self.change_screen(&command),
         }
     }
@@ -338,7 +339,6 @@ impl Viewer {
                 self.reveal_pin();
             }
             Command::OverlayText(toggle) => screen.shown.text = toggle.of(screen.shown.text),
-            Command::Explanation(toggle) => screen.shown.explanation = toggle.of(screen.shown.explanation),
             Command::Panel(toggle) => screen.shown.panel = toggle.of(screen.shown.panel),
             Command::HideEverything(toggle) => screen.hidden = toggle.of(screen.hidden),
             Command::ToggleDialog(dialog) => {

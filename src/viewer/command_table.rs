@@ -506,7 +506,7 @@ pub(super) static TABLE: &[CommandSpec] = &[
     spec(
         "pin",
         "Pin pixel",
-        "Pins the pixel under the pointer, or unpins it",
+        "Pins the pixel under the pointer and tells why it has its colour; again, unpins it",
         Group::Inspector,
     )
     .keys(&[Chord::named(Key::Enter)])
@@ -557,7 +557,7 @@ pub(super) static TABLE: &[CommandSpec] = &[
     spec(
         "explanation",
         "Explanation",
-        "Shows or hides why the pinned pixel has its colour",
+        "Shows or hides why the pinned pixel has its colour; where none is pinned, pins one",
         Group::Inspector,
     )
     .more("Samples, primitives, edges, weights and texels, from the sum back to the line of the document")

@@ -201,7 +201,7 @@ pub const GESTURES: &[Gesture] = &[
     },
     Gesture {
         gesture: "right click",
-        help: "Pins the pixel under the pointer, or unpins it",
+        help: "Pins the pixel under the pointer and tells why it has its colour; again, unpins it",
     },
     Gesture {
         gesture: "drop files or folders",

@@ -6,7 +6,7 @@ use super::background::{Mailbox, guarded};
 use super::latest::Latest;
 use super::probing::Target;
 use super::state::Finished;
-use super::{Effect, Picture, Viewer};
+use super::{Effect, Picture, Toggle, Viewer};
 use crate::inspect::{Detail, Explanation, Question};
 use crate::render::Subject;
 use crate::scene::PrimitiveKind;
@@ -81,6 +81,21 @@ impl Viewer {
     pub fn explains(&self) -> bool {
         let is_open = self.inspector.open && !self.screen.hidden;
         is_open && self.screen.shown.explanation && self.pinned_pixel().is_some()
+    }
+
+    /// Shows or hides the explanation. The switch goes by what is to be seen: it never closes what nobody sees, and where no
+    /// pixel is pinned it pins one, since it would seem to do nothing otherwise.
+    pub(super) fn show_explanation(&mut self, toggle: Toggle) {
+        let shown = toggle.of(self.explains());
+        self.screen.shown.explanation = shown;
+        if !shown || toggle != Toggle::Flip {
+            return;
+        }
+        if self.pinned_pixel().is_some() {
+            (self.inspector.open, self.screen.hidden) = (true, false);
+        } else if let Some(pixel) = self.hovered_pixel().or_else(|| self.inspected_pixel()) {
+            self.pin(pixel.map(i64::from));
+        }
     }
 
     /// Whether everything that is asked about the pinned pixel was found out.

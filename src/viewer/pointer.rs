@@ -202,7 +202,8 @@ impl Viewer {
         }
     }
 
-    /// Pins the hovered pixel, or unpins it; without one the pixel that the inspector shows.
+    /// Pins the hovered pixel, or unpins it; without one the pixel that the inspector shows. A first pin opens the
+    /// explanation; one that only moves leaves it as the user has it.
     pub(super) fn pin_under_pointer(&mut self) {
         let Some(pixel) = self.hovered_pixel().or_else(|| self.inspected_pixel()) else {
             return;
@@ -210,6 +211,7 @@ impl Viewer {
         if self.pinned_pixel() == Some(pixel) {
             self.inspector.pin = None;
         } else {
+            self.screen.shown.explanation |= self.inspector.pin.is_none();
             self.pin(pixel.map(i64::from));
         }
     }

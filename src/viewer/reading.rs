@@ -277,9 +277,13 @@ impl Viewer {
         let Some(side) = Side::reading(entry, dialect).filter(|_| is_newest) else {
             return;
         };
+        // A scene that was read again may look different in small too, and so may a file that was let go meanwhile. The old
+        // thumbnail stays until the new one is there.
+        let was_read = entry.scene().is_some();
+        let is_stale = side == Side::A && (was_read || matches!(entry.source, SceneSource::File(_)));
+        let draws_again = is_stale && entry.thumbnail.is_some() && read.result.is_ok();
         if side == Side::A {
-            // A scene that was read again looks different in small too.
-            entry.thumbnail_asked &= entry.scene().is_none();
+            entry.thumbnail_asked &= !was_read && !draws_again;
             if read.result.is_err() {
                 entry.thumbnail = None;
             }
@@ -296,6 +300,9 @@ impl Viewer {
                 SceneState::Failed { message, dialect }
             }
         };
+        if draws_again {
+            self.request_thumbnail(read.index);
+        }
     }
 
     /// Keeps the current scene and the ones shown last; the others are read again when they are asked for.

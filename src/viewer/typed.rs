@@ -1,6 +1,6 @@
 //! Arguments that a person types after a command's word, in scripts and in the palette: text to [`Command`].
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
@@ -108,8 +108,16 @@ pub(super) const RESOLVE: Argument = argument("stored|linear", |text| {
     named(&ResolveSpace::ALL, ResolveSpace::name, text).map(Command::SetResolveSpace)
 });
 pub(super) const VISUALISE: Argument = argument(
-    "color|coverage|overdraw|primitive|wireframe|barycentric|uv|lod|mip|anisotropy",
-    |text| named(&Visualisation::ALL, Visualisation::name, text).map(Command::SetVisualisation),
+    "colour|coverage|overdraw|primitive|wireframe|barycentric|uv|lod|mip|anisotropy",
+    |text| {
+        let former = || {
+            Visualisation::ALL
+                .into_iter()
+                .find(|value| value.former_name() == Some(text))
+        };
+        let known = named(&Visualisation::ALL, Visualisation::name, text).or_else(former);
+        known.map(Command::SetVisualisation)
+    },
 );
 pub(super) const RULES: Argument = argument("standard|course|float", |text| {
     named(&Rules::ALL, Rules::name, text).map(Command::SetRules)
@@ -147,14 +155,14 @@ pub(super) const SCENE: Argument = argument("a scene's number, from 1", |text| {
     Some(Command::Scene(index))
 });
 pub(super) const LESSON: Argument = argument("lesson:NAME, or the path of a lesson in TOML", |text| {
-    LessonSource::from_address(Path::new(text)).map(Command::OpenLesson)
+    LessonSource::from_address(&path(text)).map(Command::OpenLesson)
 });
 pub(super) const LESSON_STEP: Argument = argument("a step's number, from 1", |text| {
     let index = usize::try_from(whole(text)?).ok()?.checked_sub(1)?;
     Some(Command::LessonStep(index))
 });
 pub(super) const OPEN: Argument = argument("a path", |text| {
-    (!text.is_empty()).then(|| Command::Open(vec![text.into()]))
+    (!text.is_empty()).then(|| Command::Open(vec![path(text)]))
 });
 pub(super) const DIALECT: Argument = argument("auto|course|svg", |text| {
     named(&DialectChoice::ALL, DialectChoice::name, text).map(Command::SetDialect)
@@ -249,6 +257,22 @@ fn pixels(text: &str) -> Option<[i64; 2]> {
     Some([whole(x)?, whole(y)?])
 }
 
+/// A path as people type it: `~` at its beginning is the home folder, as in a shell.
+pub(super) fn path(text: &str) -> PathBuf {
+    path_from(text, std::env::home_dir().as_deref())
+}
+
+/// The same where this is the home folder. Another user's, `~name`, is a name like any other.
+fn path_from(text: &str, home: Option<&Path>) -> PathBuf {
+    match (text.strip_prefix('~'), home) {
+        (Some(""), Some(home)) => home.to_owned(),
+        (Some(rest), Some(home)) if rest.starts_with(std::path::is_separator) => {
+            home.join(rest.trim_start_matches(std::path::is_separator))
+        }
+        _ => text.into(),
+    }
+}
+
 /// `white`, `transparent` or `#RRGGBB`.
 pub(super) fn background(text: &str) -> Option<Rgba> {
     match text {
@@ -269,6 +293,43 @@ pub(super) fn background(text: &str) -> Option<Rgba> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn paths_begin_at_home() {
+        let home = Some(Path::new("/home/me"));
+        for (typed, path) in [
+            ("~", "/home/me"),
+            ("~/scenes/a b.svg", "/home/me/scenes/a b.svg"),
+            ("~other/a.svg", "~other/a.svg"),
+            ("a/~/b.svg", "a/~/b.svg"),
+            ("/tmp/~", "/tmp/~"),
+        ] {
+            assert_eq!(path_from(typed, home), PathBuf::from(path), "{typed}");
+        }
+        assert_eq!(
+            path_from("~/a.svg", None),
+            PathBuf::from("~/a.svg"),
+            "nobody is at home"
+        );
+        let at_home = path("~/a.svg");
+        assert_eq!(
+            OPEN.parse("~/a.svg"),
+            Ok(Command::Open(vec![at_home.clone()])),
+            "a scene"
+        );
+        assert_eq!(
+            AGAINST.parse("~/a.svg"),
+            Ok(Command::Compare(Against::File(at_home))),
+            "a picture"
+        );
+    }
+
+    #[test]
+    fn visualisations_by_old_names() {
+        let colours = Ok(Command::SetVisualisation(Visualisation::Color));
+        assert_eq!(VISUALISE.parse("colour"), colours, "as it is called");
+        assert_eq!(VISUALISE.parse("color"), colours, "as it was called once");
+    }
 
     #[test]
     fn argument_forms() {

@@ -131,6 +131,16 @@ impl Viewer {
         Some(parts)
     }
 
+    /// Where the pinned pixel is to be seen in the window: in every pane that shows it.
+    pub fn pinned_places(&self) -> Vec<PixelRect> {
+        let Some([x, y]) = self.pinned_pixel() else {
+            return Vec::new();
+        };
+        let (width, height) = (1, 1);
+        let places = self.in_window(Region { x, y, width, height }).into_iter();
+        places.filter(|place| place.width > 0 && place.height > 0).collect()
+    }
+
     /// Where frame pixels are to be seen in the window: in every pane.
     fn in_window(&self, region: Region) -> Vec<PixelRect> {
         let (zoom, panes) = (self.settings.pixel_zoom.factor(), self.panes());

@@ -295,3 +295,15 @@ fn lesson_names_the_colours_of_the_weights() {
         );
     }
 }
+
+/// The panel counts steps; a number before a title would be taken for another count of the same thing.
+#[test]
+fn lesson_titles_do_not_count_steps() {
+    for (name, _) in BUILT_IN {
+        let source = LessonSource::from_address(Path::new(&format!("lesson:{name}"))).unwrap();
+        for step in source.read().unwrap().steps {
+            let counts = step.title.starts_with(|first: char| first.is_ascii_digit());
+            assert!(!counts, "{name}: {}", step.title);
+        }
+    }
+}

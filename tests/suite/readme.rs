@@ -84,3 +84,80 @@ fn readme_shows_pictures_that_its_commands_make() {
         .unwrap();
     assert!(again.status.success(), "{again:?}");
 }
+
+/// The names of the program's commands, from its help.
+fn commands_of_the_program() -> Vec<String> {
+    let help = help_of(&[]);
+    let (_, list) = help.split_once("Commands:").expect("a list");
+    let names = list.lines().map_while(|line| match line.split_whitespace().next() {
+        None if line.is_empty() => Some(None),
+        name => name
+            .filter(|_| line.starts_with("  "))
+            .map(|name| Some(name.to_owned())),
+    });
+    let names: Vec<String> = names
+        .flatten()
+        .filter(|name| name != "help" && !name.starts_with('-'))
+        .collect();
+    assert!(names.len() > 5, "{names:?}");
+    names
+}
+
+fn help_of(words: &[&str]) -> String {
+    let program = Command::new(env!("CARGO_BIN_EXE_rasterscope"))
+        .args(words)
+        .arg("--help")
+        .output()
+        .unwrap();
+    String::from_utf8(program.stdout).unwrap()
+}
+
+#[test]
+fn readme_lists_every_command() {
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+    let (_, rest) = text.split_once("## Command line").expect("the chapter");
+    let list = rest.split("```").nth(1).expect("the list");
+    for name in commands_of_the_program() {
+        let start = format!("rasterscope {name} ");
+        let optional = format!("rasterscope [{name}] ");
+        assert!(
+            list.contains(&start) || list.contains(&optional),
+            "{name} is in the list"
+        );
+    }
+}
+
+/// One spelling in everything that people read. Names of the interface, such as fields of JSON, stand in code.
+#[test]
+fn readme_and_help_say_colour() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = fs::read_to_string(root.join("README.md")).unwrap();
+    let outside_blocks: String = readme.split("```").step_by(2).collect();
+    let prose: String = outside_blocks.split('`').step_by(2).collect();
+    let mut texts = vec![
+        ("README".to_owned(), prose),
+        ("table of commands".to_owned(), commands::markdown()),
+    ];
+    for command in commands_of_the_program() {
+        texts.push((format!("help of {command}"), help_of(&[&command])));
+    }
+    for spec in commands::all() {
+        let usage = spec.argument.map_or("", |argument| argument.usage);
+        texts.push((
+            spec.id.to_owned(),
+            format!("{} {} {} {usage}", spec.name, spec.help, spec.more),
+        ));
+    }
+    for file in fs::read_dir(root.join("assets/lessons")).unwrap() {
+        let path = file.unwrap().path();
+        texts.push((path.display().to_string(), fs::read_to_string(&path).unwrap()));
+    }
+    for (place, text) in texts {
+        let mut words = text.split(|letter: char| !letter.is_alphanumeric() && letter != '-' && letter != '_');
+        let other = words.find(|word| {
+            let word = word.to_lowercase();
+            ["color", "colors", "colored", "coloring"].contains(&word.as_str())
+        });
+        assert_eq!(other, None, "{place}");
+    }
+}

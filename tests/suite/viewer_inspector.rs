@@ -288,3 +288,55 @@ fn inspector_counts_the_shades_of_an_edge() {
         "grid and rotated grid"
     );
 }
+
+/// Enter opens the explanation with the pin. E goes by what is to be seen: it never changes what nobody sees.
+#[test]
+fn inspector_explanation_goes_by_what_is_seen() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    session.run(Command::PointerMoved { at: dvec2(100.0, 50.0) });
+    session.keys(&["e"]);
+    assert_eq!(
+        session.viewer.pinned_pixel(),
+        Some([100, 50]),
+        "E pins where nothing is"
+    );
+    assert!(session.viewer.explains(), "and explains");
+    session.keys(&["e"]);
+    assert!(!session.viewer.explains(), "E hides what is shown");
+    assert_eq!(session.viewer.pinned_pixel(), Some([100, 50]), "the pin stays");
+    session.run(Command::PointerMoved { at: dvec2(120.0, 60.0) });
+    session.keys(&["Enter"]);
+    assert_eq!(session.viewer.pinned_pixel(), Some([120, 60]), "the pin moves");
+    assert!(
+        !session.viewer.explains(),
+        "what was hidden stays so while the pin moves"
+    );
+    session.keys(&["Enter"]);
+    assert_eq!(session.viewer.pinned_pixel(), None, "unpinned");
+    session.keys(&["Enter"]);
+    assert!(session.viewer.explains(), "a new pin is explained, as its help says");
+    session.keys(&["Tab"]);
+    assert!(!session.viewer.explains(), "only the picture");
+    session.keys(&["e"]);
+    assert!(session.viewer.explains(), "E shows what was hidden with the rest");
+    assert_eq!(session.viewer.pinned_pixel(), Some([120, 60]), "of the same pixel");
+}
+
+/// The ring in the picture goes where the pixel is to be seen, in every pane.
+#[test]
+fn inspector_pin_has_a_place_in_every_pane() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    assert!(session.viewer.pinned_places().is_empty(), "no pin");
+    session.run(Command::Pin([100, 50]));
+    let corners = |session: &Session| -> Vec<[i64; 2]> {
+        let places = session.viewer.pinned_places();
+        places.iter().map(|place| [place.x, place.y]).collect()
+    };
+    assert_eq!(corners(&session), [[100, 50]], "in the frame");
+    session.run(Command::SwapAb);
+    session.run(Command::SetFreeArea(Some(PixelRect::of_size([400, 300]))));
+    session.run(Command::Arrange(rasterscope::viewer::Arrangement::SideBySide));
+    let pixel = session.viewer.pinned_pixel().expect("in both halves");
+    let [x, y] = pixel.map(i64::from);
+    assert_eq!(corners(&session), [[x, y], [x + 201, y]], "in both");
+}

@@ -540,3 +540,23 @@ fn replay_revisions_tell_what_to_draw() {
         assert!(session.viewer.picture_revision() > picture, "{command:?} says so");
     }
 }
+
+/// The list shows what F5 read, as the picture does.
+#[test]
+fn replay_reload_draws_the_thumbnail_again() {
+    let mut session = Session::open(&[TRIANGLES, SQUARE], [200, 150]);
+    session.viewer.request_thumbnail(0);
+    session.viewer.finish_thumbnails();
+    let thumbnail = |session: &Session| session.viewer.scenes()[0].thumbnail.clone().expect("drawn");
+    let before = thumbnail(&session);
+    std::fs::write(session.folder.path().join("1.svg"), SQUARE).unwrap();
+    session.run(Command::Reload);
+    session.viewer.finish_thumbnails();
+    let after = thumbnail(&session);
+    assert!(*before != *after, "the new document");
+    // Shown again much later, when it was let go, a file may have changed too.
+    std::fs::write(session.folder.path().join("1.svg"), TRIANGLES).unwrap();
+    session.run(Command::Reload);
+    session.viewer.finish_thumbnails();
+    assert!(*before == *thumbnail(&session), "and back");
+}

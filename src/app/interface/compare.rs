@@ -2,7 +2,7 @@
 
 use egui::{Button, DragValue, Grid, Layout, RichText, Sense, Ui, pos2, vec2};
 
-use super::controls::{choice, command_button, heading, row, tip};
+use super::controls::{choice, command_button, gave_up, heading, row, tip};
 use super::look::CONTROL;
 use crate::color::{Colormap, ResolveSpace};
 use crate::compare::{Gain, Guess, Measure};
@@ -125,14 +125,15 @@ fn difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             .prefix("× ");
         let layout = Layout::centered_and_justified(ui.layout().main_dir());
         let width = ui.available_width() - 2.0 * (CONTROL.x + 4.0);
-        ui.allocate_ui_with_layout(vec2(width, CONTROL.y), layout, |ui| {
+        let shown = ui.allocate_ui_with_layout(vec2(width, CONTROL.y), layout, |ui| {
             let tip = format!("{}\ndrag, or click and type", tip("gain"));
-            ui.add(field.clip_text(true).update_while_editing(false))
-                .on_hover_text(tip)
-                .accessible_name("Gain");
+            let response = ui.add(field.clip_text(true).update_while_editing(false));
+            let is_taken = !gave_up(ui, &response);
+            response.on_hover_text(tip).accessible_name("Gain");
+            is_taken
         });
         #[expect(clippy::float_cmp, reason = "a number that nobody touched is the same one")]
-        if value != gain {
+        if shown.inner && value != gain {
             commands.push(Command::SetGain(value));
         }
         for (id, text) in [("weaker-difference", "÷2"), ("stronger-difference", "×2")] {
@@ -224,7 +225,7 @@ fn short(value: f64) -> String {
 }
 
 /// The numbers; those of other pictures are marked.
-fn metrics(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+pub(super) fn metrics(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let found = viewer.measures();
     let title = match found {
         Some((_, true)) | None => "How far apart",

@@ -14,7 +14,7 @@ const LETTER: f32 = 20.0;
 /// Radius of the line's handle, in points.
 const HANDLE: f32 = 9.0;
 
-/// Draws line and tags inside `free`, the tags where nothing is `taken`. Returns where the tags are.
+/// Draws line, letters and tags inside `free`, the tags where nothing is `taken`. Returns where letters and tags are.
 pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<Rect> {
     let Some([a, b]) = viewer.comparison_sides() else {
         return Vec::new();
@@ -23,7 +23,8 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<
     let scale = ui.pixels_per_point();
     let insets = viewer.inset().into_iter().chain(viewer.other_inset());
     let insets: Vec<Rect> = insets.map(|placed| points(&placed.rect, scale)).collect();
-    let taken = [&insets, taken].concat();
+    let letters = letters(ui, viewer, free);
+    let taken = [&insets, taken, &letters].concat();
     let left = free.left() + MARGIN;
     let places: Vec<(String, f32, Align2)> = match viewer.arrangement() {
         Arrangement::Alone if !viewer.is_swapped() => return Vec::new(),
@@ -62,14 +63,15 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<
     let tags = places
         .into_iter()
         .filter_map(|(text, x, align)| tag(ui, free, &taken, (text, x, align)));
-    let tags = tags.collect();
-    letters(ui, viewer, free);
-    tags
+    tags.chain(letters).collect()
 }
 
-/// Which inset is whose: a letter outside, where no magnified pixel is.
-fn letters(ui: &Ui, viewer: &Viewer, free: Rect) {
-    let Some(other) = viewer.other_inset() else { return };
+/// Which inset is whose: a letter outside, where no magnified pixel is. Returns where the letters are.
+fn letters(ui: &Ui, viewer: &Viewer, free: Rect) -> Vec<Rect> {
+    let Some(other) = viewer.other_inset() else {
+        return Vec::new();
+    };
+    let mut places = Vec::new();
     for (letter, placed) in viewer.inset().map(|own| ("A", own)).into_iter().chain([("B", other)]) {
         let inset = points(&placed.rect, ui.pixels_per_point());
         let corner = if inset.left() - LETTER > free.left() {
@@ -82,7 +84,9 @@ fn letters(ui: &Ui, viewer: &Viewer, free: Rect) {
         let font = FontId::proportional(13.0);
         ui.painter()
             .text(place.center(), Align2::CENTER_CENTER, letter, font, Color32::WHITE);
+        places.push(place);
     }
+    places
 }
 
 /// The line with its handle; the pointer tells that it can be dragged. It passes behind the insets, where no hand can
@@ -159,6 +163,8 @@ fn tag(ui: &Ui, free: Rect, taken: &[Rect], (text, x, align): (String, f32, Alig
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texture::PixelSampling;
+    use crate::viewer::{Against, Command, PixelRect, Toggle, ViewerOptions};
 
     #[test]
     fn line_passes_behind_insets() {
@@ -171,5 +177,60 @@ mod tests {
         assert_eq!(pieces(150.0), expected, "between and below them");
         let all = [inset(0.0, 400.0)];
         assert!(free_pieces(free, 150.0, &all).is_empty(), "nothing is free");
+    }
+
+    #[test]
+    fn letters_and_tags_never_overlap() {
+        let window = [800, 600];
+        let options = ViewerOptions {
+            window,
+            ..ViewerOptions::default()
+        };
+        let mut viewer = Viewer::new(options).expect("threads");
+        let mut free = PixelRect::of_size(window);
+        free.height -= 26;
+        for command in [
+            Command::SetFreeArea(Some(free)),
+            Command::Compare(Against::Settings),
+            // Side by side, B's tag ends where the letter of an inset in the upper right corner stands.
+            Command::SetPixelSampling(PixelSampling::Bilinear),
+            Command::Explanation(Toggle::Off),
+        ] {
+            assert!(viewer.apply(command).is_empty(), "nothing to do");
+        }
+        viewer.finish();
+        let (ctx, area) = (egui::Context::default(), points(&free, 1.0));
+        let mut letters = 0;
+        for arrangement in [Arrangement::Wipe, Arrangement::SideBySide, Arrangement::Difference] {
+            for pin in [
+                [20, 30],
+                [20, 540],
+                [380, 30],
+                [380, 540],
+                [300, 200],
+                [780, 30],
+                [780, 540],
+            ] {
+                for command in [Command::Arrange(arrangement), Command::Pin(pin)] {
+                    assert!(viewer.apply(command).is_empty(), "nothing to do");
+                }
+                let mut places = Vec::new();
+                let input = egui::RawInput {
+                    screen_rect: Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(800.0, 600.0))),
+                    ..egui::RawInput::default()
+                };
+                let mut output = ctx.run_ui(input, |ui| places = show(ui, &viewer, area, &[]));
+                output.textures_delta.clear();
+                letters += places
+                    .iter()
+                    .filter(|place| place.size() == Vec2::splat(LETTER))
+                    .count();
+                for (index, place) in places.iter().enumerate() {
+                    let beside = places[..index].iter().all(|other| !other.intersects(*place));
+                    assert!(beside, "{places:?} with {pin:?} in {arrangement:?}");
+                }
+            }
+        }
+        assert!(letters > 20, "{letters} letters");
     }
 }

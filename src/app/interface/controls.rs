@@ -1,6 +1,6 @@
 //! The few controls that the panels are built of; each has an accessible name and says its key in its tool tip.
 
-use egui::{Align, Button, Color32, ComboBox, Layout, Response, RichText, TextStyle, Ui, vec2};
+use egui::{Align, Button, Color32, ComboBox, Key, Layout, Response, RichText, TextStyle, Ui, vec2};
 
 use super::look::CONTROL;
 use crate::viewer::{CommandSpec, commands};
@@ -100,6 +100,33 @@ pub(super) fn drop_down<T: Copy + PartialEq>(
         .on_hover_text(tip)
         .accessible_name(name.to_owned());
     chosen
+}
+
+/// Whether Esc gave up what was typed into a number's field: then the old number stays.
+///
+/// egui heeds the key in the pass in which it is pressed, but a field counts as just left in the pass after it, too, and
+/// takes its text there.
+pub(super) fn gave_up(ui: &Ui, field: &Response) -> bool {
+    let pass = ui.ctx().cumulative_pass_nr();
+    let had_keyboard = ui.memory(|memory| memory.had_focus_last_frame(field.id));
+    let leaves = had_keyboard && ui.input(|input| input.key_pressed(Key::Escape));
+    let key = field.id.with("given up");
+    ui.data_mut(|data| {
+        if leaves {
+            data.insert_temp(key, pass);
+        }
+        data.get_temp(key).is_some_and(|since: u64| pass <= since + 1)
+    })
+}
+
+/// What a line of text held when it got the keyboard, once Esc gives up what was typed since.
+pub(super) fn given_up_text(ui: &Ui, line: &Response, text: &str) -> Option<String> {
+    let key = line.id.with("before");
+    if line.gained_focus() {
+        ui.data_mut(|data| data.insert_temp(key, text.to_owned()));
+    }
+    let leaves = line.lost_focus() && ui.input(|input| input.key_pressed(Key::Escape));
+    leaves.then(|| ui.data(|data| data.get_temp(key)))?
 }
 
 /// What the tool tip of the command `id` says.

@@ -2,7 +2,7 @@
 
 use egui::{DragValue, Layout, Ui, vec2};
 
-use super::controls::{choice, row, tip};
+use super::controls::{choice, gave_up, row, tip};
 use super::look::CONTROL;
 use crate::texture::{Anisotropy, Derivatives, FixedLevel, LodBias};
 use crate::viewer::{Command, Viewer};
@@ -37,10 +37,10 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             .speed(SPEED)
             .max_decimals(2)
             .custom_formatter(|levels, _| format!("{:+}", (levels * 100.0).round() / 100.0));
-        sized(ui, width, field, "Level of detail bias", "lod-bias");
+        let is_taken = sized(ui, width, field, "Level of detail bias", "lod-bias");
         commands.extend(
             LodBias::new(levels)
-                .filter(|bias| *bias != before)
+                .filter(|bias| is_taken && *bias != before)
                 .map(Command::SetLodBias),
         );
         fixed_level(ui, width, render.detail.fixed, commands);
@@ -73,19 +73,22 @@ fn fixed_level(ui: &mut Ui, width: f32, before: Option<FixedLevel>, commands: &m
             "" | AUTO => Some(BELOW),
             number => number.parse().ok(),
         });
-    sized(ui, width, field, "Fixed level", "lod-level");
+    let is_taken = sized(ui, width, field, "Fixed level", "lod-level");
     #[expect(clippy::float_cmp, reason = "a number that nobody touched is the same one")]
-    if level != shown {
+    if is_taken && level != shown {
         commands.push(Command::SetFixedLevel(FixedLevel::new(level)));
     }
 }
 
-fn sized(ui: &mut Ui, width: f32, field: DragValue<'_>, name: &str, id: &str) {
+/// A number's field of this width; whether the number that it leaves counts.
+fn sized(ui: &mut Ui, width: f32, field: DragValue<'_>, name: &str, id: &str) -> bool {
     let layout = Layout::centered_and_justified(ui.layout().main_dir());
-    ui.allocate_ui_with_layout(vec2(width, CONTROL.y), layout, |ui| {
+    let shown = ui.allocate_ui_with_layout(vec2(width, CONTROL.y), layout, |ui| {
         let tip = format!("{}\ndrag, or click and type", tip(id));
-        ui.add(field.clip_text(true).update_while_editing(false))
-            .on_hover_text(tip)
-            .accessible_name(name);
+        let response = ui.add(field.clip_text(true).update_while_editing(false));
+        let is_taken = !gave_up(ui, &response);
+        response.on_hover_text(tip).accessible_name(name);
+        is_taken
     });
+    shown.inner
 }

@@ -1,7 +1,9 @@
 //! What covers the picture until it is closed: help, the command palette, going to a pixel.
 
 use egui::text::{CCursor, CCursorRange};
-use egui::{Align, Align2, Area, Button, Color32, Context, Id, Key, Layout, Modal, Order, RichText, ScrollArea};
+use egui::{
+    Align, Align2, Area, AtomExt as _, Button, Color32, Context, Id, Key, Layout, Modal, Order, RichText, ScrollArea,
+};
 use egui::{TextEdit, Ui, vec2};
 
 use super::look::CONTROL;
@@ -173,7 +175,10 @@ impl Dialogs {
                 self.chosen = self.chosen.min(found.len().saturating_sub(1));
                 let mut run = found.get(self.chosen).copied().filter(|_| enter);
                 super::look::bars_beside(ui);
-                ScrollArea::vertical().max_height(screen.height() * 0.6).show(ui, |ui| {
+                // An area keeps the height that it had: without a least height, a list that a filter made short stays so.
+                let height = screen.height() * 0.6;
+                let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
+                area.show(ui, |ui| {
                     ui.spacing_mut().item_spacing.y = 1.0;
                     for (index, spec) in found.iter().enumerate() {
                         let chosen = index == self.chosen;
@@ -244,7 +249,9 @@ fn entry(ui: &mut Ui, spec: &CommandSpec, chosen: bool) -> egui::Response {
         Some(argument) if spec.keys.is_empty() => argument.usage.to_owned(),
         _ => spec.keys_text(),
     };
-    let button = Button::selectable(chosen, spec.name).right_text(RichText::new(keys).small());
+    // Where both do not fit, the end of what may follow gives way; the name is always whole.
+    let keys = RichText::new(keys).small().atom_shrink(true);
+    let button = Button::selectable(chosen, spec.name).right_text(keys).truncate();
     ui.add_sized([ui.available_width(), CONTROL.y + 2.0], button)
         .accessible_name(spec.name)
 }
@@ -335,4 +342,30 @@ fn help_line(ui: &mut Ui, keys: &str, help: &str) {
         });
         ui.add(egui::Label::new(RichText::new(help).small()).wrap());
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn palette_breaks_no_name() {
+        let ctx = Context::default();
+        for width in [480.0, 320.0] {
+            for spec in commands::all() {
+                let mut output = ctx.run_ui(egui::RawInput::default(), |ui| {
+                    ui.set_width(width);
+                    entry(ui, spec, false);
+                });
+                let named = output.shapes.iter().any(|clipped| match &clipped.shape {
+                    egui::Shape::Text(text) => {
+                        text.galley.text() == spec.name && text.galley.rows.len() == 1 && !text.galley.elided
+                    }
+                    _ => false,
+                });
+                output.textures_delta.clear();
+                assert!(named, "{} in one line of {width} points", spec.name);
+            }
+        }
+    }
 }

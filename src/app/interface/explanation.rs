@@ -8,7 +8,7 @@ use egui::{
 use super::controls::command_button;
 use super::floating::points;
 use super::look;
-use super::{scrubber, twin};
+use super::{compare, scrubber, twin};
 use crate::inspect::{Difference, Explanation, Paint, TexelPlace};
 use crate::render::Visualisation;
 use crate::viewer::{Command, Toggle, Viewer};
@@ -34,6 +34,8 @@ pub(super) struct ExplanationPanel {
     accumulated: Option<usize>,
     /// The pixel that these belong to.
     pixel: Option<[u32; 2]>,
+    /// Whether it also says how far A and B are apart: where the panel of the comparison has given way to this one.
+    pub(super) has_numbers: bool,
 }
 
 /// What the pointer is over.
@@ -52,20 +54,28 @@ impl ExplanationPanel {
     pub(super) fn show(&mut self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) -> Hovered {
         let mut hovered = Hovered::default();
         title(ui, viewer, commands);
-        let Some(explanation) = viewer.explanation() else {
-            ui.label(RichText::new("finding out …").weak());
-            return hovered;
-        };
-        if self.pixel != Some(explanation.pixel) {
+        let explanation = viewer.explanation();
+        if let Some(explanation) = explanation.filter(|explanation| self.pixel != Some(explanation.pixel)) {
             *self = Self {
                 pixel: Some(explanation.pixel),
+                has_numbers: self.has_numbers,
                 ..Self::default()
             };
         }
-        ScrollArea::vertical()
-            .id_salt("explanation")
-            .auto_shrink(false)
-            .show(ui, |ui| self.report(ui, viewer, explanation, &mut hovered));
+        let area = ScrollArea::vertical().id_salt("explanation").auto_shrink(false);
+        area.show(ui, |ui| {
+            if self.has_numbers {
+                section(ui, "numbers", "A against B", true, |ui| {
+                    compare::metrics(ui, viewer, commands);
+                });
+            }
+            match explanation {
+                Some(explanation) => self.report(ui, viewer, explanation, &mut hovered),
+                None => {
+                    ui.label(RichText::new("finding out …").weak());
+                }
+            }
+        });
         hovered
     }
 

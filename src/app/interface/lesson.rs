@@ -20,7 +20,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let Some((lesson, at)) = viewer.lesson() else { return };
     let Some(step) = lesson.steps.get(at) else { return };
     ui.horizontal(|ui| {
-        let of = format!("{} of {}", at + 1, lesson.steps.len());
+        let of = format!("step {} of {}", at + 1, lesson.steps.len());
         ui.label(RichText::new(of).size(12.0).weak());
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if command_button(ui, "close-lesson", "Close").clicked() {

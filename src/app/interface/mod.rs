@@ -17,6 +17,7 @@ mod floating;
 mod hits;
 mod lesson;
 mod look;
+mod pin;
 mod sampling;
 mod scenes;
 mod scrubber;
@@ -131,6 +132,7 @@ impl Interface {
         self.covered.clear();
         let whole = ui.max_rect();
         let hidden = viewer.everything_hidden();
+        self.explanation.has_numbers = false;
         if !hidden {
             let line = Panel::bottom("status")
                 .resizable(false)
@@ -154,6 +156,7 @@ impl Interface {
                 if viewer.other().is_some() && fits {
                     self.compare_panel(ui, viewer, asked);
                 }
+                self.explanation.has_numbers = viewer.other().is_some() && !fits;
             }
         }
         let hovered = self.explanation(ui, viewer, whole, asked);
@@ -165,6 +168,9 @@ impl Interface {
             .push(Command::SetFreeArea(Some(device_rect(free, ui.pixels_per_point()))));
         if !hidden {
             floating::progress(ui, viewer, free);
+        }
+        if !hidden {
+            pin::show(ui, viewer, free);
         }
         floating::pixel_labels(ui, viewer);
         fed::show(ui, viewer, free);

@@ -1,5 +1,8 @@
 //! The list of scenes: thumbnails under the names of their folders.
 
+use std::ffi::OsStr;
+use std::ops::Range;
+use std::path::Path;
 use std::sync::Arc;
 
 use egui::{Align2, Color32, ColorImage, CornerRadius, FontId, Rect, RichText, Sense, StrokeKind, TextureHandle};
@@ -8,7 +11,7 @@ use egui::{TextureOptions, Ui, Vec2, pos2, vec2};
 use super::controls::{command_button, heading};
 use crate::figure::shrunk;
 use crate::raster::Framebuffer;
-use crate::viewer::{Command, SceneEntry, Viewer};
+use crate::viewer::{Command, SceneEntry, SceneSource, Viewer};
 
 /// Thumbnails side by side.
 const COLUMNS: usize = 3;
@@ -122,28 +125,42 @@ pub(super) fn list(
     let width = ((ui.available_width() - GAP * (COLUMNS - 1) as f32) / COLUMNS as f32).floor();
     let cell = vec2(width, PICTURE_HEIGHT + NAME_HEIGHT);
     ui.spacing_mut().item_spacing = vec2(GAP, GAP);
-    let scenes = viewer.scenes();
-    let mut index = 0;
-    while index < scenes.len() {
-        let folder = folder(&scenes[index]);
-        let count = scenes[index..]
-            .iter()
-            .take_while(|entry| self::folder(entry) == folder)
-            .count();
-        if !folder.is_empty() {
-            ui.label(RichText::new(folder).weak().small());
+    for (heading, scenes) in groups(viewer.scenes()) {
+        if let Some(heading) = heading {
+            ui.label(RichText::new(heading).weak().small());
         }
-        for first in (index..index + count).step_by(COLUMNS) {
+        let end = scenes.end;
+        for first in scenes.step_by(COLUMNS) {
             ui.horizontal(|ui| {
-                for scene in first..(first + COLUMNS).min(index + count) {
+                for scene in first..(first + COLUMNS).min(end) {
                     if picture(ui, viewer, scene, cell, (thumbnails, wishes)) {
                         commands.push(Command::Scene(scene));
                     }
                 }
             });
         }
-        index += count;
     }
+}
+
+/// Scenes of one folder that follow each other, under the folder's name. Files that were opened one by one have no folder in
+/// their labels: beside others they stand under the name of the folder that they lie in, and without a heading while there
+/// is nothing else.
+fn groups(scenes: &[SceneEntry]) -> Vec<(Option<String>, Range<usize>)> {
+    let mut groups = Vec::new();
+    let mut start = 0;
+    for alike in scenes.chunk_by(|a, b| folder(a) == folder(b)) {
+        let heading = match folder(&alike[0]) {
+            (label, _) if !label.is_empty() => Some(label.to_owned()),
+            _ if alike.len() == scenes.len() => None,
+            (_, place) => {
+                let name = place.and_then(Path::file_name).map(OsStr::to_string_lossy);
+                Some(name.map_or("opened".to_owned(), std::borrow::Cow::into_owned))
+            }
+        };
+        groups.push((heading, start..start + alike.len()));
+        start += alike.len();
+    }
+    groups
 }
 
 /// One scene: picture and name. True when it was clicked.
@@ -241,9 +258,13 @@ fn name_below(ui: &Ui, cell: Rect, name: &str, color: Color32) {
     ui.painter().galley(at, galley, color);
 }
 
-/// The folder part of a scene's label.
-fn folder(entry: &SceneEntry) -> &str {
-    entry.label.rsplit_once(['/', '\\']).map_or("", |(folder, _)| folder)
+/// The folder part of a scene's label; where there is none, the folder that its file lies in.
+fn folder(entry: &SceneEntry) -> (&str, Option<&Path>) {
+    match (entry.label.rsplit_once(['/', '\\']), &entry.source) {
+        (Some((folder, _)), _) => (folder, None),
+        (None, SceneSource::File(path)) => ("", path.parent()),
+        (None, SceneSource::Gallery(_)) => ("", None),
+    }
 }
 
 /// The file's name without its ending.
@@ -274,4 +295,45 @@ pub(super) fn image_of(picture: &Framebuffer) -> ColorImage {
     };
     let size = [picture.width(), picture.height()].map(|side| side as usize);
     ColorImage::new(size, picture.pixels().iter().map(color).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::viewer::ViewerOptions;
+
+    #[test]
+    fn opened_files_stand_under_their_own_heading() {
+        let viewer = Viewer::new(ViewerOptions::default()).expect("threads");
+        let gallery = viewer.scenes().to_vec();
+        let opened = |path: &str| {
+            let mut entry = gallery[0].clone();
+            (entry.source, entry.label) = (SceneSource::File(path.into()), "mine.svg".to_owned());
+            entry
+        };
+        let headings = |scenes: &[SceneEntry]| -> Vec<Option<String>> {
+            let groups = groups(scenes);
+            let count: usize = groups.iter().map(|(_, scenes)| scenes.len()).sum();
+            assert_eq!(count, scenes.len(), "every scene once");
+            groups.into_iter().map(|(heading, _)| heading).collect()
+        };
+        let before = headings(&gallery);
+        assert_eq!(
+            before.last(),
+            Some(&Some("hardcore".to_owned())),
+            "the last of the gallery"
+        );
+        let with = |paths: &[&str]| {
+            let scenes = [gallery.clone(), paths.iter().map(|path| opened(path)).collect()].concat();
+            headings(&scenes)[before.len()..].to_vec()
+        };
+        let name = |name: &str| Some(name.to_owned());
+        assert_eq!(with(&["/home/me/robots/mine.svg"]), [name("robots")], "its folder");
+        assert_eq!(
+            with(&["/a/b/1.svg", "/a/b/2.svg", "/a/c/3.svg"]),
+            [name("b"), name("c")]
+        );
+        assert_eq!(with(&["mine.svg"]), [name("opened")], "a folder without a name");
+        assert_eq!(headings(&[opened("/a/b/mine.svg")]), [None], "alone it needs none");
+    }
 }

@@ -3,7 +3,7 @@
 use egui::{Align, Button, Checkbox, Color32, ComboBox, Context, Layout, Rect, RichText, ScrollArea, TextEdit};
 use egui::{TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2};
 
-use super::controls::{choice, heading, row, tip};
+use super::controls::{choice, given_up_text, heading, row, tip};
 use super::dialogs::modal;
 use super::look::CONTROL;
 use super::scenes::image_of;
@@ -153,7 +153,10 @@ impl SheetDialog {
             )
             .on_hover_text("Values with commas between them")
             .accessible_name(format!("Values of the {}", side.name()));
-        if response.changed() {
+        let before = given_up_text(ui, &response, &typed.text);
+        let is_new = response.changed() || before.is_some();
+        typed.text = before.unwrap_or_else(|| std::mem::take(&mut typed.text));
+        if is_new {
             match options::axis(&axis.name, &typed.text) {
                 Ok(axis) => {
                     typed.problem = None;
@@ -200,7 +203,10 @@ impl SheetDialog {
                     .add(field)
                     .on_hover_text(tip("sheet-panels"))
                     .accessible_name("Size of panels");
-                if response.changed() {
+                let before = given_up_text(ui, &response, &self.size);
+                let is_new = response.changed() || before.is_some();
+                self.size = before.unwrap_or_else(|| std::mem::take(&mut self.size));
+                if is_new {
                     commands.extend(PanelSize::parse(&self.size).map(change));
                 }
             });
@@ -314,7 +320,9 @@ fn words(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         .add(field)
         .on_hover_text(tip("sheet-note"))
         .accessible_name("Caption");
-    if response.changed() {
+    let before = given_up_text(ui, &response, &note);
+    if response.changed() || before.is_some() {
+        let note = before.unwrap_or(note);
         // It is one sentence on one line of the command.
         let note = note.replace(['\n', '\r'], " ");
         commands.push(Command::ChangeSheet(SheetChange::Note(note)));

@@ -3,7 +3,7 @@
 use egui::text::CCursorRange;
 use egui::{Color32, DragValue, Layout, TextEdit, Ui, vec2};
 
-use super::controls::{command_button, heading, row};
+use super::controls::{command_button, gave_up, heading, row};
 use crate::viewer::{Command, SceneEntry, ViewNumbers, Viewer};
 
 /// Window pixels that the picture moves per pixel of dragging a number.
@@ -106,7 +106,8 @@ impl Number<'_> {
                 let galley = painter.layout_no_wrap(text, font.clone(), Color32::PLACEHOLDER);
                 galley.size().x <= room
             };
-            let field = DragValue::new(value)
+            let mut typed = before;
+            let field = DragValue::new(&mut typed)
                 .speed(self.speed)
                 .max_decimals_opt(decimals)
                 .suffix(unit)
@@ -120,6 +121,9 @@ impl Number<'_> {
                     }
                 });
             let response = ui.add(field);
+            if !gave_up(ui, &response) {
+                *value = typed;
+            }
             if response.clicked() {
                 // The field chose the digits that it showed; the line of text begins with all of them.
                 let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();

@@ -2,6 +2,8 @@
 //! whole window together. Knows no window system, so that a session runs with or without a display.
 
 mod damage;
+#[cfg(test)]
+mod hands;
 mod stage;
 #[cfg(test)]
 mod tests;

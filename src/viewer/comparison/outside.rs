@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::background::guarded;
+use super::super::typed::path;
 use super::super::{Viewer, options};
 use super::{Against, Arrangement, Other};
 use crate::color::ResolveSpace;
@@ -145,7 +146,7 @@ impl Against {
             "truth stored" => Some(Self::Truth(Some(ResolveSpace::Stored))),
             "truth linear" => Some(Self::Truth(Some(ResolveSpace::Linear))),
             "none" => Some(Self::Nothing),
-            path => Some(Self::File(path.into())),
+            text => Some(Self::File(path(text))),
         }
     }
 }

@@ -1,0 +1,192 @@
+//! What a hand does to the panels, and what an eye finds there: controls are looked up by the names that screen readers
+//! are told, so that no test knows where they lie.
+
+use std::path::PathBuf;
+
+use egui::accesskit::Node;
+use glam::{DVec2, dvec2};
+
+use super::*;
+use crate::raster::SampleRate;
+use crate::viewer::ViewerOptions;
+use crate::viewer::script::Stage as _;
+
+/// A session at rest on these files, or on the gallery.
+fn session(paths: Vec<PathBuf>, window: [u32; 2]) -> Session {
+    let options = ViewerOptions {
+        paths,
+        window,
+        ..ViewerOptions::default()
+    };
+    let viewer = Viewer::new(options).expect("threads");
+    let mut session = Session::new(viewer, 1.0, Clock::Simulated(0.0));
+    session.ctx().enable_accesskit();
+    session.settle();
+    session
+}
+
+/// Everything that a screen reader is told of.
+fn nodes(session: &mut Session) -> Vec<Node> {
+    let update = session.quiet_turn().platform.accesskit_update;
+    let nodes = update.expect("screen readers are served").nodes;
+    nodes.into_iter().map(|(_, node)| node).collect()
+}
+
+/// The middle of the control with this name.
+fn place_of(session: &mut Session, name: &str) -> DVec2 {
+    let nodes = nodes(session);
+    let node = nodes.iter().find(|node| node.label() == Some(name));
+    let bounds = node.and_then(Node::bounds).unwrap_or_else(|| panic!("no {name}"));
+    dvec2(bounds.x0 + bounds.x1, bounds.y0 + bounds.y1) / 2.0
+}
+
+fn click(session: &mut Session, at: DVec2) {
+    session.pointer(Some(at));
+    for down in [true, false] {
+        session.button(PointerButton::Primary, down);
+    }
+}
+
+fn key(session: &mut Session, name: &str) {
+    session.key(KeyPress::from_name(name).expect("a key"));
+}
+
+#[test]
+fn number_fields_keep_the_old_number_on_escape() {
+    let mut session = session(Vec::new(), [1600, 1300]);
+    for command in [
+        Command::Panel(Toggle::On),
+        Command::SwapAb,
+        Command::SetMeasure(crate::compare::Measure::Signed),
+    ] {
+        session.command(command);
+    }
+    session.settle();
+    let state = |session: &Session| {
+        let viewer = session.viewer();
+        let render = viewer.settings().render;
+        (viewer.view_numbers(), render.detail, viewer.difference_gain())
+    };
+    for name in [
+        "Centre x",
+        "Scale in pixels per unit",
+        "Rotation in degrees, clockwise",
+        "Level of detail bias",
+        "Fixed level",
+        "Gain",
+    ] {
+        let before = state(&session);
+        for (end, is_taken) in [("Escape", false), ("Enter", true)] {
+            let at = place_of(&mut session, name);
+            click(&mut session, at);
+            key(&mut session, "Ctrl+A");
+            session.type_text("3");
+            key(&mut session, end);
+            session.settle();
+            assert_eq!(state(&session) != before, is_taken, "{name} after {end}");
+        }
+    }
+}
+
+#[test]
+fn lines_of_a_sheet_keep_the_old_text_on_escape() {
+    let mut session = session(Vec::new(), [1000, 800]);
+    session.command(Command::ToggleDialog(Dialog::Sheet));
+    session.settle();
+    let sheet = |session: &Session| format!("{:?}", session.viewer().sheet());
+    for name in ["Values of the columns", "Caption"] {
+        let before = sheet(&session);
+        for (end, is_taken) in [("Escape", false), ("Tab", true)] {
+            let at = place_of(&mut session, name);
+            click(&mut session, at);
+            key(&mut session, "Ctrl+A");
+            session.type_text("9");
+            key(&mut session, end);
+            session.settle();
+            assert_eq!(sheet(&session) != before, is_taken, "{name} after {end}");
+        }
+    }
+}
+
+#[test]
+fn explained_pixel_leaves_the_numbers_of_a_comparison() {
+    for window in [[1280, 800], [1366, 768], [1920, 1080]] {
+        let mut session = session(Vec::new(), window);
+        session.command(Command::Panel(Toggle::On));
+        session.command(Command::SwapAb);
+        session.command(Command::SetSampleRate(SampleRate::new(16).expect("a rate")));
+        session.settle();
+        let mut told = |what| {
+            let nodes = nodes(&mut session);
+            let rmse = nodes.iter().filter(|node| node.value() == Some("RMSE"));
+            assert_eq!(rmse.count(), 1, "the numbers once, {what} at {window:?}");
+            session.command(Command::Pin([500, 300]));
+            session.settle();
+        };
+        told("beside the picture alone");
+        told("beside a pixel that is explained");
+    }
+}
+
+#[test]
+fn palette_grows_again_after_a_filter() {
+    let filtered = |texts: &[&str]| {
+        let mut session = session(Vec::new(), [1000, 700]);
+        key(&mut session, "Ctrl+Shift+P");
+        for text in texts {
+            key(&mut session, "Ctrl+A");
+            session.type_text(text);
+            session.settle();
+        }
+        session.picture()
+    };
+    assert!(
+        filtered(&["compare", "a"]) == filtered(&["a"]),
+        "a short list before leaves no trace"
+    );
+}
+
+#[test]
+fn pin_is_ringed_in_the_picture() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (ground, name) in [
+        ("#000000", "dark.svg"),
+        ("#ffffff", "light.svg"),
+        ("#ff3b30", "red.svg"),
+    ] {
+        let document = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100"><rect width="100" height="100" fill="{ground}"/></svg>"#
+        );
+        let path = folder.path().join(name);
+        std::fs::write(&path, document).expect("a file");
+        let mut session = session(vec![path], [600, 400]);
+        session.command(Command::Explanation(Toggle::Off));
+        let pin = [300_i64, 200];
+        session.command(Command::Pin(pin));
+        session.settle();
+        let (shown, plain) = (session.picture(), session.viewer().window_picture());
+        // How much a pixel of the window differs from the picture, in levels.
+        let differs = |x: i64, y: i64| {
+            let at = |frame: &Framebuffer| {
+                let place = (u32::try_from(pin[0] + x), u32::try_from(pin[1] + y));
+                let (Ok(x), Ok(y)) = place else { panic!("inside") };
+                frame.rgba(x, y).expect("inside")
+            };
+            let (a, b) = (at(&shown), at(&plain));
+            a.into_iter().zip(b).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
+        };
+        let around = |radius: i64| {
+            let square = (-radius..=radius).flat_map(move |y| (-radius..=radius).map(move |x| (x, y)));
+            square.filter(|(x, y)| differs(*x, *y) > 60).count()
+        };
+        assert_eq!(around(4), 0, "the pixel and its neighbours as they are, on {ground}");
+        assert!(around(12) > 40, "{} pixels of a ring on {ground}", around(12));
+        session.command(Command::Unpin);
+        session.command(Command::Inspector(Toggle::Off));
+        session.settle();
+        assert!(
+            session.picture().rgba(300, 191) == session.viewer().window_picture().rgba(300, 191),
+            "no pin, no ring"
+        );
+    }
+}

@@ -4,7 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::failure::{Failure, print_error};
-use crate::figure::{Record, add_furniture};
+use super::memory;
+use crate::figure::{Guard, Record, add_furniture};
 use crate::geometry::ViewTransform;
 use crate::raster::Framebuffer;
 use crate::render::{self, FrameStats, Legend, Subject};
@@ -22,6 +23,7 @@ pub(super) struct Picture {
 impl Picture {
     /// Reads the scene; what the reader skipped is said on stderr, line by line.
     pub(super) fn read(spec: PictureSpec) -> Result<Self, Failure> {
+        memory::ask_for(memory::pixels(spec.size))?;
         let scene = read_scene(&spec.scene, spec.dialect).map_err(Failure::Input)?;
         Ok(Self::of(spec, Arc::new(scene)))
     }
@@ -42,6 +44,11 @@ impl Picture {
         if let Some(change) = restored.and_then(|restored| restored.changes(&self.scene.files)) {
             print_error(&change);
         }
+    }
+
+    /// Protects the scene and its textures from being written over.
+    pub(super) fn protect(&self, guard: &mut Guard) {
+        self.spec.scene.protect(&self.scene.files, guard);
     }
 
     /// The record of the picture, for the file `output`.
@@ -109,10 +116,20 @@ pub(super) fn read_scene(source: &SceneSource, dialect: DialectChoice) -> Result
 
 /// Runs `work` on a pool of as many threads as the option says, or one per core.
 pub(super) fn on_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
-    let threads = threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
+        .num_threads(threads.map_or(0, usize::from))
         .build()
-        .map_err(|error| Failure::other(format!("cannot start {threads} threads: {error}; use fewer --threads")))?;
+        .map_err(|error| no_threads(threads, &error))?;
     Ok(pool.install(work))
+}
+
+/// The system gives no threads; none `wanted` means as many as it has cores.
+pub(super) fn no_threads(wanted: Option<u16>, error: &rayon::ThreadPoolBuildError) -> Failure {
+    let wanted = wanted.map_or("a thread for every core".to_owned(), |count| match count {
+        1 => "a thread".to_owned(),
+        _ => format!("{count} threads"),
+    });
+    Failure::other(format!(
+        "cannot start {wanted}: {error}; close other programs or draw with --threads 1"
+    ))
 }

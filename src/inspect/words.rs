@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use super::model::{Edge, Explanation, Fragment, Interpolated, Paint, Resolve, Rounding, Shape, Source, Verdict, View};
 use super::numbers::{number, percent, runs, shortened, significant};
 use crate::color::{ResolveSpace, encoded};
+use crate::plain;
 
 /// Different colours that a sum is written out for at most.
 const MOST_TERMS: usize = 4;
@@ -369,7 +370,7 @@ impl Source {
     }
 
     fn lines(&self) -> Vec<String> {
-        let mut lines = vec![format!("{}:{}:{}", self.file, self.line, self.column)];
+        let mut lines = vec![format!("{}:{}:{}", plain::line(&self.file), self.line, self.column)];
         lines.extend(
             self.text
                 .iter()

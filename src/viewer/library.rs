@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::Camera;
 use super::gallery;
+use crate::plain;
 use crate::raster::Framebuffer;
 use crate::scene::{self, DialectChoice, ReadOptions, Scene, SceneError};
 
@@ -78,7 +79,7 @@ impl SceneEntry {
     fn new(source: SceneSource, label: String) -> Self {
         Self {
             source,
-            label,
+            label: plain::line(&label).into_owned(),
             state: SceneState::Unread,
             other_state: SceneState::Unread,
             document: 0,

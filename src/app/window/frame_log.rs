@@ -7,6 +7,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use super::super::AppError;
 use super::super::session::PanelTimes;
+use crate::figure::{Guard, open_log};
 use crate::viewer::{PixelRect, Viewer};
 
 /// The columns; all times are milliseconds, the first since 1970.
@@ -35,10 +36,10 @@ pub(super) struct Shown<'a> {
 
 impl FrameLog {
     /// # Errors
-    /// When the file cannot be written.
-    pub(super) fn create(path: &Path) -> Result<Self, AppError> {
+    /// When the file cannot be written, or `guard` has something against it.
+    pub(super) fn create(path: &Path, guard: &Guard) -> Result<Self, AppError> {
         let begin = || {
-            let mut file = File::create(path)?;
+            let mut file = open_log(path, guard)?;
             writeln!(file, "{HEADER}").map(|()| file)
         };
         let file = begin().map_err(|error: io::Error| {

@@ -10,6 +10,7 @@ use toml::de::{DeString, DeTable, DeValue};
 
 use super::markdown::blocks;
 use super::{Lesson, LessonError, LessonStep};
+use crate::plain;
 use crate::viewer::typed::{self, point};
 use crate::viewer::{Against, Arrangement, Command, SceneSource, Toggle, gallery, options};
 
@@ -249,11 +250,9 @@ fn text(value: &Value<'_>) -> Found<String> {
 /// What is quoted in a message, in one short line.
 fn short(text: &str) -> String {
     const MOST: usize = 160;
-    let mut line: String = text
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .take(MOST)
-        .collect();
+    let blank = |c: char| if c.is_ascii_whitespace() { ' ' } else { c };
+    let line: String = text.chars().map(blank).take(MOST).collect();
+    let mut line = plain::line(&line).into_owned();
     if text.chars().count() > MOST {
         line.push('\u{2026}');
     }

@@ -1,14 +1,14 @@
 //! From options to a picture: reading a scene, drawing it on as many threads as were asked for.
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::failure::{Failure, print_error};
-use super::memory;
+use super::{memory, progress};
 use crate::figure::{Guard, Record, add_furniture};
 use crate::geometry::ViewTransform;
 use crate::raster::Framebuffer;
-use crate::render::{self, FrameStats, Legend, Subject};
+use crate::render::{self, CancelToken, FrameStats, Legend, Subject};
 use crate::scene::{DialectChoice, Scene};
 use crate::viewer::{PictureSpec, Restored, SceneSource};
 
@@ -61,10 +61,33 @@ impl Picture {
         render::draw(&self.scene, &self.view, &self.spec.render, &mut self.frame)
     }
 
+    /// As [`Picture::draw`], telling how far it is.
+    fn draw_watched(&mut self) {
+        let subject = Subject {
+            scene: &self.scene,
+            view: &self.view,
+            settings: &self.spec.render,
+        };
+        let all = memory::pixels(self.spec.size);
+        let drawn = Mutex::new((&mut self.frame, 0));
+        let never = CancelToken::default();
+        render::refine(&subject, self.spec.size, [0, 0], &never, |tile, pixels| {
+            let mut drawn = drawn.lock().unwrap_or_else(PoisonError::into_inner);
+            let (frame, done) = &mut *drawn;
+            frame.copy_from(tile, pixels, tile);
+            *done += u64::from(tile.width) * u64::from(tile.height);
+            progress::share((*done).min(all), all);
+        });
+    }
+
     /// Draws the picture as a figure: with its insets, and the legend of what it shows where there is room; else says so on
     /// stderr.
     pub(super) fn draw_figure(&mut self) -> Result<(), Failure> {
-        self.draw();
+        if progress::is_watched() {
+            self.draw_watched();
+        } else {
+            self.draw();
+        }
         let legend = self.spec.legend.then(|| self.legend()).flatten();
         let legends = legend.as_slice();
         let drawn = add_furniture(&mut self.frame, &self.spec.insets, &self.view, legends).map_err(Failure::input)?;

@@ -15,6 +15,7 @@ const BEAT: Duration = Duration::from_millis(250);
 /// What it says while nobody knows how much there is to do, and when somebody does.
 const ALONE: &str = "{spinner} {elapsed} {msg}(Ctrl+C stops)";
 const COUNTED: &str = "{bar:30} {pos}/{len} {elapsed} {msg}(Ctrl+C stops)";
+const SHARED: &str = "{bar:30} {percent} % {elapsed} {msg}(Ctrl+C stops)";
 
 /// The bar of the command at work. Ctrl+C and errors find it here wherever they come from.
 static BAR: Mutex<Option<ProgressBar>> = Mutex::new(None);
@@ -67,6 +68,24 @@ pub(super) fn count(steps: usize) {
     if let Some(bar) = &*current() {
         set_style(bar, COUNTED);
         bar.set_length(steps as u64);
+    }
+}
+
+/// Whether somebody looks.
+pub(super) fn is_watched() -> bool {
+    current().is_some()
+}
+
+/// So much of the only step is done. Where steps are counted, they tell more.
+pub(super) fn share(done: u64, all: u64) {
+    if let Some(bar) = &*current() {
+        if bar.length().is_none() {
+            set_style(bar, SHARED);
+            bar.set_length(all);
+        }
+        if bar.length() == Some(all) {
+            bar.set_position(done);
+        }
     }
 }
 

@@ -10,6 +10,7 @@ use plotters::element::{Circle, PathElement, Text};
 use plotters::series::LineSeries;
 use plotters::style::{BLACK, Color as _, FontStyle, IntoFont as _, RGBColor, ShapeStyle, WHITE, register_font};
 
+use crate::plain;
 use crate::raster::Framebuffer;
 
 /// What fonts are called here.
@@ -121,7 +122,7 @@ fn draw<'b>(
     root.fill(&WHITE)?;
     let mut chart = ChartBuilder::on(&root)
         .margin(px(0.8))
-        .caption(&plot.title, (FONT, px(1.5)).into_font())
+        .caption(plain::line(&plot.title), (FONT, px(1.5)).into_font())
         .x_label_area_size(px(3.4))
         .y_label_area_size(px(5.0))
         .build_cartesian_2d((left..right).log_scale(), low..high)?;
@@ -144,7 +145,7 @@ fn draw<'b>(
         if !series.name.is_empty() {
             let length = i32::try_from(px(1.6)).unwrap_or(16);
             drawn
-                .label(&series.name)
+                .label(plain::line(&series.name))
                 .legend(move |(x, y)| PathElement::new([(x, y), (x + length, y)], line));
         }
         let dots = points

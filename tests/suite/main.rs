@@ -13,12 +13,16 @@ mod figures;
 mod full_disk;
 mod gallery;
 mod golden;
+mod hostile_names;
 mod inspect;
 mod inspect_feeds;
 mod inspect_seams;
 mod instruction_guard;
+mod interrupts;
 mod lessons;
+mod limits;
 mod oracle;
+mod outputs;
 #[cfg(feature = "window")]
 mod overlay_goldens;
 #[cfg(feature = "window")]

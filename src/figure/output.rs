@@ -15,7 +15,7 @@ use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::Record;
+use super::{Record, RecordError};
 use crate::scene::{FileDigest, FolderResources};
 
 /// What texts of ours carry in their head, as a comment or as HTML's generator.
@@ -251,8 +251,9 @@ fn is_ours(target: &Path, named: Named) -> bool {
             .is_some_and(|known| known.eq_ignore_ascii_case(ending))
     };
     if ["png", "jpg", "jpeg"].into_iter().any(has_ending) {
-        // A record of a later version is one of ours as well.
-        return named == Named::ByUser || !matches!(Record::of_file(target), Ok(None));
+        // A record of a later version is one of ours as well, and so is a damaged one.
+        let has_record = || !matches!(Record::of_file(target), Ok(None) | Err(RecordError::Io(_)));
+        return named == Named::ByUser || has_record();
     }
     let mut head = Vec::new();
     let read = File::open(target).and_then(|file| file.take(HEAD).read_to_end(&mut head));

@@ -19,6 +19,8 @@ use crate::figure::{Figure, Guard, Named, NewFile, html, latex, markdown, save_f
 use crate::plain;
 use crate::viewer::{PictureSpec, Sheet, caption_of};
 
+/// What shows the figures, in the words of documents.
+const PAGES: [&str; 3] = ["index.html", "figures.md", "figures.tex"];
 /// Draws of a panel of which the median time is told.
 const TIMED: usize = 7;
 
@@ -38,17 +40,19 @@ pub(super) fn run(options: &WriteupOptions) -> Result<(), Failure> {
     let inner = folder.join("scenes");
     std::fs::create_dir_all(&inner).map_err(|error| unwritable(&inner, &error))?;
     let guard = guard(options);
+    // Asked before minutes of work.
+    for page in PAGES.map(|name| folder.join(name)) {
+        let target = guard.target(&page, Named::ByProgram);
+        target.map_err(|error| unwritable(&page, &error))?;
+    }
     save_files(&made_scenes(&scenes, &inner), &guard).map_err(|(path, error)| unwritable(&path, &error))?;
     let figures = on_threads(options.threads, || all((options, &guard), &scenes, &mut pins))??;
     let title = "Figures of the write-up";
-    let pages = [
-        ("index.html", html(title, &figures)),
-        ("figures.md", markdown(&figures)),
-        ("figures.tex", latex(&figures)),
-    ];
+    let texts = [html(title, &figures), markdown(&figures), latex(&figures)];
+    let pages = PAGES.into_iter().zip(texts);
     let mut files: Vec<_> = pages
         .map(|(name, text)| NewFile::by_program(folder.join(name), text.into_bytes()))
-        .into();
+        .collect();
     files.extend(pins.file());
     save_files(&files, &guard).map_err(|(path, error)| unwritable(&path, &error))?;
     let (count, page) = (figures.len(), folder.join("index.html").display().to_string());

@@ -79,7 +79,7 @@ fn lesson(table: &DeTable<'_>, folder: Option<&Path>) -> Found<Lesson> {
     let (mut title, mut steps) = (None, Vec::new());
     for (key, value) in table {
         match key.get_ref().as_ref() {
-            "title" => title = Some(words(value, LONGEST_TITLE)?),
+            "title" => title = Some(shown(value)?),
             "step" => steps = self::steps(value, folder)?,
             other => {
                 let cure = "a lesson has a `title` and tables `[[step]]`";
@@ -131,7 +131,7 @@ fn step(
     };
     for (key, value) in table {
         match key.get_ref().as_ref() {
-            "title" => step.title = words(value, LONGEST_TITLE)?,
+            "title" => step.title = shown(value)?,
             "text" => step.text = blocks(&words(value, LONGEST_TEXT)?),
             "scene" => scene = Some(self::scene(value, folder)?),
             "view" => {
@@ -172,6 +172,11 @@ fn setting(name: &str, key: &Key<'_>, value: &Value<'_>) -> Found<Command> {
         return mistake(key.span(), problem);
     };
     command(value, argument.parse(&text(value)?))
+}
+
+/// A title.
+fn shown(value: &Value<'_>) -> Found<String> {
+    Ok(plain::line(&words(value, LONGEST_TITLE)?).into_owned())
 }
 
 /// What a value asks for, or its mistake in its place.

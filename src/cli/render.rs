@@ -135,8 +135,13 @@ pub(super) fn guard_of(force: bool, restored: Option<&Restored>) -> Guard {
 
 /// A file could not be written.
 pub(super) fn unwritable(path: &Path, error: &io::Error) -> Failure {
+    unwritable_by("-o", path, error)
+}
+
+/// As [`unwritable`], where another `option` names the place.
+pub(super) fn unwritable_by(option: &str, path: &Path, error: &io::Error) -> Failure {
     Failure::input(format!(
-        "{}: cannot write here: {error}; choose another place",
+        "{}: cannot write here: {error}; choose another place with {option}",
         path.display()
     ))
 }

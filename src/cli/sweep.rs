@@ -14,7 +14,7 @@ use super::failure::{Failure, print, print_error};
 use super::interrupt;
 use super::memory::{forget_peak, peak_megabytes};
 use super::picture::{Picture, on_threads};
-use super::render::{guard_of, name_for_png, unwritable};
+use super::render::{guard_of, name_for_png, unwritable_by};
 use super::size::FrameSize;
 use crate::compare::Pair;
 use crate::figure::{Guard, Named, NewFile, Plot, PlotSeries, Record, draw_plot, encode_png, save_files};
@@ -153,6 +153,11 @@ fn check_outputs(csv: &Path, chart: &Path) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// A table or chart could not be written.
+fn unwritable(path: &Path, error: &io::Error) -> Failure {
+    unwritable_by("--csv or --plot", path, error)
 }
 
 /// Who chose the name of the chart.

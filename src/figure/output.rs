@@ -119,7 +119,7 @@ impl Guard {
         }
         let target = std::fs::canonicalize(path)?;
         if self.inputs.iter().any(|input| is_same(input, &target)) || self.has_contents(&target) {
-            return refused("this file is read for it, and would be lost");
+            return refused("this file is read for it and would be lost");
         }
         if about.len() == 0 || self.force || is_ours(&target, named) {
             return Ok(target);

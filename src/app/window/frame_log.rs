@@ -102,3 +102,21 @@ fn shows(viewer: &Viewer) -> String {
 fn ms(time: Duration) -> String {
     format!("{:.3}", time.as_secs_f64() * 1e3)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frame_log_replaces_no_file_of_another_making() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let (scene, log) = (folder.path().join("s.svg"), folder.path().join("log.csv"));
+        std::fs::write(&scene, "<svg/>").expect("a small file");
+        let refused = FrameLog::create(&scene, &Guard::default()).expect_err("a scene");
+        assert!(refused.is_input() && refused.to_string().contains("s.svg"), "{refused}");
+        assert_eq!(std::fs::read(&scene).expect("there"), b"<svg/>", "kept");
+        for _ in 0..2 {
+            FrameLog::create(&log, &Guard::default()).expect("a new file, or an older log");
+        }
+    }
+}

@@ -31,6 +31,22 @@ pub fn lines(text: &str) -> Cow<'_, str> {
     escaped(text, |character| character == '\n' || is_plain(character))
 }
 
+/// As [`line`], of a text that stays as it is where it can.
+pub fn into_line(text: String) -> String {
+    if text.chars().all(is_plain) {
+        return text;
+    }
+    line(&text).into_owned()
+}
+
+/// As [`lines`], of a text that stays as it is where it can.
+pub fn into_lines(text: String) -> String {
+    if text.chars().all(|character| character == '\n' || is_plain(character)) {
+        return text;
+    }
+    lines(&text).into_owned()
+}
+
 /// As [`line`], with at most about `limit` characters: the middle of a longer text is left out.
 pub fn short_line(text: &str, limit: usize) -> String {
     let count = text.chars().count();

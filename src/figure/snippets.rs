@@ -161,8 +161,8 @@ mod tests {
             command_line: name.to_owned(),
         };
         for text in [
-            markdown(&[figure.clone()]),
-            html(name, &[figure.clone()]),
+            markdown(std::slice::from_ref(&figure)),
+            html(name, std::slice::from_ref(&figure)),
             latex(&[figure]),
         ] {
             assert_eq!(plain::lines(&text), text, "nothing left to escape");

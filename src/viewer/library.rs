@@ -79,7 +79,7 @@ impl SceneEntry {
     fn new(source: SceneSource, label: String) -> Self {
         Self {
             source,
-            label: plain::line(&label).into_owned(),
+            label: plain::into_line(label),
             state: SceneState::Unread,
             other_state: SceneState::Unread,
             document: 0,

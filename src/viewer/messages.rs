@@ -38,8 +38,8 @@ impl Messages {
     }
 
     /// Adds a message; one with the same text moves to the end instead of standing there twice.
-    pub(super) fn add(&mut self, kind: MessageKind, text: &str) {
-        let text = plain::lines(text).into_owned();
+    pub(super) fn add(&mut self, kind: MessageKind, text: String) {
+        let text = plain::into_lines(text);
         self.list.retain(|message| message.text != text);
         if self.list.len() == MOST {
             self.list.remove(0);
@@ -50,11 +50,11 @@ impl Messages {
     }
 
     pub(super) fn done(&mut self, text: String) {
-        self.add(MessageKind::Done, &text);
+        self.add(MessageKind::Done, text);
     }
 
     pub(super) fn error(&mut self, text: String) {
-        self.add(MessageKind::Error, &text);
+        self.add(MessageKind::Error, text);
     }
 
     /// Drops what was wrong with a file that is right by now.

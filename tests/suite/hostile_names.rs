@@ -113,10 +113,10 @@ fn hostile_names_stand_in_json_as_they_are() {
 }
 
 /// A picture whose record says what nobody should do.
-fn trapped(folder: &Path, name: &str, record: Record) {
+fn trapped(folder: &Path, name: &str, record: &Record) {
     save_picture(
         &frame(),
-        Some(&record),
+        Some(record),
         (&folder.join(name), Named::ByUser),
         &Guard::default(),
     )
@@ -132,9 +132,9 @@ fn hostile_command_lines_are_never_advice() {
         arguments: ["bench", "a b.svg; reboot", "\u{1b}[2J"].map(str::to_owned).to_vec(),
         ..Record::default()
     };
-    trapped(folder.path(), "bench.png", trap.clone());
+    trapped(folder.path(), "bench.png", &trap);
     let differs = Some("by\u{1b}[2J hand".to_owned());
-    trapped(folder.path(), "differs.png", Record { differs, ..trap });
+    trapped(folder.path(), "differs.png", &Record { differs, ..trap });
     for arguments in [
         ["rerun", "bench.png", "-o", "x.png"],
         ["rerun", "differs.png", "--check", "--threads=1"],

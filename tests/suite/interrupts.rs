@@ -14,13 +14,8 @@ fn slow_scene(folder: &Path) {
     let mut text = "<svg width='4000' height='4000'>".to_owned();
     for i in 0..40_000 {
         let (x, y) = (i * 37 % 800, i * 91 % 700);
-        text.push_str(&format!(
-            "<polygon points='{x},{y} {},{} {},{}' fill='#{i:06x}' fill-opacity='0.5'/>",
-            x + 3100,
-            y + 70,
-            x + 90,
-            y + 3200
-        ));
+        let points = format!("{x},{y} {},{} {},{}", x + 3100, y + 70, x + 90, y + 3200);
+        text += &format!("<polygon points='{points}' fill='#{i:06x}' fill-opacity='0.5'/>");
     }
     text.push_str("</svg>");
     fs::write(folder.join("slow.svg"), text).unwrap();

@@ -111,7 +111,9 @@ fn limits_of_time_zones_do_no_harm() {
             output.status.success() && output.stderr.is_empty(),
             "{zone}: {output:?}"
         );
-        let saved = names(folder.path()).into_iter().filter(|name| name.ends_with(".png"));
+        let saved = names(folder.path())
+            .into_iter()
+            .filter(|name| name.starts_with("rasterscope-"));
         assert_eq!(saved.count(), 1, "{zone}: {output:?}");
         fs::remove_file(folder.path().join("fifo")).unwrap();
     }

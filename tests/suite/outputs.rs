@@ -10,8 +10,8 @@ use crate::support::folder::names;
 use crate::support::program::{done, run};
 use crate::support::refusal::assert_refused;
 
-const SCENE: &str = r##"<svg width="40" height="30"><texture texid="t" filename="tex%74ure.png"/>
-<textri texid="t" uvs="0 0 1 0 1 1" points="2,3 37,9 11,28"/></svg>"##;
+const SCENE: &str = r#"<svg width="40" height="30"><texture texid="t" filename="tex%74ure.png"/>
+<textri texid="t" uvs="0 0 1 0 1 1" points="2,3 37,9 11,28"/></svg>"#;
 
 fn picture(color: u32) -> Framebuffer {
     let mut frame = Framebuffer::new(4, 4);
@@ -140,6 +140,15 @@ fn outputs_replace_their_own_making_only() {
     assert_eq!(fs::read(at("slides/01.png")).unwrap(), foreign, "kept");
     done(folder, &[&slides[..], &["--force"]].concat());
     assert_ne!(fs::read(at("slides/01.png")).unwrap(), foreign, "given up");
+}
+
+#[test]
+fn outputs_of_folders_and_tables_replace_their_own_making_only() {
+    let folder = folder();
+    let folder = folder.path();
+    let at = |name: &str| folder.join(name);
+    let small = "--size=40x30";
+    let foreign = encode_png(&picture(0xff00_0000), None).unwrap();
     fs::create_dir(at("in")).unwrap();
     fs::rename(at("s.svg"), at("in/a.svg")).unwrap();
     fs::write(at("in/a.png"), &foreign).unwrap();

@@ -26,7 +26,7 @@ pub(super) struct Pins {
     path: PathBuf,
     /// The file as it was, with its comments.
     text: String,
-    pins: BTreeMap<String, InsetSpec>,
+    places: BTreeMap<String, InsetSpec>,
     /// Names of those that were proposed since.
     new: Vec<String>,
 }
@@ -68,16 +68,21 @@ impl Pins {
             pins.insert(name, pin);
         }
         let new = Vec::new();
-        Ok(Self { path, text, pins, new })
+        Ok(Self {
+            path,
+            text,
+            places: pins,
+            new,
+        })
     }
 
     /// The pin of that name; a new one lies where the pictures of `specs` differ most.
     pub(super) fn get(&mut self, name: &str, specs: &[PictureSpec; 2]) -> Result<InsetSpec, Failure> {
-        if let Some(pin) = self.pins.get(name) {
+        if let Some(pin) = self.places.get(name) {
             return Ok(*pin);
         }
         let pin = propose(specs)?;
-        self.pins.insert(name.to_owned(), pin);
+        self.places.insert(name.to_owned(), pin);
         self.new.push(name.to_owned());
         Ok(pin)
     }
@@ -94,7 +99,7 @@ impl Pins {
             text.push('\n');
         }
         for name in &self.new {
-            let line = self.pins.get(name).map(|pin| format!("{name} = \"{pin}\"\n"));
+            let line = self.places.get(name).map(|pin| format!("{name} = \"{pin}\"\n"));
             text.extend(line);
         }
         Some(NewFile::by_user(&self.path, text.into_bytes()))
@@ -160,7 +165,7 @@ mod tests {
         let text = |pins: &Pins| String::from_utf8(pins.file().expect("a new pin").bytes).expect("text");
         let mut pins = read("").expect("no pins");
         for (name, pin) in [("own", "3,4"), ("test4", "u614,777:16@8:auto")] {
-            pins.pins.insert(name.to_owned(), pin.parse().expect("a pin"));
+            pins.places.insert(name.to_owned(), pin.parse().expect("a pin"));
             pins.new.push(name.to_owned());
         }
         let text = text(&pins);
@@ -169,7 +174,7 @@ mod tests {
             text.contains("own = \"3,4:16@8:auto\"\ntest4 = \"u614,777:16@8:auto\"\n"),
             "{text}"
         );
-        assert_eq!(read(&text).expect("its own").pins, pins.pins, "and back");
+        assert_eq!(read(&text).expect("its own").places, pins.places, "and back");
     }
 
     #[test]
@@ -177,7 +182,7 @@ mod tests {
         let written = "# mine\r\ntest4 = \"u614,777:16@8:auto\" # the tip";
         let mut pins = read(written).expect("one pin");
         assert!(pins.file().is_none(), "nothing new, nothing written");
-        pins.pins.insert("own".to_owned(), "3,4".parse().expect("a pin"));
+        pins.places.insert("own".to_owned(), "3,4".parse().expect("a pin"));
         pins.new.push("own".to_owned());
         let file = pins.file().expect("a new pin");
         let text = String::from_utf8(file.bytes).expect("text");
@@ -186,7 +191,7 @@ mod tests {
             format!("{written}\nown = \"3,4:16@8:auto\"\n"),
             "as it was, and the new one"
         );
-        assert_eq!(read(&text).expect("its own").pins, pins.pins, "and back");
+        assert_eq!(read(&text).expect("its own").places, pins.places, "and back");
     }
 
     #[test]

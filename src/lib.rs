@@ -17,6 +17,7 @@
 //! | [`raster`] | screen-space primitives | resolved pixels |
 //! | [`texture`] | images | colours at a footprint |
 //! | [`geometry`], [`color`], [`rules`] | numbers | numbers |
+//! | [`plain`] | text from outside | text that steers no terminal |
 //! | [`simd`] | the machine | the vector instructions that kernels use |
 //!
 //! # Conventions
@@ -37,6 +38,7 @@ pub mod compare;
 pub mod figure;
 pub mod geometry;
 pub mod inspect;
+pub mod plain;
 pub mod raster;
 pub mod render;
 pub mod rules;

@@ -29,7 +29,7 @@ pub fn run(options: ViewOptions) -> Result<(), AppError> {
     };
     if let Some(line) = line {
         // Whoever closed stdout does not want to read it.
-        let _ = writeln!(std::io::stdout(), "{line}");
+        let _ = writeln!(std::io::stdout(), "{}", crate::plain::line(&line));
     }
     Ok(())
 }

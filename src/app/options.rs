@@ -32,6 +32,8 @@ pub struct ViewOptions {
     pub headless: bool,
     /// The file that gets a line for each picture that the window shows.
     pub frame_log: Option<PathBuf>,
+    /// Whether that file may replace one of another making.
+    pub force: bool,
     /// Reads command lines.
     pub grammar: Option<Grammar>,
     /// The picture that scene and settings come from.

@@ -150,6 +150,9 @@ pub(super) struct ViewerOptions {
     /// Write a line of CSV for each picture that the window shows: what it shows, milliseconds per stage
     #[arg(long, value_name = "FILE", conflicts_with = "headless")]
     pub(super) frame_log: Option<PathBuf>,
+    /// Replace files of another making too: the frame log, slides; never what is read
+    #[arg(long)]
+    pub(super) force: bool,
     /// Device pixels per point of the panels, with --headless only
     #[arg(long, value_name = "FACTOR", value_parser = scale, requires = "headless")]
     pub(super) scale: Option<f32>,
@@ -176,6 +179,9 @@ pub(super) struct RenderOptions {
     /// The PNG file to write; for a folder, the folder to write into
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: PathBuf,
+    /// Replace pictures of another making too, in the folder to write into; never what is read
+    #[arg(long)]
+    pub(super) force: bool,
     /// Leave the legend of a visualisation away
     #[arg(long)]
     pub(super) no_legend: bool,
@@ -203,6 +209,9 @@ pub(super) struct SheetOptions {
     /// Dark ink on white for print, or light ink on black for slides
     #[arg(long, default_value = Ground::Light.name(), value_enum)]
     pub(super) theme: Ground,
+    /// Replace panels and snippets of another making too; never what is read
+    #[arg(long)]
+    pub(super) force: bool,
     /// A sentence that the caption ends with
     #[arg(long, value_name = "TEXT")]
     pub(super) note: Option<String>,
@@ -222,6 +231,9 @@ pub(super) struct SweepOptions {
     /// The chart to write [default: the table's name, ending in .png]
     #[arg(long, value_name = "OUT.png")]
     pub(super) plot: Option<PathBuf>,
+    /// Replace a table or chart of another making too; never what is read
+    #[arg(long)]
+    pub(super) force: bool,
     /// What the chart shows over the time
     #[arg(long, default_value = Quality::default().name(), value_enum)]
     pub(super) quality: Quality,
@@ -254,6 +266,9 @@ pub(super) struct WriteupOptions {
     /// Your own robot
     #[arg(long, value_name = "ROBOT.svg")]
     pub(super) robot: Option<PathBuf>,
+    /// Replace files of another making too; never what is read
+    #[arg(long)]
+    pub(super) force: bool,
     /// Where insets look [default: OUT/pins.toml]
     #[arg(long, value_name = "FILE")]
     pub(super) pins: Option<PathBuf>,

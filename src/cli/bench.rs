@@ -6,10 +6,11 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use super::arguments::BenchOptions;
-use super::failure::{Failure, print};
+use super::failure::{Failure, print, print_json};
 use super::memory::peak_megabytes;
 use super::picture::{Picture, on_threads};
-use super::recorded;
+use super::{progress, recorded};
+use crate::plain;
 use crate::render::FrameStats;
 
 /// The answer of `bench --json`. Times are milliseconds of wall time.
@@ -61,6 +62,7 @@ const WARM_UP: Duration = Duration::from_millis(100);
 
 /// Draws each scene as often as asked and prints what it took, when all are done.
 pub(super) fn run(options: &BenchOptions) -> Result<(), Failure> {
+    progress::count(options.scenes.len() * options.frames as usize);
     let reports = on_threads(options.picture.framing.threads, || -> Result<Vec<Report>, Failure> {
         options.scenes.iter().map(|scene| measure(scene, options)).collect()
     })??;
@@ -69,7 +71,7 @@ pub(super) fn run(options: &BenchOptions) -> Result<(), Failure> {
             [report] => serde_json::to_string(report),
             several => serde_json::to_string(several),
         };
-        print(&json.map_err(Failure::other)?)
+        print_json(&json.map_err(Failure::other)?)
     } else {
         let texts: Vec<String> = reports.iter().map(Report::text).collect();
         print(&texts.join("\n\n"))
@@ -85,7 +87,12 @@ fn measure(scene: &Path, options: &BenchOptions) -> Result<Report, Failure> {
     while options.frames > 1 && rayon::current_num_threads() > 1 && start.elapsed() < WARM_UP {
         picture.draw();
     }
-    let frames: Vec<FrameStats> = (0..options.frames).map(|_| picture.draw()).collect();
+    let draw = |_| {
+        let stats = picture.draw();
+        progress::done();
+        stats
+    };
+    let frames: Vec<FrameStats> = (0..options.frames).map(draw).collect();
     let stage = |time: fn(&FrameStats) -> Duration| median(frames.iter().map(time).collect());
     let last = frames.last().copied().unwrap_or_default();
     let min = frames.iter().map(FrameStats::total).min().unwrap_or_default();
@@ -123,7 +130,7 @@ impl Report {
              median     {:9.3} ms\nminimum    {:9.3} ms\ntransform  {:9.3} ms\nbin        {:9.3} ms\nraster     {:9.3} ms\n\
              resolve    {:9.3} ms\npresent         none\n\
              blocks covered whole {}, blocks split {}, samples shaded {}",
-            self.scene,
+            plain::line(&self.scene),
             self.width,
             self.height,
             self.sample_rate,

@@ -5,13 +5,14 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::arguments::{DiffOptions, MAX_PIXELS, PictureOptions};
-use super::failure::{Failure, print};
+use super::failure::{Failure, print, print_json};
 use super::picture::{Picture, on_threads};
 use super::recorded;
 use super::render::{name_for_png, unwritable};
 use super::size::FrameSize;
 use crate::compare::{self, DifferenceStyle, Gain, Guess, Levels, Pair, Place};
-use crate::figure::{Record, save_recorded_png};
+use crate::figure::{Guard, Named, Record, save_picture};
+use crate::plain;
 use crate::raster::Framebuffer;
 use crate::render::CancelToken;
 use crate::scene::FolderResources;
@@ -97,10 +98,13 @@ struct PictureReport {
 pub(super) fn run(options: &DiffOptions) -> Result<(), Failure> {
     if let Some(output) = &options.output {
         name_for_png(output)?;
+        // Asked before the work as well.
+        let target = guard(options).target(output, Named::ByUser);
+        target.map_err(|error| unwritable(output, &error))?;
     }
     let report = on_threads(options.framing.threads, || measure(options))??;
     if options.json {
-        print(&serde_json::to_string(&report).map_err(Failure::other)?)?;
+        print_json(&serde_json::to_string(&report).map_err(Failure::other)?)?;
     } else {
         print(&report.text())?;
     }
@@ -238,11 +242,17 @@ fn shown(pair: Pair<'_>, options: &DiffOptions) -> (Framebuffer, f32) {
     (frame, gain)
 }
 
+/// Protects both pictures.
+fn guard(options: &DiffOptions) -> Guard {
+    Guard::default().with(&options.a).with(&options.b)
+}
+
 /// Saves the difference picture.
 fn save(pair: Pair<'_>, output: &Path, options: &DiffOptions) -> Result<PictureReport, Failure> {
     let (frame, gain) = shown(pair, options);
     let record = record(pair.size(), output, options);
-    save_recorded_png(&frame, output, &record).map_err(|error| unwritable(output, &error))?;
+    let guard = guard(options);
+    save_picture(&frame, Some(&record), (output, Named::ByUser), &guard).map_err(|error| unwritable(output, &error))?;
     Ok(PictureReport {
         file: output.display().to_string(),
         mode: options.mode.name(),
@@ -323,7 +333,7 @@ impl Report {
             share => format!("{share:.2} %"),
         };
         let mut lines = vec![
-            format!("A  {}\nB  {}", self.a, self.b),
+            format!("A  {}\nB  {}", plain::line(&self.a), plain::line(&self.b)),
             format!("{} x {} pixels", self.width, self.height),
         ];
         if self.differing_pixels == 0 {
@@ -358,7 +368,9 @@ impl Report {
         if let Some(picture) = &self.picture {
             lines.push(format!(
                 "{}: {} difference x {}",
-                picture.file, picture.mode, picture.gain
+                plain::line(&picture.file),
+                picture.mode,
+                picture.gain
             ));
         }
         lines.extend(self.guess.as_ref().map(GuessReport::text));

@@ -3,6 +3,9 @@
 use std::fmt::Display;
 use std::process::ExitCode;
 
+use super::progress;
+use crate::plain;
+
 /// An end of the program other than success.
 #[derive(Debug)]
 pub(super) enum Failure {
@@ -56,8 +59,20 @@ impl Failure {
 }
 
 /// Prints a line, or lines, on stdout. A reader that has gone away is no reason to fail.
+///
+/// Names in it must be lines already (see [`plain::line`]); what else could steer a terminal is escaped here.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
+    print_raw(&plain::lines(text))
+}
+
+/// As [`print`], of JSON.
+pub(super) fn print_json(text: &str) -> Result<(), Failure> {
+    print_raw(&plain::json(text))
+}
+
+fn print_raw(text: &str) -> Result<(), Failure> {
     use std::io::Write as _;
+    progress::clear();
     let mut stdout = std::io::stdout().lock();
     match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::other(format!(
@@ -70,11 +85,8 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
 /// Prints one line on stderr.
 pub(super) fn print_error(line: &str) {
     use std::io::Write as _;
-    let one = line
-        .split(['\n', '\r'])
-        .map(str::trim)
-        .filter(|part| !part.is_empty())
-        .collect::<Vec<_>>()
-        .join(" ");
-    let _ = writeln!(std::io::stderr().lock(), "rasterscope: {one}");
+    let line = plain::short_line(line.trim_end(), plain::MAX_LINE);
+    progress::aside(|| {
+        let _ = writeln!(std::io::stderr().lock(), "rasterscope: {line}");
+    });
 }

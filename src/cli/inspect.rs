@@ -1,7 +1,7 @@
 //! `rasterscope inspect`: why a pixel has its colour.
 
 use super::arguments::InspectOptions;
-use super::failure::{Failure, print};
+use super::failure::{Failure, print, print_json};
 use super::picture::{Picture, on_threads};
 use super::recorded;
 use crate::inspect::{Detail, Explanation, Question};
@@ -10,6 +10,9 @@ use crate::viewer::{Restored, SceneSource};
 /// Explains the pixel that the options ask for.
 pub(super) fn run(options: &InspectOptions, restored: Option<&Restored>) -> Result<(), Failure> {
     let report = on_threads(options.picture.framing.threads, || report(options, restored))??;
+    if options.json {
+        return print_json(report.trim_end());
+    }
     print(report.trim_end())
 }
 

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::arguments::{LessonOptions, ViewerOptions};
 use super::failure::Failure;
-use super::{render, view};
-use crate::figure::{Record, save_recorded_png};
+use super::{memory, progress, render, view};
+use crate::figure::{Guard, Named, Record, save_picture};
 use crate::raster::Framebuffer;
 use crate::viewer::{BUILT_IN, LessonSource, as_path, plain_record, slides};
 
@@ -18,9 +18,12 @@ const LEAST: [u32; 2] = [480, 270];
 pub(super) fn run(options: &LessonOptions) -> Result<(), Failure> {
     let source = source(&options.lesson)?;
     if let Some(folder) = &options.slides {
-        std::fs::create_dir_all(folder).map_err(|error| render::unwritable(folder, &error))?;
+        std::fs::create_dir_all(folder).map_err(|error| render::unwritable_by("--slides", folder, &error))?;
+        let guard = Guard::new(options.view.force);
         return draw(options, |slide, path, record| {
-            save_recorded_png(slide, &path, record).map_err(|error| render::unwritable(&path, &error))
+            let saved = save_picture(slide, Some(record), (&path, Named::ByProgram), &guard);
+            progress::done();
+            saved.map_err(|error| render::unwritable_by("--slides", &path, &error))
         });
     }
     source.read().map_err(Failure::input)?;
@@ -80,6 +83,8 @@ fn draw(
             )));
         }
     };
+    progress::count(numbers.clone().count());
+    memory::ask_for(memory::pixels(size).saturating_mul(3))?;
     let folder = options.slides.as_deref().unwrap_or(Path::new(""));
     let digits = count.to_string().len().max(2);
     slides(&lesson, size, numbers, |number, slide| {

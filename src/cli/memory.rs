@@ -1,9 +1,38 @@
-//! How much memory drawing a picture takes, as Linux counts it; other systems do not tell.
+//! How much memory drawing a picture takes, as Linux counts it; other systems do not tell. And whether there is enough for
+//! a picture.
 
 use std::fs;
 use std::process::{Command, Stdio};
 
+use super::failure::Failure;
 use crate::viewer::PictureSpec;
+
+/// What a pixel needs until it is in a file: its frame, its channels for the encoder, the encoded file and a spare.
+const BYTES_PER_PIXEL: u64 = 16;
+/// What a picture needs besides.
+const BYTES_BESIDE: u64 = 16 << 20;
+
+/// Asks the system for as much memory as pictures of so many pixels will need, and gives it back. Who asks before the work
+/// can say what is wrong; the drawing itself cannot.
+pub(super) fn ask_for(pixels: u64) -> Result<(), Failure> {
+    let bytes = pixels.saturating_mul(BYTES_PER_PIXEL).saturating_add(BYTES_BESIDE);
+    let mut room: Vec<u8> = Vec::new();
+    let asked = room.try_reserve_exact(usize::try_from(bytes).unwrap_or(usize::MAX));
+    // A room that nobody looks at would never be asked for.
+    std::hint::black_box(&room);
+    asked.map_err(|_| {
+        let megabytes = bytes >> 20;
+        Failure::other(format!(
+            "out of memory: {pixels} pixels need about {megabytes} MB, and the system gives less; draw fewer with --size"
+        ))
+    })
+}
+
+/// How many pixels a picture of this size has.
+pub(super) fn pixels([width, height]: [u32; 2]) -> u64 {
+    u64::from(width) * u64::from(height)
+}
+
 
 /// The largest resident set of this process since its start, in megabytes of 2^20 bytes.
 pub(super) fn peak_megabytes() -> Option<f64> {

@@ -1,7 +1,7 @@
 //! The command line: one file per command.
 //!
 //! Exit status 0: done. 2: the input or the arguments are at fault, said in one line on stderr. 1: everything else,
-//! and `diff` and `rerun --check` of pictures that differ.
+//! and `diff` and `rerun --check` of pictures that differ. 130: stopped by Ctrl+C.
 
 mod arguments;
 mod axes;
@@ -9,9 +9,11 @@ mod bench;
 mod diff;
 mod failure;
 mod inspect;
+mod interrupt;
 mod lesson;
 mod memory;
 mod picture;
+mod progress;
 mod recorded;
 mod render;
 mod rerun;
@@ -29,6 +31,7 @@ use std::process::ExitCode;
 
 use arguments::{Arguments, Verb};
 use failure::Failure;
+use progress::Progress;
 
 use crate::simd;
 use crate::viewer::Restored;
@@ -38,6 +41,7 @@ const SIMD_VARIABLE: &str = "RASTERSCOPE_SIMD";
 
 /// Runs the program with its arguments, its own name first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    interrupt::listen();
     let done = arguments::parse(arguments).and_then(|(arguments, restored)| {
         choose_simd()?;
         execute(&arguments, restored.as_ref())
@@ -66,6 +70,13 @@ fn choose_simd() -> Result<(), Failure> {
 
 /// `restored` is the picture that scene and options come from.
 fn execute(arguments: &Arguments, restored: Option<&Restored>) -> Result<(), Failure> {
+    // The window shows what it does, and sweeps have a bar of their own.
+    let has_bar = match &arguments.verb {
+        Verb::View(_) | Verb::Sweep(_) => false,
+        Verb::Lesson(options) => options.slides.is_some(),
+        _ => true,
+    };
+    let _progress = has_bar.then(Progress::start);
     match &arguments.verb {
         Verb::View(options) => view::run(options, restored),
         Verb::Render(options) => render::run(options, restored),

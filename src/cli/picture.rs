@@ -1,13 +1,14 @@
 //! From options to a picture: reading a scene, drawing it on as many threads as were asked for.
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::failure::{Failure, print_error};
-use crate::figure::{Record, add_furniture};
+use super::{memory, progress};
+use crate::figure::{Guard, Record, add_furniture};
 use crate::geometry::ViewTransform;
 use crate::raster::Framebuffer;
-use crate::render::{self, FrameStats, Legend, Subject};
+use crate::render::{self, CancelToken, FrameStats, Legend, Subject};
 use crate::scene::{DialectChoice, Scene};
 use crate::viewer::{PictureSpec, Restored, SceneSource};
 
@@ -22,6 +23,7 @@ pub(super) struct Picture {
 impl Picture {
     /// Reads the scene; what the reader skipped is said on stderr, line by line.
     pub(super) fn read(spec: PictureSpec) -> Result<Self, Failure> {
+        memory::ask_for(memory::pixels(spec.size))?;
         let scene = read_scene(&spec.scene, spec.dialect).map_err(Failure::Input)?;
         Ok(Self::of(spec, Arc::new(scene)))
     }
@@ -44,6 +46,11 @@ impl Picture {
         }
     }
 
+    /// Protects the scene and its textures from being written over.
+    pub(super) fn protect(&self, guard: &mut Guard) {
+        self.spec.scene.protect(&self.scene.files, guard);
+    }
+
     /// The record of the picture, for the file `output`.
     pub(super) fn record(&self, output: &Path) -> Record {
         self.spec.record(&self.scene, output)
@@ -54,10 +61,33 @@ impl Picture {
         render::draw(&self.scene, &self.view, &self.spec.render, &mut self.frame)
     }
 
+    /// As [`Picture::draw`], telling how far it is.
+    fn draw_watched(&mut self) {
+        let subject = Subject {
+            scene: &self.scene,
+            view: &self.view,
+            settings: &self.spec.render,
+        };
+        let all = memory::pixels(self.spec.size);
+        let drawn = Mutex::new((&mut self.frame, 0));
+        let never = CancelToken::default();
+        render::refine(&subject, self.spec.size, [0, 0], &never, |tile, pixels| {
+            let mut drawn = drawn.lock().unwrap_or_else(PoisonError::into_inner);
+            let (frame, done) = &mut *drawn;
+            frame.copy_from(tile, pixels, tile);
+            *done += u64::from(tile.width) * u64::from(tile.height);
+            progress::share((*done).min(all), all);
+        });
+    }
+
     /// Draws the picture as a figure: with its insets, and the legend of what it shows where there is room; else says so on
     /// stderr.
     pub(super) fn draw_figure(&mut self) -> Result<(), Failure> {
-        self.draw();
+        if progress::is_watched() {
+            self.draw_watched();
+        } else {
+            self.draw();
+        }
         let legend = self.spec.legend.then(|| self.legend()).flatten();
         let legends = legend.as_slice();
         let subject = Subject {
@@ -126,10 +156,20 @@ pub(super) fn tell_reading(source: &SceneSource, scene: &Scene, why: &str) {
 
 /// Runs `work` on a pool of as many threads as the option says, or one per core.
 pub(super) fn on_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
-    let threads = threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
+        .num_threads(threads.map_or(0, usize::from))
         .build()
-        .map_err(|error| Failure::other(format!("cannot start {threads} threads: {error}; use fewer --threads")))?;
+        .map_err(|error| no_threads(threads, &error))?;
     Ok(pool.install(work))
+}
+
+/// The system gives no threads; none `wanted` means as many as it has cores.
+pub(super) fn no_threads(wanted: Option<u16>, error: &rayon::ThreadPoolBuildError) -> Failure {
+    let wanted = wanted.map_or("a thread for every core".to_owned(), |count| match count {
+        1 => "a thread".to_owned(),
+        _ => format!("{count} threads"),
+    });
+    Failure::other(format!(
+        "cannot start {wanted}: {error}; close other programs or draw with --threads 1"
+    ))
 }

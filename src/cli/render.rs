@@ -4,13 +4,11 @@ use std::collections::HashSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use indicatif::{ProgressBar, ProgressStyle};
-
 use super::arguments::RenderOptions;
 use super::failure::{Failure, print_error};
 use super::picture::{Picture, on_threads, tell_reading};
-use super::recorded;
-use crate::figure::save_recorded_png;
+use super::{progress, recorded};
+use crate::figure::{Guard, Named, save_picture};
 use crate::scene::DialectChoice;
 use crate::viewer::{PictureSpec, Restored, SceneEntry, SceneSource, list_scenes};
 
@@ -22,7 +20,8 @@ pub(super) fn run(options: &RenderOptions, restored: Option<&Restored>) -> Resul
         } else {
             name_for_png(&options.output)?;
             let entry = (SceneSource::from_address(&options.scene), false);
-            one(entry, &options.output, options, restored)
+            let output = (options.output.as_path(), Named::ByUser);
+            one(entry, output, options, restored)
         }
     })?
 }
@@ -33,17 +32,15 @@ fn folder(options: &RenderOptions) -> Result<(), Failure> {
     if let Some(problem) = problems.into_iter().next() {
         return Err(Failure::Input(problem));
     }
-    let bar = ProgressBar::new(entries.len() as u64);
-    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
-        bar.set_style(style);
-    }
+    progress::count(entries.len());
     let mut failed = 0;
     let mut taken = HashSet::new();
     for entry in &entries {
-        bar.set_message(entry.label.clone());
+        progress::begin(&entry.label);
         let output = picture_of(entry, options);
         let drawn = if taken.insert(output.clone()) {
-            one((entry.source.clone(), entry.is_of_course), &output, options, None)
+            let scene = (entry.source.clone(), entry.is_of_course);
+            one(scene, (&output, Named::ByProgram), options, None)
         } else {
             let (scene, output) = (entry.source.address(), output.display());
             Err(Failure::input(format!(
@@ -54,13 +51,12 @@ fn folder(options: &RenderOptions) -> Result<(), Failure> {
             Ok(()) => {}
             Err(Failure::Input(problem)) => {
                 failed += 1;
-                bar.suspend(|| print_error(&problem));
+                print_error(&problem);
             }
             Err(other) => return Err(other),
         }
-        bar.inc(1);
+        progress::done();
     }
-    bar.finish_and_clear();
     if failed > 0 {
         let all = entries.len();
         return Err(Failure::input(format!(
@@ -82,10 +78,18 @@ fn picture_of(entry: &SceneEntry, options: &RenderOptions) -> PathBuf {
 /// Draws a scene, of which is known whether it lies in a folder of the course's.
 fn one(
     (source, is_of_course): (SceneSource, bool),
-    output: &Path,
+    (output, named): (&Path, Named),
     options: &RenderOptions,
     restored: Option<&Restored>,
 ) -> Result<(), Failure> {
+    let mut guard = guard_of(options.force, restored);
+    if let SceneSource::File(path) = &source {
+        guard.protect(path);
+    }
+    // Asked before the work as well.
+    guard
+        .target(output, named)
+        .map_err(|error| unwritable(output, &error))?;
     let sampling = &options.picture.sampling;
     let (dialect, why) = match (sampling.dialect, sampling.reading()) {
         (DialectChoice::Auto, DialectChoice::Course) => (DialectChoice::Course, ", as --rules course asks for"),
@@ -104,12 +108,13 @@ fn one(
         tell_reading(&source, &picture.scene, why);
     }
     picture.tell_changes(restored);
+    picture.protect(&mut guard);
     picture.draw_figure()?;
     if let Some(folder) = folder_to_make(output, options) {
         std::fs::create_dir_all(&folder).map_err(|error| unwritable(&folder, &error))?;
     }
     let record = picture.record(output);
-    save_recorded_png(picture.frame(), output, &record).map_err(|error| unwritable(output, &error))
+    save_picture(picture.frame(), Some(&record), (output, named), &guard).map_err(|error| unwritable(output, &error))
 }
 
 /// The folder of an output among many; a single picture goes only where its user has made room.
@@ -133,10 +138,24 @@ pub(super) fn name_for_png(output: &Path) -> Result<(), Failure> {
     )))
 }
 
-/// A picture could not be written.
+/// Protects the picture that a scene and its settings come from.
+pub(super) fn guard_of(force: bool, restored: Option<&Restored>) -> Guard {
+    let mut guard = Guard::new(force);
+    if let Some(restored) = restored {
+        guard.protect(&restored.shot);
+    }
+    guard
+}
+
+/// A file could not be written.
 pub(super) fn unwritable(path: &Path, error: &io::Error) -> Failure {
+    unwritable_by("-o", path, error)
+}
+
+/// As [`unwritable`], where another `option` names the place.
+pub(super) fn unwritable_by(option: &str, path: &Path, error: &io::Error) -> Failure {
     Failure::input(format!(
-        "{}: cannot write here: {error}; choose another place with -o",
+        "{}: cannot write here: {error}; choose another place with {option}",
         path.display()
     ))
 }

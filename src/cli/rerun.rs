@@ -9,10 +9,11 @@ use super::recorded::{read_arguments, scene_path, verb_of};
 use super::render::{name_for_png, unwritable};
 use super::{diff, lesson, sheet};
 use crate::compare;
-use crate::figure::{Record, save_recorded_png};
+use crate::figure::{Guard, Named, Record, save_picture};
+use crate::plain;
 use crate::raster::Framebuffer;
 use crate::scene::FolderResources;
-use crate::viewer::{Restored, SceneSource};
+use crate::viewer::{Restored, SceneSource, shell_line};
 
 /// A picture that was drawn again.
 struct Again {
@@ -21,6 +22,8 @@ struct Again {
     record: Record,
     /// What of its files has changed, in one line.
     change: Option<String>,
+    /// Protects what it was drawn from.
+    guard: Guard,
 }
 
 /// Draws, and compares or writes.
@@ -30,12 +33,16 @@ pub(super) fn run(options: &RerunOptions) -> Result<(), Failure> {
         name_for_png(output)?;
     }
     let record = record_of(shot)?;
+    if let Some(output) = &options.output {
+        let target = guard(options).target(output, Named::ByUser);
+        target.map_err(|error| unwritable(output, &error))?;
+    }
     if let Some(differs) = &record.differs {
         let line = format!("{}: {differs}", shot.display());
         if options.check {
             return Err(Failure::input(format!(
                 "{line}; the command line is: {}",
-                record.command_line
+                shell_line(&record.arguments)
             )));
         }
         print_error(&line);
@@ -49,7 +56,17 @@ pub(super) fn run(options: &RerunOptions) -> Result<(), Failure> {
         print_error(change);
     }
     let output = options.output.as_deref().unwrap_or(shot);
-    save_recorded_png(&again.frame, output, &again.record).map_err(|error| unwritable(output, &error))
+    let named = (output, Named::ByUser);
+    save_picture(&again.frame, Some(&again.record), named, &again.guard).map_err(|error| unwritable(output, &error))
+}
+
+/// Protects the picture that is drawn again, and the scene that stands for its own.
+fn guard(options: &RerunOptions) -> Guard {
+    let mut guard = Guard::default().with(&options.shot);
+    if let Some(scene) = &options.scene {
+        guard.protect(scene);
+    }
+    guard
 }
 
 /// What the picture tells.
@@ -79,13 +96,17 @@ fn draw(options: &RerunOptions, verb: Verb, record: &Record) -> Result<Again, Fa
         frame,
         record,
         change: None,
+        guard: guard(options),
     };
     match verb {
         Verb::Render(_) => {
             let restored = restored(options)?;
             let mut picture = Picture::read(restored.spec.clone())?;
             picture.draw_figure()?;
+            let mut guard = guard(options);
+            picture.protect(&mut guard);
             Ok(Again {
+                guard,
                 record: picture.record(output),
                 change: restored.changes(&picture.scene.files),
                 frame: picture.into_frame(),
@@ -97,6 +118,7 @@ fn draw(options: &RerunOptions, verb: Verb, record: &Record) -> Result<Again, Fa
             let sheet = sheet::draw(&of_sheet, output)?;
             let files = sheet.panels.first().map(|panel| &panel.scene.files);
             Ok(Again {
+                guard: guard(options),
                 change: files.and_then(|files| restored.changes(files)),
                 record: sheet.record,
                 frame: sheet.picture,
@@ -109,7 +131,7 @@ fn draw(options: &RerunOptions, verb: Verb, record: &Record) -> Result<Again, Fa
         _ => Err(Failure::input(format!(
             "{}: such a picture cannot be drawn again alone; run its command line: {}",
             shot.display(),
-            record.command_line
+            shell_line(&record.arguments)
         ))),
     }
 }
@@ -127,7 +149,8 @@ fn restored(options: &RerunOptions) -> Result<Restored, Failure> {
 
 /// Compares every pixel and says what was found.
 fn check(shot: &Path, again: &Again) -> Result<(), Failure> {
-    let name = shot.display();
+    let name = shot.display().to_string();
+    let name = plain::line(&name);
     let unreadable = |error: &dyn std::fmt::Display| {
         Failure::input(format!(
             "{name}: cannot be read as a picture: {error}; give a whole PNG"
@@ -138,7 +161,7 @@ fn check(shot: &Path, again: &Again) -> Result<(), Failure> {
     let why = again
         .change
         .as_ref()
-        .map_or(String::new(), |change| format!("; {change}"));
+        .map_or(String::new(), |change| format!("; {}", plain::line(change)));
     let [size, now] = [&before, &again.frame].map(|frame| [frame.width(), frame.height()]);
     if size != now {
         let ([w, h], [w2, h2]) = (size, now);

@@ -6,16 +6,26 @@ use std::sync::Arc;
 use super::arguments::SheetOptions;
 use super::axes::sampling;
 use super::failure::{Failure, print_error};
+use super::memory;
 use super::picture::{on_threads, read_scene};
-use super::render::{name_for_png, unwritable};
+use super::render::{guard_of, name_for_png, unwritable};
 use super::size::FrameSize;
-use crate::figure::Figure;
+use crate::figure::{Figure, Guard, Named};
 use crate::rules::Rules;
 use crate::viewer::{Choice, PictureSpec, Restored, SceneSource, Sheet, SheetRequest};
 
 /// Draws the sheet and writes it, its panels and the snippets.
 pub(super) fn run(options: &SheetOptions, restored: Option<&Restored>) -> Result<(), Failure> {
     name_for_png(&options.output)?;
+    let mut guard = guard_of(options.force, restored);
+    if let SceneSource::File(path) = SceneSource::from_address(&options.scene) {
+        guard.protect(path);
+    }
+    let output = (options.output.as_path(), Named::ByUser);
+    // Asked before the work as well.
+    guard
+        .target(output.0, output.1)
+        .map_err(|error| unwritable(output.0, &error))?;
     let sheet = on_threads(options.framing.threads, || draw(options, &options.output))??;
     let files = sheet.panels.first().map(|panel| &panel.scene.files);
     if let Some(change) = restored
@@ -24,20 +34,23 @@ pub(super) fn run(options: &SheetOptions, restored: Option<&Restored>) -> Result
     {
         print_error(&change);
     }
-    write(&sheet, &options.output).map(|_| ())
+    write(&sheet, output, &guard).map(|_| ())
 }
 
 /// Draws every panel and puts them together; `output` is the file that the record names.
 pub(super) fn draw(options: &SheetOptions, output: &Path) -> Result<Sheet, Failure> {
     let request = request(options).map_err(Failure::Input)?;
+    memory::ask_for(request.pixels())?;
     let scene = SceneSource::from_address(&options.scene);
     let mut read = |dialect| read_scene(&scene, dialect).map(Arc::new);
     request.draw(&mut read, output).map_err(Failure::Input)
 }
 
 /// Writes all files of a sheet, or none; gives what documents say about the sheet, from the folder it lies in.
-pub(super) fn write(sheet: &Sheet, output: &Path) -> Result<Figure, Failure> {
-    sheet.save(output).map_err(|(path, error)| unwritable(&path, &error))
+pub(super) fn write(sheet: &Sheet, output: (&Path, Named), guard: &Guard) -> Result<Figure, Failure> {
+    sheet
+        .save(output, guard)
+        .map_err(|(path, error)| unwritable(&path, &error))
 }
 
 /// What the first panel shows: the state that a sheet brings back.

@@ -11,15 +11,16 @@ use super::arguments::SweepOptions;
 use super::axes::sampling;
 use super::bench::{median, milliseconds};
 use super::failure::{Failure, print, print_error};
+use super::interrupt;
 use super::memory::peak_of_drawing;
 use super::picture::{Picture, on_threads};
-use super::render::{name_for_png, unwritable};
+use super::render::{guard_of, name_for_png, unwritable_by};
 use super::size::FrameSize;
 use crate::compare::Pair;
-use crate::figure::{Plot, PlotSeries, Record, draw_plot, encode_png, save_files};
+use crate::figure::{Guard, Named, NewFile, Plot, PlotSeries, Record, draw_plot, encode_png, save_files};
 use crate::raster::Framebuffer;
 use crate::render::CancelToken;
-use crate::scene::{DialectChoice, Scene};
+use crate::scene::{DialectChoice, FileDigest, Scene};
 use crate::viewer::{Choice, PictureSpec, Restored, SceneSource, as_path, plain_record};
 
 /// Most combinations of a sweep.
@@ -62,6 +63,8 @@ struct Sweep {
     /// Of the first combinations.
     rows: Vec<Row>,
     record: Record,
+    /// The scene's textures.
+    textures: Vec<FileDigest>,
 }
 
 /// What others are compared with.
@@ -108,18 +111,16 @@ impl Quality {
 pub(super) fn run(options: &SweepOptions, restored: Option<&Restored>) -> Result<(), Failure> {
     let chart = chart_of(options);
     check_outputs(&options.csv, &chart)?;
+    let guard = guard(options, restored)?;
     let specs = specs(options)?;
-    let stop = Arc::new(CancelToken::default());
-    let at_interrupt = Arc::clone(&stop);
-    ctrlc::set_handler(move || at_interrupt.cancel())
-        .map_err(|error| Failure::other(format!("cannot listen for Ctrl+C: {error}")))?;
+    let stop = interrupt::token();
     let sweep = on_threads(options.framing.threads, || measure(options, specs, restored, &stop))??;
     if sweep.rows.is_empty() {
         return Err(Failure::other(
             "stopped before anything was measured; nothing is written",
         ));
     }
-    sweep.write(options, &chart)?;
+    sweep.write(options, &chart, guard)?;
     let (done, all) = (sweep.rows.len(), sweep.specs.len());
     if done < all {
         let table = options.csv.display();
@@ -152,6 +153,31 @@ fn check_outputs(csv: &Path, chart: &Path) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// A table or chart could not be written.
+fn unwritable(path: &Path, error: &io::Error) -> Failure {
+    unwritable_by("--csv or --plot", path, error)
+}
+
+/// Who chose the name of the chart.
+fn chart_named(options: &SweepOptions) -> Named {
+    options.plot.as_ref().map_or(Named::ByProgram, |_| Named::ByUser)
+}
+
+/// Protects what is read, and says before minutes of work what must not be replaced.
+fn guard(options: &SweepOptions, restored: Option<&Restored>) -> Result<Guard, Failure> {
+    let mut guard = guard_of(options.force, restored);
+    if let SceneSource::File(path) = SceneSource::from_address(&options.scene) {
+        guard.protect(path);
+    }
+    for (path, named) in [
+        (&options.csv, Named::ByUser),
+        (&chart_of(options), chart_named(options)),
+    ] {
+        guard.target(path, named).map_err(|error| unwritable(path, &error))?;
+    }
+    Ok(guard)
 }
 
 /// What each combination draws.
@@ -219,7 +245,9 @@ fn measure(
         bar.inc(1);
     }
     bar.finish_and_clear();
+    let files = scenes.iter().flat_map(|(_, scene)| &scene.files.textures);
     Ok(Sweep {
+        textures: files.map(|(_, digest)| *digest).collect(),
         specs,
         rows,
         record: told,
@@ -377,17 +405,19 @@ impl Sweep {
     }
 
     /// Writes table and chart, or neither.
-    fn write(&self, options: &SweepOptions, chart: &Path) -> Result<(), Failure> {
-        let mut files: Vec<(PathBuf, Vec<u8>)> = vec![(options.csv.clone(), self.csv().into_bytes())];
+    fn write(&self, options: &SweepOptions, chart: &Path, mut guard: Guard) -> Result<(), Failure> {
+        guard.protect_contents(self.textures.iter().copied());
+        let mut files = vec![NewFile::by_user(&options.csv, self.csv().into_bytes())];
         match draw_plot(&self.plot(options), CHART) {
             Ok(picture) => {
                 let bytes = encode_png(&picture, Some(&self.record)).map_err(|error| unwritable(chart, &error))?;
-                files.push((chart.to_owned(), bytes));
+                let (path, named) = (chart.to_owned(), chart_named(options));
+                files.push(NewFile { path, bytes, named });
             }
             // Signal to noise is infinite where pictures are equal.
             Err(problem) => print_error(&format!("{}: no chart: {problem}", chart.display())),
         }
-        save_files(&files).map_err(|error| unwritable(&options.csv, &error))
+        save_files(&files, &guard).map_err(|(path, error)| unwritable(&path, &error))
     }
 
     /// A line through all values of the first list, for each combination of the others.

@@ -7,6 +7,8 @@ use crate::viewer::Restored;
 /// Opens the window, or plays a session without one.
 #[cfg(feature = "window")]
 pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Result<(), Failure> {
+    use super::memory;
+    use super::picture::no_threads;
     use crate::app::{self, ScriptSource, ViewOptions};
     use crate::viewer::LessonSource;
 
@@ -25,12 +27,16 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
     {
         return Err(Failure::Input(problem));
     }
-    if let Some(threads) = options.framing.threads {
-        // Fails only if the pool runs already, and nothing has used it before this line.
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.into())
-            .build_global()
-            .map_err(Failure::other)?;
+    let threads = options.framing.threads;
+    // Nothing has used the pool before this line, so that it fails only where the system gives no threads.
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.map_or(0, usize::from))
+        .build_global()
+        .map_err(|error| no_threads(threads, &error))?;
+    if options.headless {
+        let pixels = options.size.map_or(0, |size| memory::pixels(size.0));
+        // A window holds its frame three times over: as it is, as it was, and below the panels.
+        memory::ask_for(pixels.saturating_mul(3))?;
     }
     let file = options.script.clone().map(ScriptSource::File);
     let view_options = ViewOptions {
@@ -46,6 +52,7 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
         script: file.or(options.commands.clone().map(ScriptSource::Text)),
         headless: options.headless,
         frame_log: options.frame_log.clone(),
+        force: options.force,
         grammar: Some(super::recorded::GRAMMAR),
         restored: restored.cloned(),
     };

@@ -11,6 +11,7 @@ use plotters::element::{Circle, PathElement, Text};
 use plotters::series::LineSeries;
 use plotters::style::{BLACK, Color as _, FontStyle, IntoFont as _, RGBColor, ShapeStyle, WHITE, register_font};
 
+use crate::plain;
 use crate::raster::Framebuffer;
 
 /// What fonts are called here.
@@ -125,7 +126,7 @@ fn draw<'b>(
     draw_legend(plot, &legend, px(1.1))?;
     let mut chart = ChartBuilder::on(&area)
         .margin(px(0.8))
-        .caption(&plot.title, (FONT, px(1.5)).into_font())
+        .caption(plain::line(&plot.title), (FONT, px(1.5)).into_font())
         .x_label_area_size(px(3.4))
         .y_label_area_size(px(5.0))
         .build_cartesian_2d((left..right).log_scale(), low..high)?;
@@ -191,7 +192,7 @@ fn draw_legend<'b>(plot: &Plot, area: &DrawingArea<BitMapBackend<'b>, Shift>, le
             style,
         ))?;
         area.draw(&Text::new(
-            series.name.clone(),
+            plain::line(&series.name).into_owned(),
             (letters * 2, y),
             (FONT, letters).into_font(),
         ))?;

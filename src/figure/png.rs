@@ -1,13 +1,12 @@
-//! Frames as PNG files with their records; files that are written whole or not at all.
+//! Frames as PNG files with their records.
 
-use std::ffi::OsString;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use ::png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
-use super::Record;
-use super::record::KEYWORD;
+use super::output::{Guard, Named, NewFile, save_files};
+use super::record::{KEYWORD, Record};
 use crate::raster::Framebuffer;
 
 /// A frame as the bytes of a PNG file: 8-bit RGB, or RGBA with straight alpha where a pixel is not opaque. `record` stands
@@ -22,7 +21,8 @@ pub fn encode_png(frame: &Framebuffer, record: Option<&Record>) -> io::Result<Ve
     } else {
         (4, ColorType::Rgba)
     };
-    let mut data = Vec::with_capacity(frame.pixels().len() * channels);
+    let mut data = Vec::new();
+    data.try_reserve_exact(frame.pixels().len() * channels)?;
     for pixel in frame.pixels() {
         let [a, r, g, b] = pixel.to_be_bytes();
         data.extend_from_slice(&[r, g, b, a][..channels]);
@@ -42,24 +42,25 @@ pub fn encode_png(frame: &Framebuffer, record: Option<&Record>) -> io::Result<Ve
     Ok(bytes)
 }
 
-/// Writes a frame as PNG file, replacing a file that was there: under another name first, so that no half file is ever
+/// Writes a frame as PNG file, replacing a picture that was there: under another name first, so that no half file is ever
 /// seen. A link is followed; a device, pipe or folder is left alone.
 ///
 /// # Errors
 /// When the frame has no pixels, when the name does not end in `.png`, when the file cannot be written.
 pub fn save_png(frame: &Framebuffer, path: &Path) -> io::Result<()> {
-    save(frame, path, None)
+    save_picture(frame, None, (path, Named::ByUser), &Guard::default())
 }
 
-/// As [`save_png`], with a record of how the picture was made.
+/// As [`save_png`], with a record of how the picture was made, and only where `guard` has nothing against it.
 ///
 /// # Errors
-/// As [`save_png`].
-pub fn save_recorded_png(frame: &Framebuffer, path: &Path, record: &Record) -> io::Result<()> {
-    save(frame, path, Some(record))
-}
-
-fn save(frame: &Framebuffer, path: &Path, record: Option<&Record>) -> io::Result<()> {
+/// As [`save_png`], and when the file must not be replaced.
+pub fn save_picture(
+    frame: &Framebuffer,
+    record: Option<&Record>,
+    (path, named): (&Path, Named),
+    guard: &Guard,
+) -> io::Result<()> {
     if !path
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
@@ -67,47 +68,8 @@ fn save(frame: &Framebuffer, path: &Path, record: Option<&Record>) -> io::Result
         let why = "pictures are written as PNG and their names end in .png";
         return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
     }
-    let bytes = encode_png(frame, record)?;
-    save_files(&[(path.to_owned(), bytes)])
-}
-
-/// Writes files, replacing those that were there: all under other names first, so that neither a half file is ever seen nor
-/// half of the files. A link is followed; a device, pipe or folder is left alone.
-///
-/// # Errors
-/// When one cannot be written.
-pub fn save_files(files: &[(PathBuf, Vec<u8>)]) -> io::Result<()> {
-    let mut staged: Vec<(PathBuf, PathBuf)> = Vec::new();
-    let written = files.iter().try_for_each(|(path, bytes)| {
-        let (partial, target) = partial_name(path)?;
-        staged.push((partial.clone(), target));
-        std::fs::write(&partial, bytes)
-    });
-    let moved = written.and_then(|()| staged.iter().try_for_each(|(from, to)| std::fs::rename(from, to)));
-    if moved.is_err() {
-        for (partial, _) in &staged {
-            // The first error is the one to tell; there may be nothing to remove.
-            let _ = std::fs::remove_file(partial);
-        }
-    }
-    moved
-}
-
-/// The name to write under first, and the one in the end.
-fn partial_name(path: &Path) -> io::Result<(PathBuf, PathBuf)> {
-    let refused = |why: &str| Err(io::Error::new(io::ErrorKind::InvalidInput, why));
-    // What is not there yet cannot be followed.
-    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    if std::fs::metadata(&target).is_ok_and(|there| !there.is_file()) {
-        return refused("there is something of that name that is no file");
-    }
-    let Some(name) = target.file_name() else {
-        return refused("this is no file name");
-    };
-    let mut partial = OsString::from(".");
-    partial.push(name);
-    partial.push(format!(".{}.part", std::process::id()));
-    Ok((target.with_file_name(partial), target))
+    let (path, bytes) = (path.to_owned(), encode_png(frame, record)?);
+    save_files(&[NewFile { path, bytes, named }], guard).map_err(|(_, error)| error)
 }
 
 #[cfg(test)]

@@ -14,7 +14,8 @@
 //! | `view`, `size`, `settings` | as in the command line; of the settings those that differ from their defaults |
 //!
 //! Files come from anywhere, so that nothing in them is trusted: chunks are stepped over, the record has a ceiling, and
-//! what it names is only ever read as a scene.
+//! what it names is only ever read as a scene. `command_line` is for other programs and for people who look into the file:
+//! this program reads `arguments`, and makes the line anew where it shows one.
 
 use std::collections::BTreeMap;
 use std::fs::File;

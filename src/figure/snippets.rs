@@ -2,6 +2,9 @@
 
 use std::fmt::Write as _;
 
+use super::output::MARK;
+use crate::plain;
+
 /// A picture and what is said about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Figure {
@@ -17,14 +20,14 @@ pub struct Figure {
 
 /// As Markdown.
 pub fn markdown(figures: &[Figure]) -> String {
-    let mut text = String::new();
+    let mut text = format!("<!-- {MARK} -->\n\n");
     for figure in figures {
         let (alternative, caption) = (in_markdown(&figure.alternative), in_markdown(&figure.caption));
         // Writing to a `String` cannot fail.
         let _ = writeln!(
             text,
             "![{alternative}](<{}>)\n\n*{caption}*\n",
-            figure.file.replace(['<', '>'], "_")
+            plain::line(&figure.file).replace(['<', '>'], "_")
         );
     }
     text
@@ -34,7 +37,8 @@ pub fn markdown(figures: &[Figure]) -> String {
 pub fn html(title: &str, figures: &[Figure]) -> String {
     let title = in_html(title);
     let mut text = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>\n\
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"generator\" content=\"{MARK}\">\n<title>{title}</title>\n<style>\n\
          :root {{ color-scheme: light dark; }}\n\
          body {{ font: 16px/1.5 sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }}\n\
          figure {{ margin: 2rem 0; }}\nimg {{ max-width: 100%; height: auto; }}\n\
@@ -56,7 +60,7 @@ pub fn html(title: &str, figures: &[Figure]) -> String {
 
 /// As LaTeX, for `graphicx`; `Description` is that of `acmart`, and does nothing elsewhere.
 pub fn latex(figures: &[Figure]) -> String {
-    let mut text = "\\providecommand{\\Description}[1]{}\n".to_owned();
+    let mut text = format!("% {MARK}\n\\providecommand{{\\Description}}[1]{{}}\n");
     for figure in figures {
         let (caption, alternative) = (in_latex(&figure.caption), in_latex(&figure.alternative));
         // A name with special signs is taken as it stands.
@@ -64,7 +68,7 @@ pub fn latex(figures: &[Figure]) -> String {
             text,
             "\n\\begin{{figure}}\n  \\centering\n  \\includegraphics[width=\\linewidth]{{\\detokenize{{{}}}}}\n  \
              \\caption{{{caption}}}\n  \\Description{{{alternative}}}\n\\end{{figure}}",
-            figure.file
+            plain::line(&figure.file)
         );
     }
     text
@@ -79,7 +83,12 @@ fn in_address(file: &str) -> String {
                 // Writing to a `String` cannot fail.
                 let _ = write!(escaped, "%{:02X}", u32::from(character));
             }
-            other => escaped.push(if other.is_control() { '_' } else { other }),
+            other if plain::is_plain(other) => escaped.push(other),
+            other => {
+                for byte in other.encode_utf8(&mut [0; 4]).bytes() {
+                    let _ = write!(escaped, "%{byte:02X}");
+                }
+            }
         }
     }
     escaped
@@ -88,18 +97,18 @@ fn in_address(file: &str) -> String {
 /// A text in which no sign means anything to Markdown.
 fn in_markdown(text: &str) -> String {
     let mut escaped = String::new();
-    for character in text.chars() {
+    for character in plain::line(text).chars() {
         if "\\`*_[]<>#|!".contains(character) {
             escaped.push('\\');
         }
-        escaped.push(if character.is_control() { ' ' } else { character });
+        escaped.push(character);
     }
     escaped
 }
 
 fn in_html(text: &str) -> String {
     let mut escaped = String::new();
-    for character in text.chars() {
+    for character in plain::line(text).chars() {
         match character {
             '&' => escaped.push_str("&amp;"),
             '<' => escaped.push_str("&lt;"),
@@ -113,7 +122,7 @@ fn in_html(text: &str) -> String {
 
 fn in_latex(text: &str) -> String {
     let mut escaped = String::new();
-    for character in text.chars() {
+    for character in plain::line(text).chars() {
         match character {
             '\\' => escaped.push_str("\\textbackslash{}"),
             '~' => escaped.push_str("\\textasciitilde{}"),
@@ -123,7 +132,7 @@ fn in_latex(text: &str) -> String {
                 escaped.push('\\');
                 escaped.push(character);
             }
-            other => escaped.push(if other.is_control() { ' ' } else { other }),
+            other => escaped.push(other),
         }
     }
     escaped
@@ -139,6 +148,28 @@ mod tests {
             caption: "50 % of <b> & {x}_1 #2 \\ 8\u{d7}".to_owned(),
             alternative: "a \"star\" [1]".to_owned(),
             command_line: "rasterscope render 'a & b.svg'".to_owned(),
+        }
+    }
+
+    #[test]
+    fn snippets_steer_no_terminal_and_no_page() {
+        let name = "cod\u{202e}gvs\u{1b}]0;x\u{7}";
+        let figure = Figure {
+            file: format!("{name}.png"),
+            caption: name.to_owned(),
+            alternative: name.to_owned(),
+            command_line: name.to_owned(),
+        };
+        for text in [
+            markdown(std::slice::from_ref(&figure)),
+            html(name, std::slice::from_ref(&figure)),
+            latex(&[figure]),
+        ] {
+            assert_eq!(plain::lines(&text), text, "nothing left to escape");
+            assert!(
+                text.contains("202e") && text.contains(MARK),
+                "visible, and marked: {text}"
+            );
         }
     }
 

@@ -1,5 +1,7 @@
 //! Numbers and lists as people read them.
 
+use crate::plain;
+
 /// Numbers of samples, from 1, as runs: `1-3, 5`.
 pub(super) fn runs(samples: &[usize]) -> String {
     let mut runs: Vec<(usize, usize)> = Vec::new();
@@ -62,8 +64,9 @@ pub(super) fn significant(value: f64) -> String {
 pub(super) fn one_line(text: &str) -> String {
     const MOST: usize = 200;
     let mut characters = text.chars();
-    let kept = characters.by_ref().take(MOST);
-    let mut kept: String = kept.map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let blank = |c: char| if c == '\t' { ' ' } else { c };
+    let kept: String = characters.by_ref().take(MOST).map(blank).collect();
+    let mut kept = plain::line(&kept).into_owned();
     if characters.next().is_some() {
         kept.push_str("...");
     }

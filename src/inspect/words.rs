@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use super::model::{Edge, Explanation, Fragment, Interpolated, Paint, Resolve, Rounding, Shape, Source, Verdict, View};
 use super::numbers::{number, percent, runs, significant};
 use crate::color::{ResolveSpace, encoded};
+use crate::plain;
 
 /// Different colours that a sum is written out for at most.
 const MOST_TERMS: usize = 4;
@@ -383,11 +384,10 @@ impl Source {
     }
 
     fn lines(&self) -> Vec<String> {
-        let mut lines = vec![format!("{}:{}:{}", self.file, self.line, self.column)];
+        let mut lines = vec![format!("{}:{}:{}", plain::line(&self.file), self.line, self.column)];
         // An excerpt already.
-        let clean = |c: char| if c.is_control() { ' ' } else { c };
-        let quoted = self.text.iter().map(|text| text.chars().map(clean).collect::<String>());
-        lines.extend(quoted.map(|text| format!("{} | {text}", self.line)));
+        let quoted = self.text.iter().map(|text| text.replace('\t', " "));
+        lines.extend(quoted.map(|text| format!("{} | {}", self.line, plain::line(&text))));
         lines
     }
 }

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::report::quote;
 use super::{ResourceError, SourceLocation};
+use crate::plain;
 
 /// A document that cannot be drawn. Displays as one line: `FILE:LINE:COLUMN: what is wrong; what to do`.
 #[derive(Debug)]
@@ -66,11 +67,7 @@ pub enum Problem {
 
 impl fmt::Display for SceneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let file: String = self
-            .file
-            .chars()
-            .map(|c| if c.is_control() { '?' } else { c })
-            .collect();
+        let file = plain::line(&self.file);
         match self.location {
             Some(location) => write!(f, "{file}:{location}: {}", self.problem),
             None => write!(f, "{file}: {}", self.problem),

@@ -5,6 +5,7 @@
 use std::fmt;
 
 use super::SourceLocation;
+use crate::plain;
 
 /// Entries of each kind that a report keeps.
 const MAX_ENTRIES: usize = 100;
@@ -122,8 +123,10 @@ pub(super) fn quote(text: &str) -> String {
 
 /// At most `limit` characters of a foreign string, in one line.
 pub(super) fn shorten(text: &str, limit: usize) -> String {
-    let clean = |c: char| if c.is_control() { ' ' } else { c };
-    let mut short: String = text.chars().take(limit).map(clean).collect();
+    // Blanks of a document may be line breaks and tabs.
+    let clean = |c: char| if c.is_ascii_whitespace() { ' ' } else { c };
+    let short: String = text.chars().take(limit).map(clean).collect();
+    let mut short = plain::line(&short).into_owned();
     if text.chars().nth(limit).is_some() {
         short.push_str("...");
     }
@@ -168,6 +171,7 @@ mod tests {
     #[test]
     fn quote_makes_one_short_line() {
         assert_eq!(quote("a\nb"), "a b", "no line break");
+        assert_eq!(quote("a\u{1b}\u{202e}b"), "a\\u{1b}\\u{202e}b", "nothing that steers");
         assert_eq!(quote(&"x".repeat(1000)).len(), MAX_QUOTE + 3, "shortened");
     }
 }

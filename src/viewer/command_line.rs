@@ -8,6 +8,7 @@ use super::settings::background_name;
 use super::{Effect, SceneSource, Viewer};
 use crate::figure::{InsetPlace, InsetSpec, Record, RecordedFile};
 use crate::geometry::View;
+use crate::plain;
 use crate::render::RenderSettings;
 use crate::scene::{DialectChoice, FileDigest, Scene};
 use crate::texture::FixedLevel;
@@ -289,11 +290,28 @@ pub(super) fn output_name(label: &str) -> String {
 
 /// `word` as one word of a POSIX shell.
 fn shell_quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+:,@%=".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
+    let bare = |c: char| c.is_ascii_alphanumeric() || "/._-+:,@%=".contains(c);
+    if !word.is_empty() && word.chars().all(bare) {
         return word.to_owned();
     }
-    format!("'{}'", word.replace('\'', r"'\''"))
+    if word.chars().all(plain::is_plain) {
+        return format!("'{}'", word.replace('\'', r"'\''"));
+    }
+    // What steers a terminal stands as its bytes, so that the line can be looked at and still means the same
+    // (dollar-single-quotes, POSIX.1-2024, 2.2.4).
+    let mut quoted = "$'".to_owned();
+    for character in word.chars() {
+        match character {
+            '\'' | '\\' => quoted.extend(['\\', character]),
+            _ if plain::is_plain(character) => quoted.push(character),
+            _ => {
+                let bytes = character.to_string().into_bytes();
+                quoted.extend(bytes.iter().map(|byte| format!("\\{byte:03o}")));
+            }
+        }
+    }
+    quoted.push('\'');
+    quoted
 }
 
 #[cfg(test)]
@@ -310,6 +328,8 @@ mod tests {
             ("--view=-1,2,3", "--view=-1,2,3"),
             ("$(x)", "'$(x)'"),
             ("", "''"),
+            ("a\u{1b}[m'\\\nb", r"$'a\033[m\'\\\012b'"),
+            ("\u{202e}gvs", r"$'\342\200\256gvs'"),
         ] {
             assert_eq!(shell_quoted(word), quoted, "{word}");
         }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::Camera;
 use super::gallery;
+use crate::plain;
 use crate::raster::Framebuffer;
 use crate::scene::{self, DialectChoice, ReadOptions, Scene, SceneError};
 
@@ -83,7 +84,7 @@ impl SceneEntry {
     fn new(source: SceneSource, label: String) -> Self {
         Self {
             source,
-            label,
+            label: plain::into_line(label),
             is_of_course: false,
             state: SceneState::Unread,
             other_state: SceneState::Unread,

@@ -1,5 +1,7 @@
 //! Short messages to the user: what was saved, what went wrong and how to cure it.
 
+use crate::plain;
+
 /// Messages kept; older ones go.
 const MOST: usize = 6;
 
@@ -39,6 +41,7 @@ impl Messages {
 
     /// Adds a message; one with the same text moves to the end instead of standing there twice.
     pub(super) fn add(&mut self, kind: MessageKind, text: String) {
+        let text = plain::into_lines(text);
         self.list.retain(|message| message.text != text);
         if self.list.len() == MOST {
             self.list.remove(0);
@@ -62,7 +65,8 @@ impl Messages {
 
     /// Drops what was wrong with a file that is right by now.
     pub(super) fn forget_problems_of(&mut self, file: &str) {
-        let of_file = |text: &str| text.strip_prefix(file).is_some_and(|rest| rest.starts_with(':'));
+        let file = plain::lines(file);
+        let of_file = |text: &str| text.strip_prefix(&*file).is_some_and(|rest| rest.starts_with(':'));
         self.list
             .retain(|message| message.kind != MessageKind::Error || !of_file(&message.text));
     }
@@ -86,7 +90,9 @@ mod tests {
         let texts: Vec<&str> = messages.all().iter().map(|m| m.text.as_str()).collect();
         let expected = ["saved 14", "saved 15", "saved 16", "saved 17", "saved 18", "saved 19"];
         assert_eq!(texts, expected, "the last ones, each once");
+        messages.done("a\u{1b}[2J\u{202e}b".into());
         let last = messages.all()[MOST - 1].id;
+        assert_eq!(messages.all()[MOST - 1].text, "a\\u{1b}[2J\\u{202e}b", "steers nothing");
         messages.dismiss(last);
         assert_eq!(messages.all().len(), MOST - 1, "dismissed");
         messages.error("a.svg:3:1: broken".into());

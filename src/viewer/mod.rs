@@ -64,7 +64,7 @@ pub use recorded::{Grammar, ReadArguments, Restored};
 pub use settings::{PixelZoom, Settings, Theme, Toggle, sample_words, texture_words};
 pub use sheet::{
     Axis, AxisLists, Choice, Panel, PanelSize, ReadSheet, SceneReader, Sheet, SheetChange, SheetDraft, SheetPreview,
-    SheetRequest, SheetSide, Unwritable, caption_of,
+    SheetRequest, SheetSide, caption_of,
 };
 pub use state::{Viewer, ViewerOptions, Waker};
 pub use status::Status;

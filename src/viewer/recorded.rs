@@ -7,8 +7,8 @@ use glam::DVec2;
 use super::camera::Camera;
 use super::inspector::Pin;
 use super::library;
-use super::{PictureSpec, ReadSheet, SceneSource, Viewer};
-use crate::figure::{InsetPlace, InsetSpec, Record};
+use super::{Other, PictureSpec, ReadSheet, SceneSource, Viewer};
+use crate::figure::{Guard, InsetPlace, InsetSpec, Record};
 use crate::scene::{FileDigest, FolderResources, SceneFiles};
 
 /// Reads the arguments of a record by the grammar of the command line.
@@ -83,6 +83,16 @@ impl Restored {
     }
 }
 
+impl SceneSource {
+    /// Protects the files that the scene was read from.
+    pub fn protect(&self, files: &SceneFiles, guard: &mut Guard) {
+        if let Self::File(path) = self {
+            guard.protect(path);
+            guard.protect_contents(files.textures.iter().map(|(_, digest)| *digest));
+        }
+    }
+}
+
 /// Whether a file had another digest then; nothing is known where none was recorded.
 fn differs(then: &str, now: &FileDigest) -> bool {
     !then.is_empty() && now.to_string() != then
@@ -111,6 +121,18 @@ fn found_scene(record: &Record, named: SceneSource, shot: &Path) -> SceneSource 
 }
 
 impl Viewer {
+    /// Protects what is shown: the scene with its textures, and a picture that is compared with it.
+    pub fn guard(&self) -> Guard {
+        let mut guard = Guard::default();
+        if let Some((entry, scene)) = self.current().and_then(|entry| Some((entry, entry.scene()?))) {
+            entry.source.protect(&scene.files, &mut guard);
+        }
+        if let Some(Other::Picture(picture)) = &self.comparison.other {
+            guard.protect(&picture.path);
+        }
+        guard
+    }
+
     /// Shows what a picture's record tells: scene, view, settings. False where it has none.
     pub(super) fn restore(&mut self, shot: &Path) -> bool {
         let restored = match self.grammar.map(|grammar| Restored::of_file(shot, grammar.picture)) {

@@ -1,22 +1,28 @@
 //! Screenshots: PNG files named by a template, at first the time to the millisecond, that tell how they were made and never replace another
 //! file.
 
-use std::fs::OpenOptions;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use jiff::Timestamp;
+use jiff::tz::TimeZone;
 
 use super::background::{AtEnd, Crew, Mailbox, guarded};
 use super::sheet::SheetJob;
 use super::state::Finished;
 use super::{Effect, Frame, NameTemplate, PictureSpec, Viewer};
-use crate::figure::{InsetSpec, Record, add_furniture, add_legends, encode_png};
+use crate::figure::{InsetSpec, Record, add_furniture, add_legends, encode_png, write_new};
 use crate::raster::Framebuffer;
 use crate::render::Legend;
 use crate::scene::Scene;
 
 /// Names that are tried for one picture: others may have been saved in the same millisecond.
 const ATTEMPTS: u32 = 1000;
+
+/// Largest file of a time zone that is read, in bytes.
+const MAX_ZONE: u64 = 1 << 20;
 
 /// The state of saving.
 #[derive(Debug)]
@@ -312,7 +318,29 @@ impl Job {
 
 /// The time of day, as names of files tell it.
 fn now() -> String {
-    jiff::Zoned::now().strftime("%Y-%m-%d_%H-%M-%S_%3f").to_string()
+    time_text(SystemTime::now(), zone())
+}
+
+/// A clock that is set to another age than calendars know tells seconds.
+fn time_text(time: SystemTime, zone: TimeZone) -> String {
+    if let Ok(time) = Timestamp::try_from(time) {
+        return time.to_zoned(zone).strftime("%Y-%m-%d_%H-%M-%S_%3f").to_string();
+    }
+    match time.duration_since(UNIX_EPOCH) {
+        Ok(after) => format!("{}s", after.as_secs()),
+        Err(before) => format!("{}s-before-1970", before.duration().as_secs()),
+    }
+}
+
+/// The zone of the system; UTC where `TZ` leads to what is no file of a zone, such as a pipe that would be read for ever.
+fn zone() -> TimeZone {
+    let named = std::env::var_os("TZ").unwrap_or_default();
+    let named = named.to_string_lossy();
+    let about = std::fs::metadata(named.strip_prefix(':').unwrap_or(&named));
+    if about.is_ok_and(|about| !about.is_file() || about.len() > MAX_ZONE) {
+        return TimeZone::UTC;
+    }
+    TimeZone::system()
 }
 
 /// Saves `picture` in `folder` under a name that did not exist.
@@ -345,18 +373,6 @@ fn save_new(
     ))
 }
 
-/// Writes a file that did not exist before; a file that could not be written whole is removed.
-fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
-    let written = file.write_all(bytes).and_then(|()| file.sync_all());
-    if written.is_err() {
-        drop(file);
-        // The first error is the one to tell.
-        let _ = std::fs::remove_file(path);
-    }
-    written
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -382,6 +398,28 @@ mod tests {
             image::open(&paths[0]).expect("still whole").into_rgba8(),
             back,
             "unchanged"
+        );
+    }
+
+    #[test]
+    fn screenshot_names_come_from_any_clock() {
+        let at = |seconds: i64| {
+            let distance = std::time::Duration::from_secs(seconds.unsigned_abs());
+            let time = if seconds < 0 {
+                UNIX_EPOCH - distance
+            } else {
+                UNIX_EPOCH + distance
+            };
+            time_text(time, TimeZone::UTC)
+        };
+        assert_eq!(at(0), "1970-01-01_00-00-00_000", "the start");
+        assert_eq!(at(-86_400), "1969-12-31_00-00-00_000", "before it");
+        assert_eq!(at(253_402_300_800), "253402300800s", "the year 10000");
+        assert_eq!(at(i64::MAX / 4), "2305843009213693951s", "the end of time");
+        assert_eq!(
+            at(-900_000_000_000),
+            "900000000000s-before-1970",
+            "before all calendars"
         );
     }
 

@@ -27,7 +27,11 @@ use super::{
 };
 use crate::geometry::View;
 use crate::inspect::{Feeds, TexelPlace};
+use crate::plain;
 use crate::scene::Dialect;
+
+/// Longest title of the window, in characters.
+const MAX_TITLE: usize = 300;
 
 /// Called from other threads when [`Viewer::poll`] has something to take in.
 pub type Waker = Arc<dyn Fn() + Send + Sync>;
@@ -451,7 +455,7 @@ impl Viewer {
         let name = self.current().map_or("no scene", |entry| entry.label.as_str());
         let words = self.comparison_title();
         let words = words.unwrap_or_else(|| self.own_words().join(", "));
-        format!("{name} - {words} - Rasterscope")
+        plain::short_line(&format!("{name} - {words} - Rasterscope"), MAX_TITLE)
     }
 
     /// What the current camera looks at; `None` before the scene was read.

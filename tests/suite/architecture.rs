@@ -11,7 +11,7 @@ struct Room {
     crates: &'static [&'static str],
 }
 
-const BOTTOM: &[&str] = &["color", "geometry", "rules", "simd"];
+const BOTTOM: &[&str] = &["color", "geometry", "plain", "rules", "simd"];
 
 /// The table of permitted imports. Every room may name itself, `std` and crates that are not guarded.
 const ROOMS: &[Room] = &[
@@ -24,7 +24,7 @@ const ROOMS: &[Room] = &[
         name: "cli",
         rooms: &[
             "app", "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color",
-            "geometry", "rules", "simd",
+            "geometry", "rules", "simd", "plain",
         ],
         crates: &["clap", "serde", "serde_json", "toml", "indicatif", "ctrlc"],
     },
@@ -32,7 +32,7 @@ const ROOMS: &[Room] = &[
         name: "app",
         rooms: &[
             "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry",
-            "rules", "simd",
+            "rules", "simd", "plain",
         ],
         crates: &["winit", "softbuffer", "egui", "egui_winit", "fearless_simd"],
     },
@@ -40,14 +40,14 @@ const ROOMS: &[Room] = &[
         name: "viewer",
         rooms: &[
             "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules",
-            "simd",
+            "simd", "plain",
         ],
         crates: &["image", "jiff", "toml", "pulldown_cmark"],
     },
     Room {
         name: "figure",
         rooms: &[
-            "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
+            "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain",
         ],
         crates: &[
             "image",
@@ -62,30 +62,32 @@ const ROOMS: &[Room] = &[
     Room {
         name: "compare",
         rooms: &[
-            "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
+            "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain",
         ],
         crates: &[],
     },
     Room {
         name: "inspect",
         rooms: &[
-            "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
+            "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain",
         ],
         crates: &["serde"],
     },
     Room {
         name: "render",
-        rooms: &["scene", "raster", "texture", "color", "geometry", "rules", "simd"],
+        rooms: &[
+            "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain",
+        ],
         crates: &[],
     },
     Room {
         name: "scene",
-        rooms: &["texture", "color", "geometry", "rules", "simd"],
+        rooms: &["texture", "color", "geometry", "rules", "simd", "plain"],
         crates: &["roxmltree", "svgtypes", "data_url", "sha2"],
     },
     Room {
         name: "raster",
-        rooms: &["texture", "color", "geometry", "rules", "simd"],
+        rooms: &["texture", "color", "geometry", "rules", "simd", "plain"],
         crates: &["fearless_simd"],
     },
     Room {
@@ -105,6 +107,11 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "rules",
+        rooms: &[],
+        crates: &[],
+    },
+    Room {
+        name: "plain",
         rooms: &[],
         crates: &[],
     },
@@ -230,7 +237,7 @@ fn architecture_doors_open_downwards_only() {
 const BENCHES: Room = Room {
     name: "benches",
     rooms: &[
-        "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
+        "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain",
     ],
     crates: &["serde_json"],
 };

@@ -17,12 +17,16 @@ mod fuzzing;
 mod gallery;
 mod golden;
 mod guess;
+mod hostile_names;
 mod inspect;
 mod inspect_feeds;
 mod inspect_seams;
 mod instruction_guard;
+mod interrupts;
 mod lessons;
+mod limits;
 mod oracle;
+mod outputs;
 #[cfg(feature = "window")]
 mod overlay_goldens;
 #[cfg(feature = "window")]

@@ -17,6 +17,7 @@ use glam::DVec2;
 
 use super::interface::{Asked, Interface};
 use super::overlay::{CanvasRect, Output, Overlay};
+use crate::plain;
 use crate::raster::Framebuffer;
 use crate::viewer::{
     Command, Dialog, Effect, Key, KeyPress, Modifiers, PixelRect, PointerButton, Toggle, Viewer, WindowPixels, commands,
@@ -155,7 +156,7 @@ impl Session {
         let failure = self.viewer.current().and_then(|entry| entry.failure());
         if let Some(failure) = failure.filter(|failure| self.told_failure.as_deref() != Some(*failure)) {
             // Whoever closed stderr does not want to read it.
-            let _ = writeln!(std::io::stderr().lock(), "rasterscope: {failure}");
+            let _ = writeln!(std::io::stderr().lock(), "rasterscope: {}", plain::line(failure));
             self.told_failure = Some(failure.to_owned());
         }
     }
@@ -175,7 +176,8 @@ impl Session {
         let mut stderr = std::io::stderr().lock();
         for line in scene.report.lines() {
             // Whoever closed stderr does not want to read it.
-            let _ = writeln!(stderr, "{}: {line}", entry.source.address());
+            let address = entry.source.address();
+            let _ = writeln!(stderr, "{}: {}", plain::line(&address), plain::line(&line));
         }
         if let Some(note) = self.viewer.reading_note() {
             let _ = writeln!(

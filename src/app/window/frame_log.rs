@@ -7,6 +7,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use super::super::AppError;
 use super::super::session::PanelTimes;
+use crate::figure::{Guard, open_log};
 use crate::viewer::{PixelRect, Viewer};
 
 /// The columns; all times are milliseconds, the first since 1970.
@@ -35,10 +36,10 @@ pub(super) struct Shown<'a> {
 
 impl FrameLog {
     /// # Errors
-    /// When the file cannot be written.
-    pub(super) fn create(path: &Path) -> Result<Self, AppError> {
+    /// When the file cannot be written, or `guard` has something against it.
+    pub(super) fn create(path: &Path, guard: &Guard) -> Result<Self, AppError> {
         let begin = || {
-            let mut file = File::create(path)?;
+            let mut file = open_log(path, guard)?;
             writeln!(file, "{HEADER}").map(|()| file)
         };
         let file = begin().map_err(|error: io::Error| {
@@ -100,4 +101,22 @@ fn shows(viewer: &Viewer) -> String {
 
 fn ms(time: Duration) -> String {
     format!("{:.3}", time.as_secs_f64() * 1e3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frame_log_replaces_no_file_of_another_making() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let (scene, log) = (folder.path().join("s.svg"), folder.path().join("log.csv"));
+        std::fs::write(&scene, "<svg/>").expect("a small file");
+        let refused = FrameLog::create(&scene, &Guard::default()).expect_err("a scene");
+        assert!(refused.is_input() && refused.to_string().contains("s.svg"), "{refused}");
+        assert_eq!(std::fs::read(&scene).expect("there"), b"<svg/>", "kept");
+        for _ in 0..2 {
+            FrameLog::create(&log, &Guard::default()).expect("a new file, or an older log");
+        }
+    }
 }

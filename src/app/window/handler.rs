@@ -20,6 +20,7 @@ use super::keys;
 use super::opened::Opened;
 use super::player::Player;
 use super::startup::Wake;
+use crate::figure::Guard;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Command, PointerButton, Theme, Viewer, Waker};
 
@@ -56,7 +57,9 @@ impl Handler {
 
     #[expect(clippy::cast_possible_truncation, reason = "a scale is a small number")]
     fn open(&self, event_loop: &ActiveEventLoop) -> Result<Opened, AppError> {
-        let log = self.options.frame_log.as_deref().map(FrameLog::create).transpose()?;
+        let guard = Guard::new(self.options.force);
+        let log = self.options.frame_log.as_deref();
+        let log = log.map(|path| FrameLog::create(path, &guard)).transpose()?;
         let scale = event_loop
             .primary_monitor()
             .map_or(1.0, |monitor| monitor.scale_factor());

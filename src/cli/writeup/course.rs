@@ -322,14 +322,14 @@ pub(super) fn turned_view(canvas: DVec2, size: [u32; 2], degrees: f64) -> String
 }
 
 const TRIANGLE: &str = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n\
-    <!-- One triangle with a red, a green and a blue corner. -->\n\
+    <!-- One triangle with a red, a green and a blue corner; made by rasterscope. -->\n\
     <svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"1000\" height=\"1000\">\n\
     <colortri points=\"500,80 940,860 60,860\" colors=\"1 0 0 1  0 1 0 1  0 0 1 1\"/>\n</svg>\n";
 
 /// A rectangle of two triangles with a picture as texture.
 fn own_scene([width, height]: [u32; 2], texture: &str) -> String {
     let mut text =
-        "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!-- A picture on a rectangle, one unit for each texel. -->\n"
+        "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!-- A picture on a rectangle, one unit for each texel; made by rasterscope. -->\n"
             .to_owned();
     // Writing to a `String` cannot fail.
     let _ = write!(

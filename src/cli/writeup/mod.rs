@@ -8,19 +8,19 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
-
 use self::course::{ITEMS, Item, Scenes, turned_view};
 use self::pins::Pins;
 use super::arguments::{self, Verb, WriteupOptions};
 use super::failure::{Failure, print};
 use super::picture::{Picture, on_threads};
-use super::recorded;
 use super::render::unwritable;
-use super::sheet;
-use crate::figure::{Figure, html, latex, markdown, save_files, save_recorded_png};
+use super::{progress, recorded, sheet};
+use crate::figure::{Figure, Guard, Named, NewFile, html, latex, markdown, save_files, save_picture};
+use crate::plain;
 use crate::viewer::{PictureSpec, Sheet, caption_of};
 
+/// What shows the figures, in the words of documents.
+const PAGES: [&str; 3] = ["index.html", "figures.md", "figures.tex"];
 /// Draws of a panel of which the median time is told.
 const TIMED: usize = 7;
 
@@ -38,19 +38,50 @@ pub(super) fn run(options: &WriteupOptions) -> Result<(), Failure> {
     let mut pins = Pins::read(pins_file, &known_pins())?;
     let inner = folder.join("scenes");
     std::fs::create_dir_all(&inner).map_err(|error| unwritable(&inner, &error))?;
-    save_files(&scenes.files).map_err(|error| unwritable(&inner, &error))?;
-    let figures = on_threads(options.threads, || all(options, &scenes, &mut pins))??;
+    let guard = guard(options);
+    // Asked before minutes of work.
+    for page in PAGES.map(|name| folder.join(name)) {
+        let target = guard.target(&page, Named::ByProgram);
+        target.map_err(|error| unwritable(&page, &error))?;
+    }
+    save_files(&made_scenes(&scenes, &inner), &guard).map_err(|(path, error)| unwritable(&path, &error))?;
+    let figures = on_threads(options.threads, || all((options, &guard), &scenes, &mut pins))??;
     let title = "Figures of the write-up";
-    let pages = [
-        ("index.html", html(title, &figures)),
-        ("figures.md", markdown(&figures)),
-        ("figures.tex", latex(&figures)),
-    ];
-    let mut files: Vec<_> = pages.map(|(name, text)| (folder.join(name), text.into_bytes())).into();
-    files.push(pins.file());
-    save_files(&files).map_err(|error| unwritable(folder, &error))?;
-    let (count, page) = (figures.len(), folder.join("index.html"));
-    print(&format!("{count} figures; {} shows all", page.display()))
+    let texts = [html(title, &figures), markdown(&figures), latex(&figures)];
+    let pages = PAGES.into_iter().zip(texts);
+    let mut files: Vec<_> = pages
+        .map(|(name, text)| NewFile::by_program(folder.join(name), text.into_bytes()))
+        .collect();
+    files.extend(pins.file());
+    save_files(&files, &guard).map_err(|(path, error)| unwritable(&path, &error))?;
+    let (count, page) = (figures.len(), folder.join("index.html").display().to_string());
+    print(&format!("{count} figures; {} shows all", plain::line(&page)))
+}
+
+/// Protects what the options name.
+fn guard(options: &WriteupOptions) -> Guard {
+    let mut guard = Guard::new(options.force);
+    for input in [&options.own, &options.robot].into_iter().flatten() {
+        guard.protect(input);
+    }
+    guard
+}
+
+/// The scenes that are made for the write-up, in the folder `inner`. The picture beside them is a copy of the user's, so
+/// that a scene of ours that shows it is what tells that it may be replaced.
+fn made_scenes(scenes: &Scenes<'_>, inner: &Path) -> Vec<NewFile> {
+    let has_scene = inner.join("own.svg").is_file();
+    let made = scenes.files.iter().map(|(path, bytes)| {
+        let is_copy = path.extension().is_none_or(|ending| ending != "svg");
+        let named = if is_copy && has_scene {
+            Named::ByUser
+        } else {
+            Named::ByProgram
+        };
+        let (path, bytes) = (path.clone(), bytes.clone());
+        NewFile { path, bytes, named }
+    });
+    made.collect()
 }
 
 /// Whether `text` is a file of pins that `writeup` takes.
@@ -67,29 +98,32 @@ fn known_pins() -> Vec<&'static str> {
 }
 
 /// Draws the figures one after the other.
-fn all(options: &WriteupOptions, scenes: &Scenes<'_>, pins: &mut Pins) -> Result<Vec<Figure>, Failure> {
-    let bar = ProgressBar::new(ITEMS.len() as u64);
-    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
-        bar.set_style(style);
-    }
+fn all(
+    (options, guard): (&WriteupOptions, &Guard),
+    scenes: &Scenes<'_>,
+    pins: &mut Pins,
+) -> Result<Vec<Figure>, Failure> {
+    progress::count(ITEMS.len());
     let mut figures = Vec::new();
     for item in ITEMS {
-        bar.set_message(item.name);
+        progress::begin(item.name);
         let output = options.output.join(item.name).with_extension("png");
-        let figure = one(item, &output, scenes, pins)?;
+        let figure = one(item, (&output, guard), scenes, pins)?;
         figures.push(Figure {
             caption: format!("{}. {}", item.says, figure.caption),
             alternative: format!("{}. {}", item.says, figure.alternative),
             ..figure
         });
-        bar.inc(1);
+        progress::done();
     }
-    bar.finish_and_clear();
     Ok(figures)
 }
 
 /// Draws one figure and writes it.
-fn one(item: &Item, output: &Path, scenes: &Scenes<'_>, pins: &mut Pins) -> Result<Figure, Failure> {
+fn one(item: &Item, (output, guard): (&Path, &Guard), scenes: &Scenes<'_>, pins: &mut Pins) -> Result<Figure, Failure> {
+    // Asked before the work as well.
+    let target = guard.target(output, Named::ByProgram);
+    target.map_err(|error| unwritable(output, &error))?;
     let (mut words, scene) = words_of(item, output, scenes)?;
     if let Some((name, compared)) = item.pin {
         // A sheet has the smaller panels: what is to be seen in one is to be seen in a larger picture.
@@ -105,14 +139,14 @@ fn one(item: &Item, output: &Path, scenes: &Scenes<'_>, pins: &mut Pins) -> Resu
     match parsed(&words, &scene)? {
         Verb::Sheet(options) => {
             let sheet = sheet::draw(&options, output)?;
-            let figure = sheet::write(&sheet, output)?;
+            let figure = sheet::write(&sheet, (output, Named::ByProgram), guard)?;
             let times = if item.timed { times(&sheet) } else { String::new() };
             Ok(Figure {
                 caption: format!("{}{times}", figure.caption),
                 ..figure
             })
         }
-        _ => render(spec_of(&words, &scene)?, output),
+        _ => render(spec_of(&words, &scene)?, (output, guard)),
     }
 }
 
@@ -132,12 +166,13 @@ fn words_of(item: &Item, output: &Path, scenes: &Scenes<'_>) -> Result<(Vec<Stri
 }
 
 /// Draws and writes a single picture.
-fn render(spec: PictureSpec, output: &Path) -> Result<Figure, Failure> {
+fn render(spec: PictureSpec, (output, guard): (&Path, &Guard)) -> Result<Figure, Failure> {
     let caption = caption_of(&spec);
     let mut picture = Picture::read(spec)?;
     picture.draw_figure()?;
     let record = picture.record(output);
-    save_recorded_png(picture.frame(), output, &record).map_err(|error| unwritable(output, &error))?;
+    let named = (output, Named::ByProgram);
+    save_picture(picture.frame(), Some(&record), named, guard).map_err(|error| unwritable(output, &error))?;
     Ok(Figure {
         file: output.file_name().unwrap_or_default().to_string_lossy().into_owned(),
         alternative: format!("The scene {caption}"),

@@ -9,7 +9,7 @@ use glam::DVec2;
 use crate::cli::failure::Failure;
 use crate::cli::picture::Picture;
 use crate::compare::Pair;
-use crate::figure::{InsetPlace, InsetSpec};
+use crate::figure::{InsetPlace, InsetSpec, NewFile};
 use crate::viewer::PictureSpec;
 
 /// The file in the folder of a write-up.
@@ -24,7 +24,11 @@ const HEAD: &str = "# Where insets look: X,Y:REGION@FACTOR:CORNER, with u before
 #[derive(Debug, Default)]
 pub(super) struct Pins {
     path: PathBuf,
-    pins: BTreeMap<String, InsetSpec>,
+    /// The file as it was, with its comments.
+    text: String,
+    places: BTreeMap<String, InsetSpec>,
+    /// Names of those that were proposed since.
+    new: Vec<String>,
 }
 
 impl Pins {
@@ -69,7 +73,13 @@ impl Pins {
             let pin = pin.parse().map_err(|error| refused(format!("{name}: {error}")))?;
             pins.insert(name, pin);
         }
-        Ok(Self { path, pins })
+        let new = Vec::new();
+        Ok(Self {
+            path,
+            text,
+            places: pins,
+            new,
+        })
     }
 
     /// The pin of that name; a new one lies where the pictures that `specs` gives differ most.
@@ -78,19 +88,31 @@ impl Pins {
         name: &str,
         specs: impl FnOnce() -> Result<[PictureSpec; 2], Failure>,
     ) -> Result<InsetSpec, Failure> {
-        if let Some(pin) = self.pins.get(name) {
+        if let Some(pin) = self.places.get(name) {
             return Ok(*pin);
         }
         let pin = propose(&specs()?)?;
-        self.pins.insert(name.to_owned(), pin);
+        self.places.insert(name.to_owned(), pin);
+        self.new.push(name.to_owned());
         Ok(pin)
     }
 
-    /// The file with all pins.
-    pub(super) fn file(&self) -> (PathBuf, Vec<u8>) {
-        let line = |(name, pin): (&String, &InsetSpec)| format!("{name} = \"{pin}\"\n");
-        let lines: String = self.pins.iter().map(line).collect();
-        (self.path.clone(), format!("{HEAD}{lines}").into_bytes())
+    /// The file with all pins: what was there stays as it is, and new ones follow. `None` where there is nothing new.
+    pub(super) fn file(&self) -> Option<NewFile> {
+        if self.new.is_empty() && !self.text.is_empty() {
+            return None;
+        }
+        let mut text = self.text.clone();
+        if text.is_empty() {
+            text.push_str(HEAD);
+        } else if !text.ends_with('\n') {
+            text.push('\n');
+        }
+        for name in &self.new {
+            let line = self.places.get(name).map(|pin| format!("{name} = \"{pin}\"\n"));
+            text.extend(line);
+        }
+        Some(NewFile::by_user(&self.path, text.into_bytes()))
     }
 }
 
@@ -151,15 +173,36 @@ mod tests {
 
     #[test]
     fn pins_are_read_as_they_are_written() {
-        let pins = read("test4 = \"u614,777:16@8:auto\"\n# none\nown = '3,4'\n").expect("two pins");
-        let (_, bytes) = pins.file();
-        let text = String::from_utf8(bytes).expect("text");
+        let text = |pins: &Pins| String::from_utf8(pins.file().expect("a new pin").bytes).expect("text");
+        let mut pins = read("").expect("no pins");
+        for (name, pin) in [("own", "3,4"), ("test4", "u614,777:16@8:auto")] {
+            pins.places.insert(name.to_owned(), pin.parse().expect("a pin"));
+            pins.new.push(name.to_owned());
+        }
+        let text = text(&pins);
         assert!(text.starts_with("# Where insets look"), "{text}");
         assert!(
             text.contains("own = \"3,4:16@8:auto\"\ntest4 = \"u614,777:16@8:auto\"\n"),
             "{text}"
         );
-        assert_eq!(read(&text).expect("its own").pins, pins.pins, "and back");
+        assert_eq!(read(&text).expect("its own").places, pins.places, "and back");
+    }
+
+    #[test]
+    fn pins_keep_what_their_user_wrote() {
+        let written = "# mine\r\ntest4 = \"u614,777:16@8:auto\" # the tip";
+        let mut pins = read(written).expect("one pin");
+        assert!(pins.file().is_none(), "nothing new, nothing written");
+        pins.places.insert("own".to_owned(), "3,4".parse().expect("a pin"));
+        pins.new.push("own".to_owned());
+        let file = pins.file().expect("a new pin");
+        let text = String::from_utf8(file.bytes).expect("text");
+        assert_eq!(
+            text,
+            format!("{written}\nown = \"3,4:16@8:auto\"\n"),
+            "as it was, and the new one"
+        );
+        assert_eq!(read(&text).expect("its own").places, pins.places, "and back");
     }
 
     #[test]

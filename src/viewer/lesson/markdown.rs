@@ -3,6 +3,8 @@
 
 use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag, TagEnd};
 
+use crate::plain;
+
 /// A part of a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Block {
@@ -78,7 +80,7 @@ impl Reader {
             Event::Start(tag) => self.start(&tag),
             Event::End(tag) => self.end(tag),
             Event::Text(text) | Event::Html(text) | Event::InlineHtml(text) => match &mut self.code {
-                Some(code) => code.push_str(&text),
+                Some(code) => code.push_str(&fit(&text)),
                 None => self.add(&text, false),
             },
             Event::Code(text) => self.add(&text, true),
@@ -148,12 +150,10 @@ impl Reader {
             () if self.italic > 0 => Look::Italic,
             () => Look::Plain,
         };
+        let text = fit(text);
         match self.words.last_mut() {
-            Some(last) if last.look == look => last.text.push_str(text),
-            _ => self.words.push(Span {
-                text: text.to_owned(),
-                look,
-            }),
+            Some(last) if last.look == look => last.text.push_str(&text),
+            _ => self.words.push(Span { text, look }),
         }
     }
 
@@ -177,6 +177,12 @@ impl Reader {
         };
         self.blocks.push(block);
     }
+}
+
+/// Text as it can be shown: tabs are blanks, and nothing steers the direction of writing.
+fn fit(text: &str) -> String {
+    let blank = text.replace('\t', "    ").replace('\r', "");
+    plain::lines(&blank).into_owned()
 }
 
 #[cfg(test)]
@@ -236,6 +242,7 @@ mod tests {
         );
         assert_eq!(shown("![a picture](x.png)"), "a picture", "alternative text");
         assert_eq!(shown(""), "", "nothing");
+        assert_eq!(shown("a&#x202e;b `c\u{1b}`"), "a\\u{202e}b c\\u{1b}", "steers nothing");
         let deep = "> ".repeat(2000) + &"* ".repeat(2000) + "end";
         assert!(shown(&deep).ends_with("end"), "however deep it lies");
     }

@@ -10,6 +10,7 @@ use toml::de::{DeString, DeTable, DeValue};
 
 use super::markdown::blocks;
 use super::{Lesson, LessonError, LessonStep};
+use crate::plain;
 use crate::viewer::typed::{self, point};
 use crate::viewer::{Against, Arrangement, Command, SceneSource, Toggle, gallery, options};
 
@@ -78,7 +79,7 @@ fn lesson(table: &DeTable<'_>, folder: Option<&Path>) -> Found<Lesson> {
     let (mut title, mut steps) = (None, Vec::new());
     for (key, value) in table {
         match key.get_ref().as_ref() {
-            "title" => title = Some(words(value, LONGEST_TITLE)?),
+            "title" => title = Some(shown(value)?),
             "step" => steps = self::steps(value, folder)?,
             other => {
                 let cure = "a lesson has a `title` and tables `[[step]]`";
@@ -130,7 +131,7 @@ fn step(
     };
     for (key, value) in table {
         match key.get_ref().as_ref() {
-            "title" => step.title = words(value, LONGEST_TITLE)?,
+            "title" => step.title = shown(value)?,
             "text" => step.text = blocks(&words(value, LONGEST_TEXT)?),
             "scene" => scene = Some(self::scene(value, folder)?),
             "view" => {
@@ -171,6 +172,11 @@ fn setting(name: &str, key: &Key<'_>, value: &Value<'_>) -> Found<Command> {
         return mistake(key.span(), problem);
     };
     command(value, argument.parse(&text(value)?))
+}
+
+/// A title.
+fn shown(value: &Value<'_>) -> Found<String> {
+    Ok(plain::line(&words(value, LONGEST_TITLE)?).into_owned())
 }
 
 /// What a value asks for, or its mistake in its place.
@@ -249,11 +255,9 @@ fn text(value: &Value<'_>) -> Found<String> {
 /// What is quoted in a message, in one short line.
 fn short(text: &str) -> String {
     const MOST: usize = 160;
-    let mut line: String = text
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .take(MOST)
-        .collect();
+    let blank = |c: char| if c.is_ascii_whitespace() { ' ' } else { c };
+    let line: String = text.chars().map(blank).take(MOST).collect();
+    let mut line = plain::line(&line).into_owned();
     if text.chars().count() > MOST {
         line.push('\u{2026}');
     }

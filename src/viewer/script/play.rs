@@ -7,7 +7,7 @@ use std::time::Duration;
 use glam::DVec2;
 
 use super::parse::{Script, ScriptError, ScriptStep, Step};
-use crate::figure::{save_png, save_recorded_png};
+use crate::figure::{Named, save_picture};
 use crate::raster::Framebuffer;
 use crate::viewer::{Command, Effect, KeyPress, PointerButton, Viewer, commands};
 
@@ -194,8 +194,6 @@ impl Stage for ViewerStage<'_> {
 /// # Errors
 /// When it has no pixels or the file cannot be written.
 pub fn save_window(viewer: &Viewer, picture: &Framebuffer, path: &Path) -> io::Result<()> {
-    match viewer.record_of_window(path) {
-        Some(record) => save_recorded_png(picture, path, &record),
-        None => save_png(picture, path),
-    }
+    let record = viewer.record_of_window(path);
+    save_picture(picture, record.as_ref(), (path, Named::ByUser), &viewer.guard())
 }

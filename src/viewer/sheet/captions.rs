@@ -2,6 +2,10 @@
 
 use super::super::{PictureSpec, SceneSource};
 use super::{Axis, Choice};
+use crate::plain;
+
+/// Longest name of a scene, in characters.
+const MAX_NAME: usize = 200;
 
 /// What is said of a single picture.
 pub fn caption_of(spec: &PictureSpec) -> String {
@@ -36,7 +40,7 @@ pub(super) fn caption(first: &PictureSpec, axes: &[&Axis], note: Option<&str>) -
         .into_iter()
         .flatten()
         .chain(seen(first, "Each "))
-        .chain(note.map(str::to_owned));
+        .chain(note.map(|note| plain::line(note).into_owned()));
     format!("{}.", parts.collect::<Vec<_>>().join(". "))
 }
 
@@ -52,12 +56,13 @@ pub(super) fn difference<'a>(axes: impl Iterator<Item = &'a Axis>, choice: &Choi
 /// A scene's name on a picture: not its folder, for a picture that is drawn again where both were moved must be the same.
 pub(super) fn title(scene: &SceneSource) -> String {
     let address = scene.address();
-    match scene {
+    let name = match scene {
         SceneSource::File(path) => path
             .file_name()
             .map_or(address, |name| name.to_string_lossy().into_owned()),
         SceneSource::Gallery(_) => address.trim_start_matches("gallery:").to_owned(),
-    }
+    };
+    plain::short_line(&name, MAX_NAME)
 }
 
 /// The settings in words that differ from their defaults, but for those that are `told` elsewhere.

@@ -97,6 +97,12 @@ impl SheetRequest {
         self.panels.first().map(|(_, spec)| spec)
     }
 
+    /// About how many pixels all panels and the whole of them have.
+    pub fn pixels(&self) -> u64 {
+        let of_panel = |(_, spec): &(Choice, PictureSpec)| u64::from(spec.size[0]) * u64::from(spec.size[1]);
+        self.panels.iter().map(of_panel).sum::<u64>().saturating_mul(2)
+    }
+
     /// Draws every panel and puts them together; `output` is the file that the record names.
     ///
     /// # Errors

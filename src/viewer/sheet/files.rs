@@ -1,44 +1,42 @@
 //! The files of a sheet: the whole, its panels in a folder beside it, and what documents say about them.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::captions::title;
 use super::{Panel, Sheet};
-use crate::figure::{Figure, encode_png, html, latex, markdown, save_files};
-
-/// A file or folder that could not be written, and why.
-pub type Unwritable = (PathBuf, io::Error);
-
-/// Names and contents.
-type Files = Vec<(PathBuf, Vec<u8>)>;
+use crate::figure::{Figure, Guard, Named, NewFile, Unwritable, encode_png, html, latex, markdown, save_files};
 
 impl Sheet {
-    /// Writes all files of the sheet, or none, replacing those that were there; gives what documents say about it, from the
-    /// folder it lies in.
+    /// Writes all files of the sheet, or none, where `guard` has nothing against it; gives what documents say about the sheet,
+    /// from the folder it lies in.
     ///
     /// # Errors
     /// When one cannot be written.
-    pub fn save(&self, output: &Path) -> Result<Figure, Unwritable> {
+    pub fn save(&self, (output, named): (&Path, Named), guard: &Guard) -> Result<Figure, Unwritable> {
+        let mut guard = guard.clone();
+        for panel in &self.panels {
+            panel.spec.scene.protect(&panel.scene.files, &mut guard);
+        }
         let folder = output.with_extension("");
         // Before the rest: records tell the way from there to the scene.
         let made = make_folder(&folder).map_err(|error| (folder.clone(), error))?;
-        let (whole, files) = self.files(output, &folder).inspect_err(|_| remove(made, &folder))?;
-        save_files(&files).map_err(|error| {
-            remove(made, &folder);
-            (output.to_owned(), error)
-        })?;
+        let (whole, files) = self
+            .files((output, named), &folder)
+            .inspect_err(|_| remove(made, &folder))?;
+        save_files(&files, &guard).inspect_err(|_| remove(made, &folder))?;
         Ok(whole)
     }
 
     /// What documents say about the sheet, and all its files.
-    fn files(&self, output: &Path, folder: &Path) -> Result<(Figure, Files), Unwritable> {
+    fn files(&self, (output, named): (&Path, Named), folder: &Path) -> Result<(Figure, Vec<NewFile>), Unwritable> {
         let at = |path: &Path| {
             let path = path.to_owned();
             move |error| (path, error)
         };
         let bytes = encode_png(&self.picture, Some(&self.record)).map_err(at(output))?;
-        let mut files = vec![(output.to_owned(), bytes)];
+        let path = output.to_owned();
+        let mut files = vec![NewFile { path, bytes, named }];
         let name = output.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let whole = Figure {
             file: name,
@@ -56,7 +54,7 @@ impl Sheet {
             let record = panel.spec.record(&panel.scene, &path);
             let bytes = encode_png(&panel.frame, Some(&record)).map_err(at(&path))?;
             figures.push(panel.figure(name, record.command_line));
-            files.push((path, bytes));
+            files.push(NewFile::by_program(path, bytes));
         }
         files.extend(snippets(folder, &whole.file, &figures));
         Ok((whole, files))
@@ -98,13 +96,13 @@ fn make_folder(folder: &Path) -> io::Result<bool> {
 }
 
 /// The figures in the words of documents.
-fn snippets(folder: &Path, title: &str, figures: &[Figure]) -> [(PathBuf, Vec<u8>); 3] {
+fn snippets(folder: &Path, title: &str, figures: &[Figure]) -> [NewFile; 3] {
     [
         ("figures.md", markdown(figures)),
         ("figures.html", html(title, figures)),
         ("figures.tex", latex(figures)),
     ]
-    .map(|(name, text)| (folder.join(name), text.into_bytes()))
+    .map(|(name, text)| NewFile::by_program(folder.join(name), text.into_bytes()))
 }
 
 /// The file of a panel: its number and what tells it apart.

@@ -13,7 +13,6 @@ pub use axes::{Axis, AxisLists, Choice};
 pub use captions::caption_of;
 pub use draft::{PanelSize, SheetChange, SheetDraft, SheetSide};
 pub use drawing::{Panel, SceneReader, Sheet, SheetRequest};
-pub use files::Unwritable;
 pub(super) use preview::{SheetQuestion, start};
 pub(super) use saving::SheetJob;
 

@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::preview::SheetQuestion;
+use crate::figure::{Guard, Named, Unwritable};
 use crate::viewer::PictureSpec;
 
 /// Names that are tried for one sheet.
@@ -51,11 +52,12 @@ impl SheetJob {
             });
         let saved = drawn.and_then(|sheet| {
             let size = [sheet.picture.width(), sheet.picture.height()];
-            let unwritable = |(path, error): super::Unwritable| {
+            let unwritable = |(path, error): Unwritable| {
                 let path = path.display();
                 format!("{path}: cannot save here: {error}; {cure}")
             };
-            sheet.save(&output).map_err(unwritable).map(|_| (output, size))
+            let saved = sheet.save((&output, Named::ByProgram), &Guard::default());
+            saved.map_err(unwritable).map(|_| (output, size))
         });
         if saved.is_err() {
             // Nothing is in it yet; the first error is the one to tell.

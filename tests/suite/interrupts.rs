@@ -1,0 +1,119 @@
+//! Ctrl+C and bars: a command stops between files, and tells a terminal, and only that, how far it is.
+
+#![cfg(target_os = "linux")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::support::folder::names;
+
+/// A scene that takes minutes to draw at 256 samples, and to explain.
+fn slow_scene(folder: &Path) {
+    let mut text = "<svg width='4000' height='4000'>".to_owned();
+    for i in 0..40_000 {
+        let (x, y) = (i * 37 % 800, i * 91 % 700);
+        let points = format!("{x},{y} {},{} {},{}", x + 3100, y + 70, x + 90, y + 3200);
+        text += &format!("<polygon points='{points}' fill='#{i:06x}' fill-opacity='0.5'/>");
+    }
+    text.push_str("</svg>");
+    fs::write(folder.join("slow.svg"), text).unwrap();
+}
+
+fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterscope"));
+    command
+        .args(arguments)
+        .current_dir(folder)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+    command
+}
+
+#[test]
+fn interrupts_stop_every_command_between_files() {
+    let slow = "--sample-rate=256";
+    let commands: &[&[&str]] = &[
+        &["render", "slow.svg", "-o", "out.png", slow],
+        &["sheet", "slow.svg", "-o", "out.png", slow],
+        &["inspect", "slow.svg", "--pixel=500,500", slow],
+        &["diff", "slow.svg", "other.png", slow],
+        &["bench", "slow.svg", slow],
+        &["rerun", "shot.png", "-o", "out.png", "--scene", "slow.svg"],
+        &["writeup", "-o", "out", "--robot", "slow.svg", "--scenes", "."],
+        &["lesson", "slow.toml", "--slides", "out"],
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let status = |arguments: &[&str]| command(folder.path(), arguments).status().unwrap();
+    fs::write(at("quick.svg"), "<svg width='9' height='9'/>").unwrap();
+    for name in ["other.png", "shot.png"] {
+        let drawn = status(&["render", "quick.svg", "-o", name, slow]);
+        assert!(drawn.success(), "{name}");
+    }
+    slow_scene(folder.path());
+    fs::create_dir_all(at("basic")).unwrap();
+    fs::copy(at("slow.svg"), at("basic/test4.svg")).unwrap();
+    fs::write(
+        at("slow.toml"),
+        "title = 'slow'\n[[step]]\nscene = 'slow.svg'\nsample-rate = 256\ntitle = 'x'\ntext = 'y'\n",
+    )
+    .unwrap();
+    for arguments in commands {
+        let running = command(folder.path(), arguments).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(1500));
+        let start = Instant::now();
+        let kill = Command::new("kill")
+            .args(["-INT", &running.id().to_string()])
+            .status()
+            .unwrap();
+        assert!(kill.success(), "a signal");
+        let output = running.wait_with_output().unwrap();
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        // A single pixel may be explained by then.
+        if arguments.starts_with(&["inspect"]) && output.status.success() {
+            continue;
+        }
+        assert_eq!(output.status.code(), Some(130), "{arguments:?}: {stderr}");
+        assert!(start.elapsed() < Duration::from_secs(10), "{arguments:?}: at once");
+        let told = stderr.lines().filter(|line| line.contains("stopped by Ctrl+C")).count();
+        assert!(told == 1 && output.stdout.is_empty(), "{arguments:?}: {stderr}");
+        assert!(!at("out.png").exists(), "{arguments:?}: no picture");
+        assert!(
+            names(folder.path()).iter().all(|name| !name.starts_with('.')),
+            "{arguments:?}: no part of one"
+        );
+    }
+}
+
+#[test]
+fn bars_are_for_terminals_and_long_work_only() {
+    let folder = tempfile::tempdir().unwrap();
+    slow_scene(folder.path());
+    fs::write(folder.path().join("quick.svg"), "<svg width='9' height='9'/>").unwrap();
+    let program = env!("CARGO_BIN_EXE_rasterscope");
+    let on_terminal = |line: &str| {
+        // `script` gives its command a terminal, and writes down what comes.
+        let line = format!("timeout --foreground -s INT 4 {program} {line}");
+        let mut command = Command::new("script");
+        command
+            .args(["-qec", &line, "/dev/null"])
+            .current_dir(folder.path())
+            .stdin(Stdio::null());
+        let output = command.output().unwrap();
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let long = on_terminal("render slow.svg -o out.png --sample-rate 256");
+    assert!(long.contains("Ctrl+C stops"), "a bar: {long:?}");
+    assert!(long.contains("stopped by Ctrl+C"), "and an end: {long:?}");
+    let short = on_terminal("render quick.svg -o out.png");
+    assert_eq!(short, "", "nothing to wait for");
+    let arguments = ["render", "slow.svg", "-o", "out2.png", "--sample-rate=256"];
+    let mut running = command(folder.path(), &arguments).spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(3500));
+    running.kill().unwrap();
+    let output = running.wait_with_output().unwrap();
+    assert_eq!(output.stderr, b"", "no bar without a terminal");
+}

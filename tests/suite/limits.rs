@@ -1,0 +1,120 @@
+//! What the system does not give: memory, threads, room in a file, a sane clock. One line, and no file that is not whole.
+
+#![cfg(target_os = "linux")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use crate::support::folder::names;
+
+/// Runs the program after a line of shell.
+fn run_after(limit: &str, folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new("sh");
+    command
+        .args([
+            "-c",
+            &format!("{limit}; exec timeout 60 \"$@\""),
+            "sh",
+            env!("CARGO_BIN_EXE_rasterscope"),
+        ])
+        .args(arguments)
+        .current_dir(folder)
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY");
+    command.output().unwrap()
+}
+
+/// One line, this exit status, nothing left.
+fn assert_told(output: &Output, status: i32, words: &[&str], folder: &Path) {
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(status), "{stderr}");
+    assert_eq!(stderr.trim_end().lines().count(), 1, "one line: {stderr}");
+    for word in words {
+        assert!(stderr.contains(word), "{word}: {stderr}");
+    }
+    assert_eq!(names(folder), [""; 0], "nothing left");
+}
+
+#[test]
+fn limits_of_memory_are_told() {
+    let scene = "gallery:basic/test4.svg";
+    let commands: &[&[&str]] = &[
+        &["render", scene, "-o", "a.png", "--size=16384x16384"],
+        &["inspect", scene, "--pixel=1,1", "--size=16384x16384"],
+        &["bench", scene, "--size=16384x16384", "--frames=1"],
+        &[
+            "sheet",
+            scene,
+            "-o",
+            "a.png",
+            "--sample-rate=1,4,9,16",
+            "--size=4000x4000",
+        ],
+        #[cfg(feature = "window")]
+        &[scene, "--headless", "--size=16384x16384"],
+    ];
+    for arguments in commands {
+        let folder = tempfile::tempdir().unwrap();
+        let output = run_after("ulimit -v 900000", folder.path(), arguments);
+        assert_told(&output, 1, &["memory", "--size"], folder.path());
+    }
+}
+
+#[test]
+fn limits_of_threads_are_told() {
+    let scene = "gallery:basic/test4.svg";
+    let commands: &[&[&str]] = &[
+        &["render", scene, "-o", "a.png"],
+        &["inspect", scene, "--pixel=1,1", "--threads=3"],
+        #[cfg(feature = "window")]
+        &[scene, "--headless"],
+    ];
+    for arguments in commands {
+        let folder = tempfile::tempdir().unwrap();
+        // Stacks that are larger than all memory: no thread starts.
+        let limit = "ulimit -v 4000000; export RUST_MIN_STACK=100000000000";
+        let output = run_after(limit, folder.path(), arguments);
+        assert_told(&output, 1, &["cannot start", "thread"], folder.path());
+    }
+}
+
+#[test]
+fn limits_of_a_file_are_told_where_their_signal_is_not_ignored() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = ["render", "gallery:texmap/test4.svg", "-o", "a.png", "--size=400x400"];
+    let output = run_after("ulimit -f 64", folder.path(), &arguments);
+    // As with a full disk: the place was the user's choice.
+    assert_told(&output, 2, &["a.png", "too large"], folder.path());
+}
+
+#[cfg(feature = "window")]
+#[test]
+fn limits_of_time_zones_do_no_harm() {
+    for zone in [
+        "/dev/zero",
+        ":/dev/zero",
+        "fifo",
+        "Nowhere/At all",
+        "\u{1b}[2J",
+        "../../../etc/passwd",
+        "<A>99999999",
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let limit = format!("mkfifo fifo; ulimit -v 4000000; export TZ='{zone}'");
+        let output = run_after(
+            &limit,
+            folder.path(),
+            &["gallery:basic/test4.svg", "--headless", "--size=320x240"],
+        );
+        assert!(
+            output.status.success() && output.stderr.is_empty(),
+            "{zone}: {output:?}"
+        );
+        let saved = names(folder.path())
+            .into_iter()
+            .filter(|name| name.starts_with("rasterscope-"));
+        assert_eq!(saved.count(), 1, "{zone}: {output:?}");
+        fs::remove_file(folder.path().join("fifo")).unwrap();
+    }
+}

@@ -1,0 +1,240 @@
+//! What commands write, from outside: never over what they read, never over what others made.
+
+use std::fs;
+use std::path::Path;
+
+use rasterscope::figure::{encode_png, save_png};
+use rasterscope::raster::Framebuffer;
+
+use crate::support::folder::names;
+use crate::support::program::{done, run};
+use crate::support::refusal::assert_refused;
+
+const SCENE: &str = r#"<svg width="40" height="30"><texture texid="t" filename="tex%74ure.png"/>
+<textri texid="t" uvs="0 0 1 0 1 1" points="2,3 37,9 11,28"/></svg>"#;
+
+fn picture(color: u32) -> Framebuffer {
+    let mut frame = Framebuffer::new(4, 4);
+    frame.pixels_mut().fill(color);
+    frame
+}
+
+/// A scene with its texture, and a picture of no program that is known.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("s.svg"), SCENE).unwrap();
+    save_png(&picture(0xff10_2030), &folder.path().join("texture.png")).unwrap();
+    save_png(&picture(0xff40_2030), &folder.path().join("other.png")).unwrap();
+    folder
+}
+
+/// Runs the program, which must refuse and leave every file as it was.
+fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
+    let all = || -> Vec<_> {
+        let names = names(folder).into_iter();
+        names.map(|name| (fs::read(folder.join(&name)).ok(), name)).collect()
+    };
+    let before = all();
+    assert_refused(&run(folder, arguments), arguments, words);
+    assert_eq!(all(), before, "{arguments:?}: nothing else");
+}
+
+#[test]
+fn outputs_never_replace_an_input() {
+    let folder = folder();
+    let folder = folder.path();
+    let small = "--size=40x30";
+    refused(folder, &["sweep", "s.svg", "--csv", "s.svg", small], &["s.svg", "read"]);
+    refused(
+        folder,
+        &[
+            "sweep",
+            "s.svg",
+            "--csv",
+            "t.csv",
+            "--plot",
+            "texture.png",
+            small,
+            "--frames=1",
+        ],
+        &["texture.png", "read"],
+    );
+    refused(
+        folder,
+        &["render", "s.svg", "-o", "texture.png", small],
+        &["texture.png", "read"],
+    );
+    refused(
+        folder,
+        &["render", "s.svg", "-o", "./texture.png", small, "--force"],
+        &["texture.png", "read"],
+    );
+    refused(
+        folder,
+        &["sheet", "s.svg", "-o", "texture.png", small],
+        &["texture.png", "read"],
+    );
+    refused(
+        folder,
+        &["diff", "texture.png", "other.png", "-o", "texture.png"],
+        &["texture.png", "read"],
+    );
+    refused(
+        folder,
+        &["diff", "texture.png", "other.png", "-o", "other.png"],
+        &["other.png", "read"],
+    );
+    done(folder, &["render", "s.svg", "-o", "own.png", small]);
+    refused(
+        folder,
+        &["render", "own.png", "-o", "own.png", "--sample-rate=4"],
+        &["own.png", "read"],
+    );
+    refused(folder, &["rerun", "own.png", "-o", "own.png"], &["own.png", "read"]);
+    if cfg!(feature = "window") {
+        let shot = ["s.svg", "--headless", "--do", "wait; shot texture.png"];
+        refused(folder, &shot, &["texture.png", "read"]);
+    }
+    done(folder, &["render", "s.svg", "-o", "own.png", small]);
+}
+
+#[test]
+fn outputs_replace_their_own_making_only() {
+    let folder = folder();
+    let folder = folder.path();
+    let at = |name: &str| folder.join(name);
+    let small = "--size=40x30";
+    // A name that the user gave: any picture.
+    done(folder, &["render", "s.svg", "-o", "other.png", small]);
+    // Names that the program chose.
+    let sheet = [
+        "sheet",
+        "s.svg",
+        "-o",
+        "sheet.png",
+        "--sample-rate=1,4",
+        "--size=120x90",
+    ];
+    done(folder, &sheet);
+    done(folder, &sheet);
+    for name in ["figures.md", "figures.html", "figures.tex"] {
+        let own = fs::read(at("sheet").join(name)).unwrap();
+        fs::write(at("sheet").join(name), "my notes").unwrap();
+        refused(folder, &sheet, &[name, "--force"]);
+        assert_eq!(fs::read(at("sheet").join(name)).unwrap(), b"my notes", "{name}");
+        fs::write(at("sheet").join(name), own).unwrap();
+    }
+    let slides = [
+        "lesson",
+        "lesson:anisotropy",
+        "--slides",
+        "slides",
+        "--size=480x300",
+        "--step=1",
+    ];
+    done(folder, &slides);
+    done(folder, &slides);
+    let foreign = encode_png(&picture(0xff00_0000), None).unwrap();
+    fs::write(at("slides/01.png"), &foreign).unwrap();
+    refused(folder, &slides, &["01.png", "--force"]);
+    assert_eq!(fs::read(at("slides/01.png")).unwrap(), foreign, "kept");
+    done(folder, &[&slides[..], &["--force"]].concat());
+    assert_ne!(fs::read(at("slides/01.png")).unwrap(), foreign, "given up");
+}
+
+#[test]
+fn outputs_of_folders_and_tables_replace_their_own_making_only() {
+    let folder = folder();
+    let folder = folder.path();
+    let at = |name: &str| folder.join(name);
+    let small = "--size=40x30";
+    let foreign = encode_png(&picture(0xff00_0000), None).unwrap();
+    fs::create_dir(at("in")).unwrap();
+    fs::rename(at("s.svg"), at("in/a.svg")).unwrap();
+    fs::write(at("in/a.png"), &foreign).unwrap();
+    let output = run(folder, &["render", "in", "-o", "in", small]);
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    assert_eq!(fs::read(at("in/a.png")).unwrap(), foreign, "kept");
+    fs::write(at("points.csv"), "name,points\nme,9\n").unwrap();
+    let sweep = [
+        "sweep",
+        "gallery:basic/test4.svg",
+        "--csv",
+        "points.csv",
+        small,
+        "--frames=1",
+    ];
+    refused(folder, &sweep, &["points.csv", "--force"]);
+    done(
+        folder,
+        &[
+            "sweep",
+            "gallery:basic/test4.svg",
+            "--csv",
+            "own.csv",
+            small,
+            "--frames=1",
+        ],
+    );
+    done(
+        folder,
+        &[
+            "sweep",
+            "gallery:basic/test4.svg",
+            "--csv",
+            "own.csv",
+            small,
+            "--frames=1",
+        ],
+    );
+}
+
+#[test]
+fn outputs_of_a_writeup_keep_pages_and_pins_of_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::create_dir(at("out")).unwrap();
+    fs::write(at("out/index.html"), "<p>My page</p>").unwrap();
+    let writeup = ["writeup", "course", "-o", "out"];
+    let output = run(folder.path(), &writeup);
+    assert_refused(&output, &writeup, &["index.html", "--force"]);
+    assert_eq!(fs::read(at("out/index.html")).unwrap(), b"<p>My page</p>", "kept");
+    fs::remove_file(at("out/index.html")).unwrap();
+    let pins = "# the tip of the needle\ntest4 = \"u614,777:16@8:auto\"\n";
+    fs::write(at("out/pins.toml"), pins).unwrap();
+    done(folder.path(), &writeup);
+    let after = fs::read_to_string(at("out/pins.toml")).unwrap();
+    assert!(
+        after.starts_with(pins) && after.len() > pins.len(),
+        "comments stay: {after}"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn outputs_follow_links_or_refuse_them() {
+    use std::os::unix::fs::symlink;
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    symlink("none.png", at("dangling.png")).unwrap();
+    symlink("texture.png", at("link.png")).unwrap();
+    symlink("other.png", at("good.png")).unwrap();
+    let small = "--size=40x30";
+    refused(
+        folder.path(),
+        &["render", "s.svg", "-o", "dangling.png", small],
+        &["dangling.png", "leads nowhere"],
+    );
+    refused(
+        folder.path(),
+        &["render", "s.svg", "-o", "link.png", small],
+        &["link.png", "read"],
+    );
+    done(folder.path(), &["render", "s.svg", "-o", "good.png", small]);
+    assert!(at("good.png").is_symlink(), "the link stays");
+    assert_eq!(
+        image::image_dimensions(at("other.png")).unwrap(),
+        (40, 30),
+        "what it leads to"
+    );
+}

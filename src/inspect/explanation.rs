@@ -14,6 +14,9 @@ use crate::raster::{Attributes, PaintedKind, PaintedOp, Piece, PieceShape, Pixel
 use crate::render::{self, Explainer, RenderSettings, Subject};
 use crate::rules::Rules;
 
+/// How far beside the pixel primitives are measured, in distances of samples: far enough that the corner of something
+/// large is not taken for something thin.
+const BESIDE: f64 = 2.0;
 /// Primitives between the samples that are told at most.
 const MOST_MISSED: usize = 100;
 
@@ -31,7 +34,7 @@ pub struct Question<'a> {
 }
 
 impl Explanation {
-    /// Why a pixel has its colour; `None` outside the picture.
+    /// Why a pixel has its colour, but for what would help; `None` outside the picture.
     pub fn new(question: &Question<'_>) -> Option<Self> {
         let Question {
             subject, size, pixel, ..
@@ -50,6 +53,7 @@ impl Explanation {
             .collect();
         let [a, r, g, b] = replay.pixel.to_be_bytes();
         let center = DVec2::new(f64::from(pixel[0]), f64::from(pixel[1])) + 0.5;
+        let around = BESIDE / (replay.samples.len() as f64).sqrt();
         let missed = explainer.missed(&replay.painted, MOST_MISSED);
         Some(Self {
             version: VERSION,
@@ -64,14 +68,15 @@ impl Explanation {
             missed: missed
                 .into_iter()
                 .filter_map(|(primitive, area)| {
-                    let source = question.source(primitive)?;
                     Some(Missed {
-                        source,
+                        source: question.source(primitive)?,
                         primitive,
                         area,
+                        width: explainer.width(primitive, around)?,
                     })
                 })
                 .collect(),
+            truth: None,
         })
     }
 }

@@ -7,6 +7,7 @@
 
 use serde::Serialize;
 
+use super::truth::Truth;
 use crate::color::ResolveSpace;
 
 /// The version of the shape of the report.
@@ -33,8 +34,10 @@ pub struct Explanation {
     pub samples: Vec<Sample>,
     /// Everything that painted any of them, first to last.
     pub paints: Vec<Paint>,
-    /// What passes through the pixel and misses every sample.
+    /// What covers parts of the pixel and none of its samples.
     pub missed: Vec<Missed>,
+    /// What the pixel should be, and what brings it nearer; `None` where nobody asked, or there is too much to draw.
+    pub truth: Option<Truth>,
 }
 
 /// How samples became a pixel.
@@ -310,7 +313,7 @@ pub struct Level {
     pub weight: f64,
 }
 
-/// A primitive that passes between the samples.
+/// A primitive that covers a part of the pixel and none of its samples.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Missed {
     /// Where it stands in the document.
@@ -319,6 +322,8 @@ pub struct Missed {
     pub primitive: u32,
     /// The part of the pixel that it covers in truth, `0.0..=1.0`.
     pub area: f64,
+    /// How wide it is here in its thinnest direction, in pixels: in the pixel and up to two samples' distances beside it.
+    pub width: f64,
 }
 
 impl Verdict {

@@ -124,7 +124,13 @@ fn seams_of_levels_that_jump_between_triangles() {
     };
     let jump = two(4.0);
     let told = at(&jump, LevelSampling::Nearest, [31, 32]);
-    assert!(told.contains(LEVELS) && told.contains("(L)"), "{told}");
+    assert!(told.contains(LEVELS), "{told}");
+    // Where texels differ enough, mixing the levels brings a pixel nearer to the truth.
+    let cured = (8..56).any(|x| {
+        let told = at(&jump, LevelSampling::Nearest, [x, 63 - x]);
+        told.contains(LEVELS) && told.contains("Level sampling linear (L): ")
+    });
+    assert!(cured, "the cure is told where it is one");
     for (body, sampling, pixel, why) in [
         (&jump, LevelSampling::Linear, [31, 32], "levels are mixed"),
         (&jump, LevelSampling::Zero, [31, 32], "both read level zero"),
@@ -197,7 +203,7 @@ fn seams_scene_shows_seams_by_the_courses_rules_only() {
                     size,
                     pixel,
                 };
-                Explanation::new(&question).unwrap().hints().concat()
+                Explanation::advised(&question).unwrap().hints().concat()
             };
             assert!(
                 told(Rules::Course).contains(TWICE),

@@ -14,6 +14,7 @@ mod full_disk;
 mod gallery;
 mod golden;
 mod inspect;
+mod inspect_advice;
 mod inspect_feeds;
 mod inspect_seams;
 mod instruction_guard;

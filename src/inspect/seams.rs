@@ -25,10 +25,11 @@ impl Explanation {
             .filter_map(|sample| self.twice_at(sample))
             .collect();
         let [lower, upper] = *doubled.first()?;
+        let count = doubled.iter().filter(|pair| **pair == [lower, upper]).count();
         Some(format!(
             "{} exactly on the line between {} and {}. By the course's rules a line belongs to both: both painted it, and \
              what shines through is blended twice, a seam.",
-            self.count_words(doubled.len()),
+            self.count_words(count),
             self.numbered(lower),
             self.numbered(upper),
         ))

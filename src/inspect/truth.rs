@@ -11,7 +11,7 @@ use crate::rules::Rules;
 use crate::texture::{Anisotropy, Derivatives, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
 
 /// Corners near a pixel above which it is not drawn again and again.
-const MOST_WORK: usize = 200_000;
+const MOST_WORK: usize = 50_000;
 /// A setting has to bring a pixel nearer by more levels than this: less is rounding.
 const LEAST: f64 = 1.0;
 /// Of several values of a setting the first is taken that brings this part of what the best one does.

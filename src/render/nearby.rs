@@ -12,9 +12,6 @@ use crate::scene::{PrimitiveKind, Scene};
 /// How far from the pixel a primitive may lie and yet paint it, in pixels: corners are snapped by far less, whoever's
 /// rules, and a hairline is as wide as a pixel.
 const REACH: f64 = 2.0;
-/// Primitives that shine through from afar and are kept: one decides how shaded primitives are blended, and small ones may
-/// cover no sample at some rates.
-const MOST_SHINING: usize = 16;
 
 /// The primitives near one pixel of a picture.
 #[derive(Debug)]
@@ -97,23 +94,26 @@ fn ends(screen: &Screen<'_>, kind: &PrimitiveKind) -> Option<[DVec2; 2]> {
     }
 }
 
-/// The largest primitives in the frame that are shaded and let what is below them shine through: one of them anywhere makes
-/// all shaded ones blend sample by sample.
-fn shining(scene: &Scene, screen: &Screen<'_>, size: [u32; 2]) -> Vec<u32> {
+/// The largest triangle in the frame that is shaded and lets what is below it shine through: one anywhere makes all shaded
+/// ones blend sample by sample.
+fn shining(scene: &Scene, screen: &Screen<'_>, size: [u32; 2]) -> Option<u32> {
     let frame = [DVec2::ZERO, DVec2::from(size.map(f64::from))];
     let shining = scene
         .primitives
         .par_iter()
         .enumerate()
         .filter_map(|(index, primitive)| {
+            let PrimitiveKind::Triangle { points, .. } = &primitive.kind else {
+                return None;
+            };
             let [low, high] = bounds(screen, &primitive.kind).filter(|_| shines_through(scene, &primitive.kind))?;
             let inside = high.min(frame[1]) - low.max(frame[0]);
-            inside.cmpgt(DVec2::ZERO).all().then(|| (inside.x * inside.y, index))
+            let [a, b, c] = points.map(|point| screen.place(point));
+            let area = ((b - a).perp_dot(c - a) / 2.0).abs().min(inside.x * inside.y);
+            inside.cmpgt(DVec2::ZERO).all().then_some((area, index))
         });
-    let mut shining: Vec<(f64, usize)> = shining.collect();
-    shining.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    shining.truncate(MOST_SHINING);
-    shining.into_iter().map(|(_, index)| number(index)).collect()
+    let largest = shining.max_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    largest.map(|(_, index)| number(index))
 }
 
 /// Leaves out the layers that nothing is left of.

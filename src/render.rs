@@ -1,6 +1,7 @@
 //! The only place where scene meets raster: transforms a scene's primitives and draws them into a frame.
 
 mod legend;
+mod nearby;
 mod regions;
 mod replay;
 mod visualisation;
@@ -23,6 +24,7 @@ use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};
 use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, SamplingSettings};
 
 pub use legend::{Legend, LegendKey};
+pub use nearby::Nearby;
 pub use regions::{Subject, draw_regions, refine};
 pub use replay::{Explainer, Neighbourhood, OpenSample, replay};
 pub use visualisation::Visualisation;

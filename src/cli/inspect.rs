@@ -40,7 +40,7 @@ fn report(options: &InspectOptions, restored: Option<&Restored>) -> Result<Strin
         size,
         pixel: [x, y],
     };
-    let explanation = Explanation::new(&question).ok_or_else(outside)?;
+    let explanation = Explanation::advised(&question).ok_or_else(outside)?;
     let detail = detail(options, explanation.samples.len())?;
     if options.json {
         return serde_json::to_string_pretty(&explanation)

@@ -21,7 +21,7 @@ pub fn area_in_pixel(corners: [DVec2; 3], pixel: [u32; 2]) -> f64 {
 }
 
 /// The part of a convex polygon where `distance` is not below zero; `distance` is an affine function.
-fn cut(polygon: &[DVec2], distance: impl Fn(DVec2) -> f64) -> Vec<DVec2> {
+pub(super) fn cut(polygon: &[DVec2], distance: impl Fn(DVec2) -> f64) -> Vec<DVec2> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     let next = polygon.iter().cycle().skip(1);
     for (from, to) in polygon.iter().zip(next) {

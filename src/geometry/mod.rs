@@ -11,9 +11,11 @@ mod stroke;
 pub mod subpixel;
 mod triangulate;
 mod view;
+mod width;
 
 pub use area::area_in_pixel;
 pub use polygon::Polygon;
 pub use stroke::{LineCap, LineJoin, StrokeStyle, stroke_outline};
 pub use triangulate::{FillRule, estimate_crossings, triangulate};
 pub use view::{View, ViewTransform};
+pub use width::width_in_window;

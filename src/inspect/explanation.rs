@@ -17,6 +17,9 @@ use crate::render::{self, Explainer, OpenSample, RenderSettings, Subject};
 use crate::rules::Rules;
 use crate::scene::Quotes;
 
+/// How far beside the pixel primitives are measured, in distances of samples: far enough that the corner of something
+/// large is not taken for something thin.
+const BESIDE: f64 = 2.0;
 /// Primitives between the samples that are told at most.
 const MOST_MISSED: usize = 100;
 
@@ -34,7 +37,7 @@ pub struct Question<'a> {
 }
 
 impl Explanation {
-    /// Why a pixel has its colour; `None` outside the picture.
+    /// Why a pixel has its colour, but for what would help; `None` outside the picture.
     pub fn new(question: &Question<'_>) -> Option<Self> {
         let Question {
             subject, size, pixel, ..
@@ -61,6 +64,7 @@ impl Explanation {
         let samples = samples(&replay, &paints, rules);
         let pinholes = question.pinholes(&samples, &paints, (&explainer, quotes.as_ref()));
         missed.retain(|(primitive, _)| pinholes.iter().all(|pinhole| pinhole.primitive != *primitive));
+        let around = BESIDE / (replay.samples.len() as f64).sqrt();
         Some(Self {
             version: VERSION,
             pixel,
@@ -76,14 +80,15 @@ impl Explanation {
             missed: missed
                 .into_iter()
                 .filter_map(|(primitive, area)| {
-                    let source = question.source(primitive, quotes.as_ref())?;
                     Some(Missed {
-                        source,
+                        source: question.source(primitive, quotes.as_ref())?,
                         primitive,
                         area,
+                        width: explainer.width(primitive, around)?,
                     })
                 })
                 .collect(),
+            truth: None,
         })
     }
 }

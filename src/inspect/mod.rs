@@ -1,7 +1,7 @@
 //! Why a pixel has its colour: samples, fragments, edges, weights, footprint, texels.
 //!
 //! Replays for one pixel the very functions that draw frames; it has no arithmetic of its own. [`Explanation`] is the
-//! report, in numbers; [`Explanation::text`] says it in words, [`Explanation::markdown`] for a write-up. [`Feeds`] goes the
+//! report, in numbers, with what would help where [`Explanation::advised`] made it; [`Explanation::text`] says it in words, [`Explanation::markdown`] for a write-up. [`Feeds`] goes the
 //! other way: from a texel to the pixels around that read it.
 
 mod accumulation;
@@ -16,6 +16,7 @@ mod pinholes;
 mod samples;
 mod seams;
 mod text;
+mod truth;
 mod words;
 
 pub use accumulation::Convergence;
@@ -28,3 +29,4 @@ pub use model::{
 };
 pub use samples::{PixelSample, SampleHit, pixel_samples};
 pub use text::Detail;
+pub use truth::{Cure, Setting, Truth};

@@ -7,6 +7,7 @@
 
 use serde::Serialize;
 
+use super::truth::Truth;
 use crate::color::ResolveSpace;
 
 /// The version of the shape of the report.
@@ -36,11 +37,13 @@ pub struct Explanation {
     pub paints: Vec<Paint>,
     /// How many paints there are besides.
     pub unlisted: usize,
-    /// What passes through the pixel and misses every sample.
-    pub missed: Vec<Missed>,
     /// Samples that an edge in 32-bit floats leaves open; there are some by the float rules only.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub pinholes: Vec<Pinhole>,
+    /// What covers parts of the pixel and none of its samples.
+    pub missed: Vec<Missed>,
+    /// What the pixel should be, and what brings it nearer; `None` where nobody asked, or there is too much to draw.
+    pub truth: Option<Truth>,
 }
 
 /// How samples became a pixel.
@@ -323,7 +326,7 @@ pub struct Level {
     pub weight: f64,
 }
 
-/// A primitive that passes between the samples.
+/// A primitive that covers a part of the pixel and none of its samples.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Missed {
     /// Where it stands in the document.
@@ -332,6 +335,8 @@ pub struct Missed {
     pub primitive: u32,
     /// The part of the pixel that it covers in truth, `0.0..=1.0`.
     pub area: f64,
+    /// How wide it is here in its thinnest direction, in pixels: in the pixel and up to two samples' distances beside it.
+    pub width: f64,
 }
 
 /// A sample that is a triangle's by the standard rules, and by the float rules is not: what lies below shows.

@@ -42,6 +42,11 @@ pub(super) fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
+/// With five digits after the point, cut off and not rounded: what lies before a whole number stays before it.
+pub(super) fn cut(value: f64) -> String {
+    format!("{:.5}", (value * 1e5).floor() / 1e5)
+}
+
 /// With three significant digits.
 pub(super) fn significant(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {

@@ -1,4 +1,4 @@
-//! Why a line shows where two primitives meet: both painted it, nobody did, or each reads another mip level.
+//! Why a line may show where two primitives meet: both painted it, nobody did, or each reads another mip level.
 //!
 //! Said of what was recorded of this pixel's samples only; where neighbours meet as they should there is nothing to say.
 
@@ -13,15 +13,15 @@ const OPAQUE: f64 = 254.99;
 const SIDE_BY_SIDE: f64 = 0.98;
 
 impl Explanation {
-    /// Where this pixel has a seam, what it comes of and what cures it.
-    pub(super) fn seam_hints(&self) -> Vec<String> {
-        let hints = [
+    /// Where this pixel has a seam, what it comes of. What cures it, if anything does, is for [`super::Truth`] to find out.
+    pub(super) fn seams(&self) -> Vec<String> {
+        let seams = [
             self.painted_twice(),
             self.pinhole_hint(),
             self.left_open(),
             self.step_of_levels(),
         ];
-        hints.into_iter().flatten().collect()
+        seams.into_iter().flatten().collect()
     }
 
     /// A line that belongs to both neighbours by the course's rules, where the upper lets the lower shine through.
@@ -30,10 +30,11 @@ impl Explanation {
             .filter_map(|sample| self.twice_at(sample))
             .collect();
         let [lower, upper] = *doubled.first()?;
+        let count = doubled.iter().filter(|pair| **pair == [lower, upper]).count();
         Some(format!(
             "{} exactly on the line between {} and {}. By the course's rules a line belongs to both: both painted it, and \
-             what shines through is blended twice, a seam. By the standard rules (Rules in the panel) one of them owns it.",
-            self.count_words(doubled.len()),
+             what shines through is blended twice, a seam.",
+            self.count_words(count),
             self.numbered(lower),
             self.numbered(upper),
         ))
@@ -98,7 +99,7 @@ impl Explanation {
             .find_map(|sample| self.gap_at(sample))?;
         Some(format!(
             "Sample {} lies between {} and {}, outside of both: the document leaves a gap of {} pixels there, and what is \
-             below shows. No setting closes it; corners that are to meet need the same coordinates.",
+             below shows. No setting closes it: corners that are to meet need the same coordinates.",
             sample + 1,
             self.numbered(a),
             self.numbered(b),
@@ -120,9 +121,30 @@ impl Explanation {
         let mut gaps = pairs.filter_map(|((a, edge_a, from_a), (b, edge_b, from_b))| {
             let gap = from_a + from_b;
             let meets = gap < WIDEST_GAP && self.face((a, edge_a), (b, edge_b)) && self.are_apart(a, b);
-            meets.then_some((sample, [a, b], gap))
+            (meets && self.shows_below(sample, [a, b])).then_some((sample, [a, b], gap))
         });
         gaps.next()
+    }
+
+    /// Whether nothing covers a sample but what lies below two neighbours: a third one of a mesh closes the gap, whether it
+    /// was painted before them or after.
+    fn shows_below(&self, sample: usize, neighbours: [usize; 2]) -> bool {
+        let Some(sample) = self.samples.get(sample) else {
+            return false;
+        };
+        let is_below = |paint: usize| {
+            neighbours
+                .iter()
+                .all(|above| paint < *above && self.overlap(paint, *above))
+        };
+        let is_layer = |paint: usize| matches!(self.paints[paint].shape, Shape::BeginLayer | Shape::EndLayer { .. });
+        sample.stack.iter().all(|paint| is_layer(*paint) || is_below(*paint))
+    }
+
+    /// Whether two paints cover a sample both.
+    fn overlap(&self, a: usize, b: usize) -> bool {
+        let covered = self.paints[a].samples();
+        self.paints[b].samples().iter().any(|sample| covered.contains(sample))
     }
 
     /// The only edge that keeps a sample out of a triangle that paints others, and how far.
@@ -170,8 +192,7 @@ impl Explanation {
         let ((a, own), (b, other)) = steps.next()?;
         Some(format!(
             "Along the edge between {} and {} the level of detail changes from {} to {}, because a triangle has one for all of \
-             it; level sampling nearest rounds them to levels {} and {}, and the step is seen as a seam. Level sampling \
-             linear (L) mixes levels, so that the step is no larger than the change.",
+             it; level sampling nearest rounds them to levels {} and {}, a step.",
             self.numbered(a),
             self.numbered(b),
             number((own.clamped * 100.0).round() / 100.0),

@@ -89,9 +89,9 @@ impl Explanation {
             let nothing = vec!["every sample shows the background".to_owned()];
             topics.push(topic("Nothing paints this pixel".to_owned(), nothing));
         }
-        let hints = self.hints();
-        if !hints.is_empty() {
-            topics.push(topic("What would help".to_owned(), hints));
+        let help = self.help_lines();
+        if !help.is_empty() {
+            topics.push(topic("What would help".to_owned(), help));
         }
         if !self.pinholes.is_empty() {
             topics.push(topic(
@@ -100,7 +100,7 @@ impl Explanation {
             ));
         }
         if !self.missed.is_empty() {
-            topics.push(topic("What passes between the samples".to_owned(), self.missed_lines()));
+            topics.push(topic("What no sample meets".to_owned(), self.missed_lines()));
         }
         topics
     }

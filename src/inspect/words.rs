@@ -4,12 +4,14 @@
 use std::fmt::Write as _;
 
 use super::model::{Edge, Explanation, Fragment, Interpolated, Paint, Resolve, Rounding, Shape, Source, Verdict, View};
-use super::numbers::{number, percent, runs, significant};
+use super::numbers::{cut, number, percent, runs, significant};
 use crate::color::{ResolveSpace, encoded};
 use crate::plain;
 
 /// Different colours that a sum is written out for at most.
 const MOST_TERMS: usize = 4;
+/// Points of a texture that are listed at most.
+const MOST_TAPS: usize = 4;
 /// Texels that are listed at most, the heaviest first.
 const MOST_TEXELS: usize = 16;
 
@@ -272,7 +274,7 @@ impl Explanation {
             lines.push(format!(
                 "covers {} of the pixel in truth, {} by its samples",
                 percent(area),
-                percent(count as f64 / all as f64)
+                percent(self.covered_part(found))
             ));
         }
         if let Shape::Triangle { corners } = &found.shape {
@@ -329,7 +331,7 @@ impl Explanation {
         })
     }
 
-    /// What passes between the samples.
+    /// What covers parts of the pixel, and none of its samples.
     pub fn missed_lines(&self) -> Vec<String> {
         let line = |missed: &super::model::Missed| {
             let Source { file, line, column, .. } = &missed.source;
@@ -507,8 +509,19 @@ impl Interpolated {
             Self::Color { rgba: [r, g, b, a] } => {
                 vec![format!("mixed     red {r:.4}, green {g:.4}, blue {b:.4}, alpha {a:.4}")]
             }
-            Self::Texture { uv: [u, v], texels, .. } => {
+            Self::Texture {
+                uv: [u, v],
+                texels,
+                taps,
+            } => {
                 let mut lines = vec![format!("(u, v)    ({u:.5}, {v:.5})")];
+                for tap in taps.iter().take(MOST_TAPS) {
+                    let [x, y] = tap.at.map(cut);
+                    lines.push(format!("point     ({x}, {y}) of level {}, in texels", tap.level));
+                }
+                if let Some(rest) = taps.len().checked_sub(MOST_TAPS).filter(|rest| *rest > 0) {
+                    lines.push(format!("          and {rest} more points"));
+                }
                 let mut heaviest = texels.clone();
                 heaviest.sort_by(|a, b| b.weight.total_cmp(&a.weight));
                 for texel in heaviest.iter().take(MOST_TEXELS) {

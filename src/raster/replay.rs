@@ -12,7 +12,7 @@ use super::display_list::{Chunk, ListContext};
 use super::entry::Entry;
 use super::pixel_block::PixelBlock;
 use super::places::{Place, SamplePlaces};
-use super::rasterize::{Method, Pass, first_visible};
+use super::rasterize::{Method, Painters, Pass, first_visible};
 use super::recorder::{PaintedKind, PaintedOp};
 use super::rows::Span;
 use super::tally::SharedTally;
@@ -80,12 +80,6 @@ impl DisplayList<'_> {
         let (painted, samples) = painters
             .blended
             .replay(&chunks, (at, self.background()), &mut painters.bands);
-        let mut pixel = [0];
-        let one = |start: i32| Span { start, end: start + 1 };
-        let rect = PixelRect {
-            x: one(at[0]),
-            y: one(at[1]),
-        };
         let cancelled = AtomicBool::new(false);
         let pass = Pass {
             bins,
@@ -93,7 +87,7 @@ impl DisplayList<'_> {
             cancelled: &cancelled,
             tally: SharedTally::default(),
         };
-        self.numbered_tile(&pass, &mut painters, 0, &mut PixelBlock::new(rect, &mut pixel, 1));
+        let pixel = self.alone(&pass, &mut painters, at);
         let deferred = self.method(&pass, 0, first_visible(&pass.bins, 0)) == Method::Deferred;
         let shaded = deferred.then(|| painters.deferred.shaded_sums()).flatten();
         let positions = self.positions(at);
@@ -110,8 +104,40 @@ impl DisplayList<'_> {
                 })
                 .collect(),
             painted,
-            pixel: pixel[0],
+            pixel,
         })
+    }
+
+    /// What [`PixelReplay::pixel`] would be, without noting what paints it; `None` outside the frame.
+    pub fn pixel(&self, x: u32, y: u32) -> Option<u32> {
+        if x >= self.context.size[0] || y >= self.context.size[1] {
+            return None;
+        }
+        let at = [x.cast_signed(), y.cast_signed()];
+        let cancelled = AtomicBool::new(false);
+        let pass = Pass {
+            bins: self.bins_of_pixel(at),
+            first_row: y,
+            cancelled: &cancelled,
+            tally: SharedTally::default(),
+        };
+        let mut painters = self.painters_of(Span {
+            start: at[0],
+            end: at[0] + 1,
+        });
+        Some(self.alone(&pass, &mut painters, at))
+    }
+
+    /// Paints a pixel as a tile of its own, the first of the pass.
+    fn alone<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, at: [i32; 2]) -> u32 {
+        let mut pixel = [0];
+        let one = |start: i32| Span { start, end: start + 1 };
+        let rect = PixelRect {
+            x: one(at[0]),
+            y: one(at[1]),
+        };
+        self.numbered_tile(pass, painters, 0, &mut PixelBlock::new(rect, &mut pixel, 1));
+        pixel[0]
     }
 
     /// How many ops the list has.

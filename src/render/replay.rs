@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Hidden, Screen, Subject, add, number, picture_list, raster_settings};
 use crate::color::Rgba;
-use crate::geometry::area_in_pixel;
+use crate::geometry::{area_in_pixel, width_in_window};
 use crate::raster::{
     ChunkBuilder, DisplayList, ListContext, PaintedKind, PaintedOp, Piece, PieceShape, PixelReplay, RasterSettings,
     Region, SampleOfTriangle,
@@ -15,7 +15,7 @@ use crate::raster::{
 use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};
 
 /// Whether a primitive is shaded and lets what is below it shine through.
-fn shines_through(scene: &Scene, kind: &PrimitiveKind) -> bool {
+pub(super) fn shines_through(scene: &Scene, kind: &PrimitiveKind) -> bool {
     match kind {
         PrimitiveKind::Triangle {
             paint: Paint::Texture { texture, opacity, .. },
@@ -274,8 +274,22 @@ impl<'a> Explainer<'a> {
         }
     }
 
-    /// Primitives that pass through the pixel between its samples: by their indices, with the part of the pixel that they
-    /// cover in truth. At most `most` of them.
+    /// How wide a primitive is in the thinnest direction, in pixels, as far as it lies in the pixel or at most `around` pixels
+    /// beside it; `None` where [`Explainer::area`] is.
+    pub fn width(&self, source: u32, around: f64) -> Option<f64> {
+        let screen = self.screen();
+        let corner = DVec2::from(self.pixel.map(f64::from));
+        let window = [corner - around, corner + 1.0 + around];
+        let place = |points: &[DVec2; 3]| points.map(|point| screen.place(point));
+        match &self.subject.scene.primitives.get(source as usize)?.kind {
+            PrimitiveKind::Triangle { points, .. } => width_in_window([place(points)].into_iter(), window),
+            PrimitiveKind::Polygon { polygon, .. } => width_in_window(polygon.triangles()?.iter().map(place), window),
+            _ => None,
+        }
+    }
+
+    /// Primitives that cover parts of the pixel and none of its samples: by their indices, with the part of the pixel that
+    /// they cover in truth. At most `most` of them.
     pub fn missed(&self, painted: &[PaintedOp], most: usize) -> Vec<(u32, f64)> {
         /// Less than this is rounding.
         const LEAST: f64 = 1e-9;
@@ -302,7 +316,7 @@ impl<'a> Explainer<'a> {
 }
 
 /// The box around a primitive on the screen, its least and its greatest corner; `None` for what has no area of its own.
-fn bounds(screen: &Screen<'_>, kind: &PrimitiveKind) -> Option<[DVec2; 2]> {
+pub(super) fn bounds(screen: &Screen<'_>, kind: &PrimitiveKind) -> Option<[DVec2; 2]> {
     let points: &[DVec2] = match kind {
         PrimitiveKind::Triangle { points, .. } => points,
         PrimitiveKind::Polygon { polygon, .. } => polygon.points(),
@@ -317,7 +331,7 @@ fn bounds(screen: &Screen<'_>, kind: &PrimitiveKind) -> Option<[DVec2; 2]> {
 }
 
 /// Whether two boxes share more than a line.
-fn touch([low, high]: [DVec2; 2], [other_low, other_high]: [DVec2; 2]) -> bool {
+pub(super) fn touch([low, high]: [DVec2; 2], [other_low, other_high]: [DVec2; 2]) -> bool {
     low.cmplt(other_high).all() && high.cmpgt(other_low).all()
 }
 

@@ -6,7 +6,7 @@
 use glam::DVec2;
 
 use super::filter::{Axis, Filter, GridLevel, Plan, SampleGrid};
-use super::sampler::{Sampler, course_place};
+use super::sampler::{Sampler, course_place, course_point};
 use super::{MipLevel, PixelSampling, cell};
 use crate::color::Premultiplied16;
 
@@ -28,7 +28,9 @@ pub struct TexelRead {
 pub struct TapRead {
     /// Number of the mip level.
     pub level: usize,
-    /// In texels from the corner of the level's first texel; clamped as the filter clamps.
+    /// In texels from the corner of the level's first texel; clamped as the filter clamps. The very number from which the
+    /// filter decides: the nearest texel is its whole part, and the four around it begin at the whole part of half a texel
+    /// less.
     pub at: DVec2,
 }
 
@@ -128,7 +130,10 @@ impl Notes {
 
     fn course(&mut self, level: (&MipLevel, usize), pixel: PixelSampling, uv: [f32; 2], weight: f32) {
         let ([left, top], [s, t]) = course_place(level.0, pixel, uv);
-        let at = DVec2::new(f64::from(left), f64::from(top)) + DVec2::new(f64::from(s), f64::from(t)) + 0.5;
+        let point = course_point(level.0, pixel, uv).map(f64::from);
+        // Beyond the level its last texel goes on.
+        let last = DVec2::new(f64::from(level.0.width()), f64::from(level.0.height())) - 0.5;
+        let at = (DVec2::from(point) + cell::first_centre(pixel)).min(last);
         self.reads.taps.push(TapRead { level: level.1, at });
         // A nearest texel far beyond the level has no neighbour to its right, and reads none.
         let (right, bottom) = (left.saturating_add(1), top.saturating_add(1));
@@ -205,6 +210,7 @@ mod tests {
                     // Several taps are scaled in 32 bits: the last bit may differ.
                     assert!(found.abs_diff(drawn) <= 1, "{reads:?} is not {color:?}");
                 }
+                check_decided(&reads, filter.plan(grid).pixel);
                 let weights: f64 = reads.texels.iter().map(|texel| texel.weight).sum();
                 assert!((weights - 1.0).abs() < 1e-9, "weights sum to {weights}");
                 for texel in &reads.texels {
@@ -217,6 +223,19 @@ mod tests {
             Ok(())
         })
         .budget_ms(400);
+    }
+
+    /// Each texel that weighs anything lies where a tap says that it does.
+    fn check_decided(reads: &TextureReads, pixel: PixelSampling) {
+        for texel in &reads.texels {
+            let decides = |tap: &TapRead| {
+                let first = (tap.at - cell::first_centre(pixel)).floor().max(DVec2::ZERO);
+                let beyond = DVec2::from(texel.at.map(f64::from)) - first;
+                let most = if pixel == PixelSampling::Nearest { 0.0 } else { 1.0 };
+                tap.level == texel.level && beyond.cmpge(DVec2::ZERO).all() && beyond.cmple(DVec2::splat(most)).all()
+            };
+            assert!(reads.taps.iter().any(decides), "{texel:?} lies beside {:?}", reads.taps);
+        }
     }
 
     #[test]
@@ -241,6 +260,7 @@ mod tests {
                 ];
                 let drawn = sampler.sample(uv[0], uv[1]);
                 let reads = sampler.course_reads(uv[0], uv[1]);
+                check_decided(&reads, settings.pixel);
                 for (found, drawn) in reads.mean().iter().zip(drawn) {
                     assert!(
                         (found - f64::from(drawn)).abs() < 0.01,

@@ -139,22 +139,26 @@ impl<'a> Sampler<'a> {
     }
 }
 
-/// Where `(u, v)` lies in a level: the texel, `round(u (w - 1)), round(v (h - 1))`, for [`PixelSampling::Nearest`]; the
-/// upper left of the four around the point and how far right and down from its centre the point is, in texels, for
-/// [`PixelSampling::Bilinear`], where texel centres lie at whole multiples of `1 / (w - 1)`.
-pub(super) fn course_place(level: &MipLevel, pixel: PixelSampling, [u, v]: [f32; 2]) -> ([i32; 2], [f32; 2]) {
+/// The point of a level that the course's rules look at, in texels. For [`PixelSampling::Nearest`] texel `i` lies from `i` to
+/// `i + 1`, for [`PixelSampling::Bilinear`] its centre at `i`. Texels stand `1 / (w - 1)` apart.
+pub(super) fn course_point(level: &MipLevel, pixel: PixelSampling, [u, v]: [f32; 2]) -> [f32; 2] {
     let (right, bottom) = (level.width() as f32 - 1.0, level.height() as f32 - 1.0);
     match pixel {
-        PixelSampling::Nearest => {
-            let (x, y) = (u * right + 0.5, v * bottom + 0.5);
-            ([truncate(x.max(0.0)), truncate(y.max(0.0))], [0.0; 2])
-        }
-        PixelSampling::Bilinear => {
-            // Beyond the outermost centres the border texel goes on, so clamping the point is clamping the texels.
-            let (x, y) = ((u * right).max(0.0).min(right), (v * bottom).max(0.0).min(bottom));
-            let (left, top) = (truncate(x), truncate(y));
-            ([left, top], [x - left as f32, y - top as f32])
-        }
+        PixelSampling::Nearest => [(u * right + 0.5).max(0.0), (v * bottom + 0.5).max(0.0)],
+        // Beyond the outermost centres the border texel goes on, so clamping the point is clamping the texels.
+        PixelSampling::Bilinear => [(u * right).max(0.0).min(right), (v * bottom).max(0.0).min(bottom)],
+    }
+}
+
+/// Where `(u, v)` lies in a level: the texel that contains the point for [`PixelSampling::Nearest`]; the upper left of the
+/// four around the point and how far right and down from its centre the point is, in texels, for
+/// [`PixelSampling::Bilinear`].
+pub(super) fn course_place(level: &MipLevel, pixel: PixelSampling, uv: [f32; 2]) -> ([i32; 2], [f32; 2]) {
+    let [x, y] = course_point(level, pixel, uv);
+    let (left, top) = (truncate(x), truncate(y));
+    match pixel {
+        PixelSampling::Nearest => ([left, top], [0.0; 2]),
+        PixelSampling::Bilinear => ([left, top], [x - left as f32, y - top as f32]),
     }
 }
 

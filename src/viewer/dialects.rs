@@ -33,11 +33,11 @@ impl Viewer {
     /// The choice of dialect that makes the current picture from its file alone.
     pub(super) fn dialect_of_picture(&self) -> DialectChoice {
         let choice = self.reading_of(self.current, self.settings.dialect);
-        let is_plain = self.settings.render.rules == crate::rules::Rules::Standard;
+        let asks_for_course = self.settings.render.rules == crate::rules::Rules::Course;
         let scene = self.current().and_then(SceneEntry::scene);
         match scene.map(|scene| scene.dialect) {
             // On a command line the course's rules ask for the course's dialect.
-            Some(Dialect::Svg) if choice == DialectChoice::Auto && !is_plain => DialectChoice::Svg,
+            Some(Dialect::Svg) if choice == DialectChoice::Auto && asks_for_course => DialectChoice::Svg,
             _ => choice,
         }
     }

@@ -52,7 +52,7 @@ impl Asked {
     }
 
     fn explain_in(&self, picture: &Picture) -> Option<Explanation> {
-        Explanation::new(&Question {
+        Explanation::advised(&Question {
             subject: Subject {
                 scene: &picture.scene,
                 view: &picture.view,

@@ -376,7 +376,7 @@ pub(crate) fn explain(scene: &Scene, settings: &RenderSettings, size: [u32; 2], 
         size,
         pixel,
     };
-    Explanation::new(&question).unwrap()
+    Explanation::advised(&question).unwrap()
 }
 
 #[test]
@@ -413,26 +413,21 @@ fn hints_name_a_cure_and_vanish_with_it() {
         .find(|scene| scene.name == "study/07_checker_floor.svg")
         .unwrap();
     let floor = read(floor.name, floor.document);
-    let hints = |level_sampling, taps| {
+    let hints = |level_sampling, taps, pixel| {
         let settings = RenderSettings {
             pixel_sampling: PixelSampling::Bilinear,
             level_sampling,
             anisotropy: Anisotropy::new(taps).unwrap(),
             ..RenderSettings::default()
         };
-        explain(&floor, &settings, [1000, 640], [400, 310]).hints().concat()
+        explain(&floor, &settings, [1000, 640], pixel).hints().concat()
     };
-    assert!(
-        hints(LevelSampling::Zero, 1).contains("(L)"),
-        "{}",
-        hints(LevelSampling::Zero, 1)
-    );
-    assert!(
-        hints(LevelSampling::Linear, 1).contains("(T)"),
-        "{}",
-        hints(LevelSampling::Linear, 1)
-    );
-    let cured = hints(LevelSampling::Linear, 16);
+    // Nearer to the horizon averages blur so much that a single sample is as good.
+    let shimmering = hints(LevelSampling::Zero, 1, [400, 330]);
+    assert!(shimmering.contains("(L)"), "{shimmering}");
+    let blurred = hints(LevelSampling::Linear, 1, [400, 310]);
+    assert!(blurred.contains("(T)"), "{blurred}");
+    let cured = hints(LevelSampling::Linear, 16, [400, 310]);
     assert!(!cured.contains("(L)") && !cured.contains("(T)"), "{cured}");
 }
 

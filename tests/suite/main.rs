@@ -19,6 +19,7 @@ mod golden;
 mod guess;
 mod hostile_names;
 mod inspect;
+mod inspect_advice;
 mod inspect_feeds;
 mod inspect_seams;
 mod instruction_guard;

@@ -90,10 +90,10 @@ impl ExplanationPanel {
             ui.label(RichText::new(note).weak());
         }
         against(ui, viewer, explanation);
-        let hints = explanation.hints();
-        if !hints.is_empty() {
+        let help = explanation.help_lines();
+        if !help.is_empty() {
             section(ui, "hints", "What would help", true, |ui| {
-                lines(ui, &hints);
+                lines(ui, &help);
             });
         }
         section(ui, "resolve", "How samples became the colour", false, |ui| {
@@ -214,7 +214,7 @@ fn missed(ui: &mut Ui, explanation: &Explanation, hovered: &mut Hovered) {
     if explanation.missed.is_empty() {
         return;
     }
-    section(ui, "missed", "What passes between the samples", true, |ui| {
+    section(ui, "missed", "What no sample meets", true, |ui| {
         for (line, missed) in explanation.missed_lines().iter().zip(&explanation.missed) {
             if lines(ui, std::slice::from_ref(line)).contains_pointer() {
                 hovered.primitive = Some(missed.primitive);

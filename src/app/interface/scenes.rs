@@ -105,10 +105,9 @@ pub(super) fn height(viewer: &Viewer) -> f32 {
     /// Heading, and the name of a folder with the gap below it.
     const TITLE: f32 = 32.0;
     const FOLDER: f32 = 14.0 + GAP;
-    let folders = viewer.scenes().chunk_by(|a, b| folder(a) == folder(b));
-    let heights = folders.map(|scenes| {
+    let heights = groups(viewer.scenes()).into_iter().map(|(heading, scenes)| {
         let rows = scenes.len().div_ceil(COLUMNS) as f32;
-        let name = if folder(&scenes[0]).is_empty() { 0.0 } else { FOLDER };
+        let name = if heading.is_some() { FOLDER } else { 0.0 };
         name + rows * (PICTURE_HEIGHT + NAME_HEIGHT + GAP)
     });
     TITLE + heights.sum::<f32>()

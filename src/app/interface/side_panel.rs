@@ -65,7 +65,7 @@ impl Interface {
                 .id_salt("report")
                 .auto_shrink([false, true])
                 .max_height(report_room)
-                .show(ui, |ui| document::report(ui, viewer))
+                .show(ui, |ui| document::report(ui, viewer, &mut asked.commands))
         });
         document::timing(ui, viewer, self.timed);
         ui.cursor().top() - top - report.response.rect.height()

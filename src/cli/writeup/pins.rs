@@ -62,7 +62,7 @@ impl Pins {
                 error.message()
             ))
         })?;
-        let mut pins = BTreeMap::new();
+        let mut places = BTreeMap::new();
         for (name, pin) in lines {
             if !known.contains(&name.as_str()) {
                 return Err(refused(format!(
@@ -71,13 +71,13 @@ impl Pins {
                 )));
             }
             let pin = pin.parse().map_err(|error| refused(format!("{name}: {error}")))?;
-            pins.insert(name, pin);
+            places.insert(name, pin);
         }
         let new = Vec::new();
         Ok(Self {
             path,
-            text,
-            places: pins,
+            text: text.to_owned(),
+            places,
             new,
         })
     }

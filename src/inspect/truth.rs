@@ -1,0 +1,282 @@
+//! How far a pixel is from the truth, and which settings bring it nearer: each is tried on this very pixel, by the code that
+//! draws frames.
+
+use serde::Serialize;
+
+use super::explanation::Question;
+use super::model::Explanation;
+use crate::raster::{SamplePattern, SampleRate};
+use crate::render::{Nearby, RenderSettings};
+use crate::rules::Rules;
+use crate::texture::{Anisotropy, Derivatives, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
+
+/// Corners near a pixel above which it is not drawn again and again.
+const MOST_WORK: usize = 50_000;
+/// A setting has to bring a pixel nearer by more levels than this: less is rounding.
+const LEAST: f64 = 1.0;
+/// Of several values of a setting the first is taken that brings this part of what the best one does.
+const ENOUGH: f64 = 0.75;
+/// What brings less than this part of what another setting does is not worth a word.
+const WORTH_A_WORD: f64 = 0.25;
+/// Settings that are told at most.
+const MOST_CURES: usize = 3;
+
+/// What a pixel should be, and how to come nearer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Truth {
+    /// The pixel's true colour, straight red, green, blue, alpha: of 256 samples, each of which reads level 0 of its texture,
+    /// averaged as the picture's are.
+    pub color: [u8; 4],
+    /// How far the pixel is from it: the largest difference of a channel in levels, of premultiplied colours.
+    pub distance: f64,
+    /// The settings that bring it nearer, the best first; each alone.
+    pub cures: Vec<Cure>,
+}
+
+/// A setting that brings a pixel nearer to the truth.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cure {
+    /// Which setting.
+    pub setting: Setting,
+    /// Its value, as the command line has it.
+    pub value: String,
+    /// The pixel's colour with it, straight red, green, blue, alpha.
+    pub color: [u8; 4],
+    /// By how many levels it is nearer.
+    pub nearer: f64,
+}
+
+/// The settings that are tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Setting {
+    /// Whose conventions.
+    Rules,
+    /// A fixed level of detail.
+    LodLevel,
+    /// What is added to the level of detail.
+    LodBias,
+    /// Between mip levels.
+    LevelSampling,
+    /// Along a footprint.
+    Anisotropy,
+    /// Between which points footprints are measured.
+    LodPer,
+    /// Inside a mip level.
+    PixelSampling,
+    /// Samples per pixel.
+    SampleRate,
+    /// Where they lie.
+    Pattern,
+}
+
+impl Explanation {
+    /// Why a pixel has its colour, how far it is from the truth and what brings it nearer; `None` outside the picture.
+    pub fn advised(question: &Question<'_>) -> Option<Self> {
+        let explanation = Self::new(question)?;
+        Some(Self {
+            truth: explanation.find_truth(question),
+            ..explanation
+        })
+    }
+
+    /// `None` where there is too much to draw.
+    fn find_truth(&self, question: &Question<'_>) -> Option<Truth> {
+        let settings = question.subject.settings;
+        let nearby = Nearby::new(&question.subject, question.size, question.pixel);
+        if nearby.work() > MOST_WORK {
+            return None;
+        }
+        let draw = |settings: &RenderSettings| {
+            let [a, r, g, b] = nearby.pixel(settings)?.to_be_bytes();
+            Some([r, g, b, a])
+        };
+        let true_color = draw(&RenderSettings {
+            resolve: settings.resolve,
+            ..settings.truth()
+        })?;
+        let distance = distance(self.color, true_color);
+        let mut truth = Truth {
+            color: true_color,
+            distance,
+            cures: Vec::new(),
+        };
+        // Nothing can bring it nearer by more than it is away.
+        if distance > LEAST {
+            let reads_textures = self.paints.iter().any(|paint| paint.texture.is_some());
+            truth.cures = candidates(settings, reads_textures)
+                .into_iter()
+                .filter_map(|(setting, values)| truth.cure(setting, values, draw))
+                .collect();
+            truth.cures.sort_by(|a, b| b.nearer.total_cmp(&a.nearer));
+            let best = truth.cures.first().map_or(0.0, |cure| cure.nearer);
+            truth.cures.retain(|cure| cure.nearer >= best * WORTH_A_WORD);
+            truth.cures.truncate(MOST_CURES);
+        }
+        Some(truth)
+    }
+}
+
+impl Truth {
+    /// The first of a setting's values that brings nearly as much as the best one.
+    fn cure(
+        &self,
+        setting: Setting,
+        values: Vec<(String, RenderSettings)>,
+        draw: impl Fn(&RenderSettings) -> Option<[u8; 4]>,
+    ) -> Option<Cure> {
+        let tried = values.into_iter().filter_map(|(value, settings)| {
+            let color = draw(&settings)?;
+            let nearer = self.distance - distance(color, self.color);
+            (nearer > LEAST).then_some(Cure {
+                setting,
+                value,
+                color,
+                nearer,
+            })
+        });
+        let tried: Vec<Cure> = tried.collect();
+        let best = tried.iter().map(|cure| cure.nearer).fold(0.0, f64::max);
+        tried.into_iter().find(|cure| cure.nearer >= best * ENOUGH)
+    }
+}
+
+/// How far two colours are apart: the largest difference of a channel, in levels, when both are premultiplied.
+fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
+    let premultiplied = |[r, g, b, a]: [u8; 4]| {
+        let alpha = f64::from(a) / 255.0;
+        [r, g, b]
+            .map(|channel| f64::from(channel) * alpha)
+            .into_iter()
+            .chain([f64::from(a)])
+    };
+    let apart = premultiplied(a).zip(premultiplied(b)).map(|(a, b)| (a - b).abs());
+    apart.fold(0.0, f64::max)
+}
+
+/// Every setting that may bring a pixel nearer to the truth, with the values that are worth trying, the cheapest first.
+fn candidates(own: &RenderSettings, reads_textures: bool) -> Vec<(Setting, Vec<(String, RenderSettings)>)> {
+    let mut all = vec![
+        (Setting::Rules, rules(own)),
+        (Setting::SampleRate, rates(own)),
+        (Setting::Pattern, patterns(own)),
+    ];
+    if reads_textures {
+        all.extend(of_textures(own));
+    }
+    all
+}
+
+fn rules(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
+    let rules = Rules::Standard;
+    let is_other = own.rules != rules;
+    is_other
+        .then(|| (rules.name().to_owned(), RenderSettings { rules, ..*own }))
+        .into_iter()
+        .collect()
+}
+
+/// The higher sample rates that keys reach, and the highest.
+fn rates(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
+    let now = own.pattern.nearest(own.sample_rate);
+    let by_key = std::iter::successors(Some(now), |rate| Some(rate.higher()).filter(|next| next != rate));
+    let highest = SampleRate::new(SampleRate::MAX);
+    by_key
+        .chain(highest)
+        .filter(|rate| *rate > now)
+        .map(|sample_rate| {
+            let settings = RenderSettings { sample_rate, ..*own };
+            (sample_rate.samples().to_string(), settings)
+        })
+        .collect()
+}
+
+/// The pattern whose samples share neither columns nor rows; where a single sample lies is luck.
+fn patterns(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
+    let pattern = SamplePattern::Rotated;
+    let now = own.pattern.nearest(own.sample_rate);
+    let is_sensible = own.pattern != pattern && pattern.takes(now) && now > SampleRate::ONE;
+    is_sensible
+        .then(|| (pattern.name().to_owned(), RenderSettings { pattern, ..*own }))
+        .into_iter()
+        .collect()
+}
+
+fn of_textures(own: &RenderSettings) -> Vec<(Setting, Vec<(String, RenderSettings)>)> {
+    let detail = |value: &str, changes: bool, detail: LevelOfDetail| {
+        let settings = RenderSettings { detail, ..*own };
+        changes.then(|| (value.to_owned(), settings)).into_iter().collect()
+    };
+    let levels = [LevelSampling::Linear, LevelSampling::Nearest]
+        .into_iter()
+        .filter(|level| *level != own.level_sampling)
+        .map(|level_sampling| {
+            let settings = RenderSettings { level_sampling, ..*own };
+            (level_sampling.name().to_owned(), settings)
+        });
+    let taps = Anisotropy::STEPS
+        .into_iter()
+        .filter(|anisotropy| *anisotropy > own.anisotropy)
+        .map(|anisotropy| (anisotropy.taps().to_string(), RenderSettings { anisotropy, ..*own }));
+    let bilinear = PixelSampling::Bilinear;
+    let pixel = (own.pixel_sampling != bilinear).then(|| {
+        let settings = RenderSettings {
+            pixel_sampling: bilinear,
+            ..*own
+        };
+        (bilinear.name().to_owned(), settings)
+    });
+    let automatic = LevelOfDetail {
+        fixed: None,
+        ..own.detail
+    };
+    let unbiased = LevelOfDetail {
+        bias: LodBias::default(),
+        ..own.detail
+    };
+    let per_sample = LevelOfDetail {
+        derivatives: Derivatives::Sample,
+        ..own.detail
+    };
+    vec![
+        (Setting::LodLevel, detail("auto", own.detail.fixed.is_some(), automatic)),
+        (Setting::LodBias, detail("0", own.detail != unbiased, unbiased)),
+        (Setting::LevelSampling, levels.collect()),
+        (Setting::Anisotropy, taps.collect()),
+        (Setting::LodPer, detail("sample", own.detail != per_sample, per_sample)),
+        (Setting::PixelSampling, pixel.into_iter().collect()),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distance_is_of_what_is_seen() {
+        for (a, b, expected) in [
+            ([10, 20, 30, 255], [10, 20, 30, 255], 0.0),
+            ([10, 20, 30, 255], [13, 15, 30, 255], 5.0),
+            ([255, 0, 0, 0], [0, 255, 0, 0], 0.0),
+            ([255, 0, 0, 51], [0, 0, 0, 51], 51.0),
+            ([0, 0, 0, 0], [0, 0, 0, 255], 255.0),
+        ] {
+            let found = distance(a, b);
+            assert!((found - expected).abs() < 1e-9, "{a:?} to {b:?} is {found}");
+        }
+    }
+
+    #[test]
+    fn candidates_are_other_settings() {
+        let own = RenderSettings::default();
+        for reads_textures in [false, true] {
+            for (setting, values) in candidates(&own, reads_textures) {
+                for (value, settings) in values {
+                    assert!(settings != own, "{setting:?} {value}");
+                }
+            }
+        }
+        let rates: Vec<String> = rates(&own).into_iter().map(|(value, _)| value).collect();
+        assert_eq!(rates, ["4", "9", "16", "25", "36", "49", "64", "256"], "cheapest first");
+    }
+}

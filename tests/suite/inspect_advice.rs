@@ -1,0 +1,366 @@
+//! Advice is checked by following it: on pixels of every scene of ours, at many settings, by the code that explains frames.
+
+use glam::DVec2;
+use rasterscope::color::ResolveSpace;
+use rasterscope::geometry::{View as SceneView, ViewTransform};
+use rasterscope::inspect::{Cure, Explanation, Interpolated, Question, Setting, View};
+use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
+use rasterscope::render::{RenderSettings, Subject, draw, replay};
+use rasterscope::rules::Rules;
+use rasterscope::scene::{self, DialectChoice, PrimitiveKind, ReadOptions, Scene};
+use rasterscope::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
+use rasterscope::viewer::gallery::{SCENES, Textures};
+use rayon::prelude::*;
+
+use crate::inspect::explain;
+
+/// Pixels of each scene with each setting.
+const PIXELS: u64 = 1;
+const SIZE: [u32; 2] = [96, 64];
+
+fn rate(samples: u32) -> SampleRate {
+    SampleRate::new(samples).unwrap()
+}
+
+fn settings() -> Vec<RenderSettings> {
+    let plain = RenderSettings::default();
+    let with = |change: &dyn Fn(&mut RenderSettings)| {
+        let mut settings = plain;
+        change(&mut settings);
+        settings
+    };
+    vec![
+        plain,
+        with(&|own| own.sample_rate = rate(4)),
+        with(&|own| own.rules = Rules::Course),
+        with(&|own| {
+            own.sample_rate = rate(16);
+            own.rules = Rules::Course;
+            own.pixel_sampling = PixelSampling::Bilinear;
+        }),
+        with(&|own| {
+            own.sample_rate = rate(4);
+            own.pixel_sampling = PixelSampling::Bilinear;
+            own.level_sampling = LevelSampling::Linear;
+        }),
+        with(&|own| {
+            own.level_sampling = LevelSampling::Nearest;
+            own.detail.bias = LodBias::new(2.0).unwrap();
+        }),
+        with(&|own| {
+            own.sample_rate = rate(9);
+            own.level_sampling = LevelSampling::Linear;
+            own.detail.fixed = FixedLevel::new(3.0);
+            own.resolve = ResolveSpace::Linear;
+        }),
+        with(&|own| {
+            own.sample_rate = rate(64);
+            own.pixel_sampling = PixelSampling::Bilinear;
+            own.level_sampling = LevelSampling::Linear;
+            own.anisotropy = Anisotropy::new(16).unwrap();
+        }),
+        with(&|own| {
+            own.sample_rate = rate(16);
+            own.pattern = SamplePattern::Jittered;
+            own.background = rasterscope::color::Rgba::TRANSPARENT;
+        }),
+        with(&|own| {
+            own.sample_rate = rate(256);
+            own.level_sampling = LevelSampling::Nearest;
+        }),
+    ]
+}
+
+fn read(name: &str, document: &str) -> Scene {
+    let options = ReadOptions {
+        dialect: DialectChoice::Auto,
+    };
+    scene::read(document.as_bytes(), name, options, &Textures).unwrap()
+}
+
+/// A pixel drawn by the code that explains frames.
+fn color(scene: &Scene, view: &ViewTransform, settings: &RenderSettings, pixel: [u32; 2]) -> [u8; 4] {
+    let subject = Subject { scene, view, settings };
+    let [a, r, g, b] = replay(&subject, SIZE, pixel).unwrap().pixel.to_be_bytes();
+    [r, g, b, a]
+}
+
+/// The largest difference of a channel, of premultiplied colours.
+fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
+    let premultiplied =
+        |c: [u8; 4]| [c[0], c[1], c[2], 255].map(|channel| f64::from(channel) * f64::from(c[3]) / 255.0);
+    let (a, b) = (premultiplied(a), premultiplied(b));
+    (0..4).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max)
+}
+
+/// What following a piece of advice makes of the settings.
+fn follow(cure: &Cure, own: &RenderSettings) -> RenderSettings {
+    let mut settings = *own;
+    let value = cure.value.as_str();
+    match cure.setting {
+        Setting::Rules => settings.rules = Rules::ALL.into_iter().find(|rules| rules.name() == value).unwrap(),
+        Setting::LodLevel => settings.detail.fixed = None,
+        Setting::LodBias => settings.detail.bias = LodBias::new(value.parse().unwrap()).unwrap(),
+        Setting::LodPer => settings.detail.derivatives = Derivatives::Sample,
+        Setting::LevelSampling => {
+            settings.level_sampling = LevelSampling::ALL
+                .into_iter()
+                .find(|level| level.name() == value)
+                .unwrap();
+        }
+        Setting::Anisotropy => settings.anisotropy = Anisotropy::new(value.parse().unwrap()).unwrap(),
+        Setting::PixelSampling => settings.pixel_sampling = PixelSampling::Bilinear,
+        Setting::SampleRate => settings.sample_rate = rate(value.parse().unwrap()),
+        Setting::Pattern => {
+            settings.pattern = SamplePattern::ALL
+                .into_iter()
+                .find(|pattern| pattern.name() == value)
+                .unwrap();
+        }
+    }
+    settings
+}
+
+/// All that may be advised, and more.
+fn changes(own: &RenderSettings) -> Vec<RenderSettings> {
+    let mut all = vec![
+        RenderSettings {
+            rules: Rules::Standard,
+            ..*own
+        },
+        RenderSettings {
+            pixel_sampling: PixelSampling::Bilinear,
+            ..*own
+        },
+    ];
+    let mut automatic = *own;
+    automatic.detail.fixed = None;
+    let mut unbiased = *own;
+    unbiased.detail.bias = LodBias::default();
+    all.extend([automatic, unbiased]);
+    let levels = [LevelSampling::Linear, LevelSampling::Nearest];
+    all.extend(levels.map(|level_sampling| RenderSettings { level_sampling, ..*own }));
+    for anisotropy in Anisotropy::STEPS.into_iter().filter(|taps| *taps > own.anisotropy) {
+        all.push(RenderSettings { anisotropy, ..*own });
+    }
+    for sample_rate in [4, 9, 16, 25, 36, 49, 64, 256].map(rate) {
+        if sample_rate > own.sample_rate {
+            all.push(RenderSettings { sample_rate, ..*own });
+        }
+    }
+    if own.sample_rate > SampleRate::ONE {
+        all.push(RenderSettings {
+            pattern: SamplePattern::Rotated,
+            ..*own
+        });
+    }
+    all
+}
+
+/// Pixels of a frame where something happens, or any where it is all of one colour.
+fn pixels(frame: &Framebuffer, seed: u64) -> Vec<[u32; 2]> {
+    let all = || (0..SIZE[1] - 1).flat_map(|y| (0..SIZE[0] - 1).map(move |x| [x, y]));
+    let at = |x: u32, y: u32| frame.pixels()[(y * SIZE[0] + x) as usize];
+    let busy: Vec<[u32; 2]> = all()
+        .filter(|[x, y]| at(*x, *y) != at(x + 1, *y) || at(*x, *y) != at(*x, y + 1))
+        .collect();
+    let among = if busy.is_empty() { all().collect() } else { busy };
+    (0..PIXELS)
+        .map(|i| {
+            let hash = (seed * PIXELS + i + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 20;
+            among[usize::try_from(hash).unwrap() % among.len()]
+        })
+        .collect()
+}
+
+#[test]
+fn advice_helps_where_it_stands_and_stands_where_it_helps() {
+    let all = settings();
+    let counts = SCENES.par_iter().enumerate().map(|(number, scene)| {
+        let read = read(scene.name, scene.document);
+        let view = SceneView::Default.transform(read.canvas, SIZE);
+        let mut cures = 0;
+        for (i, settings) in all.iter().enumerate() {
+            let mut frame = Framebuffer::new(SIZE[0], SIZE[1]);
+            draw(&read, &view, settings, &mut frame);
+            for pixel in pixels(&frame, (number * all.len() + i) as u64) {
+                let place = format!("{} {pixel:?} {settings:?}", scene.name);
+                cures += check(&read, &view, settings, (pixel, &place));
+            }
+        }
+        cures
+    });
+    let cures: usize = counts.sum();
+    assert!(cures > 300, "only {cures} pieces of advice");
+}
+
+/// Checks all that is said of one pixel; how many settings are advised.
+fn check(scene: &Scene, view: &ViewTransform, settings: &RenderSettings, (pixel, place): ([u32; 2], &str)) -> usize {
+    let question = Question {
+        subject: Subject { scene, view, settings },
+        file: "scene.svg",
+        size: SIZE,
+        pixel,
+    };
+    let found = Explanation::advised(&question).unwrap();
+    let truth = found.truth.as_ref().unwrap();
+    let true_settings = RenderSettings {
+        resolve: settings.resolve,
+        ..settings.truth()
+    };
+    assert_eq!(truth.color, color(scene, view, &true_settings, pixel), "{place}");
+    let away = distance(found.color, truth.color);
+    assert!((away - truth.distance).abs() < 1e-9, "{place}: {away} {truth:?}");
+    let hints = found.hints();
+    for cure in &truth.cures {
+        let made = color(scene, view, &follow(cure, settings), pixel);
+        let nearer = away - distance(made, truth.color);
+        assert_eq!(made, cure.color, "{place}: {cure:?}");
+        assert!(
+            nearer > 1.0 && (nearer - cure.nearer).abs() < 1e-9,
+            "{place}: {cure:?} brings {nearer}"
+        );
+        let figure = format!(" {} levels nearer", (nearer * 10.0).round() / 10.0);
+        assert!(hints.iter().any(|hint| hint.contains(&figure)), "{place}: {hints:?}");
+    }
+    // Nothing can bring it nearer by more than it is away.
+    if truth.cures.is_empty() && away >= 16.0 {
+        for other in changes(settings) {
+            let nearer = away - distance(color(scene, view, &other, pixel), truth.color);
+            assert!(nearer < 16.0, "{place}: {other:?} brings {nearer}, and nobody says so");
+        }
+    }
+    for hint in &hints {
+        check_words(&found, scene, view, (hint, place));
+    }
+    truth.cures.len()
+}
+
+/// Checks what a hint says of this pixel.
+fn check_words(found: &Explanation, scene: &Scene, view: &ViewTransform, (hint, place): (&str, &str)) {
+    if hint.contains("leaves a gap") {
+        let number = |after: &str| -> usize {
+            let rest = &hint[hint.find(after).unwrap() + after.len()..];
+            rest.split(' ').next().unwrap().parse().unwrap()
+        };
+        let (sample, first, second) = (number("Sample "), number("between "), number(") and "));
+        let stack = &found.samples[sample - 1].stack;
+        let below = first.min(second) - 1;
+        assert!(stack.iter().all(|paint| *paint < below), "{place}: {hint}");
+    }
+    if hint.contains("breaks up") {
+        let step = 1.0 / (found.samples.len() as f64).sqrt();
+        let mut missed = found.missed.iter();
+        let thin = missed.any(|missed| !holds_disc(scene, view, (missed.primitive, found.pixel, step)));
+        assert!(thin, "{place}: {hint} {:?}", found.missed);
+    }
+    if hint.contains("only the nearest texel") {
+        let texture = found.paints.iter().rev().find(|paint| paint.texture.is_some()).unwrap();
+        for view in &texture.views {
+            if let View::Triangle {
+                value: Interpolated::Texture { texels, .. },
+                ..
+            } = view
+            {
+                assert_eq!(texels.len(), 1, "{place}: {hint}");
+            }
+        }
+    }
+}
+
+/// Whether a primitive is as thick as the samples are apart, in or near the pixel: a disc of that diameter lies in it.
+fn holds_disc(scene: &Scene, view: &ViewTransform, (primitive, pixel, diameter): (u32, [u32; 2], f64)) -> bool {
+    let place = |points: &[DVec2; 3]| points.map(|point| view.to_pixels(point));
+    let triangles: Vec<[DVec2; 3]> = match &scene.primitives[primitive as usize].kind {
+        PrimitiveKind::Triangle { points, .. } => vec![place(points)],
+        PrimitiveKind::Polygon { polygon, .. } => polygon.triangles().unwrap().iter().map(place).collect(),
+        _ => return false,
+    };
+    let inside = |point: DVec2| {
+        triangles.iter().any(|[a, b, c]| {
+            let sides = [(a, b), (b, c), (c, a)].map(|(from, to)| (*to - *from).perp_dot(point - *from));
+            sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0)
+        })
+    };
+    let corner = DVec2::from(pixel.map(f64::from));
+    let centres = (0..=24).flat_map(|y| (0..=24).map(move |x| corner + DVec2::new(f64::from(x), f64::from(y)) / 24.0));
+    let disc = |centre: DVec2| {
+        let rim = (0..16).map(|i| DVec2::from_angle(f64::from(i) * 0.4) * (diameter / 2.0));
+        rim.chain([DVec2::ZERO]).all(|from| inside(centre + from))
+    };
+    centres.into_iter().any(disc)
+}
+
+#[test]
+fn advice_is_silent_about_neighbours_that_share_an_edge() {
+    // The red one covers 45 % of the pixel and not its centre; the blue one has the rest.
+    let mesh = r##"<svg width="8" height="8"><polygon points="0,0 4.45,0 4.45,8 0,8" fill="#FF0000"/><polygon points="4.45,0 8,0 8,8 4.45,8" fill="#0000FF"/></svg>"##;
+    let found = explain(&read("mesh.svg", mesh), &RenderSettings::default(), [8, 8], [4, 4]);
+    assert_eq!(found.missed.len(), 1, "one is met by no sample");
+    let told = found.hints().join("\n");
+    assert!(!told.contains("thin") && !told.contains("breaks up"), "{told}");
+    assert!(told.contains("samples (=): "), "more samples mix both: {told}");
+}
+
+#[test]
+fn advice_knows_no_gap_that_a_third_one_covers() {
+    // Two strips with a gap that the samples of the middle column lie in; a third one closes it, before them or after.
+    let strips = r##"<polygon points="0,0 4.48,0 4.48,12" fill="#802060"/><polygon points="4.53,0 4.53,12 12,0" fill="#208060"/>"##;
+    let wedge = r##"<polygon points="4.48,0 4.53,0 4.53,12 4.48,12" fill="#FFFF00"/>"##;
+    let sheet = r##"<polygon points="0,0 12,0 12,12 0,12" fill="#FFFF00"/>"##;
+    for (body, is_gap, why) in [
+        (strips.to_owned(), true, "the background shows"),
+        (format!("{sheet}{strips}"), true, "what lies below both shows"),
+        (format!("{wedge}{strips}"), false, "closed before"),
+        (format!("{strips}{wedge}"), false, "closed after"),
+        (format!("{strips}{sheet}"), false, "covered"),
+    ] {
+        let document = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="12" height="12">{body}</svg>"#);
+        let settings = RenderSettings {
+            sample_rate: rate(9),
+            ..RenderSettings::default()
+        };
+        let told = explain(&read("gap.svg", &document), &settings, [12, 12], [4, 2])
+            .hints()
+            .concat();
+        assert_eq!(told.contains("leaves a gap"), is_gap, "{why}: {told}");
+    }
+}
+
+#[test]
+fn advice_says_that_a_pixel_is_right() {
+    let whole = r##"<svg width="8" height="8"><polygon points="0,0 8,0 8,8 0,8" fill="#FF0000"/></svg>"##;
+    let found = explain(&read("whole.svg", whole), &RenderSettings::default(), [8, 8], [4, 4]);
+    assert!(found.hints().is_empty(), "{:?}", found.hints());
+    let told = found.text(rasterscope::inspect::Detail::Telling);
+    assert!(told.contains("This pixel is what it should be"), "{told}");
+}
+
+#[test]
+fn texels_are_decided_by_the_point_that_is_shown() {
+    // One pixel shows 1/8 of a texel: many points lie close to where texels meet.
+    let document = r#"<svg xmlns="http://www.w3.org/2000/svg" width="96" height="64">
+        <texture texid="map" filename="../../assets/textures/map.png"/>
+        <textri texid="map" uvs="0.1 0.1 0.1234 0.1 0.1 0.1156" points="0,0 96,0 0,64"/></svg>"#;
+    let scene = read("texels.svg", document);
+    for rules in Rules::ALL {
+        let settings = RenderSettings {
+            rules,
+            ..RenderSettings::default()
+        };
+        for pixel in (0..40).map(|i| [i * 2, i / 2]) {
+            let found = explain(&scene, &settings, SIZE, pixel);
+            for paint in (0..found.paints.len()).filter(|paint| found.paints[*paint].texture.is_some()) {
+                let lines = found.fragment_lines(paint, 0).join("\n");
+                let numbers = |start: &str| -> Vec<f64> {
+                    let rest = &lines[lines.find(start).unwrap() + start.len()..];
+                    let pair = rest.split(')').next().unwrap();
+                    pair.split(", ").map(|number| number.parse().unwrap()).collect()
+                };
+                let (point, texel) = (numbers("point     ("), numbers("of texel ("));
+                let whole: Vec<f64> = point.iter().map(|at| at.floor()).collect();
+                assert_eq!(whole, texel, "{pixel:?} {rules:?}: {lines}");
+            }
+        }
+    }
+}

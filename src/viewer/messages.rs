@@ -56,7 +56,7 @@ impl Messages {
     }
 
     pub(super) fn question(&mut self, text: String) {
-        self.add(MessageKind::Question, &text);
+        self.add(MessageKind::Question, text);
     }
 
     pub(super) fn error(&mut self, text: String) {

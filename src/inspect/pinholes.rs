@@ -18,7 +18,7 @@ impl Explanation {
             "There its edge function in 32-bit floats is below 0, though exactly it is not"
         };
         Some(format!(
-            "{} open: a pinhole at the edge of the {}. {why}: what is below shows. By the standard rules (Rules in the panel), \
+            "{} in a pinhole, at the edge of the {}. {why}: what is below shows. By the standard rules (Rules in the panel), \
              exact and with a rule for ties, it is painted.",
             self.count_words(self.pinholes.len()),
             first.name(),

@@ -166,16 +166,14 @@ impl<'doc> TextureTable<'doc> {
         let size = [width, height];
         let memory = Texture::memory_of_encoded(&bytes, size);
         let held_left = self.held_left.checked_sub(length + memory.held);
-        match held_left.filter(|_| fits && memory.passing <= MAX_PASSING) {
-            Some(left) => self.held_left = left,
-            None => {
-                let most = (MAX_HELD + MAX_PASSING) >> 20;
-                return Err(format!(
-                    "with its {width} x {height} texels the images of the scene would take more than {most} MB; make it \
-                     smaller"
-                ));
-            }
-        }
+        let Some(left) = held_left.filter(|_| fits && memory.passing <= MAX_PASSING) else {
+            let most = (MAX_HELD + MAX_PASSING) >> 20;
+            return Err(format!(
+                "with its {width} x {height} texels the images of the scene would take more than {most} MB; make it \
+                 smaller"
+            ));
+        };
+        self.held_left = left;
         Ok(EncodedImage { bytes, size, memory })
     }
 }

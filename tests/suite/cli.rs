@@ -132,7 +132,7 @@ fn cli_says_which_of_two_readings_was_taken() {
 
 #[test]
 fn cli_reads_a_folder_of_the_course_as_a_whole() {
-    let own = r##"<svg width="4" height="3"><colortri points="0 0 4 0 0 3" colors="1 0 0 1 0 1 0 1 0 0 1 1"/></svg>"##;
+    let own = "<svg width='4' height='3'><colortri points='0 0 4 0 0 3' colors='1 0 0 1 0 1 0 1 0 0 1 1'/></svg>";
     let folder = folder_with(&[("in/a.svg", EITHER), ("in/deep/b.svg", own), ("out/c.svg", EITHER)]);
     let args = ["render", "in", "-o", "pictures", "--size", "40x30"];
     let output = run(folder.path(), &args);

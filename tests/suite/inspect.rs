@@ -466,7 +466,7 @@ fn explanations_know_what_lies_far_away() {
 
 #[test]
 fn deep_stacks_of_one_line_stay_small() {
-    let body: String = (0..20_000)
+    let body: Vec<String> = (0..20_000)
         .map(|i| {
             format!(
                 "<rect x='{}' width='9' height='9' fill='#0{}{}040' fill-opacity='.5'/>",
@@ -476,6 +476,7 @@ fn deep_stacks_of_one_line_stay_small() {
             )
         })
         .collect();
+    let body = body.concat();
     let document = format!("<svg width='8' height='8'>{body}<rect width='9' height='9' fill='none'/></svg>");
     let scene = read("one-line.svg", &document);
     let settings = RenderSettings {

@@ -230,7 +230,8 @@ fn course_forgets_the_alpha_of_textures_and_says_so() {
     let encoder = image::codecs::png::PngEncoder::new(&mut png);
     let pixels = [255, 0, 0, 255, 0, 0, 255, 100];
     image::ImageEncoder::write_image(encoder, &pixels, 2, 1, image::ExtendedColorType::Rgba8).unwrap();
-    let bytes: String = png.iter().map(|byte| format!("%{byte:02x}")).collect();
+    let bytes: Vec<String> = png.iter().map(|byte| format!("%{byte:02x}")).collect();
+    let bytes = bytes.concat();
     let body = format!("<image width='9' height='9' href='data:image/png,{bytes}'/>");
     let told = "transparency has no effect; --dialect svg keeps it";
     let course = course(&body);

@@ -35,8 +35,7 @@ fn length(text: &str) -> Option<usize> {
     let mut i = 0;
     while let Some(&byte) = bytes.get(i) {
         match (quote, byte) {
-            (Some(open), byte) if open == byte => quote = None,
-            (Some(_), _) => {}
+            (Some(open), byte) => quote = quote.filter(|_| open != byte),
             (None, b'"' | b'\'') => quote = Some(byte),
             (None, b'(') => brackets += 1,
             (None, b')') => brackets = brackets.saturating_sub(1),

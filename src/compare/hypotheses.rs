@@ -213,13 +213,13 @@ impl<'a> Search<'a> {
         let mut chosen = 0;
         for count in 1..=MAX_CAUSES {
             let Some(error) = error_of(count) else { continue };
-            let fewer = (0..count).filter_map(|fewer| Some((fewer, error_of(fewer)?)));
+            let mut fewer = (0..count).filter_map(|fewer| Some((fewer, error_of(fewer)?)));
             // As far below none as so many causes ask for, and once below any other number.
             let is_far_below = |(fewer, error_of_fewer): (usize, u64)| {
                 let times = if fewer == 0 { count } else { 1 };
                 error as f64 <= (0..times).fold(error_of_fewer as f64, |error, _| error * MARGIN)
             };
-            if error < before && fewer.map(is_far_below).all(|far| far) {
+            if error < before && fewer.all(is_far_below) {
                 chosen = count;
             }
         }

@@ -23,7 +23,9 @@ pub(super) fn truncated_errors(trial: &Trial<'_>, causes: &[Cause]) -> Option<[f
     let size = [drawn.width(), drawn.height()];
     let finished = |frame: &Framebuffer| {
         let mut frame = frame.clone();
-        causes.iter().for_each(|cause| cause::apply(*cause, &mut frame));
+        for cause in causes {
+            cause::apply(*cause, &mut frame);
+        }
         frame
     };
     let before = finished(&drawn);

@@ -356,14 +356,12 @@ fn candidates(spec: InsetSpec, inset: &Inset, area: &PixelRect, size: [u32; 2]) 
         rects
     };
     let corner = |corner| in_corner(area, size, corner);
-    match spec.corner {
-        Some(own) => corner(own).into_iter().collect(),
-        None => {
-            let mut rects = nearest_first(Corner::ALL.into_iter().filter_map(corner).collect());
-            rects.extend(nearest_first(along_sides(area, size).collect()));
-            rects
-        }
+    if let Some(own) = spec.corner {
+        return corner(own).into_iter().collect();
     }
+    let mut rects = nearest_first(Corner::ALL.into_iter().filter_map(corner).collect());
+    rects.extend(nearest_first(along_sides(area, size).collect()));
+    rects
 }
 
 /// The square of the distance from a rectangle's middle to a pixel, for comparisons.

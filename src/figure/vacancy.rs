@@ -65,7 +65,7 @@ impl Vacancy {
         }
     }
 
-    /// The part of a rectangle that is painted, in hundredths; the cells that it touches count.
+    /// The part of a rectangle that is painted, in thousandths; the cells that it touches count.
     pub(super) fn hidden(&self, rect: &PixelRect) -> u32 {
         let step = i64::from(self.step);
         let cell = |side: i64, most: usize| usize::try_from(side.max(0)).unwrap_or(0).min(most);
@@ -80,7 +80,7 @@ impl Vacancy {
         let at = |x: usize, y: usize| self.sums[y * (self.columns + 1) + x];
         let painted = at(right, bottom) + at(left, top) - at(right, top) - at(left, bottom);
         let all = u32::try_from((right - left) * (bottom - top)).unwrap_or(u32::MAX);
-        (painted * 100).div_ceil(all.max(1))
+        (painted * 1000).div_ceil(all.max(1))
     }
 }
 
@@ -98,9 +98,9 @@ mod tests {
         let vacancy = Vacancy::new(&frame, 10, 0xFFFF_FFFF);
         let rect = |x, y, width, height| PixelRect { x, y, width, height };
         assert_eq!(vacancy.hidden(&rect(0, 0, 60, 10)), 0, "the first row");
-        assert_eq!(vacancy.hidden(&rect(10, 10, 20, 20)), 75, "three of four");
-        assert_eq!(vacancy.hidden(&rect(19, 19, 2, 2)), 75, "touched ones count");
+        assert_eq!(vacancy.hidden(&rect(10, 10, 20, 20)), 750, "three of four");
+        assert_eq!(vacancy.hidden(&rect(19, 19, 2, 2)), 750, "touched ones count");
         assert_eq!(vacancy.hidden(&rect(-50, -50, 30, 30)), 0, "outside");
-        assert_eq!(vacancy.hidden(&rect(50, 40, 99, 99)), 100, "cut to the picture");
+        assert_eq!(vacancy.hidden(&rect(50, 40, 99, 99)), 1000, "cut to the picture");
     }
 }

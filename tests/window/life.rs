@@ -30,8 +30,18 @@ fn escape_closes_a_list_and_then_asks_for_two_seconds() {
     const SHOW: [i16; 2] = [1180, 326];
     const LIST: [u16; 4] = [1120, 345, 100, 60];
     const QUESTION: [u16; 4] = [14, 730, 120, 24];
-    let mut program = Program::start_with(&flat(), &["--do", "panel on"]);
+    /// A pixel of the button for the sample rate, and its colour: the panel is at its place.
+    const RATE: [u16; 4] = [1032, 69, 1, 1];
+    const ACCENT: [u8; 3] = [186, 104, 44];
+    let mut program = Program::start_with(&flat(), &["--theme", "dark", "--do", "panel on"]);
     program.resize([1280, 800]);
+    until("the panel", || {
+        program
+            .desktop
+            .part(program.window, RATE)
+            .starts_with(&ACCENT)
+            .then_some(())
+    });
     // Where nothing has a tool tip.
     program.desktop.point(40, 200);
     let part = |program: &Program, part| program.desktop.part(program.window, part);

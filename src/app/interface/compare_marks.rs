@@ -128,7 +128,7 @@ fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, (x, insets): (f32, &[Rect])) 
 /// The parts of the vertical line at `x` that lie behind no inset, from above.
 fn free_pieces(free: Rect, x: f32, insets: &[Rect]) -> Vec<Rangef> {
     let crosses = |inset: &&Rect| inset.x_range().contains(x);
-    let mut behind: Vec<Rangef> = insets.iter().filter(crosses).map(|inset| inset.y_range()).collect();
+    let mut behind: Vec<Rangef> = insets.iter().filter(crosses).map(Rect::y_range).collect();
     behind.sort_by(|a, b| a.min.total_cmp(&b.min));
     let mut pieces = Vec::new();
     let mut top = free.top();

@@ -69,8 +69,10 @@ pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
         ui.add_space(4.0);
     }
     // Points and hairlines fill nothing; the line stays, so that what is below does not move from scene to scene.
-    let text = filled(stats.triangles).unwrap_or_default();
-    ui.label(RichText::new(text).small().weak());
+    let text = filled(stats.triangles);
+    if timed || text.is_some() {
+        ui.label(RichText::new(text.unwrap_or_default()).small().weak());
+    }
 }
 
 /// So many triangles and polygons in words; nothing where there are none.

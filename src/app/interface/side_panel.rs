@@ -13,6 +13,8 @@ use crate::viewer::Viewer;
 
 /// Height of everything above the scenes but the report where all of it is shown, in points.
 const SETTINGS: f32 = 714.0;
+/// What of it tells the times of the last redraw and what it filled, which pictures that must be alike leave out.
+const TIMES: f32 = 80.0;
 /// Height that the scenes have at least where their list scrolls by itself, in points.
 const LEAST_LIST: f32 = 170.0;
 /// The same for the reader's report.
@@ -28,7 +30,7 @@ impl Interface {
             .frame(panel_frame(ui, look::scrolling_margin(4)))
             .show(ui, |ui| {
                 look::bars_beside(ui);
-                let Some(report_room) = report_room(ui.available_height(), viewer) else {
+                let Some(report_room) = self.report_room(ui.available_height(), viewer) else {
                     let area = ScrollArea::vertical().id_salt("panel").auto_shrink(false);
                     area.show(ui, |ui| {
                         self.settings(ui, viewer, LONG_REPORT, asked);
@@ -44,6 +46,19 @@ impl Interface {
                 self.scenes(ui, viewer, true, asked);
             });
         self.covered.push(panel.response.rect);
+    }
+
+    /// How high the report may be in a panel of `height` points whose list scrolls by itself; `None` where the panel is
+    /// too low for that.
+    fn report_room(&self, height: f32, viewer: &Viewer) -> Option<f32> {
+        let settings = SETTINGS - if self.timed { 0.0 } else { TIMES };
+        let least = if document::has_report(viewer) {
+            LEAST_REPORT
+        } else {
+            0.0
+        };
+        let room = height - settings - scenes::height(viewer).min(LEAST_LIST);
+        (room >= least).then_some(room)
     }
 
     /// What lies above the scenes; the report is at most `report_room` points high. The height of all but the report.
@@ -95,18 +110,6 @@ impl Interface {
         }
         asked.thumbnails.extend(wishes.thumbnails);
     }
-}
-
-/// How high the report may be in a panel of `height` points whose list scrolls by itself; `None` where the panel is too
-/// low for that.
-fn report_room(height: f32, viewer: &Viewer) -> Option<f32> {
-    let least = if document::has_report(viewer) {
-        LEAST_REPORT
-    } else {
-        0.0
-    };
-    let room = height - SETTINGS - scenes::height(viewer).min(LEAST_LIST);
-    (room >= least).then_some(room)
 }
 
 #[cfg(test)]

@@ -26,15 +26,12 @@ struct Number<'a> {
 /// meanwhile, so that nothing below moves under the pointer that goes from scene to scene.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, last: &mut ViewNumbers, commands: &mut Vec<Command>) {
     heading(ui, "View");
-    match viewer.view_numbers() {
-        Some(numbers) => {
-            *last = numbers;
-            rows(ui, numbers, commands);
-        }
-        None => {
-            let is_reading = viewer.current().is_some_and(SceneEntry::is_reading);
-            ui.add_enabled_ui(is_reading, |ui| rows(ui, *last, &mut Vec::new()));
-        }
+    if let Some(numbers) = viewer.view_numbers() {
+        *last = numbers;
+        rows(ui, numbers, commands);
+    } else {
+        let is_reading = viewer.current().is_some_and(SceneEntry::is_reading);
+        ui.add_enabled_ui(is_reading, |ui| rows(ui, *last, &mut Vec::new()));
     }
 }
 

@@ -118,7 +118,7 @@ impl Guard {
             return refused("there is something of that name that is no file");
         }
         let target = std::fs::canonicalize(path)?;
-        if self.inputs.iter().any(|input| is_same(input, &target)) || self.has_contents(&target) {
+        if self.is_read(&target) {
             return refused("this file is read for it and would be lost");
         }
         if about.len() == 0 || self.force || is_ours(&target, named) {
@@ -127,13 +127,14 @@ impl Guard {
         refused("a file of that name is there that rasterscope did not make, and only --force replaces it")
     }
 
-    fn has_contents(&self, target: &Path) -> bool {
+    fn is_read(&self, target: &Path) -> bool {
         let digest = || {
             FolderResources::read_file(target)
                 .ok()
                 .map(|bytes| FileDigest::of(&bytes))
         };
-        !self.contents.is_empty() && digest().is_some_and(|digest| self.contents.contains(&digest))
+        let has_contents = || digest().is_some_and(|digest| self.contents.contains(&digest));
+        self.inputs.iter().any(|input| is_same(input, target)) || (!self.contents.is_empty() && has_contents())
     }
 }
 
@@ -147,7 +148,7 @@ pub fn save_files(files: &[NewFile], guard: &Guard) -> Result<(), Unwritable> {
     let written = files.iter().try_for_each(|file| {
         let at = |error| (file.path.clone(), error);
         let target = match guard.target(&file.path, file.named) {
-            Err(_) if keeps_all(file) => std::fs::canonicalize(&file.path),
+            Err(_) if keeps_all(file) && !guard.is_read(&file.path) => std::fs::canonicalize(&file.path),
             target => target,
         };
         let target = target.map_err(at)?;

@@ -11,13 +11,13 @@ use crate::support::folder::names;
 
 /// A scene that takes minutes to draw at 256 samples, and to explain.
 fn slow_scene(folder: &Path) {
-    let mut text = "<svg width='4000' height='4000'>".to_owned();
-    for i in 0..40_000 {
+    let polygon = |i: u32| {
         let (x, y) = (i * 37 % 800, i * 91 % 700);
         let points = format!("{x},{y} {},{} {},{}", x + 3100, y + 70, x + 90, y + 3200);
-        text += &format!("<polygon points='{points}' fill='#{i:06x}' fill-opacity='0.5'/>");
-    }
-    text.push_str("</svg>");
+        format!("<polygon points='{points}' fill='#{i:06x}' fill-opacity='0.5'/>")
+    };
+    let polygons: Vec<String> = (0..40_000).map(polygon).collect();
+    let text = format!("<svg width='4000' height='4000'>{}</svg>", polygons.concat());
     fs::write(folder.join("slow.svg"), text).unwrap();
 }
 

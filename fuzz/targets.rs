@@ -121,7 +121,7 @@ fn explain(scene: &Scene, settings: &RenderSettings, pixel: [u32; 2]) {
         view: &view,
         settings,
     };
-    let explanation = Explanation::new(&Question {
+    let explanation = Explanation::advised(&Question {
         subject,
         file: "fuzz.svg",
         size: SIZE,

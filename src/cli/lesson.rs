@@ -18,9 +18,10 @@ const LEAST: [u32; 2] = [480, 270];
 pub(super) fn run(options: &LessonOptions) -> Result<(), Failure> {
     let source = source(&options.lesson)?;
     if let Some(folder) = &options.slides {
-        std::fs::create_dir_all(folder).map_err(|error| render::unwritable_by("--slides", folder, &error))?;
         let guard = Guard::new(options.view.force);
         return draw(options, |slide, path, record| {
+            // Only now, so that a lesson that is refused leaves no empty folder.
+            std::fs::create_dir_all(folder).map_err(|error| render::unwritable_by("--slides", folder, &error))?;
             let saved = save_picture(slide, Some(record), (&path, Named::ByProgram), &guard);
             progress::done();
             saved.map_err(|error| render::unwritable_by("--slides", &path, &error))

@@ -33,7 +33,6 @@ pub(super) fn pixels([width, height]: [u32; 2]) -> u64 {
     u64::from(width) * u64::from(height)
 }
 
-
 /// The largest resident set of this process since its start, in megabytes of 2^20 bytes.
 pub(super) fn peak_megabytes() -> Option<f64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;

@@ -515,9 +515,13 @@ fn deep_stacks_keep_what_is_seen_at_the_bottom() {
     let document = format!(
         "<svg width='8' height='8'><g opacity='.5'><rect width='8' height='8' fill='#ff0000'/></g>{covers}</svg>"
     );
-    let scene = read("bottom.svg", &document);
+    let options = ReadOptions {
+        dialect: DialectChoice::Svg,
+    };
+    let scene = scene::read(document.as_bytes(), "bottom.svg", options, &Textures).unwrap();
     let settings = RenderSettings {
         sample_rate: SampleRate::new(4).unwrap(),
+        outline: false,
         ..RenderSettings::default()
     };
     // Left and right half of the pixel differ.

@@ -208,13 +208,13 @@ fn course_tells_what_it_leaves_out() {
     let scene = course(body);
     let expected = [
         "1:85: alpha in colors has no effect",
-        "1:206: stroke-dasharray has no effect",
-        "1:259: rx has no effect",
-        "1:259: ry has no effect",
+        "1:201: stroke-dasharray has no effect",
+        "1:254: rx has no effect",
+        "1:254: ry has no effect",
         "1:85: points holds 7 numbers; those after the first 6 have no effect",
-        "1:159: points holds 7 numbers; the last one has no partner and is left out",
-        "1:206: points holds 5 numbers; the last one has no partner and is left out",
-        "1:301: not drawn: points holds 5 numbers, not 6",
+        "1:153: points holds 7 numbers; the last one has no partner and is left out",
+        "1:201: points holds 5 numbers; the last one has no partner and is left out",
+        "1:296: not drawn: points holds 5 numbers, not 6",
     ];
     assert_eq!(lines(&scene), expected, "each in its line");
     assert_eq!(

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use glam::DVec2;
 
+use crate::plain;
 use crate::raster::Framebuffer;
 use crate::viewer::commands::{self, Action};
 use crate::viewer::typed::{self, point};
@@ -13,6 +14,8 @@ use crate::viewer::{Command, KeyPress, PointerButton};
 
 /// Longest wait in one step.
 const MAX_WAIT: Duration = Duration::from_mins(1);
+/// Longest message, in characters.
+const LONGEST_MESSAGE: usize = 400;
 /// The words besides the commands of the table, with their forms.
 const WORDS: &str = "key, type, move, leave, click, right-click, drag, wheel, resize, wait, shot";
 
@@ -115,7 +118,8 @@ impl Script {
                 name: name.to_owned(),
                 line: piece.line,
                 column: piece.column,
-                message,
+                // It quotes the step, which may be long and hold anything.
+                message: plain::short_line(&message, LONGEST_MESSAGE),
             };
             if piece.is_open {
                 return Err(error("the quote is not closed; end the text with \"".to_owned()));

@@ -220,7 +220,8 @@ fn write_partial(target: &Path, bytes: &[u8]) -> io::Result<PathBuf> {
 
 fn create_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
-    let written = file.write_all(bytes).and_then(|()| file.flush());
+    // A disk may tell only now that it is full; and a name must not outlive its bytes.
+    let written = file.write_all(bytes).and_then(|()| file.sync_all());
     if written.is_err() {
         drop(file);
         // The first error is the one to tell.

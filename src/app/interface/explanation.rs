@@ -170,7 +170,7 @@ impl ExplanationPanel {
     ) {
         let paint = &explanation.paints[number];
         let title = explanation.paint_title(number);
-        let title = if is_lit { format!("{title}  \u{25C0}") } else { title };
+        let title = if is_lit { format!("{title}  \u{2039}") } else { title };
         let seen = paint.fragments.iter().any(|fragment| fragment.seen);
         let text = RichText::new(title).size(12.0);
         let text = match (is_lit, seen) {

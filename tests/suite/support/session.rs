@@ -88,7 +88,8 @@ impl Session {
             .map(|item| item.unwrap().path())
             .filter(|path| path.extension().is_some_and(|ending| ending == "png"))
             .collect();
-        files.sort();
+        // The second of a millisecond ends in `-2`, which in whole names sorts before `.png`.
+        files.sort_by_key(|path| path.with_extension(""));
         files
     }
 }

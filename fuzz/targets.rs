@@ -198,11 +198,8 @@ pub(crate) fn arguments(bytes: &[u8]) {
         arguments: words.clone(),
         ..Record::default()
     };
-    for problem in [(GRAMMAR.picture)(&record).err(), (GRAMMAR.sheet)(&words).err()] {
-        if let Some(problem) = problem {
-            one_line(&problem);
-        }
-    }
+    let problems = [(GRAMMAR.picture)(&record).err(), (GRAMMAR.sheet)(&words).err()];
+    problems.iter().flatten().for_each(|problem| one_line(problem));
 }
 
 /// Control characters are escaped where a message is printed, so only breaks of lines count here.

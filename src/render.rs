@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use crate::color::{ResolveSpace, Rgba};
 use crate::geometry::ViewTransform;
 use crate::raster::{
-    Chunk, ChunkBuilder, Counters, DisplayList, Fill, Framebuffer, ListContext, RasterSettings, RasterTimes,
+    Chunk, ChunkBuilder, Counters, DisplayList, Fill, Framebuffer, Hidden, ListContext, RasterSettings, RasterTimes,
     SamplePattern, SampleRate,
 };
 use crate::rules::Rules;
@@ -239,15 +239,6 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
         list.extend(outline(scene, &context, &screen, settings));
     }
     DisplayList::new(context, raster, list, visualiser.textures())
-}
-
-/// What becomes of primitives that nobody will see.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Hidden {
-    /// They are dropped where that is found out cheaply.
-    Dropped,
-    /// Somebody asks what was painted.
-    Kept,
 }
 
 /// Transforms those primitives of a scene that are `wanted` to screen space, in parallel. It is the picture that they

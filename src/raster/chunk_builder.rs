@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::display_list::{Chunk, Fill, LayerMark, ListContext, Op, Paint, ScreenTriangle, Stamp};
 use super::float_shape::FloatShape;
 use super::hairline::Hairline;
-use super::hidden::{MOST_CORNERS, covers, drop_hidden, is_large, joined};
+use super::hidden::{Hidden, MOST_CORNERS, covers, drop_hidden, is_large, joined};
 use super::outline::{OutlineBuilder, RowScanner, SpanStore};
 use super::planes::Planes;
 use super::shade::uv_map;
@@ -36,8 +36,7 @@ pub struct ChunkBuilder<'a> {
     stamps: bool,
     /// Whether fragments are counted rather than painted.
     counts: bool,
-    /// Whether what nobody will see is kept.
-    keeps_hidden: bool,
+    hidden: Hidden,
     /// Triangles that came last, yet to be added.
     waiting: Waiting,
 }
@@ -74,7 +73,7 @@ impl<'a> ChunkBuilder<'a> {
             // A few points of a finer lattice need not be samples, and stamps are exact.
             stamps: context.is_grid() && context.rules != Rules::Float,
             counts: false,
-            keeps_hidden: false,
+            hidden: Hidden::Dropped,
             waiting: Waiting {
                 count: 0,
                 hopeless: 0,
@@ -104,7 +103,7 @@ impl<'a> ChunkBuilder<'a> {
     /// Keeps what lies below opaque shapes, for those who ask what was painted.
     #[must_use]
     pub fn with_hidden(mut self) -> Self {
-        self.keeps_hidden = true;
+        self.hidden = Hidden::Kept;
         self
     }
 
@@ -255,7 +254,7 @@ impl<'a> ChunkBuilder<'a> {
 
     /// Drops what a polygon of few corners hides that came last and holds `samples`.
     fn drop_below_polygon(&mut self, points: impl Iterator<Item = DVec2>, samples: SampleBox) {
-        if self.keeps_hidden || !is_large(samples, self.context) {
+        if self.hidden == Hidden::Kept || !is_large(samples, self.context) {
             return;
         }
         let grid = self.context.grid;
@@ -396,7 +395,7 @@ impl<'a> ChunkBuilder<'a> {
         self.chunk.triangle_count += 1;
         if let Paint::Solid(color) = self.chunk.paints[paint as usize]
             && color.is_opaque()
-            && !self.keeps_hidden
+            && self.hidden == Hidden::Dropped
         {
             self.drop_below_triangle(corners);
         }

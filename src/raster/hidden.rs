@@ -17,6 +17,15 @@ const LOOK_BACK: usize = 32;
 /// Most corners of a shape that is looked at: four that turn one way are convex, more might wind around twice.
 pub(crate) const MOST_CORNERS: usize = 4;
 
+/// What becomes of primitives that nobody will see.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hidden {
+    /// They are dropped where that is found out cheaply.
+    Dropped,
+    /// Somebody asks what was painted.
+    Kept,
+}
+
 /// Drops ops of a chunk that are wholly hidden by samples `cover`, all of which the last `above` ops hide.
 pub(crate) fn drop_hidden(chunk: &mut Chunk, context: &ListContext, cover: SampleBox, above: usize) {
     let end = chunk.ops.len().saturating_sub(above);
@@ -24,8 +33,9 @@ pub(crate) fn drop_hidden(chunk: &mut Chunk, context: &ListContext, cover: Sampl
     // What was painted before a layer, or in it, is not below what comes after.
     let is_mark = |op: &Op| matches!(op, Op::BeginLayer(_) | Op::EndLayer(_));
     let mark = chunk.ops[first..end].iter().rposition(is_mark);
-    let mut kept = mark.map_or(first, |mark| first + mark + 1);
-    for i in kept..end {
+    let first = mark.map_or(first, |mark| first + mark + 1);
+    let mut kept = first;
+    for i in first..end {
         let op = chunk.ops[i];
         let samples = chunk.sample_box(op, context);
         if samples.is_some_and(|samples| !holds(cover, samples)) {
@@ -146,10 +156,8 @@ mod tests {
                 if keep {
                     builder = builder.with_hidden();
                 }
-                let mut source = 0;
-                for _ in 0..4 {
+                for source in 0..4 {
                     builder.set_source(source);
-                    source += 1;
                     fill(&mut builder, &mut u)?;
                     cover(&mut builder, &mut u)?;
                 }

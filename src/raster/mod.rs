@@ -60,6 +60,7 @@ pub use chunk_builder::ChunkBuilder;
 pub use display_list::{Chunk, Fill, ListContext};
 pub use explain::{Attributes, Piece, PieceShape, SampleOfTriangle, TextureUse};
 pub use framebuffer::Framebuffer;
+pub use hidden::Hidden;
 pub use pattern::SamplePattern;
 pub use rasterize::{DisplayList, RasterSettings, RasterTimes};
 pub use recorder::{PaintedKind, PaintedOp, PaintedSample};

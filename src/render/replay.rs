@@ -5,12 +5,12 @@ use std::collections::HashSet;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::{Hidden, Screen, Subject, add, number, picture_list, raster_settings};
+use super::{Screen, Subject, add, number, picture_list, raster_settings};
 use crate::color::Rgba;
 use crate::geometry::{area_in_pixel, width_in_window};
 use crate::raster::{
-    ChunkBuilder, DisplayList, ListContext, PaintedKind, PaintedOp, Piece, PieceShape, PixelReplay, RasterSettings,
-    Region, SampleOfTriangle,
+    ChunkBuilder, DisplayList, Hidden, ListContext, PaintedKind, PaintedOp, Piece, PieceShape, PixelReplay,
+    RasterSettings, Region, SampleOfTriangle,
 };
 use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};
 

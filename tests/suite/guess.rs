@@ -17,7 +17,7 @@ use crate::support::scenes::{at_rate, drawn};
 
 const SIZE: [u32; 2] = [104, 90];
 /// Enough for all of it on a slow machine.
-const LONG: Duration = Duration::from_secs(600);
+const LONG: Duration = Duration::from_mins(10);
 /// Polygons; lines, points and groups; colours between corners; textures large, and small; many small triangles.
 const SCENES: [&str; 6] = [
     "basic/test4.svg",
@@ -64,13 +64,13 @@ impl Study {
                 Cause::Shifted(pixels) => renderer.shift = pixels,
                 Cause::Corners(CellCorner::UpperLeft) => renderer.at = 0.0,
                 Cause::Corners(CellCorner::LowerRight) => renderer.at = 1.0,
-                Cause::Rules(_) => renderer.course = true,
+                Cause::Rules(rules) => renderer.rules = rules,
                 Cause::Truncated => renderer.truncates = true,
                 Cause::SampleRate(rate) => renderer.side = rate.side(),
                 Cause::PixelSampling(sampling) => renderer.reads.pixel_sampling = sampling,
                 Cause::LevelSampling(sampling) => renderer.reads.level_sampling = sampling,
                 Cause::FlippedV => renderer.flips_v = true,
-                Cause::Resolve(_) => renderer.linear = true,
+                Cause::Resolve(space) => renderer.resolve = space,
                 _ => {}
             }
         }

@@ -2,6 +2,7 @@
 
 #![cfg(target_os = "linux")]
 
+#[cfg(feature = "window")]
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};

@@ -2,7 +2,7 @@
 //!
 //! A layout that depends on what it decided itself never rests, and swallows the clicks on what it lays out anew.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use super::program::{Program, flat, until};
@@ -40,23 +40,24 @@ fn rest_and_clicks_bare() {
 #[test]
 fn rest_and_clicks_with_a_folder() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study");
-    rests_and_hears(Some(folder));
+    rests_and_hears(Some(&folder));
 }
 
 #[test]
 fn rest_and_clicks_with_a_file() {
-    rests_and_hears(Some(flat()));
+    rests_and_hears(Some(&flat()));
 }
 
 #[test]
 fn rest_and_clicks_with_notes() {
     let folder = tempfile::tempdir().unwrap();
     // The reader has something to say about each of these lines: the report takes its place in the panel, too.
-    let odd: String = (0..12).map(|i| format!("<odd{i}/>\n")).collect();
+    let odd: Vec<String> = (0..12).map(|i| format!("<odd{i}/>\n")).collect();
+    let odd = odd.concat();
     let file = folder.path().join("notes.svg");
     let scene = format!("<svg width='100' height='100'>\n{odd}<colortri points='0,0 9,0 0,9'/></svg>");
     std::fs::write(&file, scene).unwrap();
-    rests_and_hears(Some(file));
+    rests_and_hears(Some(&file));
 }
 
 #[test]
@@ -82,9 +83,9 @@ fn rest_the_bar_takes_no_clicks_from_what_is_beside_it() {
 }
 
 /// At every size and in both themes: a click on a sample rate takes effect, and then nothing happens any more.
-fn rests_and_hears(path: Option<PathBuf>) {
+fn rests_and_hears(path: Option<&Path>) {
     for (theme, accent) in [("dark", [44, 104, 186]), ("light", [36, 98, 184])] {
-        let paths: Vec<&Path> = path.as_deref().into_iter().collect();
+        let paths: Vec<&Path> = path.into_iter().collect();
         let program = Program::open(&paths, &["--theme", theme, "--do", "panel on"]);
         for (i, size) in SIZES.into_iter().enumerate() {
             let what = format!("{path:?} at {size:?}, {theme}");

@@ -8,9 +8,11 @@
 )]
 
 use glam::{DAffine2, DVec2};
+use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::{FillRule, Polygon, ViewTransform};
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::RenderSettings;
+use rasterscope::rules::Rules;
 use rasterscope::scene::{Paint, PrimitiveKind, Scene};
 use rasterscope::texture::Texture;
 
@@ -26,12 +28,12 @@ pub(crate) struct Foreign {
     /// Everything is drawn so many pixels further to the right and down.
     pub(crate) shift: [f64; 2],
     pub(crate) truncates: bool,
-    /// Averages in linear light.
-    pub(crate) linear: bool,
+    /// In which values samples are averaged.
+    pub(crate) resolve: ResolveSpace,
     /// Reads textures upside down.
     pub(crate) flips_v: bool,
-    /// Follows the course's rules: edges belong to everybody, samples are truncated, texels are addressed by `w - 1`.
-    pub(crate) course: bool,
+    /// By the course's, edges belong to everybody, samples are truncated, texels are addressed by `w - 1`.
+    pub(crate) rules: Rules,
     /// How textures are read.
     pub(crate) reads: RenderSettings,
 }
@@ -51,11 +53,19 @@ impl Foreign {
             side: settings.sample_rate.side(),
             shift: [0.0; 2],
             truncates: false,
-            linear: false,
+            resolve: ResolveSpace::Stored,
             flips_v: false,
-            course: false,
+            rules: Rules::Standard,
             reads: settings,
         }
+    }
+
+    fn is_course(&self) -> bool {
+        self.rules == Rules::Course
+    }
+
+    fn is_linear(&self) -> bool {
+        self.resolve == ResolveSpace::Linear
     }
 
     /// Draws a scene without layers on white.
@@ -63,7 +73,11 @@ impl Foreign {
         let to_pixels = DAffine2::from_translation(DVec2::from(self.shift)) * view.scene_to_pixels;
         let place = |point: DVec2| {
             let exact = to_pixels.transform_point2(point);
-            if self.course { exact.as_vec2().as_dvec2() } else { exact }
+            if self.is_course() {
+                exact.as_vec2().as_dvec2()
+            } else {
+                exact
+            }
         };
         let side = i64::from(self.side);
         let (columns, rows) = (i64::from(width) * side, i64::from(height) * side);
@@ -89,7 +103,7 @@ impl Foreign {
                         }
                     });
                 }
-                PrimitiveKind::Polygon { polygon, color } if self.course => {
+                PrimitiveKind::Polygon { polygon, color } if self.is_course() => {
                     for points in polygon.triangles().expect("a plain polygon") {
                         self.triangle(&mut samples, points.map(place), |_, _| premultiply(*color));
                     }
@@ -127,7 +141,7 @@ impl Foreign {
             for (k, (from, to)) in [(b, c), (c, a), (a, b)].into_iter().enumerate() {
                 let edge = (to - from) * area.signum();
                 let value = (to - from).perp_dot(at - from) * area.signum();
-                let owns = self.course || edge.y < 0.0 || (edge.y == 0.0 && edge.x > 0.0);
+                let owns = self.is_course() || edge.y < 0.0 || (edge.y == 0.0 && edge.x > 0.0);
                 if value < 0.0 || (value == 0.0 && !owns) {
                     return None;
                 }
@@ -166,7 +180,7 @@ impl Foreign {
     fn blend(&self, samples: &mut Samples, [i, j]: [i64; 2], above: Color) {
         let below = &mut samples.colors[(j * samples.width + i) as usize];
         *below = std::array::from_fn(|k| above[k] + below[k] * (1.0 - above[3]));
-        if self.course {
+        if self.is_course() {
             *below = below.map(|channel| (channel * 255.0 + 1e-9).floor() / 255.0);
         }
     }
@@ -174,7 +188,7 @@ impl Foreign {
     fn texel(&self, texture: &Texture, (weights, corners): ([f64; 3], [DVec2; 3]), uv: [DVec2; 3]) -> Color {
         let uv = uv.map(|uv| DVec2::new(uv.x, if self.flips_v { 1.0 - uv.y } else { uv.y }));
         let here = uv[0] * weights[0] + uv[1] * weights[1] + uv[2] * weights[2];
-        if self.course {
+        if self.is_course() {
             let level = &texture.pyramid.levels()[0];
             let size = DVec2::new(f64::from(level.width()), f64::from(level.height()));
             let at = (here * (size - 1.0)).round();
@@ -193,7 +207,7 @@ impl Foreign {
     fn resolve(&self, samples: &Samples, [width, height]: [u32; 2]) -> Framebuffer {
         let mut frame = Framebuffer::new(width, height);
         let side = self.side as usize;
-        let half = if self.truncates || self.course {
+        let half = if self.truncates || self.is_course() {
             1e-9
         } else {
             0.5 + 1e-9
@@ -204,12 +218,12 @@ impl Foreign {
             for (i, j) in (0..side).flat_map(|j| (0..side).map(move |i| (i, j))) {
                 let color = samples.colors[(y + j) * samples.width as usize + x + i];
                 for (sum, channel) in sum.iter_mut().zip(color) {
-                    *sum += if self.linear { to_light(channel) } else { channel };
+                    *sum += if self.is_linear() { to_light(channel) } else { channel };
                 }
             }
             let bytes = sum.map(|sum| {
                 let mean = sum / (side * side) as f64;
-                let mean = if self.linear { to_stored(mean) } else { mean };
+                let mean = if self.is_linear() { to_stored(mean) } else { mean };
                 (mean * 255.0 + half).floor() as u8
             });
             *pixel = u32::from_be_bytes([255, bytes[0], bytes[1], bytes[2]]);

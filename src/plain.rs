@@ -26,12 +26,12 @@ pub fn line(text: &str) -> Cow<'_, str> {
     escaped(text, is_plain)
 }
 
-/// As [`line`], but line breaks stay.
+/// As [`line()`], but line breaks stay.
 pub fn lines(text: &str) -> Cow<'_, str> {
     escaped(text, |character| character == '\n' || is_plain(character))
 }
 
-/// As [`line`], of a text that stays as it is where it can.
+/// As [`line()`], of a text that stays as it is where it can.
 pub fn into_line(text: String) -> String {
     if text.chars().all(is_plain) {
         return text;
@@ -47,7 +47,7 @@ pub fn into_lines(text: String) -> String {
     lines(&text).into_owned()
 }
 
-/// As [`line`], with at most about `limit` characters: the middle of a longer text is left out.
+/// As [`line()`], with at most about `limit` characters: the middle of a longer text is left out.
 pub fn short_line(text: &str, limit: usize) -> String {
     let count = text.chars().count();
     if count <= limit {

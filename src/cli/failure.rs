@@ -65,7 +65,7 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
     print_raw(&plain::lines(text))
 }
 
-/// As [`print`], of JSON.
+/// As [`print()`], of JSON.
 pub(super) fn print_json(text: &str) -> Result<(), Failure> {
     print_raw(&plain::json(text))
 }

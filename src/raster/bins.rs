@@ -2,7 +2,7 @@
 //!
 //! Two walks over the ops of a chunk: the first counts the entries of each tile, the second writes them where they
 //! belong; where the first meets few entries, it keeps them, and there is no second. Nothing is allocated per op or per
-//! tile. Entries that a later one of the chunk hides in their tile are not held: nobody would paint them.
+//! tile.
 
 use std::sync::Arc;
 
@@ -39,8 +39,6 @@ pub(crate) struct Plan {
 struct ChunkPlan {
     /// How many there are in each tile of the frame.
     counts: Vec<u32>,
-    /// The op that hides those before it in each tile; empty where there is none in any.
-    hiding: Vec<u32>,
     /// All of them, if they are few.
     bins: Option<Arc<Bins>>,
 }
@@ -63,15 +61,9 @@ impl Plan {
         };
         let of_chunk = |chunk: &Chunk| {
             let mut counts = vec![0; tiles.columns as usize * tiles.rows as usize];
-            let mut hiding = Vec::new();
             let mut few = chunk.ops.len() <= MAX_KEPT_OPS;
             let mut kept = Vec::with_capacity(if few { FEW } else { 0 });
             Walk::new(chunk, context, all).each(textures, |tile, entry| {
-                if entry.hides_tile() {
-                    hiding.resize(counts.len(), 0);
-                    hiding[tile] = u32::try_from(entry.op()).unwrap_or(u32::MAX);
-                    counts[tile] = 0;
-                }
                 counts[tile] += 1;
                 few &= kept.len() < MAX_KEPT;
                 if few {
@@ -79,13 +71,13 @@ impl Plan {
                 }
             });
             let bins = few.then(|| {
-                let mut sorter = Sorter::new(&counts, &hiding);
+                let mut sorter = Sorter::new(&counts);
                 for (tile, entry) in kept {
                     sorter.add(tile as usize, entry);
                 }
                 Arc::new(sorter.bins)
             });
-            ChunkPlan { counts, hiding, bins }
+            ChunkPlan { counts, bins }
         };
         Self {
             chunks: chunks.par_iter().map(of_chunk).collect(),
@@ -129,8 +121,7 @@ impl Plan {
         }
         let of_chunk = |(chunk, plan): (&Chunk, &ChunkPlan)| {
             ready(plan).unwrap_or_else(|| {
-                let hiding = plan.hiding.get(tiles.clone()).unwrap_or_default();
-                let mut sorter = Sorter::new(&plan.counts[tiles.clone()], hiding);
+                let mut sorter = Sorter::new(&plan.counts[tiles.clone()]);
                 Walk::new(chunk, context, rows).each(textures, |tile, entry| sorter.add(tile, entry));
                 Arc::new(sorter.bins)
             })
@@ -140,17 +131,15 @@ impl Plan {
 }
 
 /// Sorts entries into tiles.
-struct Sorter<'a> {
+struct Sorter {
     bins: Bins,
     /// Where the next entry of each tile belongs.
     next: Vec<u32>,
-    /// The op that hides those before it in each tile, if any does.
-    hiding: &'a [u32],
 }
 
-impl<'a> Sorter<'a> {
-    /// For tiles with `counts` entries each, from the op on that is `hiding` those before it.
-    fn new(counts: &[u32], hiding: &'a [u32]) -> Self {
+impl Sorter {
+    /// For tiles with `counts` entries each.
+    fn new(counts: &[u32]) -> Self {
         let mut starts = Vec::with_capacity(counts.len() + 1);
         let mut total = 0;
         starts.push(0);
@@ -160,7 +149,6 @@ impl<'a> Sorter<'a> {
         }));
         Self {
             next: starts.clone(),
-            hiding,
             bins: Bins {
                 entries: vec![Entry::default(); total as usize],
                 starts,
@@ -170,9 +158,6 @@ impl<'a> Sorter<'a> {
 
     #[inline]
     fn add(&mut self, tile: usize, entry: Entry) {
-        if self.hiding.get(tile).is_some_and(|op| entry.op() < *op as usize) {
-            return;
-        }
         let place = &mut self.next[tile];
         self.bins.entries[*place as usize] = entry;
         *place += 1;
@@ -369,27 +354,6 @@ mod tests {
             covering > 100 && crossing > 100,
             "{covering} covering, {crossing} crossing entries"
         );
-    }
-
-    #[test]
-    fn bins_hold_nothing_that_a_later_entry_hides() {
-        let settings = settings(1, Rules::Standard);
-        let context = ListContext::with_tiles(SIZE, &settings, TileLayout::new((4, 4), SIZE));
-        let corner = |x: f64, y: f64| DVec2::new(x, y);
-        // Each of growing triangles covers the tile in the corner.
-        let triangles: Vec<[DVec2; 3]> = (10..20)
-            .map(|i| {
-                [
-                    corner(-5.0, -5.0),
-                    corner(f64::from(i) * 20.0, -5.0),
-                    corner(-5.0, f64::from(i) * 15.0),
-                ]
-            })
-            .collect();
-        let (_, bins) = binned(&context, &triangles);
-        let held = bins.of_tile(0);
-        assert_eq!(held.len(), 1, "the last one, which hides nine");
-        assert!(held[0].hides_tile(), "it does");
     }
 
     #[test]

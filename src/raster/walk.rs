@@ -273,7 +273,9 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// A triangle by the rules of first drafts in each tile it touches.
+    /// A triangle by the rules of first drafts in each tile it touches. Kept out of the loop over ops, which is hot.
+    #[cold]
+    #[inline(never)]
     fn float(&self, float: &FloatShape, entry: Entry, base: bool, visit: &mut impl FnMut(usize, Entry)) {
         let (grid, sides) = (self.context.grid, self.samples);
         let SampleBox { columns, rows } = float.samples;

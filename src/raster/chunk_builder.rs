@@ -270,8 +270,12 @@ impl<'a> ChunkBuilder<'a> {
         let (grid, rules) = (self.context.grid, self.context.rules);
         let samples = SampleBox::new(corners, grid, rules);
         let inside = samples.intersection(self.frame);
+        // The halves of a large rectangle have its box, so that one look is enough for nearly all triangles.
+        if !is_large(inside, self.context) {
+            return;
+        }
         // The corners of its own box are not all inside a triangle.
-        if inside != samples && is_large(inside, self.context) && covers(&corners, inside, grid, rules) {
+        if inside != samples && covers(&corners, inside, grid, rules) {
             drop_hidden(&mut self.chunk, self.context, inside, 1);
         }
         let [.., Op::Triangle(before), Op::Triangle(_)] = *self.chunk.ops else {

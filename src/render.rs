@@ -78,7 +78,8 @@ impl Default for RenderSettings {
 impl RenderSettings {
     /// The truth about a picture: as many samples as there can be, each of which reads the texture itself. Rules,
     /// background, how a texture is continued between its texels and in which values samples are averaged are the
-    /// picture's own: what is then left of a difference is sampling.
+    /// picture's own: what is then left of a difference is sampling. Only [`Rules::Float`] gives way to the standard
+    /// rules: no number of samples closes its pinholes.
     #[must_use]
     pub fn truth(self) -> Self {
         Self {
@@ -87,6 +88,10 @@ impl RenderSettings {
             level_sampling: LevelSampling::Zero,
             anisotropy: Anisotropy::OFF,
             detail: LevelOfDetail::default(),
+            rules: match self.rules {
+                Rules::Float => Rules::Standard,
+                rules @ (Rules::Standard | Rules::Course) => rules,
+            },
             ..self
         }
     }

@@ -42,6 +42,12 @@ impl Viewer {
         }
     }
 
+    /// Which reading the current scene has, in few words, where it may be meant in the other dialect.
+    pub fn reading_words(&self) -> Option<String> {
+        let scene = self.current()?.scene()?;
+        scene.other_reading.map(|_| format!("read as {}", scene.dialect.name()))
+    }
+
     /// Which reading the current scene has where it may be meant in the other dialect, and why, in one line.
     pub fn reading_note(&self) -> Option<String> {
         let entry = self.current()?;

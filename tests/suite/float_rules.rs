@@ -1,7 +1,7 @@
 //! The rules of first drafts: the pinholes that they leave are there to be seen, and told truly.
 
 use rasterscope::geometry::View;
-use rasterscope::inspect::{Explanation, Question, Verdict};
+use rasterscope::inspect::{Explanation, Question, Setting, Verdict};
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::{RenderSettings, Subject};
 use rasterscope::rules::Rules;
@@ -72,6 +72,50 @@ fn float_rules_show_pinholes_in_the_windows_first_size_and_the_standard_rules_cl
     }
     // Where 32 bits give a sample to a neighbour, nothing is open.
     assert!(told * 7 > holes.len() * 3 / 4, "{told} of a seventh of {}", holes.len());
+}
+
+/// More samples do not close a pinhole: the truth has none, and the standard rules are the first advice.
+#[test]
+fn float_rules_are_measured_against_a_truth_without_pinholes() {
+    let scene = own("basic/test4.svg");
+    let mut checked = 0;
+    for size in [[1280, 800], [1366, 768]] {
+        let [float, standard] = [Rules::Float, Rules::Standard].map(|rules| picture(&scene, size, &by(rules)));
+        for pixel in different(&float, &standard).iter().step_by(17) {
+            let view = View::Default.transform(scene.canvas, size);
+            let advised = |rules| {
+                let subject = Subject {
+                    scene: &scene,
+                    view: &view,
+                    settings: &by(rules),
+                };
+                let question = Question {
+                    subject,
+                    file: "scene.svg",
+                    size,
+                    pixel: *pixel,
+                };
+                Explanation::advised(&question).unwrap()
+            };
+            let [found, cured] = [advised(Rules::Float), advised(Rules::Standard)];
+            let [truth, own] = [found.truth.unwrap(), cured.truth.unwrap()];
+            assert_eq!(truth.color, own.color, "one truth at {pixel:?}");
+            let first = truth.cures.first();
+            let gain = truth.distance - own.distance;
+            let of_rules = truth.cures.iter().find(|cure| cure.setting == Setting::Rules);
+            assert!(gain <= 1.0 || of_rules.is_some() || first.is_some_and(|cure| cure.nearer > gain));
+            // Where one rule closes the hole to within rounding, nothing stands before it.
+            if own.distance <= 1.0 && truth.distance > 2.0 {
+                checked += 1;
+                assert_eq!(
+                    first.map(|cure| cure.setting),
+                    Some(Setting::Rules),
+                    "{pixel:?}: {truth:?}"
+                );
+            }
+        }
+    }
+    assert!(checked > 10, "{checked} pixels");
 }
 
 #[test]

@@ -101,9 +101,12 @@ fn other_reading_holds_for_the_folder() {
     is_read(&session, Svg, "at first");
     let note = session.viewer.reading_note().unwrap();
     assert_eq!(note, "read as svg; as course it is another picture", "the note");
+    let words = |session: &Session| session.viewer.reading_words();
+    assert_eq!(words(&session).as_deref(), Some("read as svg"), "the status line");
     session.run(Command::OtherReading);
     assert_eq!(session.viewer.settings().dialect, Auto, "the setting stays");
     is_read(&session, Course, "after the button");
+    assert_eq!(words(&session).as_deref(), Some("read as course"), "the status line");
     let note = session.viewer.reading_note().unwrap();
     assert!(
         note.starts_with("read as course, as you chose for its folder"),

@@ -110,7 +110,9 @@ fn picture(ui: &mut Ui, viewer: &Viewer) {
         ui.label(egui::RichText::new(text).size(11.0).color(ui.visuals().warn_fg_color));
         ui.add_space(4.0);
     }
-    let mut words = vec![format!("{width}×{height}")];
+    // First, so that it is the last to give way: the other reading is another picture.
+    let mut words: Vec<String> = viewer.reading_words().into_iter().collect();
+    words.push(format!("{width}×{height}"));
     if let Some(numbers) = viewer.view_numbers() {
         words.push(format!("{} px/unit", short(numbers.scale)));
     }

@@ -1,0 +1,176 @@
+//! The sums of the gallery: a line for each scene and group of settings with the SHA-256 of all of its pictures. Work on the
+//! engine that must not move a pixel leaves every line as it is; `benches/frozen/run` compares them.
+//!
+//! The groups: every pattern and resolve space at five rates for each of the rules (`standard`, `course`, `float`), ways of
+//! reading textures (`filters`), every visualisation (`visualised`), and what the inspector says of some pixels (`explained`).
+
+use std::fmt::Write as _;
+
+use rasterscope::color::{ResolveSpace, Rgba};
+use rasterscope::geometry::View;
+use rasterscope::inspect::{Explanation, Question};
+use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
+use rasterscope::render::{RenderSettings, Subject, Visualisation, draw};
+use rasterscope::rules::Rules;
+use rasterscope::scene::{self, DialectChoice, ReadOptions, Scene};
+use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
+use rasterscope::viewer::gallery::{GalleryScene, SCENES, Textures};
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+
+/// Neither side is a multiple of a tile's.
+const SIZE: [u32; 2] = [101, 75];
+/// Where a pixel has many samples.
+const SMALL_SIZE: [u32; 2] = [37, 29];
+const RATES: [u32; 5] = [1, 4, 9, 16, 64];
+const VIEWS: [View; 2] = [View::Default, View::Canvas];
+
+fn main() {
+    let lines: Vec<String> = SCENES.par_iter().map(lines).collect();
+    print!("{}", lines.concat());
+}
+
+/// Every line of a scene.
+fn lines(gallery: &GalleryScene) -> String {
+    let options = ReadOptions {
+        dialect: DialectChoice::Auto,
+    };
+    let scene =
+        scene::read(gallery.document.as_bytes(), gallery.name, options, &Textures).expect("the gallery is sound");
+    let mut groups: Vec<(String, Vec<RenderSettings>)> = Rules::ALL
+        .iter()
+        .map(|rules| (rules.name().to_owned(), sampled(*rules)))
+        .collect();
+    groups.push(("filters".to_owned(), filtered()));
+    groups.push(("visualised".to_owned(), visualised()));
+    let mut text = String::new();
+    let mut line = |group: &str, sum: Sha256| {
+        let hex = sum
+            .finalize()
+            .iter()
+            .fold(String::new(), |hex, byte| hex + &format!("{byte:02x}"));
+        writeln!(text, "{} {group} {hex}", gallery.name).expect("text grows");
+    };
+    for (group, all) in &groups {
+        let mut sum = Sha256::new();
+        for (settings, view) in all.iter().zip(VIEWS.into_iter().cycle()) {
+            sum.update(picture(&scene, view, settings));
+        }
+        line(group, sum);
+    }
+    line("explained", explained(&scene));
+    text
+}
+
+/// The bytes of a frame.
+fn picture(scene: &Scene, view: View, settings: &RenderSettings) -> Vec<u8> {
+    let size = if settings.sample_rate.samples() < 16 {
+        SIZE
+    } else {
+        SMALL_SIZE
+    };
+    let mut frame = Framebuffer::new(size[0], size[1]);
+    draw(scene, &view.transform(scene.canvas, size), settings, &mut frame);
+    frame.pixels().iter().flat_map(|pixel| pixel.to_be_bytes()).collect()
+}
+
+/// Every pattern and resolve space at every rate, by one of the rules.
+fn sampled(rules: Rules) -> Vec<RenderSettings> {
+    let mut all = Vec::new();
+    for sample_rate in rates() {
+        for pattern in patterns(rules) {
+            for resolve in ResolveSpace::ALL {
+                all.push(RenderSettings {
+                    sample_rate,
+                    pattern: *pattern,
+                    resolve,
+                    rules,
+                    ..RenderSettings::default()
+                });
+            }
+        }
+    }
+    all
+}
+
+/// The float rules change edges only; one pattern on the grid and one off it show that.
+fn patterns(rules: Rules) -> &'static [SamplePattern] {
+    match rules {
+        Rules::Float => &[SamplePattern::Grid, SamplePattern::Jittered],
+        Rules::Standard | Rules::Course => &SamplePattern::ALL,
+    }
+}
+
+/// Ways of reading textures at two rates, over nothing.
+fn filtered() -> Vec<RenderSettings> {
+    let mut all = Vec::new();
+    for sample_rate in rates().take(2) {
+        for pixel_sampling in PixelSampling::ALL {
+            for level_sampling in LevelSampling::ALL {
+                for anisotropy in [Anisotropy::OFF].into_iter().chain(Anisotropy::STEPS.last().copied()) {
+                    for rules in Rules::ALL {
+                        all.push(RenderSettings {
+                            sample_rate,
+                            pixel_sampling,
+                            level_sampling,
+                            anisotropy,
+                            rules,
+                            background: Rgba::TRANSPARENT,
+                            ..RenderSettings::default()
+                        });
+                    }
+                }
+            }
+        }
+    }
+    all
+}
+
+/// Every visualisation at two rates.
+fn visualised() -> Vec<RenderSettings> {
+    let both = Visualisation::ALL.into_iter().flat_map(|visualisation| {
+        rates().take(2).map(move |sample_rate| RenderSettings {
+            sample_rate,
+            visualisation,
+            ..RenderSettings::default()
+        })
+    });
+    both.collect()
+}
+
+/// What is said of pixels across the picture.
+fn explained(scene: &Scene) -> Sha256 {
+    let mut sum = Sha256::new();
+    let view = View::Default.transform(scene.canvas, SIZE);
+    for rules in Rules::ALL {
+        let settings = RenderSettings {
+            sample_rate: SampleRate::new(4).expect("a square number"),
+            pixel_sampling: PixelSampling::Bilinear,
+            level_sampling: LevelSampling::Linear,
+            rules,
+            ..RenderSettings::default()
+        };
+        for i in 0..6 {
+            let pixel = [i * 67 % SIZE[0], i * 41 % SIZE[1]];
+            let question = Question {
+                subject: Subject {
+                    scene,
+                    view: &view,
+                    settings: &settings,
+                },
+                file: "scene.svg",
+                size: SIZE,
+                pixel,
+            };
+            let found = Explanation::new(&question).expect("a pixel of the picture");
+            sum.update(serde_json::to_vec(&found).expect("numbers and words"));
+        }
+    }
+    sum
+}
+
+fn rates() -> impl Iterator<Item = SampleRate> {
+    RATES
+        .into_iter()
+        .map(|samples| SampleRate::new(samples).expect("a square number"))
+}

@@ -215,7 +215,7 @@ mod tests {
         let mut viewer = Viewer::new(options).expect("threads");
         let _ = viewer.apply(Command::Compare(Against::Truth(None)));
         let (ctx, area) = (egui::Context::default(), points(&PixelRect::of_size(window), 1.0));
-        for part in [0.06, 0.1, 0.2, 0.5, 0.8, 0.95] {
+        for part in [0.06, 0.1, 0.2, 0.5, 0.8, 0.94] {
             let _ = viewer.apply(Command::SetWipe(part));
             viewer.finish();
             let line = viewer.wipe_line().expect("a wipe");

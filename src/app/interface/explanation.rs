@@ -69,9 +69,10 @@ impl ExplanationPanel {
             };
             area = area.vertical_scroll_offset(0.0);
         }
-        area.show(ui, |ui| match explanation {
-            Some(explanation) => self.report(ui, viewer, (explanation, commands), &mut hovered),
-            None => {
+        area.show(ui, |ui| {
+            if let Some(explanation) = explanation {
+                self.report(ui, viewer, (explanation, commands), &mut hovered);
+            } else {
                 ui.label(RichText::new("finding out …").weak());
                 self.comparison(ui, viewer, commands);
             }

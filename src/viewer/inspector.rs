@@ -36,6 +36,8 @@ pub struct Inspector {
     /// Window pixels along each side of a magnified pixel.
     pub magnification: u32,
     pub(super) pin: Option<Pin>,
+    /// Whether a ring marks the pin in the picture.
+    pub(super) ringed: bool,
     /// Whether the pin was jumped to, and is to stay in the part of the window that is free, until a hand moves the picture.
     pub(super) revealed: bool,
     /// The pixel last under the pointer: shown while the pointer is elsewhere.
@@ -87,6 +89,7 @@ impl Default for Inspector {
             region,
             magnification,
             pin: None,
+            ringed: false,
             revealed: false,
             last: None,
             extent: region * (magnification + 1),
@@ -180,7 +183,7 @@ impl Inspector {
         let inset = |region, magnification| Inset::new(center, region, magnification);
         let regions = |least: u32| (least..=region).rev().map(move |region| inset(region, magnification));
         // The ring is worth a somewhat smaller inset, not a tiny one.
-        let ring = self.pin.map(|_| with_ring(shown));
+        let ring = self.ringed.then(|| with_ring(shown));
         let beside_ring = regions((region * 2).div_ceil(3).max(smallest));
         if let Some(placed) = ring.and_then(|ring| self.first_place(beside_ring, &ring, area, &size)) {
             return Some(placed);
@@ -314,11 +317,8 @@ mod tests {
         // Beside the inset by a few pixels: only the ring is in its way.
         let at = [u32::try_from(far.rect.x).expect("inside") - 3, 100];
         let free = inspector.place(at, &pixel(at), &area).expect("there is room");
-        assert_eq!(free.rect, far.rect, "without a pin it stays");
-        inspector.pin = Some(Pin {
-            pixel: at.map(i64::from),
-            place: None,
-        });
+        assert_eq!(free.rect, far.rect, "without a ring it stays");
+        inspector.ringed = true;
         let pinned = inspector.place(at, &pixel(at), &area).expect("there is room");
         assert!(!pinned.rect.overlaps(&with_ring(&pixel(at))), "{pinned:?}");
         assert_eq!(pinned.inset.region, 15, "as large as before");

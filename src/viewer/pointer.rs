@@ -279,6 +279,8 @@ impl Viewer {
         (self.inset, self.other_inset) = (None, None);
         let Some(center) = center else { return };
         let shown = self.shown_at(center);
+        // The panels that draw the ring tell what area is free; pictures without them have none.
+        self.inspector.ringed = self.screen.free_area.is_some() && self.pinned_pixel().is_some();
         if self.comparison.shows_both() {
             let both = self.inspector.place_both(center, &shown, &area);
             (self.inset, self.other_inset) = both.map_or((None, None), |[a, b]| (Some(a), Some(b)));

@@ -22,7 +22,7 @@ const LABEL_CHARACTERS: f32 = 3.0;
 /// Pixels between the inset of A and that of B.
 const BETWEEN: u32 = 4;
 /// Window pixels around a pinned pixel that its ring takes, on a display with two pixels per point.
-const RING_ROOM: u32 = 24;
+pub(super) const RING_ROOM: u32 = 24;
 /// Free pixels around a label.
 const LABEL_MARGIN: f32 = 2.0;
 
@@ -36,8 +36,8 @@ pub struct Inspector {
     /// Window pixels along each side of a magnified pixel.
     pub magnification: u32,
     pub(super) pin: Option<Pin>,
-    /// Whether a ring marks the pin in the picture.
-    pub(super) ringed: bool,
+    /// Window pixels around the pinned one that a ring takes which marks it in the picture.
+    pub(super) ring_room: u32,
     /// Whether the pin was jumped to, and is to stay in the part of the window that is free, until a hand moves the picture.
     pub(super) revealed: bool,
     /// The pixel last under the pointer: shown while the pointer is elsewhere.
@@ -89,7 +89,7 @@ impl Default for Inspector {
             region,
             magnification,
             pin: None,
-            ringed: false,
+            ring_room: 0,
             revealed: false,
             last: None,
             extent: region * (magnification + 1),
@@ -183,7 +183,7 @@ impl Inspector {
         let inset = |region, magnification| Inset::new(center, region, magnification);
         let regions = |least: u32| (least..=region).rev().map(move |region| inset(region, magnification));
         // The ring is worth a somewhat smaller inset, not a tiny one.
-        let ring = self.ringed.then(|| with_ring(shown));
+        let ring = (self.ring_room > 0).then(|| with_ring(shown, self.ring_room));
         let beside_ring = regions((region * 2).div_ceil(3).max(smallest));
         if let Some(placed) = ring.and_then(|ring| self.first_place(beside_ring, &ring, area, &size)) {
             return Some(placed);
@@ -221,14 +221,13 @@ impl Inspector {
     }
 }
 
-/// A pinned pixel with the ring that marks it.
-fn with_ring(pixel: &PixelRect) -> PixelRect {
-    let room = i64::from(RING_ROOM);
+/// A pinned pixel with so much room around it.
+fn with_ring(pixel: &PixelRect, room: u32) -> PixelRect {
     PixelRect {
-        x: pixel.x - room,
-        y: pixel.y - room,
-        width: pixel.width + 2 * RING_ROOM,
-        height: pixel.height + 2 * RING_ROOM,
+        x: pixel.x - i64::from(room),
+        y: pixel.y - i64::from(room),
+        width: pixel.width + 2 * room,
+        height: pixel.height + 2 * room,
     }
 }
 
@@ -318,9 +317,9 @@ mod tests {
         let at = [u32::try_from(far.rect.x).expect("inside") - 3, 100];
         let free = inspector.place(at, &pixel(at), &area).expect("there is room");
         assert_eq!(free.rect, far.rect, "without a ring it stays");
-        inspector.ringed = true;
+        inspector.ring_room = RING_ROOM;
         let pinned = inspector.place(at, &pixel(at), &area).expect("there is room");
-        assert!(!pinned.rect.overlaps(&with_ring(&pixel(at))), "{pinned:?}");
+        assert!(!pinned.rect.overlaps(&with_ring(&pixel(at), RING_ROOM)), "{pinned:?}");
         assert_eq!(pinned.inset.region, 15, "as large as before");
         let tight = PixelRect::of_size([120, 120]);
         let small = inspector.place([60, 60], &pixel([60, 60]), &tight);

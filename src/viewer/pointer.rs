@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::inspector::Pin;
+use super::inspector::{Pin, RING_ROOM};
 use super::{PixelLabel, PixelRect, PlacedInset, PointerButton, Status, Viewer};
 use crate::figure::is_dark;
 
@@ -280,7 +280,8 @@ impl Viewer {
         let Some(center) = center else { return };
         let shown = self.shown_at(center);
         // The panels that draw the ring tell what area is free; pictures without them have none.
-        self.inspector.ringed = self.screen.free_area.is_some() && self.pinned_pixel().is_some();
+        let is_ringed = self.screen.free_area.is_some() && self.pinned_pixel().is_some();
+        self.inspector.ring_room = if is_ringed { RING_ROOM } else { 0 };
         if self.comparison.shows_both() {
             let both = self.inspector.place_both(center, &shown, &area);
             (self.inset, self.other_inset) = both.map_or((None, None), |[a, b]| (Some(a), Some(b)));

@@ -21,6 +21,8 @@ const LABEL_LINES: f32 = 3.0;
 const LABEL_CHARACTERS: f32 = 3.0;
 /// Pixels between the inset of A and that of B.
 const BETWEEN: u32 = 4;
+/// Window pixels around a pinned pixel that its ring takes, on a display with two pixels per point.
+pub(super) const RING_ROOM: u32 = 24;
 /// Free pixels around a label.
 const LABEL_MARGIN: f32 = 2.0;
 
@@ -34,6 +36,8 @@ pub struct Inspector {
     /// Window pixels along each side of a magnified pixel.
     pub magnification: u32,
     pub(super) pin: Option<Pin>,
+    /// Window pixels around the pinned one that a ring takes which marks it in the picture.
+    pub(super) ring_room: u32,
     /// Whether the pin was jumped to, and is to stay in the part of the window that is free, until a hand moves the picture.
     pub(super) revealed: bool,
     /// The pixel last under the pointer: shown while the pointer is elsewhere.
@@ -85,6 +89,7 @@ impl Default for Inspector {
             region,
             magnification,
             pin: None,
+            ring_room: 0,
             revealed: false,
             last: None,
             extent: region * (magnification + 1),
@@ -137,7 +142,7 @@ impl Inspector {
     }
 
     /// Where the inset for the frame pixel `center` goes: inside `area`, never over that pixel as the window shows it in
-    /// `shown`, and never most of the area. In a tight window the large pixel goes first, then the region shrinks, then the
+    /// `shown`, beside the ring of a pinned one where there is room, and never most of the area. In a tight window the large pixel goes first, then the region shrinks, then the
     /// magnification. Remembers the corner, so that the inset only moves when it must.
     pub(super) fn place(&mut self, center: [u32; 2], shown: &PixelRect, area: &PixelRect) -> Option<PlacedInset> {
         self.place_stack(center, shown, area, Inset::size)
@@ -173,22 +178,38 @@ impl Inspector {
         size: impl Fn(&Inset) -> [u32; 2],
     ) -> Option<PlacedInset> {
         let center = center.map(i64::from);
-        let longest = (f64::from(area.width.min(area.height)) * SHARE).max(LEAST);
+        let (region, magnification) = (self.region, self.magnification);
         let smallest = *Inset::REGION.start();
-        let regions = (smallest..=self.region)
-            .rev()
-            .map(|region| (region, self.magnification));
-        let magnifications = (*Inset::MAGNIFICATION.start()..self.magnification)
-            .rev()
-            .map(|m| (smallest, m));
-        for (region, magnification) in regions.chain(magnifications) {
-            let inset = Inset::new(center, region, magnification);
+        let inset = |region, magnification| Inset::new(center, region, magnification);
+        let regions = |least: u32| (least..=region).rev().map(move |region| inset(region, magnification));
+        // The ring is worth a somewhat smaller inset, not a tiny one.
+        let ring = (self.ring_room > 0).then(|| with_ring(shown, self.ring_room));
+        let beside_ring = regions((region * 2).div_ceil(3).max(smallest));
+        if let Some(placed) = ring.and_then(|ring| self.first_place(beside_ring, &ring, area, &size)) {
+            return Some(placed);
+        }
+        let magnifications = (*Inset::MAGNIFICATION.start()..magnification).rev();
+        let smaller = magnifications.map(|magnification| inset(smallest, magnification));
+        self.first_place(regions(smallest).chain(smaller), shown, area, &size)
+    }
+
+    /// Places the first of these insets that has room inside `area` beside `taken`, rather without its large pixel than
+    /// a smaller one.
+    fn first_place(
+        &mut self,
+        insets: impl Iterator<Item = Inset>,
+        taken: &PixelRect,
+        area: &PixelRect,
+        size: &impl Fn(&Inset) -> [u32; 2],
+    ) -> Option<PlacedInset> {
+        let longest = (f64::from(area.width.min(area.height)) * SHARE).max(LEAST);
+        for inset in insets {
             for inset in [inset, inset.without_detail()] {
                 let whole = size(&inset);
                 if f64::from(whole[0].max(whole[1])) > longest {
                     continue;
                 }
-                if let Some((corner, rect)) = place(area, whole, shown, self.corner) {
+                if let Some((corner, rect)) = place(area, whole, taken, self.corner) {
                     self.corner = corner;
                     let height = inset.size()[1];
                     let rect = PixelRect { height, ..rect };
@@ -197,6 +218,16 @@ impl Inspector {
             }
         }
         None
+    }
+}
+
+/// A pinned pixel with so much room around it.
+fn with_ring(pixel: &PixelRect, room: u32) -> PixelRect {
+    PixelRect {
+        x: pixel.x - i64::from(room),
+        y: pixel.y - i64::from(room),
+        width: pixel.width + 2 * room,
+        height: pixel.height + 2 * room,
     }
 }
 
@@ -273,6 +304,26 @@ mod tests {
         assert!(tight.rect.width <= 90, "{tight:?}");
         assert_eq!(place([0, 0], &PixelRect::of_size([20, 20])), None, "no room at all");
         assert_eq!(place([0, 0], &PixelRect::default()), None, "nor here");
+    }
+
+    #[test]
+    fn place_leaves_the_ring_of_a_pin_uncovered() {
+        let area = PixelRect::of_size([800, 600]);
+        let mut inspector = Inspector::default();
+        let far = inspector
+            .place([10, 500], &pixel([10, 500]), &area)
+            .expect("there is room");
+        // Beside the inset by a few pixels: only the ring is in its way.
+        let at = [u32::try_from(far.rect.x).expect("inside") - 3, 100];
+        let free = inspector.place(at, &pixel(at), &area).expect("there is room");
+        assert_eq!(free.rect, far.rect, "without a ring it stays");
+        inspector.ring_room = RING_ROOM;
+        let pinned = inspector.place(at, &pixel(at), &area).expect("there is room");
+        assert!(!pinned.rect.overlaps(&with_ring(&pixel(at), RING_ROOM)), "{pinned:?}");
+        assert_eq!(pinned.inset.region, 15, "as large as before");
+        let tight = PixelRect::of_size([120, 120]);
+        let small = inspector.place([60, 60], &pixel([60, 60]), &tight);
+        assert!(small.is_some(), "where only the ring has no room, it is covered");
     }
 
     fn pixel(at: [u32; 2]) -> PixelRect {

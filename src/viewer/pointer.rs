@@ -2,9 +2,13 @@
 
 use glam::DVec2;
 
-use super::inspector::Pin;
+use super::inspector::{Pin, RING_ROOM};
 use super::{PixelLabel, PixelRect, PlacedInset, PointerButton, Status, Viewer};
 use crate::figure::is_dark;
+
+/// What is said when the pinned place leaves the window, and with it its ring and its explanation.
+pub(super) const PIN_OUTSIDE: &str =
+    "the pinned pixel is outside the window now: it comes back with the view, or pin another one";
 
 /// Where the pointer is and what it does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -65,7 +69,13 @@ impl Viewer {
         let scene = (self.current, self.generation);
         let view = entry.camera.transform(&sight);
         match pin.place {
-            Some((place, of)) if of == scene => pin.pixel = window_pixel(view.to_pixels(place)),
+            Some((place, of)) if of == scene => {
+                let before = self.in_frame(pin.pixel);
+                pin.pixel = window_pixel(view.to_pixels(place));
+                if before.is_some() && self.in_frame(pin.pixel).is_none() {
+                    self.messages.done(PIN_OUTSIDE.to_owned());
+                }
+            }
             _ => {
                 let centre = DVec2::new(pin.pixel[0] as f64, pin.pixel[1] as f64) + 0.5;
                 pin.place = Some((view.to_scene(centre), scene));
@@ -202,8 +212,8 @@ impl Viewer {
         }
     }
 
-    /// Pins the hovered pixel, or unpins it; without one the pixel that the inspector shows. A first pin opens the
-    /// explanation; one that only moves leaves it as the user has it.
+    /// Pins the hovered pixel, or unpins it; without one the pixel that the inspector shows. Whoever points at a pixel
+    /// asks about it: the explanation opens, too, where it was closed.
     pub(super) fn pin_under_pointer(&mut self) {
         let Some(pixel) = self.hovered_pixel().or_else(|| self.inspected_pixel()) else {
             return;
@@ -211,7 +221,7 @@ impl Viewer {
         if self.pinned_pixel() == Some(pixel) {
             self.inspector.pin = None;
         } else {
-            self.screen.shown.explanation |= self.inspector.pin.is_none();
+            self.screen.shown.explanation = true;
             self.pin(pixel.map(i64::from));
         }
     }
@@ -269,6 +279,9 @@ impl Viewer {
         (self.inset, self.other_inset) = (None, None);
         let Some(center) = center else { return };
         let shown = self.shown_at(center);
+        // The panels that draw the ring tell what area is free; pictures without them have none.
+        let is_ringed = self.screen.free_area.is_some() && self.pinned_pixel().is_some();
+        self.inspector.ring_room = if is_ringed { RING_ROOM } else { 0 };
         if self.comparison.shows_both() {
             let both = self.inspector.place_both(center, &shown, &area);
             (self.inset, self.other_inset) = both.map_or((None, None), |[a, b]| (Some(a), Some(b)));

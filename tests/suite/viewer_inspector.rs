@@ -289,7 +289,7 @@ fn inspector_counts_the_shades_of_an_edge() {
     );
 }
 
-/// Enter opens the explanation with the pin. E goes by what is to be seen: it never changes what nobody sees.
+/// Enter opens the explanation with every pin. E goes by what is to be seen: it never changes what nobody sees.
 #[test]
 fn inspector_explanation_goes_by_what_is_seen() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
@@ -307,10 +307,7 @@ fn inspector_explanation_goes_by_what_is_seen() {
     session.run(Command::PointerMoved { at: dvec2(120.0, 60.0) });
     session.keys(&["Enter"]);
     assert_eq!(session.viewer.pinned_pixel(), Some([120, 60]), "the pin moves");
-    assert!(
-        !session.viewer.explains(),
-        "what was hidden stays so while the pin moves"
-    );
+    assert!(session.viewer.explains(), "who points at another pixel asks about it");
     session.keys(&["Enter"]);
     assert_eq!(session.viewer.pinned_pixel(), None, "unpinned");
     session.keys(&["Enter"]);
@@ -320,6 +317,28 @@ fn inspector_explanation_goes_by_what_is_seen() {
     session.keys(&["e"]);
     assert!(session.viewer.explains(), "E shows what was hidden with the rest");
     assert_eq!(session.viewer.pinned_pixel(), Some([120, 60]), "of the same pixel");
+}
+
+/// A pin that leaves the window is not forgotten, and says where it went.
+#[test]
+fn inspector_says_that_the_pin_left_the_window() {
+    let mut session = Session::open(&[TRIANGLES], [400, 300]);
+    session.run(Command::Pin([100, 50]));
+    let told = |session: &Session| {
+        let messages = session.viewer.messages();
+        messages
+            .iter()
+            .any(|message| message.text.contains("outside the window"))
+    };
+    assert!(!told(&session), "it is in sight");
+    let at = dvec2(300.0, 250.0);
+    session.run(Command::PointerMoved { at });
+    session.run(Command::Wheel { clicks: 6.0 });
+    assert_eq!(session.viewer.pinned_pixel(), None, "zoomed away");
+    assert!(told(&session), "and not in silence");
+    session.run(Command::Wheel { clicks: -6.0 });
+    assert_eq!(session.viewer.pinned_pixel(), Some([100, 50]), "it comes back");
+    assert!(session.viewer.explains(), "with its explanation");
 }
 
 /// The ring in the picture goes where the pixel is to be seen, in every pane.

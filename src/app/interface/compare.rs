@@ -1,45 +1,108 @@
 //! The panel of a comparison: what A and B are, how they share the window, how far they are apart.
 
-use egui::{Button, DragValue, Grid, Layout, RichText, Sense, Ui, pos2, vec2};
+use egui::{Button, DragValue, Layout, RichText, Sense, Ui, pos2, vec2};
 
+use super::compare_numbers;
 use super::controls::{choice, command_button, gave_up, heading, row, tip};
 use super::look::CONTROL;
 use crate::color::{Colormap, ResolveSpace};
 use crate::compare::{Gain, Guess, Measure};
-use crate::viewer::{Action, Against, Arrangement, Command, Measures, Other, Toggle, Viewer, commands};
+use crate::viewer::{Action, Against, Arrangement, Command, Other, Toggle, Viewer, commands};
 
 /// Height of the legend's colours, in points.
 const LEGEND: f32 = 12.0;
+/// What closing a comparison does.
+const CLOSE_TIP: &str = "Forgets B. The settings of A stay as they are.";
 /// Colours that the legend shows.
 const LEGEND_STEPS: u16 = 120;
 
-/// Fills the panel.
+/// Fills the panel. The buttons come first and always lie in the same place; what grows, shrinks or comes and goes with
+/// them is below.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    what(ui, viewer, commands);
-    arrangement(ui, viewer, commands);
-    if viewer.arrangement() == Arrangement::Difference {
-        difference(ui, viewer, commands);
-    }
-    metrics(ui, viewer, commands);
-    guess(ui, viewer);
+    heading(ui, title(viewer));
+    controls(ui, viewer, commands);
+    details(ui, viewer, commands);
 }
 
-/// The ways to a comparison, while there is none.
-pub(super) fn offer(ui: &mut Ui, commands: &mut Vec<Command>) {
+/// Which of both is in front.
+pub(super) fn title(viewer: &Viewer) -> &'static str {
+    if viewer.is_swapped() {
+        "B against A"
+    } else {
+        "A against B"
+    }
+}
+
+/// The ways to a comparison, and what is always at hand of one that is open: the row stays in its place.
+pub(super) fn offer(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     row(ui, "Compare", |ui| {
-        let ways = [("swap", "keep"), ("truth", "truth"), ("compare-picture", "file")];
+        let is_open = viewer.other().is_some();
+        ui.spacing_mut().button_padding.x = 2.0;
+        let width = ((ui.available_width() - CONTROL.x) / 3.0 - 4.0).floor();
+        let keep = if is_open { "swap" } else { "keep" };
+        let ways = [("swap", keep), ("truth", "truth"), ("compare-picture", "file")];
         for (id, text) in ways {
-            if command_button(ui, id, text).clicked() {
+            let size = vec2(width, CONTROL.y);
+            let button = ui.add_sized(size, Button::new(text)).on_hover_text(tip(id));
+            let name = commands::find(id).map_or(id, |spec| spec.name);
+            if button.accessible_name(name).clicked() {
                 run(id, commands);
             }
+        }
+        let close = ui.add_enabled(is_open, Button::new("\u{d7}").min_size(CONTROL));
+        let close = close.on_hover_text(CLOSE_TIP).accessible_name("End the comparison");
+        if close.clicked() {
+            commands.push(Command::Compare(Against::Nothing));
         }
     });
 }
 
-/// What A and B are, and what can be done with them.
+/// What can be done with A and B, in three rows.
+pub(super) fn controls(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let others = [
+            ("swap", "Swap"),
+            ("truth", "Truth"),
+            ("compare-picture", "Picture \u{2026}"),
+        ];
+        for (id, text) in others {
+            if command_button(ui, id, text).clicked() {
+                run(id, commands);
+            }
+        }
+        let close = ui
+            .add(Button::new("Forget B").min_size(CONTROL))
+            .on_hover_text(CLOSE_TIP);
+        if close.accessible_name("Close comparison").clicked() {
+            commands.push(Command::Compare(Against::Nothing));
+        }
+    });
+    arrangement(ui, viewer, commands);
+    next_difference(ui, viewer, commands);
+}
+
+/// What A and B are, and how far they are apart.
+pub(super) fn details(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    if viewer.arrangement() == Arrangement::Difference {
+        difference(ui, viewer, commands);
+    }
+    what(ui, viewer, commands);
+    compare_numbers::show(ui, viewer);
+    guess(ui, viewer);
+}
+
+/// What A and B are, the one in front first.
 fn what(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    heading(ui, "A against B");
-    for side in viewer.comparison_sides().into_iter().flatten() {
+    ui.add_space(2.0);
+    if let Some(Other::Truth(resolve)) = viewer.other() {
+        truth(ui, *resolve, commands);
+    }
+    let mut sides = viewer.comparison_sides().unwrap_or_default();
+    if viewer.is_swapped() {
+        sides.reverse();
+    }
+    for side in sides {
         ui.label(RichText::new(side).small());
     }
     if let Some(path) = viewer.loading_picture() {
@@ -50,26 +113,6 @@ fn what(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let hint = "Both have the same settings: change A with its keys.";
         ui.label(RichText::new(hint).small().color(ui.visuals().warn_fg_color));
     }
-    if let Some(Other::Truth(resolve)) = viewer.other() {
-        truth(ui, *resolve, commands);
-    }
-    ui.add_space(2.0);
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 4.0;
-        let others = [("swap", "Swap"), ("truth", "Truth"), ("compare-picture", "Picture …")];
-        for (id, text) in others {
-            if command_button(ui, id, text).clicked() {
-                run(id, commands);
-            }
-        }
-        let close = Button::new("Close").min_size(CONTROL);
-        let response = ui
-            .add(close)
-            .on_hover_text("Forgets B. The settings of A stay as they are.");
-        if response.accessible_name("Close comparison").clicked() {
-            commands.push(Command::Compare(Against::Nothing));
-        }
-    });
 }
 
 /// In which values the truth averages its samples.
@@ -93,7 +136,6 @@ fn run(id: &str, commands: &mut Vec<Command>) {
 }
 
 fn arrangement(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    heading(ui, "Show");
     let values = Arrangement::ALL.map(|value| {
         let name = match value {
             Arrangement::Alone if viewer.is_swapped() => "B",
@@ -224,43 +266,17 @@ fn short(value: f64) -> String {
     }
 }
 
-/// The numbers; those of other pictures are marked.
-pub(super) fn metrics(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    let found = viewer.measures();
-    let title = match found {
-        Some((_, true)) | None => "How far apart",
-        Some((_, false)) => "How far apart (before the last change)",
-    };
-    heading(ui, title);
-    let Some((measures, is_current)) = found else {
-        ui.label(RichText::new("measuring …").weak());
-        return;
-    };
-    Grid::new("metrics")
-        .num_columns(2)
-        .spacing(vec2(8.0, 3.0))
-        .min_row_height(16.0)
-        .show(ui, |ui| {
-            for (name, value, tip) in lines(measures) {
-                ui.label(RichText::new(name).weak()).on_hover_text(tip);
-                let text = RichText::new(value).monospace();
-                let text = if is_current { text } else { text.weak().italics() };
-                ui.label(text).on_hover_text(tip);
-                ui.end_row();
-            }
-        });
-    ui.add_space(2.0);
+/// Pins the pixel that differs most, then the next.
+fn next_difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let count = viewer.measures().map_or(0, |(measures, _)| measures.places.len());
     ui.horizontal(|ui| {
-        let button = ui.add_enabled(
-            !measures.places.is_empty(),
-            Button::new("Next difference").min_size(CONTROL),
-        );
+        let button = ui.add_enabled(count > 0, Button::new("Next difference").min_size(CONTROL));
         let button = button.on_hover_text(tip("next-difference"));
         if button.accessible_name("Next difference").clicked() {
             commands.push(Command::NextDifference);
         }
         if let Some(index) = viewer.pinned_place() {
-            let place = format!("{} of {}", index + 1, measures.places.len());
+            let place = format!("{} of {count}", index + 1);
             ui.label(RichText::new(place).small().weak());
         }
     });
@@ -297,62 +313,6 @@ fn guess(ui: &mut Ui, viewer: &Viewer) {
     let tip = "A was drawn under every known cause; these make it most like B.";
     let text = format!("explains {percent} % of the squared difference");
     ui.label(RichText::new(text).small().weak()).on_hover_text(tip);
-}
-
-/// Name, value, and what it is.
-fn lines(measures: &Measures) -> Vec<(&'static str, String, &'static str)> {
-    let levels = &measures.levels;
-    let share = levels.differing() as f64 * 100.0 / (levels.pixels as f64).max(1.0);
-    let share = match share {
-        share if levels.differing() > 0 && share < 0.01 => "< 0.01 %".to_owned(),
-        share => format!("{share:.2} %"),
-    };
-    let largest = match measures.places.first() {
-        Some(place) => format!("{} at {}, {}", place.largest(), place.at[0], place.at[1]),
-        None => "0".to_owned(),
-    };
-    let psnr = match levels.psnr() {
-        ratio if ratio.is_finite() => format!("{ratio:.2} dB"),
-        _ => "infinite".to_owned(),
-    };
-    let seen = |value: Option<f64>| value.map_or("…".to_owned(), |value| format!("{value:.5}"));
-    vec![
-        (
-            "Differing",
-            format!("{} ({share})", levels.differing()),
-            "Pixels of which any channel differs. In brackets their share of the picture.",
-        ),
-        (
-            "Largest",
-            largest,
-            "The largest difference of any channel, in levels of 255. Then its pixel.",
-        ),
-        (
-            "MAE",
-            format!("{:.4}", levels.mae()),
-            "Mean absolute error over pixels and channels, in levels of 255. 0 for equal pictures.",
-        ),
-        (
-            "RMSE",
-            format!("{:.4}", levels.rmse()),
-            "Root mean square error over pixels and channels, in levels of 255. Large differences weigh more.",
-        ),
-        (
-            "PSNR",
-            psnr,
-            "Peak signal-to-noise ratio, 20 log10(255 / RMSE). More is better; infinite for equal pictures.",
-        ),
-        (
-            "SSIM",
-            seen(measures.seen.map(|seen| seen.ssim)),
-            "Structural similarity of luma, Wang et al. 2004. 1 for equal pictures, less for others.",
-        ),
-        (
-            "FLIP",
-            seen(measures.seen.map(|seen| seen.flip)),
-            "What people see when they flip between both, Andersson et al. 2020. 0 when nobody sees a difference.",
-        ),
-    ]
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! What lies over the picture while A and B share the window: the line of the wipe, and which picture is which.
 
+use egui::text::LayoutJob;
 use egui::{Align2, Color32, CursorIcon, FontId, Rangef, Rect, Stroke, Ui, Vec2, pos2, vec2};
 
 use super::floating::points;
@@ -9,6 +10,10 @@ use crate::viewer::{Arrangement, Viewer};
 const MARGIN: f32 = 10.0;
 /// Space inside a tag, in points.
 const PADDING: Vec2 = vec2(8.0, 4.0);
+/// Width below which a tag is its letter alone, in points.
+const LEAST_WORDS: f32 = 48.0;
+/// Lines of a tag at most; what is left of its words becomes dots.
+const MOST_LINES: usize = 4;
 /// Side of the letter beside an inset, in points.
 const LETTER: f32 = 20.0;
 /// Radius of the line's handle, in points.
@@ -26,9 +31,10 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<
     let letters = letters(ui, viewer, free);
     let taken = [&insets, taken, &letters].concat();
     let left = free.left() + MARGIN;
-    let places: Vec<(String, f32, Align2)> = match viewer.arrangement() {
+    let half = (free.width() / 2.0 - 2.0 * MARGIN).max(40.0);
+    let places: Vec<(String, f32, Align2, f32)> = match viewer.arrangement() {
         Arrangement::Alone if !viewer.is_swapped() => return Vec::new(),
-        Arrangement::Alone => vec![(front, left, Align2::LEFT_TOP)],
+        Arrangement::Alone => vec![(front, left, Align2::LEFT_TOP, half)],
         Arrangement::Wipe => {
             let Some(line) = viewer.wipe_line() else {
                 return Vec::new();
@@ -36,14 +42,19 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<
             #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
             let line = line as f32 / scale;
             draw_line(ui, viewer, free, (line, &insets));
+            // Each on its own side: where there is little room its words give way, never the side.
+            let beside = |room: f32| (room - 2.0 * MARGIN - 2.0 * PADDING.x).min(half);
             vec![
-                (front, line - MARGIN, Align2::RIGHT_TOP),
-                (back, line + MARGIN, Align2::LEFT_TOP),
+                (front, line - MARGIN, Align2::RIGHT_TOP, beside(line - free.left())),
+                (back, line + MARGIN, Align2::LEFT_TOP, beside(free.right() - line)),
             ]
         }
         Arrangement::SideBySide => {
             let middle = free.center().x + MARGIN;
-            vec![(front, left, Align2::LEFT_TOP), (back, middle, Align2::LEFT_TOP)]
+            vec![
+                (front, left, Align2::LEFT_TOP, half),
+                (back, middle, Align2::LEFT_TOP, half),
+            ]
         }
         Arrangement::Difference => {
             let order = if viewer.is_swapped() {
@@ -52,17 +63,17 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<
                 "B \u{2212} A"
             };
             let what = format!("{order}, {}", viewer.difference_style().measure.name());
-            vec![(what, left, Align2::LEFT_TOP)]
+            vec![(what, left, Align2::LEFT_TOP, half)]
         }
         Arrangement::Flip => {
             let is_front = viewer.shows_b() == viewer.is_swapped();
             let seen = if is_front { front } else { back };
-            vec![(seen, left, Align2::LEFT_TOP)]
+            vec![(seen, left, Align2::LEFT_TOP, half)]
         }
     };
     let tags = places
         .into_iter()
-        .filter_map(|(text, x, align)| tag(ui, free, &taken, (text, x, align)));
+        .filter_map(|(text, x, align, wide)| tag(ui, free, &taken, (&text, x, align, wide)));
     tags.chain(letters).collect()
 }
 
@@ -141,12 +152,27 @@ fn free_pieces(free: Rect, x: f32, insets: &[Rect]) -> Vec<Rangef> {
     pieces
 }
 
-/// Words on a dark ground at `x`, as high up as nothing is in their way; none where they do not fit.
-fn tag(ui: &Ui, free: Rect, taken: &[Rect], (text, x, align): (String, f32, Align2)) -> Option<Rect> {
-    let wide = (free.width() / 2.0 - 2.0 * MARGIN).max(40.0);
-    let galley = ui
-        .painter()
-        .layout(text, FontId::proportional(12.0), Color32::WHITE, wide);
+/// Words on a dark ground at `x`, at most so wide, as high up as nothing is in their way; shortened where they do not fit,
+/// at last to their first letter, and none where there is not even room for that.
+fn tag(ui: &Ui, free: Rect, taken: &[Rect], (text, x, align, wide): (&str, f32, Align2, f32)) -> Option<Rect> {
+    let lines = |rows| {
+        let mut job = LayoutJob::simple(text.to_owned(), FontId::proportional(12.0), Color32::WHITE, wide);
+        job.wrap.max_rows = rows;
+        ui.painter().layout_job(job)
+    };
+    let letter = || {
+        let first = text.chars().next().map(String::from).unwrap_or_default();
+        ui.painter()
+            .layout_no_wrap(first, FontId::proportional(12.0), Color32::WHITE)
+    };
+    let galley = if wide < LEAST_WORDS {
+        letter()
+    } else {
+        lines(MOST_LINES)
+    };
+    if galley.size().x > wide + 1.0 {
+        return None;
+    }
     let size = galley.size() + 2.0 * PADDING;
     let mut place = align.anchor_size(pos2(x, free.top() + MARGIN), size);
     while let Some(other) = taken.iter().find(|other| other.intersects(place)) {
@@ -177,6 +203,35 @@ mod tests {
         assert_eq!(pieces(150.0), expected, "between and below them");
         let all = [inset(0.0, 400.0)];
         assert!(free_pieces(free, 150.0, &all).is_empty(), "nothing is free");
+    }
+
+    #[test]
+    fn tags_of_a_wipe_stay_on_their_sides() {
+        let window = [800, 600];
+        let options = ViewerOptions {
+            window,
+            ..ViewerOptions::default()
+        };
+        let mut viewer = Viewer::new(options).expect("threads");
+        let _ = viewer.apply(Command::Compare(Against::Truth(None)));
+        let (ctx, area) = (egui::Context::default(), points(&PixelRect::of_size(window), 1.0));
+        for part in [0.06, 0.1, 0.2, 0.5, 0.8, 0.94] {
+            let _ = viewer.apply(Command::SetWipe(part));
+            viewer.finish();
+            let line = viewer.wipe_line().expect("a wipe");
+            let mut places = Vec::new();
+            let input = egui::RawInput {
+                screen_rect: Some(area),
+                ..egui::RawInput::default()
+            };
+            let mut output = ctx.run_ui(input, |ui| places = show(ui, &viewer, area, &[]));
+            output.textures_delta.clear();
+            let [a, b] = places[..] else {
+                panic!("{places:?} with the line at {line}");
+            };
+            assert!(f64::from(a.right()) <= line && area.contains_rect(a), "{a:?} of {line}");
+            assert!(f64::from(b.left()) >= line && area.contains_rect(b), "{b:?} of {line}");
+        }
     }
 
     #[test]

@@ -30,6 +30,8 @@ struct Question {
     name: &'static str,
     /// Its form.
     hint: String,
+    /// What is said while there is no answer.
+    missing: &'static str,
     /// The word on the button.
     button: &'static str,
     /// The command that takes the answer.
@@ -55,6 +57,7 @@ impl Dialogs {
                     title: "Go to pixel",
                     name: "Pixel",
                     hint: format!("x, y below {width}, {height}"),
+                    missing: "type the pixel's column and row first",
                     button: "Pin",
                     command: "pin",
                 };
@@ -65,6 +68,7 @@ impl Dialogs {
                     title: "Compare with a picture",
                     name: "Path",
                     hint: "path of a PNG or JPEG; or drop it on the window".to_owned(),
+                    missing: "type the path of a picture first",
                     button: "Compare",
                     command: "against",
                 };
@@ -111,8 +115,11 @@ impl Dialogs {
             ui.heading(question.title);
             let enter = self.line(ui, question.name, &question.hint, just_opened);
             self.problem_line(ui);
-            let pressed = buttons(ui, question.button);
-            if (enter || pressed == Some(true)) && !self.text.trim().is_empty() {
+            let is_empty = self.text.trim().is_empty();
+            let pressed = buttons(ui, question.button, is_empty.then_some(question.missing));
+            if enter && is_empty {
+                self.problem = Some(question.missing.to_owned());
+            } else if enter || pressed == Some(true) {
                 self.run(commands::find(question.command), &self.text.clone(), commands);
             }
             pressed == Some(false)
@@ -266,10 +273,12 @@ pub(super) fn modal(name: &'static str) -> Modal {
         .backdrop_color(BACKDROP)
 }
 
-/// OK and cancel; which was pressed.
-fn buttons(ui: &mut Ui, ok: &str) -> Option<bool> {
+/// OK and cancel; which was pressed. OK does nothing while something is `missing`.
+fn buttons(ui: &mut Ui, ok: &str, missing: Option<&str>) -> Option<bool> {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        let accept = ui.add(Button::new(ok).min_size(vec2(64.0, CONTROL.y))).clicked();
+        let accept = Button::new(ok).min_size(vec2(64.0, CONTROL.y));
+        let accept = ui.add_enabled(missing.is_none(), accept);
+        let accept = accept.on_disabled_hover_text(missing.unwrap_or_default()).clicked();
         let cancel = ui.add(Button::new("Cancel").min_size(vec2(64.0, CONTROL.y))).clicked();
         accept.then_some(true).or(cancel.then_some(false))
     })

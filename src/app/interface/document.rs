@@ -15,11 +15,28 @@ pub(super) fn has_report(viewer: &Viewer) -> bool {
     let noted = |entry: &SceneEntry| entry.scene().is_some_and(|scene| !scene.report.is_empty());
     viewer
         .current()
-        .is_some_and(|entry| entry.failure().is_some() || viewer.reading_note().is_some() || noted(entry))
+        .is_some_and(|entry| entry.failure().is_some() || noted(entry))
 }
 
-/// The reader's report, where there is one, and which of two readings was taken; and why a scene could not be read.
-pub(super) fn report(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+/// Whether [`readings`] has something to say.
+pub(super) fn has_readings(viewer: &Viewer) -> bool {
+    viewer.reading_note().is_some()
+}
+
+/// Which of two readings of the scene was taken, and a button for the other.
+pub(super) fn readings(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let Some(note) = viewer.reading_note() else {
+        return;
+    };
+    heading(ui, "Two readings");
+    ui.label(RichText::new(note).small());
+    if command_button(ui, "other-reading", "The other reading").clicked() {
+        commands.push(Command::OtherReading);
+    }
+}
+
+/// The reader's report, where there is one; and why a scene could not be read.
+pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
     let Some(entry) = viewer.current() else {
         return;
     };
@@ -27,13 +44,6 @@ pub(super) fn report(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) 
         heading(ui, "Not read");
         ui.label(RichText::new(message).color(ui.visuals().error_fg_color));
         return;
-    }
-    if let Some(note) = viewer.reading_note() {
-        heading(ui, "Two readings");
-        ui.label(RichText::new(note).small());
-        if command_button(ui, "other-reading", "The other reading").clicked() {
-            commands.push(Command::OtherReading);
-        }
     }
     let Some(scene) = entry.scene().filter(|scene| !scene.report.is_empty()) else {
         return;

@@ -2,12 +2,13 @@
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{
-    CollapsingHeader, Color32, FontId, Pos2, Rect, Response, RichText, ScrollArea, Sense, Shape, Stroke, Ui, pos2, vec2,
+    Button, CollapsingHeader, Color32, FontId, Pos2, Rect, Response, RichText, ScrollArea, Sense, Shape, Stroke, Ui,
+    pos2, vec2,
 };
 
-use super::controls::command_button;
-use super::floating::points;
-use super::look;
+use super::controls::{command_button, tip};
+use super::floating::{around, points};
+use super::look::{self, CONTROL};
 use super::{compare, scrubber, twin};
 use crate::inspect::{Difference, Explanation, Paint, TexelPlace};
 use crate::render::Visualisation;
@@ -34,8 +35,8 @@ pub(super) struct ExplanationPanel {
     accumulated: Option<usize>,
     /// The pixel that these belong to.
     pixel: Option<[u32; 2]>,
-    /// Whether it also says how far A and B are apart: where the panel of the comparison has given way to this one.
-    pub(super) has_numbers: bool,
+    /// Whether it also has what belongs to a comparison: where the panel for that is not to be seen.
+    pub(super) has_comparison: bool,
 }
 
 /// What the pointer is over.
@@ -54,41 +55,40 @@ impl ExplanationPanel {
     pub(super) fn show(&mut self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) -> Hovered {
         let mut hovered = Hovered::default();
         title(ui, viewer, commands);
+        if self.has_comparison {
+            compare::controls(ui, viewer, commands);
+            ui.add_space(2.0);
+        }
         let explanation = viewer.explanation();
+        let mut area = ScrollArea::vertical().id_salt("explanation").auto_shrink(false);
         if let Some(explanation) = explanation.filter(|explanation| self.pixel != Some(explanation.pixel)) {
             *self = Self {
                 pixel: Some(explanation.pixel),
-                has_numbers: self.has_numbers,
+                has_comparison: self.has_comparison,
                 ..Self::default()
             };
+            area = area.vertical_scroll_offset(0.0);
         }
-        let area = ScrollArea::vertical().id_salt("explanation").auto_shrink(false);
         area.show(ui, |ui| {
-            if self.has_numbers {
-                section(ui, "numbers", "A against B", true, |ui| {
-                    compare::metrics(ui, viewer, commands);
-                });
-            }
-            match explanation {
-                Some(explanation) => self.report(ui, viewer, explanation, &mut hovered),
-                None => {
-                    ui.label(RichText::new("finding out …").weak());
-                }
+            if let Some(explanation) = explanation {
+                self.report(ui, viewer, (explanation, commands), &mut hovered);
+            } else {
+                ui.label(RichText::new("finding out …").weak());
+                self.comparison(ui, viewer, commands);
             }
         });
         hovered
     }
 
-    fn report(&mut self, ui: &mut Ui, viewer: &Viewer, explanation: &Explanation, hovered: &mut Hovered) {
+    fn report(
+        &mut self,
+        ui: &mut Ui,
+        viewer: &Viewer,
+        (explanation, commands): (&Explanation, &mut Vec<Command>),
+        hovered: &mut Hovered,
+    ) {
         lines(ui, &explanation.pixel_lines());
-        let shown = viewer.settings().render.visualisation;
-        if shown != Visualisation::Color {
-            let note = format!(
-                "The window shows {}; what is explained is the picture (V).",
-                shown.name()
-            );
-            ui.label(RichText::new(note).weak());
-        }
+        other_view(ui, viewer, commands);
         against(ui, viewer, explanation);
         let help = explanation.help_lines();
         if !help.is_empty() {
@@ -96,6 +96,7 @@ impl ExplanationPanel {
                 lines(ui, &help);
             });
         }
+        self.comparison(ui, viewer, commands);
         section(ui, "resolve", "How samples became the colour", false, |ui| {
             lines(ui, &explanation.resolve_lines());
         });
@@ -131,6 +132,15 @@ impl ExplanationPanel {
         }
         pinholes(ui, explanation);
         missed(ui, explanation, hovered);
+    }
+
+    /// What A and B are and how far they are apart, where no other panel says so.
+    fn comparison(&self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+        if self.has_comparison {
+            section(ui, "comparison", compare::title(viewer), true, |ui| {
+                compare::details(ui, viewer, commands);
+            });
+        }
     }
 
     /// The pixel with its samples as dots in their own colours; a click chooses the one that is told in full.
@@ -199,6 +209,25 @@ impl ExplanationPanel {
         if header.header_response.contains_pointer() || inside {
             hovered.primitive = Some(paint.primitive);
         }
+    }
+}
+
+/// Says so where the window shows other colours than those that are explained, and leads back to them.
+fn other_view(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let name = match viewer.settings().render.visualisation {
+        Visualisation::Color => return,
+        Visualisation::Primitive => "primitives",
+        Visualisation::Barycentric => "barycentric weights",
+        Visualisation::Uv => "(u, v)",
+        Visualisation::LevelOfDetail => "level-of-detail",
+        Visualisation::MipLevels => "mip levels",
+        other => other.name(),
+    };
+    let note = format!("The window shows the {name} view. The explanation is about the picture's own colour.");
+    ui.label(RichText::new(note).color(ui.visuals().warn_fg_color));
+    let button = ui.add(Button::new("Back to the picture").min_size(CONTROL));
+    if button.on_hover_text(tip("visualise")).clicked() {
+        commands.push(Command::SetVisualisation(Visualisation::Color));
     }
 }
 
@@ -387,51 +416,20 @@ impl Hovered {
     }
 }
 
-/// What is left of a rectangle around a hole.
-pub(super) fn around(whole: Rect, hole: Option<Rect>) -> Vec<Rect> {
-    let Some(hole) = hole.filter(|hole| hole.intersects(whole)) else {
-        return vec![whole];
-    };
-    let hole = hole.intersect(whole);
-    let parts = [
-        Rect::from_min_max(whole.min, pos2(whole.right(), hole.top())),
-        Rect::from_min_max(pos2(whole.left(), hole.bottom()), whole.max),
-        Rect::from_min_max(pos2(whole.left(), hole.top()), hole.left_bottom()),
-        Rect::from_min_max(hole.right_top(), pos2(whole.right(), hole.bottom())),
-    ];
-    parts.into_iter().filter(Rect::is_positive).collect()
+/// Whether there is room for the panel beside what must stay free of the picture, in `width` points.
+pub(super) fn fits(width: f32) -> bool {
+    /// What of the picture must stay free beside the panel, in points.
+    const LEAST_REST: f32 = 300.0;
+    width >= WIDTH + LEAST_REST
 }
 
 /// Whether the panel goes on the left: unless the pinned pixel lies there. `None` where the window is too narrow.
 pub(super) fn side(viewer: &Viewer, free: Rect, pixels_per_point: f32) -> Option<bool> {
-    /// What of the picture must stay free beside the panel, in points.
-    const LEAST_REST: f32 = 300.0;
-    if !viewer.explains() || free.width() < WIDTH + LEAST_REST {
+    if !viewer.explains() || !fits(free.width()) {
         return None;
     }
     let pixel = viewer.pinned_pixel()?;
     let zoom = viewer.settings().pixel_zoom.factor() as f32;
     let x = pixel[0] as f32 * zoom / pixels_per_point;
     Some(x > free.left() + WIDTH + look::PANEL_WIDTH / 8.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn parts_around_a_hole_are_the_rest() {
-        let rect = |x: f32, y: f32, width: f32, height: f32| Rect::from_min_size(pos2(x, y), vec2(width, height));
-        let whole = rect(0.0, 0.0, 100.0, 80.0);
-        let area = |parts: Vec<Rect>| parts.iter().map(Rect::area).sum::<f32>();
-        for (hole, left) in [
-            (None, 8000.0),
-            (Some(rect(200.0, 0.0, 10.0, 10.0)), 8000.0),
-            (Some(rect(20.0, 30.0, 10.0, 10.0)), 7900.0),
-            (Some(rect(90.0, 70.0, 50.0, 50.0)), 7900.0),
-            (Some(whole), 0.0),
-        ] {
-            assert!((area(around(whole, hole)) - left).abs() < 0.1, "{hole:?}");
-        }
-    }
 }

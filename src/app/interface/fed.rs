@@ -2,8 +2,7 @@
 
 use egui::{Color32, Mesh, Painter, Rect, Stroke, StrokeKind, Ui};
 
-use super::explanation::around;
-use super::floating::points;
+use super::floating::{around, points};
 use crate::viewer::Viewer;
 
 /// What is lit, over anything: a light line on a dark one.

@@ -7,6 +7,7 @@
 
 mod compare;
 mod compare_marks;
+mod compare_numbers;
 mod controls;
 mod detail;
 mod dialogs;
@@ -54,6 +55,8 @@ pub(super) struct Interface {
     dialogs: Dialogs,
     explanation: ExplanationPanel,
     clock: MessageClock,
+    /// Whether the panel of the comparison is on the right, while there is one.
+    comparison_on_right: Option<bool>,
     /// What the panels covered in the last pass, in points.
     covered: Vec<Rect>,
 }
@@ -85,6 +88,7 @@ impl Interface {
             dialogs: Dialogs::default(),
             explanation: ExplanationPanel::default(),
             clock: MessageClock::default(),
+            comparison_on_right: None,
             covered: Vec::new(),
         }
     }
@@ -119,6 +123,20 @@ impl Interface {
         (size[0] - canvas) / 2.0 >= look::PANEL_WIDTH
     }
 
+    /// Whether the explanation of a pixel has room in a window of that many points in width only without the side panel.
+    pub(super) fn explanation_needs_panel(width: f32) -> bool {
+        explanation::fits(width) && !explanation::fits(width - look::PANEL_WIDTH)
+    }
+
+    /// Whether the side panel of a window of that many points in width leaves the pinned pixel in sight.
+    pub(super) fn panel_leaves_pin(viewer: &Viewer, width: f32, pixels_per_point: f32) -> bool {
+        let left = width - look::PANEL_WIDTH - pin::ROOM;
+        let places = viewer.pinned_places();
+        places
+            .iter()
+            .all(|place| floating::points(place, pixels_per_point).right() < left)
+    }
+
     /// Takes the viewer's theme; to be called before a pass, which keeps the one that it begins with.
     pub(super) fn follow_theme(&mut self, theme: Theme) {
         if self.theme != Some(theme) {
@@ -132,7 +150,7 @@ impl Interface {
         self.covered.clear();
         let whole = ui.max_rect();
         let hidden = viewer.everything_hidden();
-        self.explanation.has_numbers = false;
+        let mut has_comparison = false;
         if !hidden {
             let line = Panel::bottom("status")
                 .resizable(false)
@@ -153,12 +171,16 @@ impl Interface {
                     LEAST_PICTURE
                 };
                 let fits = ui.available_width() >= look::PANEL_WIDTH + beside;
-                if viewer.other().is_some() && fits {
+                has_comparison = viewer.other().is_some() && fits;
+                if has_comparison {
                     self.compare_panel(ui, viewer, asked);
                 }
-                self.explanation.has_numbers = viewer.other().is_some() && !fits;
             }
         }
+        if !has_comparison {
+            self.comparison_on_right = None;
+        }
+        self.explanation.has_comparison = viewer.other().is_some() && !has_comparison;
         let hovered = self.explanation(ui, viewer, whole, asked);
         let free = ui.available_rect_before_wrap().intersect(whole);
         hovered.outline(ui, viewer, free);
@@ -197,8 +219,26 @@ impl Interface {
         self.covered.push(panel.response.rect);
     }
 
+    /// On the left, unless that would cover the pinned pixel. The panel keeps its side as long as it is to be seen, so that
+    /// its buttons stay under the pointer.
     fn compare_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
-        let panel = Panel::left("compare panel")
+        let room = ui.available_rect_before_wrap();
+        let scale = ui.pixels_per_point();
+        let on_right = *self.comparison_on_right.get_or_insert_with(|| {
+            let places = viewer.pinned_places();
+            let pin = places.first().map(|place| floating::points(place, scale).center().x);
+            pin.is_some_and(|x| {
+                let beside_left = x - room.left() - look::PANEL_WIDTH;
+                let beside_right = room.right() - look::PANEL_WIDTH - x;
+                beside_left < pin::ROOM && beside_left < beside_right
+            })
+        });
+        let panel = if on_right {
+            Panel::right("compare panel on the right")
+        } else {
+            Panel::left("compare panel")
+        };
+        let panel = panel
             .resizable(false)
             .exact_size(look::PANEL_WIDTH)
             .frame(panel_frame(ui, look::scrolling_margin(4)))

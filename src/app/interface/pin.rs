@@ -2,12 +2,13 @@
 
 use egui::{Color32, Rect, Stroke, Ui};
 
-use super::explanation::around;
-use super::floating::points;
+use super::floating::{around, points};
 use crate::viewer::Viewer;
 
 /// Radius of the ring around a pixel of no extent, in points.
 const RADIUS: f32 = 8.0;
+/// What must stay free beside the pinned pixel, so that one sees where it lies, in points.
+pub(super) const ROOM: f32 = 24.0;
 /// The ring on any ground, the widest line first, in the colour that marks the pixel in the inspector.
 const RING: [(f32, Color32); 2] = [(4.5, Color32::WHITE), (2.0, Color32::from_rgb(0xff, 0x3b, 0x30))];
 

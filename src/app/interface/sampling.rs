@@ -76,11 +76,10 @@ fn reading(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let tip = format!("{}\n{}", tip("dialect"), dialect_in_force(viewer));
         commands.extend(choice(ui, "Dialect", &tip, settings.dialect, &values).map(Command::SetDialect));
     });
-    if settings.dialect == DialectChoice::Auto {
-        row(ui, "", |ui| {
-            ui.label(egui::RichText::new(dialect_in_force(viewer)).weak().small())
-        });
-    }
+    // For every choice, so that what is below stays under the pointer.
+    row(ui, "", |ui| {
+        ui.label(egui::RichText::new(dialect_in_force(viewer)).weak().small())
+    });
     row(ui, "Pixel zoom", |ui| {
         let values = PixelZoom::ALL.map(|value| (value, value.factor().to_string()));
         let chosen = choice(ui, "Pixel zoom", &tip("pixel-zoom"), settings.pixel_zoom, &values);

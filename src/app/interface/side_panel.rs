@@ -19,6 +19,8 @@ const TIMES: f32 = 80.0;
 const LEAST_LIST: f32 = 170.0;
 /// The same for the reader's report.
 const LEAST_REPORT: f32 = 96.0;
+/// Height of the note about the two readings of a scene, in points.
+const READINGS: f32 = 96.0;
 /// Longest report in a panel that scrolls as a whole, in points.
 const LONG_REPORT: f32 = 240.0;
 
@@ -57,7 +59,8 @@ impl Interface {
         } else {
             0.0
         };
-        let room = height - settings - scenes::height(viewer).min(LEAST_LIST);
+        let readings = if document::has_readings(viewer) { READINGS } else { 0.0 };
+        let room = height - settings - readings - scenes::height(viewer).min(LEAST_LIST);
         (room >= least).then_some(room)
     }
 
@@ -65,11 +68,11 @@ impl Interface {
     fn settings(&mut self, ui: &mut Ui, viewer: &Viewer, report_room: f32, asked: &mut Asked) -> f32 {
         let top = ui.cursor().top();
         sampling::show(ui, viewer, &mut asked.commands);
-        if viewer.other().is_none() {
-            compare::offer(ui, &mut asked.commands);
-        }
+        compare::offer(ui, viewer, &mut asked.commands);
         view_numbers::show(ui, viewer, &mut self.view, &mut asked.commands);
         let report = ui.scope(|ui| {
+            // Its button must not hide in what scrolls.
+            document::readings(ui, viewer, &mut asked.commands);
             // A bar that is always to be seen tells that there is more.
             ui.spacing_mut().scroll = ScrollStyle {
                 floating_width: 4.0,
@@ -80,7 +83,7 @@ impl Interface {
                 .id_salt("report")
                 .auto_shrink([false, true])
                 .max_height(report_room)
-                .show(ui, |ui| document::report(ui, viewer, &mut asked.commands))
+                .show(ui, |ui| document::report(ui, viewer))
         });
         document::timing(ui, viewer, self.timed);
         ui.cursor().top() - top - report.response.rect.height()
@@ -170,10 +173,24 @@ mod tests {
         );
         let _ = viewer.apply(Command::SwapAb);
         viewer.finish();
-        let without = measured(|interface, ui| settings(interface, ui, &viewer));
+        let meanwhile = measured(|interface, ui| settings(interface, ui, &viewer));
         assert!(
-            without < whole,
-            "{without} points: what offers a comparison is gone while there is one"
+            (meanwhile - whole).abs() < 0.5,
+            "{meanwhile} points: nothing moves when a comparison opens"
+        );
+        let height = measured(|_, ui| {
+            ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
+            let top = ui.cursor().top();
+            // The longest note takes two lines.
+            crate::app::interface::controls::heading(ui, "Two readings");
+            let note = "read as course, as other scenes of its folder are; as svg it is another picture";
+            ui.label(egui::RichText::new(note).small());
+            let _ = ui.button("The other reading");
+            ui.cursor().top() - top
+        });
+        assert!(
+            (READINGS - 12.0..=READINGS).contains(&height),
+            "{height} points, not {READINGS}: the note and its button"
         );
     }
 

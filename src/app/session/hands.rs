@@ -8,11 +8,11 @@ use glam::{DVec2, dvec2};
 
 use super::*;
 use crate::raster::SampleRate;
-use crate::viewer::ViewerOptions;
 use crate::viewer::script::Stage as _;
+use crate::viewer::{Toggle, ViewerOptions};
 
 /// A session at rest on these files, or on the gallery.
-fn session(paths: Vec<PathBuf>, window: [u32; 2]) -> Session {
+pub(super) fn session(paths: Vec<PathBuf>, window: [u32; 2]) -> Session {
     let options = ViewerOptions {
         paths,
         window,
@@ -26,28 +26,28 @@ fn session(paths: Vec<PathBuf>, window: [u32; 2]) -> Session {
 }
 
 /// Everything that a screen reader is told of.
-fn nodes(session: &mut Session) -> Vec<Node> {
+pub(super) fn nodes(session: &mut Session) -> Vec<Node> {
     let update = session.quiet_turn().platform.accesskit_update;
     let nodes = update.expect("screen readers are served").nodes;
     nodes.into_iter().map(|(_, node)| node).collect()
 }
 
 /// The middle of the control with this name.
-fn place_of(session: &mut Session, name: &str) -> DVec2 {
+pub(super) fn place_of(session: &mut Session, name: &str) -> DVec2 {
     let nodes = nodes(session);
     let node = nodes.iter().find(|node| node.label() == Some(name));
     let bounds = node.and_then(Node::bounds).unwrap_or_else(|| panic!("no {name}"));
     dvec2(bounds.x0 + bounds.x1, bounds.y0 + bounds.y1) / 2.0
 }
 
-fn click(session: &mut Session, at: DVec2) {
+pub(super) fn click(session: &mut Session, at: DVec2) {
     session.pointer(Some(at));
     for down in [true, false] {
         session.button(PointerButton::Primary, down);
     }
 }
 
-fn key(session: &mut Session, name: &str) {
+pub(super) fn key(session: &mut Session, name: &str) {
     session.key(KeyPress::from_name(name).expect("a key"));
 }
 

@@ -4,6 +4,9 @@
 mod damage;
 #[cfg(test)]
 mod hands;
+mod room;
+#[cfg(test)]
+mod small_windows;
 mod stage;
 #[cfg(test)]
 mod tests;
@@ -20,9 +23,10 @@ use super::overlay::{CanvasRect, Output, Overlay};
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::viewer::{
-    Command, Dialog, Effect, Key, KeyPress, Modifiers, PixelRect, PointerButton, Toggle, Viewer, WindowPixels, commands,
+    Command, Dialog, Effect, Key, KeyPress, Modifiers, PixelRect, PointerButton, Viewer, WindowPixels, commands,
 };
 use damage::Damage;
+use room::{PanelRoom, Wanted};
 
 /// Passes of the panels for one change: a command of a panel changes what the panels show.
 const MAX_PASSES: u32 = 4;
@@ -85,8 +89,8 @@ pub(super) struct Session {
     pointer: Option<DVec2>,
     /// A drag that began on the picture stays with it.
     holds_picture: bool,
-    /// The side panel folds by itself until the user says what he wants.
-    panel_follows: bool,
+    /// Whether the side panel folds by itself.
+    room: PanelRoom,
     modifiers: Modifiers,
     /// For the next pass.
     events: Vec<Event>,
@@ -122,7 +126,7 @@ impl Session {
             free_area: None,
             pointer: None,
             holds_picture: false,
-            panel_follows: true,
+            room: PanelRoom::default(),
             modifiers: Modifiers::NONE,
             events: Vec::new(),
             outbox: Outbox::default(),
@@ -206,27 +210,18 @@ impl Session {
             self.run(Command::Resize(size));
         }
         self.fold_panel();
-    }
-
-    /// Folds the side panel where it would reach into the default view's canvas, and while a lesson is open, which has what
-    /// is needed in its text; until the user decides.
-    fn fold_panel(&mut self) {
-        let size = self.viewer.window_size().map(|side| side as f32 / self.scale);
-        let fits = Interface::panel_fits(size) && self.viewer.lesson().is_none();
-        if self.panel_follows && fits != self.viewer.panel() {
-            let to = if fits { Toggle::On } else { Toggle::Off };
-            self.apply(Command::Panel(to));
-        }
+        self.share_room(Wanted::Explanation);
     }
 
     /// Runs a command and carries out its effects.
     pub(super) fn run(&mut self, command: Command) {
-        self.panel_follows &= !matches!(command, Command::Panel(_));
+        let (wanted, command) = self.wanted(command);
         let before = self.viewer.lesson().is_some();
         self.apply(command);
         if before != self.viewer.lesson().is_some() {
             self.fold_panel();
         }
+        self.share_room(wanted);
     }
 
     fn apply(&mut self, command: Command) {

@@ -1,0 +1,104 @@
+//! The room of a small window: when the side panel folds by itself, and when it makes way for an explanation.
+
+use super::Session;
+use crate::app::interface::Interface;
+use crate::viewer::{Command, PointerButton, Toggle};
+
+/// What the session does to the side panel by itself.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PanelRoom {
+    /// The panel folds by itself until the user says what he wants.
+    follows: bool,
+    /// It made way for an explanation and comes back after that.
+    gave_way: bool,
+}
+
+/// What a command asks to be seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wanted {
+    Panel,
+    Explanation,
+    Neither,
+}
+
+impl Default for PanelRoom {
+    fn default() -> Self {
+        Self {
+            follows: true,
+            gave_way: false,
+        }
+    }
+}
+
+impl Wanted {
+    /// Jumps to another pixel do not ask why it has its colour: who steps through differences wants the panel to stay.
+    fn of(command: &Command) -> Self {
+        match command {
+            Command::Panel(_) => Self::Panel,
+            Command::PinUnderPointer
+            | Command::Pin(_)
+            | Command::PointerPressed(PointerButton::Secondary)
+            | Command::Explanation(_) => Self::Explanation,
+            _ => Self::Neither,
+        }
+    }
+}
+
+impl Session {
+    /// Folds the side panel where it would reach into the default view's canvas, and while a lesson is open, which has what
+    /// is needed in its text; until the user decides.
+    pub(super) fn fold_panel(&mut self) {
+        let size = self.viewer.window_size().map(|side| side as f32 / self.scale);
+        let fits = Interface::panel_fits(size) && self.viewer.lesson().is_none();
+        if self.room.follows && fits != self.viewer.panel() {
+            let to = if fits { Toggle::On } else { Toggle::Off };
+            self.apply(Command::Panel(to));
+        }
+    }
+
+    /// What a command asks for, and the command that shows it: one that goes by what is to be seen takes an explanation
+    /// for which the panel leaves no room for closed.
+    pub(super) fn wanted(&mut self, command: Command) -> (Wanted, Command) {
+        let wanted = Wanted::of(&command);
+        self.room.follows &= wanted != Wanted::Panel;
+        let is_unseen = self.viewer.panel() && self.viewer.explains() && self.is_narrow();
+        match command {
+            Command::Explanation(Toggle::Flip) if is_unseen => (wanted, Command::Explanation(Toggle::On)),
+            command => (wanted, command),
+        }
+    }
+
+    /// Lets the side panel and the explanation make way for each other where both have no room: what was wanted last is
+    /// to be seen. A panel that made way comes back, unless it would cover the pinned pixel.
+    pub(super) fn share_room(&mut self, wanted: Wanted) {
+        let (panel, explains) = (self.viewer.panel(), self.viewer.explains());
+        let is_narrow = self.is_narrow();
+        match wanted {
+            Wanted::Panel => {
+                self.room.gave_way = false;
+                if is_narrow && panel && explains {
+                    self.apply(Command::Explanation(Toggle::Off));
+                }
+            }
+            Wanted::Explanation if is_narrow && panel && explains => {
+                self.room.gave_way = true;
+                self.apply(Command::Panel(Toggle::Off));
+            }
+            _ if self.room.gave_way && !self.viewer.is_dragging() && !self.viewer.everything_hidden() => {
+                let width = self.viewer.window_size()[0] as f32 / self.scale;
+                let is_free = !explains && Interface::panel_leaves_pin(&self.viewer, width, self.scale);
+                if is_free || !is_narrow {
+                    self.room.gave_way = false;
+                    self.apply(Command::Panel(Toggle::On));
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Whether the window has room for the explanation only without the side panel.
+    fn is_narrow(&self) -> bool {
+        let [width, _] = self.viewer.window_size();
+        Interface::explanation_needs_panel(width as f32 / self.scale)
+    }
+}

@@ -1,0 +1,277 @@
+//! What stays in reach of the mouse where there is little room: panels make way for each other and for the pinned pixel,
+//! and controls stay under the pointer that clicks them.
+
+use std::collections::BTreeMap;
+
+use egui::accesskit::{Node, Rect};
+use glam::{DVec2, dvec2};
+
+use super::hands::{click, key, nodes, place_of, session};
+use super::*;
+use crate::raster::SampleRate;
+use crate::render::Visualisation;
+use crate::viewer::script::Stage as _;
+use crate::viewer::{Against, Arrangement, Toggle};
+
+/// Width of the side panel and of that of a comparison.
+const PANEL: f64 = 264.0;
+/// What closes the explanation.
+const CLOSE: &str = "Explanation";
+
+fn right_click(session: &mut Session, at: [f64; 2]) {
+    session.pointer(Some(DVec2::from(at)));
+    for down in [true, false] {
+        session.button(PointerButton::Secondary, down);
+    }
+    session.settle();
+}
+
+fn click_on(session: &mut Session, name: &str) {
+    let at = place_of(session, name);
+    click(session, at);
+    session.settle();
+}
+
+/// Whether this text is to be seen.
+fn says(session: &mut Session, text: &str) -> bool {
+    let holds = |node: &Node| node.value().is_some_and(|value| value.contains(text));
+    nodes(session).iter().any(holds)
+}
+
+/// How far below the window's upper edge a text begins.
+fn top_of(session: &mut Session, text: &str) -> f64 {
+    let nodes = nodes(session);
+    let node = nodes
+        .iter()
+        .find(|node| node.value().is_some_and(|value| value.contains(text)));
+    node.and_then(Node::bounds).unwrap_or_else(|| panic!("no {text}")).y0
+}
+
+/// A session with the side panel open, and with a comparison.
+fn comparing(window: [u32; 2]) -> Session {
+    let mut session = session(Vec::new(), window);
+    session.command(Command::Panel(Toggle::On));
+    session.command(Command::Compare(Against::Settings));
+    session.command(Command::SetSampleRate(SampleRate::new(4).expect("a rate")));
+    session.wait(Duration::from_secs(10));
+    session.settle();
+    session
+}
+
+/// Where the controls are that lie between these columns, by name.
+fn controls(session: &mut Session, columns: std::ops::Range<f64>) -> BTreeMap<String, Vec<(i64, i64)>> {
+    let mut places: BTreeMap<_, Vec<_>> = BTreeMap::new();
+    for node in nodes(session) {
+        if let (Some(name), Some(Rect { x0, y0, .. })) = (node.label(), node.bounds())
+            && columns.contains(&x0)
+        {
+            #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
+            places.entry(name.to_owned()).or_default().push((x0 as i64, y0 as i64));
+        }
+    }
+    places
+}
+
+#[test]
+fn comparison_stays_at_hand_beside_an_explained_pixel() {
+    for window in [[800, 600], [1280, 800], [1366, 768], [1920, 1080]] {
+        let mut session = comparing(window);
+        right_click(&mut session, [330.0, 300.0]);
+        assert!(says(&mut session, "user units"), "the explanation at {window:?}");
+        click_on(&mut session, "Show: wipe");
+        assert_eq!(session.viewer.arrangement(), Arrangement::Wipe, "{window:?}");
+        for name in ["Show: side", "Show: diff", "Show: flip", "Show: A", "Next difference"] {
+            click_on(&mut session, name);
+        }
+        click_on(&mut session, "Swap A and B");
+        let rate = session.viewer.settings().render.sample_rate.samples();
+        assert_eq!(rate, 1, "swapped at {window:?}");
+        click_on(&mut session, "Close comparison");
+        assert!(session.viewer.other().is_none(), "closed at {window:?}");
+    }
+}
+
+#[test]
+fn explanation_takes_the_room_of_the_side_panel() {
+    let mut session = session(Vec::new(), [800, 600]);
+    session.command(Command::Panel(Toggle::On));
+    right_click(&mut session, [300.0, 300.0]);
+    assert!(says(&mut session, "Pixel 300, 300"), "explained at once");
+    assert!(!session.viewer.panel(), "the panel made way");
+    click_on(&mut session, CLOSE);
+    assert!(session.viewer.panel(), "and came back");
+    right_click(&mut session, [320.0, 280.0]);
+    assert!(says(&mut session, "Pixel 320, 280"), "another pixel is explained, too");
+    click_on(&mut session, "Side panel");
+    let viewer = &session.viewer;
+    assert!(viewer.panel() && !viewer.explains(), "who wants the panel gets it");
+    key(&mut session, "e");
+    session.settle();
+    assert!(
+        says(&mut session, "Pixel 320, 280"),
+        "and who wants the explanation, that"
+    );
+    // A pixel that the panel would cover keeps it away.
+    session.command(Command::Pin([700, 300]));
+    session.settle();
+    click_on(&mut session, CLOSE);
+    assert!(!session.viewer.panel(), "the pinned pixel stays in sight");
+    session.command(Command::Unpin);
+    assert!(session.viewer.panel(), "without a pin the panel is back");
+    // Where there is room for both, nothing folds.
+    session.resize([1280, 800]);
+    right_click(&mut session, [300.0, 300.0]);
+    assert!(session.viewer.panel() && says(&mut session, "Pixel 300, 300"), "both");
+}
+
+#[test]
+fn panels_leave_the_pinned_pixel_in_sight() {
+    for x in [60, 100, 200, 260, 300, 420, 520, 700] {
+        let mut session = comparing([800, 600]);
+        session.command(Command::Pin([300, 300]));
+        right_click(&mut session, [f64::from(x), 300.0]);
+        if session.viewer.pinned_pixel().map(|[x, _]| x) != Some(x) {
+            // The explanation lies there.
+            session.command(Command::Pin([x.into(), 300]));
+            session.settle();
+        }
+        click_on(&mut session, CLOSE);
+        let free = session.free_area.expect("there is room");
+        for x in [x - 10, x + 10] {
+            assert!(free.contains([x.into(), 300]), "{x} in {free:?}");
+        }
+    }
+}
+
+#[test]
+fn button_of_the_other_reading_is_whole() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("boxed.svg");
+    let document = r##"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100" viewBox="0 0 50 50"><polygon fill="#1f6feb" points="5,5 45,9 20,45"/><circle cx="35" cy="35" r="9"/></svg>"##;
+    std::fs::write(&path, document).expect("a file");
+    for window in [[800, 600], [1280, 800], [1366, 768]] {
+        let mut session = session(vec![path.clone()], window);
+        session.command(Command::Panel(Toggle::On));
+        let name = "Read in the other dialect";
+        session.pointer(Some(dvec2(f64::from(window[0]) - 100.0, 300.0)));
+        let mut turns = 0;
+        while place_of(&mut session, name).y > f64::from(window[1]) - 60.0 && turns < 50 {
+            session.wheel(-1.0);
+            session.settle();
+            turns += 1;
+        }
+        let at = place_of(&mut session, name);
+        // At both ends of the button, up and down.
+        for (y, reading) in [(-9.0, "read as course"), (9.0, "read as svg")] {
+            click(&mut session, at + dvec2(0.0, y));
+            session.settle();
+            let note = session.viewer.reading_note().expect("two readings");
+            assert!(note.starts_with(reading), "{note} at {window:?}");
+        }
+    }
+}
+
+#[test]
+fn controls_stay_under_the_pointer() {
+    let window = [1600, 1300];
+    let mut session = session(Vec::new(), window);
+    session.command(Command::Panel(Toggle::On));
+    let side = f64::from(window[0]) - PANEL..f64::from(window[0]);
+    let before = controls(&mut session, side.clone());
+    assert!(before.len() > 40, "{before:?}");
+    for name in [
+        "Dialect: svg",
+        "Dialect: auto",
+        "Swap A and B",
+        "Compare with the truth",
+    ] {
+        click_on(&mut session, name);
+        session.wait(Duration::from_secs(10));
+        let now = controls(&mut session, side.clone());
+        assert_eq!(now, before, "after {name}");
+    }
+    // The comparison's own.
+    let before = controls(&mut session, 0.0..PANEL);
+    let names = [
+        "Swap A and B",
+        "Compare with the truth",
+        "Close comparison",
+        "Show: wipe",
+        "Next difference",
+    ];
+    for clicked in ["Show: diff", "Show: A", "Compare with the truth", "Swap A and B"] {
+        let place = before
+            .get(clicked)
+            .or_else(|| before.get("Show: A"))
+            .map(|places| places[0]);
+        let (x, y) = place.unwrap_or_else(|| panic!("no {clicked}"));
+        click(&mut session, dvec2(x as f64 + 8.0, y as f64 + 8.0));
+        session.settle();
+        let now = controls(&mut session, 0.0..PANEL);
+        for name in names {
+            assert_eq!(now.get(name), before.get(name), "{name} after {clicked}");
+        }
+    }
+}
+
+#[test]
+fn lines_of_a_comparison_follow_a_swap_with_the_truth() {
+    let mut session = comparing([1280, 800]);
+    session.command(Command::Compare(Against::Truth(None)));
+    session.settle();
+    let order = |session: &mut Session| top_of(session, "A: sample rate") < top_of(session, "B: the truth");
+    assert!(order(&mut session) && says(&mut session, "A against B"), "A in front");
+    click_on(&mut session, "Swap A and B");
+    assert!(!order(&mut session) && says(&mut session, "B against A"), "B in front");
+}
+
+#[test]
+fn another_pixel_is_explained_from_the_top() {
+    let mut session = session(Vec::new(), [1280, 600]);
+    right_click(&mut session, [700.0, 300.0]);
+    let top = top_of(&mut session, "user units");
+    session.pointer(Some(dvec2(100.0, 300.0)));
+    for _ in 0..8 {
+        session.wheel(-1.0);
+        session.settle();
+    }
+    let scrolled = top_of(&mut session, "user units");
+    assert!(scrolled < top - 20.0, "{scrolled} after the wheel, {top} before");
+    right_click(&mut session, [720.0, 310.0]);
+    let again = top_of(&mut session, "user units");
+    assert!((again - top).abs() < 1.0, "{again}, not {top}");
+}
+
+#[test]
+fn comparing_with_a_picture_says_that_its_path_is_missing() {
+    let mut session = session(Vec::new(), [800, 600]);
+    session.command(Command::ToggleDialog(Dialog::ComparePicture));
+    session.settle();
+    let button = |session: &mut Session| {
+        let nodes = nodes(session);
+        let button = nodes.iter().find(|node| node.label() == Some("Compare"));
+        button.map(Node::is_disabled)
+    };
+    assert_eq!(button(&mut session), Some(true), "nothing to compare with yet");
+    key(&mut session, "Enter");
+    session.settle();
+    assert!(says(&mut session, "type the path"), "Enter says what is missing");
+    session.type_text("x.png");
+    session.settle();
+    assert_eq!(button(&mut session), Some(false), "once there is a path");
+}
+
+#[test]
+fn explanation_of_another_view_leads_back_to_the_picture() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    session.command(Command::SetVisualisation(Visualisation::LevelOfDetail));
+    right_click(&mut session, [700.0, 300.0]);
+    assert!(
+        says(&mut session, "shows the level-of-detail view"),
+        "it says so plainly"
+    );
+    click_on(&mut session, "Back to the picture");
+    let shown = session.viewer.settings().render.visualisation;
+    assert_eq!(shown, Visualisation::Color, "the button leads back");
+    assert!(!says(&mut session, "The window shows"), "and nothing more is said");
+}

@@ -11,17 +11,17 @@ use crate::raster::binning::bins::{Bins, Plan};
 use crate::raster::binning::tile_command::{Entry, Work};
 use crate::raster::coverage::free_positions::Scatter;
 use crate::raster::coverage::shape_rows::BandSpans;
-use crate::raster::coverage::triangle::Span;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::frame::row::FrameRow;
 use crate::raster::list::chunk::{Chunk, ListContext, Paint, measure_layers};
 use crate::raster::paint::direct::DirectPainter;
 use crate::raster::paint::per_sample::TilePainter;
-use crate::raster::paint::sample_colors::{PixelRect, TileLayout};
 use crate::raster::paint::visibility::painter::DeferredPainter;
-use crate::raster::sampling::positions::lattice;
+use crate::raster::sampling::positions::{SamplePlaces, lattice};
 use crate::raster::shading::shader::{ShadeContext, Shader};
+use crate::raster::span::{PixelRect, Span};
 use crate::raster::stats::{Counters, SharedTally, Tally};
+use crate::raster::tile_layout::TileLayout;
 use crate::raster::{Framebuffer, SamplePattern, SampleRate};
 use crate::rules::Rules;
 use crate::texture::{SamplingSettings, Texture};
@@ -323,7 +323,14 @@ impl<'a> DisplayList<'a> {
 
     /// What finds coverage in some columns of pixels where samples are not those of the grid.
     fn scatter(&self, columns: Span) -> Option<Scatter> {
-        (!self.context.is_grid()).then(|| Scatter::new(&self.context, self.outlines(), columns))
+        (!self.context.is_grid()).then(|| self.scatter_in(columns))
+    }
+
+    /// As [`DisplayList::scatter`], also for the samples of a grid.
+    pub(in crate::raster) fn scatter_in(&self, columns: Span) -> Scatter {
+        let context = &self.context;
+        let places = SamplePlaces::new(context.pattern, context.rate);
+        Scatter::new((context.grid, context.rules), places, self.outlines(), columns)
     }
 
     /// How many outlines there are.

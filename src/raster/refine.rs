@@ -3,76 +3,13 @@
 //! Tiles are painted by the same code as whole frames, each into a buffer of its own, so any set of tiles in any order
 //! holds the bytes of the whole frame.
 
+use crate::raster::frame::region::Region;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
-use crate::raster::coverage::triangle::Span;
 use crate::raster::frame::block::PixelBlock;
-use crate::raster::paint::sample_colors::PixelRect;
 use crate::raster::rasterizer::{DisplayList, Pass, RasterTimes};
-
-/// A rectangle of a frame's pixels: it covers `[x, x + width) x [y, y + height)`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Region {
-    /// First column.
-    pub x: u32,
-    /// First row.
-    pub y: u32,
-    /// Columns.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-}
-
-impl Region {
-    /// A whole frame of `size` pixels.
-    pub const fn of_size([width, height]: [u32; 2]) -> Self {
-        Self {
-            x: 0,
-            y: 0,
-            width,
-            height,
-        }
-    }
-
-    /// Column after the last.
-    pub fn right(self) -> u32 {
-        self.x.saturating_add(self.width)
-    }
-
-    /// Row after the last.
-    pub fn bottom(self) -> u32 {
-        self.y.saturating_add(self.height)
-    }
-
-    /// Whether it holds no pixel.
-    pub fn is_empty(self) -> bool {
-        self.width == 0 || self.height == 0
-    }
-
-    /// The pixels that both cover; empty where there are none.
-    #[must_use]
-    pub fn intersection(self, other: Self) -> Self {
-        let (x, y) = (self.x.max(other.x), self.y.max(other.y));
-        Self {
-            x,
-            y,
-            width: self.right().min(other.right()).saturating_sub(x),
-            height: self.bottom().min(other.bottom()).saturating_sub(y),
-        }
-    }
-
-    /// The pixels of a tile, which lie inside the frame.
-    fn of_tile(rect: PixelRect) -> Self {
-        let length = |span: Span| (span.end - span.start).max(0).cast_unsigned();
-        Self {
-            x: rect.x.start.max(0).cast_unsigned(),
-            y: rect.y.start.max(0).cast_unsigned(),
-            width: length(rect.x),
-            height: length(rect.y),
-        }
-    }
-}
+use crate::raster::span::Span;
 
 /// A tile on its way: where it stands, and its pixels.
 #[derive(Clone, Copy, Debug)]

@@ -5,15 +5,14 @@
 //! everything painted there before.
 
 use crate::geometry::subpixel::GridPoint;
-use crate::raster::binning::polygon_tiles::{OutlineTiles, Reach};
+use crate::raster::binning::polygon_tiles::OutlineTiles;
 use crate::raster::binning::tile_command::Entry;
 use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::float_shape::FloatShape;
-use crate::raster::coverage::mask8x8::{SampleBox, SmallCoverage};
-use crate::raster::coverage::triangle::Span;
+use crate::raster::coverage::mask8x8::SmallCoverage;
 use crate::raster::list::chunk::{Chunk, ListContext, Op, Paint};
-use crate::raster::paint::sample_colors::PixelRect;
 use crate::raster::shading::shader::Shader;
+use crate::raster::span::{PixelRect, Reach, SampleBox, Span};
 use crate::texture::Texture;
 
 /// Walks over the ops of a chunk.

@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use crate::raster::binning::binner::{Walk, place};
 use crate::raster::binning::tile_command::Entry;
-use crate::raster::coverage::triangle::Span;
 use crate::raster::list::chunk::{Chunk, ListContext};
+use crate::raster::span::Span;
 use crate::texture::Texture;
 
 /// Most entries that are held at once; more are made and painted in several passes over groups of tile rows.
@@ -211,7 +211,8 @@ mod tests {
     use crate::raster::coverage::triangle::SortedTriangle;
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::list::chunk::Fill;
-    use crate::raster::paint::sample_colors::{PixelRect, TileLayout};
+    use crate::raster::span::PixelRect;
+    use crate::raster::tile_layout::TileLayout;
     use crate::raster::{RasterSettings, SamplePattern, SampleRate};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;

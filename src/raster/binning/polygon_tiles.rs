@@ -8,17 +8,8 @@ use crate::geometry::FillRule;
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::coverage::edge_bounds::{Line, MARGIN};
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
-use crate::raster::coverage::triangle::Span;
 use crate::raster::coverage::windings::RowWindings;
-
-/// How much of a tile an outline encloses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Reach {
-    /// Some samples, perhaps.
-    Part,
-    /// All samples.
-    All,
-}
+use crate::raster::span::{Reach, Span};
 
 /// Looks at rows of tiles, reusing its memory.
 #[derive(Debug, Default)]

@@ -170,7 +170,7 @@ impl Entry {
         }
         if self.head & Self::OUTLINE != 0 {
             let index = u32::try_from(self.bits).unwrap_or(u32::MAX);
-            return Work::Flat(Shape::Outline(chunk, index), self.color);
+            return Work::Flat(Shape::Outline(chunk.outline(index)), self.color);
         }
         match chunk.ops[self.op()] {
             Op::Triangle(index) => {

@@ -7,9 +7,7 @@ use glam::{DVec2, Vec2};
 
 use crate::geometry::float_edge::{FloatTriangle, first};
 use crate::geometry::subpixel::SubpixelGrid;
-use crate::raster::binning::polygon_tiles::Reach;
-use crate::raster::coverage::mask8x8::SampleBox;
-use crate::raster::coverage::triangle::Span;
+use crate::raster::span::{Reach, SampleBox, Span};
 
 /// A triangle in a chunk.
 #[derive(Clone, Copy, Debug)]

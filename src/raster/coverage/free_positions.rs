@@ -7,28 +7,15 @@
 use crate::geometry::edge::{doubled_area, edge_value};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::SampleRate;
-use crate::raster::binning::polygon_tiles::Reach;
+use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::free_positions_polygon::OutlineScatter;
-use crate::raster::coverage::mask8x8::SampleBox;
-use crate::raster::coverage::polygon::Outline;
 use crate::raster::coverage::shape_rows::Shape;
-use crate::raster::coverage::triangle::Span;
-use crate::raster::list::chunk::ListContext;
-use crate::raster::paint::sample_colors::PixelRect;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::{Place, SamplePlaces};
+use crate::raster::span::{PixelRect, Reach, SampleBox, Span};
 use crate::rules::Rules;
-
-/// What a shape covers in a row of pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Covered {
-    /// All samples of these pixels.
-    Whole(Span),
-    /// Some samples of the pixel in this column: neither none nor all.
-    Part(i32, SampleMask),
-}
 
 /// Finds the samples that shapes cover, for one drawing.
 #[derive(Debug)]
@@ -56,16 +43,20 @@ struct LatticeEdge {
 
 impl Scatter {
     /// For a drawing of `outlines` outlines; of these only the pixel columns `columns` are ever asked for.
-    pub(crate) fn new(context: &ListContext, outlines: usize, columns: Span) -> Self {
-        let places = SamplePlaces::new(context.pattern, context.rate);
+    pub(crate) fn new(
+        (grid, rules): (SubpixelGrid, Rules),
+        places: SamplePlaces,
+        outlines: usize,
+        columns: Span,
+    ) -> Self {
         Self {
-            grid: context.grid,
-            rules: context.rules,
+            grid,
+            rules,
             all: SampleMask::all(places.count()),
-            places,
-            gains: Vec::with_capacity(SampleRate::MAX as usize),
             memory: Vec::with_capacity(SampleRate::MAX as usize),
-            outlines: OutlineScatter::new(outlines, columns, context.rate.samples() as usize),
+            gains: Vec::with_capacity(SampleRate::MAX as usize),
+            outlines: OutlineScatter::new(outlines, columns, places.count()),
+            places,
         }
     }
 
@@ -80,17 +71,11 @@ impl Scatter {
         match shape {
             Shape::Triangle(corners) => self.triangle(*corners, rect, visit),
             Shape::Float(float) => self.float(float, rect, visit),
-            Shape::Outline(chunk, index) => {
-                let outline: &Outline = &chunk.outlines[index as usize];
-                let number = chunk.first_outline + index as usize;
-                self.outlines.find(
-                    (outline, &chunk.outline_edges),
-                    number,
-                    (self.grid, &self.places),
-                    rect.y,
-                );
+            Shape::Outline(outline) => {
+                self.outlines.find(outline, (self.grid, &self.places), rect.y);
                 for y in rect.y.start..rect.y.end {
-                    self.outlines.each(number, y, rect.x, |covered| visit(y, covered));
+                    self.outlines
+                        .each(outline.number, y, rect.x, |covered| visit(y, covered));
                 }
             }
         }
@@ -313,6 +298,7 @@ mod tests {
     use super::*;
     use crate::color::{Premultiplied16, ResolveSpace, Rgba};
     use crate::raster::list::builder::ChunkBuilder;
+    use crate::raster::list::chunk::ListContext;
     use crate::raster::paint::per_sample::TilePainter;
     use crate::raster::paint::recorder::PaintedOp;
     use crate::raster::random::{fill, noise};
@@ -362,7 +348,7 @@ mod tests {
             .iter()
             .zip(bins.iter().map(|bins| bins.of_tile(0)))
             .collect();
-        let scatter = scattered.then(|| Scatter::new(&list.context, list.outlines(), column));
+        let scatter = scattered.then(|| list.scatter_in(column));
         let mut painter = TilePainter::new(list.shade_context(), scatter);
         let (painted, samples) = painter.replay(&chunks, (pixel, list.background()), &mut list.bands());
         (painted, samples.into_iter().map(|(color, _)| color).collect())

@@ -11,15 +11,14 @@ use crate::geometry::FillRule;
 use crate::geometry::edge::edge_value;
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::SampleRate;
+use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::edge_bounds::{Line, MARGIN};
-use crate::raster::coverage::free_positions::Covered;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
-use crate::raster::coverage::shape_rows::MAX_SPANS;
-use crate::raster::coverage::triangle::Span;
+use crate::raster::coverage::shape_rows::{MAX_SPANS, OutlineOf};
 use crate::raster::coverage::windings::RowWindings;
-use crate::raster::paint::sample_colors::PixelRect;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::{Place, SamplePlaces};
+use crate::raster::span::{PixelRect, Span};
 
 /// Remembers what outlines enclose in the tile row at work.
 #[derive(Debug)]
@@ -97,11 +96,10 @@ impl OutlineScatter {
         }
     }
 
-    /// Makes sure that outline `number` of the drawing is known in the rows of pixels `band`.
+    /// Makes sure that an outline is known in the rows of pixels `band`.
     pub(in crate::raster) fn find(
         &mut self,
-        outline: (&Outline, &[OutlineEdge]),
-        number: usize,
+        of: OutlineOf<'_>,
         (grid, places): (SubpixelGrid, &SamplePlaces),
         band: Span,
     ) {
@@ -112,7 +110,7 @@ impl OutlineScatter {
             self.runs.clear();
             self.masks.clear();
         }
-        let (age, stored) = &mut self.known[number];
+        let (age, stored) = &mut self.known[of.number];
         if *age == self.age {
             return;
         }
@@ -122,8 +120,8 @@ impl OutlineScatter {
             end: (span.end - 1).div_euclid(side) + 1,
         };
         let area = PixelRect {
-            x: pixels(outline.0.samples.columns).intersection(self.columns),
-            y: pixels(outline.0.samples.rows).intersection(band),
+            x: pixels(of.outline.samples.columns).intersection(self.columns),
+            y: pixels(of.outline.samples.rows).intersection(band),
         };
         *age = self.age;
         *stored = Stored {
@@ -132,8 +130,8 @@ impl OutlineScatter {
         };
         for y in area.y.start..area.y.end {
             self.starts.push(self.runs.len());
-            self.sweep.gather(outline, grid, area.x, y);
-            self.row(outline.0.rule, (grid, places), area.x, y);
+            self.sweep.gather((of.outline, of.edges), grid, area.x, y);
+            self.row(of.outline.rule, (grid, places), area.x, y);
         }
         self.starts.push(self.runs.len());
     }

@@ -7,18 +7,8 @@
 
 use crate::geometry::edge::edge_value;
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-use crate::raster::coverage::triangle::{Span, end_of};
+use crate::raster::span::{SMALL, SampleBox, Span};
 use crate::rules::Rules;
-
-/// Sample columns and rows of the box that a small triangle fits in.
-pub(crate) const SMALL: i32 = 8;
-
-/// The columns and rows of samples between the least and the greatest corner.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct SampleBox {
-    pub(crate) columns: Span,
-    pub(crate) rows: Span,
-}
 
 /// The samples that a small triangle covers, or any other few samples or pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,36 +29,6 @@ struct SmallEdge {
     /// What it gains one sample to the right, and down.
     right: i32,
     down: i32,
-}
-
-impl SampleBox {
-    /// The box of a triangle; empty in a direction in which the triangle holds no sample.
-    #[inline]
-    pub(crate) fn new([a, b, c]: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Self {
-        let span = |a: i32, b: i32, c: i32| Span {
-            start: grid.sample_at_or_after(a.min(b).min(c)),
-            end: end_of(grid, a.max(b).max(c), rules),
-        };
-        Self {
-            columns: span(a.x, b.x, c.x),
-            rows: span(a.y, b.y, c.y),
-        }
-    }
-
-    /// What lies in both.
-    #[inline]
-    pub(crate) fn intersection(self, other: Self) -> Self {
-        Self {
-            columns: self.columns.intersection(other.columns),
-            rows: self.rows.intersection(other.rows),
-        }
-    }
-
-    /// Whether its samples fit the bits of a [`SmallCoverage`].
-    #[inline]
-    pub(crate) fn is_small(self) -> bool {
-        self.columns.end - self.columns.start <= SMALL && self.rows.end - self.rows.start <= SMALL
-    }
 }
 
 /// The coverage of a triangle whose box holds at most [`SMALL`] columns and rows of samples; `None` for a larger one.

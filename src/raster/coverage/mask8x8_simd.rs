@@ -13,7 +13,8 @@ use fearless_simd::{Simd, dispatch, f64x8, i32x8, mask64x8, u32x8};
 use glam::DVec2;
 
 use crate::geometry::subpixel::{GUARD, SubpixelGrid};
-use crate::raster::coverage::mask8x8::{SampleBox, SmallCoverage};
+use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::span::SampleBox;
 use crate::rules::Rules;
 use crate::simd;
 
@@ -290,7 +291,7 @@ mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
 
     use super::*;
-    use crate::raster::coverage::triangle::Span;
+    use crate::raster::span::Span;
 
     #[test]
     fn triangles_are_covered_as_one_by_one_on_every_level() {

@@ -8,12 +8,13 @@
 //!      its span:                 [start    end)
 //! ```
 //!
-//! * [`triangle`], [`polygon`] (and [`simple_polygon_rows`], where edges do not cross) and [`float_shape`] give spans;
+//! * [`triangle`], [`polygon_rows`] (and [`simple_polygon_rows`], where two edges cross a row) and [`float_shape`] give spans;
 //!   [`shape_rows`] asks whichever it is.
 //! * [`pixel_rows`] and [`pixel_rows_4x4`] turn the spans of the rows of a row of pixels into whole pixels and edges.
 //! * [`mask8x8`] and [`mask8x8_simd`] hold small shapes as 64 bits.
 //! * [`free_positions`] and [`free_positions_polygon`] serve patterns off the grid, with [`windings`] and [`edge_bounds`].
 
+pub(in crate::raster) mod covered;
 pub(in crate::raster) mod edge_bounds;
 pub(in crate::raster) mod float_shape;
 pub(in crate::raster) mod free_positions;
@@ -23,6 +24,7 @@ pub(in crate::raster) mod mask8x8_simd;
 pub(in crate::raster) mod pixel_rows;
 pub(in crate::raster) mod pixel_rows_4x4;
 pub(in crate::raster) mod polygon;
+pub(in crate::raster) mod polygon_rows;
 pub(in crate::raster) mod shape_rows;
 pub(in crate::raster) mod simple_polygon_rows;
 pub(in crate::raster) mod triangle;

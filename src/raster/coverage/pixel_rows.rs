@@ -2,10 +2,10 @@
 
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::coverage::mask8x8::{SmallCoverage, small_coverage};
-use crate::raster::coverage::polygon::RowSpans;
-use crate::raster::coverage::triangle::{SortedTriangle, Span};
-use crate::raster::paint::sample_colors::PixelRect;
+use crate::raster::coverage::polygon_rows::RowSpans;
+use crate::raster::coverage::triangle::SortedTriangle;
 use crate::raster::sampling::rate::SampleRate;
+use crate::raster::span::{PixelRect, Span, scaled};
 use crate::rules::Rules;
 
 /// Most samples along one side of a pixel.
@@ -175,14 +175,6 @@ fn gather_rows(
             }
         }
         line = end;
-    }
-}
-
-/// A span of pixels as a span of samples.
-pub(crate) fn scaled(pixels: Span, side: i32) -> Span {
-    Span {
-        start: pixels.start * side,
-        end: pixels.end * side,
     }
 }
 

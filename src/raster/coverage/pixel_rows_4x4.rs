@@ -9,12 +9,10 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i8x16, i8x64, i32x4, mask32x4, u32x4, u64x2};
 
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-use crate::raster::coverage::pixel_rows::scaled;
-use crate::raster::coverage::polygon::RowSpans;
-use crate::raster::coverage::triangle::{SortedTriangle, Span};
-use crate::raster::paint::sample_colors::PixelRect;
-use crate::raster::paint::visibility::buffer::{ROW, Slot};
-use crate::raster::paint::visibility::two_surfaces::{LAST_QUAD, QUAD};
+use crate::raster::coverage::polygon_rows::RowSpans;
+use crate::raster::coverage::triangle::SortedTriangle;
+use crate::raster::span::{PixelRect, Span, scaled};
+use crate::raster::surface_id::{LAST_QUAD, QUAD};
 use crate::rules::Rules;
 
 /// Samples along one side of a pixel.
@@ -380,19 +378,6 @@ fn before<S: Simd>(simd: S, columns: i32x4<S>, x: usize) -> u64 {
     samples.simd_lt(i8x64::block_splat(rows)).to_bitmask()
 }
 
-/// Lets some slots of a row be the same one.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
-#[expect(clippy::cast_possible_truncation, reason = "places in a row of 64")]
-pub(crate) fn fill(slots: &mut [Slot; ROW], range: Range<usize>, slot: Slot) {
-    // All of them anew: how many there are nobody can foresee, and vectors hold so few.
-    let (start, length) = (range.start as Slot, range.len() as Slot);
-    for (at, shown) in (0..).zip(slots) {
-        let inside = Slot::wrapping_sub(at, start) < length;
-        *shown = if inside { slot } else { *shown };
-    }
-}
-
 /// A distance that is never negative.
 #[inline]
 fn place(distance: i32) -> usize {
@@ -405,6 +390,8 @@ mod tests {
     use fearless_simd::dispatch;
 
     use super::*;
+    use crate::raster::paint::visibility::buffer_4x4::fill;
+    use crate::raster::surface_id::{ROW, Slot};
     use crate::simd;
 
     /// Columns around those of a tile of some pixels, more than fit a window.

@@ -4,12 +4,11 @@ use fearless_simd::Simd;
 
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::coverage::float_shape::FloatShape;
-use crate::raster::coverage::pixel_rows::{PixelRow, each_pixel_row, each_pixel_row_of_spans, scaled};
+use crate::raster::coverage::pixel_rows::{PixelRow, each_pixel_row, each_pixel_row_of_spans};
 use crate::raster::coverage::pixel_rows_4x4::{self, TileRow};
-use crate::raster::coverage::polygon::{RowScanner, RowSpans, SpanStore, Stored};
-use crate::raster::coverage::triangle::Span;
-use crate::raster::list::chunk::Chunk;
-use crate::raster::paint::sample_colors::PixelRect;
+use crate::raster::coverage::polygon::{Outline, OutlineEdge};
+use crate::raster::coverage::polygon_rows::{RowScanner, RowSpans, SpanStore, Stored};
+use crate::raster::span::{PixelRect, Span, scaled};
 use crate::rules::Rules;
 
 /// Spans that are remembered at most, about 8 MB.
@@ -20,10 +19,20 @@ pub(in crate::raster) const MAX_SPANS: usize = 1 << 20;
 pub(crate) enum Shape<'c> {
     /// The corners of a triangle.
     Triangle(&'c [GridPoint; 3]),
-    /// An outline of a chunk, by its index.
-    Outline(&'c Chunk, u32),
+    /// A polygon.
+    Outline(OutlineOf<'c>),
     /// A triangle by the rules of first drafts.
     Float(&'c FloatShape),
+}
+
+/// An outline and what it needs to be looked at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OutlineOf<'c> {
+    pub(crate) outline: &'c Outline,
+    /// The edges that it points into.
+    pub(crate) edges: &'c [OutlineEdge],
+    /// Its number among all outlines of the drawing.
+    pub(crate) number: usize,
 }
 
 /// Remembers the spans of outlines in the tile row at work.
@@ -66,9 +75,9 @@ impl BandSpans {
     pub(crate) fn each_pixel_row(&mut self, shape: Shape<'_>, rect: PixelRect, paint: impl FnMut(&PixelRow<'_>)) {
         match shape {
             Shape::Triangle(corners) => each_pixel_row(*corners, self.settings, rect, paint),
-            Shape::Outline(chunk, index) => {
+            Shape::Outline(outline) => {
                 let side = self.settings.0.side();
-                each_pixel_row_of_spans(self.of_outline(chunk, index, rect.y), side, rect, paint);
+                each_pixel_row_of_spans(self.of_outline(outline, rect.y), side, rect, paint);
             }
             Shape::Float(float) => {
                 let side = self.settings.0.side();
@@ -90,8 +99,8 @@ impl BandSpans {
             Shape::Triangle(corners) => {
                 pixel_rows_4x4::each_row_of_triangle(simd, *corners, self.settings, rect, paint)
             }
-            Shape::Outline(chunk, index) => {
-                pixel_rows_4x4::each_row_of_spans(simd, self.of_outline(chunk, index, rect.y), rect, paint);
+            Shape::Outline(outline) => {
+                pixel_rows_4x4::each_row_of_spans(simd, self.of_outline(outline, rect.y), rect, paint);
             }
             Shape::Float(float) => pixel_rows_4x4::each_row_of_spans(simd, self.of_float(float, rect), rect, paint),
         }
@@ -107,24 +116,20 @@ impl BandSpans {
         self.single.get(stored)
     }
 
-    fn of_outline(&mut self, chunk: &Chunk, index: u32, band: Span) -> RowSpans<'_> {
+    fn of_outline(&mut self, of: OutlineOf<'_>, band: Span) -> RowSpans<'_> {
         if self.band != band || self.age == 0 || self.store.len() > MAX_SPANS {
             self.band = band;
             self.age += 1;
             self.store.clear();
         }
-        let (age, stored) = &mut self.known[chunk.first_outline + index as usize];
+        let (age, stored) = &mut self.known[of.number];
         if *age != self.age {
             let grid = self.settings.0;
-            let outline = &chunk.outlines[index as usize];
             let rows = scaled(band, grid.side());
             *age = self.age;
-            *stored = self.scanner.scan(
-                outline,
-                (&chunk.outline_edges, grid),
-                (rows, self.columns),
-                &mut self.store,
-            );
+            *stored = self
+                .scanner
+                .scan(of.outline, (of.edges, grid), (rows, self.columns), &mut self.store);
         }
         self.store.get(*stored)
     }

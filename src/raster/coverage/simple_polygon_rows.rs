@@ -7,7 +7,7 @@ use fearless_simd::{Simd, dispatch};
 use crate::geometry::edge::EdgeWalker;
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::coverage::polygon::OutlineEdge;
-use crate::raster::coverage::triangle::Span;
+use crate::raster::span::Span;
 use crate::simd;
 
 /// From so many rows on that an edge crosses, it is walked four rows at a time.

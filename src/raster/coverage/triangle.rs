@@ -6,16 +6,8 @@
 
 use crate::geometry::edge::{EdgeWalker, doubled_area};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::raster::span::{Span, end_of};
 use crate::rules::Rules;
-
-/// A half-open range of sample columns, or of sample rows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Span {
-    /// The first.
-    pub(crate) start: i32,
-    /// One beyond the last; at or before `start` when empty.
-    pub(crate) end: i32,
-}
 
 /// A triangle whose corners are sorted from top to bottom.
 #[derive(Clone, Copy, Debug)]
@@ -38,48 +30,6 @@ pub(crate) struct RowWalker {
     grid: SubpixelGrid,
     long_is_right: bool,
     rules: Rules,
-}
-
-impl Span {
-    /// Whether nothing is in it.
-    pub(crate) fn is_empty(self) -> bool {
-        self.start >= self.end
-    }
-
-    /// A row without samples: in a union or an intersection of rows it has no say about the one, and empties the other.
-    /// Far enough from the ends of the numbers that columns of a frame may be added.
-    pub(crate) const EMPTY: Self = Self {
-        start: i32::MAX / 2,
-        end: i32::MIN / 2,
-    };
-
-    /// The seed of an intersection.
-    const EVERYTHING: Self = Self {
-        start: i32::MIN,
-        end: i32::MAX,
-    };
-
-    /// The seed of a union.
-    pub(crate) const NOTHING: Self = Self {
-        start: i32::MAX,
-        end: i32::MIN,
-    };
-
-    /// The smallest span that holds both.
-    pub(crate) fn union(self, other: Self) -> Self {
-        Self {
-            start: self.start.min(other.start),
-            end: self.end.max(other.end),
-        }
-    }
-
-    /// What lies in both.
-    pub(crate) fn intersection(self, other: Self) -> Self {
-        Self {
-            start: self.start.max(other.start),
-            end: self.end.min(other.end),
-        }
-    }
 }
 
 impl SortedTriangle {
@@ -249,14 +199,6 @@ impl RowWalker {
         } else {
             self.right = lower;
         }
-    }
-}
-
-/// One beyond the last sample that belongs to what ends at `coordinate`.
-pub(crate) fn end_of(grid: SubpixelGrid, coordinate: i32, rules: Rules) -> i32 {
-    match rules {
-        Rules::Standard | Rules::Float => grid.sample_at_or_after(coordinate),
-        Rules::Course => grid.sample_after(coordinate),
     }
 }
 

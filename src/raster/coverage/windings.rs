@@ -1,6 +1,6 @@
 //! How often edges wind around each of some rows, where they change it for runs of rows only.
 
-use crate::raster::coverage::triangle::Span;
+use crate::raster::span::Span;
 
 /// Windings of rows, kept as what changes from each row to the next: so an edge changes two numbers, however many rows
 /// it crosses, and whether all rows are wound around alike is known at once.

@@ -7,14 +7,14 @@ use crate::geometry::FillRule;
 use crate::geometry::edge::{EdgeTest, EdgeWalker};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::DisplayList;
-use crate::raster::attributes::Planes;
+use crate::raster::attributes::{Planes, course_uv, uv_map};
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::polygon::Outline;
-use crate::raster::coverage::triangle::Span;
 use crate::raster::list::chunk::{Chunk, Op, Paint, ScreenTriangle};
 use crate::raster::paint::recorder::PaintedOp;
 use crate::raster::sampling::positions::Place;
-use crate::raster::shading::shader::{ShadeContext, course_uv, uv_map};
+use crate::raster::shading::shader::ShadeContext;
+use crate::raster::span::Span;
 use crate::rules::Rules;
 use crate::texture::{Filter, Reading, Sampler, TextureReads};
 

@@ -10,14 +10,14 @@ use crate::color::Premultiplied16;
 use crate::raster::DisplayList;
 use crate::raster::binning::bins::{Bins, entries_of_tile};
 use crate::raster::binning::tile_command::Entry;
-use crate::raster::coverage::triangle::Span;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::list::chunk::{Chunk, ListContext};
 use crate::raster::paint::recorder::{PaintedKind, PaintedOp};
-use crate::raster::paint::sample_colors::{PixelRect, TileLayout};
 use crate::raster::rasterizer::{Method, Painters, Pass, first_visible};
 use crate::raster::sampling::positions::{Place, SamplePlaces};
+use crate::raster::span::{PixelRect, Span};
 use crate::raster::stats::SharedTally;
+use crate::raster::tile_layout::TileLayout;
 
 /// How a pixel came about.
 #[derive(Clone, Debug, PartialEq)]

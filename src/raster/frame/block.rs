@@ -3,8 +3,7 @@
 use fearless_simd::{Simd, dispatch};
 
 use crate::raster::coverage::mask8x8::SmallCoverage;
-use crate::raster::coverage::triangle::Span;
-use crate::raster::paint::sample_colors::PixelRect;
+use crate::raster::span::{PixelRect, Span};
 use crate::simd;
 
 /// So many pixels of a stamp are set one by one.

@@ -2,4 +2,5 @@
 
 pub(in crate::raster) mod block;
 pub(in crate::raster) mod framebuffer;
+pub(in crate::raster) mod region;
 pub(in crate::raster) mod row;

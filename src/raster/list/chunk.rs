@@ -9,12 +9,12 @@
 use crate::color::{Premultiplied16, Rgba};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::coverage::float_shape::FloatShape;
-use crate::raster::coverage::mask8x8::{SampleBox, SmallCoverage};
-use crate::raster::coverage::pixel_rows::scaled;
+use crate::raster::coverage::mask8x8::SmallCoverage;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
-use crate::raster::coverage::triangle::Span;
+use crate::raster::coverage::shape_rows::OutlineOf;
 use crate::raster::list::hairline::Hairline;
-use crate::raster::paint::sample_colors::{PixelRect, TileLayout};
+use crate::raster::span::{PixelRect, SampleBox, Span, scaled};
+use crate::raster::tile_layout::TileLayout;
 use crate::raster::{SamplePattern, SampleRate};
 use crate::rules::Rules;
 
@@ -165,6 +165,16 @@ impl ListContext {
 }
 
 impl Chunk {
+    /// The outline at `index`, with what it needs.
+    #[inline]
+    pub(crate) fn outline(&self, index: u32) -> OutlineOf<'_> {
+        OutlineOf {
+            outline: &self.outlines[index as usize],
+            edges: &self.outline_edges,
+            number: self.first_outline + index as usize,
+        }
+    }
+
     /// Whether any op begins or ends a layer.
     pub(crate) fn has_layers(&self) -> bool {
         !self.layers.is_empty()

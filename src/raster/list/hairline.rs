@@ -5,7 +5,8 @@
 use glam::DVec2;
 
 use crate::color::Premultiplied16;
-use crate::raster::coverage::mask8x8::{SMALL, SmallCoverage};
+use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::span::SMALL;
 
 /// How far outside the frame a line is stepped along rather than cut off, in pixels.
 const MARGIN: f64 = 4096.0;

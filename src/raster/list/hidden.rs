@@ -7,8 +7,8 @@
 
 use crate::geometry::edge::{EdgeTest, doubled_area};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-use crate::raster::coverage::mask8x8::SampleBox;
 use crate::raster::list::chunk::{Chunk, ListContext, Op};
+use crate::raster::span::SampleBox;
 use crate::rules::Rules;
 
 /// How many ops before a shape are looked at.

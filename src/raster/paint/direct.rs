@@ -2,11 +2,10 @@
 
 use crate::raster::binning::tile_command::{Entry, Work};
 use crate::raster::coverage::shape_rows::{BandSpans, Shape};
-use crate::raster::coverage::triangle::Span;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::list::chunk::{Chunk, Paint, ScreenTriangle};
-use crate::raster::paint::sample_colors::PixelRect;
 use crate::raster::shading::shader::{Pixels, ShadeContext, Shader};
+use crate::raster::span::{PixelRect, Span};
 
 /// Paints opaque primitives at one sample per pixel.
 #[derive(Debug)]

@@ -2,17 +2,18 @@
 
 use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::{Entry, Work};
-use crate::raster::coverage::free_positions::{Covered, Scatter};
+use crate::raster::coverage::covered::Covered;
+use crate::raster::coverage::free_positions::Scatter;
 use crate::raster::coverage::mask8x8::SmallCoverage;
-use crate::raster::coverage::pixel_rows::{PixelRow, each_pixel_row_of_few, scaled};
+use crate::raster::coverage::pixel_rows::{PixelRow, each_pixel_row_of_few};
 use crate::raster::coverage::shape_rows::{BandSpans, Shape};
-use crate::raster::coverage::triangle::Span;
 use crate::raster::list::chunk::Chunk;
 use crate::raster::paint::recorder::{PaintedKind, PaintedOp, Recorder};
-use crate::raster::paint::sample_colors::{PixelRect, Tile};
+use crate::raster::paint::sample_colors::Tile;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::Place;
 use crate::raster::shading::shader::{ShadeContext, Shader, ShaderKind};
+use crate::raster::span::{PixelRect, Span, scaled};
 
 /// Paints tiles, one after the other, reusing its memory.
 #[derive(Debug)]

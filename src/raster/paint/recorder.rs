@@ -2,8 +2,8 @@
 
 use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::Work;
-use crate::raster::coverage::triangle::Span;
 use crate::raster::sampling::mask::SampleMask;
+use crate::raster::span::Span;
 
 /// Fragments that are kept at most; beyond that those of the ops painted first are forgotten.
 const MOST_FRAGMENTS: usize = 1 << 19;

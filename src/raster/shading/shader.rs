@@ -1,16 +1,15 @@
 //! Fragments to colours: attributes interpolated over a triangle, textures read at them.
 
-use glam::DVec2;
+use crate::raster::attributes::{Planes, course_uv, uv_map};
 
 use crate::color::{Premultiplied16, ResolveSpace, unit_to_16};
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::SampleRate;
-use crate::raster::attributes::Planes;
 use crate::raster::list::chunk::{Paint, ScreenTriangle};
 use crate::raster::shading::vertex::VertexColors;
 use crate::rules::Rules;
 use crate::simd;
-use crate::texture::{Filter, PixelList, SampleGrid, Sampler, SamplingSettings, Texture, UvMap};
+use crate::texture::{Filter, PixelList, SampleGrid, Sampler, SamplingSettings, Texture};
 
 /// Turns the fragments of one triangle into colours.
 #[derive(Debug)]
@@ -224,30 +223,6 @@ impl<'a> Shader<'a> {
             Paint::Texture { texture, opacity, .. } => opacity >= 1.0 && textures[texture as usize].pyramid.is_opaque(),
         }
     }
-}
-
-/// The planes of `(u, v)` in pixels.
-pub(in crate::raster) fn uv_map(grid: SubpixelGrid, uv: &Planes<2>) -> UvMap {
-    let side = f64::from(grid.side());
-    UvMap {
-        pivot: DVec2::from_array(uv.pivot) / side,
-        uv: DVec2::from_array(uv.at_pivot),
-        dx: DVec2::from_array(uv.dx) * side,
-        dy: DVec2::from_array(uv.dy) * side,
-    }
-}
-
-/// `(u, v)` at a sample as the course's 32-bit arithmetic has it: in 64 bits at an anchor every eight pixels of a row, in
-/// 32 bits from there on. Where a sample lies on the border of two texels, the last bit decides.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the course reads textures at 32-bit floats"
-)]
-pub(in crate::raster) fn course_uv(uv: &Planes<2>, side: i32, [column, row]: [i32; 2]) -> [f32; 2] {
-    let anchor = column.div_euclid(8 * side) * 8 * side;
-    let at_anchor = uv.at(f64::from(anchor), f64::from(row) + 0.5);
-    let pixels = ((column - anchor) as f32 + 0.5) * (1.0 / side as f32);
-    [0, 1].map(|i| at_anchor[i] as f32 + pixels * (uv.dx[i] * f64::from(side)) as f32)
 }
 
 /// A texture read by the course's rules.

@@ -7,28 +7,13 @@
 //! number per sample. A primitive that covers a pixel wholly makes it one again. So flat areas cost one store per pixel
 //! at every sample rate, most edges a few bits, and nothing is shaded before it is known to be seen.
 
+use crate::raster::surface_id::{PAIR, ROW, SPLIT, Slot};
 use std::ops::Range;
 
 use crate::raster::coverage::pixel_rows::PixelRow;
-use crate::raster::coverage::triangle::Span;
-use crate::raster::paint::sample_colors::PixelRect;
 use crate::raster::paint::visibility::packed::{PER_WORD, changed, covered, joined, lanes, of_pair, splat, spread};
 use crate::raster::paint::visibility::two_surfaces::{Pair, PairRow, Pairs};
-
-/// A primitive's number inside a tile.
-pub(crate) type Slot = u16;
-
-/// Stands for a pixel that is split.
-const SPLIT: Slot = Slot::MAX;
-
-/// Stands for a pixel that shows a [`Pair`].
-pub(crate) const PAIR: Slot = Slot::MAX - 1;
-
-/// Most slots of a tile.
-pub(crate) const MAX_SLOTS: usize = PAIR as usize;
-
-/// Pixels from one row of a tile to the next: no tile is wider. A word has a bit for each.
-pub(crate) const ROW: usize = 64;
+use crate::raster::span::{PixelRect, Span};
 
 /// Pixels of a block.
 pub(crate) const BLOCK: usize = 8;

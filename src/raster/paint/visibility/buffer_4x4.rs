@@ -6,10 +6,11 @@ use std::ops::Range;
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use crate::raster::coverage::pixel_rows_4x4::{Ends, TileRow, Window, each_window, fill};
-use crate::raster::paint::visibility::buffer::{PAIR, ROW, Slot, VisibilityTile};
+use crate::raster::coverage::pixel_rows_4x4::{Ends, TileRow, Window, each_window};
+use crate::raster::paint::visibility::buffer::VisibilityTile;
 use crate::raster::paint::visibility::packed::{lanes, splat};
 use crate::raster::paint::visibility::two_surfaces::{Quad, QuadMask, put, quad, word_at};
+use crate::raster::surface_id::{PAIR, ROW, Slot};
 
 /// Bits of which one is set for each shared pixel of four, and perhaps for others.
 const PERHAPS_SHARED: u64 = 0x8000_8000_8000_8000;
@@ -172,6 +173,19 @@ fn in_part<S: Simd>(simd: S, masks: Quad<S>) -> QuadMask<S> {
     !masks.simd_eq(Quad::splat(simd, 0))
 }
 
+/// Lets some slots of a row be the same one.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+#[expect(clippy::cast_possible_truncation, reason = "places in a row of 64")]
+pub(crate) fn fill(slots: &mut [Slot; ROW], range: Range<usize>, slot: Slot) {
+    // All of them anew: how many there are nobody can foresee, and vectors hold so few.
+    let (start, length) = (range.start as Slot, range.len() as Slot);
+    for (at, shown) in (0..).zip(slots) {
+        let inside = Slot::wrapping_sub(at, start) < length;
+        *shown = if inside { slot } else { *shown };
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
@@ -180,10 +194,9 @@ mod tests {
     use super::*;
     use crate::raster::coverage::pixel_rows::each_pixel_row_of_spans;
     use crate::raster::coverage::pixel_rows_4x4::each_row_of_spans;
-    use crate::raster::coverage::polygon::{RowSpans, SpanStore};
-    use crate::raster::coverage::triangle::Span;
-    use crate::raster::paint::sample_colors::PixelRect;
+    use crate::raster::coverage::polygon_rows::{RowSpans, SpanStore};
     use crate::raster::paint::visibility::buffer::Run;
+    use crate::raster::span::{PixelRect, Span};
     use crate::simd;
 
     const SIDE: i32 = 4;

@@ -4,9 +4,9 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i8x16, i16x8, i32x4, u8x16, u16x8, u32x4, u64x2};
 
 use crate::color::Resolver;
-use crate::raster::paint::visibility::buffer::{ROW, Slot};
 use crate::raster::paint::visibility::packed::lanes;
-use crate::raster::paint::visibility::surfaces::SlotColor;
+use crate::raster::paint::visibility::surface_color::SlotColor;
+use crate::raster::surface_id::{ROW, Slot};
 use crate::simd;
 
 /// How many slots have a place here: a power of two.
@@ -236,8 +236,9 @@ mod tests {
 
     use super::*;
     use crate::color::Premultiplied16;
-    use crate::raster::paint::visibility::buffer::PAIR;
-    use crate::raster::paint::visibility::surfaces::{Slots, Spread};
+    use crate::raster::paint::visibility::surface_color::Spread;
+    use crate::raster::paint::visibility::surfaces::Slots;
+    use crate::raster::surface_id::PAIR;
     use crate::rules::Rules;
 
     fn color(u: &mut Unstructured<'_>, opaque: bool) -> Result<Premultiplied16> {

@@ -9,5 +9,6 @@ pub(in crate::raster) mod flat_resolve;
 pub(in crate::raster) mod packed;
 pub(in crate::raster) mod painter;
 pub(in crate::raster) mod shading_queue;
+pub(in crate::raster) mod surface_color;
 pub(in crate::raster) mod surfaces;
 pub(in crate::raster) mod two_surfaces;

@@ -1,7 +1,7 @@
 //! The slots of four samples in a word, sixteen bits each, the first one lowest.
 
-use crate::raster::coverage::triangle::Span;
-use crate::raster::paint::visibility::buffer::Slot;
+use crate::raster::span::Span;
+use crate::raster::surface_id::Slot;
 
 /// Samples of a sample row in one word.
 pub(in crate::raster) const PER_WORD: usize = 4;

@@ -16,13 +16,15 @@ use crate::raster::coverage::pixel_rows_4x4;
 use crate::raster::coverage::shape_rows::{BandSpans, Shape};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::list::chunk::Chunk;
-use crate::raster::paint::sample_colors::PixelRect;
-use crate::raster::paint::visibility::buffer::{MAX_SLOTS, PAIR, ROW, Run, Shown, Slot, VisibilityTile};
+use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityTile};
 use crate::raster::paint::visibility::packed::{lanes, splat};
 use crate::raster::paint::visibility::shading_queue::{Fragment, Part, Unresolved};
-use crate::raster::paint::visibility::surfaces::{Shaded, SlotColor, Slots, Spread};
+use crate::raster::paint::visibility::surface_color::{Shaded, Spread};
+use crate::raster::paint::visibility::surfaces::Slots;
 use crate::raster::paint::visibility::two_surfaces::Pair;
 use crate::raster::shading::shader::{Pixels, ShadeContext, Shader};
+use crate::raster::span::PixelRect;
+use crate::raster::surface_id::{MAX_SLOTS, PAIR, ROW, Slot};
 use crate::simd;
 use crate::texture::SampleGrid;
 
@@ -466,25 +468,6 @@ fn resolve_flat<S: Simd>(simd: S, painter: &DeferredPainter<'_>, block: &mut Pix
             }
         },
     );
-}
-
-impl SlotColor<'_> {
-    /// What `count` samples show of which the primitive below has the sum `shaded`.
-    #[inline]
-    fn over_shaded(&self, shaded: [u32; 4], kept: u16, count: u32) -> [u32; 4] {
-        const ONE: u64 = Premultiplied16::ONE as u64;
-        if kept == Premultiplied16::ONE {
-            return shaded;
-        }
-        let mut sums = self.sum(count);
-        for (sum, channel) in sums.iter_mut().zip(shaded) {
-            let part = (u64::from(channel) * u64::from(kept) + ONE / 2) / ONE;
-            *sum += u32::try_from(part).unwrap_or(u32::MAX);
-        }
-        // What is left after rounding twice: opaque below stays opaque.
-        sums[3] = shaded[3];
-        sums
-    }
 }
 
 impl Shading {

@@ -1,6 +1,6 @@
 //! What is left to be shaded in a tile once everything is painted, sorted by primitive.
 
-use crate::raster::paint::visibility::buffer::Slot;
+use crate::raster::surface_id::Slot;
 
 /// Which samples of a pixel show a primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,14 +2,11 @@
 //!
 //! The masks, first and second slots of a row of pixels each lie side by side, so that those of a few pixels are a vector.
 
+use crate::raster::surface_id::{LAST_QUAD, QUAD, ROW, Slot};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, mask16x8, u16x8, u64x2};
 
-use crate::raster::paint::visibility::buffer::{ROW, Slot};
 use crate::raster::paint::visibility::packed::{joined, lanes};
-
-/// Pixels of a [`Quad`].
-pub(crate) const QUAD: usize = 4;
 
 /// Most samples along the side of a pixel whose masks take 16 bits.
 const NARROW_SIDE: usize = 4;
@@ -159,9 +156,6 @@ pub(crate) fn word_at(row: &[u16; ROW], x: usize) -> u64 {
     let x = x.min(LAST_QUAD);
     joined([row[x], row[x + 1], row[x + 2], row[x + 3]])
 }
-
-/// The number of the first of the last four pixels of a row.
-pub(crate) const LAST_QUAD: usize = ROW - QUAD;
 
 /// Four numbers, the first one lowest, as a vector.
 #[inline(always)]

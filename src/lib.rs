@@ -18,6 +18,7 @@
 //! | [`texture`] | images | colours at a footprint |
 //! | [`geometry`], [`color`], [`rules`] | numbers | numbers |
 //! | [`plain`] | text from outside | text that steers no terminal |
+//! | [`memory`] | a number of bytes | whether the system has them |
 //! | [`simd`] | the machine | the vector instructions that kernels use |
 //!
 //! # Conventions
@@ -38,6 +39,7 @@ pub mod compare;
 pub mod figure;
 pub mod geometry;
 pub mod inspect;
+pub mod memory;
 pub mod plain;
 pub mod raster;
 pub mod render;

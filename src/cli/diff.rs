@@ -7,9 +7,9 @@ use serde::Serialize;
 use super::arguments::{DiffOptions, MAX_PIXELS, PictureOptions};
 use super::failure::{Failure, print, print_json};
 use super::picture::{Picture, on_threads};
-use super::recorded;
 use super::render::{name_for_png, unwritable};
 use super::size::FrameSize;
+use super::{memory, recorded};
 use crate::compare::{self, DifferenceStyle, Gain, Guess, Levels, Pair, Place};
 use crate::figure::{Guard, Named, Record, save_picture};
 use crate::plain;
@@ -99,7 +99,7 @@ pub(super) fn run(options: &DiffOptions) -> Result<(), Failure> {
     if let Some(output) = &options.output {
         name_for_png(output)?;
         // Asked before the work as well.
-        let target = guard(options).target(output, Named::ByUser);
+        let target = guard(options, None).target(output, Named::ByUser);
         target.map_err(|error| unwritable(output, &error))?;
     }
     let report = on_threads(options.framing.threads, || measure(options))??;
@@ -119,7 +119,7 @@ fn measure(options: &DiffOptions) -> Result<Report, Failure> {
     with_pair(options, |pair, ours| {
         let mut report = Report::new(pair, options);
         if let Some(output) = &options.output {
-            report.picture = Some(save(pair, output, options)?);
+            report.picture = Some(save(pair, ours, output, options)?);
         }
         if let Some(ours) = ours.filter(|_| report.differing_pixels > 0) {
             let guess = compare::guess(&ours.subject(), pair.b(), Guess::BUDGET, &CancelToken::default());
@@ -129,11 +129,11 @@ fn measure(options: &DiffOptions) -> Result<Report, Failure> {
     })
 }
 
-/// The difference picture and its record, for the file `output`.
-pub(super) fn picture(options: &DiffOptions, output: &Path) -> Result<(Framebuffer, Record), Failure> {
-    with_pair(options, |pair, _| {
+/// The difference picture and its record, for the file `output`, and what protects its inputs.
+pub(super) fn picture(options: &DiffOptions, output: &Path) -> Result<(Framebuffer, Record, Guard), Failure> {
+    with_pair(options, |pair, ours| {
         let (frame, _) = shown(pair, options);
-        Ok((frame, record(pair.size(), output, options)))
+        Ok((frame, record(pair.size(), output, options), guard(options, ours)))
     })
 }
 
@@ -150,6 +150,8 @@ fn with_pair<R>(
         )));
     }
     let b = Encoded::read(second, options.max_pixels)?;
+    let frames = 1 + u64::from(options.output.is_some());
+    memory::ask_for_comparing(memory::pixels(b.size).saturating_mul(frames))?;
     if is_scene(first) {
         let mut ours = Picture::read(recorded::spec(first, &drawing(options, b.size)))?;
         let theirs = b.decode(second)?;
@@ -200,8 +202,14 @@ struct Encoded {
 impl Encoded {
     /// Refuses more than `most` pixels.
     fn read(path: &Path, most: u64) -> Result<Self, Failure> {
-        let bytes = FolderResources::read_file(path)
-            .map_err(|error| Failure::input(format!("{}: {error}; give a PNG or JPEG picture", path.display())))?;
+        let bytes = FolderResources::read_file(path).map_err(|error| {
+            let line = format!("{}: {error}; give a PNG or JPEG picture", path.display());
+            if error.is_of_memory() {
+                Failure::other(line)
+            } else {
+                Failure::input(line)
+            }
+        })?;
         let size = compare::encoded_size(&bytes).map_err(|error| unreadable(path, &error))?;
         let [width, height] = size;
         let pixels = u64::from(width) * u64::from(height);
@@ -242,16 +250,25 @@ fn shown(pair: Pair<'_>, options: &DiffOptions) -> (Framebuffer, f32) {
     (frame, gain)
 }
 
-/// Protects both pictures.
-fn guard(options: &DiffOptions) -> Guard {
-    Guard::default().with(&options.a).with(&options.b)
+/// Protects both pictures, and the textures of one that was drawn.
+fn guard(options: &DiffOptions, ours: Option<&Picture>) -> Guard {
+    let mut guard = Guard::default().with(&options.a).with(&options.b);
+    if let Some(ours) = ours {
+        ours.protect(&mut guard);
+    }
+    guard
 }
 
 /// Saves the difference picture.
-fn save(pair: Pair<'_>, output: &Path, options: &DiffOptions) -> Result<PictureReport, Failure> {
+fn save(
+    pair: Pair<'_>,
+    ours: Option<&Picture>,
+    output: &Path,
+    options: &DiffOptions,
+) -> Result<PictureReport, Failure> {
     let (frame, gain) = shown(pair, options);
     let record = record(pair.size(), output, options);
-    let guard = guard(options);
+    let guard = guard(options, ours);
     save_picture(&frame, Some(&record), (output, Named::ByUser), &guard).map_err(|error| unwritable(output, &error))?;
     Ok(PictureReport {
         file: output.display().to_string(),

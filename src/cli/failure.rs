@@ -5,9 +5,10 @@ use std::process::ExitCode;
 
 use super::progress;
 use crate::plain;
+use crate::scene::SceneError;
 
 /// An end of the program other than success.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Failure {
     /// The input or the arguments are at fault.
     Input(String),
@@ -28,6 +29,15 @@ impl Failure {
     /// Something else went wrong.
     pub(super) fn other(what: impl Display) -> Self {
         Self::Other(what.to_string())
+    }
+
+    /// A scene cannot be read: it is at fault, or there is too little memory.
+    pub(super) fn of_scene(error: &SceneError) -> Self {
+        if error.problem.is_of_memory() {
+            Self::other(error)
+        } else {
+            Self::input(error)
+        }
     }
 
     /// What it says, without its exit status.

@@ -1,5 +1,7 @@
 //! `rasterscope lesson`: opens a lesson in the window, or draws its steps as slides.
 
+use std::collections::HashSet;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use super::arguments::{LessonOptions, ViewerOptions};
@@ -7,19 +9,30 @@ use super::failure::Failure;
 use super::{memory, progress, render, view};
 use crate::figure::{Guard, Named, Record, save_picture};
 use crate::raster::Framebuffer;
-use crate::viewer::{BUILT_IN, LessonSource, as_path, plain_record, slides};
+use crate::scene::DialectChoice;
+use crate::viewer::{Against, BUILT_IN, Lesson, LessonSource, SceneSource, SlideError, as_path, plain_record, slides};
 
 /// The size of slides where none is asked for.
 const SLIDE: [u32; 2] = [1600, 900];
 /// The least that words and picture need.
 const LEAST: [u32; 2] = [480, 270];
 
+/// The slides that the options ask for.
+struct Slides<'a> {
+    source: LessonSource,
+    lesson: Lesson,
+    size: [u32; 2],
+    /// Of the steps, from 1.
+    numbers: RangeInclusive<usize>,
+    folder: &'a Path,
+}
+
 /// Opens the lesson, or writes its slides.
 pub(super) fn run(options: &LessonOptions) -> Result<(), Failure> {
-    let source = source(&options.lesson)?;
     if let Some(folder) = &options.slides {
-        let guard = Guard::new(options.view.force);
-        return draw(options, |slide, path, record| {
+        let slides = Slides::new(options)?;
+        let guard = slides.guard(options.view.force)?;
+        return slides.draw(|slide, path, record| {
             // Only now, so that a lesson that is refused leaves no empty folder.
             std::fs::create_dir_all(folder).map_err(|error| render::unwritable_by("--slides", folder, &error))?;
             let saved = save_picture(slide, Some(record), (&path, Named::ByProgram), &guard);
@@ -27,6 +40,7 @@ pub(super) fn run(options: &LessonOptions) -> Result<(), Failure> {
             saved.map_err(|error| render::unwritable_by("--slides", &path, &error))
         });
     }
+    let source = source(&options.lesson)?;
     source.read().map_err(Failure::input)?;
     let view = ViewerOptions {
         paths: vec![PathBuf::from(source.address())],
@@ -38,11 +52,17 @@ pub(super) fn run(options: &LessonOptions) -> Result<(), Failure> {
 /// The one slide that the options ask for, and its record.
 pub(super) fn picture(options: &LessonOptions) -> Result<(Framebuffer, Record), Failure> {
     let mut only = None;
-    draw(options, |slide, _, record| {
+    Slides::new(options)?.draw(|slide, _, record| {
         only = Some((slide.clone(), record.clone()));
         Ok(())
     })?;
     only.ok_or_else(|| Failure::other("a lesson without steps"))
+}
+
+/// Protects everything that the lesson is read from.
+pub(super) fn protect(options: &LessonOptions, guard: &mut Guard) -> Result<(), Failure> {
+    Slides::new(options)?.protect(guard);
+    Ok(())
 }
 
 /// The lesson that a person names; those of the program need no prefix.
@@ -59,41 +79,113 @@ fn source(address: &Path) -> Result<LessonSource, Failure> {
     })
 }
 
-/// Draws the slides that the options ask for and hands each over, with its file and its record.
-fn draw(
-    options: &LessonOptions,
-    mut take: impl FnMut(&Framebuffer, PathBuf, &Record) -> Result<(), Failure>,
-) -> Result<(), Failure> {
-    let source = source(&options.lesson)?;
-    let lesson = source.read().map_err(Failure::input)?;
-    let size = options.view.size.map_or(SLIDE, |size| size.0);
-    if size[0] < LEAST[0] || size[1] < LEAST[1] {
-        return Err(Failure::input(format!(
-            "--size {}x{}: too small for words and picture; give {}x{} or more",
-            size[0], size[1], LEAST[0], LEAST[1]
-        )));
-    }
-    let count = lesson.steps.len();
-    let numbers = match options.step.map(|step| usize::try_from(step).unwrap_or(usize::MAX)) {
-        None => 1..=count,
-        Some(step) if step <= count => step..=step,
-        Some(step) => {
-            let name = options.lesson.display();
+impl<'a> Slides<'a> {
+    fn new(options: &'a LessonOptions) -> Result<Self, Failure> {
+        let source = source(&options.lesson)?;
+        let lesson = source.read().map_err(Failure::input)?;
+        let size = options.view.size.map_or(SLIDE, |size| size.0);
+        if size[0] < LEAST[0] || size[1] < LEAST[1] {
             return Err(Failure::input(format!(
-                "{name}: there is no step {step}; it has {count}"
+                "--size {}x{}: too small for words and picture; give {}x{} or more",
+                size[0], size[1], LEAST[0], LEAST[1]
             )));
         }
-    };
-    progress::count(numbers.clone().count());
-    memory::ask_for(memory::pixels(size).saturating_mul(3))?;
-    let folder = options.slides.as_deref().unwrap_or(Path::new(""));
-    let digits = count.to_string().len().max(2);
-    slides(&lesson, size, numbers, |number, slide| {
-        let record = record(&source, (folder, number), size);
-        let path = folder.join(format!("{number:0digits$}.png"));
-        take(slide, path, &record).map_err(SlideFailure)
-    })
-    .map_err(|SlideFailure(failure)| failure)
+        let count = lesson.steps.len();
+        let numbers = match options.step.map(|step| usize::try_from(step).unwrap_or(usize::MAX)) {
+            None => 1..=count,
+            Some(step) if step <= count => step..=step,
+            Some(step) => {
+                let name = options.lesson.display();
+                return Err(Failure::input(format!(
+                    "{name}: there is no step {step}; it has {count}"
+                )));
+            }
+        };
+        Ok(Self {
+            source,
+            lesson,
+            size,
+            numbers,
+            folder: options.slides.as_deref().unwrap_or(Path::new("")),
+        })
+    }
+
+    /// The file of the slide with this number.
+    fn path(&self, number: usize) -> PathBuf {
+        let digits = self.lesson.steps.len().to_string().len().max(2);
+        self.folder.join(format!("{number:0digits$}.png"))
+    }
+
+    /// Draws the slides and hands each over, with its file and its record.
+    fn draw(&self, mut take: impl FnMut(&Framebuffer, PathBuf, &Record) -> Result<(), Failure>) -> Result<(), Failure> {
+        progress::count(self.numbers.clone().count());
+        memory::ask_for(memory::pixels(self.size).saturating_mul(3))?;
+        slides(&self.lesson, self.size, self.numbers.clone(), |number, slide| {
+            let record = record(&self.source, (self.folder, number), self.size);
+            take(slide, self.path(number), &record).map_err(SlideFailure::Taken)
+        })
+        .map_err(|failure| self.failure(failure))
+    }
+
+    /// In the terms of the command line.
+    fn failure(&self, failure: SlideFailure) -> Failure {
+        match failure {
+            SlideFailure::Taken(failure) => failure,
+            SlideFailure::Drawn(error @ SlideError::Threads(_)) => Failure::other(error),
+            SlideFailure::Drawn(error @ SlideError::Scene { step, .. }) if self.is_starved(step) => {
+                Failure::other(error)
+            }
+            SlideFailure::Drawn(error) => Failure::input(error),
+        }
+    }
+
+    /// Whether a step's scene cannot be read for lack of memory.
+    fn is_starved(&self, step: usize) -> bool {
+        let step = step.checked_sub(1).and_then(|index| self.lesson.steps.get(index));
+        let read = step.map(|step| step.scene.read(DialectChoice::Auto));
+        matches!(read, Some(Err(error)) if error.problem.is_of_memory())
+    }
+
+    /// What the slides must not replace, asked before they are drawn.
+    fn guard(&self, force: bool) -> Result<Guard, Failure> {
+        let mut guard = Guard::new(force);
+        let paths = self.numbers.clone().map(|number| self.path(number));
+        let there: Vec<PathBuf> = paths.filter(|path| path.symlink_metadata().is_ok()).collect();
+        if there.is_empty() {
+            // Reading every scene once more would be for nothing.
+            return Ok(guard);
+        }
+        self.protect(&mut guard);
+        for path in there {
+            let target = guard.target(&path, Named::ByProgram);
+            target.map_err(|error| render::unwritable_by("--slides", &path, &error))?;
+        }
+        Ok(guard)
+    }
+
+    /// Protects the lesson, the scenes and pictures that its steps name, and the scenes' textures.
+    fn protect(&self, guard: &mut Guard) {
+        if let LessonSource::File(path) = &self.source {
+            guard.protect(path);
+        }
+        let mut known = HashSet::new();
+        for step in &self.lesson.steps {
+            if let Some((Against::File(picture), _)) = &step.against {
+                guard.protect(picture);
+            }
+            let SceneSource::File(path) = &step.scene else { continue };
+            if !known.insert(path) {
+                continue;
+            }
+            guard.protect(path);
+            // Each reading has textures that the other does not know. What cannot be read is told when it is drawn.
+            for dialect in [DialectChoice::Svg, DialectChoice::Course] {
+                if let Ok(scene) = step.scene.read(dialect) {
+                    step.scene.protect(&scene.files, guard);
+                }
+            }
+        }
+    }
 }
 
 /// The record of the slide with this number in a folder: words and picture, so that no scene comes back from it.
@@ -110,14 +202,14 @@ fn record(lesson: &LessonSource, (folder, number): (&Path, usize), size: [u32; 2
     plain_record(words.to_vec(), size)
 }
 
-/// What went wrong with a slide, in the terms of the command line.
-struct SlideFailure(Failure);
+/// What went wrong with a slide.
+enum SlideFailure {
+    Drawn(SlideError),
+    Taken(Failure),
+}
 
-impl From<crate::viewer::SlideError> for SlideFailure {
-    fn from(error: crate::viewer::SlideError) -> Self {
-        Self(match error {
-            crate::viewer::SlideError::Threads(_) => Failure::other(error),
-            _ => Failure::input(error),
-        })
+impl From<SlideError> for SlideFailure {
+    fn from(error: SlideError) -> Self {
+        Self::Drawn(error)
     }
 }

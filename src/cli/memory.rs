@@ -5,6 +5,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 
 use super::failure::Failure;
+use crate::memory::{self, OutOfMemory};
 use crate::viewer::PictureSpec;
 
 /// What a pixel needs until it is in a file: its frame, its channels for the encoder, the encoded file and a spare.
@@ -15,15 +16,19 @@ const BYTES_BESIDE: u64 = 16 << 20;
 /// Asks the system for as much memory as pictures of so many pixels will need, and gives it back. Who asks before the work
 /// can say what is wrong; the drawing itself cannot.
 pub(super) fn ask_for(pixels: u64) -> Result<(), Failure> {
+    ask(pixels, "draw fewer with --size")
+}
+
+/// As [`ask_for`], for pictures from outside.
+pub(super) fn ask_for_comparing(pixels: u64) -> Result<(), Failure> {
+    ask(pixels, "compare smaller pictures")
+}
+
+fn ask(pixels: u64, cure: &str) -> Result<(), Failure> {
     let bytes = pixels.saturating_mul(BYTES_PER_PIXEL).saturating_add(BYTES_BESIDE);
-    let mut room: Vec<u8> = Vec::new();
-    let asked = room.try_reserve_exact(usize::try_from(bytes).unwrap_or(usize::MAX));
-    // A room that nobody looks at would never be asked for.
-    std::hint::black_box(&room);
-    asked.map_err(|_| {
-        let megabytes = bytes >> 20;
+    memory::ask_for(bytes).map_err(|OutOfMemory { megabytes }| {
         Failure::other(format!(
-            "out of memory: {pixels} pixels need about {megabytes} MB, and the system gives less; draw fewer with --size"
+            "out of memory: {pixels} pixels need about {megabytes} MB, and the system gives less; {cure}"
         ))
     })
 }

@@ -24,7 +24,7 @@ impl Picture {
     /// Reads the scene; what the reader skipped is said on stderr, line by line.
     pub(super) fn read(spec: PictureSpec) -> Result<Self, Failure> {
         memory::ask_for(memory::pixels(spec.size))?;
-        let scene = read_scene(&spec.scene, spec.dialect).map_err(Failure::Input)?;
+        let scene = read_scene(&spec.scene, spec.dialect)?;
         Ok(Self::of(spec, Arc::new(scene)))
     }
 
@@ -131,11 +131,8 @@ impl Picture {
 }
 
 /// Reads a scene; what the reader skipped is said on stderr, line by line.
-///
-/// # Errors
-/// One line when it cannot be read.
-pub(super) fn read_scene(source: &SceneSource, dialect: DialectChoice) -> Result<Scene, String> {
-    let scene = source.read(dialect).map_err(|error| error.to_string())?;
+pub(super) fn read_scene(source: &SceneSource, dialect: DialectChoice) -> Result<Scene, Failure> {
+    let scene = source.read(dialect).map_err(|error| Failure::of_scene(&error))?;
     for line in scene.report.lines() {
         print_error(&format!("{}:{line}", source.address()));
     }

@@ -154,6 +154,12 @@ pub(super) fn unwritable(path: &Path, error: &io::Error) -> Failure {
 
 /// As [`unwritable`], where another `option` names the place.
 pub(super) fn unwritable_by(option: &str, path: &Path, error: &io::Error) -> Failure {
+    if error.kind() == io::ErrorKind::OutOfMemory {
+        let path = path.display();
+        return Failure::other(format!(
+            "{path}: not written: out of memory; close other programs, or draw fewer pixels with --size"
+        ));
+    }
     Failure::input(format!(
         "{}: cannot write here: {error}; choose another place with {option}",
         path.display()

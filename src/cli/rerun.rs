@@ -117,16 +117,29 @@ fn draw(options: &RerunOptions, verb: Verb, record: &Record) -> Result<Again, Fa
             of_sheet.scene = scene_path(&restored);
             let sheet = sheet::draw(&of_sheet, output)?;
             let files = sheet.panels.first().map(|panel| &panel.scene.files);
+            let mut guard = guard(options);
+            for panel in &sheet.panels {
+                panel.spec.scene.protect(&panel.scene.files, &mut guard);
+            }
             Ok(Again {
-                guard: guard(options),
+                guard,
                 change: files.and_then(|files| restored.changes(files)),
                 record: sheet.record,
                 frame: sheet.picture,
             })
         }
-        Verb::Diff(of_diff) => diff::picture(&of_diff, output).map(alone),
+        Verb::Diff(of_diff) => {
+            let (frame, record, inputs) = diff::picture(&of_diff, output)?;
+            let mut again = alone((frame, record));
+            again.guard = inputs.with(shot);
+            Ok(again)
+        }
         Verb::Lesson(of_lesson) if of_lesson.slides.is_some() && of_lesson.step.is_some() => {
-            lesson::picture(&of_lesson).map(alone)
+            let mut again = alone(lesson::picture(&of_lesson)?);
+            if options.output.is_some() {
+                lesson::protect(&of_lesson, &mut again.guard)?;
+            }
+            Ok(again)
         }
         _ => Err(Failure::input(format!(
             "{}: such a picture cannot be drawn again alone; run its command line: {}",
@@ -157,12 +170,12 @@ fn check(shot: &Path, again: &Again) -> Result<(), Failure> {
         ))
     };
     let bytes = FolderResources::read_file(shot).map_err(|error| unreadable(&error))?;
-    let before = compare::decode_picture(&bytes).map_err(|error| unreadable(&error))?;
+    let size = compare::encoded_size(&bytes).map_err(|error| unreadable(&error))?;
     let why = again
         .change
         .as_ref()
         .map_or(String::new(), |change| format!("; {}", plain::line(change)));
-    let [size, now] = [&before, &again.frame].map(|frame| [frame.width(), frame.height()]);
+    let now = [again.frame.width(), again.frame.height()];
     if size != now {
         let ([w, h], [w2, h2]) = (size, now);
         print(&format!(
@@ -170,12 +183,8 @@ fn check(shot: &Path, again: &Again) -> Result<(), Failure> {
         ))?;
         return Err(Failure::Different);
     }
-    let all = before.pixels().len();
-    let pairs = before.pixels().iter().zip(again.frame.pixels());
-    // What cannot be seen has no colour: decoders and the renderer may say so differently.
-    let different = pairs
-        .filter(|(a, b)| a != b && (*a >> 24 != 0 || *b >> 24 != 0))
-        .count();
+    let all = again.frame.pixels().len();
+    let different = compare::count_different(&bytes, &again.frame).map_err(|error| unreadable(&error))?;
     if different == 0 {
         return print(&format!("{name}: the same, all {all} pixels{why}"));
     }

@@ -22,10 +22,7 @@ pub(super) fn run(options: &SheetOptions, restored: Option<&Restored>) -> Result
         guard.protect(path);
     }
     let output = (options.output.as_path(), Named::ByUser);
-    // Asked before the work as well.
-    guard
-        .target(output.0, output.1)
-        .map_err(|error| unwritable(output.0, &error))?;
+    check(&request(options).map_err(Failure::Input)?, output, &guard)?;
     let sheet = on_threads(options.framing.threads, || draw(options, &options.output))??;
     let files = sheet.panels.first().map(|panel| &panel.scene.files);
     if let Some(change) = restored
@@ -37,13 +34,31 @@ pub(super) fn run(options: &SheetOptions, restored: Option<&Restored>) -> Result
     write(&sheet, output, &guard).map(|_| ())
 }
 
+/// Says before anything is drawn which file would not be replaced.
+pub(super) fn check(request: &SheetRequest, (output, named): (&Path, Named), guard: &Guard) -> Result<(), Failure> {
+    let beside = request.files_beside(output).into_iter();
+    for (path, named) in beside
+        .map(|path| (path, Named::ByProgram))
+        .chain([(output.to_owned(), named)])
+    {
+        guard.target(&path, named).map_err(|error| unwritable(&path, &error))?;
+    }
+    Ok(())
+}
+
 /// Draws every panel and puts them together; `output` is the file that the record names.
 pub(super) fn draw(options: &SheetOptions, output: &Path) -> Result<Sheet, Failure> {
     let request = request(options).map_err(Failure::Input)?;
     memory::ask_for(request.pixels())?;
     let scene = SceneSource::from_address(&options.scene);
-    let mut read = |dialect| read_scene(&scene, dialect).map(Arc::new);
-    request.draw(&mut read, output).map_err(Failure::Input)
+    // Its status says whether the scene is at fault.
+    let mut unread = None;
+    let mut read = |dialect| {
+        let scene = read_scene(&scene, dialect).map(Arc::new);
+        scene.map_err(|failure| unread.insert(failure).clone().into_line())
+    };
+    let drawn = request.draw(&mut read, output);
+    drawn.map_err(|line| unread.unwrap_or(Failure::Input(line)))
 }
 
 /// Writes all files of a sheet, or none; gives what documents say about the sheet, from the folder it lies in.

@@ -24,6 +24,6 @@ pub use cause::{Cause, CellCorner};
 pub use hypotheses::{Guess, guess};
 pub use levels::{Largest, Levels};
 pub use pair::{Pair, SizeMismatch};
-pub use picture::{decode_picture, encoded_size};
+pub use picture::{count_different, decode_picture, encoded_size};
 pub use places::Place;
 pub use show::{DifferencePaint, DifferenceStyle, Gain, Measure};

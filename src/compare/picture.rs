@@ -22,15 +22,38 @@ pub fn decode_picture(bytes: &[u8]) -> Result<Framebuffer, DecodeError> {
     let all = frame.pixels_mut();
     texture::decode_rows(bytes, |run, pixels| {
         let row = &mut all[run.y * width as usize..][..width as usize];
-        for (out, [r, g, b, a]) in row.iter_mut().skip(run.x).step_by(run.step).zip(pixels) {
-            *out = if *a == 0 {
-                0
-            } else {
-                u32::from_be_bytes([*a, *r, *g, *b])
-            };
+        for (out, pixel) in row.iter_mut().skip(run.x).step_by(run.step).zip(pixels) {
+            *out = seen(*pixel);
         }
     })?;
     Ok(frame)
+}
+
+/// How many pixels of an encoded PNG or JPEG differ from those of the frame; all do where the sizes differ. The picture is
+/// never in memory as a whole. What is wholly transparent has no colour, on either side.
+///
+/// # Errors
+/// As [`decode_picture`].
+pub fn count_different(bytes: &[u8], frame: &Framebuffer) -> Result<usize, DecodeError> {
+    let [width, height] = encoded_size(bytes)?;
+    let (columns, all) = (width as usize, width as usize * height as usize);
+    if [width, height] != [frame.width(), frame.height()] {
+        return Ok(all);
+    }
+    let mut different = 0;
+    texture::decode_rows(bytes, |run, pixels| {
+        let row = &frame.pixels()[run.y * columns..][..columns];
+        let pairs = row.iter().skip(run.x).step_by(run.step).zip(pixels);
+        let differs =
+            |(ours, theirs): &(&u32, &[u8; 4])| **ours != seen(**theirs) && (**ours >> 24 != 0 || theirs[3] != 0);
+        different += pairs.filter(differs).count();
+    })?;
+    Ok(different)
+}
+
+/// A decoded pixel as frames have it.
+fn seen([r, g, b, a]: [u8; 4]) -> u32 {
+    if a == 0 { 0 } else { u32::from_be_bytes([a, r, g, b]) }
 }
 
 const _: () = assert!(

@@ -7,6 +7,7 @@ use ::png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
 use super::output::{Guard, Named, NewFile, save_files};
 use super::record::{KEYWORD, Record};
+use crate::memory;
 use crate::raster::Framebuffer;
 
 /// A frame as the bytes of a PNG file: 8-bit RGB, or RGBA with straight alpha where a pixel is not opaque. `record` stands
@@ -22,7 +23,10 @@ pub fn encode_png(frame: &Framebuffer, record: Option<&Record>) -> io::Result<Ve
         (4, ColorType::Rgba)
     };
     let mut data = Vec::new();
-    data.try_reserve_exact(frame.pixels().len() * channels)?;
+    let length = frame.pixels().len() * channels;
+    data.try_reserve_exact(length)?;
+    // The encoder takes memory for its bytes, and for those that they grow from, and does not say where there is none.
+    memory::ask_for(2 * length as u64).map_err(|_| io::ErrorKind::OutOfMemory)?;
     for pixel in frame.pixels() {
         let [a, r, g, b] = pixel.to_be_bytes();
         data.extend_from_slice(&[r, g, b, a][..channels]);

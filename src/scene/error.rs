@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::report::quote;
 use super::{ResourceError, SourceLocation};
+use crate::memory::OutOfMemory;
 use crate::plain;
 
 /// A document that cannot be drawn. Displays as one line: `FILE:LINE:COLUMN: what is wrong; what to do`.
@@ -63,6 +64,20 @@ pub enum Problem {
         /// How much is allowed.
         limit: usize,
     },
+    /// The system has no room for the document or for its images.
+    #[error("{0}; close other programs, or give a smaller scene")]
+    Memory(#[from] OutOfMemory),
+}
+
+impl Problem {
+    /// Whether nothing is wrong with the document: the system gives too little memory to read it.
+    pub fn is_of_memory(&self) -> bool {
+        match self {
+            Self::Memory(_) => true,
+            Self::Unreadable(error) => error.is_of_memory(),
+            _ => false,
+        }
+    }
 }
 
 impl fmt::Display for SceneError {

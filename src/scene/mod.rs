@@ -30,6 +30,8 @@ use error::Fault;
 use svg::SvgReader;
 use textures::{Alpha, TextureTable};
 
+use crate::memory;
+
 pub use dialect::{DialectChoice, ReadOptions, is_of_course};
 pub use digest::{FileDigest, SceneFiles};
 pub use error::{Problem, SceneError};
@@ -43,6 +45,10 @@ const MAX_DOCUMENT_BYTES: u64 = 256 << 20;
 
 /// Largest document whose text is kept to be quoted, in bytes.
 const MAX_KEPT_DOCUMENT: usize = 32 << 20;
+
+/// About what a byte of a document takes as text, tree, shapes, and primitives that are drawn; and the most of that.
+const MEMORY_PER_BYTE: u64 = 32;
+const MAX_MEMORY: u64 = 1 << 30;
 
 /// Reads the scene in the file `path`; textures are looked for relative to its folder.
 ///
@@ -72,6 +78,8 @@ pub fn read(document: &[u8], name: &str, options: ReadOptions, resources: &dyn R
 }
 
 fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> Result<Scene, Fault> {
+    let memory = (bytes.len() as u64).saturating_mul(MEMORY_PER_BYTE).min(MAX_MEMORY);
+    memory::ask_for(memory).map_err(|error| Problem::from(error).nowhere())?;
     let text = document::decode(bytes)?;
     let source = Source::new(&text)?;
     let tree = source.parse()?;
@@ -95,6 +103,8 @@ fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> 
         let (width, height) = (canvas.x, canvas.y);
         return Err(Problem::Canvas { width, height }.at(builder.locate(root)));
     }
+    let room = builder.textures.ask_for_room();
+    room.map_err(|error| Problem::from(error).nowhere())?;
     let mut scene = builder.finish(dialect, canvas);
     scene.other_reading = other;
     scene.files.document = Some(FileDigest::of(bytes));

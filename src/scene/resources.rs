@@ -101,6 +101,11 @@ pub(super) fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, ResourceErro
 }
 
 impl ResourceError {
+    /// Whether nothing is wrong with the file: the system gives too little memory to read it.
+    pub fn is_of_memory(&self) -> bool {
+        matches!(self, Self::Io(error) if error.kind() == io::ErrorKind::OutOfMemory)
+    }
+
     fn from_io(error: io::Error) -> Self {
         match error.kind() {
             io::ErrorKind::NotFound => Self::NotFound,

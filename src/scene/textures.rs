@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::report::{quote, shorten};
 use super::{FileDigest, Report, ResourceError, Resources, SourceLocation, TextureId};
+use crate::memory::{self, OutOfMemory};
 use crate::texture::{DecodeError, Memory, Texture};
 
 /// Most bytes that all images of a scene may take together, encoded and as textures.
@@ -31,6 +32,8 @@ pub(super) struct TextureTable<'doc> {
     entries: Vec<Entry<'doc>>,
     bytes_left: u64,
     held_left: u64,
+    /// Whether a file could be read but for the memory.
+    starved: Result<(), OutOfMemory>,
 }
 
 /// Whether a texture's transparency counts.
@@ -70,6 +73,7 @@ impl<'doc> TextureTable<'doc> {
             entries: Vec::new(),
             bytes_left: MAX_BYTES,
             held_left: MAX_HELD,
+            starved: Ok(()),
         }
     }
 
@@ -106,6 +110,18 @@ impl<'doc> TextureTable<'doc> {
             Some((shorten(entry.address.trim(), MAX_ADDRESS), FileDigest::of(&file.bytes)))
         };
         files.filter_map(digest).collect()
+    }
+
+    /// Whether the system has room for everything that [`TextureTable::load`] decodes.
+    ///
+    /// # Errors
+    /// When it does not, or when a file could not be read for that reason.
+    pub(super) fn ask_for_room(&self) -> Result<(), OutOfMemory> {
+        let images = || self.entries.iter().filter_map(|entry| entry.file.as_ref().ok());
+        let held: u64 = images().map(|image| image.memory.held).sum();
+        let passing: u64 = images().map(|image| image.memory.passing).sum();
+        self.starved?;
+        memory::ask_for(held.saturating_add(passing.min(MAX_PASSING)))
     }
 
     /// Decodes everything. What fails becomes the checker of [`Texture::missing`] and a warning.
@@ -156,7 +172,12 @@ impl<'doc> TextureTable<'doc> {
         } else if address.is_empty() {
             return Err("nothing says which file it is".to_owned());
         } else {
-            linked(address, self.resources)?
+            linked(address, self.resources).map_err(|error| {
+                if error.is_of_memory() {
+                    self.starved = Err(OutOfMemory { megabytes: 1 });
+                }
+                error.to_string()
+            })?
         };
         let length = bytes.len() as u64;
         let fits = length <= self.bytes_left;
@@ -257,16 +278,16 @@ fn embedded(address: &str) -> Result<Vec<u8>, String> {
 }
 
 /// The bytes of a file, under the name as it stands or with its `%20`s and `file://` resolved.
-fn linked(address: &str, resources: &dyn Resources) -> Result<Vec<u8>, String> {
+fn linked(address: &str, resources: &dyn Resources) -> Result<Vec<u8>, ResourceError> {
     let as_written = resources.read(address);
     if let Err(ResourceError::NotFound) = as_written {
         let path = address.strip_prefix("file://").unwrap_or(address);
         let decoded = percent_decoded(path);
         if decoded != address {
-            return resources.read(&decoded).map_err(|error| error.to_string());
+            return resources.read(&decoded);
         }
     }
-    as_written.map_err(|error| error.to_string())
+    as_written
 }
 
 /// `%20` and the like as the bytes that they stand for; what is no such thing stays.

@@ -11,7 +11,7 @@ struct Room {
     crates: &'static [&'static str],
 }
 
-const BOTTOM: &[&str] = &["color", "geometry", "plain", "rules", "simd"];
+const BOTTOM: &[&str] = &["color", "geometry", "memory", "plain", "rules", "simd"];
 
 /// The table of permitted imports. Every room may name itself, `std` and crates that are not guarded.
 const ROOMS: &[Room] = &[
@@ -24,7 +24,7 @@ const ROOMS: &[Room] = &[
         name: "cli",
         rooms: &[
             "app", "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color",
-            "geometry", "rules", "simd", "plain",
+            "geometry", "rules", "simd", "plain", "memory",
         ],
         crates: &["clap", "serde", "serde_json", "toml", "indicatif", "ctrlc"],
     },
@@ -32,7 +32,7 @@ const ROOMS: &[Room] = &[
         name: "app",
         rooms: &[
             "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry",
-            "rules", "simd", "plain",
+            "rules", "simd", "plain", "memory",
         ],
         crates: &["winit", "softbuffer", "egui", "egui_winit", "fearless_simd"],
     },
@@ -40,14 +40,15 @@ const ROOMS: &[Room] = &[
         name: "viewer",
         rooms: &[
             "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules",
-            "simd", "plain",
+            "simd", "plain", "memory",
         ],
         crates: &["image", "jiff", "toml", "pulldown_cmark"],
     },
     Room {
         name: "figure",
         rooms: &[
-            "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain",
+            "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd",
+            "plain", "memory",
         ],
         crates: &[
             "image",
@@ -62,32 +63,32 @@ const ROOMS: &[Room] = &[
     Room {
         name: "compare",
         rooms: &[
-            "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain",
+            "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
         ],
         crates: &[],
     },
     Room {
         name: "inspect",
         rooms: &[
-            "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain",
+            "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
         ],
         crates: &["serde"],
     },
     Room {
         name: "render",
         rooms: &[
-            "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain",
+            "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
         ],
         crates: &[],
     },
     Room {
         name: "scene",
-        rooms: &["texture", "color", "geometry", "rules", "simd", "plain"],
+        rooms: &["texture", "color", "geometry", "rules", "simd", "plain", "memory"],
         crates: &["roxmltree", "svgtypes", "data_url", "sha2"],
     },
     Room {
         name: "raster",
-        rooms: &["texture", "color", "geometry", "rules", "simd", "plain"],
+        rooms: &["texture", "color", "geometry", "rules", "simd", "plain", "memory"],
         crates: &["fearless_simd"],
     },
     Room {
@@ -112,6 +113,11 @@ const ROOMS: &[Room] = &[
     },
     Room {
         name: "plain",
+        rooms: &[],
+        crates: &[],
+    },
+    Room {
+        name: "memory",
         rooms: &[],
         crates: &[],
     },
@@ -237,7 +243,7 @@ fn architecture_doors_open_downwards_only() {
 const BENCHES: Room = Room {
     name: "benches",
     rooms: &[
-        "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain",
+        "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
     ],
     crates: &["serde_json"],
 };

@@ -1,13 +1,14 @@
 //! The rules of first drafts: the pinholes that they leave are there to be seen, and told truly.
 
 use rasterscope::geometry::View;
-use rasterscope::inspect::{Explanation, Question, Setting, Verdict};
+use rasterscope::inspect::{Setting, Verdict};
 use rasterscope::raster::Framebuffer;
-use rasterscope::render::{RenderSettings, Subject};
+use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, ReadOptions, Scene};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 
+use crate::support::explaining::{advised, explained};
 use crate::support::scenes::{at_rate, drawn};
 
 fn own(name: &str) -> Scene {
@@ -24,22 +25,6 @@ fn picture(scene: &Scene, size: [u32; 2], settings: &RenderSettings) -> Framebuf
 
 fn by(rules: Rules) -> RenderSettings {
     RenderSettings { rules, ..at_rate(1) }
-}
-
-fn explained(scene: &Scene, size: [u32; 2], settings: &RenderSettings, pixel: [u32; 2]) -> Explanation {
-    let view = View::Default.transform(scene.canvas, size);
-    let subject = Subject {
-        scene,
-        view: &view,
-        settings,
-    };
-    let question = Question {
-        subject,
-        file: "scene.svg",
-        size,
-        pixel,
-    };
-    Explanation::new(&question).unwrap()
 }
 
 /// The pixels that two pictures show differently.
@@ -59,7 +44,7 @@ fn float_rules_show_pinholes_in_the_windows_first_size_and_the_standard_rules_cl
     assert!(holes.len() > 300, "{} pixels differ", holes.len());
     let mut told = 0;
     for pixel in holes.iter().step_by(7) {
-        let found = explained(&scene, size, &by(Rules::Float), *pixel);
+        let found = explained(&scene, &by(Rules::Float), size, *pixel);
         if let [hole] = &found.pinholes[..] {
             told += 1;
             let open = |verdict| matches!(verdict, Verdict::TieUndecided | Verdict::Outside);
@@ -67,7 +52,7 @@ fn float_rules_show_pinholes_in_the_windows_first_size_and_the_standard_rules_cl
             assert!(found.hints()[0].contains("a pinhole"), "{:?}", found.hints());
             assert!(found.hints()[0].contains("standard rules"), "{:?}", found.hints());
         }
-        let cured = explained(&scene, size, &by(Rules::Standard), *pixel);
+        let cured = explained(&scene, &by(Rules::Standard), size, *pixel);
         assert!(cured.pinholes.is_empty() && !cured.hints().concat().contains("pinhole"));
     }
     // Where 32 bits give a sample to a neighbour, nothing is open.
@@ -80,24 +65,10 @@ fn float_rules_are_measured_against_a_truth_without_pinholes() {
     let scene = own("basic/test4.svg");
     let mut checked = 0;
     for size in [[1280, 800], [1366, 768]] {
-        let [float, standard] = [Rules::Float, Rules::Standard].map(|rules| picture(&scene, size, &by(rules)));
+        let view = View::Canvas.transform(scene.canvas, size);
+        let [float, standard] = [Rules::Float, Rules::Standard].map(|rules| drawn(&scene, &view, &by(rules), size));
         for pixel in different(&float, &standard).iter().step_by(17) {
-            let view = View::Default.transform(scene.canvas, size);
-            let advised = |rules| {
-                let subject = Subject {
-                    scene: &scene,
-                    view: &view,
-                    settings: &by(rules),
-                };
-                let question = Question {
-                    subject,
-                    file: "scene.svg",
-                    size,
-                    pixel: *pixel,
-                };
-                Explanation::advised(&question).unwrap()
-            };
-            let [found, cured] = [advised(Rules::Float), advised(Rules::Standard)];
+            let [found, cured] = [Rules::Float, Rules::Standard].map(|rules| advised(&scene, &by(rules), size, *pixel));
             let [truth, own] = [found.truth.unwrap(), cured.truth.unwrap()];
             assert_eq!(truth.color, own.color, "one truth at {pixel:?}");
             let first = truth.cures.first();
@@ -128,7 +99,7 @@ fn float_rules_leave_the_lines_of_the_colour_wheel_to_nobody() {
         assert!(white(&float, 400, at) && white(&float, at, 400), "a hole at {at}");
         assert!(!white(&standard, 400, at) && !white(&standard, at, 400), "none at {at}");
     }
-    let found = explained(&scene, size, &by(Rules::Float), [400, 380]);
+    let found = explained(&scene, &by(Rules::Float), size, [400, 380]);
     let [hole] = &found.pinholes[..] else {
         panic!("one sample, one hole: {found:?}");
     };

@@ -5,23 +5,16 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use crate::support::folder::names;
+use crate::support::program::run_after;
 use crate::support::refusal::assert_refused;
 
 /// Runs the program where no file may grow beyond `blocks` of 512 bytes.
 fn run_with_room(blocks: u32, folder: &Path, arguments: &[&str]) -> Output {
     // The signal that comes with the error would end the program.
-    let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
-    let mut command = Command::new("sh");
-    command
-        .args(["-c", &script, "sh", env!("CARGO_BIN_EXE_rasterscope")])
-        .args(arguments)
-        .current_dir(folder)
-        .env_remove("DISPLAY")
-        .env_remove("WAYLAND_DISPLAY");
-    command.output().expect("a shell")
+    run_after(&format!("trap '' XFSZ; ulimit -f {blocks}"), folder, arguments)
 }
 
 #[test]

@@ -16,6 +16,8 @@ use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 use rayon::prelude::*;
 
+use crate::support::explaining::advised;
+
 /// What pictures are drawn with.
 fn settings() -> [RenderSettings; 10] {
     let rate = |samples| SampleRate::new(samples).unwrap();
@@ -362,23 +364,6 @@ fn check_colors(paint: &Paint, rules: Rules) {
     }
 }
 
-/// Why one pixel of a picture of `size` pixels has its colour.
-pub(crate) fn explain(scene: &Scene, settings: &RenderSettings, size: [u32; 2], pixel: [u32; 2]) -> Explanation {
-    let view = SceneView::Canvas.transform(scene.canvas, size);
-    let subject = Subject {
-        scene,
-        view: &view,
-        settings,
-    };
-    let question = Question {
-        subject,
-        file: "scene.svg",
-        size,
-        pixel,
-    };
-    Explanation::advised(&question).unwrap()
-}
-
 #[test]
 fn hints_name_a_cure_and_vanish_with_it() {
     let document = r##"<svg width="8" height="8"><polygon points="1.1,0 1.3,0 1.2,8" fill="#FF0000"/></svg>"##;
@@ -387,7 +372,7 @@ fn hints_name_a_cure_and_vanish_with_it() {
         sample_rate: SampleRate::new(samples).unwrap(),
         ..RenderSettings::default()
     };
-    let missed = explain(&thin, &at(1), [8, 8], [1, 2]);
+    let missed = advised(&thin, &at(1), [8, 8], [1, 2]);
     assert_eq!(missed.missed.len(), 1, "it passes beside the centre");
     assert!(
         (missed.missed[0].area - 0.1375).abs() < 1e-5,
@@ -395,7 +380,7 @@ fn hints_name_a_cure_and_vanish_with_it() {
         missed.missed
     );
     assert!(missed.hints().concat().contains("breaks up"), "{:?}", missed.hints());
-    let found = explain(&thin, &at(64), [8, 8], [1, 2]);
+    let found = advised(&thin, &at(64), [8, 8], [1, 2]);
     assert!(
         found.missed.is_empty() && found.hints().is_empty(),
         "more samples find it: {:?}",
@@ -420,7 +405,7 @@ fn hints_name_a_cure_and_vanish_with_it() {
             anisotropy: Anisotropy::new(taps).unwrap(),
             ..RenderSettings::default()
         };
-        explain(&floor, &settings, [1000, 640], pixel).hints().concat()
+        advised(&floor, &settings, [1000, 640], pixel).hints().concat()
     };
     // Nearer to the horizon averages blur so much that a single sample is as good.
     let shimmering = hints(LevelSampling::Zero, 1, [400, 330]);
@@ -483,7 +468,7 @@ fn deep_stacks_of_one_line_stay_small() {
         sample_rate: SampleRate::new(4).unwrap(),
         ..RenderSettings::default()
     };
-    let found = explain(&scene, &settings, [8, 8], [4, 4]);
+    let found = advised(&scene, &settings, [8, 8], [4, 4]);
     assert_eq!(found.paints.len() + found.unlisted, 20_000, "all are counted");
     assert!(found.paints.len() <= 400, "{} are listed", found.paints.len());
     for sample in &found.samples {
@@ -525,7 +510,7 @@ fn deep_stacks_keep_what_is_seen_at_the_bottom() {
         ..RenderSettings::default()
     };
     // Left and right half of the pixel differ.
-    let found = explain(&scene, &settings, [1, 1], [0, 0]);
+    let found = advised(&scene, &settings, [1, 1], [0, 0]);
     let right = found.samples.last().unwrap();
     let seen = right.seen.unwrap();
     assert_eq!(

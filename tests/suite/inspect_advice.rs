@@ -12,7 +12,7 @@ use rasterscope::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, L
 use rasterscope::viewer::gallery::{SCENES, Textures};
 use rayon::prelude::*;
 
-use crate::inspect::explain;
+use crate::support::explaining::advised;
 
 /// Pixels of each scene with each setting.
 const PIXELS: u64 = 1;
@@ -295,7 +295,7 @@ fn holds_disc(scene: &Scene, view: &ViewTransform, (primitive, pixel, diameter):
 fn advice_is_silent_about_neighbours_that_share_an_edge() {
     // The red one covers 45 % of the pixel and not its centre; the blue one has the rest.
     let mesh = r##"<svg width="8" height="8"><polygon points="0,0 4.45,0 4.45,8 0,8" fill="#FF0000"/><polygon points="4.45,0 8,0 8,8 4.45,8" fill="#0000FF"/></svg>"##;
-    let found = explain(&read("mesh.svg", mesh), &RenderSettings::default(), [8, 8], [4, 4]);
+    let found = advised(&read("mesh.svg", mesh), &RenderSettings::default(), [8, 8], [4, 4]);
     assert_eq!(found.missed.len(), 1, "one is met by no sample");
     let told = found.hints().join("\n");
     assert!(!told.contains("thin") && !told.contains("breaks up"), "{told}");
@@ -320,7 +320,7 @@ fn advice_knows_no_gap_that_a_third_one_covers() {
             sample_rate: rate(9),
             ..RenderSettings::default()
         };
-        let told = explain(&read("gap.svg", &document), &settings, [12, 12], [4, 2])
+        let told = advised(&read("gap.svg", &document), &settings, [12, 12], [4, 2])
             .hints()
             .concat();
         assert_eq!(told.contains("leaves a gap"), is_gap, "{why}: {told}");
@@ -330,7 +330,7 @@ fn advice_knows_no_gap_that_a_third_one_covers() {
 #[test]
 fn advice_says_that_a_pixel_is_right() {
     let whole = r##"<svg width="8" height="8"><polygon points="0,0 8,0 8,8 0,8" fill="#FF0000"/></svg>"##;
-    let found = explain(&read("whole.svg", whole), &RenderSettings::default(), [8, 8], [4, 4]);
+    let found = advised(&read("whole.svg", whole), &RenderSettings::default(), [8, 8], [4, 4]);
     assert!(found.hints().is_empty(), "{:?}", found.hints());
     let told = found.text(rasterscope::inspect::Detail::Telling);
     assert!(told.contains("This pixel is what it should be"), "{told}");
@@ -349,7 +349,7 @@ fn texels_are_decided_by_the_point_that_is_shown() {
             ..RenderSettings::default()
         };
         for pixel in (0..40).map(|i| [i * 2, i / 2]) {
-            let found = explain(&scene, &settings, SIZE, pixel);
+            let found = advised(&scene, &settings, SIZE, pixel);
             for paint in (0..found.paints.len()).filter(|paint| found.paints[*paint].texture.is_some()) {
                 let lines = found.fragment_lines(paint, 0).join("\n");
                 let numbers = |start: &str| -> Vec<f64> {

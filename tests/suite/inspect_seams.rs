@@ -9,7 +9,7 @@ use rasterscope::scene::{self, DialectChoice, ReadOptions};
 use rasterscope::texture::{LevelSampling, PixelSampling};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 
-use crate::inspect::explain;
+use crate::support::explaining::advised;
 
 const TWICE: &str = "a line belongs to both";
 const GAP: &str = "leaves a gap of";
@@ -25,7 +25,7 @@ fn hints(body: &str, settings: &RenderSettings, size: [u32; 2], pixel: [u32; 2])
         dialect: DialectChoice::Auto,
     };
     let scene = scene::read(document.as_bytes(), "scene.svg", options, &Textures).unwrap();
-    explain(&scene, settings, size, pixel).hints().join("\n")
+    advised(&scene, settings, size, pixel).hints().join("\n")
 }
 
 fn settings(rules: Rules, samples: u32) -> RenderSettings {

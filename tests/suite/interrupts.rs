@@ -4,10 +4,11 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::support::folder::names;
+use crate::support::program::{command, done, interrupt};
 
 /// A scene that takes minutes to draw at 256 samples, and to explain.
 fn slow_scene(folder: &Path) {
@@ -21,15 +22,10 @@ fn slow_scene(folder: &Path) {
     fs::write(folder.join("slow.svg"), text).unwrap();
 }
 
-fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterscope"));
-    command
-        .args(arguments)
-        .current_dir(folder)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
-    command
+/// The program at work, and what it prints.
+fn started(folder: &Path, arguments: &[&str]) -> Child {
+    let mut command = command(folder, arguments);
+    command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
 #[test]
@@ -47,11 +43,9 @@ fn interrupts_stop_every_command_between_files() {
     ];
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    let status = |arguments: &[&str]| command(folder.path(), arguments).status().unwrap();
     fs::write(at("quick.svg"), "<svg width='9' height='9'/>").unwrap();
     for name in ["other.png", "shot.png"] {
-        let drawn = status(&["render", "quick.svg", "-o", name, slow]);
-        assert!(drawn.success(), "{name}");
+        done(folder.path(), &["render", "quick.svg", "-o", name, slow]);
     }
     slow_scene(folder.path());
     fs::create_dir_all(at("basic")).unwrap();
@@ -62,14 +56,10 @@ fn interrupts_stop_every_command_between_files() {
     )
     .unwrap();
     for arguments in commands {
-        let running = command(folder.path(), arguments).spawn().unwrap();
+        let running = started(folder.path(), arguments);
         std::thread::sleep(Duration::from_millis(1500));
         let start = Instant::now();
-        let kill = Command::new("kill")
-            .args(["-INT", &running.id().to_string()])
-            .status()
-            .unwrap();
-        assert!(kill.success(), "a signal");
+        interrupt(&running);
         let output = running.wait_with_output().unwrap();
         let stderr = String::from_utf8_lossy(&output.stderr);
         // A single pixel may be explained by then.
@@ -111,7 +101,7 @@ fn bars_are_for_terminals_and_long_work_only() {
     let short = on_terminal("render quick.svg -o out.png");
     assert_eq!(short, "", "nothing to wait for");
     let arguments = ["render", "slow.svg", "-o", "out2.png", "--sample-rate=256"];
-    let mut running = command(folder.path(), &arguments).spawn().unwrap();
+    let mut running = started(folder.path(), &arguments);
     std::thread::sleep(Duration::from_millis(3500));
     running.kill().unwrap();
     let output = running.wait_with_output().unwrap();

@@ -2,29 +2,12 @@
 
 #![cfg(target_os = "linux")]
 
-#[cfg(feature = "window")]
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use crate::support::folder::names;
-
-/// Runs the program after a line of shell.
-fn run_after(limit: &str, folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new("sh");
-    command
-        .args([
-            "-c",
-            &format!("{limit}; exec timeout 60 \"$@\""),
-            "sh",
-            env!("CARGO_BIN_EXE_rasterscope"),
-        ])
-        .args(arguments)
-        .current_dir(folder)
-        .env_remove("DISPLAY")
-        .env_remove("WAYLAND_DISPLAY");
-    command.output().unwrap()
-}
+use crate::support::program::{done, run_after};
 
 /// One line, this exit status, nothing left.
 fn assert_told(output: &Output, status: i32, words: &[&str], folder: &Path) {
@@ -34,7 +17,8 @@ fn assert_told(output: &Output, status: i32, words: &[&str], folder: &Path) {
     for word in words {
         assert!(stderr.contains(word), "{word}: {stderr}");
     }
-    assert_eq!(names(folder), [""; 0], "nothing left");
+    let left = names(folder).into_iter().filter(|name| name != "in");
+    assert_eq!(left.collect::<Vec<_>>(), [""; 0], "nothing left");
 }
 
 #[test]
@@ -59,6 +43,61 @@ fn limits_of_memory_are_told() {
         let folder = tempfile::tempdir().unwrap();
         let output = run_after("ulimit -v 900000", folder.path(), arguments);
         assert_told(&output, 1, &["memory", "--size"], folder.path());
+    }
+}
+
+/// A folder with `in`: a scene of many shapes, one with a large texture, and two large pictures.
+fn folder_of_large_inputs() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let inner = folder.path().join("in");
+    fs::create_dir(&inner).unwrap();
+    let shape = |i: u32| format!("<rect x='{}' y='{}' width='1' height='1'/>", i % 800, i / 800);
+    let shapes: String = (0..60_000).map(shape).collect();
+    fs::write(
+        inner.join("many.svg"),
+        format!("<svg width='800' height='800'>{shapes}</svg>"),
+    )
+    .unwrap();
+    let textured = "<svg width='40' height='30'><image href='a.png' width='40' height='30'/></svg>";
+    fs::write(inner.join("textured.svg"), textured).unwrap();
+    let lesson = "title = 'x'\n[[step]]\ntitle = 'y'\nscene = 'textured.svg'\ntext = 'z'\n";
+    fs::write(inner.join("lesson.toml"), lesson).unwrap();
+    for (name, scene) in [
+        ("a.png", "gallery:basic/test3.svg"),
+        ("b.png", "gallery:basic/test4.svg"),
+    ] {
+        done(&inner, &["render", scene, "-o", name, "--size=4000x4000"]);
+    }
+    folder
+}
+
+#[test]
+fn limits_of_memory_for_what_is_read_are_told() {
+    let folder = folder_of_large_inputs();
+    let small = "--size=40x30";
+    let one = "--threads=1";
+    let commands: [&[&str]; 8] = [
+        &["render", "in/many.svg", "-o", "a.png", small, one],
+        &["render", "in/textured.svg", "-o", "a.png", small, one],
+        &["inspect", "in/textured.svg", "--pixel=1,1", "--json", small, one],
+        &[
+            "sheet",
+            "in/textured.svg",
+            "-o",
+            "a.png",
+            "--sample-rate=1,4",
+            "--size=90x90",
+            one,
+        ],
+        &["sweep", "in/textured.svg", "--csv", "a.csv", small, one],
+        &["diff", "in/a.png", "in/b.png", one],
+        &["diff", "in/a.png", "in/b.png", "-o", "a.png", one],
+        &["lesson", "in/lesson.toml", "--slides", "out", "--size=480x270"],
+    ];
+    for arguments in commands {
+        // More than the program takes for itself, and less than the input does.
+        let output = run_after("ulimit -v 110000", folder.path(), arguments);
+        assert_told(&output, 1, &["out of memory"], folder.path());
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use rasterscope::figure::{encode_png, save_png};
 use rasterscope::raster::Framebuffer;
@@ -12,6 +13,8 @@ use crate::support::refusal::assert_refused;
 
 const SCENE: &str = r#"<svg width="40" height="30"><texture texid="t" filename="tex%74ure.png"/>
 <textri texid="t" uvs="0 0 1 0 1 1" points="2,3 37,9 11,28"/></svg>"#;
+
+const SMALL: &str = "--size=40x30";
 
 fn picture(color: u32) -> Framebuffer {
     let mut frame = Framebuffer::new(4, 4);
@@ -30,9 +33,15 @@ fn folder() -> tempfile::TempDir {
 
 /// Runs the program, which must refuse and leave every file as it was.
 fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
+    refused_in(folder, ".", arguments, words);
+}
+
+/// As [`refused`], where the files lie in a folder inside.
+fn refused_in(folder: &Path, inner: &str, arguments: &[&str], words: &[&str]) {
+    let inner = folder.join(inner);
     let all = || -> Vec<_> {
-        let names = names(folder).into_iter();
-        names.map(|name| (fs::read(folder.join(&name)).ok(), name)).collect()
+        let names = names(&inner).into_iter();
+        names.map(|name| (fs::read(inner.join(&name)).ok(), name)).collect()
     };
     let before = all();
     assert_refused(&run(folder, arguments), arguments, words);
@@ -43,8 +52,7 @@ fn refused(folder: &Path, arguments: &[&str], words: &[&str]) {
 fn outputs_never_replace_an_input() {
     let folder = folder();
     let folder = folder.path();
-    let small = "--size=40x30";
-    refused(folder, &["sweep", "s.svg", "--csv", "s.svg", small], &["s.svg", "read"]);
+    refused(folder, &["sweep", "s.svg", "--csv", "s.svg", SMALL], &["s.svg", "read"]);
     refused(
         folder,
         &[
@@ -54,24 +62,24 @@ fn outputs_never_replace_an_input() {
             "t.csv",
             "--plot",
             "texture.png",
-            small,
+            SMALL,
             "--frames=1",
         ],
         &["texture.png", "read"],
     );
     refused(
         folder,
-        &["render", "s.svg", "-o", "texture.png", small],
+        &["render", "s.svg", "-o", "texture.png", SMALL],
         &["texture.png", "read"],
     );
     refused(
         folder,
-        &["render", "s.svg", "-o", "./texture.png", small, "--force"],
+        &["render", "s.svg", "-o", "./texture.png", SMALL, "--force"],
         &["texture.png", "read"],
     );
     refused(
         folder,
-        &["sheet", "s.svg", "-o", "texture.png", small],
+        &["sheet", "s.svg", "-o", "texture.png", SMALL],
         &["texture.png", "read"],
     );
     refused(
@@ -84,7 +92,7 @@ fn outputs_never_replace_an_input() {
         &["diff", "texture.png", "other.png", "-o", "other.png"],
         &["other.png", "read"],
     );
-    done(folder, &["render", "s.svg", "-o", "own.png", small]);
+    done(folder, &["render", "s.svg", "-o", "own.png", SMALL]);
     refused(
         folder,
         &["render", "own.png", "-o", "own.png", "--sample-rate=4"],
@@ -95,7 +103,7 @@ fn outputs_never_replace_an_input() {
         let shot = ["s.svg", "--headless", "--do", "wait; shot texture.png"];
         refused(folder, &shot, &["texture.png", "read"]);
     }
-    done(folder, &["render", "s.svg", "-o", "own.png", small]);
+    done(folder, &["render", "s.svg", "-o", "own.png", SMALL]);
 }
 
 #[test]
@@ -103,9 +111,8 @@ fn outputs_replace_their_own_making_only() {
     let folder = folder();
     let folder = folder.path();
     let at = |name: &str| folder.join(name);
-    let small = "--size=40x30";
     // A name that the user gave: any picture.
-    done(folder, &["render", "s.svg", "-o", "other.png", small]);
+    done(folder, &["render", "s.svg", "-o", "other.png", SMALL]);
     // Names that the program chose.
     let sheet = [
         "sheet",
@@ -147,46 +154,115 @@ fn outputs_of_folders_and_tables_replace_their_own_making_only() {
     let folder = folder();
     let folder = folder.path();
     let at = |name: &str| folder.join(name);
-    let small = "--size=40x30";
     let foreign = encode_png(&picture(0xff00_0000), None).unwrap();
     fs::create_dir(at("in")).unwrap();
     fs::rename(at("s.svg"), at("in/a.svg")).unwrap();
     fs::write(at("in/a.png"), &foreign).unwrap();
-    let output = run(folder, &["render", "in", "-o", "in", small]);
+    let output = run(folder, &["render", "in", "-o", "in", SMALL]);
     assert_eq!(output.status.code(), Some(2), "{output:?}");
     assert_eq!(fs::read(at("in/a.png")).unwrap(), foreign, "kept");
     fs::write(at("points.csv"), "name,points\nme,9\n").unwrap();
-    let sweep = [
-        "sweep",
-        "gallery:basic/test4.svg",
-        "--csv",
-        "points.csv",
-        small,
-        "--frames=1",
+    let sweep = |table| ["sweep", "gallery:basic/test4.svg", "--csv", table, SMALL, "--frames=1"];
+    refused(folder, &sweep("points.csv"), &["points.csv", "--force"]);
+    done(folder, &sweep("own.csv"));
+    done(folder, &sweep("own.csv"));
+}
+
+/// A lesson of which `slides/01.png` is the texture of the second step's scene.
+fn lesson(folder: &Path) {
+    fs::create_dir(folder.join("slides")).unwrap();
+    fs::write(folder.join("s.svg"), SCENE.replace("tex%74ure.png", "slides/01.png")).unwrap();
+    // A picture of ours, as slides are.
+    done(
+        folder,
+        &["render", "gallery:basic/test3.svg", "-o", "slides/01.png", SMALL],
+    );
+    let steps = "title = 'x'\n[[step]]\ntitle = 'y'\nscene = 'gallery:basic/test4.svg'\ntext = 'z'\n\
+                 [[step]]\ntitle = 'y'\nscene = 's.svg'\ntext = 'z'\n";
+    fs::write(folder.join("lesson.toml"), steps).unwrap();
+}
+
+#[test]
+fn outputs_of_a_lesson_never_replace_what_its_steps_show() {
+    let folder = folder();
+    let folder = folder.path();
+    lesson(folder);
+    let slides = ["lesson", "lesson.toml", "--slides", "slides", "--size=480x270"];
+    refused_in(folder, "slides", &slides, &["01.png", "read"]);
+    refused_in(
+        folder,
+        "slides",
+        &[&slides[..], &["--force"]].concat(),
+        &["01.png", "read"],
+    );
+    // A step whose slide is another file, and another folder: nothing is in their way.
+    done(folder, &[&slides[..], &["--step=2"]].concat());
+    done(
+        folder,
+        &["lesson", "lesson.toml", "--slides", "other", "--size=480x270"],
+    );
+    refused_in(
+        folder,
+        "slides",
+        &["rerun", "other/02.png", "-o", "slides/01.png"],
+        &["01.png", "read"],
+    );
+}
+
+#[test]
+fn outputs_drawn_again_never_replace_an_input() {
+    let folder = folder();
+    let folder = folder.path();
+    let axes = "--sample-rate=1,4";
+    done(folder, &["sheet", "s.svg", "-o", "sheet.png", axes, "--size=120x90"]);
+    done(folder, &["render", "s.svg", "-o", "own.png", SMALL]);
+    let compared = ["diff", "s.svg", "own.png", "--sample-rate=4", "-o"];
+    let difference = run(folder, &[&compared[..], &["difference.png"]].concat());
+    assert_eq!(difference.status.code(), Some(1), "other samples: {difference:?}");
+    refused(
+        folder,
+        &[&compared[..], &["texture.png"]].concat(),
+        &["texture.png", "read"],
+    );
+    for shot in ["sheet.png", "difference.png"] {
+        refused(folder, &["rerun", shot, "-o", "texture.png"], &["texture.png", "read"]);
+    }
+}
+
+#[test]
+fn outputs_of_a_sheet_are_looked_at_before_it_is_drawn() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::create_dir(folder.join("sheet")).unwrap();
+    // Minutes of work, and none of it is done.
+    let slow: String = (0..20_000)
+        .map(|_| "<rect width='9000' height='9000' fill='red' fill-opacity='0.1'/>")
+        .collect();
+    fs::write(
+        folder.join("slow.svg"),
+        format!("<svg width='9000' height='9000'>{slow}</svg>"),
+    )
+    .unwrap();
+    let sheet = [
+        "sheet",
+        "slow.svg",
+        "-o",
+        "sheet.png",
+        "--sample-rate=64,256",
+        "--size=900x900",
     ];
-    refused(folder, &sweep, &["points.csv", "--force"]);
-    done(
-        folder,
-        &[
-            "sweep",
-            "gallery:basic/test4.svg",
-            "--csv",
-            "own.csv",
-            small,
-            "--frames=1",
-        ],
-    );
-    done(
-        folder,
-        &[
-            "sweep",
-            "gallery:basic/test4.svg",
-            "--csv",
-            "own.csv",
-            small,
-            "--frames=1",
-        ],
-    );
+    for name in ["figures.md", "figures.tex", "figures.html", "01_sample-rate-64.png"] {
+        let path = folder.join("sheet").join(name);
+        fs::write(&path, "my notes").unwrap();
+        let start = Instant::now();
+        refused_in(folder, "sheet", &sheet, &[name, "--force"]);
+        assert!(
+            start.elapsed() < Duration::from_secs(5),
+            "{name}: {:?}",
+            start.elapsed()
+        );
+        fs::remove_file(path).unwrap();
+    }
 }
 
 #[test]
@@ -219,18 +295,17 @@ fn outputs_follow_links_or_refuse_them() {
     symlink("none.png", at("dangling.png")).unwrap();
     symlink("texture.png", at("link.png")).unwrap();
     symlink("other.png", at("good.png")).unwrap();
-    let small = "--size=40x30";
     refused(
         folder.path(),
-        &["render", "s.svg", "-o", "dangling.png", small],
+        &["render", "s.svg", "-o", "dangling.png", SMALL],
         &["dangling.png", "leads nowhere"],
     );
     refused(
         folder.path(),
-        &["render", "s.svg", "-o", "link.png", small],
+        &["render", "s.svg", "-o", "link.png", SMALL],
         &["link.png", "read"],
     );
-    done(folder.path(), &["render", "s.svg", "-o", "good.png", small]);
+    done(folder.path(), &["render", "s.svg", "-o", "good.png", SMALL]);
     assert!(at("good.png").is_symlink(), "the link stays");
     assert_eq!(
         image::image_dimensions(at("other.png")).unwrap(),

@@ -12,14 +12,16 @@ use rasterscope::raster::{Framebuffer, SampleRate};
 use rasterscope::render::{CancelToken, RenderSettings, draw};
 use rasterscope::scene::{DialectChoice, load};
 
+use crate::support::folder::names;
+use crate::support::program::command;
+#[cfg(unix)]
+use crate::support::program::interrupt;
 use crate::support::refusal::assert_refused;
 
 const SCENE: &str = r##"<svg width="40" height="30"><polygon points="2,3 37,9 11,28" fill="#123456"/></svg>"##;
 
 fn sweep(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_rasterscope"));
-    command.current_dir(folder).arg("sweep").args(arguments);
-    command
+    command(folder, &[&["sweep"], arguments].concat())
 }
 
 fn folder() -> tempfile::TempDir {
@@ -122,11 +124,11 @@ fn sweep_measures_every_combination_against_the_truth() {
     );
     let chart = image::open(folder.path().join("t.png")).unwrap().into_rgb8();
     assert_eq!(chart.dimensions(), (1500, 1000), "the chart");
-    let names: Vec<String> = fs::read_dir(folder.path())
-        .unwrap()
-        .map(|file| file.unwrap().file_name().into_string().unwrap())
-        .collect();
-    assert_eq!(names.len(), 3, "nothing else is left: {names:?}");
+    assert_eq!(
+        names(folder.path()),
+        ["a.svg", "t.csv", "t.png"],
+        "nothing else is left"
+    );
 }
 
 #[cfg(target_os = "linux")]
@@ -210,11 +212,7 @@ fn sweep_leaves_what_is_measured_when_interrupted() {
     // Long enough for some of nine hundred combinations, and far from long enough for all of them.
     std::thread::sleep(Duration::from_millis(1500));
     let start = Instant::now();
-    let kill = Command::new("kill")
-        .args(["-INT", &running.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(kill.success(), "a signal");
+    interrupt(&running);
     let status = running.wait().unwrap();
     assert_eq!(status.code(), Some(1), "not finished");
     assert!(start.elapsed() < Duration::from_secs(20), "at once");

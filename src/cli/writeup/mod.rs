@@ -138,8 +138,10 @@ fn one(item: &Item, (output, guard): (&Path, &Guard), scenes: &Scenes<'_>, pins:
     }
     match parsed(&words, &scene)? {
         Verb::Sheet(options) => {
+            let named = (output, Named::ByProgram);
+            sheet::check(&sheet::request(&options).map_err(Failure::Input)?, named, guard)?;
             let sheet = sheet::draw(&options, output)?;
-            let figure = sheet::write(&sheet, (output, Named::ByProgram), guard)?;
+            let figure = sheet::write(&sheet, named, guard)?;
             let times = if item.timed { times(&sheet) } else { String::new() };
             Ok(Figure {
                 caption: format!("{}{times}", figure.caption),
@@ -172,7 +174,9 @@ fn render(spec: PictureSpec, (output, guard): (&Path, &Guard)) -> Result<Figure,
     picture.draw_figure()?;
     let record = picture.record(output);
     let named = (output, Named::ByProgram);
-    save_picture(picture.frame(), Some(&record), named, guard).map_err(|error| unwritable(output, &error))?;
+    let mut guard = guard.clone();
+    picture.protect(&mut guard);
+    save_picture(picture.frame(), Some(&record), named, &guard).map_err(|error| unwritable(output, &error))?;
     Ok(Figure {
         file: output.file_name().unwrap_or_default().to_string_lossy().into_owned(),
         alternative: format!("The scene {caption}"),

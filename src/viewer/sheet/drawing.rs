@@ -97,6 +97,12 @@ impl SheetRequest {
         self.panels.first().map(|(_, spec)| spec)
     }
 
+    /// What tells each panel apart.
+    pub(super) fn words(&self) -> impl Iterator<Item = String> {
+        let panels = self.panels.iter();
+        panels.map(|(choice, _)| difference(self.axes.axes(), choice))
+    }
+
     /// About how many pixels all panels and the whole of them have.
     pub fn pixels(&self) -> u64 {
         let of_panel = |(_, spec): &(Choice, PictureSpec)| u64::from(spec.size[0]) * u64::from(spec.size[1]);

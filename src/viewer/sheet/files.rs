@@ -1,11 +1,25 @@
 //! The files of a sheet: the whole, its panels in a folder beside it, and what documents say about them.
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::captions::title;
-use super::{Panel, Sheet};
+use super::{Panel, Sheet, SheetRequest};
 use crate::figure::{Figure, Guard, Named, NewFile, Unwritable, encode_png, html, latex, markdown, save_files};
+
+/// What documents say about the sheet: for Markdown, HTML and LaTeX.
+const SNIPPETS: [&str; 3] = ["figures.md", "figures.html", "figures.tex"];
+
+impl SheetRequest {
+    /// The files beside the sheet `output`, whose names the program chooses.
+    pub fn files_beside(&self, output: &Path) -> Vec<PathBuf> {
+        let panels = self.words().enumerate();
+        let panels = panels.map(|(number, words)| panel_name(number, &words));
+        let names = panels.chain(SNIPPETS.map(str::to_owned));
+        let folder = output.with_extension("");
+        names.map(|name| folder.join(name)).collect()
+    }
+}
 
 impl Sheet {
     /// Writes all files of the sheet, or none, where `guard` has nothing against it; gives what documents say about the sheet,
@@ -97,12 +111,9 @@ fn make_folder(folder: &Path) -> io::Result<bool> {
 
 /// The figures in the words of documents.
 fn snippets(folder: &Path, title: &str, figures: &[Figure]) -> [NewFile; 3] {
-    [
-        ("figures.md", markdown(figures)),
-        ("figures.html", html(title, figures)),
-        ("figures.tex", latex(figures)),
-    ]
-    .map(|(name, text)| NewFile::by_program(folder.join(name), text.into_bytes()))
+    let texts = [markdown(figures), html(title, figures), latex(figures)];
+    let mut names = SNIPPETS.into_iter();
+    texts.map(|text| NewFile::by_program(folder.join(names.next().unwrap_or_default()), text.into_bytes()))
 }
 
 /// The file of a panel: its number and what tells it apart.

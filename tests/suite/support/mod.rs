@@ -3,6 +3,7 @@
 
 pub(crate) mod brute_force;
 pub(crate) mod documents;
+pub(crate) mod explaining;
 pub(crate) mod folder;
 pub(crate) mod foreign;
 pub(crate) mod golden;

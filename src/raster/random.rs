@@ -3,14 +3,14 @@
 use arbtest::arbitrary::{Result, Unstructured};
 use glam::DVec2;
 
-use super::chunk_builder::ChunkBuilder;
-use super::display_list::Fill;
 use crate::color::Rgba;
 use crate::geometry::{FillRule, Polygon};
+use crate::raster::list::builder::ChunkBuilder;
+use crate::raster::list::chunk::Fill;
 use crate::texture::{MipLevel, MipPyramid, Texture};
 
 /// Adds some random primitives of every kind; textured ones read texture 0.
-pub(super) fn fill(builder: &mut ChunkBuilder<'_>, u: &mut Unstructured<'_>) -> Result<()> {
+pub(in crate::raster) fn fill(builder: &mut ChunkBuilder<'_>, u: &mut Unstructured<'_>) -> Result<()> {
     fn unit(u: &mut Unstructured<'_>) -> Result<f32> {
         Ok(f32::from(u.arbitrary::<u8>()?) / 255.0)
     }
@@ -69,7 +69,7 @@ pub(super) fn fill(builder: &mut ChunkBuilder<'_>, u: &mut Unstructured<'_>) -> 
 }
 
 /// A texture in which every texel differs from its neighbours.
-pub(super) fn noise() -> Texture {
+pub(in crate::raster) fn noise() -> Texture {
     let texels = (0..32 * 32_u32)
         .map(|i| {
             [

@@ -1,0 +1,373 @@
+//! Meets the ops of a chunk in the tiles that they touch, in painter's order.
+//!
+//! A stamp goes to the tiles of its bits, cut to each. A triangle or outline is followed row of tiles by row of tiles: a
+//! tile that it covers is marked, so that painting it needs no coverage at all. An opaque one that covers a tile hides
+//! everything painted there before.
+
+use crate::geometry::subpixel::GridPoint;
+use crate::raster::binning::polygon_tiles::OutlineTiles;
+use crate::raster::binning::tile_command::Entry;
+use crate::raster::coverage::edge_bounds::TileRows;
+use crate::raster::coverage::float_shape::FloatShape;
+use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::list::chunk::{Chunk, ListContext, Op, Paint};
+use crate::raster::shading::shader::Shader;
+use crate::raster::span::{PixelRect, Reach, SampleBox, Span};
+use crate::texture::Texture;
+
+/// Walks over the ops of a chunk.
+pub(crate) struct Walk<'a> {
+    chunk: &'a Chunk,
+    context: &'a ListContext,
+    /// Tile rows to look at.
+    rows: Span,
+    samples: Sides,
+    pixels: Sides,
+    /// The samples of the frame.
+    frame: SampleBox,
+}
+
+/// The sides of a tile, in samples or in pixels, and how to divide by them.
+#[derive(Clone, Copy)]
+struct Sides {
+    width: u32,
+    height: u32,
+    inverse: [u64; 2],
+}
+
+impl Sides {
+    const SHIFT: u32 = 40;
+
+    fn new(width: u32, height: u32) -> Self {
+        // Rounded up, it is too large by less than one in `2^SHIFT`; no coordinate of a frame exceeds `2^22`, and no side
+        // `2^14`. So the error of a quotient stays below `2^-17`, too little to carry it over a whole number.
+        let inverse = |side: u32| (1_u64 << Self::SHIFT).div_ceil(u64::from(side));
+        Self {
+            width,
+            height,
+            inverse: [inverse(width), inverse(height)],
+        }
+    }
+
+    /// The tile column that holds a column of the frame.
+    #[inline]
+    fn column(&self, x: i32) -> i32 {
+        quotient(x, self.inverse[0])
+    }
+
+    /// The tile row that holds a row of the frame.
+    #[inline]
+    fn row(&self, y: i32) -> i32 {
+        quotient(y, self.inverse[1])
+    }
+}
+
+#[inline]
+fn quotient(coordinate: i32, inverse: u64) -> i32 {
+    debug_assert!((0..=1 << 22).contains(&coordinate), "{coordinate} lies in the frame");
+    ((u64::from(coordinate.cast_unsigned()) * inverse) >> Sides::SHIFT) as i32
+}
+
+impl<'a> Walk<'a> {
+    pub(crate) fn new(chunk: &'a Chunk, context: &'a ListContext, rows: Span) -> Self {
+        let (width_log2, height_log2) = context.tiles.sides_log2();
+        let side = context.grid.side().cast_unsigned();
+        Self {
+            chunk,
+            context,
+            rows,
+            samples: Sides::new(side << width_log2, side << height_log2),
+            pixels: Sides::new(1 << width_log2, 1 << height_log2),
+            frame: context.samples(),
+        }
+    }
+
+    /// Calls `visit` with every entry of the chunk and the number of its tile, counted from the first row's first.
+    pub(crate) fn each(&self, textures: &[&Texture], mut visit: impl FnMut(usize, Entry)) {
+        let mut depth = self.chunk.layers_open;
+        let mut tiles = OutlineTiles::default();
+        for (i, op) in self.chunk.ops.iter().enumerate() {
+            match *op {
+                Op::Samples(index) => {
+                    let stamp = &self.chunk.stamps[index as usize];
+                    let entry = Entry::samples(i, stamp.color);
+                    self.stamp(self.samples, stamp.coverage, entry, &mut visit);
+                }
+                Op::Pixels(index) => {
+                    let stamp = &self.chunk.stamps[index as usize];
+                    let entry = Entry::pixels(i, stamp.color);
+                    self.stamp(self.pixels, stamp.coverage, entry, &mut visit);
+                }
+                Op::Hairline(index) => {
+                    let line = &self.chunk.hairlines[index as usize];
+                    let entry = Entry::pixels(i, line.color);
+                    line.blocks(self.context.size, |pixels| {
+                        self.stamp(self.pixels, pixels, entry, &mut visit);
+                    });
+                }
+                Op::Triangle(index) => {
+                    let triangle = &self.chunk.triangles[index as usize];
+                    let paint = &self.chunk.paints[triangle.paint as usize];
+                    let opaque = Shader::is_opaque(paint, textures);
+                    if let Some(float) = self.chunk.floats.get(index as usize) {
+                        let entry = Entry::triangle(i, index, None, opaque);
+                        self.float(float, entry, depth == 0, &mut visit);
+                        continue;
+                    }
+                    let flat = match paint {
+                        Paint::Solid(color) => Some(*color),
+                        Paint::Vertex(_) | Paint::Texture { .. } => None,
+                    };
+                    let entry = Entry::triangle(i, index, flat, opaque);
+                    self.triangle(triangle.corners, entry, depth == 0, &mut visit);
+                }
+                Op::Outline(index) => {
+                    let entry = Entry::outline(i, index, self.chunk.outline_colors[index as usize]);
+                    self.outline(&mut tiles, (index, entry), depth == 0, &mut visit);
+                }
+                Op::BeginLayer(index) | Op::EndLayer(index) => {
+                    depth = match op {
+                        Op::BeginLayer(_) => depth + 1,
+                        _ => depth.saturating_sub(1),
+                    };
+                    self.rect(self.chunk.layers[index as usize].area, Entry::layer(i), &mut visit);
+                }
+            }
+        }
+    }
+
+    /// The number of a tile.
+    #[inline]
+    fn tile(&self, column: i32, row: i32) -> usize {
+        place(row - self.rows.start) * self.context.tiles.columns as usize + place(column)
+    }
+
+    /// A stamp in each tile that holds any of its bits.
+    #[inline]
+    fn stamp(&self, sides: Sides, stamp: SmallCoverage, entry: Entry, visit: &mut impl FnMut(usize, Entry)) {
+        let (columns, rows) = (stamp.columns(), stamp.rows());
+        let (left, right) = (sides.column(columns.start), sides.column(columns.end - 1));
+        let (top, bottom) = (sides.row(rows.start), sides.row(rows.end - 1));
+        let (width, height) = (sides.width.cast_signed(), sides.height.cast_signed());
+        if left == right && top == bottom {
+            if self.rows.start <= top && top < self.rows.end {
+                let entry = in_tile(stamp, entry, [left * width, top * height]);
+                visit(self.tile(left, top), entry);
+            }
+            return;
+        }
+        for row in top.max(self.rows.start)..=bottom.min(self.rows.end - 1) {
+            for column in left..=right {
+                let of_tile = |tile: i32, side: i32| Span {
+                    start: tile * side,
+                    end: (tile + 1) * side,
+                };
+                let part = stamp.within(of_tile(column, width), of_tile(row, height));
+                if part.mask != 0 {
+                    let entry = in_tile(part, entry, [column * width, row * height]);
+                    visit(self.tile(column, row), entry);
+                }
+            }
+        }
+    }
+
+    /// An outline in each tile it touches; `base` says that it is in no layer.
+    fn outline(
+        &self,
+        tiles: &mut OutlineTiles,
+        (index, entry): (u32, Entry),
+        base: bool,
+        visit: &mut impl FnMut(usize, Entry),
+    ) {
+        let (grid, sides) = (self.context.grid, self.samples);
+        let outline = &self.chunk.outlines[index as usize];
+        let SampleBox { columns, rows } = outline.samples;
+        let in_row = Span {
+            start: sides.column(columns.start),
+            end: sides.column(columns.end - 1) + 1,
+        };
+        let (top, bottom) = (sides.row(rows.start), sides.row(rows.end - 1));
+        let bands = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
+        let (width, height) = (sides.width.cast_signed(), sides.height.cast_signed());
+        let few = (in_row.end - in_row.start) * (bottom - top + 1) <= 2;
+        if few && (self.covers_no_tile(columns, width, 0) || self.covers_no_tile(rows, height, 1)) {
+            for row in bands {
+                (in_row.start..in_row.end).for_each(|column| visit(self.tile(column, row), entry));
+            }
+            return;
+        }
+        let unit_width = f64::from(width << grid.bits());
+        for row in bands {
+            let band = Span {
+                start: row * height,
+                end: ((row + 1) * height).min(self.frame.rows.end),
+            };
+            let outline = (outline, self.chunk.outline_edges.as_slice());
+            tiles.each(outline, grid, (band, in_row, unit_width), |column, reach| {
+                let entry = match reach {
+                    Reach::Part => entry,
+                    Reach::All => entry.covering(base && entry.is_opaque()),
+                };
+                visit(self.tile(column, row), entry);
+            });
+        }
+    }
+
+    /// Whether samples of that many columns or rows, `axis` 0 or 1, are too few to cover a tile.
+    #[inline]
+    fn covers_no_tile(&self, span: Span, side: i32, axis: usize) -> bool {
+        let frame = [self.frame.columns, self.frame.rows][axis];
+        span.end - span.start < side.min(frame.end)
+    }
+
+    /// A triangle in each tile it touches; `base` says that it is in no layer.
+    fn triangle(&self, corners: [GridPoint; 3], entry: Entry, base: bool, visit: &mut impl FnMut(usize, Entry)) {
+        let (grid, sides) = (self.context.grid, self.samples);
+        let samples = SampleBox::new(corners, grid, self.context.rules).intersection(self.frame);
+        if samples.columns.is_empty() || samples.rows.is_empty() {
+            return;
+        }
+        let (left, right) = (
+            sides.column(samples.columns.start),
+            sides.column(samples.columns.end - 1),
+        );
+        let (top, bottom) = (sides.row(samples.rows.start), sides.row(samples.rows.end - 1));
+        let band_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
+        let height = sides.height.cast_signed();
+        if (right - left + 1) * (bottom - top + 1) <= 2
+            && (self.covers_no_tile(samples.columns, sides.width.cast_signed(), 0)
+                || self.covers_no_tile(samples.rows, height, 1))
+        {
+            for row in band_rows {
+                (left..=right).for_each(|column| visit(self.tile(column, row), entry));
+            }
+            return;
+        }
+        let edges = TileRows::new(corners);
+        for row in band_rows {
+            let in_tile = Span {
+                start: row * height,
+                end: ((row + 1) * height).min(self.frame.rows.end),
+            };
+            let inside = in_tile.intersection(samples.rows);
+            let band = edges.band(
+                grid.sample_coordinate(inside.start),
+                grid.sample_coordinate(inside.end - 1),
+            );
+            let touched = self.touched(band.touched, left, right);
+            let covered = if inside == in_tile {
+                self.covered(band.covered)
+            } else {
+                Span::default()
+            };
+            for column in touched.start..touched.end {
+                let covers = covered.start <= column && column < covered.end;
+                let entry = if covers {
+                    entry.covering(base && entry.is_opaque())
+                } else {
+                    entry
+                };
+                visit(self.tile(column, row), entry);
+            }
+        }
+    }
+
+    /// A triangle by the rules of first drafts in each tile it touches. Kept out of the loop over ops, which is hot.
+    #[cold]
+    #[inline(never)]
+    fn float(&self, float: &FloatShape, entry: Entry, base: bool, visit: &mut impl FnMut(usize, Entry)) {
+        let (grid, sides) = (self.context.grid, self.samples);
+        let SampleBox { columns, rows } = float.samples;
+        let of_tile = |tile: i32, side: u32, frame: Span| {
+            let side = side.cast_signed();
+            Span {
+                start: tile * side,
+                end: (tile + 1) * side,
+            }
+            .intersection(frame)
+        };
+        let (top, bottom) = (sides.row(rows.start), sides.row(rows.end - 1));
+        for row in top.max(self.rows.start)..=bottom.min(self.rows.end - 1) {
+            for column in sides.column(columns.start)..=sides.column(columns.end - 1) {
+                let samples = SampleBox {
+                    columns: of_tile(column, sides.width, self.frame.columns),
+                    rows: of_tile(row, sides.height, self.frame.rows),
+                };
+                let entry = match float.reach(grid, samples) {
+                    None => continue,
+                    Some(Reach::Part) => entry,
+                    Some(Reach::All) => entry.covering(base && entry.is_opaque()),
+                };
+                visit(self.tile(column, row), entry);
+            }
+        }
+    }
+
+    /// The tile columns from `left` to `right` that hold coordinates between the two of `columns`.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "clamped to the tiles of a frame; just before the first, truncation names the first"
+    )]
+    fn touched(&self, columns: [f64; 2], left: i32, right: i32) -> Span {
+        let width = f64::from(self.samples.width << self.context.grid.bits());
+        // Far more than the error of the quotients lies between a tile's side and the nearest sample.
+        let tile = |x: f64| (x / width).clamp(f64::from(left) - 1.0, f64::from(right) + 1.0) as i32;
+        Span {
+            start: tile(columns[0]).max(left),
+            end: tile(columns[1]).min(right) + 1,
+        }
+    }
+
+    /// The tile columns all samples of which lie between the two coordinates.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "clamped to the tiles of a frame; truncation rounds down there"
+    )]
+    fn covered(&self, [first, last]: [f64; 2]) -> Span {
+        if first > last {
+            return Span::default();
+        }
+        let grid = self.context.grid;
+        let width = f64::from(self.samples.width << grid.bits());
+        let half = f64::from(1 << (grid.bits() - 1));
+        let columns = self.context.tiles.columns.cast_signed();
+        let whole = |tiles: f64| tiles.clamp(0.0, f64::from(columns)) as i32;
+        let start = (first - half) / width;
+        let start = whole(start) + i32::from(f64::from(whole(start)) < start);
+        let mut end = whole((last + half) / width);
+        // The frame may cut the last tile short.
+        if end == columns - 1 && f64::from(grid.sample_coordinate(self.frame.columns.end - 1)) <= last {
+            end = columns;
+        }
+        Span { start, end }
+    }
+
+    /// An op in every tile of a rectangle of pixels.
+    fn rect(&self, area: PixelRect, entry: Entry, visit: &mut impl FnMut(usize, Entry)) {
+        if area.x.is_empty() || area.y.is_empty() {
+            return;
+        }
+        let mut tiles = self.context.tiles.tiles_of(area);
+        tiles.y = tiles.y.intersection(self.rows);
+        for row in tiles.y.start..tiles.y.end {
+            (tiles.x.start..tiles.x.end).for_each(|column| visit(self.tile(column, row), entry));
+        }
+    }
+}
+
+/// The entry of a stamp all bits of which lie in the tile that begins at `[x, y]`.
+#[inline]
+fn in_tile(stamp: SmallCoverage, entry: Entry, [x, y]: [i32; 2]) -> Entry {
+    let (column, row) = (stamp.columns().start, stamp.rows().start);
+    let shift = 8 * (row - stamp.row) + column - stamp.column;
+    let near = |distance: i32| u16::try_from(distance).unwrap_or(0);
+    entry.with_bits([near(column - x), near(row - y)], stamp.mask >> shift)
+}
+
+/// A tile coordinate, which is never negative.
+#[inline]
+pub(crate) fn place(coordinate: i32) -> usize {
+    coordinate.max(0).cast_unsigned() as usize
+}

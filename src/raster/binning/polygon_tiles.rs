@@ -1,0 +1,116 @@
+//! An outline in a row of tiles: the tiles it touches and those it covers, without looking at any sample.
+//!
+//! An edge lies in the tiles between the columns where it crosses the first sample row and the last, widened as in
+//! `tile_rows`. The tiles right of it are wound around once more in the rows it crosses. So a tile in which no edge lies
+//! is wound around alike everywhere, once each row counts the same edges left of it.
+
+use crate::geometry::FillRule;
+use crate::geometry::subpixel::SubpixelGrid;
+use crate::raster::coverage::edge_bounds::{Line, MARGIN};
+use crate::raster::coverage::polygon::{Outline, OutlineEdge};
+use crate::raster::coverage::windings::RowWindings;
+use crate::raster::span::{Reach, Span};
+
+/// Looks at rows of tiles, reusing its memory.
+#[derive(Debug, Default)]
+pub(crate) struct OutlineTiles {
+    columns: Vec<Column>,
+    /// Edges that cross only some of the rows: the first tile column to their right, those rows, and the winding.
+    partial: Vec<(i32, Span, i32)>,
+    /// How often each row winds around the tile at work, beyond what all rows do.
+    rows: RowWindings,
+}
+
+/// What changes at a tile.
+#[derive(Clone, Copy, Debug, Default)]
+struct Column {
+    /// Edges that begin to lie in tiles here, less those that end to.
+    lying: i32,
+    /// The windings of the edges that lie left of this tile, and of no tile before, and cross all rows.
+    winding: i32,
+}
+
+impl OutlineTiles {
+    /// Calls `visit` with each tile column from `tiles.start` on that the outline may touch in the sample rows `band`;
+    /// `width` is that of a tile in units of the grid.
+    pub(crate) fn each(
+        &mut self,
+        outline: (&Outline, &[OutlineEdge]),
+        grid: SubpixelGrid,
+        (band, tiles, width): (Span, Span, f64),
+        visit: impl FnMut(i32, Reach),
+    ) {
+        let (outline, all) = outline;
+        self.columns.clear();
+        let count = (tiles.end - tiles.start).max(0).cast_unsigned() as usize;
+        self.columns.resize(count + 1, Column::default());
+        self.partial.clear();
+        for (edge, inside) in outline.edges_in(all, band) {
+            let line = Line::new(edge.top, edge.bottom);
+            let at = |row| line.at(f64::from(grid.sample_coordinate(row)));
+            let (first, last) = (at(inside.start), at(inside.end - 1));
+            let from = tile(first.min(last) - MARGIN, width, tiles);
+            let to = tile(first.max(last) + MARGIN, width, tiles);
+            if from >= tiles.end {
+                continue;
+            }
+            let right = (to + 1).clamp(tiles.start, tiles.end);
+            self.columns[place(from - tiles.start)].lying += 1;
+            self.columns[place(right - tiles.start)].lying -= 1;
+            if inside == band {
+                self.columns[place(right - tiles.start)].winding += edge.winding;
+            } else {
+                self.partial.push((right, inside, edge.winding));
+            }
+        }
+        self.sweep(outline.rule, band, tiles, visit);
+    }
+
+    fn sweep(&mut self, rule: FillRule, band: Span, tiles: Span, mut visit: impl FnMut(i32, Reach)) {
+        let (mut lying, mut winding) = (0, 0);
+        let mut partial = self.partial.as_slice();
+        if !partial.is_empty() {
+            self.partial.sort_unstable_by_key(|(column, ..)| *column);
+            partial = self.partial.as_slice();
+        }
+        self.rows.begin(band.end - band.start);
+        let in_band = |rows: Span| Span {
+            start: rows.start - band.start,
+            end: rows.end - band.start,
+        };
+        for (column, tile) in self.columns.iter().zip(tiles.start..tiles.end) {
+            lying += column.lying;
+            winding += column.winding;
+            while let Some(((at, inside, around), rest)) = partial.split_first()
+                && *at <= tile
+            {
+                self.rows.add(in_band(*inside), *around);
+                partial = rest;
+            }
+            // What the partial edges add where they add the same to all rows.
+            match self.rows.even() {
+                _ if lying > 0 => visit(tile, Reach::Part),
+                None => visit(tile, Reach::Part),
+                Some(even) if rule.encloses(winding + even) => visit(tile, Reach::All),
+                Some(_) => {}
+            }
+        }
+        let passed = self.partial.len() - partial.len();
+        self.rows
+            .forget(self.partial[..passed].iter().map(|(_, rows, _)| in_band(*rows)));
+    }
+}
+
+/// The tile that holds a column, in units of the grid; just before the first of `tiles` or just after the last at most.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "clamped to the tiles of a frame")]
+fn tile(column: f64, width: f64, tiles: Span) -> i32 {
+    let tile = (column / width).clamp(f64::from(tiles.start) - 1.0, f64::from(tiles.end));
+    // Rounded down: `floor` is not a single instruction on every machine.
+    (tile + 1.0) as i32 - 1
+}
+
+#[inline]
+fn place(distance: i32) -> usize {
+    distance.max(0).cast_unsigned() as usize
+}

@@ -1,0 +1,190 @@
+//! One op in one tile, as the painters of tiles read it: everything about a small primitive, in painter's order.
+
+use crate::color::Premultiplied16;
+use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::coverage::shape_rows::Shape;
+use crate::raster::list::chunk::{Chunk, Op, Paint, ScreenTriangle};
+
+/// One op in one tile. A stamp is held whole, the colour of a flat shape too, so that painting these does not jump
+/// around in memory.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Entry {
+    /// Flags, and below them the index of the op in its chunk.
+    head: u32,
+    /// Column and row of a stamp's lowest bit, counted from the tile's first: samples or pixels.
+    at: [u16; 2],
+    /// The bits of a stamp, or the index of a triangle or outline, or of a layer mark.
+    bits: u64,
+    color: Premultiplied16,
+}
+
+/// What is to be painted.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Work<'c> {
+    /// Samples of one colour, counted from the tile's first sample column and row; all lie in the tile.
+    Samples(SmallCoverage, Premultiplied16),
+    /// Pixels of one colour, counted from the tile's first; all lie in the tile.
+    Pixels(SmallCoverage, Premultiplied16),
+    /// A triangle or polygon of one colour.
+    Flat(Shape<'c>, Premultiplied16),
+    /// A triangle of any other paint, and what it covers.
+    Shaded(Shape<'c>, &'c ScreenTriangle, &'c Paint),
+    BeginLayer,
+    /// With the opacity to paint the layer with.
+    EndLayer(u16),
+}
+
+impl Entry {
+    const COVERS: u32 = 1 << 31;
+    const HIDES: u32 = 1 << 30;
+    const OPAQUE: u32 = 1 << 29;
+    const FLAT: u32 = 1 << 28;
+    const SAMPLES: u32 = 1 << 27;
+    const PIXELS: u32 = 1 << 26;
+    const OUTLINE: u32 = 1 << 25;
+    /// The largest index of an op; a chunk is made from at most 65 536 primitives, which become five ops each at most.
+    const MAX_OP: u32 = Self::OUTLINE - 1;
+
+    /// A triangle that touches the tile, number `triangle` of its chunk; `flat` is its colour, if it has just one and is
+    /// covered exactly.
+    pub(crate) fn triangle(op: usize, triangle: u32, flat: Option<Premultiplied16>, opaque: bool) -> Self {
+        let flags = if flat.is_some() { Self::FLAT } else { 0 } | if opaque { Self::OPAQUE } else { 0 };
+        Self {
+            head: Self::number(op) | flags,
+            at: [0; 2],
+            bits: u64::from(triangle),
+            color: flat.unwrap_or_default(),
+        }
+    }
+
+    /// A polygon that touches the tile, outline number `outline` of its chunk.
+    pub(crate) fn outline(op: usize, outline: u32, color: Premultiplied16) -> Self {
+        let opaque = if color.is_opaque() { Self::OPAQUE } else { 0 };
+        Self {
+            head: Self::number(op) | Self::OUTLINE | opaque,
+            at: [0; 2],
+            bits: u64::from(outline),
+            color,
+        }
+    }
+
+    /// A stamp of samples, yet without its bits.
+    #[inline]
+    pub(crate) fn samples(op: usize, color: Premultiplied16) -> Self {
+        Self::stamp(op, color, Self::SAMPLES)
+    }
+
+    /// A stamp of pixels, yet without its bits.
+    #[inline]
+    pub(crate) fn pixels(op: usize, color: Premultiplied16) -> Self {
+        Self::stamp(op, color, Self::PIXELS)
+    }
+
+    #[inline]
+    fn stamp(op: usize, color: Premultiplied16, kind: u32) -> Self {
+        let opaque = if color.is_opaque() { Self::OPAQUE } else { 0 };
+        Self {
+            head: Self::number(op) | kind | opaque,
+            at: [0; 2],
+            bits: 0,
+            color,
+        }
+    }
+
+    /// The beginning or end of a layer.
+    pub(crate) fn layer(op: usize) -> Self {
+        Self {
+            head: Self::number(op),
+            ..Self::default()
+        }
+    }
+
+    #[inline]
+    fn number(op: usize) -> u32 {
+        debug_assert!(op <= Self::MAX_OP as usize, "op {op} fits below the flags");
+        u32::try_from(op).unwrap_or(0) & Self::MAX_OP
+    }
+
+    /// The same stamp with its bits, of which the lowest lies at column `x` and row `y` of the tile.
+    #[inline]
+    pub(crate) fn with_bits(self, [x, y]: [u16; 2], bits: u64) -> Self {
+        Self {
+            at: [x, y],
+            bits,
+            ..self
+        }
+    }
+
+    /// The same shape where it covers every sample of the tile; `hides` says whether nothing painted in the tile
+    /// before can be seen.
+    #[inline]
+    pub(crate) fn covering(self, hides: bool) -> Self {
+        let hides = if hides { Self::HIDES } else { 0 };
+        Self {
+            head: self.head | Self::COVERS | hides,
+            ..self
+        }
+    }
+
+    /// Index of the op in its chunk.
+    #[inline]
+    pub(crate) fn op(self) -> usize {
+        (self.head & Self::MAX_OP) as usize
+    }
+
+    /// Whether the op is a triangle or polygon that covers every sample of the tile.
+    #[inline]
+    pub(crate) fn covers_tile(self) -> bool {
+        self.head & Self::COVERS != 0
+    }
+
+    /// Whether nothing painted in the tile before this op can be seen.
+    #[inline]
+    pub(crate) fn hides_tile(self) -> bool {
+        self.head & Self::HIDES != 0
+    }
+
+    /// Whether it paints, and every fragment hides what is below it.
+    #[inline]
+    pub(crate) fn is_opaque(self) -> bool {
+        self.head & Self::OPAQUE != 0
+    }
+
+    /// What is to be painted; `chunk` is the one that the entry belongs to.
+    #[inline]
+    pub(crate) fn work(self, chunk: &Chunk) -> Work<'_> {
+        let coverage = SmallCoverage {
+            column: i32::from(self.at[0]),
+            row: i32::from(self.at[1]),
+            mask: self.bits,
+        };
+        if self.head & Self::SAMPLES != 0 {
+            return Work::Samples(coverage, self.color);
+        }
+        if self.head & Self::PIXELS != 0 {
+            return Work::Pixels(coverage, self.color);
+        }
+        if self.head & Self::FLAT != 0 {
+            let index = usize::try_from(self.bits).unwrap_or(usize::MAX);
+            return Work::Flat(Shape::Triangle(&chunk.triangles[index].corners), self.color);
+        }
+        if self.head & Self::OUTLINE != 0 {
+            let index = u32::try_from(self.bits).unwrap_or(u32::MAX);
+            return Work::Flat(Shape::Outline(chunk.outline(index)), self.color);
+        }
+        match chunk.ops[self.op()] {
+            Op::Triangle(index) => {
+                let triangle = &chunk.triangles[index as usize];
+                let paint = &chunk.paints[triangle.paint as usize];
+                match (chunk.floats.get(index as usize), paint) {
+                    (None, _) => Work::Shaded(Shape::Triangle(&triangle.corners), triangle, paint),
+                    (Some(float), Paint::Solid(color)) => Work::Flat(Shape::Float(float), *color),
+                    (Some(float), _) => Work::Shaded(Shape::Float(float), triangle, paint),
+                }
+            }
+            Op::EndLayer(index) => Work::EndLayer(chunk.layers[index as usize].opacity),
+            // Stamps, outlines and hairlines have returned above.
+            Op::BeginLayer(_) | Op::Outline(_) | Op::Samples(_) | Op::Pixels(_) | Op::Hairline(_) => Work::BeginLayer,
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! The outline of a polygon: its edges on the sub-pixel grid, and which samples they enclose.
+//!
+//! In each sample row the edges that cross it are sorted by the first sample column at or right of the crossing; between
+//! two of them all samples are wound around equally often. An edge crosses the rows from the first at or below its top
+//! up to, but not including, its bottom. That is the top-left rule: shapes that share an edge share no sample of it, and
+//! leave none out, whether they are triangles or polygons.
+
+use std::ops::Range;
+
+use glam::DVec2;
+
+use crate::geometry::FillRule;
+use crate::geometry::clip::{clip_edge, in_guard};
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::raster::span::{SampleBox, Span};
+
+/// A polygon in a chunk.
+#[derive(Clone, Debug)]
+pub(crate) struct Outline {
+    /// Its edges among those of the chunk, by their first rows.
+    pub(in crate::raster) edges: Range<usize>,
+    /// The box of its samples, in the frame; never empty.
+    pub(crate) samples: SampleBox,
+    pub(crate) rule: FillRule,
+    /// The most rows that an edge crosses.
+    tallest: i32,
+}
+
+/// An edge of a polygon that crosses any sample row of the frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OutlineEdge {
+    pub(crate) top: GridPoint,
+    pub(crate) bottom: GridPoint,
+    /// The sample rows that it crosses, in the frame.
+    pub(crate) rows: Span,
+    /// 1 where it runs downwards, -1 where it runs upwards.
+    pub(crate) winding: i32,
+}
+
+/// Gathers the edges of one polygon.
+#[derive(Debug)]
+pub(crate) struct OutlineBuilder<'a> {
+    grid: SubpixelGrid,
+    frame: SampleBox,
+    edges: &'a mut Vec<OutlineEdge>,
+    start: usize,
+    low: GridPoint,
+    high: GridPoint,
+    /// Whether all points so far are finite.
+    finite: bool,
+}
+
+impl<'a> OutlineBuilder<'a> {
+    /// Adds edges that touch the samples of `frame` to `edges`.
+    pub(crate) fn new(grid: SubpixelGrid, frame: SampleBox, edges: &'a mut Vec<OutlineEdge>) -> Self {
+        let everywhere = |at: i32| GridPoint { x: at, y: at };
+        Self {
+            grid,
+            frame,
+            start: edges.len(),
+            edges,
+            low: everywhere(i32::MAX),
+            high: everywhere(i32::MIN),
+            finite: true,
+        }
+    }
+
+    /// Adds a closed contour of points in screen space.
+    pub(crate) fn contour(&mut self, mut points: impl Iterator<Item = DVec2>) {
+        let Some(first) = points.next() else {
+            return;
+        };
+        let start = Corner::new(self.grid, first);
+        let mut from = start;
+        for point in points {
+            let to = Corner::new(self.grid, point);
+            self.edge(from, to);
+            from = to;
+        }
+        self.edge(from, start);
+    }
+
+    #[inline]
+    fn edge(&mut self, from: Corner, to: Corner) {
+        if let (Some(from), Some(to)) = (from.snapped, to.snapped) {
+            self.snapped(from, to);
+        } else if !(from.point.is_finite() && to.point.is_finite()) {
+            self.finite = false;
+        } else {
+            for ends in clip_edge([from.point, to.point]) {
+                let [from, to] = ends.map(|end| self.grid.snap(end));
+                self.snapped(from, to);
+            }
+        }
+    }
+
+    #[inline]
+    fn snapped(&mut self, from: GridPoint, to: GridPoint) {
+        for end in [from, to] {
+            self.low.x = self.low.x.min(end.x);
+            self.low.y = self.low.y.min(end.y);
+            self.high.x = self.high.x.max(end.x);
+            self.high.y = self.high.y.max(end.y);
+        }
+        let (top, bottom, winding) = if from.y < to.y { (from, to, 1) } else { (to, from, -1) };
+        let rows = Span {
+            start: self.grid.sample_at_or_after(top.y),
+            end: self.grid.sample_at_or_after(bottom.y),
+        };
+        let rows = rows.intersection(self.frame.rows);
+        // What crosses right of the frame winds around nothing in it.
+        if rows.is_empty() || self.grid.sample_at_or_after(from.x.min(to.x)) >= self.frame.columns.end {
+            return;
+        }
+        self.edges.push(OutlineEdge {
+            top,
+            bottom,
+            rows,
+            winding,
+        });
+    }
+
+    /// The outline of all contours; `None`, and no edges, where it holds no sample of the frame or a point is not finite.
+    pub(crate) fn finish(self, rule: FillRule) -> Option<Outline> {
+        let span = |low: i32, high: i32| Span {
+            start: self.grid.sample_at_or_after(low),
+            end: self.grid.sample_at_or_after(high),
+        };
+        let edges = &mut self.edges[self.start..];
+        if edges.is_empty() {
+            return None;
+        }
+        let samples = SampleBox {
+            columns: span(self.low.x, self.high.x),
+            rows: span(self.low.y, self.high.y),
+        }
+        .intersection(self.frame);
+        if !self.finite || samples.columns.is_empty() || samples.rows.is_empty() {
+            self.edges.truncate(self.start);
+            return None;
+        }
+        edges.sort_unstable_by_key(|edge| edge.rows.start);
+        let tallest = edges.iter().map(|edge| edge.rows.end - edge.rows.start).max();
+        Some(Outline {
+            edges: self.start..self.edges.len(),
+            samples,
+            rule,
+            tallest: tallest.unwrap_or(0),
+        })
+    }
+}
+
+/// A corner of a contour.
+#[derive(Clone, Copy)]
+struct Corner {
+    point: DVec2,
+    /// On the grid, where it lies in the guard band.
+    snapped: Option<GridPoint>,
+}
+
+impl Corner {
+    #[inline]
+    fn new(grid: SubpixelGrid, point: DVec2) -> Self {
+        Self {
+            point,
+            snapped: in_guard(point).then(|| grid.snap(point)),
+        }
+    }
+}
+
+impl Outline {
+    /// The edges that may cross any of `rows`; `all` are those of the chunk.
+    #[inline]
+    pub(crate) fn edges_in<'c>(
+        &self,
+        all: &'c [OutlineEdge],
+        rows: Span,
+    ) -> impl Iterator<Item = (&'c OutlineEdge, Span)> + Clone + use<'c> {
+        let edges = &all[self.edges.clone()];
+        // Few are looked at faster than searched.
+        let edges = if edges.len() > 16 {
+            let first = edges.partition_point(|edge| edge.rows.start + self.tallest <= rows.start);
+            let last = edges.partition_point(|edge| edge.rows.start < rows.end);
+            &edges[first..last.max(first)]
+        } else {
+            edges
+        };
+        edges.iter().filter_map(move |edge| {
+            let inside = edge.rows.intersection(rows);
+            (!inside.is_empty()).then_some((edge, inside))
+        })
+    }
+
+    /// Removes the edges of an outline that nobody needs, the newest one of the chunk.
+    pub(crate) fn drop_edges(self, all: &mut Vec<OutlineEdge>) {
+        all.truncate(self.edges.start);
+    }
+}

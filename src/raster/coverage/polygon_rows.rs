@@ -1,0 +1,376 @@
+//! The samples that a polygon encloses, row by row: as spans, which are kept for all tiles of a row of tiles.
+
+use crate::geometry::FillRule;
+use crate::geometry::edge::EdgeWalker;
+use crate::geometry::subpixel::SubpixelGrid;
+use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::coverage::polygon::{Outline, OutlineEdge};
+use crate::raster::coverage::simple_polygon_rows::{Crossings, PlainRows};
+use crate::raster::span::{SMALL, SampleBox, Span};
+
+/// Most crossings of edges and rows that are held at once, where a row has no more: 16 MB.
+const MAX_CROSSINGS: usize = 1 << 22;
+
+/// The samples that an outline encloses in some rows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RowSpans<'a> {
+    /// The rows.
+    pub(crate) rows: Span,
+    /// Where the spans of each row begin, and one more; of no account where they are single.
+    starts: &'a [u32],
+    spans: &'a [Span],
+    /// Whether each row has one, empty or not.
+    pub(crate) single: bool,
+}
+
+/// Finds [`RowSpans`], reusing its memory.
+#[derive(Debug, Default)]
+pub(crate) struct RowScanner {
+    numbers: Crossings,
+    plain: PlainRows,
+    /// Where the crossings of each row begin.
+    next: Vec<u32>,
+    /// Crossings row by row: the column, doubled, and one more where the edge runs downwards.
+    crossings: Vec<i32>,
+}
+
+/// Where a [`RowScanner`] puts what it finds.
+#[derive(Debug, Default)]
+pub(crate) struct SpanStore {
+    starts: Vec<u32>,
+    spans: Vec<Span>,
+}
+
+/// What was put there for one outline.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Stored {
+    rows: Span,
+    /// Its first span, and its first number in `starts`.
+    span: usize,
+    first: usize,
+    single: bool,
+}
+
+impl Outline {
+    /// What an outline of a few samples covers, if those of each row lie side by side; `None` for any other.
+    pub(crate) fn small_coverage(
+        &self,
+        all: &[OutlineEdge],
+        grid: SubpixelGrid,
+        scanner: &mut (RowScanner, SpanStore),
+    ) -> Option<SmallCoverage> {
+        if !self.samples.is_small() {
+            return None;
+        }
+        let (scanner, store) = scanner;
+        store.clear();
+        let SampleBox { columns, rows } = self.samples;
+        let stored = scanner.scan(self, (all, grid), (rows, columns.end), store);
+        let found = store.get(stored);
+        if !found.single {
+            return None;
+        }
+        let mut mask = 0;
+        for row in rows.start..rows.end {
+            for span in found.of_row(row) {
+                let inside = span.intersection(columns);
+                if !inside.is_empty() {
+                    let bits = (1_u64 << (inside.end - inside.start)) - 1;
+                    mask |= bits << (SMALL * (row - rows.start) + inside.start - columns.start);
+                }
+            }
+        }
+        Some(SmallCoverage {
+            column: columns.start,
+            row: rows.start,
+            mask,
+        })
+    }
+}
+
+impl RowScanner {
+    /// Finds the samples that an outline encloses in those of `rows` that its box has, left of the frame's end at column
+    /// `end`; `all` are the edges of its chunk.
+    pub(crate) fn scan(
+        &mut self,
+        outline: &Outline,
+        (all, grid): (&[OutlineEdge], SubpixelGrid),
+        (rows, end): (Span, i32),
+        store: &mut SpanStore,
+    ) -> Stored {
+        let rows = rows.intersection(outline.samples.rows);
+        let (span, first) = (store.spans.len(), store.starts.len());
+        let mut single = true;
+        // All rows at once, unless so many edges might cross them that nobody would want to hold it.
+        let step = i32::try_from(MAX_CROSSINGS / outline.edges.len().max(1));
+        let step = step.unwrap_or(i32::MAX).max(1);
+        let mut start = rows.start;
+        while start < rows.end {
+            let some = Span {
+                start,
+                end: rows.end.min(start.saturating_add(step)),
+            };
+            let edges = outline.edges_in(all, some);
+            self.numbers.count(edges.clone(), some);
+            if some == rows && self.numbers.are_plain() {
+                self.plain.scan(edges, grid, (rows, end), &mut store.spans);
+                break;
+            }
+            self.sort_crossings(edges, grid, some, end);
+            single &= self.spans_of_rows(outline.rule, end, store);
+            start = some.end;
+        }
+        store.starts.push(index(store.spans.len()));
+        Stored {
+            rows,
+            span,
+            first,
+            single,
+        }
+    }
+
+    /// Adds the spans of the rows whose crossings were found; whether no row has more than one.
+    fn spans_of_rows(&mut self, rule: FillRule, end: i32, store: &mut SpanStore) -> bool {
+        let mut single = true;
+        let mut from = 0;
+        for to in &self.next {
+            let before = store.spans.len();
+            store.starts.push(index(before));
+            let to = *to as usize;
+            let crossings = &mut self.crossings[from..to];
+            from = to;
+            if let [a, b] = crossings {
+                // Of two that cross a row, one runs up and one down; or else both wind around what is between.
+                let span = Span {
+                    start: (*a).min(*b) >> 1,
+                    end: (*a).max(*b) >> 1,
+                };
+                if (*a ^ *b) & 1 != 0 {
+                    store.spans.push(if span.is_empty() { Span::EMPTY } else { span });
+                    continue;
+                }
+            }
+            crossings.sort_unstable();
+            enclosed(crossings, rule, end, &mut store.spans);
+            match store.spans.len() - before {
+                0 => store.spans.push(Span::EMPTY),
+                found => single &= found == 1,
+            }
+        }
+        single
+    }
+
+    /// Finds where edges cross `rows`: after that `next` holds where the crossings of each row end.
+    fn sort_crossings<'c>(
+        &mut self,
+        edges: impl Iterator<Item = (&'c OutlineEdge, Span)> + Clone,
+        grid: SubpixelGrid,
+        rows: Span,
+        end: i32,
+    ) {
+        self.next.clear();
+        let mut total = 0;
+        self.next.extend(self.numbers.numbers().map(|number| {
+            let first = total;
+            total += number;
+            first
+        }));
+        self.crossings.clear();
+        self.crossings.resize(total as usize, 0);
+        for (edge, inside) in edges {
+            let mut walker = EdgeWalker::new(grid, edge.top, edge.bottom, inside.start);
+            let down = i32::from(edge.winding > 0);
+            let (first, last) = (place(inside.start - rows.start), place(inside.end - rows.start));
+            for next in &mut self.next[first..last] {
+                self.crossings[*next as usize] = walker.at_or_after().clamp(0, end) << 1 | down;
+                *next += 1;
+                walker.step();
+            }
+        }
+    }
+}
+
+/// Adds the spans between sorted crossings that a rule calls inside.
+fn enclosed(crossings: &[i32], rule: FillRule, end: i32, spans: &mut Vec<Span>) {
+    let (mut winding, mut start) = (0, 0);
+    let first = spans.len();
+    let mut add = |span: Span| match spans.get_mut(first..).and_then(<[Span]>::last_mut) {
+        Some(last) if last.end == span.start => last.end = span.end,
+        _ if span.is_empty() => {}
+        _ => spans.push(span),
+    };
+    for crossing in crossings {
+        let column = crossing >> 1;
+        if rule.encloses(winding) {
+            add(Span { start, end: column });
+        }
+        winding += (crossing & 1) * 2 - 1;
+        start = column;
+    }
+    if rule.encloses(winding) {
+        add(Span { start, end });
+    }
+}
+
+impl SpanStore {
+    /// Forgets everything.
+    pub(crate) fn clear(&mut self) {
+        self.starts.clear();
+        self.spans.clear();
+    }
+
+    /// Stores spans that are known, those of each of some rows.
+    #[cfg(test)]
+    pub(crate) fn put(&mut self, rows: Span, spans: &[Vec<Span>]) -> Stored {
+        let (span, first) = (self.spans.len(), self.starts.len());
+        for spans in spans {
+            self.starts.push(index(self.spans.len()));
+            self.spans.extend(spans);
+        }
+        self.starts.push(index(self.spans.len()));
+        Stored {
+            rows,
+            span,
+            first,
+            single: spans.iter().all(|spans| spans.len() == 1),
+        }
+    }
+
+    /// Stores one span for each of some rows, empty or not.
+    pub(crate) fn put_single(&mut self, rows: Span, of_row: impl FnMut(i32) -> Span) -> Stored {
+        let span = self.spans.len();
+        self.spans.extend((rows.start..rows.end).map(of_row));
+        Stored {
+            rows,
+            span,
+            first: 0,
+            single: true,
+        }
+    }
+
+    /// How many spans there are.
+    pub(crate) fn len(&self) -> usize {
+        self.spans.len()
+    }
+
+    /// What was stored.
+    #[inline]
+    pub(crate) fn get(&self, stored: Stored) -> RowSpans<'_> {
+        let count = place(stored.rows.end - stored.rows.start);
+        let (starts, spans): (&[u32], &[Span]) = if stored.single {
+            (&[], &self.spans[stored.span..stored.span + count])
+        } else {
+            (&self.starts[stored.first..=stored.first + count], &self.spans)
+        };
+        RowSpans {
+            rows: stored.rows,
+            starts,
+            spans,
+            single: stored.single,
+        }
+    }
+}
+
+impl<'a> RowSpans<'a> {
+    /// The spans of some of the rows, row by row.
+    #[inline]
+    pub(crate) fn of_rows(&self, start: i32, end: i32) -> &'a [Span] {
+        let [start, end] = [start, end].map(|row| place(row - self.rows.start));
+        if self.single {
+            return &self.spans[start..end];
+        }
+        &self.spans[self.starts[start] as usize..self.starts[end] as usize]
+    }
+
+    /// The spans of one of the rows, from left to right; a single empty one where there are none.
+    #[inline]
+    pub(crate) fn of_row(&self, row: i32) -> &'a [Span] {
+        self.of_rows(row, row + 1)
+    }
+}
+
+/// A distance that is never negative.
+#[inline]
+fn place(distance: i32) -> usize {
+    distance.max(0).cast_unsigned() as usize
+}
+
+/// Far fewer than `2^32`: stores are cleared long before.
+#[inline]
+fn index(value: usize) -> u32 {
+    u32::try_from(value).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::coverage::polygon::OutlineBuilder;
+    use glam::DVec2;
+
+    #[test]
+    fn plain_rows_hold_what_sorting_finds() {
+        let (mut plain, mut sorted) = (0, 0);
+        arbtest::arbtest(|u| {
+            let grid = SubpixelGrid::new(u.int_in_range(1..=4)?);
+            let extent = |end| Span { start: 0, end };
+            let frame = SampleBox {
+                columns: extent(40),
+                rows: extent(60),
+            };
+            let mut edges = Vec::new();
+            let mut builder = OutlineBuilder::new(grid, frame, &mut edges);
+            for _ in 0..u.int_in_range(1..=2)? {
+                let mut point = || {
+                    let mut eighths = |most: i32| Ok(f64::from(u.int_in_range(-20..=most)?) / 8.0);
+                    Ok(DVec2::new(eighths(400)?, eighths(600)?))
+                };
+                let points = (0..4)
+                    .map(|_| point())
+                    .collect::<arbtest::arbitrary::Result<Vec<_>>>()?;
+                builder.contour(points.into_iter());
+            }
+            let rule = *u.choose(&[FillRule::NonZero, FillRule::EvenOdd])?;
+            let Some(outline) = builder.finish(rule) else {
+                return Ok(());
+            };
+            let start = u.int_in_range(0..=59)?;
+            let rows = Span {
+                start,
+                end: u.int_in_range(start + 1..=60)?,
+            }
+            .intersection(outline.samples.rows);
+            if rows.is_empty() {
+                return Ok(());
+            }
+            let (mut scanner, mut store) = (RowScanner::default(), SpanStore::default());
+            let end = frame.columns.end;
+            let found = scanner.scan(&outline, (&edges, grid), (rows, end), &mut store);
+            scanner.numbers.count(outline.edges_in(&edges, rows), rows);
+            if scanner.numbers.are_plain() {
+                plain += 1;
+            } else {
+                sorted += 1;
+            }
+            let mut oracle = SpanStore::default();
+            scanner.sort_crossings(outline.edges_in(&edges, rows), grid, rows, end);
+            let single = scanner.spans_of_rows(rule, end, &mut oracle);
+            oracle.starts.push(index(oracle.spans.len()));
+            assert_eq!(found.single, single, "whether rows have one span: {edges:?}");
+            let expected = Stored {
+                rows,
+                single,
+                ..Stored::default()
+            };
+            for row in rows.start..rows.end {
+                let (found, expected) = (store.get(found).of_row(row), oracle.get(expected).of_row(row));
+                assert_eq!(found, expected, "row {row} of {edges:?}");
+            }
+            Ok(())
+        })
+        .budget_ms(500);
+        assert!(
+            plain > 20 && sorted > 20,
+            "both kinds were looked at: {plain} and {sorted}"
+        );
+    }
+}

@@ -1,0 +1,149 @@
+//! Outlines of which every sample row is crossed by two edges or by none: most of them, without sorting anything.
+//!
+//! Where two edges cross a row, one runs up and one runs down; what lies between them is inside, whatever the fill rule.
+
+use fearless_simd::{Simd, dispatch};
+
+use crate::geometry::edge::EdgeWalker;
+use crate::geometry::subpixel::SubpixelGrid;
+use crate::raster::coverage::polygon::OutlineEdge;
+use crate::raster::span::Span;
+use crate::simd;
+
+/// From so many rows on that an edge crosses, it is walked four rows at a time.
+const LONG: usize = 8;
+
+/// Looks at outlines, reusing its memory.
+#[derive(Debug, Default)]
+pub(in crate::raster) struct PlainRows {
+    /// The least and the greatest column in which an edge crosses each row.
+    least: Vec<i32>,
+    greatest: Vec<i32>,
+}
+
+/// How many edges cross each of some rows, and how they wind, kept as what changes from each row to the next.
+#[derive(Debug, Default)]
+pub(in crate::raster) struct Crossings {
+    /// In the lower half the number, in the upper half the sum of the windings; one more than there are rows.
+    changes: Vec<i64>,
+}
+
+impl Crossings {
+    /// Counts edges, which come with those of `rows` that they cross.
+    pub(in crate::raster) fn count<'c>(&mut self, edges: impl Iterator<Item = (&'c OutlineEdge, Span)>, rows: Span) {
+        self.changes.clear();
+        self.changes.resize(place(rows.end - rows.start) + 1, 0);
+        for (edge, inside) in edges {
+            let change = 1 + (i64::from(edge.winding) << 32);
+            self.changes[place(inside.start - rows.start)] += change;
+            self.changes[place(inside.end - rows.start)] -= change;
+        }
+    }
+
+    /// Number and windings, row by row.
+    fn rows(&self) -> impl Iterator<Item = i64> {
+        let rows = self.changes.split_last().map_or(&[][..], |(_, rows)| rows);
+        rows.iter().scan(0, |crossing, change| {
+            *crossing += change;
+            Some(*crossing)
+        })
+    }
+
+    /// Whether each row is crossed by two edges, one that runs up and one that runs down, or by none.
+    pub(in crate::raster) fn are_plain(&self) -> bool {
+        // Windings that cancel out are zero.
+        self.rows().fold(0, |other, crossing| other | crossing & !2) == 0
+    }
+
+    /// The number of crossings in each row.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the lower half: far fewer than 2^32"
+    )]
+    pub(in crate::raster) fn numbers(&self) -> impl Iterator<Item = u32> {
+        self.rows().map(|crossing| crossing as u32)
+    }
+}
+
+impl PlainRows {
+    /// Adds the span of each of `rows` to `spans`, left of the frame's end at column `end`; the rows' crossings must be
+    /// [plain](Crossings::are_plain). `edges` come with those of the rows that they cross.
+    pub(in crate::raster) fn scan<'c>(
+        &mut self,
+        edges: impl Iterator<Item = (&'c OutlineEdge, Span)>,
+        grid: SubpixelGrid,
+        (rows, end): (Span, i32),
+        spans: &mut Vec<Span>,
+    ) {
+        let count = place(rows.end - rows.start);
+        self.least.clear();
+        self.least.resize(count, Span::EMPTY.start);
+        self.greatest.clear();
+        self.greatest.resize(count, Span::EMPTY.end);
+        dispatch!(simd::level(), simd => self.walk(simd, edges, grid, rows.start));
+        let both = self.least.iter().zip(&self.greatest);
+        spans.extend(both.map(|(least, greatest)| {
+            let span = Span {
+                start: *least.max(&0),
+                end: *greatest.min(&end),
+            };
+            if span.is_empty() { Span::EMPTY } else { span }
+        }));
+    }
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn walk<'c, S: Simd>(
+        &mut self,
+        simd: S,
+        edges: impl Iterator<Item = (&'c OutlineEdge, Span)>,
+        grid: SubpixelGrid,
+        top: i32,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                for (edge, inside) in edges {
+                    let walker = EdgeWalker::new(grid, edge.top, edge.bottom, inside.start);
+                    let range = place(inside.start - top)..place(inside.end - top);
+                    widen(walker, &mut self.least[range.clone()], &mut self.greatest[range]);
+                }
+            },
+        );
+    }
+}
+
+/// Walks down an edge by as many rows as there are, and notes its columns where they are the least or the greatest.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn widen(mut edge: EdgeWalker, least: &mut [i32], greatest: &mut [i32]) {
+    let (mut least, mut greatest) = (least, greatest);
+    if least.len() >= LONG {
+        let mut rows = edge.four_rows();
+        let (least_fours, least_rest) = least.as_chunks_mut::<4>();
+        let (greatest_fours, greatest_rest) = greatest.as_chunks_mut::<4>();
+        for (least, greatest) in least_fours.iter_mut().zip(greatest_fours) {
+            let columns = rows.at_or_after();
+            for i in 0..4 {
+                least[i] = least[i].min(columns[i]);
+                greatest[i] = greatest[i].max(columns[i]);
+            }
+            rows.step();
+        }
+        edge.go_to(&rows);
+        (least, greatest) = (least_rest, greatest_rest);
+    }
+    for (least, greatest) in least.iter_mut().zip(greatest) {
+        let column = edge.at_or_after();
+        *least = column.min(*least);
+        *greatest = column.max(*greatest);
+        edge.step();
+    }
+}
+
+/// A distance that is never negative.
+#[inline]
+fn place(distance: i32) -> usize {
+    distance.max(0).cast_unsigned() as usize
+}

@@ -1,0 +1,103 @@
+//! How often edges wind around each of some rows, where they change it for runs of rows only.
+
+use crate::raster::span::Span;
+
+/// Windings of rows, kept as what changes from each row to the next: so an edge changes two numbers, however many rows
+/// it crosses, and whether all rows are wound around alike is known at once.
+#[derive(Debug, Default)]
+pub(in crate::raster) struct RowWindings {
+    /// How each row differs from the one above, the first from nothing; one more than there are rows. All zero between
+    /// [`RowWindings::forget`] and the next edge.
+    steps: Vec<i32>,
+    /// How many rows differ from the one above.
+    uneven: u32,
+}
+
+impl RowWindings {
+    /// Nothing winds around so many rows.
+    #[inline]
+    pub(in crate::raster) fn begin(&mut self, rows: i32) {
+        self.steps.resize(place(rows) + 1, 0);
+        self.uneven = 0;
+    }
+
+    /// An edge winds around some rows, counted from the first.
+    #[inline]
+    pub(in crate::raster) fn add(&mut self, rows: Span, winding: i32) {
+        let last = self.steps.len() - 1;
+        for (row, change) in [(place(rows.start), winding), (place(rows.end), -winding)] {
+            let step = &mut self.steps[row];
+            let before = u32::from(*step != 0);
+            *step += change;
+            // The first row has none above, and the last none below.
+            if row > 0 && row < last {
+                self.uneven = self.uneven + u32::from(*step != 0) - before;
+            }
+        }
+    }
+
+    /// The winding that all rows share; `None` where they differ.
+    #[inline]
+    pub(in crate::raster) fn even(&self) -> Option<i32> {
+        (self.uneven == 0).then_some(self.steps[0])
+    }
+
+    /// Puts the windings of all rows, and one more, into `rows`.
+    pub(in crate::raster) fn of_rows(&self, rows: &mut Vec<i32>) {
+        rows.clear();
+        rows.extend(self.steps.iter().scan(0, |winding, step| {
+            *winding += step;
+            Some(*winding)
+        }));
+    }
+
+    /// Takes back what was added; `rows` are those of every edge.
+    #[inline]
+    pub(in crate::raster) fn forget(&mut self, rows: impl Iterator<Item = Span>) {
+        for rows in rows {
+            self.steps[place(rows.start)] = 0;
+            self.steps[place(rows.end)] = 0;
+        }
+    }
+}
+
+/// A row, never negative.
+#[inline]
+fn place(row: i32) -> usize {
+    row.max(0).cast_unsigned() as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windings_are_those_of_a_counter_per_row() {
+        let mut windings = RowWindings::default();
+        arbtest::arbtest(|u| {
+            let count: i32 = u.int_in_range(1..=9)?;
+            let mut rows = vec![0; usize::try_from(count).expect("a few")];
+            let mut added = Vec::new();
+            windings.begin(count);
+            assert_eq!(windings.even(), Some(0), "nothing yet");
+            for _ in 0..u.int_in_range(0..=9)? {
+                let start = u.int_in_range(0..=count - 1)?;
+                let end = u.int_in_range(start + 1..=count)?;
+                let winding = *u.choose(&[-1, 1])?;
+                windings.add(Span { start, end }, winding);
+                added.push(Span { start, end });
+                for row in &mut rows[usize::try_from(start).expect("a row")..usize::try_from(end).expect("a row")] {
+                    *row += winding;
+                }
+                let even = rows.iter().all(|row| *row == rows[0]).then_some(rows[0]);
+                assert_eq!(windings.even(), even, "{rows:?}");
+                let mut found = Vec::new();
+                windings.of_rows(&mut found);
+                assert_eq!(found[..rows.len()], rows, "row by row");
+            }
+            windings.forget(added.into_iter());
+            Ok(())
+        })
+        .budget_ms(100);
+    }
+}

@@ -1,0 +1,189 @@
+//! One pixel painted again, with everything noted that was done to it.
+//!
+//! The painters are those of frames. What the pixel becomes is painted as its tile is, and what each op does to each
+//! sample by the painter that blends op by op: hidden fragments appear too, which frames leave out.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use crate::color::Premultiplied16;
+use crate::raster::DisplayList;
+use crate::raster::binning::bins::{Bins, entries_of_tile};
+use crate::raster::binning::tile_command::Entry;
+use crate::raster::frame::block::PixelBlock;
+use crate::raster::list::chunk::{Chunk, ListContext};
+use crate::raster::paint::recorder::{PaintedKind, PaintedOp};
+use crate::raster::rasterizer::{Method, Painters, Pass, first_visible};
+use crate::raster::sampling::positions::{Place, SamplePlaces};
+use crate::raster::span::{PixelRect, Span};
+use crate::raster::stats::SharedTally;
+use crate::raster::tile_layout::TileLayout;
+
+/// How a pixel came about.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelReplay {
+    /// Its samples when everything is painted, in the order of the pattern.
+    pub samples: Vec<ReplayedSample>,
+    /// What painted it, in painter's order; ops that touch none of its samples may be among it.
+    pub painted: Vec<PaintedOp>,
+    /// The sums of the samples' channels that are resolved.
+    pub sums: [u32; 4],
+    /// Whether the sums were taken before shaded samples were rounded to 16 bits, and so may differ from those of
+    /// `samples` in the last bits.
+    pub summed_exactly: bool,
+    /// What they resolve to: `0xAARRGGBB`, as in the frame.
+    pub pixel: u32,
+}
+
+/// What one sample of a pixel holds when everything is painted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReplayedSample {
+    /// Its place in the pixel, `(0, 0)` the top left corner, `(1, 1)` the bottom right.
+    pub position: [f64; 2],
+    /// Its colour.
+    pub color: Premultiplied16,
+    /// How many fragments it got, those included that are hidden or forgotten.
+    pub fragments: usize,
+}
+
+impl PixelReplay {
+    /// What painted each sample last; `None` for the background.
+    pub fn sources(&self) -> Vec<Option<u32>> {
+        let mut sources = vec![None; self.samples.len()];
+        for op in &self.painted {
+            for fragment in op.fragments.iter().filter(|_| op.kind == PaintedKind::Primitive) {
+                sources[fragment.sample] = Some(op.source);
+            }
+        }
+        sources
+    }
+}
+
+impl DisplayList<'_> {
+    /// Paints pixel `(x, y)` again; `None` outside the frame.
+    pub fn replay(&self, x: u32, y: u32) -> Option<PixelReplay> {
+        if x >= self.context.size[0] || y >= self.context.size[1] {
+            return None;
+        }
+        let at = [x.cast_signed(), y.cast_signed()];
+        let bins = self.bins_of_pixel(at);
+        let chunks: Vec<(&Chunk, &[Entry])> = self
+            .chunks
+            .iter()
+            .zip(&bins)
+            .map(|(chunk, bins)| (chunk, bins.of_tile(0)))
+            .collect();
+        let mut painters = self.painters_of(Span {
+            start: at[0],
+            end: at[0] + 1,
+        });
+        let (painted, samples) = painters
+            .blended
+            .replay(&chunks, (at, self.background()), &mut painters.bands);
+        let cancelled = AtomicBool::new(false);
+        let pass = Pass {
+            bins,
+            first_row: y,
+            cancelled: &cancelled,
+            tally: SharedTally::default(),
+        };
+        let pixel = self.alone(&pass, &mut painters, at);
+        let deferred = self.method(&pass, 0, first_visible(&pass.bins, 0)) == Method::Deferred;
+        let shaded = deferred.then(|| painters.deferred.shaded_sums()).flatten();
+        let positions = self.positions(at);
+        Some(PixelReplay {
+            sums: shaded.unwrap_or_else(|| sums(samples.iter().map(|(color, _)| color))),
+            summed_exactly: shaded.is_some(),
+            samples: positions
+                .into_iter()
+                .zip(samples)
+                .map(|(position, (color, fragments))| ReplayedSample {
+                    position,
+                    color,
+                    fragments,
+                })
+                .collect(),
+            painted,
+            pixel,
+        })
+    }
+
+    /// What [`PixelReplay::pixel`] would be, without noting what paints it; `None` outside the frame.
+    pub fn pixel(&self, x: u32, y: u32) -> Option<u32> {
+        if x >= self.context.size[0] || y >= self.context.size[1] {
+            return None;
+        }
+        let at = [x.cast_signed(), y.cast_signed()];
+        let cancelled = AtomicBool::new(false);
+        let pass = Pass {
+            bins: self.bins_of_pixel(at),
+            first_row: y,
+            cancelled: &cancelled,
+            tally: SharedTally::default(),
+        };
+        let mut painters = self.painters_of(Span {
+            start: at[0],
+            end: at[0] + 1,
+        });
+        Some(self.alone(&pass, &mut painters, at))
+    }
+
+    /// Paints a pixel as a tile of its own, the first of the pass.
+    fn alone<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, at: [i32; 2]) -> u32 {
+        let mut pixel = [0];
+        let one = |start: i32| Span { start, end: start + 1 };
+        let rect = PixelRect {
+            x: one(at[0]),
+            y: one(at[1]),
+        };
+        self.numbered_tile(pass, painters, 0, &mut PixelBlock::new(rect, &mut pixel, 1));
+        pixel[0]
+    }
+
+    /// How many ops the list has.
+    pub fn ops(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.ops.len()).sum()
+    }
+
+    /// The ops that touch a pixel of the frame.
+    pub(in crate::raster) fn bins_of_pixel(&self, pixel: [i32; 2]) -> Vec<Arc<Bins>> {
+        let context = ListContext {
+            tiles: TileLayout::new((0, 0), self.context.size),
+            ..self.context
+        };
+        let bins = |chunk| {
+            Arc::new(Bins::of_one_tile(entries_of_tile(
+                chunk,
+                &context,
+                &self.textures,
+                pixel,
+            )))
+        };
+        self.chunks.iter().map(bins).collect()
+    }
+
+    /// Where samples lie in a pixel.
+    fn positions(&self, pixel: [i32; 2]) -> Vec<[f64; 2]> {
+        let grid = self.context.grid;
+        let mut memory = Vec::new();
+        let places = self.places();
+        let position = |place: &Place| place.map(|at| grid.sample_position(at.into()));
+        places.of_pixel(pixel, &mut memory).iter().map(position).collect()
+    }
+
+    /// Where samples lie, on the lattice of the grid.
+    pub(in crate::raster) fn places(&self) -> SamplePlaces {
+        SamplePlaces::new(self.context.pattern, self.context.rate)
+    }
+}
+
+/// The sums of colours, channel by channel.
+fn sums<'a>(samples: impl Iterator<Item = &'a Premultiplied16>) -> [u32; 4] {
+    let mut sums = [0; 4];
+    for sample in samples {
+        for (sum, channel) in sums.iter_mut().zip(sample.0) {
+            *sum += u32::from(channel);
+        }
+    }
+    sums
+}

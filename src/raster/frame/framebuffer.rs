@@ -1,0 +1,84 @@
+//! Resolved pixels.
+
+use crate::raster::Region;
+
+/// A picture: `width` x `height` resolved pixels, rows from the top.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Framebuffer {
+    width: u32,
+    height: u32,
+    pixels: Vec<u32>,
+}
+
+impl Framebuffer {
+    /// Longest side of a frame, in pixels.
+    pub const MAX_SIDE: u32 = 16_384;
+
+    /// A transparent frame. Either side may be zero.
+    ///
+    /// # Panics
+    /// When a side exceeds [`Framebuffer::MAX_SIDE`].
+    pub fn new(width: u32, height: u32) -> Self {
+        assert!(
+            width.max(height) <= Self::MAX_SIDE,
+            "frame of {width}x{height} exceeds {}",
+            Self::MAX_SIDE
+        );
+        Self {
+            width,
+            height,
+            pixels: vec![0; width as usize * height as usize],
+        }
+    }
+
+    /// Pixels in a row.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// All pixels, row by row, each `0xAARRGGBB` with straight sRGB-encoded channels.
+    pub fn pixels(&self) -> &[u32] {
+        &self.pixels
+    }
+
+    /// All pixels, as [`Framebuffer::pixels`].
+    pub fn pixels_mut(&mut self) -> &mut [u32] {
+        &mut self.pixels
+    }
+
+    /// Copies those of a tile's `pixels`, row by row, that lie in `wanted` and in the frame.
+    pub fn copy_from(&mut self, tile: Region, pixels: &[u32], wanted: Region) {
+        let shown = tile
+            .intersection(wanted)
+            .intersection(Region::of_size([self.width, self.height]));
+        if shown.is_empty() {
+            return;
+        }
+        let (width, length) = (self.width as usize, shown.width as usize);
+        let left = (shown.x - tile.x) as usize;
+        let rows = pixels.chunks_exact(tile.width as usize);
+        let start = shown.y as usize * width + shown.x as usize;
+        let targets = self.pixels[start..].chunks_mut(width);
+        for (row, target) in rows
+            .skip((shown.y - tile.y) as usize)
+            .take(shown.height as usize)
+            .zip(targets)
+        {
+            target[..length].copy_from_slice(&row[left..left + length]);
+        }
+    }
+
+    /// The pixel in column `x` of row `y` as straight `[r, g, b, a]`, or `None` outside the frame.
+    pub fn rgba(&self, x: u32, y: u32) -> Option<[u8; 4]> {
+        if x >= self.width || y >= self.height {
+            return None;
+        }
+        let [a, r, g, b] = self.pixels[y as usize * self.width as usize + x as usize].to_be_bytes();
+        Some([r, g, b, a])
+    }
+}

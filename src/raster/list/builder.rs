@@ -1,0 +1,584 @@
+//! Screen-space primitives to the ops of a chunk: clipped, snapped, and left out where no sample is covered.
+
+use glam::DVec2;
+
+use crate::color::{Premultiplied16, Rgba, unit_to_16};
+use crate::geometry::Polygon;
+use crate::geometry::clip::{ClipVertex, ClippedTriangle, in_guard};
+use crate::geometry::edge::doubled_area;
+use crate::geometry::subpixel::{GridPoint, floor_to_i32};
+use crate::raster::attributes::{Planes, uv_map};
+use crate::raster::coverage::float_shape::FloatShape;
+use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::coverage::mask8x8_simd::{LANES, TriangleBatch};
+use crate::raster::coverage::polygon::OutlineBuilder;
+use crate::raster::coverage::polygon_rows::{RowScanner, SpanStore};
+use crate::raster::list::chunk::{Chunk, Fill, LayerMark, ListContext, Op, Paint, ScreenTriangle, Stamp};
+use crate::raster::list::hairline::Hairline;
+use crate::raster::list::hidden::{Hidden, MOST_CORNERS, covers, drop_hidden, is_large, joined};
+use crate::raster::span::{PixelRect, SampleBox};
+use crate::rules::Rules;
+use crate::texture::Footprint;
+
+/// Fills one chunk.
+#[derive(Debug)]
+pub struct ChunkBuilder<'a> {
+    context: &'a ListContext,
+    /// The samples of the frame.
+    frame: SampleBox,
+    chunk: Chunk,
+    source: u32,
+    /// The colour used last, as given and as stored.
+    color: (Rgba, Premultiplied16),
+    /// Memory for the spans of small polygons.
+    scanner: (RowScanner, SpanStore),
+    /// Whether small shapes become stamps.
+    stamps: bool,
+    /// Whether fragments are counted rather than painted.
+    counts: bool,
+    hidden: Hidden,
+    /// Triangles that came last, yet to be added.
+    waiting: Waiting,
+}
+
+/// Where triangles are mostly too large to be looked at together, so many after them are not.
+const LARGE_RUN: u32 = 100;
+
+/// Triangles of one colour each that are looked at together.
+#[derive(Debug)]
+struct Waiting {
+    count: usize,
+    /// How many triangles to come are not worth waiting for.
+    hopeless: u32,
+    triangles: TriangleBatch,
+    colors: [Rgba; LANES],
+    sources: [u32; LANES],
+}
+
+impl<'a> ChunkBuilder<'a> {
+    /// An empty chunk with room for some primitives.
+    pub fn new(context: &'a ListContext, primitives: usize) -> Self {
+        let stored = Premultiplied16::from_straight(Rgba::BLACK, context.rules);
+        Self {
+            context,
+            frame: context.samples(),
+            chunk: Chunk {
+                ops: Vec::with_capacity(primitives),
+                sources: Vec::with_capacity(primitives),
+                ..Chunk::default()
+            },
+            source: 0,
+            color: (Rgba::BLACK, stored),
+            scanner: Default::default(),
+            // A few points of a finer lattice need not be samples, and stamps are exact.
+            stamps: context.is_grid() && context.rules != Rules::Float,
+            counts: false,
+            hidden: Hidden::Dropped,
+            waiting: Waiting {
+                count: 0,
+                hopeless: 0,
+                triangles: TriangleBatch::default(),
+                colors: [Rgba::BLACK; LANES],
+                sources: [0; LANES],
+            },
+        }
+    }
+
+    /// Whatever its fill, every fragment adds [`Premultiplied16::FRAGMENT`] to its sample.
+    #[must_use]
+    pub fn with_counts(mut self) -> Self {
+        self.counts = true;
+        self.color = (Rgba::TRANSPARENT, Premultiplied16::FRAGMENT);
+        self.chunk.translucent = true;
+        self
+    }
+
+    /// Keeps small triangles and polygons as they are, rather than reduced to the samples that they cover.
+    #[must_use]
+    pub fn with_all_shapes(mut self) -> Self {
+        self.stamps = false;
+        self.with_hidden()
+    }
+
+    /// Keeps what lies below opaque shapes, for those who ask what was painted.
+    #[must_use]
+    pub fn with_hidden(mut self) -> Self {
+        self.hidden = Hidden::Kept;
+        self
+    }
+
+    /// Everything added from here on comes from the caller's primitive number `source`.
+    pub fn set_source(&mut self, source: u32) {
+        self.source = source;
+    }
+
+    /// The finished chunk.
+    pub fn finish(mut self) -> Chunk {
+        self.add_waiting();
+        self.chunk
+    }
+
+    /// Adds a triangle in screen space; any finite coordinates.
+    #[inline]
+    pub fn triangle(&mut self, points: [DVec2; 3], fill: &Fill) {
+        if let Fill::Solid(color) = *fill
+            && self.stamps
+            && self.waiting.hopeless == 0
+        {
+            self.wait(points, color);
+        } else {
+            self.add_waiting();
+            self.waiting.hopeless = self.waiting.hopeless.saturating_sub(1);
+            self.alone(points, fill);
+        }
+    }
+
+    /// Keeps a triangle of one colour until there are some.
+    #[inline]
+    fn wait(&mut self, points: [DVec2; 3], color: Rgba) {
+        let waiting = &mut self.waiting;
+        waiting.triangles.set(waiting.count, points);
+        waiting.colors[waiting.count] = color;
+        waiting.sources[waiting.count] = self.source;
+        waiting.count += 1;
+        if waiting.count == LANES {
+            self.add_waiting();
+        }
+    }
+
+    /// Adds the triangles that wait.
+    fn add_waiting(&mut self) {
+        let count = std::mem::take(&mut self.waiting.count);
+        if count == 0 {
+            return;
+        }
+        let source = self.source;
+        let coverage = self
+            .waiting
+            .triangles
+            .coverage(self.frame, self.context.grid, self.context.rules);
+        if coverage.known() * 2 < LANES {
+            self.waiting.hopeless = LARGE_RUN;
+        }
+        for lane in 0..count {
+            self.source = self.waiting.sources[lane];
+            let color = self.waiting.colors[lane];
+            match coverage.get(lane) {
+                Some(coverage) if coverage.mask == 0 => {}
+                Some(coverage) => {
+                    self.stamp(coverage, color, Op::Samples);
+                    self.chunk.triangle_count += 1;
+                }
+                None => self.alone(self.waiting.triangles.get(lane), &Fill::Solid(color)),
+            }
+        }
+        self.source = source;
+    }
+
+    /// Adds a single triangle.
+    #[inline]
+    fn alone(&mut self, points: [DVec2; 3], fill: &Fill) {
+        if points.iter().all(|point| in_guard(*point)) {
+            self.snapped(points, fill);
+        } else {
+            self.clipped(points, fill);
+        }
+    }
+
+    /// Adds a triangle in the one colour that `color` gives to the change of `(u, v)` per pixel with which a texture
+    /// would be read there.
+    pub fn measured_triangle(&mut self, points: [DVec2; 3], uv: [[f32; 2]; 3], color: &dyn Fn(&Footprint) -> Rgba) {
+        self.add_waiting();
+        let (texture, opacity) = (0, 1.0);
+        let fill = Fill::Texture { texture, uv, opacity };
+        if points.iter().all(|point| in_guard(*point)) {
+            self.measured(points, &fill, color);
+        } else if self.may_show(points) {
+            each_piece(points, &fill, |points, fill| self.measured(points, fill, color));
+        }
+    }
+
+    fn measured(&mut self, points: [DVec2; 3], fill: &Fill, color: &dyn Fn(&Footprint) -> Rgba) {
+        if let Fill::Texture { uv, .. } = *fill {
+            let grid = self.context.grid;
+            let corners = points.map(|point| grid.snap(point));
+            if doubled_area(corners) != 0 {
+                let footprint = uv_map(grid, &Planes::new(grid, &corners, uv)).footprint();
+                self.snapped(points, &Fill::Solid(color(&footprint)));
+            }
+        }
+    }
+
+    /// Adds a triangle that reaches beyond the guard band.
+    #[cold]
+    fn clipped(&mut self, points: [DVec2; 3], fill: &Fill) {
+        if self.may_show(points) {
+            each_piece(points, fill, |points, fill| self.snapped(points, fill));
+        }
+    }
+
+    /// Adds a polygon of one colour, its points brought to screen space by `place`; nothing where any of them is not
+    /// finite there.
+    pub fn polygon(&mut self, polygon: &Polygon, place: impl Fn(DVec2) -> DVec2, color: Rgba) {
+        self.add_waiting();
+        let (grid, frame) = (self.context.grid, self.frame);
+        let mut builder = OutlineBuilder::new(grid, frame, &mut self.chunk.outline_edges);
+        for contour in polygon.contours() {
+            builder.contour(contour.iter().map(|point| place(*point)));
+        }
+        let Some(outline) = builder.finish(polygon.rule()) else {
+            return;
+        };
+        if self.stamps
+            && let Some(coverage) = outline.small_coverage(&self.chunk.outline_edges, grid, &mut self.scanner)
+        {
+            outline.drop_edges(&mut self.chunk.outline_edges);
+            if coverage.mask != 0 {
+                self.stamp(coverage, color, Op::Samples);
+                self.chunk.triangle_count += 1;
+            }
+            return;
+        }
+        let index = index(self.chunk.outlines.len());
+        let (color, samples) = (self.color(color), outline.samples);
+        self.chunk.outlines.push(outline);
+        self.chunk.outline_colors.push(color);
+        self.push(Op::Outline(index));
+        self.chunk.triangle_count += 1;
+        if color.is_opaque() && polygon.points().len() <= MOST_CORNERS {
+            // So few are one contour.
+            let points = polygon.points().iter().map(|point| place(*point));
+            self.drop_below_polygon(points, samples);
+        }
+    }
+
+    /// Drops what a polygon of few corners hides that came last and holds `samples`.
+    fn drop_below_polygon(&mut self, points: impl Iterator<Item = DVec2>, samples: SampleBox) {
+        if self.hidden == Hidden::Kept || !is_large(samples, self.context) {
+            return;
+        }
+        let grid = self.context.grid;
+        let snapped: Option<Vec<GridPoint>> = points.map(|point| in_guard(point).then(|| grid.snap(point))).collect();
+        // Outlines are exact by anybody's rules.
+        if snapped.is_some_and(|corners| covers(&corners, samples, grid, Rules::Standard)) {
+            drop_hidden(&mut self.chunk, self.context, samples, 1);
+        }
+    }
+
+    /// Drops what a triangle of one colour hides that came last, alone or with the one before.
+    fn drop_below_triangle(&mut self, corners: [GridPoint; 3]) {
+        let (grid, rules) = (self.context.grid, self.context.rules);
+        let samples = SampleBox::new(corners, grid, rules);
+        let inside = samples.intersection(self.frame);
+        // The halves of a large rectangle have its box, so that one look is enough for nearly all triangles.
+        if !is_large(inside, self.context) {
+            return;
+        }
+        // The corners of its own box are not all inside a triangle.
+        if inside != samples && covers(&corners, inside, grid, rules) {
+            drop_hidden(&mut self.chunk, self.context, inside, 1);
+        }
+        let [.., Op::Triangle(before), Op::Triangle(_)] = *self.chunk.ops else {
+            return;
+        };
+        let before = self.chunk.triangles[before as usize];
+        if self
+            .chunk
+            .triangles
+            .last()
+            .is_some_and(|last| last.paint == before.paint)
+            && let Some(quad) = joined(before.corners, corners)
+        {
+            let [a, b] = [before.corners, corners].map(|corners| SampleBox::new(corners, grid, rules));
+            let both = SampleBox {
+                columns: a.columns.union(b.columns),
+                rows: a.rows.union(b.rows),
+            };
+            let inside = both.intersection(self.frame);
+            if is_large(inside, self.context) && covers(&quad, inside, grid, rules) {
+                drop_hidden(&mut self.chunk, self.context, inside, 2);
+            }
+        }
+    }
+
+    /// Adds a line one pixel wide; any finite coordinates.
+    pub fn hairline(&mut self, ends: [DVec2; 2], color: Rgba) {
+        self.add_waiting();
+        let color = self.color(color);
+        if let Some(line) = Hairline::new(ends, self.context.size, color) {
+            let index = index(self.chunk.hairlines.len());
+            self.chunk.hairlines.push(line);
+            self.push(Op::Hairline(index));
+        }
+    }
+
+    /// Adds a single pixel.
+    pub fn point(&mut self, at: DVec2, color: Rgba) {
+        self.add_waiting();
+        let (x, y) = (at.x.floor(), at.y.floor());
+        let [width, height] = self.context.size.map(f64::from);
+        if x >= 0.0 && x < width && y >= 0.0 && y < height {
+            let coverage = SmallCoverage {
+                column: floor_to_i32(x),
+                row: floor_to_i32(y),
+                mask: 1,
+            };
+            self.stamp(coverage, color, Op::Pixels);
+        }
+    }
+
+    /// Starts a transparent layer.
+    pub fn begin_layer(&mut self) {
+        self.layer(0, Op::BeginLayer);
+    }
+
+    /// Paints the layer over what is below it.
+    pub fn end_layer(&mut self, opacity: f32) {
+        self.layer(unit_to_16(opacity.clamp(0.0, 1.0)), Op::EndLayer);
+    }
+
+    fn layer(&mut self, opacity: u16, op: fn(u32) -> Op) {
+        self.add_waiting();
+        let index = index(self.chunk.layers.len());
+        let area = PixelRect::NOTHING;
+        self.chunk.layers.push(LayerMark { area, opacity });
+        self.push(op(index));
+    }
+
+    #[inline]
+    fn push(&mut self, op: Op) {
+        self.chunk.ops.push(op);
+        self.chunk.sources.push(self.source);
+    }
+
+    /// Whether a triangle is finite and its box touches the frame at all.
+    fn may_show(&self, [a, b, c]: [DVec2; 3]) -> bool {
+        if ![a, b, c].iter().all(|point| point.is_finite()) {
+            return false;
+        }
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        let frame = DVec2::new(f64::from(self.context.size[0]), f64::from(self.context.size[1]));
+        high.cmpge(DVec2::ZERO).all() && low.cmple(frame).all()
+    }
+
+    /// Adds a triangle inside the guard band, unless it covers no sample of the frame.
+    #[inline]
+    fn snapped(&mut self, points: [DVec2; 3], fill: &Fill) {
+        let (grid, rules) = (self.context.grid, self.context.rules);
+        if rules == Rules::Float {
+            return self.float(points, fill);
+        }
+        let corners = points.map(|point| grid.snap(point));
+        let samples = SampleBox::new(corners, grid, rules);
+        let inside = samples.intersection(self.frame);
+        if inside.columns.is_empty() || inside.rows.is_empty() {
+            return;
+        }
+        if samples.is_small() {
+            let mut coverage = SmallCoverage::new(corners, samples, grid, rules);
+            if inside != samples {
+                coverage = coverage.within(self.frame.columns, self.frame.rows);
+            }
+            if coverage.mask == 0 {
+                return;
+            }
+            if let Fill::Solid(color) = *fill
+                && self.stamps
+            {
+                self.stamp(coverage, color, Op::Samples);
+                self.chunk.triangle_count += 1;
+                return;
+            }
+        } else if doubled_area(corners) == 0 {
+            return;
+        }
+        let paint = self.paint(fill);
+        let index = index(self.chunk.triangles.len());
+        self.chunk.triangles.push(ScreenTriangle { corners, paint });
+        self.push(Op::Triangle(index));
+        self.chunk.triangle_count += 1;
+        if let Paint::Solid(color) = self.chunk.paints[paint as usize]
+            && color.is_opaque()
+            && self.hidden == Hidden::Dropped
+        {
+            self.drop_below_triangle(corners);
+        }
+    }
+
+    /// Adds a triangle inside the guard band by the rules of first drafts. Colours and coordinates are interpolated as
+    /// everywhere, between its corners on the grid.
+    #[cold]
+    fn float(&mut self, points: [DVec2; 3], fill: &Fill) {
+        let grid = self.context.grid;
+        let corners = points.map(|point| grid.snap(point));
+        let Some(float) = FloatShape::new(points, grid, self.frame).filter(|_| doubled_area(corners) != 0) else {
+            return;
+        };
+        let paint = self.paint(fill);
+        let index = index(self.chunk.triangles.len());
+        self.chunk.triangles.push(ScreenTriangle { corners, paint });
+        self.chunk.floats.push(float);
+        self.push(Op::Triangle(index));
+        self.chunk.triangle_count += 1;
+    }
+
+    #[inline]
+    fn stamp(&mut self, coverage: SmallCoverage, color: Rgba, op: fn(u32) -> Op) {
+        let color = self.color(color);
+        let stamps = &mut self.chunk.stamps;
+        if stamps.is_empty() {
+            // What begins with one small primitive mostly goes on like that.
+            stamps.reserve(self.chunk.ops.capacity());
+        }
+        let index = index(stamps.len());
+        stamps.push(Stamp { coverage, color });
+        self.push(op(index));
+    }
+
+    /// A colour as it is stored; the same one twice costs nothing.
+    #[inline]
+    fn color(&mut self, color: Rgba) -> Premultiplied16 {
+        if color != self.color.0 && !self.counts {
+            self.color = (color, Premultiplied16::from_straight(color, self.context.rules));
+            self.chunk.translucent |= !self.color.1.is_opaque();
+        }
+        self.color.1
+    }
+
+    /// The index of a paint; runs of the same solid colour share one.
+    fn paint(&mut self, fill: &Fill) -> u32 {
+        let paint = match *fill {
+            Fill::Solid(color) => Paint::Solid(self.color(color)),
+            Fill::Vertex(_) | Fill::Texture { .. } if self.counts => Paint::Solid(Premultiplied16::FRAGMENT),
+            Fill::Vertex(colors) => Paint::Vertex(colors.map(|color| [color.r, color.g, color.b, color.a])),
+            Fill::Texture { texture, uv, opacity } => Paint::Texture { texture, uv, opacity },
+        };
+        if self.chunk.paints.last() != Some(&paint) {
+            self.chunk.translucent |= paint.is_translucent();
+            self.chunk.paints.push(paint);
+        }
+        index(self.chunk.paints.len() - 1)
+    }
+}
+
+/// A chunk holds far fewer than `2^32` of anything: its input is a slice of at most 65 536 primitives, each of which
+/// adds at most five triangles.
+fn index(value: usize) -> u32 {
+    u32::try_from(value).unwrap_or(u32::MAX)
+}
+
+/// The parts of a triangle that lie inside the guard band, each with its part of the fill.
+fn each_piece(points: [DVec2; 3], fill: &Fill, mut add: impl FnMut([DVec2; 3], &Fill)) {
+    for corners in ClippedTriangle::new(points).triangles() {
+        add(corners.map(|corner| corner.point), &fill.at(&corners));
+    }
+}
+
+impl Fill {
+    /// The same fill on a part of the triangle.
+    fn at(&self, corners: &[ClipVertex; 3]) -> Self {
+        match *self {
+            Self::Solid(_) => *self,
+            Self::Vertex(colors) => Self::Vertex(corners.map(|corner| {
+                let mix = |channel: fn(&Rgba) -> f32| blend(corner.weights, colors.each_ref().map(channel));
+                Rgba {
+                    r: mix(|c| c.r),
+                    g: mix(|c| c.g),
+                    b: mix(|c| c.b),
+                    a: mix(|c| c.a),
+                }
+            })),
+            Self::Texture { texture, uv, opacity } => {
+                let uv = corners.map(|corner| [0, 1].map(|i| blend(corner.weights, uv.map(|uv| uv[i]))));
+                Self::Texture { texture, uv, opacity }
+            }
+        }
+    }
+}
+
+/// A barycentric mix in 64 bits.
+#[expect(clippy::cast_possible_truncation, reason = "attributes are 32-bit floats")]
+fn blend(weights: [f64; 3], values: [f32; 3]) -> f32 {
+    // Relative to the first corner, so that equal values stay equal.
+    let first = f64::from(values[0]);
+    (first + weights[1] * (f64::from(values[1]) - first) + weights[2] * (f64::from(values[2]) - first)) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+
+    use super::*;
+    use crate::color::ResolveSpace;
+    use crate::raster::{RasterSettings, SamplePattern, SampleRate};
+    use crate::rules::Rules;
+    use crate::texture::SamplingSettings;
+
+    const SIZE: [u32; 2] = [40, 30];
+
+    fn settings(u: &mut Unstructured<'_>) -> Result<RasterSettings> {
+        let side: u32 = u.int_in_range(1..=4)?;
+        Ok(RasterSettings {
+            rate: SampleRate::new(side * side).expect("a square number"),
+            pattern: SamplePattern::Grid,
+            sampling: SamplingSettings {
+                rules: *u.choose(&Rules::ALL)?,
+                ..SamplingSettings::default()
+            },
+            space: ResolveSpace::Stored,
+            background: Rgba::WHITE,
+            palette: None,
+        })
+    }
+
+    /// Adds anything, mostly tiny triangles.
+    fn add(u: &mut Unstructured<'_>, builders: &mut [ChunkBuilder<'_>; 2]) -> Result<()> {
+        let color = *u.choose(&[Rgba::BLACK, Rgba::WHITE, Rgba { a: 0.5, ..Rgba::BLACK }])?;
+        let fill = if u.ratio(1, 8)? {
+            Fill::Vertex([color, Rgba::BLACK, color])
+        } else {
+            Fill::Solid(color)
+        };
+        let reach = *u.choose(&[2.0, 2.0, 2.0, 2.0, 9.0, 1e5])?;
+        let mut at = |from: f64, to: f64| Ok(from + (to - from) * f64::from(u.int_in_range(0..=64_u32)?) / 64.0);
+        let corner = DVec2::new(at(-2.0, 40.0)?, at(-2.0, 30.0)?);
+        let mut point = || Ok(corner + DVec2::new(at(0.0, reach)?, at(0.0, reach)?));
+        let points = [point()?, point()?, point()?];
+        let kind = u.int_in_range(0..=20)?;
+        let layers = u.arbitrary()?;
+        for builder in builders {
+            match kind {
+                0 => builder.point(points[0], color),
+                1 => builder.hairline([points[0], points[1]], color),
+                2 if layers => builder.begin_layer(),
+                2 => builder.end_layer(0.5),
+                _ => builder.triangle(points, &fill),
+            }
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn chunks_are_the_same_whether_triangles_wait_or_not() {
+        let mut stamps = 0;
+        arbtest::arbtest(|u| {
+            let settings = settings(u)?;
+            let context = ListContext::new(SIZE, &settings);
+            let mut builders = [ChunkBuilder::new(&context, 9), ChunkBuilder::new(&context, 9)];
+            for source in 0..u.int_in_range(1..=60)? {
+                builders[1].waiting.hopeless = u32::MAX;
+                for builder in &mut builders {
+                    builder.set_source(source);
+                }
+                add(u, &mut builders)?;
+            }
+            let [waited, alone] = builders.map(ChunkBuilder::finish);
+            stamps += waited.stamps.len();
+            assert!(waited.sources.is_sorted(), "in painter's order: {:?}", waited.sources);
+            assert_eq!(format!("{waited:?}"), format!("{alone:?}"), "{settings:?}");
+            Ok(())
+        })
+        .budget_ms(400);
+        assert!(stamps > 100, "{stamps} stamps");
+    }
+}

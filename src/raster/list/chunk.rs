@@ -1,0 +1,282 @@
+//! What is to be painted on the screen, in painter's order: screen-space triangles, polygons, hairlines, points
+//! and layers.
+//!
+//! The list is built in chunks that many threads fill at once; order inside and between chunks is painter's order. A
+//! chunk is a handful of plain arrays. What covers a few samples only, which in a scene of a million primitives is
+//! nearly everything, is reduced to the bits of these samples and its colour at once and never looked at as a triangle
+//! again.
+
+use crate::color::{Premultiplied16, Rgba};
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::raster::coverage::float_shape::FloatShape;
+use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::coverage::polygon::{Outline, OutlineEdge};
+use crate::raster::coverage::shape_rows::OutlineOf;
+use crate::raster::list::hairline::Hairline;
+use crate::raster::span::{PixelRect, SampleBox, Span, scaled};
+use crate::raster::tile_layout::TileLayout;
+use crate::raster::{SamplePattern, SampleRate};
+use crate::rules::Rules;
+
+/// What fills a triangle, in the terms of this room.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fill {
+    /// One colour.
+    Solid(Rgba),
+    /// Colours at the corners.
+    Vertex([Rgba; 3]),
+    /// Texture coordinates at the corners.
+    Texture {
+        /// Index into the textures of the drawing.
+        texture: u32,
+        /// `(u, v)` at the corners.
+        uv: [[f32; 2]; 3],
+        /// Multiplies the texture's own, `0.0..=1.0`.
+        opacity: f32,
+    },
+}
+
+/// A fill with its colour as samples store it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Paint {
+    Solid(Premultiplied16),
+    Vertex([[f32; 4]; 3]),
+    Texture {
+        texture: u32,
+        uv: [[f32; 2]; 3],
+        opacity: f32,
+    },
+}
+
+/// A triangle on the sub-pixel grid.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ScreenTriangle {
+    pub(crate) corners: [GridPoint; 3],
+    /// Index into the chunk's paints.
+    pub(crate) paint: u32,
+}
+
+/// A few samples, or a few pixels, of one colour; all in the frame, at least one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stamp {
+    pub(crate) coverage: SmallCoverage,
+    pub(crate) color: Premultiplied16,
+}
+
+/// Where a layer begins or ends.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LayerMark {
+    /// The pixels that anything in the layer touches.
+    pub(crate) area: PixelRect,
+    /// At the end of the layer, the opacity it is painted with.
+    pub(crate) opacity: u16,
+}
+
+/// One step of the painter: an index into the chunk's array of the kind.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Op {
+    Triangle(u32),
+    /// A polygon of one colour.
+    Outline(u32),
+    /// A stamp of samples.
+    Samples(u32),
+    /// A stamp of whole pixels.
+    Pixels(u32),
+    Hairline(u32),
+    BeginLayer(u32),
+    EndLayer(u32),
+}
+
+/// A part of the display list.
+#[derive(Debug, Default)]
+pub struct Chunk {
+    pub(crate) ops: Vec<Op>,
+    /// For each op the number its caller gave it.
+    pub(crate) sources: Vec<u32>,
+    pub(crate) stamps: Vec<Stamp>,
+    pub(crate) triangles: Vec<ScreenTriangle>,
+    /// By the rules of first drafts, what each triangle covers; else empty.
+    pub(crate) floats: Vec<FloatShape>,
+    pub(crate) paints: Vec<Paint>,
+    pub(crate) outlines: Vec<Outline>,
+    /// The colour of each outline.
+    pub(crate) outline_colors: Vec<Premultiplied16>,
+    pub(crate) outline_edges: Vec<OutlineEdge>,
+    /// Outlines in the chunks before this one.
+    pub(crate) first_outline: usize,
+    pub(crate) hairlines: Vec<Hairline>,
+    pub(crate) layers: Vec<LayerMark>,
+    /// How many triangles and polygons became ops.
+    pub(crate) triangle_count: u64,
+    /// Layers that earlier chunks have left open.
+    pub(crate) layers_open: u32,
+    /// Whether a colour lets what is below it shine through; textures are not looked at.
+    pub(crate) translucent: bool,
+}
+
+/// What a chunk needs to know about the drawing.
+#[derive(Clone, Copy, Debug)]
+pub struct ListContext {
+    /// Where vertices and samples may lie.
+    pub(crate) grid: SubpixelGrid,
+    /// Where samples do, and how many there are: a rate that the pattern takes.
+    pub(crate) pattern: SamplePattern,
+    pub(crate) rate: SampleRate,
+    pub(crate) rules: Rules,
+    /// Pixels in a row, rows.
+    pub(crate) size: [u32; 2],
+    pub(crate) tiles: TileLayout,
+}
+
+impl ListContext {
+    /// Whether samples are all those of the grid.
+    pub(crate) fn is_grid(&self) -> bool {
+        self.pattern == SamplePattern::Grid
+    }
+
+    /// The samples of the frame.
+    pub(crate) fn samples(&self) -> SampleBox {
+        let all = |pixels: u32| Span {
+            start: 0,
+            end: pixels.cast_signed() * self.grid.side(),
+        };
+        SampleBox {
+            columns: all(self.size[0]),
+            rows: all(self.size[1]),
+        }
+    }
+
+    /// The pixels that hold any sample of a box, clipped to the frame; `None` when there are none.
+    pub(crate) fn pixels_of(&self, samples: SampleBox) -> Option<PixelRect> {
+        let side = self.grid.side();
+        let frame = self.samples();
+        let pixels = |span: Span, frame: Span| {
+            let inside = span.intersection(frame);
+            (!inside.is_empty()).then(|| Span {
+                start: inside.start / side,
+                end: (inside.end - 1) / side + 1,
+            })
+        };
+        Some(PixelRect {
+            x: pixels(samples.columns, frame.columns)?,
+            y: pixels(samples.rows, frame.rows)?,
+        })
+    }
+}
+
+impl Chunk {
+    /// The outline at `index`, with what it needs.
+    #[inline]
+    pub(crate) fn outline(&self, index: u32) -> OutlineOf<'_> {
+        OutlineOf {
+            outline: &self.outlines[index as usize],
+            edges: &self.outline_edges,
+            number: self.first_outline + index as usize,
+        }
+    }
+
+    /// Whether any op begins or ends a layer.
+    pub(crate) fn has_layers(&self) -> bool {
+        !self.layers.is_empty()
+    }
+
+    /// The pixels that an op may touch, clipped to the frame; `None` when there are none.
+    pub(crate) fn area(&self, op: Op, context: &ListContext) -> Option<PixelRect> {
+        context.pixels_of(self.sample_box(op, context)?)
+    }
+
+    /// The box of the samples that an op may touch, clipped to the frame; `None` when there are none.
+    pub(crate) fn sample_box(&self, op: Op, context: &ListContext) -> Option<SampleBox> {
+        let side = context.grid.side();
+        let of_pixels = |columns, rows| SampleBox {
+            columns: scaled(columns, side),
+            rows: scaled(rows, side),
+        };
+        let samples = match op {
+            Op::Triangle(index) => {
+                let corners = self.triangles[index as usize].corners;
+                let float = self.floats.get(index as usize).map(|float| float.samples);
+                float.unwrap_or_else(|| SampleBox::new(corners, context.grid, context.rules))
+            }
+            Op::Outline(index) => self.outlines[index as usize].samples,
+            Op::Samples(index) => {
+                let coverage = self.stamps[index as usize].coverage;
+                SampleBox {
+                    columns: coverage.columns(),
+                    rows: coverage.rows(),
+                }
+            }
+            Op::Pixels(index) => {
+                let coverage = self.stamps[index as usize].coverage;
+                of_pixels(coverage.columns(), coverage.rows())
+            }
+            Op::Hairline(index) => {
+                let mut area: Option<PixelRect> = None;
+                self.hairlines[index as usize].blocks(context.size, |pixels| {
+                    let pixels = PixelRect {
+                        x: pixels.columns(),
+                        y: pixels.rows(),
+                    };
+                    area = Some(area.map_or(pixels, |area| area.union(pixels)));
+                });
+                let area = area?;
+                of_pixels(area.x, area.y)
+            }
+            Op::BeginLayer(index) | Op::EndLayer(index) => {
+                let area = self.layers[index as usize].area;
+                if area.x.is_empty() || area.y.is_empty() {
+                    return None;
+                }
+                of_pixels(area.x, area.y)
+            }
+        }
+        .intersection(context.samples());
+        (!samples.columns.is_empty() && !samples.rows.is_empty()).then_some(samples)
+    }
+}
+
+/// Tells every layer which pixels it touches, so that tiles beside it need not open it.
+///
+/// Layers may span chunks, so this looks at all of them in order; without layers it does nothing.
+pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
+    if !chunks.iter().any(Chunk::has_layers) {
+        return;
+    }
+    let mut open: Vec<(usize, usize, PixelRect)> = Vec::new();
+    for at in 0..chunks.len() {
+        chunks[at].layers_open = u32::try_from(open.len()).unwrap_or(u32::MAX);
+        for op in 0..chunks[at].ops.len() {
+            match chunks[at].ops[op] {
+                Op::BeginLayer(begin) => open.push((at, begin as usize, PixelRect::NOTHING)),
+                Op::EndLayer(end) => {
+                    let Some((begin_chunk, begin, area)) = open.pop() else {
+                        continue;
+                    };
+                    chunks[begin_chunk].layers[begin].area = area;
+                    chunks[at].layers[end as usize].area = area;
+                    if let Some((_, _, outer)) = open.last_mut() {
+                        *outer = outer.union(area);
+                    }
+                }
+                painted => {
+                    if let Some((_, _, layer)) = open.last_mut()
+                        && let Some(area) = chunks[at].area(painted, context)
+                    {
+                        *layer = layer.union(area);
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Paint {
+    /// Whether its colours, leaving textures aside, let what is below them shine through.
+    pub(crate) fn is_translucent(&self) -> bool {
+        match *self {
+            Self::Solid(color) => !color.is_opaque(),
+            Self::Vertex(colors) => colors.iter().any(|color| color[3] < 1.0),
+            Self::Texture { opacity, .. } => opacity < 1.0,
+        }
+    }
+}

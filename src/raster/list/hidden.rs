@@ -1,0 +1,181 @@
+//! What nobody will see is dropped before it is drawn: ops below an opaque shape that covers all of their samples.
+//!
+//! A document may paint its canvas anew a hundred thousand times, and each time would be sorted into every tile. Where a
+//! tile lies inside such a shape, its painter starts with the last one anyway; along the shape's border, and along the
+//! diagonal of two triangles that make a rectangle, it would paint them all. So a chunk that is being filled looks back a
+//! little from every large convex shape. What is dropped is counted as a triangle of the picture all the same.
+
+use crate::geometry::edge::{EdgeTest, doubled_area};
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::raster::list::chunk::{Chunk, ListContext, Op};
+use crate::raster::span::SampleBox;
+use crate::rules::Rules;
+
+/// How many ops before a shape are looked at.
+const LOOK_BACK: usize = 32;
+
+/// Most corners of a shape that is looked at: four that turn one way are convex, more might wind around twice.
+pub(crate) const MOST_CORNERS: usize = 4;
+
+/// What becomes of primitives that nobody will see.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hidden {
+    /// They are dropped where that is found out cheaply.
+    Dropped,
+    /// Somebody asks what was painted.
+    Kept,
+}
+
+/// Drops ops of a chunk that are wholly hidden by samples `cover`, all of which the last `above` ops hide.
+pub(crate) fn drop_hidden(chunk: &mut Chunk, context: &ListContext, cover: SampleBox, above: usize) {
+    let end = chunk.ops.len().saturating_sub(above);
+    let first = end.saturating_sub(LOOK_BACK);
+    // What was painted before a layer, or in it, is not below what comes after.
+    let is_mark = |op: &Op| matches!(op, Op::BeginLayer(_) | Op::EndLayer(_));
+    let mark = chunk.ops[first..end].iter().rposition(is_mark);
+    let first = mark.map_or(first, |mark| first + mark + 1);
+    let mut kept = first;
+    for i in first..end {
+        let op = chunk.ops[i];
+        let samples = chunk.sample_box(op, context);
+        if samples.is_some_and(|samples| !holds(cover, samples)) {
+            (chunk.ops[kept], chunk.sources[kept]) = (op, chunk.sources[i]);
+            kept += 1;
+        }
+    }
+    chunk.ops.drain(kept..end);
+    chunk.sources.drain(kept..end);
+}
+
+fn holds(outer: SampleBox, inner: SampleBox) -> bool {
+    inner.intersection(outer) == inner
+}
+
+/// Whether samples are so many that looking back costs little beside painting them.
+pub(crate) fn is_large(samples: SampleBox, context: &ListContext) -> bool {
+    let (width, height) = context.tiles.sides_log2();
+    let side = context.grid.side();
+    samples.columns.end - samples.columns.start >= side << width
+        && samples.rows.end - samples.rows.start >= side << height
+}
+
+/// Whether a shape of three or four corners is convex and covers all of some samples: those at their corners, and so all.
+pub(crate) fn covers(corners: &[GridPoint], samples: SampleBox, grid: SubpixelGrid, rules: Rules) -> bool {
+    let count = corners.len();
+    let corner = |i: usize| corners[i % count];
+    let turn = |i: usize| doubled_area([corner(i), corner(i + 1), corner(i + 2)]).signum();
+    let way = turn(0);
+    if way == 0 || (1..count).any(|i| turn(i) != way) {
+        return false;
+    }
+    let SampleBox { columns, rows } = samples;
+    [columns.start, columns.end - 1].into_iter().all(|column| {
+        [rows.start, rows.end - 1].into_iter().all(|row| {
+            let point = GridPoint {
+                x: grid.sample_coordinate(column),
+                y: grid.sample_coordinate(row),
+            };
+            (0..count).all(|i| {
+                let (from, to) = (corner(i), corner(i + 1));
+                let (from, to) = if way > 0 { (from, to) } else { (to, from) };
+                EdgeTest::clockwise(from, to, point).is_inside(rules)
+            })
+        })
+    })
+}
+
+/// The corners of what two triangles make together that share an edge, in the order around it.
+pub(crate) fn joined(a: [GridPoint; 3], b: [GridPoint; 3]) -> Option<[GridPoint; 4]> {
+    let own = (0..3).find(|i| !b.contains(&a[*i]))?;
+    let other = b.into_iter().find(|corner| !a.contains(corner))?;
+    let (next, last) = (a[(own + 1) % 3], a[(own + 2) % 3]);
+    (b.contains(&next) && b.contains(&last)).then_some([a[own], next, other, last])
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::AtomicBool;
+
+    use arbtest::arbitrary::{Result, Unstructured};
+    use glam::DVec2;
+
+    use crate::color::{ResolveSpace, Rgba};
+    use crate::geometry::{FillRule, Polygon};
+    use crate::raster::list::builder::ChunkBuilder;
+    use crate::raster::list::chunk::Fill;
+    use crate::raster::random::{fill, noise};
+    use crate::raster::{DisplayList, Framebuffer, RasterSettings, SamplePattern, SampleRate};
+    use crate::rules::Rules;
+    use crate::texture::SamplingSettings;
+
+    const SIZE: [u32; 2] = [150, 90];
+
+    /// An opaque quadrilateral, as a polygon or as two triangles; mostly upright, mostly over much of the frame.
+    fn cover(builder: &mut ChunkBuilder<'_>, u: &mut Unstructured<'_>) -> Result<()> {
+        let mut near = |at: f64| Ok(at + f64::from(u.int_in_range(-40..=40)?) / 4.0);
+        let (x, y) = ([near(4.0)?, near(140.0)?], [near(4.0)?, near(84.0)?]);
+        let mut points = [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(DVec2::from_array);
+        if u.ratio(1, 4)? {
+            let corner = u.choose_index(4)?;
+            points[corner] += DVec2::new(f64::from(u.int_in_range(-300..=300)?), 30.0);
+        }
+        let color = Rgba::from_bytes([u.arbitrary()?, u.arbitrary()?, u.arbitrary()?, 255]);
+        let [a, b, c, d] = points;
+        if u.arbitrary()? {
+            let polygon = Polygon::new([points.to_vec()], FillRule::NonZero);
+            builder.polygon(&polygon, |point| point, color);
+        } else {
+            builder.triangle([a, b, c], &Fill::Solid(color));
+            builder.triangle([c, d, a], &Fill::Solid(color));
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn hidden_ops_are_dropped_and_the_bytes_stay() {
+        let texture = noise();
+        let (mut all, mut kept) = (0, 0);
+        arbtest::arbtest(|u| {
+            let pattern = *u.choose(&SamplePattern::ALL)?;
+            let settings = RasterSettings {
+                rate: SampleRate::new(*u.choose(&[1, 4, 9, 16])?).expect("a rate"),
+                pattern,
+                sampling: SamplingSettings {
+                    rules: *u.choose(&Rules::ALL)?,
+                    ..SamplingSettings::default()
+                },
+                space: *u.choose(&ResolveSpace::ALL)?,
+                background: Rgba::WHITE,
+                palette: None,
+            };
+            let seed: Vec<u8> = (0..1200).map(|_| u.arbitrary()).collect::<Result<_>>()?;
+            let mut draw = |keep: bool| -> Result<(Framebuffer, u64)> {
+                let context = super::ListContext::new(SIZE, &settings);
+                let mut u = Unstructured::new(&seed);
+                let mut builder = ChunkBuilder::new(&context, 12);
+                if keep {
+                    builder = builder.with_hidden();
+                }
+                for source in 0..4 {
+                    builder.set_source(source);
+                    fill(&mut builder, &mut u)?;
+                    cover(&mut builder, &mut u)?;
+                }
+                let chunk = builder.finish();
+                assert_eq!(chunk.ops.len(), chunk.sources.len(), "each op has its source");
+                let list = DisplayList::new(context, settings, vec![chunk], vec![&texture]);
+                *(if keep { &mut all } else { &mut kept }) += list.ops();
+                let mut frame = Framebuffer::new(SIZE[0], SIZE[1]);
+                list.rasterize(&mut frame, &AtomicBool::new(false))
+                    .expect("not cancelled");
+                Ok((frame, list.triangles()))
+            };
+            let (with, without) = (draw(true)?, draw(false)?);
+            assert_eq!(with.1, without.1, "all triangles are counted");
+            assert!(with.0 == without.0, "{settings:?}");
+            Ok(())
+        })
+        .budget_ms(1500);
+        assert!(kept < all, "{kept} of {all} ops are kept");
+    }
+}

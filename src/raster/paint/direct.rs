@@ -1,0 +1,109 @@
+//! Tiles of opaque primitives at one sample per pixel: painted straight into the frame.
+
+use crate::raster::binning::tile_command::{Entry, Work};
+use crate::raster::coverage::shape_rows::{BandSpans, Shape};
+use crate::raster::frame::block::PixelBlock;
+use crate::raster::list::chunk::{Chunk, Paint, ScreenTriangle};
+use crate::raster::shading::shader::{Pixels, ShadeContext, Shader};
+use crate::raster::span::{PixelRect, Span};
+
+/// Paints opaque primitives at one sample per pixel.
+#[derive(Debug)]
+pub(crate) struct DirectPainter<'a> {
+    context: ShadeContext<'a>,
+    /// The pixels of one primitive, counted from the tile's first, and their values.
+    places: Vec<[u16; 2]>,
+    shaded: Vec<u32>,
+    /// Samples whose colours were computed.
+    pub(crate) samples_shaded: u64,
+}
+
+impl<'a> DirectPainter<'a> {
+    /// A painter for one drawing.
+    pub(crate) fn new(context: ShadeContext<'a>) -> Self {
+        Self {
+            context,
+            places: Vec::new(),
+            shaded: Vec::new(),
+            samples_shaded: 0,
+        }
+    }
+
+    /// Paints the ops of one chunk that touch the tile; all must be opaque.
+    pub(crate) fn paint(
+        &mut self,
+        (chunk, entries): (&Chunk, &[Entry]),
+        bands: &mut BandSpans,
+        block: &mut PixelBlock<'_>,
+    ) {
+        let rules = self.context.sampling.rules;
+        for entry in entries {
+            match entry.work(chunk) {
+                // With one sample per pixel these are the same.
+                Work::Samples(coverage, color) | Work::Pixels(coverage, color) => {
+                    let pixel = color.to_pixel(rules);
+                    block.stamp(coverage, pixel);
+                }
+                Work::Flat(shape, color) => {
+                    let pixel = color.to_pixel(rules);
+                    covered((shape, *entry), bands, block, |y, xs, block| {
+                        block.span(y, xs).fill(pixel);
+                    });
+                }
+                Work::Shaded(shape, triangle, paint) => {
+                    let mut places = std::mem::take(&mut self.places);
+                    places.clear();
+                    let PixelRect { x: left, y: top } = block.rect;
+                    let inside = |from: i32, to: i32| u16::try_from(to - from).unwrap_or(u16::MAX);
+                    covered((shape, *entry), bands, block, |y, xs, _| {
+                        let row = inside(top.start, y);
+                        places.extend(
+                            (inside(left.start, xs.start)..inside(left.start, xs.end)).map(|column| [column, row]),
+                        );
+                    });
+                    self.shaded(triangle, paint, &places, block);
+                    self.places = places;
+                }
+                // Whoever chose this painter has found no layers.
+                Work::BeginLayer | Work::EndLayer(_) => {}
+            }
+        }
+    }
+
+    /// Shades pixels, counted from the tile's first.
+    fn shaded(&mut self, triangle: &ScreenTriangle, paint: &Paint, places: &[[u16; 2]], block: &mut PixelBlock<'_>) {
+        if places.is_empty() {
+            return;
+        }
+        self.samples_shaded += places.len() as u64;
+        self.shaded.resize(self.shaded.len().max(places.len()), 0);
+        let values = &mut self.shaded[..places.len()];
+        let PixelRect { x, y } = block.rect;
+        let pixels = Pixels {
+            grid: self.context.samples_from([x.start, y.start]),
+            places,
+        };
+        Shader::new(&self.context, triangle, paint).pixels(pixels, values);
+        for (place, value) in places.iter().zip(values) {
+            block.put(*place, *value);
+        }
+    }
+}
+
+/// Calls `paint` with every span of pixels that a shape covers.
+#[inline]
+fn covered(
+    (shape, entry): (Shape<'_>, Entry),
+    bands: &mut BandSpans,
+    block: &mut PixelBlock<'_>,
+    mut paint: impl FnMut(i32, Span, &mut PixelBlock<'_>),
+) {
+    let rect = block.rect;
+    if entry.covers_tile() {
+        for y in rect.y.start..rect.y.end {
+            paint(y, rect.x, block);
+        }
+        return;
+    }
+    bands.each_pixel_row(shape, rect, |row| paint(row.y, row.full, block));
+}

@@ -1,0 +1,16 @@
+//! The painters, which draw a tile's commands in painter's order and resolve it.
+//!
+//! | painter | for | keeps |
+//! |---|---|---|
+//! | [`direct`] | one sample per pixel | pixels |
+//! | [`visibility`] | opaque shapes on a grid | which surface each sample shows; shades once per pixel and surface |
+//! | [`per_sample`] | everything | the colour of each sample ([`sample_colors`]) |
+//!
+//! [`per_sample`] is the simple one that the others are tested against; it also feeds the [`recorder`], from which pixels
+//! are explained.
+
+pub(in crate::raster) mod direct;
+pub(in crate::raster) mod per_sample;
+pub(in crate::raster) mod recorder;
+pub(in crate::raster) mod sample_colors;
+pub(in crate::raster) mod visibility;

@@ -1,0 +1,197 @@
+//! Notes what is painted on the samples of a single pixel, op by op.
+
+use crate::color::Premultiplied16;
+use crate::raster::binning::tile_command::Work;
+use crate::raster::sampling::mask::SampleMask;
+use crate::raster::span::Span;
+
+/// Fragments that are kept at most; beyond that those of the ops painted first are forgotten.
+const MOST_FRAGMENTS: usize = 1 << 19;
+
+/// What one op did to a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PaintedOp {
+    /// The number that the caller of the list gave to the primitive.
+    pub source: u32,
+    /// Index of the op in its chunk.
+    pub(crate) op: usize,
+    /// What kind of op it is.
+    pub kind: PaintedKind,
+    /// How many layers were open when it painted.
+    pub layers: usize,
+    /// The samples that it painted, in the order of the pattern; empty where they were forgotten, under more than half a
+    /// million of later ones.
+    pub fragments: Vec<PaintedSample>,
+    /// How many samples it painted, also where they were forgotten.
+    pub count: usize,
+}
+
+/// Kinds of ops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PaintedKind {
+    /// A primitive.
+    Primitive,
+    /// The beginning of a layer, which paints nothing.
+    BeginLayer,
+    /// The end of a layer, which paints the layer's samples with this opacity, of [`Premultiplied16::ONE`].
+    EndLayer(u16),
+}
+
+/// One fragment: what an op did to one sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PaintedSample {
+    /// Number of the sample in the pattern.
+    pub sample: usize,
+    /// The fragment's colour.
+    pub color: Premultiplied16,
+    /// What the sample held before, and after.
+    pub before: Premultiplied16,
+    /// See `before`.
+    pub after: Premultiplied16,
+}
+
+/// Follows the samples of a single-pixel tile.
+#[derive(Debug)]
+pub(in crate::raster) struct Recorder {
+    painted: Vec<PaintedOp>,
+    /// What the samples that the op at work paints on held before it.
+    before: Vec<Premultiplied16>,
+    /// What it paints there.
+    colors: Vec<Option<Premultiplied16>>,
+    /// How many fragments each sample got, and which op painted it last.
+    depths: Vec<usize>,
+    last: Vec<usize>,
+    /// How many fragments are kept, and how many ops from the first were forgotten.
+    kept: usize,
+    forgotten: usize,
+}
+
+impl PaintedKind {
+    pub(in crate::raster) fn of(work: &Work<'_>) -> Self {
+        match work {
+            Work::Samples(..) | Work::Pixels(..) | Work::Flat(..) | Work::Shaded(..) => Self::Primitive,
+            Work::BeginLayer => Self::BeginLayer,
+            Work::EndLayer(opacity) => Self::EndLayer(*opacity),
+        }
+    }
+}
+
+impl Recorder {
+    /// For a pixel of so many samples.
+    pub(in crate::raster) fn new(samples: usize) -> Self {
+        Self {
+            painted: Vec::new(),
+            before: Vec::new(),
+            colors: vec![None; samples],
+            depths: vec![0; samples],
+            last: vec![0; samples],
+            kept: 0,
+            forgotten: 0,
+        }
+    }
+
+    /// An op begins, by its source and its index, that paints on samples which hold `on`; `now` is what those of the
+    /// topmost layer hold.
+    pub(in crate::raster) fn next(
+        &mut self,
+        (source, op): (u32, usize),
+        kind: PaintedKind,
+        now: &[Premultiplied16],
+        on: Vec<Premultiplied16>,
+    ) {
+        let layers = self.close(now);
+        self.before = on;
+        self.painted.push(PaintedOp {
+            source,
+            op,
+            kind,
+            layers,
+            fragments: Vec::new(),
+            count: 0,
+        });
+    }
+
+    /// Ends the op at work, after which its layer holds `after`; how many layers are open then.
+    fn close(&mut self, after: &[Premultiplied16]) -> usize {
+        let number = self.painted.len().saturating_sub(1);
+        let Some(op) = self.painted.last_mut() else {
+            return 0;
+        };
+        let before = self.before.iter().zip(after);
+        for (sample, (color, (before, after))) in self.colors.iter_mut().zip(before).enumerate() {
+            if let Some(color) = color.take() {
+                op.fragments.push(PaintedSample {
+                    sample,
+                    color,
+                    before: *before,
+                    after: *after,
+                });
+                self.depths[sample] += 1;
+                self.last[sample] = number;
+            }
+        }
+        op.count = op.fragments.len();
+        let layers = match op.kind {
+            PaintedKind::Primitive => op.layers,
+            PaintedKind::BeginLayer => op.layers + 1,
+            PaintedKind::EndLayer(_) => op.layers.saturating_sub(1),
+        };
+        self.kept += op.count;
+        self.forget();
+        layers
+    }
+
+    /// Forgets fragments from the bottom of the stack while there are too many; what painted a sample last stays.
+    fn forget(&mut self) {
+        while self.kept > MOST_FRAGMENTS {
+            let Some(op) = self.painted.get_mut(self.forgotten) else {
+                return;
+            };
+            if !self.last.contains(&self.forgotten) {
+                self.kept -= op.fragments.len();
+                op.fragments = Vec::new();
+            }
+            self.forgotten += 1;
+        }
+    }
+
+    /// The op paints all samples with one colour.
+    pub(in crate::raster) fn fill(&mut self, color: Premultiplied16) {
+        self.colors.fill(Some(color));
+    }
+
+    /// The op paints all samples, each with its colour.
+    pub(in crate::raster) fn paint_all(&mut self, colors: Vec<Premultiplied16>) {
+        self.colors = colors.into_iter().map(Some).collect();
+    }
+
+    /// The op paints the sample columns `columns` of sample row `line`, of which a pixel has `side` each; `color` is asked
+    /// for those counted from the first column.
+    pub(in crate::raster) fn paint(
+        &mut self,
+        columns: Span,
+        line: i32,
+        side: i32,
+        color: impl Fn(usize) -> Premultiplied16,
+    ) {
+        for (i, column) in (columns.start..columns.end).enumerate() {
+            let sample = line.rem_euclid(side) * side + column.rem_euclid(side);
+            self.colors[sample.cast_unsigned() as usize] = Some(color(i));
+        }
+    }
+
+    /// The op paints some samples; `color` is asked for those counted from the first of them.
+    pub(in crate::raster) fn paint_mask(&mut self, mask: SampleMask, color: impl Fn(usize) -> Premultiplied16) {
+        let mut i = 0;
+        mask.each(|sample| {
+            self.colors[sample] = Some(color(i));
+            i += 1;
+        });
+    }
+
+    /// What was painted, now that the samples hold `after`; and how many fragments each sample got.
+    pub(in crate::raster) fn finish(mut self, after: &[Premultiplied16]) -> (Vec<PaintedOp>, Vec<usize>) {
+        self.close(after);
+        (self.painted, self.depths)
+    }
+}

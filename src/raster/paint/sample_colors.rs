@@ -1,0 +1,332 @@
+//! A tile: the samples of a small rectangle of pixels, small enough to stay in a core's cache.
+//!
+//! # Compressed samples
+//!
+//! A pixel whose samples all hold the same colour stores that colour once. The first edge that crosses it splits it
+//! into one colour per sample; an opaque primitive that covers it wholly makes it one colour again. So flat areas cost
+//! one store per pixel at every sample rate, and memory is touched only where samples differ.
+
+use crate::color::{Premultiplied16, ResolveSpace};
+use crate::raster::SampleRate;
+use crate::raster::sampling::mask::SampleMask;
+use crate::raster::span::{PixelRect, Span};
+use crate::rules::Rules;
+
+/// The samples of a rectangle of pixels.
+#[derive(Debug)]
+pub(crate) struct Tile {
+    pub(crate) rect: PixelRect,
+    width: usize,
+    /// Samples along one side of a pixel where they lie in rows, and per pixel.
+    side: usize,
+    per_pixel: usize,
+    rules: Rules,
+    space: ResolveSpace,
+    /// One colour per pixel, in force where the pixel is not split.
+    whole: Vec<Premultiplied16>,
+    split: Vec<bool>,
+    /// Whether every sample is opaque: so it stays once the tile starts on an opaque background.
+    opaque: bool,
+    /// All samples of a pixel side by side, in force where the pixel is split. Allocated with the first split.
+    samples: Vec<Premultiplied16>,
+}
+
+impl Tile {
+    /// A tile of no pixels; `side` is how many samples of a pixel lie in a row, where they do.
+    pub(crate) fn new(rate: SampleRate, side: i32, (rules, space): (Rules, ResolveSpace)) -> Self {
+        Self {
+            rect: PixelRect::NOTHING,
+            width: 0,
+            side: usize::try_from(side).unwrap_or(1),
+            per_pixel: rate.samples() as usize,
+            rules,
+            space,
+            whole: Vec::new(),
+            split: Vec::new(),
+            opaque: false,
+            samples: Vec::new(),
+        }
+    }
+
+    /// Makes it the tile of `rect` with every sample in `color`.
+    pub(crate) fn reset(&mut self, rect: PixelRect, color: Premultiplied16) {
+        let length = |span: Span| usize::try_from(span.end - span.start).unwrap_or(0);
+        self.rect = rect;
+        self.opaque = color.is_opaque();
+        self.width = length(rect.x);
+        let pixels = self.width * length(rect.y);
+        self.whole.clear();
+        self.whole.resize(pixels, color);
+        self.split.clear();
+        self.split.resize(pixels, false);
+    }
+
+    /// Index of the pixel in column `x` of row `y` of the frame, which must lie in the tile.
+    #[inline]
+    fn index(&self, x: i32, y: i32) -> usize {
+        debug_assert!(
+            (self.rect.x.start..self.rect.x.end).contains(&x),
+            "column {x} lies in {:?}",
+            self.rect
+        );
+        debug_assert!(
+            (self.rect.y.start..self.rect.y.end).contains(&y),
+            "row {y} lies in {:?}",
+            self.rect
+        );
+        offset(y - self.rect.y.start) * self.width + offset(x - self.rect.x.start)
+    }
+
+    /// Paints all samples of the pixels `xs` of row `y` with one colour.
+    #[inline]
+    pub(crate) fn fill(&mut self, xs: Span, y: i32, color: Premultiplied16) {
+        if xs.is_empty() {
+            return;
+        }
+        let first = self.index(xs.start, y);
+        let last = first + offset(xs.end - xs.start);
+        if color.is_opaque() {
+            self.whole[first..last].fill(color);
+            self.split[first..last].fill(false);
+            return;
+        }
+        if !self.split[first..last].contains(&true) {
+            color.over_all(&mut self.whole[first..last], self.rules);
+            return;
+        }
+        for pixel in first..last {
+            let colors = if self.split[pixel] {
+                &mut self.samples[pixel * self.per_pixel..][..self.per_pixel]
+            } else {
+                &mut self.whole[pixel..=pixel]
+            };
+            color.over_all(colors, self.rules);
+        }
+    }
+
+    /// Paints the samples that `spans` cover in pixel `x` of row `y` with one colour; a span for each sample row of the
+    /// pixel, in sample columns counted from the left of the frame.
+    #[inline]
+    pub(crate) fn fill_part(&mut self, x: i32, y: i32, spans: &[Span], color: Premultiplied16) {
+        let pixel = self.index(x, y);
+        self.ensure_split(pixel);
+        let side = spans.len();
+        let width = i32::try_from(side).unwrap_or(1);
+        let left = x * width;
+        let samples = &mut self.samples[pixel * self.per_pixel..][..self.per_pixel];
+        for (span, line) in spans.iter().zip(samples.chunks_exact_mut(side)) {
+            let (start, end) = ((span.start - left).max(0), (span.end - left).min(width));
+            if start >= end {
+                continue;
+            }
+            let covered = &mut line[offset(start)..offset(end)];
+            if color.is_opaque() {
+                covered.fill(color);
+            } else {
+                color.over_all(covered, self.rules);
+            }
+        }
+    }
+
+    /// Paints the samples `columns` of sample row `row` with a colour each; `opaque` says that all of these are.
+    #[inline]
+    pub(crate) fn write_samples(&mut self, columns: Span, row: i32, colors: &[Premultiplied16], opaque: bool) {
+        let rules = self.rules;
+        if self.per_pixel == 1 {
+            let first = self.index(columns.start, row);
+            paint(&mut self.whole[first..first + colors.len()], colors, opaque, rules);
+            return;
+        }
+        self.each_pixel_run(columns, row, |samples, at| {
+            let end = at + samples.len();
+            paint(samples, &colors[at..end], opaque, rules);
+        });
+    }
+
+    /// Paints some samples of pixel `x` in row `y` with one colour.
+    #[inline]
+    pub(crate) fn fill_mask(&mut self, x: i32, y: i32, mask: SampleMask, color: Premultiplied16) {
+        let rules = self.rules;
+        let samples = self.samples_of(x, y);
+        if color.is_opaque() {
+            mask.each(|sample| samples[sample] = color);
+        } else {
+            mask.each(|sample| samples[sample] = color.over(samples[sample], rules));
+        }
+    }
+
+    /// Paints some samples of pixel `x` in row `y` with a colour each; `opaque` says that all of these are.
+    #[inline]
+    pub(crate) fn write_mask(
+        &mut self,
+        (x, y): (i32, i32),
+        mask: SampleMask,
+        colors: &[Premultiplied16],
+        opaque: bool,
+    ) {
+        let rules = self.rules;
+        let samples = self.samples_of(x, y);
+        if opaque && colors.len() == samples.len() {
+            samples.copy_from_slice(colors);
+            return;
+        }
+        let mut colors = colors.iter();
+        mask.each(|sample| {
+            if let Some(color) = colors.next() {
+                samples[sample] = if opaque || color.is_opaque() {
+                    *color
+                } else {
+                    color.over(samples[sample], rules)
+                };
+            }
+        });
+    }
+
+    /// All samples of a pixel, which is split unless it has just one.
+    #[inline]
+    fn samples_of(&mut self, x: i32, y: i32) -> &mut [Premultiplied16] {
+        let pixel = self.index(x, y);
+        if self.per_pixel == 1 {
+            return &mut self.whole[pixel..=pixel];
+        }
+        self.ensure_split(pixel);
+        &mut self.samples[pixel * self.per_pixel..][..self.per_pixel]
+    }
+
+    /// Splits the pixels `xs` of row `y` for a painter that will overwrite all their samples.
+    #[inline]
+    pub(crate) fn split_unfilled(&mut self, xs: Span, y: i32) {
+        if self.per_pixel == 1 || xs.is_empty() {
+            return;
+        }
+        self.ensure_samples();
+        let first = self.index(xs.start, y);
+        self.split[first..first + offset(xs.end - xs.start)].fill(true);
+    }
+
+    /// Splits the pixels that a sample row touches and hands out the touched samples, pixel by pixel, each with its
+    /// distance from the start of the row.
+    #[inline]
+    fn each_pixel_run(&mut self, columns: Span, row: i32, mut paint: impl FnMut(&mut [Premultiplied16], usize)) {
+        if columns.is_empty() {
+            return;
+        }
+        let side = i32::try_from(self.side).unwrap_or(1);
+        let (y, line) = (row.div_euclid(side), row.rem_euclid(side));
+        let mut x = columns.start.div_euclid(side);
+        let mut column = columns.start;
+        while column < columns.end {
+            let end = columns.end.min((x + 1) * side);
+            let pixel = self.index(x, y);
+            self.ensure_split(pixel);
+            let start = pixel * self.per_pixel + offset(line) * self.side + offset(column - x * side);
+            paint(
+                &mut self.samples[start..start + offset(end - column)],
+                offset(column - columns.start),
+            );
+            column = end;
+            x += 1;
+        }
+    }
+
+    /// Makes room for the samples of every pixel.
+    #[inline]
+    fn ensure_samples(&mut self) {
+        let count = self.whole.len() * self.per_pixel;
+        if self.samples.len() < count {
+            self.samples.resize(count, Premultiplied16::TRANSPARENT);
+        }
+    }
+
+    /// Gives a pixel one colour per sample.
+    #[inline]
+    fn ensure_split(&mut self, pixel: usize) {
+        if self.split[pixel] {
+            return;
+        }
+        if self.samples.len() < self.whole.len() * self.per_pixel {
+            self.samples
+                .resize(self.whole.len() * self.per_pixel, Premultiplied16::TRANSPARENT);
+        }
+        self.split[pixel] = true;
+        self.samples[pixel * self.per_pixel..][..self.per_pixel].fill(self.whole[pixel]);
+    }
+
+    /// Paints another tile of the same rectangle over this one.
+    pub(crate) fn composite(&mut self, layer: &Self, opacity: u16) {
+        for pixel in 0..self.whole.len() {
+            if layer.split[pixel] {
+                self.ensure_split(pixel);
+                let range = pixel * self.per_pixel..(pixel + 1) * self.per_pixel;
+                for (below, above) in self.samples[range.clone()].iter_mut().zip(&layer.samples[range]) {
+                    *below = above.faded(opacity).over(*below, self.rules);
+                }
+            } else if layer.whole[pixel] != Premultiplied16::TRANSPARENT {
+                let above = layer.whole[pixel].faded(opacity);
+                if self.split[pixel] {
+                    for below in &mut self.samples[pixel * self.per_pixel..][..self.per_pixel] {
+                        *below = above.over(*below, self.rules);
+                    }
+                } else {
+                    self.whole[pixel] = above.over(self.whole[pixel], self.rules);
+                }
+            }
+        }
+    }
+
+    /// The colour of one sample of a pixel.
+    pub(crate) fn sample(&self, x: i32, y: i32, sample: usize) -> Premultiplied16 {
+        let pixel = self.index(x, y);
+        if self.split[pixel] {
+            self.samples[pixel * self.per_pixel + sample]
+        } else {
+            self.whole[pixel]
+        }
+    }
+
+    /// Resolves row `y` of the tile into pixels `0xAARRGGBB`: each the mean of its samples.
+    pub(crate) fn resolve(&self, y: i32, pixels: &mut [u32]) {
+        let first = self.index(self.rect.x.start, y);
+        let pixels = &mut pixels[..self.width];
+        let whole = &self.whole[first..first + self.width];
+        if self.opaque {
+            Premultiplied16::opaque_to_pixels(whole, self.rules, pixels);
+        } else {
+            for (pixel, color) in pixels.iter_mut().zip(whole) {
+                *pixel = color.to_pixel(self.rules);
+            }
+        }
+        if self.samples.is_empty() {
+            return;
+        }
+        for (i, pixel) in pixels.iter_mut().enumerate() {
+            if self.split[first + i] {
+                let samples = &self.samples[(first + i) * self.per_pixel..][..self.per_pixel];
+                *pixel = self.space.resolve(samples, self.rules);
+            }
+        }
+    }
+}
+
+/// Paints colours over samples.
+#[inline]
+fn paint(samples: &mut [Premultiplied16], colors: &[Premultiplied16], opaque: bool, rules: Rules) {
+    if opaque {
+        samples.copy_from_slice(colors);
+        return;
+    }
+    for (sample, color) in samples.iter_mut().zip(colors) {
+        *sample = if color.is_opaque() {
+            *color
+        } else {
+            color.over(*sample, rules)
+        };
+    }
+}
+
+/// A distance inside a tile, which is never negative.
+#[inline]
+fn offset(distance: i32) -> usize {
+    debug_assert!(distance >= 0, "distance {distance} inside a tile");
+    distance.cast_unsigned() as usize
+}

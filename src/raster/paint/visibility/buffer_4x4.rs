@@ -1,0 +1,325 @@
+//! Painting rows of pixels with 4 x 4 samples, four pixels on an edge at a time: [`VisibilityTile::paint`] and
+//! [`VisibilityTile::change`] with few instructions.
+
+use std::ops::Range;
+
+use fearless_simd::Simd;
+use fearless_simd::prelude::*;
+
+use crate::raster::coverage::pixel_rows_4x4::{Ends, TileRow, Window, each_window};
+use crate::raster::paint::visibility::buffer::VisibilityTile;
+use crate::raster::paint::visibility::packed::{lanes, splat};
+use crate::raster::paint::visibility::two_surfaces::{Quad, QuadMask, put, quad, word_at};
+use crate::raster::surface_id::{PAIR, ROW, Slot};
+
+/// Bits of which one is set for each shared pixel of four, and perhaps for others.
+const PERHAPS_SHARED: u64 = 0x8000_8000_8000_8000;
+
+impl VisibilityTile {
+    /// Lets the samples that a row of pixels covers show `slot`.
+    #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "a call for each row of pixels would cost as much as the rest"
+    )]
+    pub(crate) fn paint_four<S: Simd>(&mut self, simd: S, row: &TileRow<'_>, slot: Slot) {
+        // Those covered in part may be shared from now on, and full ones are not.
+        let shared = &mut self.shared[row.y];
+        *shared |= bits(&row.touched);
+        if row.full.is_empty() {
+            return each_window(
+                simd,
+                row,
+                (row.touched.clone(), Ends::Both),
+                #[inline(always)]
+                |window| self.paint_quad(simd, row.y, window, slot),
+            );
+        }
+        *shared &= !bits(&row.full);
+        let (before, after) = row.beside_full();
+        each_window(
+            simd,
+            row,
+            (before, Ends::Left),
+            #[inline(always)]
+            |window| self.paint_quad(simd, row.y, window, slot),
+        );
+        each_window(
+            simd,
+            row,
+            (after, Ends::Right),
+            #[inline(always)]
+            |window| self.paint_quad(simd, row.y, window, slot),
+        );
+        // Last: slots that were just written as vectors are read slowly.
+        fill(&mut self.whole[row.y], row.full.clone(), slot);
+    }
+
+    /// Lets the samples that a row of pixels covers show what `change` makes of what they show.
+    #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "a call for each row of pixels would cost as much as the rest"
+    )]
+    pub(crate) fn change_four<S: Simd>(&mut self, simd: S, row: &TileRow<'_>, mut change: impl FnMut(Slot) -> Slot) {
+        self.shared[row.y] |= bits(&row.touched);
+        if row.full.is_empty() {
+            return each_window(
+                simd,
+                row,
+                (row.touched.clone(), Ends::Both),
+                #[inline(always)]
+                |window| self.change_quad(simd, row, window, &mut change),
+            );
+        }
+        let (before, after) = row.beside_full();
+        each_window(
+            simd,
+            row,
+            (before, Ends::Left),
+            #[inline(always)]
+            |window| self.change_quad(simd, row, window, &mut change),
+        );
+        each_window(
+            simd,
+            row,
+            (after, Ends::Right),
+            #[inline(always)]
+            |window| self.change_quad(simd, row, window, &mut change),
+        );
+        self.change_whole(row.y, row.full.clone(), &mut change);
+    }
+
+    /// Lets the samples of a window show `slot`.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn paint_quad<S: Simd>(&mut self, simd: S, y: usize, Window { x, live, masks }: Window, slot: Slot) {
+        let whole = &mut self.whole[y];
+        let word = word_at(whole, x);
+        if word & live & PERHAPS_SHARED != 0 {
+            return self.paint_shared_quad((y, x), masks, slot);
+        }
+        let number = |number| Quad::splat(simd, number);
+        let (shown, covered) = (quad(simd, word), quad(simd, masks));
+        let painted = in_part(simd, covered) & !shown.simd_eq(number(slot));
+        put(whole, x, painted.select(number(PAIR), shown));
+        self.pairs
+            .set_quad(simd, ((y, x), painted), (covered, shown, number(slot)));
+    }
+
+    /// As [`VisibilityTile::paint_quad`] pixel by pixel.
+    #[inline(never)]
+    fn paint_shared_quad(&mut self, (y, x): (usize, usize), masks: u64, slot: Slot) {
+        for (x, covered) in (x..).zip(lanes(masks)) {
+            if covered != 0 {
+                self.paint_samples((y, x), u64::from(covered), slot);
+            }
+        }
+    }
+
+    /// Lets the samples of a window show what `change` makes of what they show.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn change_quad<S: Simd>(
+        &mut self,
+        simd: S,
+        row: &TileRow<'_>,
+        Window { x, live, masks }: Window,
+        change: &mut impl FnMut(Slot) -> Slot,
+    ) {
+        let whole = &mut self.whole[row.y];
+        let word = word_at(whole, x);
+        let [first, ..] = lanes(word >> (live.trailing_zeros() % 64));
+        if first >= PAIR || (word ^ splat(first)) & live != 0 {
+            return self.change_shared_quad(row, (x, masks), change);
+        }
+        if masks == 0 {
+            return;
+        }
+        let number = |number| Quad::splat(simd, number);
+        let (shown, covered) = (quad(simd, word), quad(simd, masks));
+        let changed = in_part(simd, covered);
+        put(whole, x, changed.select(number(PAIR), shown));
+        self.pairs
+            .set_quad(simd, ((row.y, x), changed), (covered, shown, number(change(first))));
+    }
+
+    /// As [`VisibilityTile::change_quad`] pixel by pixel.
+    fn change_shared_quad(
+        &mut self,
+        row: &TileRow<'_>,
+        (x, masks): (usize, u64),
+        change: &mut impl FnMut(Slot) -> Slot,
+    ) {
+        for ((x, column), covered) in (x..).zip(row.column(x)..).zip(lanes(masks)) {
+            if covered != 0 {
+                self.change_samples(((row.y, x), column), (u64::from(covered), row.spans), change);
+            }
+        }
+    }
+}
+
+/// A bit for each of some pixels of a row, at least one.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+fn bits(xs: &Range<usize>) -> u64 {
+    u64::MAX >> ((ROW - xs.len()) % ROW) << (xs.start % ROW)
+}
+
+/// Which of four masks name some samples.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn in_part<S: Simd>(simd: S, masks: Quad<S>) -> QuadMask<S> {
+    !masks.simd_eq(Quad::splat(simd, 0))
+}
+
+/// Lets some slots of a row be the same one.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+#[expect(clippy::cast_possible_truncation, reason = "places in a row of 64")]
+pub(crate) fn fill(slots: &mut [Slot; ROW], range: Range<usize>, slot: Slot) {
+    // All of them anew: how many there are nobody can foresee, and vectors hold so few.
+    let (start, length) = (range.start as Slot, range.len() as Slot);
+    for (at, shown) in (0..).zip(slots) {
+        let inside = Slot::wrapping_sub(at, start) < length;
+        *shown = if inside { slot } else { *shown };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+    use fearless_simd::dispatch;
+
+    use super::*;
+    use crate::raster::coverage::pixel_rows::each_pixel_row_of_spans;
+    use crate::raster::coverage::pixel_rows_4x4::each_row_of_spans;
+    use crate::raster::coverage::polygon_rows::{RowSpans, SpanStore};
+    use crate::raster::paint::visibility::buffer::Run;
+    use crate::raster::span::{PixelRect, Span};
+    use crate::simd;
+
+    const SIDE: i32 = 4;
+
+    /// What all samples of a tile show, pixel by pixel.
+    fn samples(tile: &VisibilityTile) -> Vec<Vec<Slot>> {
+        let mut all = Vec::new();
+        for y in tile.rect.y.start..tile.rect.y.end {
+            for (run, xs) in tile.runs(y) {
+                for x in xs {
+                    all.push(match run {
+                        Run::Whole(slot) => vec![slot; 16],
+                        Run::Pairs => {
+                            let pair = tile.pairs(y).get(x);
+                            let slot = |i: u64| {
+                                if pair.mask >> i & 1 == 1 {
+                                    pair.second
+                                } else {
+                                    pair.first
+                                }
+                            };
+                            (0..16).map(slot).collect()
+                        }
+                        Run::Split => tile.samples(x, y).collect(),
+                    });
+                }
+            }
+        }
+        all
+    }
+
+    /// Spans in the sample rows of a tile and around it, few or several in each.
+    fn shape(u: &mut Unstructured<'_>, rect: PixelRect) -> Result<(Span, Vec<Vec<Span>>)> {
+        let start = u.int_in_range(0..=rect.y.end * SIDE - 1)?;
+        let rows = Span {
+            start,
+            end: u.int_in_range(start + 1..=rect.y.end * SIDE + 3)?,
+        };
+        let (several, steep) = (u.ratio(1, 3)?, u.int_in_range(-6..=6)?);
+        let (mut from, mut to) = (u.int_in_range(-9..=300)?, u.int_in_range(-9..=400)?);
+        let mut all = Vec::new();
+        for _ in rows.start..rows.end {
+            from += steep + u.int_in_range(-1..=1)?;
+            to -= steep;
+            let mut spans = Vec::new();
+            let mut column = from.max(0);
+            for _ in 0..if several { u.int_in_range(0..=3)? } else { 1 } {
+                let end = if several { column + u.int_in_range(1..=90)? } else { to };
+                if end > column {
+                    spans.push(Span { start: column, end });
+                }
+                column = end.max(column) + u.int_in_range(1..=9)?;
+            }
+            if spans.is_empty() {
+                spans.push(Span::EMPTY);
+            }
+            all.push(spans);
+        }
+        Ok((rows, all))
+    }
+
+    /// Paints a shape of a slot, or changes what it covers, in four and pixel by pixel.
+    fn paint_both(level: simd::Level, tiles: &mut [VisibilityTile; 2], spans: RowSpans<'_>, slot: Option<Slot>) {
+        let [quick, slow] = tiles;
+        let rect = quick.rect;
+        let change = |slot: Slot| slot % 200 * 7 % 101;
+        dispatch!(level, simd => each_row_of_spans(simd, spans, rect, |row| match slot {
+            Some(slot) => quick.paint_four(simd, row, slot),
+            None => quick.change_four(simd, row, change),
+        }));
+        each_pixel_row_of_spans(spans, SIDE, rect, |row| match slot {
+            Some(slot) => slow.paint(row, slot),
+            None => slow.change(row, change),
+        });
+    }
+
+    #[test]
+    fn quads_paint_what_is_painted_pixel_by_pixel_on_every_level() {
+        let mut split = 0;
+        arbtest::arbtest(|u| {
+            let mut extent = |most: i32| {
+                let start = u.int_in_range(0..=3)?;
+                let end = start + u.int_in_range(1..=most)?;
+                Ok(Span { start, end })
+            };
+            let rect = PixelRect {
+                x: extent(64)?,
+                y: extent(40)?,
+            };
+            let levels = simd::tested();
+            let (name, level) = u.choose(&levels)?;
+            let mut tiles = [VisibilityTile::new(SIDE), VisibilityTile::new(SIDE)];
+            for tile in &mut tiles {
+                tile.reset(rect, 1);
+            }
+            for _ in 0..u.int_in_range(1..=6)? {
+                let (rows, spans) = shape(u, rect)?;
+                let slot = if u.ratio(1, 3)? {
+                    None
+                } else {
+                    Some(*u.choose(&[2, 3, 4, 40_000])?)
+                };
+                let mut store = SpanStore::default();
+                let stored = store.put(rows, &spans);
+                paint_both(*level, &mut tiles, store.get(stored), slot);
+                let [quick, slow] = &tiles;
+                assert_eq!(
+                    samples(quick),
+                    samples(slow),
+                    "{name}: {rect:?}, {slot:?} in {rows:?} {spans:?}"
+                );
+            }
+            let [quick, _] = &tiles;
+            for y in rect.y.start..rect.y.end {
+                for (x, slot) in quick.row(y).iter().enumerate() {
+                    let shared = quick.shown(y).shared >> x & 1 == 1;
+                    assert!(*slot < PAIR || shared, "what is shared has a bit");
+                }
+                split += quick.runs(y).filter(|(run, _)| *run == Run::Split).count();
+            }
+            Ok(())
+        })
+        .budget_ms(1500);
+        assert!(split > 20, "some pixels were split: {split}");
+    }
+}

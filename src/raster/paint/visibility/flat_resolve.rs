@@ -1,0 +1,333 @@
+//! What is needed of slots again and again when pixels that show nothing but flat colours are resolved, side by side.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, i8x16, i16x8, i32x4, u8x16, u16x8, u32x4, u64x2};
+
+use crate::color::Resolver;
+use crate::raster::paint::visibility::packed::lanes;
+use crate::raster::paint::visibility::surface_color::SlotColor;
+use crate::raster::surface_id::{ROW, Slot};
+use crate::simd;
+
+/// How many slots have a place here: a power of two.
+const FIRST: usize = 1024;
+
+/// What is taken from channels so that they are signed numbers of 16 bits.
+const MIDDLE: u16 = 1 << 15;
+
+/// Most samples of a pixel whose mean a [`Mixer`] takes.
+const MOST: u32 = 64;
+
+/// Entries of a table that vector instructions look up, the first slot of the second table, and how many tables there are.
+const TABLE: usize = 16;
+const SECOND: i8 = 16;
+const TABLES: usize = 2;
+
+/// The channels of a pixel.
+const CHANNELS: usize = 4;
+
+/// What is known of the first slots of a tile.
+#[derive(Debug)]
+pub(crate) struct Known {
+    resolver: Resolver,
+    /// How many slots there are.
+    count: usize,
+    /// Whether all are opaque.
+    opaque: bool,
+    pixels: Box<[u32; FIRST]>,
+    /// The bytes of the very first pixels, channel by channel.
+    tables: [[[u8; TABLE]; CHANNELS]; TABLES],
+    /// Blue, green, red and alpha of colours from the lowest bits on, each less [`MIDDLE`].
+    colors: Box<[u64; FIRST]>,
+}
+
+/// Takes the means of two opaque colours.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mixer<'k, S: Simd> {
+    simd: S,
+    colors: &'k [u64; FIRST],
+    count: u32,
+    /// What rounds a sum, and makes up for [`MIDDLE`].
+    offset: i32x4<S>,
+    shift: u32,
+}
+
+impl Known {
+    /// Nothing of none.
+    pub(crate) fn new(resolver: Resolver) -> Self {
+        Self {
+            resolver,
+            count: 0,
+            opaque: true,
+            pixels: Box::new([0; FIRST]),
+            tables: [[[0; TABLE]; CHANNELS]; TABLES],
+            colors: Box::new([0; FIRST]),
+        }
+    }
+
+    /// Forgets all slots.
+    pub(crate) fn clear(&mut self) {
+        self.count = 0;
+        self.opaque = true;
+    }
+
+    /// Whether all slots have a place here.
+    #[inline]
+    pub(crate) fn is_all(&self) -> bool {
+        self.count <= FIRST
+    }
+
+    /// Slot `number`, which comes after all others, shows `slot`.
+    #[inline]
+    pub(crate) fn set(&mut self, number: usize, slot: &SlotColor<'_>) {
+        self.count = number + 1;
+        self.opaque &= slot.flat.is_opaque();
+        self.pixels[number % FIRST] = slot.pixel;
+        if let Some(tables) = self.tables.get_mut(number / TABLE) {
+            for (table, byte) in tables.iter_mut().zip(slot.pixel.to_le_bytes()) {
+                table[number % TABLE] = byte;
+            }
+        }
+        let [r, g, b, a] = slot.flat.0.map(|channel| u64::from(channel ^ MIDDLE));
+        self.colors[number % FIRST] = b | g << 16 | r << 32 | a << 48;
+    }
+
+    /// The pixel that shows nothing but the flat colour of a slot; any for a number that is none.
+    #[inline]
+    fn pixel(&self, slot: Slot) -> u32 {
+        self.pixels[usize::from(slot) % FIRST]
+    }
+
+    /// The pixels of a row that show nothing but the flat colours of slots; any for numbers that are none.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub(crate) fn row<S: Simd>(&self, simd: S, shown: &[Slot; ROW], pixels: &mut [u32]) {
+        let first = shown[0];
+        if shown.iter().filter(|slot| **slot != first).count() == 0 {
+            pixels.fill(self.pixel(first));
+        } else if self.count <= TABLE && has_tables(simd) {
+            self.looked_up::<S, false>(simd, shown, pixels);
+        } else if self.count <= TABLES * TABLE && has_tables(simd) {
+            self.looked_up::<S, true>(simd, shown, pixels);
+        } else {
+            self.one_by_one(shown, pixels);
+        }
+    }
+
+    /// [`Known::row`] pixel by pixel.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn one_by_one(&self, shown: &[Slot], pixels: &mut [u32]) {
+        for (pixel, slot) in pixels.iter_mut().zip(shown) {
+            *pixel = self.pixel(*slot);
+        }
+    }
+
+    /// [`Known::row`] where there are no more slots than entries of one table, or of two.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn looked_up<S: Simd, const TWO: bool>(&self, simd: S, shown: &[Slot; ROW], pixels: &mut [u32]) {
+        let tables = self
+            .tables
+            .map(|tables| tables.map(|table| u8x16::simd_from(simd, table)));
+        let (blocks, _) = shown.as_chunks::<TABLE>();
+        let (whole, rest) = pixels.as_chunks_mut::<TABLE>();
+        for (pixels, slots) in whole.iter_mut().zip(blocks) {
+            let half = |slots: &[Slot]| u16x8::from_slice(simd, slots).bitcast::<i16x8<S>>();
+            // What is too great for a byte is no slot.
+            let bytes: i8x16<S> = half(&slots[..8]).saturating_narrow(half(&slots[8..]));
+            let slots: u8x16<S> = bytes.bitcast();
+            let [b, g, r, a] = std::array::from_fn(|channel| {
+                let found = tables[0][channel].swizzle_dyn_within_blocks(slots);
+                if !TWO {
+                    return found;
+                }
+                let beyond = bytes - i8x16::splat(simd, SECOND);
+                let second = tables[1][channel].swizzle_dyn_within_blocks(beyond.bitcast::<u8x16<S>>());
+                bytes.simd_lt(i8x16::splat(simd, SECOND)).select(found, second)
+            });
+            let (low, high) = ((b.zip_low(g), r.zip_low(a)), (b.zip_high(g), r.zip_high(a)));
+            for (four, (bg, ra)) in pixels.chunks_exact_mut(8).zip([low, high]) {
+                let (bg, ra): (u16x8<S>, u16x8<S>) = (bg.bitcast(), ra.bitcast());
+                bg.zip_low(ra).bitcast::<u32x4<S>>().store_slice(&mut four[..4]);
+                bg.zip_high(ra).bitcast::<u32x4<S>>().store_slice(&mut four[4..]);
+            }
+        }
+        let beyond = shown.len().min(whole.len() * TABLE);
+        self.one_by_one(&shown[beyond..], rest);
+    }
+
+    /// What mixes two of these; `None` where one of them is not opaque, or means are no shifts.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub(crate) fn mixer<S: Simd>(&self, simd: S) -> Option<Mixer<'_, S>> {
+        let (count, shift) = (self.resolver.count(), self.resolver.shift()?);
+        let offset = self.resolver.half() + u32::from(MIDDLE) * count;
+        (self.opaque && count <= MOST).then_some(Mixer {
+            simd,
+            colors: &self.colors,
+            count,
+            offset: i32x4::splat(simd, offset.cast_signed()),
+            shift,
+        })
+    }
+}
+
+/// Whether tables are looked up by an instruction.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "known when compiled")]
+fn has_tables<S: Simd>(token: S) -> bool {
+    match token.level() {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        simd::Level::Sse2(_) => false,
+        level => !level.is_fallback(),
+    }
+}
+
+impl<S: Simd> Mixer<'_, S> {
+    /// The pixel of which all samples show `first` but `of_second`, which show `second`.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub(crate) fn pixel(&self, first: Slot, second: Slot, of_second: u32) -> u32 {
+        self.mean(self.weighed(first, second, self.count - of_second, of_second))
+    }
+
+    /// The pixel whose samples show these slots, four in a word.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub(crate) fn pixel_of_words(&self, words: &[u64]) -> u32 {
+        let zero = i32x4::splat(self.simd, 0);
+        let sums = words.iter().fold(zero, |sums, word| {
+            let [a, b, c, d] = lanes(*word);
+            sums + self.weighed(a, b, 1, 1) + self.weighed(c, d, 1, 1)
+        });
+        self.mean(sums)
+    }
+
+    /// Two colours, each so many times.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn weighed(&self, first: Slot, second: Slot, of_first: u32, of_second: u32) -> i32x4<S> {
+        let color = |slot: Slot| -> i16x8<S> {
+            let color = self.colors[usize::from(slot) % FIRST];
+            u64x2::splat(self.simd, color).bitcast()
+        };
+        let weights: i16x8<S> = u32x4::splat(self.simd, of_second << 16 | of_first).bitcast();
+        color(first).zip_low(color(second)).pairwise_dot_product(weights)
+    }
+
+    /// The pixel for the sum of all samples.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn mean(&self, sums: i32x4<S>) -> u32 {
+        // No sum exceeds that of opaque white, so that no mean exceeds 255.
+        let sums = sums + self.offset;
+        let means = (sums.bitcast::<u32x4<S>>() >> self.shift).bitcast::<i32x4<S>>();
+        let halves = means.saturating_narrow(means);
+        let bytes: u32x4<S> = halves.narrow(halves).bitcast();
+        bytes.to_array()[0]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+    use fearless_simd::dispatch;
+
+    use super::*;
+    use crate::color::Premultiplied16;
+    use crate::raster::paint::visibility::surface_color::Spread;
+    use crate::raster::paint::visibility::surfaces::Slots;
+    use crate::raster::surface_id::PAIR;
+    use crate::rules::Rules;
+
+    fn color(u: &mut Unstructured<'_>, opaque: bool) -> Result<Premultiplied16> {
+        let mut channel = || u.int_in_range(0..=Premultiplied16::ONE);
+        let alpha = if opaque { Premultiplied16::ONE } else { channel()? };
+        let mut below = || Ok(channel()?.min(alpha));
+        Ok(Premultiplied16([below()?, below()?, below()?, alpha]))
+    }
+
+    #[test]
+    fn means_of_opaque_colours_are_those_of_sums_on_every_level() {
+        arbtest::arbtest(|u| {
+            let rules = *u.choose(&Rules::ALL)?;
+            let side: u32 = u.int_in_range(1..=9)?;
+            let count = side * side;
+            let resolver = Resolver::new(count, rules);
+            let mut slots = Slots::new(rules, resolver);
+            let opaque = u.ratio(7, 8)?;
+            let numbers = [slots.flat(color(u, true)?), slots.flat(color(u, opaque)?)];
+            let of_second = u.int_in_range(0..=count)?;
+            let [first, second] = numbers.map(|slot| *slots.get(slot));
+            let mut sum = Spread::default();
+            sum.add(first.spread, count - of_second);
+            sum.add(second.spread, of_second);
+            assert_eq!(
+                first.spread.mixed(count, second.spread, of_second),
+                sum.halves(),
+                "as a difference"
+            );
+            let words: Vec<u64> = (0..count / 4)
+                .map(|_| u.arbitrary::<u64>().map(|bits| bits & 0x0001_0001_0001_0001))
+                .collect::<Result<_>>()?;
+            let mut of_words = Spread::default();
+            for slot in words.iter().flat_map(|word| lanes(*word)) {
+                of_words.add_one(slots.get(numbers[usize::from(slot) % 2]).spread);
+            }
+            let known = slots.known().expect("two slots");
+            // Equal colours share a slot.
+            let two = numbers[0] != numbers[1];
+            for (name, level) in simd::tested() {
+                let expected = (second.flat.is_opaque() && [1, 4, 16, 64].contains(&count))
+                    .then(|| resolver.pixel(sum.channels()));
+                let [first, second] = numbers;
+                let found =
+                    dispatch!(level, simd => known.mixer(simd).map(|mixer| mixer.pixel(first, second, of_second)));
+                assert_eq!(found, expected, "{name}: {of_second} of {count}");
+                if expected.is_some() && count >= 4 && two {
+                    let expected = resolver.pixel(of_words.channels());
+                    let found = dispatch!(level, simd => known.mixer(simd).map(|mixer| mixer.pixel_of_words(&words)));
+                    assert_eq!(found, Some(expected), "{name}: {words:x?}");
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(500);
+    }
+
+    #[test]
+    fn rows_of_pixels_are_looked_up_one_by_one_or_together() {
+        arbtest::arbtest(|u| {
+            let resolver = Resolver::new(16, Rules::Standard);
+            let mut slots = Slots::new(Rules::Standard, resolver);
+            let most = *u.choose(&[1, 3, 16, 17, 32, 33, 300])?;
+            for i in 0..most {
+                // All different.
+                let [_, g, b, _] = color(u, true)?.0;
+                slots.flat(Premultiplied16([i, g, b, Premultiplied16::ONE]));
+            }
+            let mut shown = [0; ROW];
+            let few = u.ratio(1, 4)?;
+            for slot in &mut shown {
+                *slot = if few { 0 } else { u.int_in_range(0..=most - 1)? };
+                if u.ratio(1, 8)? {
+                    *slot = *u.choose(&[PAIR, Slot::MAX])?;
+                }
+            }
+            let known = slots.known().expect("few slots");
+            let mut pixels = vec![0; u.int_in_range(1..=ROW)?];
+            for (name, level) in simd::tested() {
+                dispatch!(level, simd => known.row(simd, &shown, &mut pixels));
+                for (x, (pixel, slot)) in pixels.iter().zip(shown).enumerate() {
+                    assert!(
+                        slot >= PAIR || *pixel == slots.get(slot).pixel,
+                        "{name}: pixel {x} of {shown:?}"
+                    );
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(500);
+    }
+}

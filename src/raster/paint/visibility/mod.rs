@@ -1,0 +1,14 @@
+//! Deferred shading: first which surface each sample of a tile shows, then each surface's colour, once per pixel.
+//!
+//! The [`buffer`] holds surface ids, [`packed`] eight to a word; [`two_surfaces`] compresses a pixel of two surfaces as
+//! GPUs do with an FMASK; [`flat_resolve`] averages surfaces of one colour without shading.
+
+pub(in crate::raster) mod buffer;
+pub(in crate::raster) mod buffer_4x4;
+pub(in crate::raster) mod flat_resolve;
+pub(in crate::raster) mod packed;
+pub(in crate::raster) mod painter;
+pub(in crate::raster) mod shading_queue;
+pub(in crate::raster) mod surface_color;
+pub(in crate::raster) mod surfaces;
+pub(in crate::raster) mod two_surfaces;

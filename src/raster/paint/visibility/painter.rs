@@ -1,0 +1,559 @@
+//! Tiles in two steps: first what each sample shows, then the colours of what is seen.
+//!
+//! Nothing hidden is ever shaded, and a primitive's part of a pixel is shaded as one, whatever the number of samples:
+//! its sum over the samples is taken before anything is rounded. Translucent flat colours are mixed once for all
+//! samples that show the same.
+
+use std::time::{Duration, Instant};
+
+use fearless_simd::{Simd, dispatch};
+
+use crate::color::{Premultiplied16, Resolver};
+use crate::raster::binning::tile_command::{Entry, Work};
+use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::coverage::pixel_rows::each_pixel_row_of_few;
+use crate::raster::coverage::pixel_rows_4x4;
+use crate::raster::coverage::shape_rows::{BandSpans, Shape};
+use crate::raster::frame::block::PixelBlock;
+use crate::raster::list::chunk::Chunk;
+use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityTile};
+use crate::raster::paint::visibility::packed::{lanes, splat};
+use crate::raster::paint::visibility::shading_queue::{Fragment, Part, Unresolved};
+use crate::raster::paint::visibility::surface_color::{Shaded, Spread};
+use crate::raster::paint::visibility::surfaces::Slots;
+use crate::raster::paint::visibility::two_surfaces::Pair;
+use crate::raster::shading::shader::{Pixels, ShadeContext, Shader};
+use crate::raster::span::PixelRect;
+use crate::raster::surface_id::{MAX_SLOTS, PAIR, ROW, Slot};
+use crate::simd;
+use crate::texture::SampleGrid;
+
+/// Paints tiles in which only opaque primitives are shaded, one after the other, reusing its memory.
+#[derive(Debug)]
+pub(crate) struct DeferredPainter<'a> {
+    context: ShadeContext<'a>,
+    resolver: Resolver,
+    /// The base and above it the open layers.
+    layers: Vec<VisibilityTile>,
+    /// How many of `layers` are in use.
+    depth: usize,
+    slots: Slots<'a>,
+    unresolved: Unresolved,
+    shading: Shading,
+    /// Samples whose colours were computed.
+    pub(crate) samples_shaded: u64,
+}
+
+/// Memory for the fragments of one primitive.
+#[derive(Debug, Default)]
+struct Shading {
+    /// Pixels of the tile, and which of their samples; the latter empty where it is all.
+    places: Vec<[u16; 2]>,
+    masks: Vec<u64>,
+    /// Where their sums go.
+    targets: Vec<u32>,
+    sums: Vec<[u32; 4]>,
+}
+
+impl<'a> DeferredPainter<'a> {
+    /// A painter for one drawing.
+    pub(crate) fn new(context: ShadeContext<'a>) -> Self {
+        let side = context.grid.side().cast_unsigned();
+        Self {
+            context,
+            resolver: Resolver::new(side * side, context.sampling.rules),
+            layers: vec![VisibilityTile::new(context.grid.side())],
+            depth: 1,
+            slots: Slots::new(
+                context.sampling.rules,
+                Resolver::new(side * side, context.sampling.rules),
+            ),
+            unresolved: Unresolved::default(),
+            shading: Shading::default(),
+            samples_shaded: 0,
+        }
+    }
+
+    /// Starts a tile.
+    pub(crate) fn begin(&mut self, rect: PixelRect, background: Premultiplied16) {
+        self.slots.clear();
+        let slot = self.slots.flat(background);
+        self.layers[0].reset(rect, slot);
+        self.depth = 1;
+    }
+
+    /// Paints the ops of one chunk that touch the tile.
+    pub(crate) fn paint(&mut self, chunk: &'a Chunk, entries: &[Entry], bands: &mut BandSpans) {
+        for entry in entries {
+            self.make_room();
+            match entry.work(chunk) {
+                Work::Samples(coverage, color) => self.samples(coverage, color),
+                Work::Pixels(coverage, color) => self.pixels(coverage, color),
+                Work::Flat(shape, color) if entry.is_opaque() => {
+                    let slot = self.slots.flat(color);
+                    self.opaque((shape, *entry), slot, bands);
+                }
+                Work::Flat(shape, color) => self.translucent((shape, *entry), color, bands),
+                Work::Shaded(shape, triangle, paint) => {
+                    let slot = self.slots.shaded(triangle, paint);
+                    self.opaque((shape, *entry), slot, bands);
+                }
+                Work::BeginLayer => self.begin_layer(),
+                Work::EndLayer(opacity) => self.end_layer(opacity),
+            }
+        }
+    }
+
+    /// Shades what is seen and resolves the finished tile; how long shading took, if that is to be `timed`.
+    pub(crate) fn resolve(&mut self, block: &mut PixelBlock<'_>, timed: bool) -> Duration {
+        self.unresolved.clear();
+        let PixelRect { x, y } = self.layers[0].rect;
+        if !self.slots.any_shaded {
+            dispatch!(simd::level(), simd => resolve_flat(simd, self, block));
+            return Duration::ZERO;
+        }
+        for (y, row) in (y.start..y.end).zip(0..) {
+            self.resolve_row(y, row, block.line(y));
+        }
+        if self.unresolved.is_empty() {
+            return Duration::ZERO;
+        }
+        let start = timed.then(Instant::now);
+        self.unresolved.sort(self.slots.len());
+        let resolver = self.resolver;
+        self.shade([x.start, y.start], &mut |place, sums| {
+            block.put(place, resolver.pixel(sums));
+        });
+        let shading = start.map(|start| start.elapsed()).unwrap_or_default();
+        for (place, sums) in self.unresolved.places.iter().zip(&self.unresolved.sums) {
+            block.put(*place, self.resolver.pixel(*sums));
+        }
+        shading
+    }
+
+    /// After a tile of a single pixel was resolved: the sums of its samples' channels, if any of them was shaded.
+    pub(crate) fn shaded_sums(&mut self) -> Option<[u32; 4]> {
+        if self.unresolved.is_empty() {
+            return None;
+        }
+        self.unresolved.clear();
+        let PixelRect { x, y } = self.layers[0].rect;
+        self.resolve_row(y.start, 0, &mut [0]);
+        self.unresolved.sort(self.slots.len());
+        let mut whole = None;
+        self.shade([x.start, y.start], &mut |_, sums| whole = Some(sums));
+        whole.or_else(|| self.unresolved.sums.first().copied())
+    }
+
+    #[inline]
+    fn opaque(&mut self, (shape, entry): (Shape<'_>, Entry), slot: Slot, bands: &mut BandSpans) {
+        let tile = &mut self.layers[self.depth - 1];
+        if entry.covers_tile() {
+            tile.cover(slot);
+        } else if self.context.grid.side() == pixel_rows_4x4::SIDE {
+            dispatch!(simd::level(), simd => opaque_four(simd, (shape, bands), tile, slot));
+        } else {
+            bands.each_pixel_row(shape, tile.rect, |row| tile.paint(row, slot));
+        }
+    }
+
+    fn translucent(&mut self, (shape, entry): (Shape<'_>, Entry), color: Premultiplied16, bands: &mut BandSpans) {
+        let (tile, slots) = (&mut self.layers[self.depth - 1], &mut self.slots);
+        slots.next_paint();
+        if entry.covers_tile() {
+            tile.change_all(|slot| slots.under(slot, color));
+        } else if self.context.grid.side() == pixel_rows_4x4::SIDE {
+            dispatch!(simd::level(), simd => translucent_four(simd, (shape, bands), tile, (slots, color)));
+        } else {
+            bands.each_pixel_row(shape, tile.rect, |row| {
+                tile.change(row, |slot| slots.under(slot, color));
+            });
+        }
+    }
+
+    /// A few samples of one colour, counted from the tile's first.
+    fn samples(&mut self, coverage: SmallCoverage, color: Premultiplied16) {
+        let side = self.context.grid.side();
+        let (tile, slots) = (&mut self.layers[self.depth - 1], &mut self.slots);
+        let rect = tile.rect;
+        let coverage = coverage.moved(rect.x.start * side, rect.y.start * side);
+        if color.is_opaque() {
+            let slot = slots.flat(color);
+            each_pixel_row_of_few(coverage, side, rect, |row| tile.paint(row, slot));
+        } else {
+            slots.next_paint();
+            each_pixel_row_of_few(coverage, side, rect, |row| {
+                tile.change(row, |slot| slots.under(slot, color));
+            });
+        }
+    }
+
+    /// A few pixels of one colour, counted from the tile's first.
+    fn pixels(&mut self, coverage: SmallCoverage, color: Premultiplied16) {
+        let (tile, slots) = (&mut self.layers[self.depth - 1], &mut self.slots);
+        let coverage = coverage.moved(tile.rect.x.start, tile.rect.y.start);
+        if color.is_opaque() {
+            let slot = slots.flat(color);
+            coverage.each_run(|y, xs| tile.paint_pixels(xs, y, slot));
+        } else {
+            slots.next_paint();
+            coverage.each_run(|y, xs| tile.change_pixels(xs, y, |slot| slots.under(slot, color)));
+        }
+    }
+
+    fn begin_layer(&mut self) {
+        let rect = self.layers[0].rect;
+        if self.layers.len() == self.depth {
+            self.layers.push(VisibilityTile::new(self.context.grid.side()));
+        }
+        let slot = self.slots.flat(Premultiplied16::TRANSPARENT);
+        self.layers[self.depth].reset(rect, slot);
+        self.depth += 1;
+    }
+
+    fn end_layer(&mut self, opacity: u16) {
+        if self.depth < 2 {
+            return;
+        }
+        self.depth -= 1;
+        let slots = &mut self.slots;
+        let (below, above) = self.layers.split_at_mut(self.depth);
+        let mut known = std::collections::HashMap::new();
+        below[self.depth - 1].composite(&above[0], |below, above| {
+            let color = slots.get(above).flat;
+            if color == Premultiplied16::TRANSPARENT {
+                return below;
+            }
+            *known
+                .entry((below, above))
+                .or_insert_with(|| slots.mix(below, color.faded(opacity)))
+        });
+    }
+
+    /// Makes sure that every slot may be mixed with the next paint. There are twice as many numbers as samples in a
+    /// tile and its layers, so that some are out of use when all are given away.
+    #[inline]
+    fn make_room(&mut self) {
+        if !self.slots.is_full() {
+            return;
+        }
+        let mut used = vec![false; MAX_SLOTS];
+        let layers = &mut self.layers[..self.depth];
+        for layer in &*layers {
+            layer.each_slot(|slot| used[usize::from(slot)] = true);
+        }
+        let numbers = self.slots.keep(&used);
+        for layer in layers {
+            layer.renumber(|slot| numbers[usize::from(slot)]);
+        }
+    }
+
+    /// Resolves a row in which nothing is to be shaded.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn resolve_flat_row<S: Simd>(&self, simd: S, y: i32, line: &mut [u32]) {
+        let Some(known) = self.slots.known() else {
+            return self.resolve_row_of_many(y, line);
+        };
+        let shown = self.layers[0].shown(y);
+        known.row(simd, shown.whole, line);
+        // Where pixels are shared, what they got there is written over.
+        match known.mixer(simd) {
+            Some(mixer) => each_shared(
+                &shown,
+                line,
+                #[inline(always)]
+                |pair| mixer.pixel(pair.first, pair.second, pair.mask.count_ones()),
+                #[inline(always)]
+                |x| match self.layers[0].full_words(x, y) {
+                    Some(words) => mixer.pixel_of_words(words),
+                    None => self.resolve_split(x, y),
+                },
+            ),
+            None => each_shared(
+                &shown,
+                line,
+                |pair| self.resolver.pixel_of_halves(self.pair_sum(pair, count(pair.mask))),
+                |x| self.resolve_split(x, y),
+            ),
+        }
+    }
+
+    /// As [`DeferredPainter::resolve_flat_row`] where there are many slots.
+    #[cold]
+    fn resolve_row_of_many(&self, y: i32, line: &mut [u32]) {
+        let tile = &self.layers[0];
+        let pairs = tile.pairs(y);
+        for ((x, slot), pixel) in tile.row(y).iter().enumerate().zip(line) {
+            *pixel = match *slot {
+                PAIR => {
+                    let pair = pairs.get(x);
+                    self.resolver.pixel_of_halves(self.pair_sum(pair, count(pair.mask)))
+                }
+                slot if usize::from(slot) < MAX_SLOTS => self.slots.get(slot).pixel,
+                _ => self.resolve_split(x, y),
+            };
+        }
+    }
+
+    /// The pixel in column `x` of the tile and row `y`, which is split and all flat.
+    #[inline(never)]
+    fn resolve_split(&self, x: usize, y: i32) -> u32 {
+        self.resolver
+            .pixel_of_halves(flat_sum(&self.layers[0], &self.slots, x, y))
+    }
+
+    /// The sum of the samples of a pixel that shows two flat colours, `of_second` times the second one.
+    #[inline]
+    fn pair_sum(&self, pair: Pair, of_second: u32) -> [u64; 2] {
+        let [first, second] = [pair.first, pair.second].map(|slot| self.slots.get(slot).spread);
+        first.mixed(self.resolver.count(), second, of_second)
+    }
+
+    /// Resolves what is flat, and notes what is to be shaded.
+    fn resolve_row(&mut self, y: i32, row: u16, line: &mut [u32]) {
+        let (tile, slots) = (&self.layers[0], &self.slots);
+        let unresolved = &mut self.unresolved;
+        for (run, range) in tile.runs(y) {
+            let columns = (0_u16..).take(range.end).skip(range.start);
+            match run {
+                Run::Whole(slot) => {
+                    let shown = slots.get(slot);
+                    if shown.shaded.is_none() {
+                        line[range].fill(shown.pixel);
+                    } else {
+                        columns.for_each(|x| unresolved.whole(slot, [x, row]));
+                    }
+                }
+                Run::Pairs => {
+                    let pairs = tile.pairs(y);
+                    for x in columns {
+                        let pair = pairs.get(usize::from(x));
+                        if [pair.first, pair.second]
+                            .iter()
+                            .all(|slot| slots.get(*slot).shaded.is_none())
+                        {
+                            let [first, second] = [pair.first, pair.second].map(|slot| slots.get(slot).spread);
+                            let sum = first.mixed(self.resolver.count(), second, count(pair.mask));
+                            line[usize::from(x)] = self.resolver.pixel_of_halves(sum);
+                        } else {
+                            let parts = [(pair.first, 0, tile.all() & !pair.mask), (pair.second, 0, pair.mask)];
+                            unresolved.parts([x, row], parts.into_iter(), |slot| {
+                                let shown = slots.get(slot);
+                                shown.shaded.is_none().then(|| shown.sum(1))
+                            });
+                        }
+                    }
+                }
+                Run::Split => {
+                    for x in columns {
+                        unresolved.split([x, row], tile.samples(usize::from(x), y), |slot| {
+                            let shown = slots.get(slot);
+                            shown.shaded.is_none().then(|| shown.sum(1))
+                        });
+                    }
+                }
+            }
+        }
+    }
+
+    /// Shades all fragments: the sums of whole pixels go to `put`, others have the colours added to theirs. `origin` is
+    /// the tile's first pixel.
+    #[inline]
+    fn shade(&mut self, origin: [i32; 2], put: &mut impl FnMut([u16; 2], [u32; 4])) {
+        let (context, resolver, slots, shading) = (&self.context, self.resolver, &self.slots, &mut self.shading);
+        let Unresolved {
+            places, sums, sorted, ..
+        } = &mut self.unresolved;
+        let grid = context.samples_from(origin);
+        for fragments in sorted.by_slot() {
+            let shown = slots.get(fragments[0].slot);
+            let Some(Shaded { triangle, paint, kept }) = shown.shaded else {
+                continue;
+            };
+            let shader = Shader::new(context, triangle, paint);
+            let whole = shading.shade_whole(fragments, grid, &shader);
+            self.samples_shaded += whole * u64::from(grid.side * grid.side);
+            for (place, sum) in shading.places.iter().zip(&shading.sums) {
+                put(*place, shown.over_shaded(*sum, kept, resolver.count()));
+            }
+            for first in (0..resolver.count()).step_by(64) {
+                shading.gather(fragments, places, first);
+                self.samples_shaded += shading
+                    .masks
+                    .iter()
+                    .map(|mask| u64::from(mask.count_ones()))
+                    .sum::<u64>();
+                shading.shade_parts((grid, first), &shader);
+                for ((target, found), mask) in shading.targets.iter().zip(&shading.sums).zip(&shading.masks) {
+                    let found = shown.over_shaded(*found, kept, mask.count_ones());
+                    for (sum, channel) in sums[*target as usize].iter_mut().zip(found) {
+                        *sum += channel;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Lets the samples of a shape show `slot`, where a pixel has 4 x 4 samples.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn opaque_four<S: Simd>(simd: S, (shape, bands): (Shape<'_>, &mut BandSpans), tile: &mut VisibilityTile, slot: Slot) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            bands.each_row_of_four(
+                simd,
+                (shape, tile.rect),
+                #[inline(always)]
+                |row| tile.paint_four(simd, row, slot),
+            );
+        },
+    );
+}
+
+/// Paints a translucent colour over the samples of a shape, where a pixel has 4 x 4 samples.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn translucent_four<S: Simd>(
+    simd: S,
+    (shape, bands): (Shape<'_>, &mut BandSpans),
+    tile: &mut VisibilityTile,
+    (slots, color): (&mut Slots<'_>, Premultiplied16),
+) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            bands.each_row_of_four(
+                simd,
+                (shape, tile.rect),
+                #[inline(always)]
+                |row| tile.change_four(simd, row, |slot| slots.under(slot, color)),
+            );
+        },
+    );
+}
+
+/// Resolves the pixels of a row that are pairs or split, by what each is and by its column.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn each_shared(shown: &Shown<'_>, pixels: &mut [u32], of_pair: impl Fn(Pair) -> u32, of_split: impl Fn(usize) -> u32) {
+    let mut rest = shown.shared;
+    while rest != 0 {
+        let x = rest.trailing_zeros() as usize;
+        rest &= rest - 1;
+        let Some(pixel) = pixels.get_mut(x) else {
+            return;
+        };
+        let slot = shown.whole[x % ROW];
+        if slot == PAIR {
+            *pixel = of_pair(shown.pairs.get(x));
+        } else if usize::from(slot) > MAX_SLOTS {
+            *pixel = of_split(x);
+        }
+    }
+}
+
+/// Resolves a tile in which nothing is to be shaded.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn resolve_flat<S: Simd>(simd: S, painter: &DeferredPainter<'_>, block: &mut PixelBlock<'_>) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let rows = block.rect.y;
+            for y in rows.start..rows.end {
+                painter.resolve_flat_row(simd, y, block.line(y));
+            }
+        },
+    );
+}
+
+impl Shading {
+    /// Shades the fragments that are whole pixels; how many there are.
+    fn shade_whole(&mut self, fragments: &[Fragment], grid: SampleGrid, shader: &Shader<'_>) -> u64 {
+        self.places.clear();
+        for fragment in fragments {
+            if let Part::Whole { place } = fragment.part {
+                self.places.push(place);
+            }
+        }
+        self.make_sums();
+        if !self.places.is_empty() {
+            let places = &self.places;
+            shader.pixel_sums(Pixels { grid, places }, &mut self.sums);
+        }
+        self.places.len() as u64
+    }
+
+    /// Gathers the fragments that are parts of pixels; of the 64 samples from `first` on.
+    fn gather(&mut self, fragments: &[Fragment], places: &[[u16; 2]], first: u32) {
+        self.places.clear();
+        self.masks.clear();
+        self.targets.clear();
+        for fragment in fragments {
+            if let Part::Masked { pixel, first: at, mask } = fragment.part
+                && u32::from(at) == first
+            {
+                self.places.push(places[pixel as usize]);
+                self.masks.push(mask);
+                self.targets.push(pixel);
+            }
+        }
+    }
+
+    fn shade_parts(&mut self, (grid, first): (SampleGrid, u32), shader: &Shader<'_>) {
+        self.make_sums();
+        if !self.places.is_empty() {
+            let places = &self.places;
+            shader.masked_sums(Pixels { grid, places }, (&self.masks, first), &mut self.sums);
+        }
+    }
+
+    fn make_sums(&mut self) {
+        self.sums.clear();
+        self.sums.resize(self.places.len(), [0; 4]);
+    }
+}
+
+/// How many samples of a pixel a mask holds.
+#[inline]
+fn count(mask: u64) -> u32 {
+    match u16::try_from(mask) {
+        // Faster than counting bits, for which not every machine has an instruction.
+        Ok(mask) => {
+            let [low, high] = mask.to_le_bytes();
+            ONES[usize::from(low)] + ONES[usize::from(high)]
+        }
+        Err(_) => mask.count_ones(),
+    }
+}
+
+/// How many bits of each byte are set.
+const ONES: [u32; 256] = {
+    let mut ones = [0; 256];
+    let mut byte = 1;
+    while byte < ones.len() {
+        ones[byte] = (byte as u64).count_ones();
+        byte += 1;
+    }
+    ones
+};
+
+/// The sum of a split pixel's samples where all of them are flat.
+#[inline]
+fn flat_sum(tile: &VisibilityTile, slots: &Slots<'_>, x: usize, y: i32) -> [u64; 2] {
+    let mut sum = Spread::default();
+    tile.each_sample_word(x, y, |word, used| {
+        let shown = lanes(word);
+        if word == splat(shown[0]) {
+            sum.add(slots.get(shown[0]).spread, used);
+        } else {
+            for slot in &shown[..used as usize] {
+                sum.add_one(slots.get(*slot).spread);
+            }
+        }
+    });
+    sum.halves()
+}

@@ -1,0 +1,204 @@
+//! What is left to be shaded in a tile once everything is painted, sorted by primitive.
+
+use crate::raster::surface_id::Slot;
+
+/// Which samples of a pixel show a primitive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// All of them: the pixel, counted from the tile's first.
+    Whole { place: [u16; 2] },
+    /// Some: the pixel's index among those that wait for their sums, and one bit per sample, row by row, of the 64
+    /// samples from `first` on.
+    Masked { pixel: u32, first: u16, mask: u64 },
+}
+
+/// The samples of one pixel that show one primitive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Fragment {
+    /// The primitive.
+    pub(crate) slot: Slot,
+    pub(crate) part: Part,
+}
+
+/// The pixels of a tile that wait for something to be shaded.
+#[derive(Debug, Default)]
+pub(crate) struct Unresolved {
+    /// The places of split ones, counted from the tile's first pixel.
+    pub(crate) places: Vec<[u16; 2]>,
+    /// The sums of their samples as far as they are known.
+    pub(crate) sums: Vec<[u32; 4]>,
+    found: Vec<Fragment>,
+    pub(crate) sorted: SortedFragments,
+    /// The parts of the pixel at work.
+    parts: Vec<(Slot, u16, u64)>,
+}
+
+/// Fragments in the order of their slots.
+#[derive(Debug, Default)]
+pub(crate) struct SortedFragments {
+    fragments: Vec<Fragment>,
+    /// Where the fragments of each slot begin.
+    starts: Vec<u32>,
+}
+
+/// Samples that one mask speaks of.
+const MASK_BITS: usize = 64;
+
+impl Unresolved {
+    /// Forgets everything.
+    pub(crate) fn clear(&mut self) {
+        self.places.clear();
+        self.sums.clear();
+        self.found.clear();
+    }
+
+    /// Whether nothing waits.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.found.is_empty() && self.places.is_empty()
+    }
+
+    /// All samples of the pixel at `place` show the primitive of `slot`.
+    #[inline]
+    pub(crate) fn whole(&mut self, slot: Slot, place: [u16; 2]) {
+        let part = Part::Whole { place };
+        self.found.push(Fragment { slot, part });
+    }
+
+    /// The samples of the pixel at `place` show these slots, row by row; those with a colour in `flat` are known already.
+    #[inline]
+    pub(crate) fn split(
+        &mut self,
+        place: [u16; 2],
+        samples: impl Iterator<Item = Slot>,
+        flat: impl Fn(Slot) -> Option<[u32; 4]>,
+    ) {
+        let mut parts = std::mem::take(&mut self.parts);
+        parts.clear();
+        for (i, slot) in samples.enumerate() {
+            let (first, bit) = (i / MASK_BITS * MASK_BITS, 1 << (i % MASK_BITS));
+            let first = u16::try_from(first).unwrap_or(u16::MAX);
+            match parts.iter_mut().rev().find(|part| part.0 == slot && part.1 == first) {
+                Some(part) => part.2 |= bit,
+                None => parts.push((slot, first, bit)),
+            }
+        }
+        self.parts(place, parts.iter().copied(), flat);
+        self.parts = parts;
+    }
+
+    /// The samples of the pixel at `place` show these slots: for each part the slot, the sample that the lowest bit of the
+    /// mask stands for, and the mask.
+    #[inline]
+    pub(crate) fn parts(
+        &mut self,
+        place: [u16; 2],
+        parts: impl Iterator<Item = (Slot, u16, u64)>,
+        flat: impl Fn(Slot) -> Option<[u32; 4]>,
+    ) {
+        let pixel = u32::try_from(self.places.len()).unwrap_or(u32::MAX);
+        let mut sums = [0; 4];
+        for (slot, first, mask) in parts {
+            match flat(slot) {
+                None => self.found.push(Fragment {
+                    slot,
+                    part: Part::Masked { pixel, first, mask },
+                }),
+                Some(color) => {
+                    for (sum, channel) in sums.iter_mut().zip(color) {
+                        *sum += channel * mask.count_ones();
+                    }
+                }
+            }
+        }
+        self.places.push(place);
+        self.sums.push(sums);
+    }
+
+    /// Sorts the fragments by slot, of which there are `slots`.
+    pub(crate) fn sort(&mut self, slots: usize) {
+        self.sorted.sort(&self.found, slots);
+    }
+}
+
+impl SortedFragments {
+    /// A counting sort.
+    fn sort(&mut self, found: &[Fragment], slots: usize) {
+        self.starts.clear();
+        self.starts.resize(slots + 1, 0);
+        for fragment in found {
+            self.starts[usize::from(fragment.slot)] += 1;
+        }
+        let mut next = 0;
+        for start in &mut self.starts {
+            next += *start;
+            *start = next;
+        }
+        self.fragments.clear();
+        self.fragments.extend_from_slice(found);
+        // From the last one down, so that each slot's end becomes its start.
+        for fragment in found.iter().rev() {
+            let place = &mut self.starts[usize::from(fragment.slot)];
+            *place -= 1;
+            self.fragments[*place as usize] = *fragment;
+        }
+    }
+
+    /// The fragments of each slot that has any, in the order in which they were added.
+    pub(crate) fn by_slot(&self) -> impl Iterator<Item = &[Fragment]> + '_ {
+        self.starts
+            .windows(2)
+            .map(|range| &self.fragments[range[0] as usize..range[1] as usize])
+            .filter(|fragments| !fragments.is_empty())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sort_keeps_the_order_inside_a_slot() {
+        let mut unresolved = Unresolved::default();
+        for (slot, x) in [3, 1, 3, 0, 1, 3].into_iter().zip(0..) {
+            unresolved.whole(slot, [x, 0]);
+        }
+        unresolved.sort(5);
+        let found: Vec<Vec<Fragment>> = unresolved.sorted.by_slot().map(<[Fragment]>::to_vec).collect();
+        let whole = |slot, x| Fragment {
+            slot,
+            part: Part::Whole { place: [x, 0] },
+        };
+        assert_eq!(
+            found,
+            [
+                vec![whole(0, 3)],
+                vec![whole(1, 1), whole(1, 4)],
+                vec![whole(3, 0), whole(3, 2), whole(3, 5)]
+            ],
+            "slots without fragments are left out"
+        );
+    }
+
+    #[test]
+    fn split_gathers_samples_by_primitive() {
+        let mut unresolved = Unresolved::default();
+        let samples = (0..256).map(|i| if i % 2 == 0 { 7 } else { 1 + Slot::from(i >= 128) });
+        unresolved.split([4, 2], samples, |slot| (slot == 7).then_some([1, 2, 3, 4]));
+        assert_eq!(unresolved.sums, [[128, 256, 384, 512]], "half of the samples are flat");
+        let odd = 0xAAAA_AAAA_AAAA_AAAA;
+        let parts: Vec<(Slot, Part)> = unresolved.found.iter().map(|found| (found.slot, found.part)).collect();
+        let expected: Vec<(Slot, Part)> = [(1, 0), (1, 64), (2, 128), (2, 192)]
+            .map(|(slot, first)| {
+                (
+                    slot,
+                    Part::Masked {
+                        pixel: 0,
+                        first,
+                        mask: odd,
+                    },
+                )
+            })
+            .to_vec();
+        assert_eq!(parts, expected, "the others are to be shaded, 64 at a time");
+    }
+}

@@ -1,0 +1,174 @@
+//! What pixels show that two primitives share: two slots, and a bit for each sample.
+//!
+//! The masks, first and second slots of a row of pixels each lie side by side, so that those of a few pixels are a vector.
+
+use crate::raster::surface_id::{LAST_QUAD, QUAD, ROW, Slot};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, mask16x8, u16x8, u64x2};
+
+use crate::raster::paint::visibility::packed::{joined, lanes};
+
+/// Most samples along the side of a pixel whose masks take 16 bits.
+const NARROW_SIDE: usize = 4;
+
+/// Four pixels side by side, in the lower half of a vector.
+pub(crate) type Quad<S> = u16x8<S>;
+
+/// Some of them.
+pub(crate) type QuadMask<S> = mask16x8<S>;
+
+/// Two slots that share the samples of a pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Pair {
+    /// Bit `side * row + column` for each sample that shows `second`; neither all are set nor none.
+    pub(crate) mask: u64,
+    pub(crate) first: Slot,
+    pub(crate) second: Slot,
+}
+
+/// One pair for each pixel of a tile, of account or not.
+#[derive(Debug)]
+pub(crate) struct Pairs {
+    rows: Vec<Row>,
+    /// Whether masks need more than 16 bits, and these masks.
+    is_wide: bool,
+    wide: Vec<[u64; ROW]>,
+}
+
+/// The pairs of a row.
+#[derive(Clone, Debug)]
+struct Row {
+    masks: [u16; ROW],
+    firsts: [Slot; ROW],
+    seconds: [Slot; ROW],
+}
+
+/// The pairs of a row, or none.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PairRow<'a> {
+    row: &'a Row,
+    wide: Option<&'a [u64; ROW]>,
+}
+
+impl Row {
+    const NONE: Self = Self {
+        masks: [0; ROW],
+        firsts: [0; ROW],
+        seconds: [0; ROW],
+    };
+}
+
+impl Pairs {
+    /// None, for pixels of `side x side` samples, at most 64.
+    pub(crate) fn new(side: usize) -> Self {
+        Self {
+            rows: Vec::new(),
+            is_wide: side > NARROW_SIDE,
+            wide: Vec::new(),
+        }
+    }
+
+    /// Makes room for those of so many rows.
+    pub(crate) fn make_room(&mut self, rows: usize) {
+        if self.rows.len() < rows {
+            self.rows.resize(rows, Row::NONE);
+            if self.is_wide {
+                self.wide.resize(rows, [0; ROW]);
+            }
+        }
+    }
+
+    /// That of column `x` in row `y`.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
+    pub(crate) fn get(&self, (y, x): (usize, usize)) -> Pair {
+        self.row(y).get(x)
+    }
+
+    /// Sets that of column `x` in row `y`.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
+    #[expect(clippy::cast_possible_truncation, reason = "narrow masks have sixteen bits")]
+    pub(crate) fn set(&mut self, (y, x): (usize, usize), pair: Pair) {
+        let (row, x) = (&mut self.rows[y], x % ROW);
+        if self.is_wide {
+            self.wide[y][x] = pair.mask;
+        } else {
+            row.masks[x] = pair.mask as u16;
+        }
+        row.firsts[x] = pair.first;
+        row.seconds[x] = pair.second;
+    }
+
+    /// Sets those of the pixels from column `x` on in row `y` that `which` names; masks must be narrow.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    pub(crate) fn set_quad<S: Simd>(
+        &mut self,
+        simd: S,
+        ((y, x), which): ((usize, usize), QuadMask<S>),
+        (masks, firsts, seconds): (Quad<S>, Quad<S>, Quad<S>),
+    ) {
+        debug_assert!(!self.is_wide, "masks of sixteen bits");
+        let row = &mut self.rows[y];
+        for (all, new) in [
+            (&mut row.masks, masks),
+            (&mut row.firsts, firsts),
+            (&mut row.seconds, seconds),
+        ] {
+            let old = quad(simd, word_at(all, x));
+            put(all, x, which.select(new, old));
+        }
+    }
+
+    /// Those of row `y`.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
+    pub(crate) fn row(&self, y: usize) -> PairRow<'_> {
+        PairRow {
+            row: self.rows.get(y).unwrap_or(&Row::NONE),
+            wide: self.wide.get(y),
+        }
+    }
+}
+
+impl PairRow<'_> {
+    /// That of column `x`.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
+    pub(crate) fn get(self, x: usize) -> Pair {
+        let x = x % ROW;
+        Pair {
+            mask: match self.wide {
+                Some(masks) => masks[x],
+                None => u64::from(self.row.masks[x]),
+            },
+            first: self.row.firsts[x],
+            second: self.row.seconds[x],
+        }
+    }
+}
+
+/// The four numbers of a row from number `x` on, at most [`LAST_QUAD`], the first one lowest.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "one instruction, mostly")]
+pub(crate) fn word_at(row: &[u16; ROW], x: usize) -> u64 {
+    let x = x.min(LAST_QUAD);
+    joined([row[x], row[x + 1], row[x + 2], row[x + 3]])
+}
+
+/// Four numbers, the first one lowest, as a vector.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+pub(crate) fn quad<S: Simd>(simd: S, word: u64) -> Quad<S> {
+    u64x2::splat(simd, word).bitcast()
+}
+
+/// Puts a vector where [`word_at`] finds it.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+pub(crate) fn put<S: Simd>(row: &mut [u16; ROW], x: usize, vector: Quad<S>) {
+    let x = x.min(LAST_QUAD);
+    let [word, _] = vector.bitcast::<u64x2<S>>().to_array();
+    row[x..x + QUAD].copy_from_slice(&lanes(word));
+}

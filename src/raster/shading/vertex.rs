@@ -1,0 +1,308 @@
+//! Colours interpolated over a triangle, for whole lists of samples or pixels.
+
+#![expect(
+    clippy::inline_always,
+    reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
+)]
+
+use fearless_simd::{Level, Simd, dispatch};
+
+use crate::color::Premultiplied16;
+use crate::raster::attributes::Planes;
+use crate::rules::Rules;
+use crate::simd;
+use crate::texture::SampleGrid;
+
+/// Samples that are shaded together.
+const LANES: usize = 8;
+
+/// The largest value of a channel.
+const ONE: f64 = Premultiplied16::ONE as f64;
+
+/// Colours at the corners, interpolated.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct VertexColors {
+    /// Straight red, green, blue, alpha in `0.0..=1.0`.
+    straight: Planes<4>,
+    /// Red, green and blue in units of [`Premultiplied16`].
+    opaque: Planes<3>,
+    /// Whether all corners are opaque.
+    is_opaque: bool,
+}
+
+impl VertexColors {
+    /// From planes through straight colours.
+    pub(crate) fn new(straight: Planes<4>, is_opaque: bool) -> Self {
+        let first = |[r, g, b, _]: [f64; 4]| [r, g, b];
+        let opaque = Planes {
+            pivot: straight.pivot,
+            at_pivot: first(straight.at_pivot),
+            dx: first(straight.dx),
+            dy: first(straight.dy),
+        };
+        Self {
+            straight,
+            opaque: opaque.scaled(ONE),
+            is_opaque,
+        }
+    }
+
+    /// The colours at samples, counted from the first sample of the grid's origin; opaque or not, by any rules.
+    pub(crate) fn points(&self, grid: SampleGrid, rules: Rules, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
+        if self.is_opaque && rules != Rules::Course {
+            return dispatch!(simd::level(), simd => point_kernel(simd, &self.opaque, grid, points, colors));
+        }
+        let first = first_sample(grid);
+        for ([x, y], color) in points.iter().zip(colors) {
+            let (x, y) = (first[0] + f64::from(*x), first[1] + f64::from(*y));
+            *color = straight_color(self.straight.at(x, y), rules);
+        }
+    }
+
+    /// The values of pixels with one sample each. All corners must be opaque and the rules the standard ones.
+    pub(crate) fn pixels(&self, simd: Level, grid: SampleGrid, pixels: &[[u16; 2]], values: &mut [u32]) {
+        dispatch!(simd, simd => pixel_kernel(simd, &self.opaque, grid, pixels, values));
+    }
+
+    /// The sums over all samples of pixels; under the same conditions.
+    pub(crate) fn sums(&self, simd: Level, grid: SampleGrid, pixels: &[[u16; 2]], sums: &mut [[u32; 4]]) {
+        dispatch!(simd, simd => sum_kernel(simd, &self.opaque, grid, pixels, sums));
+    }
+
+    /// The sums over some samples of pixels: a mask each of the 64 samples from `first` on.
+    pub(crate) fn masked_sums(
+        &self,
+        grid: SampleGrid,
+        (pixels, masks, first): (&[[u16; 2]], &[u64], u32),
+        sums: &mut [[u32; 4]],
+    ) {
+        let origin = first_sample(grid);
+        let side = f64::from(grid.side);
+        for (([x, y], mask), sum) in pixels.iter().zip(masks).zip(sums) {
+            let count = mask.count_ones();
+            let (mut right, mut down, mut rest) = (0, 0, *mask);
+            while rest != 0 {
+                let sample = first + rest.trailing_zeros();
+                right += sample % grid.side;
+                down += sample / grid.side;
+                rest &= rest - 1;
+            }
+            let mean = |total: u32| f64::from(total) / f64::from(count.max(1));
+            let x = origin[0] + f64::from(*x) * side + mean(right);
+            let y = origin[1] + f64::from(*y) * side + mean(down);
+            *sum = rounded_sum(self.opaque.at(x, y), f64::from(count));
+        }
+    }
+}
+
+/// The place of the first sample of a grid's origin, in samples.
+#[inline(always)]
+fn first_sample(grid: SampleGrid) -> [f64; 2] {
+    grid.origin.map(|pixel| f64::from(pixel) * f64::from(grid.side) + 0.5)
+}
+
+/// An interpolated straight colour as samples store it.
+#[inline]
+#[expect(clippy::cast_possible_truncation, reason = "colours are 32-bit floats")]
+fn straight_color(color: [f64; 4], rules: Rules) -> Premultiplied16 {
+    // Rounding may carry an attribute a little beyond the colours at the corners.
+    let [r, g, b, a] = color.map(|channel| (channel as f32).clamp(0.0, 1.0));
+    Premultiplied16::from_byte_range([r * a * 255.0, g * a * 255.0, b * a * 255.0, a * 255.0], rules)
+}
+
+/// A number of `0.0..=limit` (clamped, at most `2^32`) rounded to a whole one.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the lower half is meant")]
+fn rounded(value: f64, limit: f64) -> u32 {
+    /// At `2^52` a float holds whole numbers only, which then stand in its lower bits: cheaper than a conversion, which
+    /// must also care for numbers out of range.
+    const WHOLE: f64 = 4_503_599_627_370_496.0;
+    // In this order what is no number becomes 0.
+    let value = if value > 0.0 { value } else { 0.0 };
+    let value = if value < limit { value } else { limit };
+    (value + WHOLE).to_bits() as u32
+}
+
+/// The lower half of a number that has no upper one.
+#[inline(always)]
+fn low_half(value: u32) -> u16 {
+    let [low, high, ..] = value.to_le_bytes();
+    u16::from_le_bytes([low, high])
+}
+
+/// `count` times a colour.
+#[inline(always)]
+fn rounded_sum(color: [f64; 3], count: f64) -> [u32; 4] {
+    let limit = ONE * count;
+    let [r, g, b] = color;
+    [
+        rounded(r * count, limit),
+        rounded(g * count, limit),
+        rounded(b * count, limit),
+        rounded(limit, limit),
+    ]
+}
+
+/// Where up to [`LANES`] pixels lie: the middles of their samples, in samples.
+#[inline(always)]
+fn middles(grid: SampleGrid, pixels: &[[u16; 2]]) -> [[f64; LANES]; 2] {
+    let side = f64::from(grid.side);
+    let mut middles = [[0.0; LANES]; 2];
+    for (i, [x, y]) in pixels.iter().enumerate() {
+        middles[0][i] = (f64::from(grid.origin[0]) + f64::from(*x) + 0.5) * side;
+        middles[1][i] = (f64::from(grid.origin[1]) + f64::from(*y) + 0.5) * side;
+    }
+    middles
+}
+
+/// Red, green and blue of [`LANES`] places, times `count`.
+#[inline(always)]
+fn channels(planes: &Planes<3>, [x, y]: &[[f64; LANES]; 2], count: f64) -> [[u32; LANES]; 3] {
+    let limit = ONE * count;
+    let mut channels = [[0; LANES]; 3];
+    for (k, channel) in channels.iter_mut().enumerate() {
+        for (i, sum) in channel.iter_mut().enumerate() {
+            let (right, down) = (x[i] - planes.pivot[0], y[i] - planes.pivot[1]);
+            let value = planes.at_pivot[k] + planes.dy[k] * down + planes.dx[k] * right;
+            *sum = rounded(value * count, limit);
+        }
+    }
+    channels
+}
+
+/// Opaque colours at samples.
+#[inline(always)]
+fn point_kernel<S: Simd>(
+    _: S,
+    planes: &Planes<3>,
+    grid: SampleGrid,
+    points: &[[u16; 2]],
+    colors: &mut [Premultiplied16],
+) {
+    let first = first_sample(grid);
+    for (points, colors) in points.chunks(LANES).zip(colors.chunks_mut(LANES)) {
+        let mut places = [[0.0; LANES]; 2];
+        for (i, [x, y]) in points.iter().enumerate() {
+            places[0][i] = first[0] + f64::from(*x);
+            places[1][i] = first[1] + f64::from(*y);
+        }
+        let [r, g, b] = channels(planes, &places, 1.0);
+        for (i, color) in colors.iter_mut().enumerate() {
+            let [r, g, b] = [r[i], g[i], b[i]].map(low_half);
+            *color = Premultiplied16([r, g, b, Premultiplied16::ONE]);
+        }
+    }
+}
+
+#[inline(always)]
+fn pixel_kernel<S: Simd>(_: S, planes: &Planes<3>, grid: SampleGrid, pixels: &[[u16; 2]], values: &mut [u32]) {
+    let half = u32::from(Premultiplied16::PER_BYTE) / 2;
+    for (pixels, values) in pixels.chunks(LANES).zip(values.chunks_mut(LANES)) {
+        let [r, g, b] = channels(planes, &middles(grid, pixels), 1.0);
+        let mut shaded = [0; LANES];
+        for i in 0..LANES {
+            let byte = |channel: u32| (channel + half) >> 8;
+            shaded[i] = 0xFF00_0000 | byte(r[i]) << 16 | byte(g[i]) << 8 | byte(b[i]);
+        }
+        values.copy_from_slice(&shaded[..values.len()]);
+    }
+}
+
+#[inline(always)]
+fn sum_kernel<S: Simd>(_: S, planes: &Planes<3>, grid: SampleGrid, pixels: &[[u16; 2]], sums: &mut [[u32; 4]]) {
+    let samples = grid.side * grid.side;
+    let alpha = samples * u32::from(Premultiplied16::ONE);
+    for (pixels, sums) in pixels.chunks(LANES).zip(sums.chunks_mut(LANES)) {
+        let [r, g, b] = channels(planes, &middles(grid, pixels), f64::from(samples));
+        for (i, sum) in sums.iter_mut().enumerate() {
+            *sum = [r[i], g[i], b[i], alpha];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+
+    /// The colours of all samples of a pixel, one by one.
+    fn samples(colors: &VertexColors, grid: SampleGrid, [x, y]: [u16; 2]) -> Vec<Premultiplied16> {
+        let side = u16::try_from(grid.side).expect("at most 16");
+        let points: Vec<[u16; 2]> = (0..side * side)
+            .map(|i| [x * side + i % side, y * side + i / side])
+            .collect();
+        let mut found = vec![Premultiplied16::TRANSPARENT; points.len()];
+        colors.points(grid, Rules::Standard, &points, &mut found);
+        found
+    }
+
+    #[test]
+    fn sums_are_those_of_the_samples() {
+        arbtest::arbtest(|u| {
+            let side = u.int_in_range(1..=16)?;
+            let subpixels = SubpixelGrid::new(side);
+            let mut corner = || -> arbtest::arbitrary::Result<GridPoint> {
+                let mut at = || u.int_in_range(-2_000_000..=2_000_000);
+                Ok(GridPoint { x: at()?, y: at()? })
+            };
+            let corners = [corner()?, corner()?, corner()?];
+            if crate::geometry::edge::doubled_area(corners) == 0 {
+                return Ok(());
+            }
+            let mut unit = || -> arbtest::arbitrary::Result<f32> { Ok(f32::from(u.arbitrary::<u8>()?) / 255.0) };
+            let values = [
+                [unit()?, unit()?, unit()?, 1.0],
+                [unit()?, unit()?, unit()?, 1.0],
+                [unit()?, unit()?, unit()?, 1.0],
+            ];
+            let colors = VertexColors::new(Planes::new(subpixels, &corners, values), true);
+            let grid = SampleGrid { side, origin: [3, -2] };
+            let pixels: Vec<[u16; 2]> = (0..11).map(|i| [i * 3, i % 4]).collect();
+            let count = side * side;
+            let mut of_scalar = Vec::new();
+            for (name, level) in simd::tested() {
+                let (mut sums, mut values) = (vec![[0; 4]; 11], vec![0; 11]);
+                colors.sums(level, grid, &pixels, &mut sums);
+                colors.pixels(level, grid, &pixels, &mut values);
+                if of_scalar.is_empty() {
+                    of_scalar = vec![(sums.clone(), values.clone())];
+                }
+                assert_eq!(
+                    (sums, values),
+                    of_scalar[0],
+                    "{name} gives the bytes of every other level"
+                );
+            }
+            let (sums, values) = &of_scalar[0];
+            for (i, pixel) in pixels.iter().enumerate() {
+                let samples = samples(&colors, grid, *pixel);
+                if side == 1 {
+                    assert_eq!(
+                        values[i],
+                        samples[0].to_pixel(Rules::Standard),
+                        "one sample is the pixel"
+                    );
+                }
+                let masks = [u64::MAX >> 64_u32.saturating_sub(count)];
+                let mut masked = [[0; 4]];
+                colors.masked_sums(grid, (&[*pixel], &masks, 0), &mut masked);
+                for k in 0..4 {
+                    let exact: u32 = samples.iter().map(|sample| u32::from(sample.0[k])).sum();
+                    // Where the plane leaves the range of colours the mean is clamped, not the samples.
+                    let inside = samples.iter().all(|sample| (1..65_280).contains(&sample.0[k])) || k == 3;
+                    assert!(
+                        !inside || sums[i][k].abs_diff(exact) <= count,
+                        "{corners:?} channel {k}"
+                    );
+                    assert!(
+                        count > 64 || masked[0][k].abs_diff(sums[i][k]) <= 1,
+                        "all bits are the whole pixel: {masked:?} and {:?}",
+                        sums[i]
+                    );
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(300);
+    }
+}

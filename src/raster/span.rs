@@ -1,0 +1,148 @@
+//! Runs of columns or rows, and the rectangles that two of them make.
+//!
+//! ```text
+//!      0   1   2   3   4   5
+//!    |   | # | # | # |   |       start 1, end 4
+//! ```
+
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::rules::Rules;
+
+/// Sample columns and rows of the box that a small triangle fits in.
+pub(crate) const SMALL: i32 = 8;
+
+/// A half-open range of sample columns, or of sample rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Span {
+    /// The first.
+    pub(crate) start: i32,
+    /// One beyond the last; at or before `start` when empty.
+    pub(crate) end: i32,
+}
+
+/// A rectangle of pixels, half open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct PixelRect {
+    pub(crate) x: Span,
+    pub(crate) y: Span,
+}
+
+/// The columns and rows of samples between the least and the greatest corner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct SampleBox {
+    pub(crate) columns: Span,
+    pub(crate) rows: Span,
+}
+
+/// How much of a rectangle of samples a shape covers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Reach {
+    /// Some samples, perhaps.
+    Part,
+    /// All samples.
+    All,
+}
+
+impl Span {
+    /// Whether nothing is in it.
+    pub(crate) fn is_empty(self) -> bool {
+        self.start >= self.end
+    }
+
+    /// A row without samples: in a union or an intersection of rows it has no say about the one, and empties the other.
+    /// Far enough from the ends of the numbers that columns of a frame may be added.
+    pub(crate) const EMPTY: Self = Self {
+        start: i32::MAX / 2,
+        end: i32::MIN / 2,
+    };
+
+    /// The seed of an intersection.
+    pub(in crate::raster) const EVERYTHING: Self = Self {
+        start: i32::MIN,
+        end: i32::MAX,
+    };
+
+    /// The seed of a union.
+    pub(crate) const NOTHING: Self = Self {
+        start: i32::MAX,
+        end: i32::MIN,
+    };
+
+    /// The smallest span that holds both.
+    pub(crate) fn union(self, other: Self) -> Self {
+        Self {
+            start: self.start.min(other.start),
+            end: self.end.max(other.end),
+        }
+    }
+
+    /// What lies in both.
+    pub(crate) fn intersection(self, other: Self) -> Self {
+        Self {
+            start: self.start.max(other.start),
+            end: self.end.min(other.end),
+        }
+    }
+}
+
+impl PixelRect {
+    /// No pixels: the seed of a union.
+    pub(crate) const NOTHING: Self = Self {
+        x: Span::NOTHING,
+        y: Span::NOTHING,
+    };
+
+    /// The smallest rectangle that holds both.
+    pub(crate) fn union(self, other: Self) -> Self {
+        Self {
+            x: self.x.union(other.x),
+            y: self.y.union(other.y),
+        }
+    }
+}
+
+impl SampleBox {
+    /// The box of a triangle; empty in a direction in which the triangle holds no sample.
+    #[inline]
+    pub(crate) fn new([a, b, c]: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Self {
+        let span = |a: i32, b: i32, c: i32| Span {
+            start: grid.sample_at_or_after(a.min(b).min(c)),
+            end: end_of(grid, a.max(b).max(c), rules),
+        };
+        Self {
+            columns: span(a.x, b.x, c.x),
+            rows: span(a.y, b.y, c.y),
+        }
+    }
+
+    /// What lies in both.
+    #[inline]
+    pub(crate) fn intersection(self, other: Self) -> Self {
+        Self {
+            columns: self.columns.intersection(other.columns),
+            rows: self.rows.intersection(other.rows),
+        }
+    }
+
+    /// Whether its samples fit the bits of a [`SmallCoverage`].
+    #[inline]
+    pub(crate) fn is_small(self) -> bool {
+        self.columns.end - self.columns.start <= SMALL && self.rows.end - self.rows.start <= SMALL
+    }
+}
+
+/// A span of pixels as a span of samples.
+pub(crate) fn scaled(pixels: Span, side: i32) -> Span {
+    Span {
+        start: pixels.start * side,
+        end: pixels.end * side,
+    }
+}
+
+/// One beyond the last sample that belongs to what ends at `coordinate`.
+pub(crate) fn end_of(grid: SubpixelGrid, coordinate: i32, rules: Rules) -> i32 {
+    match rules {
+        Rules::Standard | Rules::Float => grid.sample_at_or_after(coordinate),
+        Rules::Course => grid.sample_after(coordinate),
+    }
+}

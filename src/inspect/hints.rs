@@ -184,20 +184,20 @@ impl Truth {
 }
 
 impl Cure {
-    /// What to set, with which key, and what it brings.
+    /// What to set, with which key (which may step through other values first), and what it brings.
     fn words(&self) -> String {
         let value = &self.value;
         let what = match self.setting {
             Setting::Rules => format!("Rules {value}"),
-            Setting::LodLevel => "The level of detail as computed (M)".to_owned(),
-            Setting::LodBias => format!("Bias {value} (comma, full stop)"),
-            Setting::LevelSampling => format!("Level sampling {value} (L)"),
-            Setting::Anisotropy => format!("Anisotropy {value} (T)"),
+            Setting::LodLevel => "The level of detail as computed (key M)".to_owned(),
+            Setting::LodBias => format!("Bias {value} (keys comma and full stop)"),
+            Setting::LevelSampling => format!("Level sampling {value} (key L)"),
+            Setting::Anisotropy => format!("Anisotropy {value} (key T)"),
             Setting::LodPer => format!("Level of detail per {value}"),
-            Setting::PixelSampling => format!("Pixel sampling {value} (P)"),
+            Setting::PixelSampling => format!("Pixel sampling {value} (key P)"),
             Setting::SampleRate if value == "256" => format!("{value} samples"),
-            Setting::SampleRate => format!("{value} samples (=)"),
-            Setting::Pattern => format!("Pattern {value} (A), whose samples share neither columns nor rows"),
+            Setting::SampleRate => format!("{value} samples (key =)"),
+            Setting::Pattern => format!("Pattern {value} (key A), whose samples share neither columns nor rows"),
         };
         format!("{what}: {} levels nearer to the truth.", levels(self.nearer))
     }

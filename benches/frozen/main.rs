@@ -5,7 +5,9 @@
 //! reading textures (`filters`), every visualisation (`visualised`), and what the inspector says of some pixels (`explained`).
 
 use std::fmt::Write as _;
+use std::fs;
 use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
 
 use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::View;
@@ -13,9 +15,8 @@ use rasterscope::inspect::{Explanation, Question};
 use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{RenderSettings, Subject, Visualisation, draw};
 use rasterscope::rules::Rules;
-use rasterscope::scene::{self, DialectChoice, ReadOptions, Scene};
+use rasterscope::scene::{self, DialectChoice, FolderResources, ReadOptions, Scene};
 use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
-use rasterscope::viewer::gallery::{GalleryScene, SCENES, Textures};
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
@@ -27,17 +28,33 @@ const RATES: [u32; 5] = [1, 4, 9, 16, 64];
 const VIEWS: [View; 2] = [View::Default, View::Canvas];
 
 fn main() -> io::Result<()> {
-    let lines: Vec<String> = SCENES.par_iter().map(lines).collect();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg");
+    let mut documents = Vec::new();
+    for folder in fs::read_dir(root)? {
+        for document in fs::read_dir(folder?.path())? {
+            documents.push(document?.path());
+        }
+    }
+    documents.sort();
+    let lines: Vec<String> = documents.par_iter().map(|path| lines(path)).collect();
     io::stdout().write_all(lines.concat().as_bytes())
 }
 
 /// Every line of a scene.
-fn lines(gallery: &GalleryScene) -> String {
+fn lines(path: &Path) -> String {
     let options = ReadOptions {
         dialect: DialectChoice::Auto,
     };
-    let scene =
-        scene::read(gallery.document.as_bytes(), gallery.name, options, &Textures).expect("the gallery is sound");
+    let document = fs::read(path).expect("a readable document");
+    let resources = FolderResources::beside(path);
+    let scene = scene::read(&document, "scene.svg", options, &resources).expect("the gallery is sound");
+    let name = path.iter().rev().take(2).collect::<PathBuf>();
+    let name = name
+        .iter()
+        .rev()
+        .map(|part| part.to_string_lossy())
+        .collect::<Vec<_>>()
+        .join("/");
     let mut groups: Vec<(String, Vec<RenderSettings>)> = Rules::ALL
         .iter()
         .map(|rules| (rules.name().to_owned(), sampled(*rules)))
@@ -50,7 +67,7 @@ fn lines(gallery: &GalleryScene) -> String {
             .finalize()
             .iter()
             .fold(String::new(), |hex, byte| hex + &format!("{byte:02x}"));
-        writeln!(text, "{} {group} {hex}", gallery.name).expect("text grows");
+        writeln!(text, "{name} {group} {hex}").expect("text grows");
     };
     for (group, all) in &groups {
         let mut sum = Sha256::new();

@@ -245,7 +245,7 @@ const BENCHES: Room = Room {
     rooms: &[
         "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
     ],
-    crates: &["serde_json"],
+    crates: &["serde_json", "sha2"],
 };
 
 #[test]

@@ -12,6 +12,7 @@ mod diff;
 mod disk;
 mod figures;
 mod float_rules;
+mod floors;
 mod full_disk;
 mod fuzzing;
 mod gallery;

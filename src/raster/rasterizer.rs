@@ -8,16 +8,16 @@ use rayon::prelude::*;
 
 use crate::color::{Premultiplied16, ResolveSpace, Rgba};
 use crate::raster::binning::bins::{Bins, Plan};
-use crate::raster::binning::tile_command::{Entry, Work};
-use crate::raster::coverage::free_positions::Scatter;
-use crate::raster::coverage::shape_rows::BandSpans;
+use crate::raster::binning::tile_command::{TileCommand, Work};
+use crate::raster::coverage::free_positions::FreePositions;
+use crate::raster::coverage::shape_rows::ShapeRows;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::frame::row::FrameRow;
 use crate::raster::list::chunk::{Chunk, ListContext, Paint, measure_layers};
 use crate::raster::paint::direct::DirectPainter;
-use crate::raster::paint::per_sample::TilePainter;
-use crate::raster::paint::visibility::painter::DeferredPainter;
-use crate::raster::sampling::positions::{SamplePlaces, lattice};
+use crate::raster::paint::per_sample::PerSamplePainter;
+use crate::raster::paint::visibility::painter::VisibilityPainter;
+use crate::raster::sampling::positions::{SamplePositions, lattice};
 use crate::raster::shading::shader::{ShadeContext, Shader};
 use crate::raster::span::{PixelRect, Span};
 use crate::raster::stats::{Counters, SharedTally, Tally};
@@ -109,9 +109,9 @@ pub(in crate::raster) enum Method {
 #[derive(Debug)]
 pub(in crate::raster) struct Painters<'a> {
     direct: DirectPainter<'a>,
-    pub(in crate::raster) deferred: DeferredPainter<'a>,
-    pub(in crate::raster) blended: TilePainter<'a>,
-    pub(in crate::raster) bands: BandSpans,
+    pub(in crate::raster) deferred: VisibilityPainter<'a>,
+    pub(in crate::raster) blended: PerSamplePainter<'a>,
+    pub(in crate::raster) bands: ShapeRows,
     pub(in crate::raster) tally: Tally,
 }
 
@@ -322,15 +322,15 @@ impl<'a> DisplayList<'a> {
     }
 
     /// What finds coverage in some columns of pixels where samples are not those of the grid.
-    fn scatter(&self, columns: Span) -> Option<Scatter> {
+    fn free_positions(&self, columns: Span) -> Option<FreePositions> {
         (!self.context.is_grid()).then(|| self.scatter_in(columns))
     }
 
-    /// As [`DisplayList::scatter`], also for the samples of a grid.
-    pub(in crate::raster) fn scatter_in(&self, columns: Span) -> Scatter {
+    /// As [`DisplayList::free_positions`], also for the samples of a grid.
+    pub(in crate::raster) fn scatter_in(&self, columns: Span) -> FreePositions {
         let context = &self.context;
-        let places = SamplePlaces::new(context.pattern, context.rate);
-        Scatter::new((context.grid, context.rules), places, self.outlines(), columns)
+        let places = SamplePositions::new(context.pattern, context.rate);
+        FreePositions::new((context.grid, context.rules), places, self.outlines(), columns)
     }
 
     /// How many outlines there are.
@@ -338,9 +338,9 @@ impl<'a> DisplayList<'a> {
         self.chunks.iter().map(|chunk| chunk.outlines.len()).sum()
     }
 
-    pub(in crate::raster) fn bands(&self) -> BandSpans {
+    pub(in crate::raster) fn bands(&self) -> ShapeRows {
         let columns = self.context.samples().columns.end;
-        BandSpans::new((self.context.grid, self.context.rules), columns, self.outlines())
+        ShapeRows::new((self.context.grid, self.context.rules), columns, self.outlines())
     }
 
     /// Painters for one thread.
@@ -355,8 +355,8 @@ impl<'a> DisplayList<'a> {
     pub(in crate::raster) fn painters_of(&self, columns: Span) -> Painters<'_> {
         Painters {
             direct: DirectPainter::new(self.shade_context()),
-            deferred: DeferredPainter::new(self.shade_context()),
-            blended: TilePainter::new(self.shade_context(), self.scatter(columns)),
+            deferred: VisibilityPainter::new(self.shade_context()),
+            blended: PerSamplePainter::new(self.shade_context(), self.free_positions(columns)),
             bands: self.bands(),
             tally: Tally::default(),
         }
@@ -364,7 +364,7 @@ impl<'a> DisplayList<'a> {
 
     /// How a tile is painted, of which the ops from `first` on are to be seen: see [`Method`].
     pub(in crate::raster) fn method(&self, pass: &Pass<'_>, tile: usize, first: (usize, usize)) -> Method {
-        let all = |kind: fn(&Entry, &Chunk) -> bool| {
+        let all = |kind: fn(&TileCommand, &Chunk) -> bool| {
             visible(&pass.bins, tile, first)
                 .all(|(chunk, entries)| entries.iter().all(|entry| kind(entry, &self.chunks[chunk])))
         };
@@ -554,7 +554,7 @@ fn visible(
     bins: &[Arc<Bins>],
     tile: usize,
     (chunk, entry): (usize, usize),
-) -> impl Iterator<Item = (usize, &[Entry])> + Clone {
+) -> impl Iterator<Item = (usize, &[TileCommand])> + Clone {
     bins.iter().enumerate().skip(chunk).map(move |(i, bins)| {
         let skip = if i == chunk { entry } else { 0 };
         (i, &bins.of_tile(tile)[skip..])

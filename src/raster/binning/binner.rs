@@ -6,17 +6,17 @@
 
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::binning::polygon_tiles::OutlineTiles;
-use crate::raster::binning::tile_command::Entry;
+use crate::raster::binning::tile_command::TileCommand;
 use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::float_shape::FloatShape;
-use crate::raster::coverage::mask8x8::SmallCoverage;
-use crate::raster::list::chunk::{Chunk, ListContext, Op, Paint};
+use crate::raster::coverage::mask8x8::CoverageMask;
+use crate::raster::list::chunk::{Chunk, DrawCommand, ListContext, Paint};
 use crate::raster::shading::shader::Shader;
 use crate::raster::span::{PixelRect, Reach, SampleBox, Span};
 use crate::texture::Texture;
 
 /// Walks over the ops of a chunk.
-pub(crate) struct Walk<'a> {
+pub(crate) struct Binner<'a> {
     chunk: &'a Chunk,
     context: &'a ListContext,
     /// Tile rows to look at.
@@ -68,7 +68,7 @@ fn quotient(coordinate: i32, inverse: u64) -> i32 {
     ((u64::from(coordinate.cast_unsigned()) * inverse) >> Sides::SHIFT) as i32
 }
 
-impl<'a> Walk<'a> {
+impl<'a> Binner<'a> {
     pub(crate) fn new(chunk: &'a Chunk, context: &'a ListContext, rows: Span) -> Self {
         let (width_log2, height_log2) = context.tiles.sides_log2();
         let side = context.grid.side().cast_unsigned();
@@ -83,34 +83,34 @@ impl<'a> Walk<'a> {
     }
 
     /// Calls `visit` with every entry of the chunk and the number of its tile, counted from the first row's first.
-    pub(crate) fn each(&self, textures: &[&Texture], mut visit: impl FnMut(usize, Entry)) {
+    pub(crate) fn each(&self, textures: &[&Texture], mut visit: impl FnMut(usize, TileCommand)) {
         let mut depth = self.chunk.layers_open;
         let mut tiles = OutlineTiles::default();
         for (i, op) in self.chunk.ops.iter().enumerate() {
             match *op {
-                Op::Samples(index) => {
+                DrawCommand::Samples(index) => {
                     let stamp = &self.chunk.stamps[index as usize];
-                    let entry = Entry::samples(i, stamp.color);
+                    let entry = TileCommand::samples(i, stamp.color);
                     self.stamp(self.samples, stamp.coverage, entry, &mut visit);
                 }
-                Op::Pixels(index) => {
+                DrawCommand::Pixels(index) => {
                     let stamp = &self.chunk.stamps[index as usize];
-                    let entry = Entry::pixels(i, stamp.color);
+                    let entry = TileCommand::pixels(i, stamp.color);
                     self.stamp(self.pixels, stamp.coverage, entry, &mut visit);
                 }
-                Op::Hairline(index) => {
+                DrawCommand::Hairline(index) => {
                     let line = &self.chunk.hairlines[index as usize];
-                    let entry = Entry::pixels(i, line.color);
+                    let entry = TileCommand::pixels(i, line.color);
                     line.blocks(self.context.size, |pixels| {
                         self.stamp(self.pixels, pixels, entry, &mut visit);
                     });
                 }
-                Op::Triangle(index) => {
+                DrawCommand::Triangle(index) => {
                     let triangle = &self.chunk.triangles[index as usize];
                     let paint = &self.chunk.paints[triangle.paint as usize];
                     let opaque = Shader::is_opaque(paint, textures);
                     if let Some(float) = self.chunk.floats.get(index as usize) {
-                        let entry = Entry::triangle(i, index, None, opaque);
+                        let entry = TileCommand::triangle(i, index, None, opaque);
                         self.float(float, entry, depth == 0, &mut visit);
                         continue;
                     }
@@ -118,19 +118,23 @@ impl<'a> Walk<'a> {
                         Paint::Solid(color) => Some(*color),
                         Paint::Vertex(_) | Paint::Texture { .. } => None,
                     };
-                    let entry = Entry::triangle(i, index, flat, opaque);
+                    let entry = TileCommand::triangle(i, index, flat, opaque);
                     self.triangle(triangle.corners, entry, depth == 0, &mut visit);
                 }
-                Op::Outline(index) => {
-                    let entry = Entry::outline(i, index, self.chunk.outline_colors[index as usize]);
+                DrawCommand::Outline(index) => {
+                    let entry = TileCommand::outline(i, index, self.chunk.outline_colors[index as usize]);
                     self.outline(&mut tiles, (index, entry), depth == 0, &mut visit);
                 }
-                Op::BeginLayer(index) | Op::EndLayer(index) => {
+                DrawCommand::BeginLayer(index) | DrawCommand::EndLayer(index) => {
                     depth = match op {
-                        Op::BeginLayer(_) => depth + 1,
+                        DrawCommand::BeginLayer(_) => depth + 1,
                         _ => depth.saturating_sub(1),
                     };
-                    self.rect(self.chunk.layers[index as usize].area, Entry::layer(i), &mut visit);
+                    self.rect(
+                        self.chunk.layers[index as usize].area,
+                        TileCommand::layer(i),
+                        &mut visit,
+                    );
                 }
             }
         }
@@ -144,7 +148,7 @@ impl<'a> Walk<'a> {
 
     /// A stamp in each tile that holds any of its bits.
     #[inline]
-    fn stamp(&self, sides: Sides, stamp: SmallCoverage, entry: Entry, visit: &mut impl FnMut(usize, Entry)) {
+    fn stamp(&self, sides: Sides, stamp: CoverageMask, entry: TileCommand, visit: &mut impl FnMut(usize, TileCommand)) {
         let (columns, rows) = (stamp.columns(), stamp.rows());
         let (left, right) = (sides.column(columns.start), sides.column(columns.end - 1));
         let (top, bottom) = (sides.row(rows.start), sides.row(rows.end - 1));
@@ -175,9 +179,9 @@ impl<'a> Walk<'a> {
     fn outline(
         &self,
         tiles: &mut OutlineTiles,
-        (index, entry): (u32, Entry),
+        (index, entry): (u32, TileCommand),
         base: bool,
-        visit: &mut impl FnMut(usize, Entry),
+        visit: &mut impl FnMut(usize, TileCommand),
     ) {
         let (grid, sides) = (self.context.grid, self.samples);
         let outline = &self.chunk.outlines[index as usize];
@@ -221,7 +225,13 @@ impl<'a> Walk<'a> {
     }
 
     /// A triangle in each tile it touches; `base` says that it is in no layer.
-    fn triangle(&self, corners: [GridPoint; 3], entry: Entry, base: bool, visit: &mut impl FnMut(usize, Entry)) {
+    fn triangle(
+        &self,
+        corners: [GridPoint; 3],
+        entry: TileCommand,
+        base: bool,
+        visit: &mut impl FnMut(usize, TileCommand),
+    ) {
         let (grid, sides) = (self.context.grid, self.samples);
         let samples = SampleBox::new(corners, grid, self.context.rules).intersection(self.frame);
         if samples.columns.is_empty() || samples.rows.is_empty() {
@@ -275,7 +285,7 @@ impl<'a> Walk<'a> {
     /// A triangle by the rules of first drafts in each tile it touches. Kept out of the loop over ops, which is hot.
     #[cold]
     #[inline(never)]
-    fn float(&self, float: &FloatShape, entry: Entry, base: bool, visit: &mut impl FnMut(usize, Entry)) {
+    fn float(&self, float: &FloatShape, entry: TileCommand, base: bool, visit: &mut impl FnMut(usize, TileCommand)) {
         let (grid, sides) = (self.context.grid, self.samples);
         let SampleBox { columns, rows } = float.samples;
         let of_tile = |tile: i32, side: u32, frame: Span| {
@@ -345,7 +355,7 @@ impl<'a> Walk<'a> {
     }
 
     /// An op in every tile of a rectangle of pixels.
-    fn rect(&self, area: PixelRect, entry: Entry, visit: &mut impl FnMut(usize, Entry)) {
+    fn rect(&self, area: PixelRect, entry: TileCommand, visit: &mut impl FnMut(usize, TileCommand)) {
         if area.x.is_empty() || area.y.is_empty() {
             return;
         }
@@ -359,7 +369,7 @@ impl<'a> Walk<'a> {
 
 /// The entry of a stamp all bits of which lie in the tile that begins at `[x, y]`.
 #[inline]
-fn in_tile(stamp: SmallCoverage, entry: Entry, [x, y]: [i32; 2]) -> Entry {
+fn in_tile(stamp: CoverageMask, entry: TileCommand, [x, y]: [i32; 2]) -> TileCommand {
     let (column, row) = (stamp.columns().start, stamp.rows().start);
     let shift = 8 * (row - stamp.row) + column - stamp.column;
     let near = |distance: i32| u16::try_from(distance).unwrap_or(0);

@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::raster::binning::binner::{Walk, place};
-use crate::raster::binning::tile_command::Entry;
+use crate::raster::binning::binner::{Binner, place};
+use crate::raster::binning::tile_command::TileCommand;
 use crate::raster::list::chunk::{Chunk, ListContext};
 use crate::raster::span::Span;
 use crate::texture::Texture;
@@ -46,7 +46,7 @@ struct ChunkPlan {
 /// The entries of one chunk, tile by tile.
 #[derive(Debug, Default)]
 pub(crate) struct Bins {
-    entries: Vec<Entry>,
+    entries: Vec<TileCommand>,
     /// Where each tile's entries begin, and one more.
     starts: Vec<u32>,
 }
@@ -63,7 +63,7 @@ impl Plan {
             let mut counts = vec![0; tiles.columns as usize * tiles.rows as usize];
             let mut few = chunk.ops.len() <= MAX_KEPT_OPS;
             let mut kept = Vec::with_capacity(if few { FEW } else { 0 });
-            Walk::new(chunk, context, all).each(textures, |tile, entry| {
+            Binner::new(chunk, context, all).each(textures, |tile, entry| {
                 counts[tile] += 1;
                 few &= kept.len() < MAX_KEPT;
                 if few {
@@ -122,7 +122,7 @@ impl Plan {
         let of_chunk = |(chunk, plan): (&Chunk, &ChunkPlan)| {
             ready(plan).unwrap_or_else(|| {
                 let mut sorter = Sorter::new(&plan.counts[tiles.clone()]);
-                Walk::new(chunk, context, rows).each(textures, |tile, entry| sorter.add(tile, entry));
+                Binner::new(chunk, context, rows).each(textures, |tile, entry| sorter.add(tile, entry));
                 Arc::new(sorter.bins)
             })
         };
@@ -150,14 +150,14 @@ impl Sorter {
         Self {
             next: starts.clone(),
             bins: Bins {
-                entries: vec![Entry::default(); total as usize],
+                entries: vec![TileCommand::default(); total as usize],
                 starts,
             },
         }
     }
 
     #[inline]
-    fn add(&mut self, tile: usize, entry: Entry) {
+    fn add(&mut self, tile: usize, entry: TileCommand) {
         let place = &mut self.next[tile];
         self.bins.entries[*place as usize] = entry;
         *place += 1;
@@ -166,7 +166,7 @@ impl Sorter {
 
 impl Bins {
     /// All entries of a single tile.
-    pub(crate) fn of_one_tile(entries: Vec<Entry>) -> Self {
+    pub(crate) fn of_one_tile(entries: Vec<TileCommand>) -> Self {
         let end = u32::try_from(entries.len()).unwrap_or(u32::MAX);
         Self {
             entries,
@@ -175,7 +175,7 @@ impl Bins {
     }
 
     /// The entries of a tile, counted row by row from the first tile row that was asked for.
-    pub(crate) fn of_tile(&self, tile: usize) -> &[Entry] {
+    pub(crate) fn of_tile(&self, tile: usize) -> &[TileCommand] {
         &self.entries[self.starts[tile] as usize..self.starts[tile + 1] as usize]
     }
 }
@@ -186,13 +186,13 @@ pub(crate) fn entries_of_tile(
     context: &ListContext,
     textures: &[&Texture],
     [column, row]: [i32; 2],
-) -> Vec<Entry> {
+) -> Vec<TileCommand> {
     let mut entries = Vec::new();
     let rows = Span {
         start: row,
         end: row + 1,
     };
-    Walk::new(chunk, context, rows).each(textures, |tile, entry| {
+    Binner::new(chunk, context, rows).each(textures, |tile, entry| {
         if tile == place(column) {
             entries.push(entry);
         }

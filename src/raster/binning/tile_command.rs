@@ -1,14 +1,14 @@
 //! One op in one tile, as the painters of tiles read it: everything about a small primitive, in painter's order.
 
 use crate::color::Premultiplied16;
-use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::shape_rows::Shape;
-use crate::raster::list::chunk::{Chunk, Op, Paint, ScreenTriangle};
+use crate::raster::list::chunk::{Chunk, DrawCommand, Paint, ScreenTriangle};
 
 /// One op in one tile. A stamp is held whole, the colour of a flat shape too, so that painting these does not jump
 /// around in memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Entry {
+pub(crate) struct TileCommand {
     /// Flags, and below them the index of the op in its chunk.
     head: u32,
     /// Column and row of a stamp's lowest bit, counted from the tile's first: samples or pixels.
@@ -22,9 +22,9 @@ pub(crate) struct Entry {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Work<'c> {
     /// Samples of one colour, counted from the tile's first sample column and row; all lie in the tile.
-    Samples(SmallCoverage, Premultiplied16),
+    Samples(CoverageMask, Premultiplied16),
     /// Pixels of one colour, counted from the tile's first; all lie in the tile.
-    Pixels(SmallCoverage, Premultiplied16),
+    Pixels(CoverageMask, Premultiplied16),
     /// A triangle or polygon of one colour.
     Flat(Shape<'c>, Premultiplied16),
     /// A triangle of any other paint, and what it covers.
@@ -34,7 +34,7 @@ pub(crate) enum Work<'c> {
     EndLayer(u16),
 }
 
-impl Entry {
+impl TileCommand {
     const COVERS: u32 = 1 << 31;
     const HIDES: u32 = 1 << 30;
     const OPAQUE: u32 = 1 << 29;
@@ -153,7 +153,7 @@ impl Entry {
     /// What is to be painted; `chunk` is the one that the entry belongs to.
     #[inline]
     pub(crate) fn work(self, chunk: &Chunk) -> Work<'_> {
-        let coverage = SmallCoverage {
+        let coverage = CoverageMask {
             column: i32::from(self.at[0]),
             row: i32::from(self.at[1]),
             mask: self.bits,
@@ -173,7 +173,7 @@ impl Entry {
             return Work::Flat(Shape::Outline(chunk.outline(index)), self.color);
         }
         match chunk.ops[self.op()] {
-            Op::Triangle(index) => {
+            DrawCommand::Triangle(index) => {
                 let triangle = &chunk.triangles[index as usize];
                 let paint = &chunk.paints[triangle.paint as usize];
                 match (chunk.floats.get(index as usize), paint) {
@@ -182,9 +182,13 @@ impl Entry {
                     (Some(float), _) => Work::Shaded(Shape::Float(float), triangle, paint),
                 }
             }
-            Op::EndLayer(index) => Work::EndLayer(chunk.layers[index as usize].opacity),
+            DrawCommand::EndLayer(index) => Work::EndLayer(chunk.layers[index as usize].opacity),
             // Stamps, outlines and hairlines have returned above.
-            Op::BeginLayer(_) | Op::Outline(_) | Op::Samples(_) | Op::Pixels(_) | Op::Hairline(_) => Work::BeginLayer,
+            DrawCommand::BeginLayer(_)
+            | DrawCommand::Outline(_)
+            | DrawCommand::Samples(_)
+            | DrawCommand::Pixels(_)
+            | DrawCommand::Hairline(_) => Work::BeginLayer,
         }
     }
 }

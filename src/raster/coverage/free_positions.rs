@@ -10,25 +10,25 @@ use crate::raster::SampleRate;
 use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::float_shape::FloatShape;
-use crate::raster::coverage::free_positions_polygon::OutlineScatter;
+use crate::raster::coverage::free_positions_polygon::FreePositionsPolygon;
 use crate::raster::coverage::shape_rows::Shape;
 use crate::raster::sampling::mask::SampleMask;
-use crate::raster::sampling::positions::{Place, SamplePlaces};
+use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::span::{PixelRect, Reach, SampleBox, Span};
 use crate::rules::Rules;
 
 /// Finds the samples that shapes cover, for one drawing.
 #[derive(Debug)]
-pub(crate) struct Scatter {
+pub(crate) struct FreePositions {
     grid: SubpixelGrid,
     rules: Rules,
-    places: SamplePlaces,
+    places: SamplePositions,
     /// All samples of a pixel.
     all: SampleMask,
-    memory: Vec<Place>,
+    memory: Vec<Position>,
     /// For each sample what the edges of the triangle at work gain from a pixel's first point to it.
     gains: Vec<[i64; 3]>,
-    outlines: OutlineScatter,
+    outlines: FreePositionsPolygon,
 }
 
 /// An edge function divided by the distance of two lattice points: below zero at those outside.
@@ -41,11 +41,11 @@ struct LatticeEdge {
     down: i64,
 }
 
-impl Scatter {
+impl FreePositions {
     /// For a drawing of `outlines` outlines; of these only the pixel columns `columns` are ever asked for.
     pub(crate) fn new(
         (grid, rules): (SubpixelGrid, Rules),
-        places: SamplePlaces,
+        places: SamplePositions,
         outlines: usize,
         columns: Span,
     ) -> Self {
@@ -55,13 +55,13 @@ impl Scatter {
             all: SampleMask::all(places.count()),
             memory: Vec::with_capacity(SampleRate::MAX as usize),
             gains: Vec::with_capacity(SampleRate::MAX as usize),
-            outlines: OutlineScatter::new(outlines, columns, places.count()),
+            outlines: FreePositionsPolygon::new(outlines, columns, places.count()),
             places,
         }
     }
 
     /// Where the samples of a pixel lie, in points of the lattice from its first.
-    pub(crate) fn places(&mut self, pixel: [i32; 2]) -> &[Place] {
+    pub(crate) fn places(&mut self, pixel: [i32; 2]) -> &[Position] {
         self.places.of_pixel(pixel, &mut self.memory)
     }
 
@@ -273,7 +273,7 @@ impl LatticeEdge {
 
     /// What it gains from a pixel's first point to another.
     #[inline]
-    fn gain(&self, [column, row]: Place) -> i64 {
+    fn gain(&self, [column, row]: Position) -> i64 {
         self.right * i64::from(column) + self.down * i64::from(row)
     }
 
@@ -299,7 +299,7 @@ mod tests {
     use crate::color::{Premultiplied16, ResolveSpace, Rgba};
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::list::chunk::ListContext;
-    use crate::raster::paint::per_sample::TilePainter;
+    use crate::raster::paint::per_sample::PerSamplePainter;
     use crate::raster::paint::recorder::PaintedOp;
     use crate::raster::random::{fill, noise};
     use crate::raster::{DisplayList, Framebuffer, RasterSettings, SamplePattern};
@@ -348,8 +348,8 @@ mod tests {
             .iter()
             .zip(bins.iter().map(|bins| bins.of_tile(0)))
             .collect();
-        let scatter = scattered.then(|| list.scatter_in(column));
-        let mut painter = TilePainter::new(list.shade_context(), scatter);
+        let free_positions = scattered.then(|| list.scatter_in(column));
+        let mut painter = PerSamplePainter::new(list.shade_context(), free_positions);
         let (painted, samples) = painter.replay(&chunks, (pixel, list.background()), &mut list.bands());
         (painted, samples.into_iter().map(|(color, _)| color).collect())
     }

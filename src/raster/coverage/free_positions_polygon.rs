@@ -17,12 +17,12 @@ use crate::raster::coverage::polygon::{Outline, OutlineEdge};
 use crate::raster::coverage::shape_rows::{MAX_SPANS, OutlineOf};
 use crate::raster::coverage::windings::RowWindings;
 use crate::raster::sampling::mask::SampleMask;
-use crate::raster::sampling::positions::{Place, SamplePlaces};
+use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::span::{PixelRect, Span};
 
 /// Remembers what outlines enclose in the tile row at work.
 #[derive(Debug)]
-pub(in crate::raster) struct OutlineScatter {
+pub(in crate::raster) struct FreePositionsPolygon {
     /// The pixel columns at work, and the rows.
     columns: Span,
     band: Span,
@@ -38,7 +38,7 @@ pub(in crate::raster) struct OutlineScatter {
     all: SampleMask,
     sweep: Sweep,
     windings: RowWindings,
-    memory: Vec<Place>,
+    memory: Vec<Position>,
 }
 
 /// What was found for one outline.
@@ -78,7 +78,7 @@ struct LocalEdge {
     winding: i32,
 }
 
-impl OutlineScatter {
+impl FreePositionsPolygon {
     /// For a drawing of `outlines` outlines, in some columns of pixels with `count` samples each.
     pub(in crate::raster) fn new(outlines: usize, columns: Span, count: usize) -> Self {
         Self {
@@ -100,7 +100,7 @@ impl OutlineScatter {
     pub(in crate::raster) fn find(
         &mut self,
         of: OutlineOf<'_>,
-        (grid, places): (SubpixelGrid, &SamplePlaces),
+        (grid, places): (SubpixelGrid, &SamplePositions),
         band: Span,
     ) {
         if self.band != band || self.age == 0 || self.runs.len() > MAX_SPANS / 4 {
@@ -154,7 +154,7 @@ impl OutlineScatter {
     }
 
     /// Adds the runs of row `y`, whose edges were gathered.
-    fn row(&mut self, rule: FillRule, (grid, places): (SubpixelGrid, &SamplePlaces), columns: Span, y: i32) {
+    fn row(&mut self, rule: FillRule, (grid, places): (SubpixelGrid, &SamplePositions), columns: Span, y: i32) {
         let first_run = self.runs.len();
         self.windings.begin(grid.side());
         let (mut crossings, mut passed) = (0, 0);
@@ -256,7 +256,7 @@ impl Sweep {
         (rule, windings): (FillRule, &RowWindings),
         here: Range<usize>,
         (grid, pixel): (SubpixelGrid, [i32; 2]),
-        places: &[Place],
+        places: &[Position],
     ) -> SampleMask {
         self.around.clear();
         if let Some(winding) = windings.even() {

@@ -12,7 +12,7 @@ use crate::rules::Rules;
 
 /// The samples that a small triangle covers, or any other few samples or pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct SmallCoverage {
+pub(crate) struct CoverageMask {
     /// Sample column and row of the lowest bit.
     pub(crate) column: i32,
     pub(crate) row: i32,
@@ -32,14 +32,14 @@ struct SmallEdge {
 }
 
 /// The coverage of a triangle whose box holds at most [`SMALL`] columns and rows of samples; `None` for a larger one.
-pub(crate) fn small_coverage(corners: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Option<SmallCoverage> {
+pub(crate) fn coverage_mask(corners: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Option<CoverageMask> {
     let samples = SampleBox::new(corners, grid, rules);
     samples
         .is_small()
-        .then(|| SmallCoverage::new(corners, samples, grid, rules))
+        .then(|| CoverageMask::new(corners, samples, grid, rules))
 }
 
-impl SmallCoverage {
+impl CoverageMask {
     /// What a triangle covers whose box is `samples`, which must be small.
     #[inline]
     pub(crate) fn new([a, b, c]: [GridPoint; 3], samples: SampleBox, grid: SubpixelGrid, rules: Rules) -> Self {
@@ -144,7 +144,7 @@ impl SmallCoverage {
         }
     }
 
-    /// The covered columns of one of [`SmallCoverage::rows`]: they lie side by side.
+    /// The covered columns of one of [`CoverageMask::rows`]: they lie side by side.
     pub(crate) fn span(self, row: i32) -> Span {
         let [bits, ..] = (self.mask >> (SMALL * (row - self.row))).to_le_bytes();
         let start = self.column + bits.trailing_zeros().cast_signed();
@@ -219,7 +219,7 @@ mod tests {
 
     fn check(corners: [GridPoint; 3], grid: SubpixelGrid) -> bool {
         for rules in Rules::ALL {
-            let Some(found) = small_coverage(corners, grid, rules) else {
+            let Some(found) = coverage_mask(corners, grid, rules) else {
                 return false;
             };
             let mut expected = 0_u64;
@@ -283,7 +283,7 @@ mod tests {
     #[test]
     fn bits_are_cut_as_if_one_by_one() {
         arbtest::arbtest(|u| {
-            let coverage = SmallCoverage {
+            let coverage = CoverageMask {
                 column: u.int_in_range(-9..=3)?,
                 row: u.int_in_range(-9..=3)?,
                 mask: u.arbitrary()?,
@@ -297,7 +297,7 @@ mod tests {
             };
             let (columns, rows) = (span()?, span()?);
             let cut = coverage.within(columns, rows);
-            let has = |coverage: SmallCoverage, column: i32, row: i32| {
+            let has = |coverage: CoverageMask, column: i32, row: i32| {
                 let (i, j) = (column - coverage.column, row - coverage.row);
                 (0..SMALL).contains(&i) && (0..SMALL).contains(&j) && coverage.mask >> (SMALL * j + i) & 1 == 1
             };
@@ -343,15 +343,15 @@ mod tests {
         let point = |x: f64, y: f64| grid.snap(glam::DVec2::new(x, y));
         let corners = |width: f64, height: f64| [point(0.0, 0.0), point(width, 0.0), point(0.0, height)];
         assert!(
-            small_coverage(corners(8.4, 8.4), grid, Rules::Standard).is_some(),
+            coverage_mask(corners(8.4, 8.4), grid, Rules::Standard).is_some(),
             "8 by 8 samples"
         );
         assert!(
-            small_coverage(corners(9.0, 1.0), grid, Rules::Standard).is_none(),
+            coverage_mask(corners(9.0, 1.0), grid, Rules::Standard).is_none(),
             "9 columns"
         );
         assert!(
-            small_coverage(corners(1.0, 9.0), grid, Rules::Standard).is_none(),
+            coverage_mask(corners(1.0, 9.0), grid, Rules::Standard).is_none(),
             "9 rows"
         );
         let guard = [
@@ -360,7 +360,7 @@ mod tests {
             point(GUARD.0, GUARD.1),
         ];
         assert!(
-            small_coverage(guard, grid, Rules::Course).is_none(),
+            coverage_mask(guard, grid, Rules::Course).is_none(),
             "the whole guard band"
         );
     }

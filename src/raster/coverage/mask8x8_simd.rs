@@ -1,6 +1,6 @@
 //! The coverage of many small triangles at a time, a lane of a vector for each.
 //!
-//! As [`SmallCoverage::new`], for boxes of at most [`SIDE`] columns and rows of samples that lie in the frame. Everything is
+//! As [`CoverageMask::new`], for boxes of at most [`SIDE`] columns and rows of samples that lie in the frame. Everything is
 //! reckoned in 64-bit floats: coordinates of the grid and edge values of small triangles are whole numbers far below
 //! `2^53`, so nothing is ever rounded but on purpose.
 #![expect(
@@ -13,7 +13,7 @@ use fearless_simd::{Simd, dispatch, f64x8, i32x8, mask64x8, u32x8};
 use glam::DVec2;
 
 use crate::geometry::subpixel::{GUARD, SubpixelGrid};
-use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::span::SampleBox;
 use crate::rules::Rules;
 use crate::simd;
@@ -118,13 +118,13 @@ impl BatchCoverage {
 
     /// What the triangle of a lane covers; `None` where it may be larger than what a batch is for, or leave the frame.
     #[inline]
-    pub(crate) fn get(&self, lane: usize) -> Option<SmallCoverage> {
+    pub(crate) fn get(&self, lane: usize) -> Option<CoverageMask> {
         let mask = if self.flat >> lane & 1 == 0 {
             self.masks[lane]
         } else {
             0
         };
-        (self.known >> lane & 1 != 0).then(|| SmallCoverage {
+        (self.known >> lane & 1 != 0).then(|| CoverageMask {
             column: self.columns[lane],
             row: self.rows[lane],
             mask: u64::from(mask),
@@ -326,7 +326,7 @@ mod tests {
                         samples.is_small() && samples.intersection(frame) == samples,
                         "{points:?} fits"
                     );
-                    let expected = SmallCoverage::new(corners, samples, grid, rules);
+                    let expected = CoverageMask::new(corners, samples, grid, rules);
                     assert_eq!(found.mask, expected.mask, "{name}: {points:?}, {grid:?}, {rules:?}");
                     if found.mask != 0 {
                         assert_eq!(found, expected, "{name}: {points:?}, {grid:?}, {rules:?}");

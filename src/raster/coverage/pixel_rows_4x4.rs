@@ -12,7 +12,7 @@ use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::coverage::polygon_rows::RowSpans;
 use crate::raster::coverage::triangle::SortedTriangle;
 use crate::raster::span::{PixelRect, Span, scaled};
-use crate::raster::surface_id::{LAST_QUAD, QUAD};
+use crate::raster::surface_id::{GROUP, LAST_GROUP};
 use crate::rules::Rules;
 
 /// Samples along one side of a pixel.
@@ -29,7 +29,7 @@ const BATCH_LINES: i32 = 128;
 
 /// The sample columns of a window.
 const COLUMNS: i32 = SIDE * SIDE;
-const _: () = assert!(QUAD == ROWS, "the masks of a window fit one word");
+const _: () = assert!(GROUP == ROWS, "the masks of a window fit one word");
 
 /// The sample column of each bit of a window's masks.
 const SAMPLE_COLUMNS: [i8; 64] = {
@@ -341,10 +341,10 @@ pub(crate) fn each_window<S: Simd>(
     let (starts, endings) = (upper.unzip_low(lower) - left, upper.unzip_high(lower) - left);
     let mut from = xs.start;
     while from < xs.end {
-        let x = from.min(LAST_QUAD);
-        let end = xs.end.min(x + QUAD);
+        let x = from.min(LAST_GROUP);
+        let end = xs.end.min(x + GROUP);
         // At least one pixel and at most four.
-        let live = u64::MAX >> (16 * (QUAD - (end - from)) % 64) << (16 * (from - x) % 64);
+        let live = u64::MAX >> (16 * (GROUP - (end - from)) % 64) << (16 * (from - x) % 64);
         let masks = match ends {
             Ends::Left => !before(simd, starts, x),
             Ends::Right => before(simd, endings, x),
@@ -391,7 +391,7 @@ mod tests {
 
     use super::*;
     use crate::raster::paint::visibility::buffer_4x4::fill;
-    use crate::raster::surface_id::{ROW, Slot};
+    use crate::raster::surface_id::{ROW, SurfaceId};
     use crate::simd;
 
     /// Columns around those of a tile of some pixels, more than fit a window.
@@ -414,8 +414,8 @@ mod tests {
             assert_eq!(row.spans, &fours[row.y], "its spans");
             let mut times = [0; ROW];
             let mut add = |window: Window, partial: bool| {
-                assert!(window.x <= LAST_QUAD, "in the row");
-                for i in 0..QUAD {
+                assert!(window.x <= LAST_GROUP, "in the row");
+                for i in 0..GROUP {
                     let bits = |word: u64| word >> (16 * i) & 0xFFFF;
                     let (live, mask) = (bits(window.live), bits(window.masks));
                     assert!(live == 0 || live == 0xFFFF, "all of a pixel or nothing");
@@ -483,11 +483,12 @@ mod tests {
     fn slots_are_filled_from_start_to_end() {
         for start in 0..=ROW {
             for end in start..=ROW {
-                let mut slots: [Slot; ROW] = std::array::from_fn(|i| Slot::try_from(100 + i).expect("a slot"));
-                let mut expected = slots;
+                let mut surfaces: [SurfaceId; ROW] =
+                    std::array::from_fn(|i| SurfaceId::try_from(100 + i).expect("a surface"));
+                let mut expected = surfaces;
                 expected[start..end].fill(9);
-                fill(&mut slots, start..end, 9);
-                assert_eq!(slots, expected, "{start} to {end}");
+                fill(&mut surfaces, start..end, 9);
+                assert_eq!(surfaces, expected, "{start} to {end}");
             }
         }
     }

@@ -3,9 +3,9 @@
 use crate::geometry::FillRule;
 use crate::geometry::edge::EdgeWalker;
 use crate::geometry::subpixel::SubpixelGrid;
-use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
-use crate::raster::coverage::simple_polygon_rows::{Crossings, PlainRows};
+use crate::raster::coverage::simple_polygon_rows::{Crossings, SimplePolygonRows};
 use crate::raster::span::{SMALL, SampleBox, Span};
 
 /// Most crossings of edges and rows that are held at once, where a row has no more: 16 MB.
@@ -27,7 +27,7 @@ pub(crate) struct RowSpans<'a> {
 #[derive(Debug, Default)]
 pub(crate) struct RowScanner {
     numbers: Crossings,
-    plain: PlainRows,
+    plain: SimplePolygonRows,
     /// Where the crossings of each row begin.
     next: Vec<u32>,
     /// Crossings row by row: the column, doubled, and one more where the edge runs downwards.
@@ -53,12 +53,12 @@ pub(crate) struct Stored {
 
 impl Outline {
     /// What an outline of a few samples covers, if those of each row lie side by side; `None` for any other.
-    pub(crate) fn small_coverage(
+    pub(crate) fn coverage_mask(
         &self,
         all: &[OutlineEdge],
         grid: SubpixelGrid,
         scanner: &mut (RowScanner, SpanStore),
-    ) -> Option<SmallCoverage> {
+    ) -> Option<CoverageMask> {
         if !self.samples.is_small() {
             return None;
         }
@@ -80,7 +80,7 @@ impl Outline {
                 }
             }
         }
-        Some(SmallCoverage {
+        Some(CoverageMask {
             column: columns.start,
             row: rows.start,
             mask,

@@ -37,7 +37,7 @@ pub(crate) struct OutlineOf<'c> {
 
 /// Remembers the spans of outlines in the tile row at work.
 #[derive(Debug)]
-pub(crate) struct BandSpans {
+pub(crate) struct ShapeRows {
     /// By whose rules triangles cover samples.
     settings: (SubpixelGrid, Rules),
     /// Columns of samples in the frame.
@@ -54,7 +54,7 @@ pub(crate) struct BandSpans {
     single: SpanStore,
 }
 
-impl BandSpans {
+impl ShapeRows {
     /// For a drawing of `outlines` outlines in a frame with `columns` columns of samples.
     pub(crate) fn new(settings: (SubpixelGrid, Rules), columns: i32, outlines: usize) -> Self {
         Self {
@@ -86,7 +86,7 @@ impl BandSpans {
         }
     }
 
-    /// As [`BandSpans::each_pixel_row`] where a pixel has 4 x 4 samples, without a call for each row.
+    /// As [`ShapeRows::each_pixel_row`] where a pixel has 4 x 4 samples, without a call for each row.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "what paints is to be seen by the compiler")]
     pub(crate) fn each_row_of_four<S: Simd>(

@@ -15,7 +15,7 @@ const LONG: usize = 8;
 
 /// Looks at outlines, reusing its memory.
 #[derive(Debug, Default)]
-pub(in crate::raster) struct PlainRows {
+pub(in crate::raster) struct SimplePolygonRows {
     /// The least and the greatest column in which an edge crosses each row.
     least: Vec<i32>,
     greatest: Vec<i32>,
@@ -66,7 +66,7 @@ impl Crossings {
     }
 }
 
-impl PlainRows {
+impl SimplePolygonRows {
     /// Adds the span of each of `rows` to `spans`, left of the frame's end at column `end`; the rows' crossings must be
     /// [plain](Crossings::are_plain). `edges` come with those of the rows that they cross.
     pub(in crate::raster) fn scan<'c>(

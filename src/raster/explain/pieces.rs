@@ -10,9 +10,9 @@ use crate::raster::DisplayList;
 use crate::raster::attributes::{Planes, course_uv, uv_map};
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::polygon::Outline;
-use crate::raster::list::chunk::{Chunk, Op, Paint, ScreenTriangle};
+use crate::raster::list::chunk::{Chunk, DrawCommand, Paint, ScreenTriangle};
 use crate::raster::paint::recorder::PaintedOp;
-use crate::raster::sampling::positions::Place;
+use crate::raster::sampling::positions::Position;
 use crate::raster::shading::shader::ShadeContext;
 use crate::raster::span::Span;
 use crate::rules::Rules;
@@ -125,17 +125,17 @@ impl DisplayList<'_> {
             pixel,
             places: self.places().of_pixel(pixel, &mut Vec::new()).to_vec(),
         };
-        let shape = |op: &Op| match *op {
-            Op::Triangle(index) => {
+        let shape = |op: &DrawCommand| match *op {
+            DrawCommand::Triangle(index) => {
                 let whole = weights.triangles.get(index as usize);
                 let weights = whole.map(|triangle| &weights.paints[triangle.paint as usize]);
                 let triangle = &chunk.triangles[index as usize];
                 let float = chunk.floats.get(index as usize);
                 Some(seen.triangle((triangle, float), &chunk.paints[triangle.paint as usize], weights))
             }
-            Op::Outline(index) => Some(seen.outline(chunk, &chunk.outlines[index as usize])),
-            Op::Hairline(_) | Op::Pixels(_) | Op::Samples(_) => Some(PieceShape::Pixels),
-            Op::BeginLayer(_) | Op::EndLayer(_) => None,
+            DrawCommand::Outline(index) => Some(seen.outline(chunk, &chunk.outlines[index as usize])),
+            DrawCommand::Hairline(_) | DrawCommand::Pixels(_) | DrawCommand::Samples(_) => Some(PieceShape::Pixels),
+            DrawCommand::BeginLayer(_) | DrawCommand::EndLayer(_) => None,
         };
         let ops = chunk.ops.iter().enumerate();
         ops.filter_map(|(op, kind)| shape(kind).map(|shape| Piece { op, shape }))
@@ -148,7 +148,7 @@ struct SeenFrom<'a> {
     context: ShadeContext<'a>,
     pixel: [i32; 2],
     /// Where they lie in it.
-    places: Vec<Place>,
+    places: Vec<Position>,
 }
 
 impl SeenFrom<'_> {
@@ -159,7 +159,7 @@ impl SeenFrom<'_> {
     /// Column and row of each sample in the frame.
     fn samples(&self) -> impl Iterator<Item = [i32; 2]> {
         let first = self.pixel.map(|at| at * self.grid().side());
-        let place = move |place: &Place| [first[0] + i32::from(place[0]), first[1] + i32::from(place[1])];
+        let place = move |place: &Position| [first[0] + i32::from(place[0]), first[1] + i32::from(place[1])];
         self.places.iter().map(place)
     }
 

@@ -9,12 +9,12 @@ use std::sync::atomic::AtomicBool;
 use crate::color::Premultiplied16;
 use crate::raster::DisplayList;
 use crate::raster::binning::bins::{Bins, entries_of_tile};
-use crate::raster::binning::tile_command::Entry;
+use crate::raster::binning::tile_command::TileCommand;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::list::chunk::{Chunk, ListContext};
 use crate::raster::paint::recorder::{PaintedKind, PaintedOp};
 use crate::raster::rasterizer::{Method, Painters, Pass, first_visible};
-use crate::raster::sampling::positions::{Place, SamplePlaces};
+use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::span::{PixelRect, Span};
 use crate::raster::stats::SharedTally;
 use crate::raster::tile_layout::TileLayout;
@@ -67,7 +67,7 @@ impl DisplayList<'_> {
         }
         let at = [x.cast_signed(), y.cast_signed()];
         let bins = self.bins_of_pixel(at);
-        let chunks: Vec<(&Chunk, &[Entry])> = self
+        let chunks: Vec<(&Chunk, &[TileCommand])> = self
             .chunks
             .iter()
             .zip(&bins)
@@ -167,13 +167,13 @@ impl DisplayList<'_> {
         let grid = self.context.grid;
         let mut memory = Vec::new();
         let places = self.places();
-        let position = |place: &Place| place.map(|at| grid.sample_position(at.into()));
+        let position = |place: &Position| place.map(|at| grid.sample_position(at.into()));
         places.of_pixel(pixel, &mut memory).iter().map(position).collect()
     }
 
     /// Where samples lie, on the lattice of the grid.
-    pub(in crate::raster) fn places(&self) -> SamplePlaces {
-        SamplePlaces::new(self.context.pattern, self.context.rate)
+    pub(in crate::raster) fn places(&self) -> SamplePositions {
+        SamplePositions::new(self.context.pattern, self.context.rate)
     }
 }
 

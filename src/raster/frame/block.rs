@@ -2,7 +2,7 @@
 
 use fearless_simd::{Simd, dispatch};
 
-use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::span::{PixelRect, Span};
 use crate::simd;
 
@@ -55,7 +55,7 @@ impl<'p> PixelBlock<'p> {
 
     /// Sets the pixels of a stamp, counted from the rectangle's first.
     #[inline]
-    pub(crate) fn stamp(&mut self, mut stamp: SmallCoverage, pixel: u32) {
+    pub(crate) fn stamp(&mut self, mut stamp: CoverageMask, pixel: u32) {
         let place = |index: i32| usize::try_from(index).unwrap_or(0);
         let origin = place(stamp.row) * self.stride + place(stamp.column);
         // Most stamps have a few bits, for which runs would be more work.
@@ -111,7 +111,7 @@ mod tests {
             // With few bits and with many.
             let mask: u64 = u.arbitrary::<u64>()? & *u.choose(&[u64::MAX, 0x0303, 0x0408_0010_2000_0101])?;
             let mut pixels = vec![0; WIDTH * 12];
-            let coverage = SmallCoverage { column, row, mask };
+            let coverage = CoverageMask { column, row, mask };
             PixelBlock::new(rect, &mut pixels, WIDTH).stamp(coverage, 7);
             for (i, pixel) in (0_i32..).zip(&pixels) {
                 let (x, y) = (i % 20 - column, i / 20 - row);

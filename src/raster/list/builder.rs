@@ -9,11 +9,11 @@ use crate::geometry::edge::doubled_area;
 use crate::geometry::subpixel::{GridPoint, floor_to_i32};
 use crate::raster::attributes::{Planes, uv_map};
 use crate::raster::coverage::float_shape::FloatShape;
-use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::mask8x8_simd::{LANES, TriangleBatch};
 use crate::raster::coverage::polygon::OutlineBuilder;
 use crate::raster::coverage::polygon_rows::{RowScanner, SpanStore};
-use crate::raster::list::chunk::{Chunk, Fill, LayerMark, ListContext, Op, Paint, ScreenTriangle, Stamp};
+use crate::raster::list::chunk::{Chunk, DrawCommand, Fill, LayerMark, ListContext, Paint, ScreenTriangle, Stamp};
 use crate::raster::list::hairline::Hairline;
 use crate::raster::list::hidden::{Hidden, MOST_CORNERS, covers, drop_hidden, is_large, joined};
 use crate::raster::span::{PixelRect, SampleBox};
@@ -166,7 +166,7 @@ impl<'a> ChunkBuilder<'a> {
             match coverage.get(lane) {
                 Some(coverage) if coverage.mask == 0 => {}
                 Some(coverage) => {
-                    self.stamp(coverage, color, Op::Samples);
+                    self.stamp(coverage, color, DrawCommand::Samples);
                     self.chunk.triangle_count += 1;
                 }
                 None => self.alone(self.waiting.triangles.get(lane), &Fill::Solid(color)),
@@ -230,11 +230,11 @@ impl<'a> ChunkBuilder<'a> {
             return;
         };
         if self.stamps
-            && let Some(coverage) = outline.small_coverage(&self.chunk.outline_edges, grid, &mut self.scanner)
+            && let Some(coverage) = outline.coverage_mask(&self.chunk.outline_edges, grid, &mut self.scanner)
         {
             outline.drop_edges(&mut self.chunk.outline_edges);
             if coverage.mask != 0 {
-                self.stamp(coverage, color, Op::Samples);
+                self.stamp(coverage, color, DrawCommand::Samples);
                 self.chunk.triangle_count += 1;
             }
             return;
@@ -243,7 +243,7 @@ impl<'a> ChunkBuilder<'a> {
         let (color, samples) = (self.color(color), outline.samples);
         self.chunk.outlines.push(outline);
         self.chunk.outline_colors.push(color);
-        self.push(Op::Outline(index));
+        self.push(DrawCommand::Outline(index));
         self.chunk.triangle_count += 1;
         if color.is_opaque() && polygon.points().len() <= MOST_CORNERS {
             // So few are one contour.
@@ -278,7 +278,7 @@ impl<'a> ChunkBuilder<'a> {
         if inside != samples && covers(&corners, inside, grid, rules) {
             drop_hidden(&mut self.chunk, self.context, inside, 1);
         }
-        let [.., Op::Triangle(before), Op::Triangle(_)] = *self.chunk.ops else {
+        let [.., DrawCommand::Triangle(before), DrawCommand::Triangle(_)] = *self.chunk.ops else {
             return;
         };
         let before = self.chunk.triangles[before as usize];
@@ -287,7 +287,7 @@ impl<'a> ChunkBuilder<'a> {
             .triangles
             .last()
             .is_some_and(|last| last.paint == before.paint)
-            && let Some(quad) = joined(before.corners, corners)
+            && let Some(group) = joined(before.corners, corners)
         {
             let [a, b] = [before.corners, corners].map(|corners| SampleBox::new(corners, grid, rules));
             let both = SampleBox {
@@ -295,7 +295,7 @@ impl<'a> ChunkBuilder<'a> {
                 rows: a.rows.union(b.rows),
             };
             let inside = both.intersection(self.frame);
-            if is_large(inside, self.context) && covers(&quad, inside, grid, rules) {
+            if is_large(inside, self.context) && covers(&group, inside, grid, rules) {
                 drop_hidden(&mut self.chunk, self.context, inside, 2);
             }
         }
@@ -308,7 +308,7 @@ impl<'a> ChunkBuilder<'a> {
         if let Some(line) = Hairline::new(ends, self.context.size, color) {
             let index = index(self.chunk.hairlines.len());
             self.chunk.hairlines.push(line);
-            self.push(Op::Hairline(index));
+            self.push(DrawCommand::Hairline(index));
         }
     }
 
@@ -318,26 +318,26 @@ impl<'a> ChunkBuilder<'a> {
         let (x, y) = (at.x.floor(), at.y.floor());
         let [width, height] = self.context.size.map(f64::from);
         if x >= 0.0 && x < width && y >= 0.0 && y < height {
-            let coverage = SmallCoverage {
+            let coverage = CoverageMask {
                 column: floor_to_i32(x),
                 row: floor_to_i32(y),
                 mask: 1,
             };
-            self.stamp(coverage, color, Op::Pixels);
+            self.stamp(coverage, color, DrawCommand::Pixels);
         }
     }
 
     /// Starts a transparent layer.
     pub fn begin_layer(&mut self) {
-        self.layer(0, Op::BeginLayer);
+        self.layer(0, DrawCommand::BeginLayer);
     }
 
     /// Paints the layer over what is below it.
     pub fn end_layer(&mut self, opacity: f32) {
-        self.layer(unit_to_16(opacity.clamp(0.0, 1.0)), Op::EndLayer);
+        self.layer(unit_to_16(opacity.clamp(0.0, 1.0)), DrawCommand::EndLayer);
     }
 
-    fn layer(&mut self, opacity: u16, op: fn(u32) -> Op) {
+    fn layer(&mut self, opacity: u16, op: fn(u32) -> DrawCommand) {
         self.add_waiting();
         let index = index(self.chunk.layers.len());
         let area = PixelRect::NOTHING;
@@ -346,7 +346,7 @@ impl<'a> ChunkBuilder<'a> {
     }
 
     #[inline]
-    fn push(&mut self, op: Op) {
+    fn push(&mut self, op: DrawCommand) {
         self.chunk.ops.push(op);
         self.chunk.sources.push(self.source);
     }
@@ -375,7 +375,7 @@ impl<'a> ChunkBuilder<'a> {
             return;
         }
         if samples.is_small() {
-            let mut coverage = SmallCoverage::new(corners, samples, grid, rules);
+            let mut coverage = CoverageMask::new(corners, samples, grid, rules);
             if inside != samples {
                 coverage = coverage.within(self.frame.columns, self.frame.rows);
             }
@@ -385,7 +385,7 @@ impl<'a> ChunkBuilder<'a> {
             if let Fill::Solid(color) = *fill
                 && self.stamps
             {
-                self.stamp(coverage, color, Op::Samples);
+                self.stamp(coverage, color, DrawCommand::Samples);
                 self.chunk.triangle_count += 1;
                 return;
             }
@@ -395,7 +395,7 @@ impl<'a> ChunkBuilder<'a> {
         let paint = self.paint(fill);
         let index = index(self.chunk.triangles.len());
         self.chunk.triangles.push(ScreenTriangle { corners, paint });
-        self.push(Op::Triangle(index));
+        self.push(DrawCommand::Triangle(index));
         self.chunk.triangle_count += 1;
         if let Paint::Solid(color) = self.chunk.paints[paint as usize]
             && color.is_opaque()
@@ -418,12 +418,12 @@ impl<'a> ChunkBuilder<'a> {
         let index = index(self.chunk.triangles.len());
         self.chunk.triangles.push(ScreenTriangle { corners, paint });
         self.chunk.floats.push(float);
-        self.push(Op::Triangle(index));
+        self.push(DrawCommand::Triangle(index));
         self.chunk.triangle_count += 1;
     }
 
     #[inline]
-    fn stamp(&mut self, coverage: SmallCoverage, color: Rgba, op: fn(u32) -> Op) {
+    fn stamp(&mut self, coverage: CoverageMask, color: Rgba, op: fn(u32) -> DrawCommand) {
         let color = self.color(color);
         let stamps = &mut self.chunk.stamps;
         if stamps.is_empty() {

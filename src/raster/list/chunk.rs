@@ -9,7 +9,7 @@
 use crate::color::{Premultiplied16, Rgba};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::coverage::float_shape::FloatShape;
-use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
 use crate::raster::coverage::shape_rows::OutlineOf;
 use crate::raster::list::hairline::Hairline;
@@ -59,7 +59,7 @@ pub(crate) struct ScreenTriangle {
 /// A few samples, or a few pixels, of one colour; all in the frame, at least one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stamp {
-    pub(crate) coverage: SmallCoverage,
+    pub(crate) coverage: CoverageMask,
     pub(crate) color: Premultiplied16,
 }
 
@@ -74,7 +74,7 @@ pub(crate) struct LayerMark {
 
 /// One step of the painter: an index into the chunk's array of the kind.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Op {
+pub(crate) enum DrawCommand {
     Triangle(u32),
     /// A polygon of one colour.
     Outline(u32),
@@ -90,7 +90,7 @@ pub(crate) enum Op {
 /// A part of the display list.
 #[derive(Debug, Default)]
 pub struct Chunk {
-    pub(crate) ops: Vec<Op>,
+    pub(crate) ops: Vec<DrawCommand>,
     /// For each op the number its caller gave it.
     pub(crate) sources: Vec<u32>,
     pub(crate) stamps: Vec<Stamp>,
@@ -181,36 +181,36 @@ impl Chunk {
     }
 
     /// The pixels that an op may touch, clipped to the frame; `None` when there are none.
-    pub(crate) fn area(&self, op: Op, context: &ListContext) -> Option<PixelRect> {
+    pub(crate) fn area(&self, op: DrawCommand, context: &ListContext) -> Option<PixelRect> {
         context.pixels_of(self.sample_box(op, context)?)
     }
 
     /// The box of the samples that an op may touch, clipped to the frame; `None` when there are none.
-    pub(crate) fn sample_box(&self, op: Op, context: &ListContext) -> Option<SampleBox> {
+    pub(crate) fn sample_box(&self, op: DrawCommand, context: &ListContext) -> Option<SampleBox> {
         let side = context.grid.side();
         let of_pixels = |columns, rows| SampleBox {
             columns: scaled(columns, side),
             rows: scaled(rows, side),
         };
         let samples = match op {
-            Op::Triangle(index) => {
+            DrawCommand::Triangle(index) => {
                 let corners = self.triangles[index as usize].corners;
                 let float = self.floats.get(index as usize).map(|float| float.samples);
                 float.unwrap_or_else(|| SampleBox::new(corners, context.grid, context.rules))
             }
-            Op::Outline(index) => self.outlines[index as usize].samples,
-            Op::Samples(index) => {
+            DrawCommand::Outline(index) => self.outlines[index as usize].samples,
+            DrawCommand::Samples(index) => {
                 let coverage = self.stamps[index as usize].coverage;
                 SampleBox {
                     columns: coverage.columns(),
                     rows: coverage.rows(),
                 }
             }
-            Op::Pixels(index) => {
+            DrawCommand::Pixels(index) => {
                 let coverage = self.stamps[index as usize].coverage;
                 of_pixels(coverage.columns(), coverage.rows())
             }
-            Op::Hairline(index) => {
+            DrawCommand::Hairline(index) => {
                 let mut area: Option<PixelRect> = None;
                 self.hairlines[index as usize].blocks(context.size, |pixels| {
                     let pixels = PixelRect {
@@ -222,7 +222,7 @@ impl Chunk {
                 let area = area?;
                 of_pixels(area.x, area.y)
             }
-            Op::BeginLayer(index) | Op::EndLayer(index) => {
+            DrawCommand::BeginLayer(index) | DrawCommand::EndLayer(index) => {
                 let area = self.layers[index as usize].area;
                 if area.x.is_empty() || area.y.is_empty() {
                     return None;
@@ -247,8 +247,8 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
         chunks[at].layers_open = u32::try_from(open.len()).unwrap_or(u32::MAX);
         for op in 0..chunks[at].ops.len() {
             match chunks[at].ops[op] {
-                Op::BeginLayer(begin) => open.push((at, begin as usize, PixelRect::NOTHING)),
-                Op::EndLayer(end) => {
+                DrawCommand::BeginLayer(begin) => open.push((at, begin as usize, PixelRect::NOTHING)),
+                DrawCommand::EndLayer(end) => {
                     let Some((begin_chunk, begin, area)) = open.pop() else {
                         continue;
                     };

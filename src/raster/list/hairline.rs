@@ -5,7 +5,7 @@
 use glam::DVec2;
 
 use crate::color::Premultiplied16;
-use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::span::SMALL;
 
 /// How far outside the frame a line is stepped along rather than cut off, in pixels.
@@ -22,8 +22,8 @@ pub(crate) struct Hairline {
 
 /// Gathers pixels that come one after the other into blocks of eight by eight.
 #[derive(Debug)]
-struct Gatherer<F: FnMut(SmallCoverage)> {
-    block: SmallCoverage,
+struct Gatherer<F: FnMut(CoverageMask)> {
+    block: CoverageMask,
     emit: F,
 }
 
@@ -63,9 +63,9 @@ impl Hairline {
 
     /// Calls `visit` with the pixels of the line in a frame of `size`, up to eight by eight of them at once.
     #[inline]
-    pub(crate) fn blocks(&self, size: [u32; 2], visit: impl FnMut(SmallCoverage)) {
+    pub(crate) fn blocks(&self, size: [u32; 2], visit: impl FnMut(CoverageMask)) {
         let mut gatherer = Gatherer {
-            block: SmallCoverage::default(),
+            block: CoverageMask::default(),
             emit: visit,
         };
         self.trace(size, |x, y| gatherer.add(x, y));
@@ -73,7 +73,7 @@ impl Hairline {
     }
 }
 
-impl<F: FnMut(SmallCoverage)> Gatherer<F> {
+impl<F: FnMut(CoverageMask)> Gatherer<F> {
     #[inline]
     fn add(&mut self, x: i32, y: i32) {
         let (column, row) = (x & -SMALL, y & -SMALL);

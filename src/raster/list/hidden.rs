@@ -7,7 +7,7 @@
 
 use crate::geometry::edge::{EdgeTest, doubled_area};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-use crate::raster::list::chunk::{Chunk, ListContext, Op};
+use crate::raster::list::chunk::{Chunk, DrawCommand, ListContext};
 use crate::raster::span::SampleBox;
 use crate::rules::Rules;
 
@@ -31,7 +31,7 @@ pub(crate) fn drop_hidden(chunk: &mut Chunk, context: &ListContext, cover: Sampl
     let end = chunk.ops.len().saturating_sub(above);
     let first = end.saturating_sub(LOOK_BACK);
     // What was painted before a layer, or in it, is not below what comes after.
-    let is_mark = |op: &Op| matches!(op, Op::BeginLayer(_) | Op::EndLayer(_));
+    let is_mark = |op: &DrawCommand| matches!(op, DrawCommand::BeginLayer(_) | DrawCommand::EndLayer(_));
     let mark = chunk.ops[first..end].iter().rposition(is_mark);
     let first = mark.map_or(first, |mark| first + mark + 1);
     let mut kept = first;

@@ -1,7 +1,7 @@
 //! Tiles of opaque primitives at one sample per pixel: painted straight into the frame.
 
-use crate::raster::binning::tile_command::{Entry, Work};
-use crate::raster::coverage::shape_rows::{BandSpans, Shape};
+use crate::raster::binning::tile_command::{TileCommand, Work};
+use crate::raster::coverage::shape_rows::{Shape, ShapeRows};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::list::chunk::{Chunk, Paint, ScreenTriangle};
 use crate::raster::shading::shader::{Pixels, ShadeContext, Shader};
@@ -32,8 +32,8 @@ impl<'a> DirectPainter<'a> {
     /// Paints the ops of one chunk that touch the tile; all must be opaque.
     pub(crate) fn paint(
         &mut self,
-        (chunk, entries): (&Chunk, &[Entry]),
-        bands: &mut BandSpans,
+        (chunk, entries): (&Chunk, &[TileCommand]),
+        bands: &mut ShapeRows,
         block: &mut PixelBlock<'_>,
     ) {
         let rules = self.context.sampling.rules;
@@ -93,8 +93,8 @@ impl<'a> DirectPainter<'a> {
 /// Calls `paint` with every span of pixels that a shape covers.
 #[inline]
 fn covered(
-    (shape, entry): (Shape<'_>, Entry),
-    bands: &mut BandSpans,
+    (shape, entry): (Shape<'_>, TileCommand),
+    bands: &mut ShapeRows,
     block: &mut PixelBlock<'_>,
     mut paint: impl FnMut(i32, Span, &mut PixelBlock<'_>),
 ) {

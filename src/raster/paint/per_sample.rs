@@ -1,33 +1,33 @@
 //! Painting one tile: every op of the display list that touches it, in painter's order.
 
 use crate::color::Premultiplied16;
-use crate::raster::binning::tile_command::{Entry, Work};
+use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::coverage::covered::Covered;
-use crate::raster::coverage::free_positions::Scatter;
-use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::coverage::free_positions::FreePositions;
+use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::pixel_rows::{PixelRow, each_pixel_row_of_few};
-use crate::raster::coverage::shape_rows::{BandSpans, Shape};
+use crate::raster::coverage::shape_rows::{Shape, ShapeRows};
 use crate::raster::list::chunk::Chunk;
 use crate::raster::paint::recorder::{PaintedKind, PaintedOp, Recorder};
-use crate::raster::paint::sample_colors::Tile;
+use crate::raster::paint::sample_colors::SampleColors;
 use crate::raster::sampling::mask::SampleMask;
-use crate::raster::sampling::positions::Place;
+use crate::raster::sampling::positions::Position;
 use crate::raster::shading::shader::{ShadeContext, Shader, ShaderKind};
 use crate::raster::span::{PixelRect, Span, scaled};
 
 /// Paints tiles, one after the other, reusing its memory.
 #[derive(Debug)]
-pub(crate) struct TilePainter<'a> {
+pub(crate) struct PerSamplePainter<'a> {
     context: ShadeContext<'a>,
     /// The base and above it the open layers.
-    layers: Vec<Tile>,
+    layers: Vec<SampleColors>,
     /// How many of `layers` are in use.
     depth: usize,
     /// The samples at work and their colours.
     points: Vec<[u16; 2]>,
     colors: Vec<Premultiplied16>,
     /// Finds coverage where samples are not those of the grid, and the parts of pixels at work there.
-    scatter: Option<Box<Scatter>>,
+    free_positions: Option<Box<FreePositions>>,
     parts: Vec<([i32; 2], SampleMask)>,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
@@ -35,16 +35,16 @@ pub(crate) struct TilePainter<'a> {
     recorder: Option<Recorder>,
 }
 
-impl<'a> TilePainter<'a> {
-    /// A painter for one drawing; `scatter` where samples are not those of the grid.
-    pub(crate) fn new(context: ShadeContext<'a>, scatter: Option<Scatter>) -> Self {
+impl<'a> PerSamplePainter<'a> {
+    /// A painter for one drawing; `free_positions` where samples are not those of the grid.
+    pub(crate) fn new(context: ShadeContext<'a>, free_positions: Option<FreePositions>) -> Self {
         Self {
             context,
             layers: Vec::new(),
             depth: 0,
             points: Vec::new(),
             colors: Vec::new(),
-            scatter: scatter.map(Box::new),
+            free_positions: free_positions.map(Box::new),
             parts: Vec::new(),
             samples_shaded: 0,
             recorder: None,
@@ -58,7 +58,7 @@ impl<'a> TilePainter<'a> {
     }
 
     /// Paints the ops of one chunk that touch the tile.
-    pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[Entry], bands: &mut BandSpans) {
+    pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[TileCommand], bands: &mut ShapeRows) {
         for entry in entries {
             if self.recorder.is_some() {
                 self.record(chunk, *entry);
@@ -89,9 +89,9 @@ impl<'a> TilePainter<'a> {
     /// Paints a tile of a single pixel and says what each op did there, and what its samples hold then.
     pub(crate) fn replay(
         &mut self,
-        chunks: &[(&Chunk, &[Entry])],
+        chunks: &[(&Chunk, &[TileCommand])],
         (pixel, background): ([i32; 2], Premultiplied16),
-        bands: &mut BandSpans,
+        bands: &mut ShapeRows,
     ) -> (Vec<PaintedOp>, Vec<(Premultiplied16, usize)>) {
         let one = |start: i32| Span { start, end: start + 1 };
         self.recorder = Some(Recorder::new(self.samples_per_pixel()));
@@ -121,7 +121,7 @@ impl<'a> TilePainter<'a> {
     }
 
     /// Tells the recorder which op comes next.
-    fn record(&mut self, chunk: &Chunk, entry: Entry) {
+    fn record(&mut self, chunk: &Chunk, entry: TileCommand) {
         let now = self.pixel_samples(self.depth - 1);
         let work = entry.work(chunk);
         // The end of a layer paints on what lies below it.
@@ -147,7 +147,7 @@ impl<'a> TilePainter<'a> {
 
     fn push_layer(&mut self, rect: PixelRect, color: Premultiplied16) {
         if self.layers.len() == self.depth {
-            self.layers.push(Tile::new(
+            self.layers.push(SampleColors::new(
                 self.context.rate,
                 self.context.grid.side(),
                 (self.context.sampling.rules, self.context.space),
@@ -174,7 +174,7 @@ impl<'a> TilePainter<'a> {
         for row in y.start..y.end {
             if let ShaderKind::Solid(color) = shader.kind {
                 self.fill(x, row, color);
-            } else if self.scatter.is_some() {
+            } else if self.free_positions.is_some() {
                 self.gather(row, Covered::Whole(x));
             } else {
                 if shader.opaque {
@@ -191,14 +191,14 @@ impl<'a> TilePainter<'a> {
     /// A shape, shaded by what `shader` makes once it is needed.
     fn covered(
         &mut self,
-        (shape, entry): (Shape<'_>, Entry),
-        bands: &mut BandSpans,
+        (shape, entry): (Shape<'_>, TileCommand),
+        bands: &mut ShapeRows,
         shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>,
     ) {
         if entry.covers_tile() {
             return self.whole_tile(&shader(&self.context));
         }
-        if self.scatter.is_some() {
+        if self.free_positions.is_some() {
             return self.scattered(shape, shader);
         }
         let rect = self.layers[0].rect;
@@ -211,11 +211,11 @@ impl<'a> TilePainter<'a> {
 
     /// A shape whose samples are not those of the grid.
     fn scattered(&mut self, shape: Shape<'_>, shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>) {
-        let Some(mut scatter) = self.scatter.take() else {
+        let Some(mut free_positions) = self.free_positions.take() else {
             return;
         };
         let mut prepared = None;
-        scatter.each(shape, self.layers[0].rect, |y, covered| {
+        free_positions.each(shape, self.layers[0].rect, |y, covered| {
             let shader = prepared.get_or_insert_with(|| shader(&self.context));
             match (&shader.kind, covered) {
                 (ShaderKind::Solid(color), Covered::Whole(xs)) => self.fill(xs, y, *color),
@@ -228,7 +228,7 @@ impl<'a> TilePainter<'a> {
                 _ => self.gather(y, covered),
             }
         });
-        self.scatter = Some(scatter);
+        self.free_positions = Some(free_positions);
         if let Some(shader) = prepared {
             self.shade_parts(&shader);
         }
@@ -247,7 +247,7 @@ impl<'a> TilePainter<'a> {
 
     /// Shades what was noted, all samples together.
     fn shade_parts(&mut self, shader: &Shader<'_>) {
-        let Some(scatter) = &mut self.scatter else {
+        let Some(free_positions) = &mut self.free_positions else {
             return;
         };
         let PixelRect { x, y } = self.layers[0].rect;
@@ -256,10 +256,10 @@ impl<'a> TilePainter<'a> {
         self.points.clear();
         for (pixel, mask) in &self.parts {
             let first = [(pixel[0] - x.start) * side, (pixel[1] - y.start) * side];
-            let places = scatter.places(*pixel);
+            let places = free_positions.places(*pixel);
             // No tile has more than `2^14` points of a lattice along a side.
             let [left, top] = first.map(|at| u16::try_from(at).unwrap_or(u16::MAX));
-            let point = |[column, row]: Place| {
+            let point = |[column, row]: Position| {
                 let (column, row) = (left.saturating_add(column.into()), top.saturating_add(row.into()));
                 [column, row]
             };
@@ -289,7 +289,7 @@ impl<'a> TilePainter<'a> {
     }
 
     /// Samples of one colour, counted from the tile's first.
-    fn samples(&mut self, coverage: SmallCoverage, color: Premultiplied16) {
+    fn samples(&mut self, coverage: CoverageMask, color: Premultiplied16) {
         let side = self.context.grid.side();
         let rect = self.layers[0].rect;
         let coverage = coverage.moved(rect.x.start * side, rect.y.start * side);

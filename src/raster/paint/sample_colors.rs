@@ -14,7 +14,7 @@ use crate::rules::Rules;
 
 /// The samples of a rectangle of pixels.
 #[derive(Debug)]
-pub(crate) struct Tile {
+pub(crate) struct SampleColors {
     pub(crate) rect: PixelRect,
     width: usize,
     /// Samples along one side of a pixel where they lie in rows, and per pixel.
@@ -31,7 +31,7 @@ pub(crate) struct Tile {
     samples: Vec<Premultiplied16>,
 }
 
-impl Tile {
+impl SampleColors {
     /// A tile of no pixels; `side` is how many samples of a pixel lie in a row, where they do.
     pub(crate) fn new(rate: SampleRate, side: i32, (rules, space): (Rules, ResolveSpace)) -> Self {
         Self {

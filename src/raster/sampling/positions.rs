@@ -7,15 +7,15 @@ use crate::raster::{SamplePattern, SampleRate};
 const SEED: u64 = 0x5261_7374_6572_7363;
 
 /// Column and row of a sample inside its pixel, in points of the lattice.
-pub(crate) type Place = [u8; 2];
+pub(crate) type Position = [u8; 2];
 
 /// Where the samples of each pixel lie.
 #[derive(Clone, Debug)]
-pub(crate) struct SamplePlaces {
+pub(crate) struct SamplePositions {
     /// How many samples a pixel has.
     count: usize,
     /// Where they lie in every pixel; empty where each pixel has its own.
-    same: Vec<Place>,
+    same: Vec<Position>,
     /// The cells along one side of a pixel.
     cells: Vec<[u32; 2]>,
 }
@@ -28,7 +28,7 @@ pub(crate) fn lattice(pattern: SamplePattern, rate: SampleRate) -> SubpixelGrid 
     }
 }
 
-impl SamplePlaces {
+impl SamplePositions {
     /// The places of a pattern on its [`lattice`].
     pub(crate) fn new(pattern: SamplePattern, rate: SampleRate) -> Self {
         let (count, side) = (rate.samples(), rate.side());
@@ -61,7 +61,7 @@ impl SamplePlaces {
 
     /// Where the samples of the pixel in column and row `pixel` of the frame lie; `memory` is overwritten.
     #[inline]
-    pub(crate) fn of_pixel<'s>(&'s self, [x, y]: [i32; 2], memory: &'s mut Vec<Place>) -> &'s [Place] {
+    pub(crate) fn of_pixel<'s>(&'s self, [x, y]: [i32; 2], memory: &'s mut Vec<Position>) -> &'s [Position] {
         if !self.same.is_empty() {
             return &self.same;
         }
@@ -88,7 +88,7 @@ fn cells(n: u32) -> Vec<[u32; 2]> {
 }
 
 /// A place anywhere in each of `n x n` cells, as a seed says.
-fn jittered(cells: &[[u32; 2]], seed: u64) -> impl Iterator<Item = Place> {
+fn jittered(cells: &[[u32; 2]], seed: u64) -> impl Iterator<Item = Position> {
     let along = |[start, length]: [u32; 2], random: u64| byte(start + ((low_quarter(random) * length) >> 16));
     let rows = cells.iter().enumerate();
     rows.flat_map(move |(j, row)| {

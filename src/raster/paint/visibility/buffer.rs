@@ -7,23 +7,23 @@
 //! number per sample. A primitive that covers a pixel wholly makes it one again. So flat areas cost one store per pixel
 //! at every sample rate, most edges a few bits, and nothing is shaded before it is known to be seen.
 
-use crate::raster::surface_id::{PAIR, ROW, SPLIT, Slot};
+use crate::raster::surface_id::{ROW, SPLIT, SurfaceId, TWO_SURFACES};
 use std::ops::Range;
 
 use crate::raster::coverage::pixel_rows::PixelRow;
-use crate::raster::paint::visibility::packed::{PER_WORD, changed, covered, joined, lanes, of_pair, splat, spread};
-use crate::raster::paint::visibility::two_surfaces::{Pair, PairRow, Pairs};
+use crate::raster::paint::visibility::packed::{PER_WORD, changed, covered, joined, lanes, of_two, splat, spread};
+use crate::raster::paint::visibility::two_surfaces::{TwoSurfacePixels, TwoSurfaceRow, TwoSurfaces};
 use crate::raster::span::{PixelRect, Span};
 
 /// Pixels of a block.
 pub(crate) const BLOCK: usize = 8;
 
 /// Most samples along the side of a pixel that may be a pair.
-const MAX_PAIR_SIDE: usize = 8;
+const MAX_TWO_SURFACE_SIDE: usize = 8;
 
-/// The slots of a rectangle of pixels.
+/// The surfaces of a rectangle of pixels.
 #[derive(Debug)]
-pub(crate) struct VisibilityTile {
+pub(crate) struct VisibilityBuffer {
     pub(crate) rect: PixelRect,
     width: usize,
     /// Samples along one side of a pixel.
@@ -34,13 +34,13 @@ pub(crate) struct VisibilityTile {
     used: Vec<u32>,
     /// The bits of all samples of a pixel; none where there are too many for pairs.
     all: u64,
-    /// Row by row one slot per pixel, or [`PAIR`], or [`SPLIT`]; beyond the tile's right side something.
-    pub(in crate::raster) whole: Vec<[Slot; ROW]>,
+    /// Row by row one surface per pixel, or [`TWO_SURFACES`], or [`SPLIT`]; beyond the tile's right side something.
+    pub(in crate::raster) whole: Vec<[SurfaceId; ROW]>,
     /// For each row a bit for each pixel that was a pair or split once; it need not be any more.
     pub(in crate::raster) shared: Vec<u64>,
     /// What pairs show.
-    pub(in crate::raster) pairs: Pairs,
-    /// The slots of split pixels, pixel by pixel. Allocated with the first split.
+    pub(in crate::raster) pairs: TwoSurfacePixels,
+    /// The surfaces of split pixels, pixel by pixel. Allocated with the first split.
     samples: Vec<u64>,
 }
 
@@ -48,15 +48,15 @@ pub(crate) struct VisibilityTile {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shown<'a> {
     /// What each shows; beyond the tile's right side something.
-    pub(crate) whole: &'a [Slot; ROW],
+    pub(crate) whole: &'a [SurfaceId; ROW],
     /// The pixels that may be pairs or split, a bit for each.
     pub(crate) shared: u64,
     /// What those show that are pairs; of no account for others.
-    pub(crate) pairs: PairRow<'a>,
+    pub(crate) pairs: TwoSurfaceRow<'a>,
 }
 
 /// A pixel of a tile: its row and its column, counted from the tile's first pixel.
-type Place = (usize, usize);
+type PixelIndex = (usize, usize);
 
 /// Which ends of spans may lie in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,15 +69,15 @@ enum Sides {
 /// Pixels side by side in a row that show the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Run {
-    /// All samples of these pixels show one slot.
-    Whole(Slot),
-    /// The samples of these pixels show two slots each.
-    Pairs,
+    /// All samples of these pixels show one surface.
+    Whole(SurfaceId),
+    /// The samples of these pixels show two surfaces each.
+    TwoSurfacePixels,
     /// The samples of these pixels differ.
     Split,
 }
 
-impl VisibilityTile {
+impl VisibilityBuffer {
     /// A tile of no pixels with `side x side` samples each.
     pub(crate) fn new(side: i32) -> Self {
         let side = usize::try_from(side).unwrap_or(1);
@@ -90,27 +90,27 @@ impl VisibilityTile {
                 .step_by(PER_WORD)
                 .map(|at| u32::try_from((side - at).min(PER_WORD)).unwrap_or(0))
                 .collect(),
-            all: if side <= MAX_PAIR_SIDE {
+            all: if side <= MAX_TWO_SURFACE_SIDE {
                 u64::MAX >> (64 - side * side)
             } else {
                 0
             },
             whole: Vec::new(),
             shared: Vec::new(),
-            pairs: Pairs::new(side),
+            pairs: TwoSurfacePixels::new(side),
             samples: Vec::new(),
         }
     }
 
-    /// Makes it the tile of `rect` in which every sample shows `slot`.
-    pub(crate) fn reset(&mut self, rect: PixelRect, slot: Slot) {
+    /// Makes it the tile of `rect` in which every sample shows `surface`.
+    pub(crate) fn reset(&mut self, rect: PixelRect, surface: SurfaceId) {
         let length = |span: Span| usize::try_from(span.end - span.start).unwrap_or(0);
         self.rect = rect;
         self.width = length(rect.x);
         debug_assert!(self.width <= ROW, "a tile is {} pixels wide", self.width);
         let rows = length(rect.y);
         self.whole.clear();
-        self.whole.resize(rows, [slot; ROW]);
+        self.whole.resize(rows, [surface; ROW]);
         self.shared.clear();
         self.shared.resize(rows, 0);
         if self.all != 0 {
@@ -118,95 +118,95 @@ impl VisibilityTile {
         }
     }
 
-    /// Lets every sample show `slot`.
-    pub(crate) fn cover(&mut self, slot: Slot) {
-        self.whole.fill([slot; ROW]);
+    /// Lets every sample show `surface`.
+    pub(crate) fn cover(&mut self, surface: SurfaceId) {
+        self.whole.fill([surface; ROW]);
     }
 
-    /// Lets the samples that a row of pixels covers show `slot`.
+    /// Lets the samples that a row of pixels covers show `surface`.
     #[inline]
-    pub(crate) fn paint(&mut self, row: &PixelRow<'_>, slot: Slot) {
+    pub(crate) fn paint(&mut self, row: &PixelRow<'_>, surface: SurfaceId) {
         let y = offset(self.rect.y.start, row.y);
         if !row.full.is_empty() {
             let full = self.columns(row.full);
-            self.whole[y][full].fill(slot);
+            self.whole[y][full].fill(surface);
         }
         if self.all == 0 {
             let left = self.rect.x.start;
             for x in row.partial() {
                 let pixel = (y, offset(left, x));
                 self.split(pixel);
-                let painted = splat(slot);
+                let painted = splat(surface);
                 self.each_covered_word(pixel, x, row.spans(), |word, mask| {
                     *word = *word & !mask | painted & mask;
                 });
             }
             return;
         }
-        self.paint_partial(self.side, row, y, slot);
+        self.paint_partial(self.side, row, y, surface);
     }
 
-    /// Lets the samples of a row of pixels that is covered in part show `slot`; `y` is its number.
-    fn paint_partial(&mut self, side: usize, row: &PixelRow<'_>, y: usize, slot: Slot) {
+    /// Lets the samples of a row of pixels that is covered in part show `surface`; `y` is its number.
+    fn paint_partial(&mut self, side: usize, row: &PixelRow<'_>, y: usize, surface: SurfaceId) {
         let (left, spans) = (self.rect.x.start, row.spans());
         if row.full.is_empty() {
             for x in row.touched.start..row.touched.end {
                 let covered = mask(side, x, spans, Sides::Both);
                 if covered != 0 {
-                    self.paint_samples((y, offset(left, x)), covered, slot);
+                    self.paint_samples((y, offset(left, x)), covered, surface);
                 }
             }
             return;
         }
         // Beside pixels that are full, each holds some covered samples, and none holds all.
         for x in row.touched.start..row.full.start {
-            self.paint_samples((y, offset(left, x)), mask(side, x, spans, Sides::Left), slot);
+            self.paint_samples((y, offset(left, x)), mask(side, x, spans, Sides::Left), surface);
         }
         for x in row.full.end..row.touched.end {
-            self.paint_samples((y, offset(left, x)), mask(side, x, spans, Sides::Right), slot);
+            self.paint_samples((y, offset(left, x)), mask(side, x, spans, Sides::Right), surface);
         }
     }
 
-    /// Lets some samples of a pixel show `slot`, at least one and not all.
+    /// Lets some samples of a pixel show `surface`, at least one and not all.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
-    pub(in crate::raster) fn paint_samples(&mut self, pixel: Place, covered: u64, slot: Slot) {
+    pub(in crate::raster) fn paint_samples(&mut self, pixel: PixelIndex, covered: u64, surface: SurfaceId) {
         let shown = self.whole[pixel.0][pixel.1 % ROW];
-        if shown == slot {
+        if shown == surface {
             return;
         }
-        if shown >= PAIR {
-            return self.paint_shared(pixel, covered, slot);
+        if shown >= TWO_SURFACES {
+            return self.paint_shared(pixel, covered, surface);
         }
-        self.share(pixel, PAIR);
-        let pair = Pair {
+        self.share(pixel, TWO_SURFACES);
+        let pair = TwoSurfaces {
             mask: covered,
             first: shown,
-            second: slot,
+            second: surface,
         };
         self.pairs.set(pixel, pair);
     }
 
-    /// Makes a pixel a [`PAIR`] or [`SPLIT`].
+    /// Makes a pixel a [`TWO_SURFACES`] or [`SPLIT`].
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
-    fn share(&mut self, (y, x): Place, kind: Slot) {
+    fn share(&mut self, (y, x): PixelIndex, kind: SurfaceId) {
         self.whole[y][x % ROW] = kind;
         self.shared[y] |= 1 << (x % ROW);
     }
 
-    /// As [`VisibilityTile::paint_samples`] where samples differ already.
+    /// As [`VisibilityBuffer::paint_samples`] where samples differ already.
     #[inline(never)]
-    fn paint_shared(&mut self, pixel: Place, covered: u64, slot: Slot) {
+    fn paint_shared(&mut self, pixel: PixelIndex, covered: u64, surface: SurfaceId) {
         let shown = self.whole[pixel.0][pixel.1];
-        if shown == PAIR && self.paint_pair(pixel, covered, slot) {
+        if shown == TWO_SURFACES && self.paint_pair(pixel, covered, surface) {
             return;
         }
         if self.side == PER_WORD {
-            return self.paint_words(pixel, covered, slot);
+            return self.paint_words(pixel, covered, surface);
         }
         self.split(pixel);
-        let painted = splat(slot);
+        let painted = splat(surface);
         let (side, words) = (self.side, self.words);
         let first = self.first_word(pixel);
         let samples = &mut self.samples[first..][..side * words];
@@ -225,9 +225,9 @@ impl VisibilityTile {
         }
     }
 
-    /// As [`VisibilityTile::paint_samples`] where a pixel that is a pair or split has 4 x 4 samples and shows three slots.
+    /// As [`VisibilityBuffer::paint_samples`] where a pixel that is a pair or split has 4 x 4 samples and shows three surfaces.
     #[inline]
-    fn paint_words(&mut self, pixel: Place, covered: u64, slot: Slot) {
+    fn paint_words(&mut self, pixel: PixelIndex, covered: u64, surface: SurfaceId) {
         self.make_room();
         let first = self.first_word(pixel);
         let pair = self.pair(pixel);
@@ -236,12 +236,12 @@ impl VisibilityTile {
         };
         let before: [u64; PER_WORD] = match pair {
             None => *words,
-            Some(Pair { mask, first, second }) => {
-                let slots = [splat(first), splat(second)];
-                [0, 4, 8, 12].map(|shift| of_pair(slots, mask >> shift))
+            Some(TwoSurfaces { mask, first, second }) => {
+                let surfaces = [splat(first), splat(second)];
+                [0, 4, 8, 12].map(|shift| of_two(surfaces, mask >> shift))
             }
         };
-        let painted = splat(slot);
+        let painted = splat(surface);
         for ((word, before), shift) in words.iter_mut().zip(before).zip([0, 4, 8, 12]) {
             let mask = spread(covered >> shift);
             *word = before & !mask | painted & mask;
@@ -258,33 +258,33 @@ impl VisibilityTile {
         }
     }
 
-    /// Lets samples of a pixel that is a pair show `slot`; false, and nothing done, where it would show three.
+    /// Lets samples of a pixel that is a pair show `surface`; false, and nothing done, where it would show three.
     #[inline]
-    fn paint_pair(&mut self, pixel: Place, covered: u64, slot: Slot) -> bool {
-        let Pair { mask, first, second } = self.pairs.get(pixel);
-        let pair = if second == slot {
-            Pair {
+    fn paint_pair(&mut self, pixel: PixelIndex, covered: u64, surface: SurfaceId) -> bool {
+        let TwoSurfaces { mask, first, second } = self.pairs.get(pixel);
+        let pair = if second == surface {
+            TwoSurfaces {
                 mask: mask | covered,
                 first,
                 second,
             }
-        } else if first == slot {
-            Pair {
+        } else if first == surface {
+            TwoSurfaces {
                 mask: mask & !covered,
                 first,
                 second,
             }
         } else if mask & !covered == 0 {
-            Pair {
+            TwoSurfaces {
                 mask: covered,
                 first,
-                second: slot,
+                second: surface,
             }
         } else if self.all & !mask & !covered == 0 {
-            Pair {
+            TwoSurfaces {
                 mask: covered,
                 first: second,
-                second: slot,
+                second: surface,
             }
         } else {
             return false;
@@ -293,22 +293,22 @@ impl VisibilityTile {
         true
     }
 
-    /// Lets a pixel show two slots, or the one that is left of them.
+    /// Lets a pixel show two surfaces, or the one that is left of them.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
-    fn set_pair(&mut self, pixel: Place, pair: Pair) {
+    fn set_pair(&mut self, pixel: PixelIndex, pair: TwoSurfaces) {
         if pair.mask == 0 {
             self.whole[pixel.0][pixel.1] = pair.first;
         } else if pair.mask == self.all {
             self.whole[pixel.0][pixel.1] = pair.second;
         } else {
-            self.share(pixel, PAIR);
+            self.share(pixel, TWO_SURFACES);
             self.pairs.set(pixel, pair);
         }
     }
 
     /// Lets the samples that a row of pixels covers show what `change` makes of what they show.
-    pub(crate) fn change(&mut self, row: &PixelRow<'_>, mut change: impl FnMut(Slot) -> Slot) {
+    pub(crate) fn change(&mut self, row: &PixelRow<'_>, mut change: impl FnMut(SurfaceId) -> SurfaceId) {
         let left = self.rect.x.start;
         let y = offset(self.rect.y.start, row.y);
         if !row.full.is_empty() {
@@ -327,9 +327,9 @@ impl VisibilityTile {
     #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
     pub(in crate::raster) fn change_samples(
         &mut self,
-        (pixel, x): (Place, i32),
+        (pixel, x): (PixelIndex, i32),
         (covered, spans): (u64, &[Span]),
-        change: &mut impl FnMut(Slot) -> Slot,
+        change: &mut impl FnMut(SurfaceId) -> SurfaceId,
     ) {
         let shown = self.whole[pixel.0][pixel.1];
         if shown != SPLIT && self.all != 0 && (covered == 0 || self.change_pair(pixel, covered, change)) {
@@ -344,11 +344,16 @@ impl VisibilityTile {
     }
 
     /// Lets samples of a pixel that is not split show what `change` makes of what they show; false, and nothing done,
-    /// where the pixel would show three slots or more.
-    fn change_pair(&mut self, pixel: Place, covered: u64, change: &mut impl FnMut(Slot) -> Slot) -> bool {
+    /// where the pixel would show three surfaces or more.
+    fn change_pair(
+        &mut self,
+        pixel: PixelIndex,
+        covered: u64,
+        change: &mut impl FnMut(SurfaceId) -> SurfaceId,
+    ) -> bool {
         let shown = self.whole[pixel.0][pixel.1];
-        let pair = if shown == PAIR {
-            let Pair { mask, first, second } = self.pairs.get(pixel);
+        let pair = if shown == TWO_SURFACES {
+            let TwoSurfaces { mask, first, second } = self.pairs.get(pixel);
             let (of_first, of_second) = (self.all & !mask, mask);
             // Each is covered as a whole or not at all.
             if [of_first, of_second]
@@ -357,14 +362,14 @@ impl VisibilityTile {
             {
                 return false;
             }
-            let mut changed = |part: u64, slot| if part & covered == 0 { slot } else { change(slot) };
-            Pair {
+            let mut changed = |part: u64, surface| if part & covered == 0 { surface } else { change(surface) };
+            TwoSurfaces {
                 mask,
                 first: changed(of_first, first),
                 second: changed(of_second, second),
             }
         } else {
-            Pair {
+            TwoSurfaces {
                 mask: covered,
                 first: shown,
                 second: change(shown),
@@ -374,23 +379,23 @@ impl VisibilityTile {
         true
     }
 
-    /// As [`VisibilityTile::change`] for all samples.
-    pub(crate) fn change_all(&mut self, mut change: impl FnMut(Slot) -> Slot) {
+    /// As [`VisibilityBuffer::change`] for all samples.
+    pub(crate) fn change_all(&mut self, mut change: impl FnMut(SurfaceId) -> SurfaceId) {
         for y in 0..self.whole.len() {
             self.change_whole(y, 0..self.width, &mut change);
         }
     }
 
-    /// As [`VisibilityTile::change`] for all samples of the pixels `xs` of row `y`.
-    pub(crate) fn change_pixels(&mut self, xs: Span, y: i32, mut change: impl FnMut(Slot) -> Slot) {
+    /// As [`VisibilityBuffer::change`] for all samples of the pixels `xs` of row `y`.
+    pub(crate) fn change_pixels(&mut self, xs: Span, y: i32, mut change: impl FnMut(SurfaceId) -> SurfaceId) {
         self.change_whole(offset(self.rect.y.start, y), self.columns(xs), &mut change);
     }
 
-    /// Lets all samples of the pixels `xs` of row `y` show `slot`.
+    /// Lets all samples of the pixels `xs` of row `y` show `surface`.
     #[inline]
-    pub(crate) fn paint_pixels(&mut self, xs: Span, y: i32, slot: Slot) {
+    pub(crate) fn paint_pixels(&mut self, xs: Span, y: i32, surface: SurfaceId) {
         let xs = self.columns(xs);
-        self.whole[offset(self.rect.y.start, y)][xs].fill(slot);
+        self.whole[offset(self.rect.y.start, y)][xs].fill(surface);
     }
 
     /// Columns counted from the tile's left side.
@@ -405,7 +410,7 @@ impl VisibilityTile {
         &mut self,
         y: usize,
         xs: Range<usize>,
-        change: &mut impl FnMut(Slot) -> Slot,
+        change: &mut impl FnMut(SurfaceId) -> SurfaceId,
     ) {
         let mut start = xs.start;
         while start < xs.end {
@@ -420,11 +425,11 @@ impl VisibilityTile {
                         *word = changed(*word, u64::MAX, change);
                     }
                 }
-                PAIR => {
+                TWO_SURFACES => {
                     for x in start..end {
-                        let Pair { mask, first, second } = self.pairs.get((y, x));
+                        let TwoSurfaces { mask, first, second } = self.pairs.get((y, x));
                         let (first, second) = (change(first), change(second));
-                        self.pairs.set((y, x), Pair { mask, first, second });
+                        self.pairs.set((y, x), TwoSurfaces { mask, first, second });
                     }
                 }
                 _ => row[start..end].fill(change(shown)),
@@ -434,19 +439,19 @@ impl VisibilityTile {
     }
 
     /// All pixels.
-    fn places(&self) -> impl Iterator<Item = Place> + use<> {
+    fn places(&self) -> impl Iterator<Item = PixelIndex> + use<> {
         let width = self.width;
         (0..self.whole.len()).flat_map(move |y| (0..width).map(move |x| (y, x)))
     }
 
-    /// Lets each sample show what `mix` makes of its slot here and in a `layer` of the same rectangle.
-    pub(crate) fn composite(&mut self, layer: &Self, mut mix: impl FnMut(Slot, Slot) -> Slot) {
+    /// Lets each sample show what `mix` makes of its surface here and in a `layer` of the same rectangle.
+    pub(crate) fn composite(&mut self, layer: &Self, mut mix: impl FnMut(SurfaceId, SurfaceId) -> SurfaceId) {
         let per_pixel = self.side * self.words;
         for pixel in self.places() {
             if let (Some(below), Some(above)) = (self.pair(pixel), layer.pair(pixel))
                 && (below.mask == 0 || above.mask == 0 || below.mask == above.mask)
             {
-                let pair = Pair {
+                let pair = TwoSurfaces {
                     mask: below.mask | above.mask,
                     first: mix(below.first, above.first),
                     second: mix(below.second, above.second),
@@ -468,28 +473,28 @@ impl VisibilityTile {
         }
     }
 
-    /// What a pixel shows that is not split; a single slot twice, with no bit set.
+    /// What a pixel shows that is not split; a single surface twice, with no bit set.
     #[inline]
-    fn pair(&self, pixel: Place) -> Option<Pair> {
+    fn pair(&self, pixel: PixelIndex) -> Option<TwoSurfaces> {
         match self.whole[pixel.0][pixel.1] {
             SPLIT => None,
-            PAIR => Some(self.pairs.get(pixel)),
-            slot => Some(Pair {
+            TWO_SURFACES => Some(self.pairs.get(pixel)),
+            surface => Some(TwoSurfaces {
                 mask: 0,
-                first: slot,
-                second: slot,
+                first: surface,
+                second: surface,
             }),
         }
     }
 
     /// Four samples of a pixel that shows a pair, as word `i` of the split pixel.
     #[inline]
-    fn word(&self, pair: Pair, i: usize) -> u64 {
+    fn word(&self, pair: TwoSurfaces, i: usize) -> u64 {
         if pair.mask == 0 {
             return splat(pair.first);
         }
         let (row, column) = (i / self.words, i % self.words * PER_WORD);
-        of_pair(
+        of_two(
             [splat(pair.first), splat(pair.second)],
             pair.mask >> (row * self.side + column),
         )
@@ -498,7 +503,7 @@ impl VisibilityTile {
     /// Calls `paint` for every word of a split pixel with the bits of the samples that `spans` cover; `x` is the pixel's
     /// column in the frame.
     #[inline]
-    fn each_covered_word(&mut self, pixel: Place, x: i32, spans: &[Span], mut paint: impl FnMut(&mut u64, u64)) {
+    fn each_covered_word(&mut self, pixel: PixelIndex, x: i32, spans: &[Span], mut paint: impl FnMut(&mut u64, u64)) {
         let left = x * i32::try_from(self.side).unwrap_or(1);
         if self.words == 1 {
             let first = self.first_word(pixel);
@@ -517,9 +522,9 @@ impl VisibilityTile {
         }
     }
 
-    /// Gives a pixel one slot per sample, if it is not split yet.
+    /// Gives a pixel one surface per sample, if it is not split yet.
     #[inline]
-    fn split(&mut self, pixel: Place) {
+    fn split(&mut self, pixel: PixelIndex) {
         let Some(pair) = self.pair(pixel) else {
             return;
         };
@@ -527,18 +532,18 @@ impl VisibilityTile {
         self.share(pixel, SPLIT);
         let first = self.first_word(pixel);
         let (side, words) = (self.side, self.words);
-        let slots = [splat(pair.first), splat(pair.second)];
+        let surfaces = [splat(pair.first), splat(pair.second)];
         let samples = &mut self.samples[first..][..side * words];
         if words == 1 {
             // Without a division for the rows, which costs as much as all the rest.
             for (word, shift) in samples.iter_mut().zip((0..).step_by(side)) {
-                *word = of_pair(slots, pair.mask >> (shift % 64));
+                *word = of_two(surfaces, pair.mask >> (shift % 64));
             }
             return;
         }
         for (y, row) in samples.chunks_exact_mut(words).enumerate() {
             for (word, shift) in row.iter_mut().zip((y * side..).step_by(PER_WORD)) {
-                *word = of_pair(slots, pair.mask >> (shift % 64));
+                *word = of_two(surfaces, pair.mask >> (shift % 64));
             }
         }
     }
@@ -554,13 +559,13 @@ impl VisibilityTile {
 
     /// Where the samples of a split pixel begin.
     #[inline]
-    fn first_word(&self, (y, x): Place) -> usize {
+    fn first_word(&self, (y, x): PixelIndex) -> usize {
         (y * self.width + x) * self.side * self.words
     }
 
     /// What each pixel of row `y` shows.
     #[inline]
-    pub(crate) fn row(&self, y: i32) -> &[Slot] {
+    pub(crate) fn row(&self, y: i32) -> &[SurfaceId] {
         &self.whole[offset(self.rect.y.start, y)][..self.width]
     }
 
@@ -570,14 +575,14 @@ impl VisibilityTile {
         let line = self.row(y);
         let mut start = 0;
         std::iter::from_fn(move || {
-            let slot = *line.get(start)?;
-            let end = start + run_length(&line[start..], slot);
+            let surface = *line.get(start)?;
+            let end = start + run_length(&line[start..], surface);
             let range = start..end;
             start = end;
-            let run = match slot {
+            let run = match surface {
                 SPLIT => Run::Split,
-                PAIR => Run::Pairs,
-                slot => Run::Whole(slot),
+                TWO_SURFACES => Run::TwoSurfacePixels,
+                surface => Run::Whole(surface),
             };
             Some((run, range))
         })
@@ -597,7 +602,7 @@ impl VisibilityTile {
 
     /// What the pixels of row `y` show that are pairs; of no account for others.
     #[inline]
-    pub(crate) fn pairs(&self, y: i32) -> PairRow<'_> {
+    pub(crate) fn pairs(&self, y: i32) -> TwoSurfaceRow<'_> {
         self.pairs.row(offset(self.rect.y.start, y))
     }
 
@@ -606,9 +611,9 @@ impl VisibilityTile {
         self.all
     }
 
-    /// The slots of a split pixel's samples, row by row; `x` counts from the tile's left side.
+    /// The surfaces of a split pixel's samples, row by row; `x` counts from the tile's left side.
     #[inline]
-    pub(crate) fn samples(&self, x: usize, y: i32) -> impl Iterator<Item = Slot> + '_ {
+    pub(crate) fn samples(&self, x: usize, y: i32) -> impl Iterator<Item = SurfaceId> + '_ {
         self.words(x, y)
             .chunks_exact(self.words)
             .flat_map(|row| row.iter().flat_map(|word| lanes(*word)).take(self.side))
@@ -643,14 +648,14 @@ impl VisibilityTile {
         &self.samples[first..][..self.side * self.words]
     }
 
-    /// Renumbers all slots in use: `renumber` is called once for each, in no particular order.
-    pub(crate) fn renumber(&mut self, renumber: impl Fn(Slot) -> Slot) {
+    /// Renumbers all surfaces in use: `renumber` is called once for each, in no particular order.
+    pub(crate) fn renumber(&mut self, renumber: impl Fn(SurfaceId) -> SurfaceId) {
         for pixel in self.places() {
             match self.whole[pixel.0][pixel.1] {
-                PAIR => {
-                    let Pair { mask, first, second } = self.pairs.get(pixel);
+                TWO_SURFACES => {
+                    let TwoSurfaces { mask, first, second } = self.pairs.get(pixel);
                     let (first, second) = (renumber(first), renumber(second));
-                    self.pairs.set(pixel, Pair { mask, first, second });
+                    self.pairs.set(pixel, TwoSurfaces { mask, first, second });
                 }
                 SPLIT => {
                     let first = self.first_word(pixel);
@@ -663,8 +668,8 @@ impl VisibilityTile {
         }
     }
 
-    /// Calls `seen` with every slot in use, often several times.
-    pub(crate) fn each_slot(&self, mut seen: impl FnMut(Slot)) {
+    /// Calls `seen` with every surface in use, often several times.
+    pub(crate) fn each_slot(&self, mut seen: impl FnMut(SurfaceId)) {
         for pixel in self.places() {
             match self.whole[pixel.0][pixel.1] {
                 SPLIT => {
@@ -672,7 +677,7 @@ impl VisibilityTile {
                         lanes(*word).into_iter().for_each(&mut seen);
                     }
                 }
-                PAIR => {
+                TWO_SURFACES => {
                     let pair = self.pairs.get(pixel);
                     [pair.first, pair.second].into_iter().for_each(&mut seen);
                 }
@@ -682,18 +687,18 @@ impl VisibilityTile {
     }
 }
 
-/// How many slots at the beginning of `line` are `slot`.
+/// How many surfaces at the beginning of `line` are `surface`.
 #[inline]
-fn run_length(line: &[Slot], slot: Slot) -> usize {
+fn run_length(line: &[SurfaceId], surface: SurfaceId) -> usize {
     let mut length = 0;
     // Long runs in blocks, which compilers compare as one.
     for block in line.chunks_exact(BLOCK) {
-        if block != [slot; BLOCK] {
+        if block != [surface; BLOCK] {
             break;
         }
         length += BLOCK;
     }
-    length + line[length..].iter().take_while(|found| **found == slot).count()
+    length + line[length..].iter().take_while(|found| **found == surface).count()
 }
 
 /// The bits of the samples that `spans` cover in a pixel with `side` samples a row; `x` is its column in the frame.

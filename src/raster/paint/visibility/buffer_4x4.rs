@@ -1,5 +1,5 @@
-//! Painting rows of pixels with 4 x 4 samples, four pixels on an edge at a time: [`VisibilityTile::paint`] and
-//! [`VisibilityTile::change`] with few instructions.
+//! Painting rows of pixels with 4 x 4 samples, four pixels on an edge at a time: [`VisibilityBuffer::paint`] and
+//! [`VisibilityBuffer::change`] with few instructions.
 
 use std::ops::Range;
 
@@ -7,22 +7,22 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
 use crate::raster::coverage::pixel_rows_4x4::{Ends, TileRow, Window, each_window};
-use crate::raster::paint::visibility::buffer::VisibilityTile;
+use crate::raster::paint::visibility::buffer::VisibilityBuffer;
 use crate::raster::paint::visibility::packed::{lanes, splat};
-use crate::raster::paint::visibility::two_surfaces::{Quad, QuadMask, put, quad, word_at};
-use crate::raster::surface_id::{PAIR, ROW, Slot};
+use crate::raster::paint::visibility::two_surfaces::{Group, GroupMask, group, put, word_at};
+use crate::raster::surface_id::{ROW, SurfaceId, TWO_SURFACES};
 
 /// Bits of which one is set for each shared pixel of four, and perhaps for others.
 const PERHAPS_SHARED: u64 = 0x8000_8000_8000_8000;
 
-impl VisibilityTile {
-    /// Lets the samples that a row of pixels covers show `slot`.
+impl VisibilityBuffer {
+    /// Lets the samples that a row of pixels covers show `surface`.
     #[inline(always)]
     #[expect(
         clippy::inline_always,
         reason = "a call for each row of pixels would cost as much as the rest"
     )]
-    pub(crate) fn paint_four<S: Simd>(&mut self, simd: S, row: &TileRow<'_>, slot: Slot) {
+    pub(crate) fn paint_four<S: Simd>(&mut self, simd: S, row: &TileRow<'_>, surface: SurfaceId) {
         // Those covered in part may be shared from now on, and full ones are not.
         let shared = &mut self.shared[row.y];
         *shared |= bits(&row.touched);
@@ -32,7 +32,7 @@ impl VisibilityTile {
                 row,
                 (row.touched.clone(), Ends::Both),
                 #[inline(always)]
-                |window| self.paint_quad(simd, row.y, window, slot),
+                |window| self.paint_quad(simd, row.y, window, surface),
             );
         }
         *shared &= !bits(&row.full);
@@ -42,17 +42,17 @@ impl VisibilityTile {
             row,
             (before, Ends::Left),
             #[inline(always)]
-            |window| self.paint_quad(simd, row.y, window, slot),
+            |window| self.paint_quad(simd, row.y, window, surface),
         );
         each_window(
             simd,
             row,
             (after, Ends::Right),
             #[inline(always)]
-            |window| self.paint_quad(simd, row.y, window, slot),
+            |window| self.paint_quad(simd, row.y, window, surface),
         );
-        // Last: slots that were just written as vectors are read slowly.
-        fill(&mut self.whole[row.y], row.full.clone(), slot);
+        // Last: surfaces that were just written as vectors are read slowly.
+        fill(&mut self.whole[row.y], row.full.clone(), surface);
     }
 
     /// Lets the samples that a row of pixels covers show what `change` makes of what they show.
@@ -61,7 +61,12 @@ impl VisibilityTile {
         clippy::inline_always,
         reason = "a call for each row of pixels would cost as much as the rest"
     )]
-    pub(crate) fn change_four<S: Simd>(&mut self, simd: S, row: &TileRow<'_>, mut change: impl FnMut(Slot) -> Slot) {
+    pub(crate) fn change_four<S: Simd>(
+        &mut self,
+        simd: S,
+        row: &TileRow<'_>,
+        mut change: impl FnMut(SurfaceId) -> SurfaceId,
+    ) {
         self.shared[row.y] |= bits(&row.touched);
         if row.full.is_empty() {
             return each_window(
@@ -90,29 +95,29 @@ impl VisibilityTile {
         self.change_whole(row.y, row.full.clone(), &mut change);
     }
 
-    /// Lets the samples of a window show `slot`.
+    /// Lets the samples of a window show `surface`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn paint_quad<S: Simd>(&mut self, simd: S, y: usize, Window { x, live, masks }: Window, slot: Slot) {
+    fn paint_quad<S: Simd>(&mut self, simd: S, y: usize, Window { x, live, masks }: Window, surface: SurfaceId) {
         let whole = &mut self.whole[y];
         let word = word_at(whole, x);
         if word & live & PERHAPS_SHARED != 0 {
-            return self.paint_shared_quad((y, x), masks, slot);
+            return self.paint_shared_quad((y, x), masks, surface);
         }
-        let number = |number| Quad::splat(simd, number);
-        let (shown, covered) = (quad(simd, word), quad(simd, masks));
-        let painted = in_part(simd, covered) & !shown.simd_eq(number(slot));
-        put(whole, x, painted.select(number(PAIR), shown));
+        let number = |number| Group::splat(simd, number);
+        let (shown, covered) = (group(simd, word), group(simd, masks));
+        let painted = in_part(simd, covered) & !shown.simd_eq(number(surface));
+        put(whole, x, painted.select(number(TWO_SURFACES), shown));
         self.pairs
-            .set_quad(simd, ((y, x), painted), (covered, shown, number(slot)));
+            .set_quad(simd, ((y, x), painted), (covered, shown, number(surface)));
     }
 
-    /// As [`VisibilityTile::paint_quad`] pixel by pixel.
+    /// As [`VisibilityBuffer::paint_quad`] pixel by pixel.
     #[inline(never)]
-    fn paint_shared_quad(&mut self, (y, x): (usize, usize), masks: u64, slot: Slot) {
+    fn paint_shared_quad(&mut self, (y, x): (usize, usize), masks: u64, surface: SurfaceId) {
         for (x, covered) in (x..).zip(lanes(masks)) {
             if covered != 0 {
-                self.paint_samples((y, x), u64::from(covered), slot);
+                self.paint_samples((y, x), u64::from(covered), surface);
             }
         }
     }
@@ -125,31 +130,31 @@ impl VisibilityTile {
         simd: S,
         row: &TileRow<'_>,
         Window { x, live, masks }: Window,
-        change: &mut impl FnMut(Slot) -> Slot,
+        change: &mut impl FnMut(SurfaceId) -> SurfaceId,
     ) {
         let whole = &mut self.whole[row.y];
         let word = word_at(whole, x);
         let [first, ..] = lanes(word >> (live.trailing_zeros() % 64));
-        if first >= PAIR || (word ^ splat(first)) & live != 0 {
+        if first >= TWO_SURFACES || (word ^ splat(first)) & live != 0 {
             return self.change_shared_quad(row, (x, masks), change);
         }
         if masks == 0 {
             return;
         }
-        let number = |number| Quad::splat(simd, number);
-        let (shown, covered) = (quad(simd, word), quad(simd, masks));
+        let number = |number| Group::splat(simd, number);
+        let (shown, covered) = (group(simd, word), group(simd, masks));
         let changed = in_part(simd, covered);
-        put(whole, x, changed.select(number(PAIR), shown));
+        put(whole, x, changed.select(number(TWO_SURFACES), shown));
         self.pairs
             .set_quad(simd, ((row.y, x), changed), (covered, shown, number(change(first))));
     }
 
-    /// As [`VisibilityTile::change_quad`] pixel by pixel.
+    /// As [`VisibilityBuffer::change_quad`] pixel by pixel.
     fn change_shared_quad(
         &mut self,
         row: &TileRow<'_>,
         (x, masks): (usize, u64),
-        change: &mut impl FnMut(Slot) -> Slot,
+        change: &mut impl FnMut(SurfaceId) -> SurfaceId,
     ) {
         for ((x, column), covered) in (x..).zip(row.column(x)..).zip(lanes(masks)) {
             if covered != 0 {
@@ -169,20 +174,20 @@ fn bits(xs: &Range<usize>) -> u64 {
 /// Which of four masks name some samples.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn in_part<S: Simd>(simd: S, masks: Quad<S>) -> QuadMask<S> {
-    !masks.simd_eq(Quad::splat(simd, 0))
+fn in_part<S: Simd>(simd: S, masks: Group<S>) -> GroupMask<S> {
+    !masks.simd_eq(Group::splat(simd, 0))
 }
 
-/// Lets some slots of a row be the same one.
+/// Lets some surfaces of a row be the same one.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
 #[expect(clippy::cast_possible_truncation, reason = "places in a row of 64")]
-pub(crate) fn fill(slots: &mut [Slot; ROW], range: Range<usize>, slot: Slot) {
+pub(crate) fn fill(surfaces: &mut [SurfaceId; ROW], range: Range<usize>, surface: SurfaceId) {
     // All of them anew: how many there are nobody can foresee, and vectors hold so few.
-    let (start, length) = (range.start as Slot, range.len() as Slot);
-    for (at, shown) in (0..).zip(slots) {
-        let inside = Slot::wrapping_sub(at, start) < length;
-        *shown = if inside { slot } else { *shown };
+    let (start, length) = (range.start as SurfaceId, range.len() as SurfaceId);
+    for (at, shown) in (0..).zip(surfaces) {
+        let inside = SurfaceId::wrapping_sub(at, start) < length;
+        *shown = if inside { surface } else { *shown };
     }
 }
 
@@ -202,23 +207,23 @@ mod tests {
     const SIDE: i32 = 4;
 
     /// What all samples of a tile show, pixel by pixel.
-    fn samples(tile: &VisibilityTile) -> Vec<Vec<Slot>> {
+    fn samples(tile: &VisibilityBuffer) -> Vec<Vec<SurfaceId>> {
         let mut all = Vec::new();
         for y in tile.rect.y.start..tile.rect.y.end {
             for (run, xs) in tile.runs(y) {
                 for x in xs {
                     all.push(match run {
-                        Run::Whole(slot) => vec![slot; 16],
-                        Run::Pairs => {
+                        Run::Whole(surface) => vec![surface; 16],
+                        Run::TwoSurfacePixels => {
                             let pair = tile.pairs(y).get(x);
-                            let slot = |i: u64| {
+                            let surface = |i: u64| {
                                 if pair.mask >> i & 1 == 1 {
                                     pair.second
                                 } else {
                                     pair.first
                                 }
                             };
-                            (0..16).map(slot).collect()
+                            (0..16).map(surface).collect()
                         }
                         Run::Split => tile.samples(x, y).collect(),
                     });
@@ -258,17 +263,22 @@ mod tests {
         Ok((rows, all))
     }
 
-    /// Paints a shape of a slot, or changes what it covers, in four and pixel by pixel.
-    fn paint_both(level: simd::Level, tiles: &mut [VisibilityTile; 2], spans: RowSpans<'_>, slot: Option<Slot>) {
+    /// Paints a shape of a surface, or changes what it covers, in four and pixel by pixel.
+    fn paint_both(
+        level: simd::Level,
+        tiles: &mut [VisibilityBuffer; 2],
+        spans: RowSpans<'_>,
+        surface: Option<SurfaceId>,
+    ) {
         let [quick, slow] = tiles;
         let rect = quick.rect;
-        let change = |slot: Slot| slot % 200 * 7 % 101;
-        dispatch!(level, simd => each_row_of_spans(simd, spans, rect, |row| match slot {
-            Some(slot) => quick.paint_four(simd, row, slot),
+        let change = |surface: SurfaceId| surface % 200 * 7 % 101;
+        dispatch!(level, simd => each_row_of_spans(simd, spans, rect, |row| match surface {
+            Some(surface) => quick.paint_four(simd, row, surface),
             None => quick.change_four(simd, row, change),
         }));
-        each_pixel_row_of_spans(spans, SIDE, rect, |row| match slot {
-            Some(slot) => slow.paint(row, slot),
+        each_pixel_row_of_spans(spans, SIDE, rect, |row| match surface {
+            Some(surface) => slow.paint(row, surface),
             None => slow.change(row, change),
         });
     }
@@ -288,32 +298,32 @@ mod tests {
             };
             let levels = simd::tested();
             let (name, level) = u.choose(&levels)?;
-            let mut tiles = [VisibilityTile::new(SIDE), VisibilityTile::new(SIDE)];
+            let mut tiles = [VisibilityBuffer::new(SIDE), VisibilityBuffer::new(SIDE)];
             for tile in &mut tiles {
                 tile.reset(rect, 1);
             }
             for _ in 0..u.int_in_range(1..=6)? {
                 let (rows, spans) = shape(u, rect)?;
-                let slot = if u.ratio(1, 3)? {
+                let surface = if u.ratio(1, 3)? {
                     None
                 } else {
                     Some(*u.choose(&[2, 3, 4, 40_000])?)
                 };
                 let mut store = SpanStore::default();
                 let stored = store.put(rows, &spans);
-                paint_both(*level, &mut tiles, store.get(stored), slot);
+                paint_both(*level, &mut tiles, store.get(stored), surface);
                 let [quick, slow] = &tiles;
                 assert_eq!(
                     samples(quick),
                     samples(slow),
-                    "{name}: {rect:?}, {slot:?} in {rows:?} {spans:?}"
+                    "{name}: {rect:?}, {surface:?} in {rows:?} {spans:?}"
                 );
             }
             let [quick, _] = &tiles;
             for y in rect.y.start..rect.y.end {
-                for (x, slot) in quick.row(y).iter().enumerate() {
+                for (x, surface) in quick.row(y).iter().enumerate() {
                     let shared = quick.shown(y).shared >> x & 1 == 1;
-                    assert!(*slot < PAIR || shared, "what is shared has a bit");
+                    assert!(*surface < TWO_SURFACES || shared, "what is shared has a bit");
                 }
                 split += quick.runs(y).filter(|(run, _)| *run == Run::Split).count();
             }

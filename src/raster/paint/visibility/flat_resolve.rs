@@ -1,15 +1,15 @@
-//! What is needed of slots again and again when pixels that show nothing but flat colours are resolved, side by side.
+//! What is needed of surfaces again and again when pixels that show nothing but flat colours are resolved, side by side.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i8x16, i16x8, i32x4, u8x16, u16x8, u32x4, u64x2};
 
 use crate::color::Resolver;
 use crate::raster::paint::visibility::packed::lanes;
-use crate::raster::paint::visibility::surface_color::SlotColor;
-use crate::raster::surface_id::{ROW, Slot};
+use crate::raster::paint::visibility::surface_color::SurfaceColor;
+use crate::raster::surface_id::{ROW, SurfaceId};
 use crate::simd;
 
-/// How many slots have a place here: a power of two.
+/// How many surfaces have a place here: a power of two.
 const FIRST: usize = 1024;
 
 /// What is taken from channels so that they are signed numbers of 16 bits.
@@ -18,7 +18,7 @@ const MIDDLE: u16 = 1 << 15;
 /// Most samples of a pixel whose mean a [`Mixer`] takes.
 const MOST: u32 = 64;
 
-/// Entries of a table that vector instructions look up, the first slot of the second table, and how many tables there are.
+/// Entries of a table that vector instructions look up, the first surface of the second table, and how many tables there are.
 const TABLE: usize = 16;
 const SECOND: i8 = 16;
 const TABLES: usize = 2;
@@ -26,11 +26,11 @@ const TABLES: usize = 2;
 /// The channels of a pixel.
 const CHANNELS: usize = 4;
 
-/// What is known of the first slots of a tile.
+/// What is known of the first surfaces of a tile.
 #[derive(Debug)]
-pub(crate) struct Known {
+pub(crate) struct FlatResolve {
     resolver: Resolver,
-    /// How many slots there are.
+    /// How many surfaces there are.
     count: usize,
     /// Whether all are opaque.
     opaque: bool,
@@ -52,7 +52,7 @@ pub(crate) struct Mixer<'k, S: Simd> {
     shift: u32,
 }
 
-impl Known {
+impl FlatResolve {
     /// Nothing of none.
     pub(crate) fn new(resolver: Resolver) -> Self {
         Self {
@@ -65,45 +65,45 @@ impl Known {
         }
     }
 
-    /// Forgets all slots.
+    /// Forgets all surfaces.
     pub(crate) fn clear(&mut self) {
         self.count = 0;
         self.opaque = true;
     }
 
-    /// Whether all slots have a place here.
+    /// Whether all surfaces have a place here.
     #[inline]
     pub(crate) fn is_all(&self) -> bool {
         self.count <= FIRST
     }
 
-    /// Slot `number`, which comes after all others, shows `slot`.
+    /// Surface `number`, which comes after all others, shows `surface`.
     #[inline]
-    pub(crate) fn set(&mut self, number: usize, slot: &SlotColor<'_>) {
+    pub(crate) fn set(&mut self, number: usize, surface: &SurfaceColor<'_>) {
         self.count = number + 1;
-        self.opaque &= slot.flat.is_opaque();
-        self.pixels[number % FIRST] = slot.pixel;
+        self.opaque &= surface.flat.is_opaque();
+        self.pixels[number % FIRST] = surface.pixel;
         if let Some(tables) = self.tables.get_mut(number / TABLE) {
-            for (table, byte) in tables.iter_mut().zip(slot.pixel.to_le_bytes()) {
+            for (table, byte) in tables.iter_mut().zip(surface.pixel.to_le_bytes()) {
                 table[number % TABLE] = byte;
             }
         }
-        let [r, g, b, a] = slot.flat.0.map(|channel| u64::from(channel ^ MIDDLE));
+        let [r, g, b, a] = surface.flat.0.map(|channel| u64::from(channel ^ MIDDLE));
         self.colors[number % FIRST] = b | g << 16 | r << 32 | a << 48;
     }
 
-    /// The pixel that shows nothing but the flat colour of a slot; any for a number that is none.
+    /// The pixel that shows nothing but the flat colour of a surface; any for a number that is none.
     #[inline]
-    fn pixel(&self, slot: Slot) -> u32 {
-        self.pixels[usize::from(slot) % FIRST]
+    fn pixel(&self, surface: SurfaceId) -> u32 {
+        self.pixels[usize::from(surface) % FIRST]
     }
 
-    /// The pixels of a row that show nothing but the flat colours of slots; any for numbers that are none.
+    /// The pixels of a row that show nothing but the flat colours of surfaces; any for numbers that are none.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    pub(crate) fn row<S: Simd>(&self, simd: S, shown: &[Slot; ROW], pixels: &mut [u32]) {
+    pub(crate) fn row<S: Simd>(&self, simd: S, shown: &[SurfaceId; ROW], pixels: &mut [u32]) {
         let first = shown[0];
-        if shown.iter().filter(|slot| **slot != first).count() == 0 {
+        if shown.iter().filter(|surface| **surface != first).count() == 0 {
             pixels.fill(self.pixel(first));
         } else if self.count <= TABLE && has_tables(simd) {
             self.looked_up::<S, false>(simd, shown, pixels);
@@ -114,31 +114,31 @@ impl Known {
         }
     }
 
-    /// [`Known::row`] pixel by pixel.
+    /// [`FlatResolve::row`] pixel by pixel.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn one_by_one(&self, shown: &[Slot], pixels: &mut [u32]) {
-        for (pixel, slot) in pixels.iter_mut().zip(shown) {
-            *pixel = self.pixel(*slot);
+    fn one_by_one(&self, shown: &[SurfaceId], pixels: &mut [u32]) {
+        for (pixel, surface) in pixels.iter_mut().zip(shown) {
+            *pixel = self.pixel(*surface);
         }
     }
 
-    /// [`Known::row`] where there are no more slots than entries of one table, or of two.
+    /// [`FlatResolve::row`] where there are no more surfaces than entries of one table, or of two.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn looked_up<S: Simd, const TWO: bool>(&self, simd: S, shown: &[Slot; ROW], pixels: &mut [u32]) {
+    fn looked_up<S: Simd, const TWO: bool>(&self, simd: S, shown: &[SurfaceId; ROW], pixels: &mut [u32]) {
         let tables = self
             .tables
             .map(|tables| tables.map(|table| u8x16::simd_from(simd, table)));
         let (blocks, _) = shown.as_chunks::<TABLE>();
         let (whole, rest) = pixels.as_chunks_mut::<TABLE>();
-        for (pixels, slots) in whole.iter_mut().zip(blocks) {
-            let half = |slots: &[Slot]| u16x8::from_slice(simd, slots).bitcast::<i16x8<S>>();
-            // What is too great for a byte is no slot.
-            let bytes: i8x16<S> = half(&slots[..8]).saturating_narrow(half(&slots[8..]));
-            let slots: u8x16<S> = bytes.bitcast();
+        for (pixels, surfaces) in whole.iter_mut().zip(blocks) {
+            let half = |surfaces: &[SurfaceId]| u16x8::from_slice(simd, surfaces).bitcast::<i16x8<S>>();
+            // What is too great for a byte is no surface.
+            let bytes: i8x16<S> = half(&surfaces[..8]).saturating_narrow(half(&surfaces[8..]));
+            let surfaces: u8x16<S> = bytes.bitcast();
             let [b, g, r, a] = std::array::from_fn(|channel| {
-                let found = tables[0][channel].swizzle_dyn_within_blocks(slots);
+                let found = tables[0][channel].swizzle_dyn_within_blocks(surfaces);
                 if !TWO {
                     return found;
                 }
@@ -188,11 +188,11 @@ impl<S: Simd> Mixer<'_, S> {
     /// The pixel of which all samples show `first` but `of_second`, which show `second`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    pub(crate) fn pixel(&self, first: Slot, second: Slot, of_second: u32) -> u32 {
+    pub(crate) fn pixel(&self, first: SurfaceId, second: SurfaceId, of_second: u32) -> u32 {
         self.mean(self.weighed(first, second, self.count - of_second, of_second))
     }
 
-    /// The pixel whose samples show these slots, four in a word.
+    /// The pixel whose samples show these surfaces, four in a word.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     pub(crate) fn pixel_of_words(&self, words: &[u64]) -> u32 {
@@ -207,9 +207,9 @@ impl<S: Simd> Mixer<'_, S> {
     /// Two colours, each so many times.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn weighed(&self, first: Slot, second: Slot, of_first: u32, of_second: u32) -> i32x4<S> {
-        let color = |slot: Slot| -> i16x8<S> {
-            let color = self.colors[usize::from(slot) % FIRST];
+    fn weighed(&self, first: SurfaceId, second: SurfaceId, of_first: u32, of_second: u32) -> i32x4<S> {
+        let color = |surface: SurfaceId| -> i16x8<S> {
+            let color = self.colors[usize::from(surface) % FIRST];
             u64x2::splat(self.simd, color).bitcast()
         };
         let weights: i16x8<S> = u32x4::splat(self.simd, of_second << 16 | of_first).bitcast();
@@ -237,8 +237,8 @@ mod tests {
     use super::*;
     use crate::color::Premultiplied16;
     use crate::raster::paint::visibility::surface_color::Spread;
-    use crate::raster::paint::visibility::surfaces::Slots;
-    use crate::raster::surface_id::PAIR;
+    use crate::raster::paint::visibility::surfaces::SurfaceTable;
+    use crate::raster::surface_id::TWO_SURFACES;
     use crate::rules::Rules;
 
     fn color(u: &mut Unstructured<'_>, opaque: bool) -> Result<Premultiplied16> {
@@ -255,11 +255,11 @@ mod tests {
             let side: u32 = u.int_in_range(1..=9)?;
             let count = side * side;
             let resolver = Resolver::new(count, rules);
-            let mut slots = Slots::new(rules, resolver);
+            let mut surfaces = SurfaceTable::new(rules, resolver);
             let opaque = u.ratio(7, 8)?;
-            let numbers = [slots.flat(color(u, true)?), slots.flat(color(u, opaque)?)];
+            let numbers = [surfaces.flat(color(u, true)?), surfaces.flat(color(u, opaque)?)];
             let of_second = u.int_in_range(0..=count)?;
-            let [first, second] = numbers.map(|slot| *slots.get(slot));
+            let [first, second] = numbers.map(|surface| *surfaces.get(surface));
             let mut sum = Spread::default();
             sum.add(first.spread, count - of_second);
             sum.add(second.spread, of_second);
@@ -272,11 +272,11 @@ mod tests {
                 .map(|_| u.arbitrary::<u64>().map(|bits| bits & 0x0001_0001_0001_0001))
                 .collect::<Result<_>>()?;
             let mut of_words = Spread::default();
-            for slot in words.iter().flat_map(|word| lanes(*word)) {
-                of_words.add_one(slots.get(numbers[usize::from(slot) % 2]).spread);
+            for surface in words.iter().flat_map(|word| lanes(*word)) {
+                of_words.add_one(surfaces.get(numbers[usize::from(surface) % 2]).spread);
             }
-            let known = slots.known().expect("two slots");
-            // Equal colours share a slot.
+            let known = surfaces.known().expect("two surfaces");
+            // Equal colours share a surface.
             let two = numbers[0] != numbers[1];
             for (name, level) in simd::tested() {
                 let expected = (second.flat.is_opaque() && [1, 4, 16, 64].contains(&count))
@@ -300,28 +300,28 @@ mod tests {
     fn rows_of_pixels_are_looked_up_one_by_one_or_together() {
         arbtest::arbtest(|u| {
             let resolver = Resolver::new(16, Rules::Standard);
-            let mut slots = Slots::new(Rules::Standard, resolver);
+            let mut surfaces = SurfaceTable::new(Rules::Standard, resolver);
             let most = *u.choose(&[1, 3, 16, 17, 32, 33, 300])?;
             for i in 0..most {
                 // All different.
                 let [_, g, b, _] = color(u, true)?.0;
-                slots.flat(Premultiplied16([i, g, b, Premultiplied16::ONE]));
+                surfaces.flat(Premultiplied16([i, g, b, Premultiplied16::ONE]));
             }
             let mut shown = [0; ROW];
             let few = u.ratio(1, 4)?;
-            for slot in &mut shown {
-                *slot = if few { 0 } else { u.int_in_range(0..=most - 1)? };
+            for surface in &mut shown {
+                *surface = if few { 0 } else { u.int_in_range(0..=most - 1)? };
                 if u.ratio(1, 8)? {
-                    *slot = *u.choose(&[PAIR, Slot::MAX])?;
+                    *surface = *u.choose(&[TWO_SURFACES, SurfaceId::MAX])?;
                 }
             }
-            let known = slots.known().expect("few slots");
+            let known = surfaces.known().expect("few surfaces");
             let mut pixels = vec![0; u.int_in_range(1..=ROW)?];
             for (name, level) in simd::tested() {
                 dispatch!(level, simd => known.row(simd, &shown, &mut pixels));
-                for (x, (pixel, slot)) in pixels.iter().zip(shown).enumerate() {
+                for (x, (pixel, surface)) in pixels.iter().zip(shown).enumerate() {
                     assert!(
-                        slot >= PAIR || *pixel == slots.get(slot).pixel,
+                        surface >= TWO_SURFACES || *pixel == surfaces.get(surface).pixel,
                         "{name}: pixel {x} of {shown:?}"
                     );
                 }

@@ -1,7 +1,7 @@
-//! The slots of four samples in a word, sixteen bits each, the first one lowest.
+//! The surfaces of four samples in a word, sixteen bits each, the first one lowest.
 
 use crate::raster::span::Span;
-use crate::raster::surface_id::Slot;
+use crate::raster::surface_id::SurfaceId;
 
 /// Samples of a sample row in one word.
 pub(in crate::raster) const PER_WORD: usize = 4;
@@ -34,23 +34,23 @@ pub(in crate::raster) fn covered(span: Span, left: i32) -> u64 {
     first(span.end) & !first(span.start)
 }
 
-/// Four samples of which the second slot shows where the lowest bits are set, and the first elsewhere; four times each.
+/// Four samples of which the second surface shows where the lowest bits are set, and the first elsewhere; four times each.
 #[inline]
-pub(in crate::raster) fn of_pair([first, second]: [u64; 2], bits: u64) -> u64 {
+pub(in crate::raster) fn of_two([first, second]: [u64; 2], bits: u64) -> u64 {
     let mask = spread(bits);
     first & !mask | second & mask
 }
 
-/// Four times the same slot.
+/// Four times the same surface.
 #[inline]
-pub(in crate::raster) fn splat(slot: Slot) -> u64 {
-    u64::from(slot) * 0x0001_0001_0001_0001
+pub(in crate::raster) fn splat(surface: SurfaceId) -> u64 {
+    u64::from(surface) * 0x0001_0001_0001_0001
 }
 
-/// The four slots of a word.
+/// The four surfaces of a word.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "the lower sixteen bits are meant")]
-pub(in crate::raster) fn lanes(word: u64) -> [Slot; PER_WORD] {
+pub(in crate::raster) fn lanes(word: u64) -> [SurfaceId; PER_WORD] {
     [
         word as u16,
         (word >> 16) as u16,
@@ -59,23 +59,23 @@ pub(in crate::raster) fn lanes(word: u64) -> [Slot; PER_WORD] {
     ]
 }
 
-/// A word of four slots.
+/// A word of four surfaces.
 #[inline]
-pub(in crate::raster) fn joined([a, b, c, d]: [Slot; PER_WORD]) -> u64 {
+pub(in crate::raster) fn joined([a, b, c, d]: [SurfaceId; PER_WORD]) -> u64 {
     u64::from(a) | u64::from(b) << 16 | u64::from(c) << 32 | u64::from(d) << 48
 }
 
-/// A word with the slots in `mask` changed; the others are unspecified.
+/// A word with the surfaces in `mask` changed; the others are unspecified.
 #[inline]
-pub(in crate::raster) fn changed(word: u64, mask: u64, change: &mut impl FnMut(Slot) -> Slot) -> u64 {
-    let slots = lanes(word);
-    if word == splat(slots[0]) {
-        return splat(change(slots[0]));
+pub(in crate::raster) fn changed(word: u64, mask: u64, change: &mut impl FnMut(SurfaceId) -> SurfaceId) -> u64 {
+    let surfaces = lanes(word);
+    if word == splat(surfaces[0]) {
+        return splat(change(surfaces[0]));
     }
-    let mut found = slots;
-    for (i, slot) in found.iter_mut().enumerate() {
+    let mut found = surfaces;
+    for (i, surface) in found.iter_mut().enumerate() {
         if mask & FIRST[i + 1] & !FIRST[i] != 0 {
-            *slot = change(*slot);
+            *surface = change(*surface);
         }
     }
     joined(found)

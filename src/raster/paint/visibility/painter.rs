@@ -9,36 +9,36 @@ use std::time::{Duration, Instant};
 use fearless_simd::{Simd, dispatch};
 
 use crate::color::{Premultiplied16, Resolver};
-use crate::raster::binning::tile_command::{Entry, Work};
-use crate::raster::coverage::mask8x8::SmallCoverage;
+use crate::raster::binning::tile_command::{TileCommand, Work};
+use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::pixel_rows::each_pixel_row_of_few;
 use crate::raster::coverage::pixel_rows_4x4;
-use crate::raster::coverage::shape_rows::{BandSpans, Shape};
+use crate::raster::coverage::shape_rows::{Shape, ShapeRows};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::list::chunk::Chunk;
-use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityTile};
+use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityBuffer};
 use crate::raster::paint::visibility::packed::{lanes, splat};
-use crate::raster::paint::visibility::shading_queue::{Fragment, Part, Unresolved};
+use crate::raster::paint::visibility::shading_queue::{Fragment, Part, ShadingQueue};
 use crate::raster::paint::visibility::surface_color::{Shaded, Spread};
-use crate::raster::paint::visibility::surfaces::Slots;
-use crate::raster::paint::visibility::two_surfaces::Pair;
+use crate::raster::paint::visibility::surfaces::SurfaceTable;
+use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
 use crate::raster::shading::shader::{Pixels, ShadeContext, Shader};
 use crate::raster::span::PixelRect;
-use crate::raster::surface_id::{MAX_SLOTS, PAIR, ROW, Slot};
+use crate::raster::surface_id::{MAX_SURFACES, ROW, SurfaceId, TWO_SURFACES};
 use crate::simd;
 use crate::texture::SampleGrid;
 
 /// Paints tiles in which only opaque primitives are shaded, one after the other, reusing its memory.
 #[derive(Debug)]
-pub(crate) struct DeferredPainter<'a> {
+pub(crate) struct VisibilityPainter<'a> {
     context: ShadeContext<'a>,
     resolver: Resolver,
     /// The base and above it the open layers.
-    layers: Vec<VisibilityTile>,
+    layers: Vec<VisibilityBuffer>,
     /// How many of `layers` are in use.
     depth: usize,
-    slots: Slots<'a>,
-    unresolved: Unresolved,
+    surfaces: SurfaceTable<'a>,
+    unresolved: ShadingQueue,
     shading: Shading,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
@@ -55,20 +55,20 @@ struct Shading {
     sums: Vec<[u32; 4]>,
 }
 
-impl<'a> DeferredPainter<'a> {
+impl<'a> VisibilityPainter<'a> {
     /// A painter for one drawing.
     pub(crate) fn new(context: ShadeContext<'a>) -> Self {
         let side = context.grid.side().cast_unsigned();
         Self {
             context,
             resolver: Resolver::new(side * side, context.sampling.rules),
-            layers: vec![VisibilityTile::new(context.grid.side())],
+            layers: vec![VisibilityBuffer::new(context.grid.side())],
             depth: 1,
-            slots: Slots::new(
+            surfaces: SurfaceTable::new(
                 context.sampling.rules,
                 Resolver::new(side * side, context.sampling.rules),
             ),
-            unresolved: Unresolved::default(),
+            unresolved: ShadingQueue::default(),
             shading: Shading::default(),
             samples_shaded: 0,
         }
@@ -76,27 +76,27 @@ impl<'a> DeferredPainter<'a> {
 
     /// Starts a tile.
     pub(crate) fn begin(&mut self, rect: PixelRect, background: Premultiplied16) {
-        self.slots.clear();
-        let slot = self.slots.flat(background);
-        self.layers[0].reset(rect, slot);
+        self.surfaces.clear();
+        let surface = self.surfaces.flat(background);
+        self.layers[0].reset(rect, surface);
         self.depth = 1;
     }
 
     /// Paints the ops of one chunk that touch the tile.
-    pub(crate) fn paint(&mut self, chunk: &'a Chunk, entries: &[Entry], bands: &mut BandSpans) {
+    pub(crate) fn paint(&mut self, chunk: &'a Chunk, entries: &[TileCommand], bands: &mut ShapeRows) {
         for entry in entries {
             self.make_room();
             match entry.work(chunk) {
                 Work::Samples(coverage, color) => self.samples(coverage, color),
                 Work::Pixels(coverage, color) => self.pixels(coverage, color),
                 Work::Flat(shape, color) if entry.is_opaque() => {
-                    let slot = self.slots.flat(color);
-                    self.opaque((shape, *entry), slot, bands);
+                    let surface = self.surfaces.flat(color);
+                    self.opaque((shape, *entry), surface, bands);
                 }
                 Work::Flat(shape, color) => self.translucent((shape, *entry), color, bands),
                 Work::Shaded(shape, triangle, paint) => {
-                    let slot = self.slots.shaded(triangle, paint);
-                    self.opaque((shape, *entry), slot, bands);
+                    let surface = self.surfaces.shaded(triangle, paint);
+                    self.opaque((shape, *entry), surface, bands);
                 }
                 Work::BeginLayer => self.begin_layer(),
                 Work::EndLayer(opacity) => self.end_layer(opacity),
@@ -108,7 +108,7 @@ impl<'a> DeferredPainter<'a> {
     pub(crate) fn resolve(&mut self, block: &mut PixelBlock<'_>, timed: bool) -> Duration {
         self.unresolved.clear();
         let PixelRect { x, y } = self.layers[0].rect;
-        if !self.slots.any_shaded {
+        if !self.surfaces.any_shaded {
             dispatch!(simd::level(), simd => resolve_flat(simd, self, block));
             return Duration::ZERO;
         }
@@ -119,7 +119,7 @@ impl<'a> DeferredPainter<'a> {
             return Duration::ZERO;
         }
         let start = timed.then(Instant::now);
-        self.unresolved.sort(self.slots.len());
+        self.unresolved.sort(self.surfaces.len());
         let resolver = self.resolver;
         self.shade([x.start, y.start], &mut |place, sums| {
             block.put(place, resolver.pixel(sums));
@@ -139,75 +139,75 @@ impl<'a> DeferredPainter<'a> {
         self.unresolved.clear();
         let PixelRect { x, y } = self.layers[0].rect;
         self.resolve_row(y.start, 0, &mut [0]);
-        self.unresolved.sort(self.slots.len());
+        self.unresolved.sort(self.surfaces.len());
         let mut whole = None;
         self.shade([x.start, y.start], &mut |_, sums| whole = Some(sums));
         whole.or_else(|| self.unresolved.sums.first().copied())
     }
 
     #[inline]
-    fn opaque(&mut self, (shape, entry): (Shape<'_>, Entry), slot: Slot, bands: &mut BandSpans) {
+    fn opaque(&mut self, (shape, entry): (Shape<'_>, TileCommand), surface: SurfaceId, bands: &mut ShapeRows) {
         let tile = &mut self.layers[self.depth - 1];
         if entry.covers_tile() {
-            tile.cover(slot);
+            tile.cover(surface);
         } else if self.context.grid.side() == pixel_rows_4x4::SIDE {
-            dispatch!(simd::level(), simd => opaque_four(simd, (shape, bands), tile, slot));
+            dispatch!(simd::level(), simd => opaque_four(simd, (shape, bands), tile, surface));
         } else {
-            bands.each_pixel_row(shape, tile.rect, |row| tile.paint(row, slot));
+            bands.each_pixel_row(shape, tile.rect, |row| tile.paint(row, surface));
         }
     }
 
-    fn translucent(&mut self, (shape, entry): (Shape<'_>, Entry), color: Premultiplied16, bands: &mut BandSpans) {
-        let (tile, slots) = (&mut self.layers[self.depth - 1], &mut self.slots);
-        slots.next_paint();
+    fn translucent(&mut self, (shape, entry): (Shape<'_>, TileCommand), color: Premultiplied16, bands: &mut ShapeRows) {
+        let (tile, surfaces) = (&mut self.layers[self.depth - 1], &mut self.surfaces);
+        surfaces.next_paint();
         if entry.covers_tile() {
-            tile.change_all(|slot| slots.under(slot, color));
+            tile.change_all(|surface| surfaces.under(surface, color));
         } else if self.context.grid.side() == pixel_rows_4x4::SIDE {
-            dispatch!(simd::level(), simd => translucent_four(simd, (shape, bands), tile, (slots, color)));
+            dispatch!(simd::level(), simd => translucent_four(simd, (shape, bands), tile, (surfaces, color)));
         } else {
             bands.each_pixel_row(shape, tile.rect, |row| {
-                tile.change(row, |slot| slots.under(slot, color));
+                tile.change(row, |surface| surfaces.under(surface, color));
             });
         }
     }
 
     /// A few samples of one colour, counted from the tile's first.
-    fn samples(&mut self, coverage: SmallCoverage, color: Premultiplied16) {
+    fn samples(&mut self, coverage: CoverageMask, color: Premultiplied16) {
         let side = self.context.grid.side();
-        let (tile, slots) = (&mut self.layers[self.depth - 1], &mut self.slots);
+        let (tile, surfaces) = (&mut self.layers[self.depth - 1], &mut self.surfaces);
         let rect = tile.rect;
         let coverage = coverage.moved(rect.x.start * side, rect.y.start * side);
         if color.is_opaque() {
-            let slot = slots.flat(color);
-            each_pixel_row_of_few(coverage, side, rect, |row| tile.paint(row, slot));
+            let surface = surfaces.flat(color);
+            each_pixel_row_of_few(coverage, side, rect, |row| tile.paint(row, surface));
         } else {
-            slots.next_paint();
+            surfaces.next_paint();
             each_pixel_row_of_few(coverage, side, rect, |row| {
-                tile.change(row, |slot| slots.under(slot, color));
+                tile.change(row, |surface| surfaces.under(surface, color));
             });
         }
     }
 
     /// A few pixels of one colour, counted from the tile's first.
-    fn pixels(&mut self, coverage: SmallCoverage, color: Premultiplied16) {
-        let (tile, slots) = (&mut self.layers[self.depth - 1], &mut self.slots);
+    fn pixels(&mut self, coverage: CoverageMask, color: Premultiplied16) {
+        let (tile, surfaces) = (&mut self.layers[self.depth - 1], &mut self.surfaces);
         let coverage = coverage.moved(tile.rect.x.start, tile.rect.y.start);
         if color.is_opaque() {
-            let slot = slots.flat(color);
-            coverage.each_run(|y, xs| tile.paint_pixels(xs, y, slot));
+            let surface = surfaces.flat(color);
+            coverage.each_run(|y, xs| tile.paint_pixels(xs, y, surface));
         } else {
-            slots.next_paint();
-            coverage.each_run(|y, xs| tile.change_pixels(xs, y, |slot| slots.under(slot, color)));
+            surfaces.next_paint();
+            coverage.each_run(|y, xs| tile.change_pixels(xs, y, |surface| surfaces.under(surface, color)));
         }
     }
 
     fn begin_layer(&mut self) {
         let rect = self.layers[0].rect;
         if self.layers.len() == self.depth {
-            self.layers.push(VisibilityTile::new(self.context.grid.side()));
+            self.layers.push(VisibilityBuffer::new(self.context.grid.side()));
         }
-        let slot = self.slots.flat(Premultiplied16::TRANSPARENT);
-        self.layers[self.depth].reset(rect, slot);
+        let surface = self.surfaces.flat(Premultiplied16::TRANSPARENT);
+        self.layers[self.depth].reset(rect, surface);
         self.depth += 1;
     }
 
@@ -216,35 +216,35 @@ impl<'a> DeferredPainter<'a> {
             return;
         }
         self.depth -= 1;
-        let slots = &mut self.slots;
+        let surfaces = &mut self.surfaces;
         let (below, above) = self.layers.split_at_mut(self.depth);
         let mut known = std::collections::HashMap::new();
         below[self.depth - 1].composite(&above[0], |below, above| {
-            let color = slots.get(above).flat;
+            let color = surfaces.get(above).flat;
             if color == Premultiplied16::TRANSPARENT {
                 return below;
             }
             *known
                 .entry((below, above))
-                .or_insert_with(|| slots.mix(below, color.faded(opacity)))
+                .or_insert_with(|| surfaces.mix(below, color.faded(opacity)))
         });
     }
 
-    /// Makes sure that every slot may be mixed with the next paint. There are twice as many numbers as samples in a
+    /// Makes sure that every surface may be mixed with the next paint. There are twice as many numbers as samples in a
     /// tile and its layers, so that some are out of use when all are given away.
     #[inline]
     fn make_room(&mut self) {
-        if !self.slots.is_full() {
+        if !self.surfaces.is_full() {
             return;
         }
-        let mut used = vec![false; MAX_SLOTS];
+        let mut used = vec![false; MAX_SURFACES];
         let layers = &mut self.layers[..self.depth];
         for layer in &*layers {
-            layer.each_slot(|slot| used[usize::from(slot)] = true);
+            layer.each_slot(|surface| used[usize::from(surface)] = true);
         }
-        let numbers = self.slots.keep(&used);
+        let numbers = self.surfaces.keep(&used);
         for layer in layers {
-            layer.renumber(|slot| numbers[usize::from(slot)]);
+            layer.renumber(|surface| numbers[usize::from(surface)]);
         }
     }
 
@@ -252,7 +252,7 @@ impl<'a> DeferredPainter<'a> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     fn resolve_flat_row<S: Simd>(&self, simd: S, y: i32, line: &mut [u32]) {
-        let Some(known) = self.slots.known() else {
+        let Some(known) = self.surfaces.known() else {
             return self.resolve_row_of_many(y, line);
         };
         let shown = self.layers[0].shown(y);
@@ -279,18 +279,18 @@ impl<'a> DeferredPainter<'a> {
         }
     }
 
-    /// As [`DeferredPainter::resolve_flat_row`] where there are many slots.
+    /// As [`VisibilityPainter::resolve_flat_row`] where there are many surfaces.
     #[cold]
     fn resolve_row_of_many(&self, y: i32, line: &mut [u32]) {
         let tile = &self.layers[0];
         let pairs = tile.pairs(y);
-        for ((x, slot), pixel) in tile.row(y).iter().enumerate().zip(line) {
-            *pixel = match *slot {
-                PAIR => {
+        for ((x, surface), pixel) in tile.row(y).iter().enumerate().zip(line) {
+            *pixel = match *surface {
+                TWO_SURFACES => {
                     let pair = pairs.get(x);
                     self.resolver.pixel_of_halves(self.pair_sum(pair, count(pair.mask)))
                 }
-                slot if usize::from(slot) < MAX_SLOTS => self.slots.get(slot).pixel,
+                surface if usize::from(surface) < MAX_SURFACES => self.surfaces.get(surface).pixel,
                 _ => self.resolve_split(x, y),
             };
         }
@@ -300,46 +300,46 @@ impl<'a> DeferredPainter<'a> {
     #[inline(never)]
     fn resolve_split(&self, x: usize, y: i32) -> u32 {
         self.resolver
-            .pixel_of_halves(flat_sum(&self.layers[0], &self.slots, x, y))
+            .pixel_of_halves(flat_sum(&self.layers[0], &self.surfaces, x, y))
     }
 
     /// The sum of the samples of a pixel that shows two flat colours, `of_second` times the second one.
     #[inline]
-    fn pair_sum(&self, pair: Pair, of_second: u32) -> [u64; 2] {
-        let [first, second] = [pair.first, pair.second].map(|slot| self.slots.get(slot).spread);
+    fn pair_sum(&self, pair: TwoSurfaces, of_second: u32) -> [u64; 2] {
+        let [first, second] = [pair.first, pair.second].map(|surface| self.surfaces.get(surface).spread);
         first.mixed(self.resolver.count(), second, of_second)
     }
 
     /// Resolves what is flat, and notes what is to be shaded.
     fn resolve_row(&mut self, y: i32, row: u16, line: &mut [u32]) {
-        let (tile, slots) = (&self.layers[0], &self.slots);
+        let (tile, surfaces) = (&self.layers[0], &self.surfaces);
         let unresolved = &mut self.unresolved;
         for (run, range) in tile.runs(y) {
             let columns = (0_u16..).take(range.end).skip(range.start);
             match run {
-                Run::Whole(slot) => {
-                    let shown = slots.get(slot);
+                Run::Whole(surface) => {
+                    let shown = surfaces.get(surface);
                     if shown.shaded.is_none() {
                         line[range].fill(shown.pixel);
                     } else {
-                        columns.for_each(|x| unresolved.whole(slot, [x, row]));
+                        columns.for_each(|x| unresolved.whole(surface, [x, row]));
                     }
                 }
-                Run::Pairs => {
+                Run::TwoSurfacePixels => {
                     let pairs = tile.pairs(y);
                     for x in columns {
                         let pair = pairs.get(usize::from(x));
                         if [pair.first, pair.second]
                             .iter()
-                            .all(|slot| slots.get(*slot).shaded.is_none())
+                            .all(|surface| surfaces.get(*surface).shaded.is_none())
                         {
-                            let [first, second] = [pair.first, pair.second].map(|slot| slots.get(slot).spread);
+                            let [first, second] = [pair.first, pair.second].map(|surface| surfaces.get(surface).spread);
                             let sum = first.mixed(self.resolver.count(), second, count(pair.mask));
                             line[usize::from(x)] = self.resolver.pixel_of_halves(sum);
                         } else {
                             let parts = [(pair.first, 0, tile.all() & !pair.mask), (pair.second, 0, pair.mask)];
-                            unresolved.parts([x, row], parts.into_iter(), |slot| {
-                                let shown = slots.get(slot);
+                            unresolved.parts([x, row], parts.into_iter(), |surface| {
+                                let shown = surfaces.get(surface);
                                 shown.shaded.is_none().then(|| shown.sum(1))
                             });
                         }
@@ -347,8 +347,8 @@ impl<'a> DeferredPainter<'a> {
                 }
                 Run::Split => {
                     for x in columns {
-                        unresolved.split([x, row], tile.samples(usize::from(x), y), |slot| {
-                            let shown = slots.get(slot);
+                        unresolved.split([x, row], tile.samples(usize::from(x), y), |surface| {
+                            let shown = surfaces.get(surface);
                             shown.shaded.is_none().then(|| shown.sum(1))
                         });
                     }
@@ -361,13 +361,13 @@ impl<'a> DeferredPainter<'a> {
     /// the tile's first pixel.
     #[inline]
     fn shade(&mut self, origin: [i32; 2], put: &mut impl FnMut([u16; 2], [u32; 4])) {
-        let (context, resolver, slots, shading) = (&self.context, self.resolver, &self.slots, &mut self.shading);
-        let Unresolved {
+        let (context, resolver, surfaces, shading) = (&self.context, self.resolver, &self.surfaces, &mut self.shading);
+        let ShadingQueue {
             places, sums, sorted, ..
         } = &mut self.unresolved;
         let grid = context.samples_from(origin);
         for fragments in sorted.by_slot() {
-            let shown = slots.get(fragments[0].slot);
+            let shown = surfaces.get(fragments[0].surface);
             let Some(Shaded { triangle, paint, kept }) = shown.shaded else {
                 continue;
             };
@@ -396,10 +396,15 @@ impl<'a> DeferredPainter<'a> {
     }
 }
 
-/// Lets the samples of a shape show `slot`, where a pixel has 4 x 4 samples.
+/// Lets the samples of a shape show `surface`, where a pixel has 4 x 4 samples.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn opaque_four<S: Simd>(simd: S, (shape, bands): (Shape<'_>, &mut BandSpans), tile: &mut VisibilityTile, slot: Slot) {
+fn opaque_four<S: Simd>(
+    simd: S,
+    (shape, bands): (Shape<'_>, &mut ShapeRows),
+    tile: &mut VisibilityBuffer,
+    surface: SurfaceId,
+) {
     simd.vectorize(
         #[inline(always)]
         || {
@@ -407,7 +412,7 @@ fn opaque_four<S: Simd>(simd: S, (shape, bands): (Shape<'_>, &mut BandSpans), ti
                 simd,
                 (shape, tile.rect),
                 #[inline(always)]
-                |row| tile.paint_four(simd, row, slot),
+                |row| tile.paint_four(simd, row, surface),
             );
         },
     );
@@ -418,9 +423,9 @@ fn opaque_four<S: Simd>(simd: S, (shape, bands): (Shape<'_>, &mut BandSpans), ti
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn translucent_four<S: Simd>(
     simd: S,
-    (shape, bands): (Shape<'_>, &mut BandSpans),
-    tile: &mut VisibilityTile,
-    (slots, color): (&mut Slots<'_>, Premultiplied16),
+    (shape, bands): (Shape<'_>, &mut ShapeRows),
+    tile: &mut VisibilityBuffer,
+    (surfaces, color): (&mut SurfaceTable<'_>, Premultiplied16),
 ) {
     simd.vectorize(
         #[inline(always)]
@@ -429,7 +434,7 @@ fn translucent_four<S: Simd>(
                 simd,
                 (shape, tile.rect),
                 #[inline(always)]
-                |row| tile.change_four(simd, row, |slot| slots.under(slot, color)),
+                |row| tile.change_four(simd, row, |surface| surfaces.under(surface, color)),
             );
         },
     );
@@ -438,7 +443,12 @@ fn translucent_four<S: Simd>(
 /// Resolves the pixels of a row that are pairs or split, by what each is and by its column.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn each_shared(shown: &Shown<'_>, pixels: &mut [u32], of_pair: impl Fn(Pair) -> u32, of_split: impl Fn(usize) -> u32) {
+fn each_shared(
+    shown: &Shown<'_>,
+    pixels: &mut [u32],
+    of_two: impl Fn(TwoSurfaces) -> u32,
+    of_split: impl Fn(usize) -> u32,
+) {
     let mut rest = shown.shared;
     while rest != 0 {
         let x = rest.trailing_zeros() as usize;
@@ -446,10 +456,10 @@ fn each_shared(shown: &Shown<'_>, pixels: &mut [u32], of_pair: impl Fn(Pair) -> 
         let Some(pixel) = pixels.get_mut(x) else {
             return;
         };
-        let slot = shown.whole[x % ROW];
-        if slot == PAIR {
-            *pixel = of_pair(shown.pairs.get(x));
-        } else if usize::from(slot) > MAX_SLOTS {
+        let surface = shown.whole[x % ROW];
+        if surface == TWO_SURFACES {
+            *pixel = of_two(shown.pairs.get(x));
+        } else if usize::from(surface) > MAX_SURFACES {
             *pixel = of_split(x);
         }
     }
@@ -458,7 +468,7 @@ fn each_shared(shown: &Shown<'_>, pixels: &mut [u32], of_pair: impl Fn(Pair) -> 
 /// Resolves a tile in which nothing is to be shaded.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn resolve_flat<S: Simd>(simd: S, painter: &DeferredPainter<'_>, block: &mut PixelBlock<'_>) {
+fn resolve_flat<S: Simd>(simd: S, painter: &VisibilityPainter<'_>, block: &mut PixelBlock<'_>) {
     simd.vectorize(
         #[inline(always)]
         || {
@@ -543,15 +553,15 @@ const ONES: [u32; 256] = {
 
 /// The sum of a split pixel's samples where all of them are flat.
 #[inline]
-fn flat_sum(tile: &VisibilityTile, slots: &Slots<'_>, x: usize, y: i32) -> [u64; 2] {
+fn flat_sum(tile: &VisibilityBuffer, surfaces: &SurfaceTable<'_>, x: usize, y: i32) -> [u64; 2] {
     let mut sum = Spread::default();
     tile.each_sample_word(x, y, |word, used| {
         let shown = lanes(word);
         if word == splat(shown[0]) {
-            sum.add(slots.get(shown[0]).spread, used);
+            sum.add(surfaces.get(shown[0]).spread, used);
         } else {
-            for slot in &shown[..used as usize] {
-                sum.add_one(slots.get(*slot).spread);
+            for surface in &shown[..used as usize] {
+                sum.add_one(surfaces.get(*surface).spread);
             }
         }
     });

@@ -1,6 +1,6 @@
 //! What is left to be shaded in a tile once everything is painted, sorted by primitive.
 
-use crate::raster::surface_id::Slot;
+use crate::raster::surface_id::SurfaceId;
 
 /// Which samples of a pixel show a primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,13 +16,13 @@ pub(crate) enum Part {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Fragment {
     /// The primitive.
-    pub(crate) slot: Slot,
+    pub(crate) surface: SurfaceId,
     pub(crate) part: Part,
 }
 
 /// The pixels of a tile that wait for something to be shaded.
 #[derive(Debug, Default)]
-pub(crate) struct Unresolved {
+pub(crate) struct ShadingQueue {
     /// The places of split ones, counted from the tile's first pixel.
     pub(crate) places: Vec<[u16; 2]>,
     /// The sums of their samples as far as they are known.
@@ -30,21 +30,21 @@ pub(crate) struct Unresolved {
     found: Vec<Fragment>,
     pub(crate) sorted: SortedFragments,
     /// The parts of the pixel at work.
-    parts: Vec<(Slot, u16, u64)>,
+    parts: Vec<(SurfaceId, u16, u64)>,
 }
 
-/// Fragments in the order of their slots.
+/// Fragments in the order of their surfaces.
 #[derive(Debug, Default)]
 pub(crate) struct SortedFragments {
     fragments: Vec<Fragment>,
-    /// Where the fragments of each slot begin.
+    /// Where the fragments of each surface begin.
     starts: Vec<u32>,
 }
 
 /// Samples that one mask speaks of.
 const MASK_BITS: usize = 64;
 
-impl Unresolved {
+impl ShadingQueue {
     /// Forgets everything.
     pub(crate) fn clear(&mut self) {
         self.places.clear();
@@ -57,50 +57,50 @@ impl Unresolved {
         self.found.is_empty() && self.places.is_empty()
     }
 
-    /// All samples of the pixel at `place` show the primitive of `slot`.
+    /// All samples of the pixel at `place` show the primitive of `surface`.
     #[inline]
-    pub(crate) fn whole(&mut self, slot: Slot, place: [u16; 2]) {
+    pub(crate) fn whole(&mut self, surface: SurfaceId, place: [u16; 2]) {
         let part = Part::Whole { place };
-        self.found.push(Fragment { slot, part });
+        self.found.push(Fragment { surface, part });
     }
 
-    /// The samples of the pixel at `place` show these slots, row by row; those with a colour in `flat` are known already.
+    /// The samples of the pixel at `place` show these surfaces, row by row; those with a colour in `flat` are known already.
     #[inline]
     pub(crate) fn split(
         &mut self,
         place: [u16; 2],
-        samples: impl Iterator<Item = Slot>,
-        flat: impl Fn(Slot) -> Option<[u32; 4]>,
+        samples: impl Iterator<Item = SurfaceId>,
+        flat: impl Fn(SurfaceId) -> Option<[u32; 4]>,
     ) {
         let mut parts = std::mem::take(&mut self.parts);
         parts.clear();
-        for (i, slot) in samples.enumerate() {
+        for (i, surface) in samples.enumerate() {
             let (first, bit) = (i / MASK_BITS * MASK_BITS, 1 << (i % MASK_BITS));
             let first = u16::try_from(first).unwrap_or(u16::MAX);
-            match parts.iter_mut().rev().find(|part| part.0 == slot && part.1 == first) {
+            match parts.iter_mut().rev().find(|part| part.0 == surface && part.1 == first) {
                 Some(part) => part.2 |= bit,
-                None => parts.push((slot, first, bit)),
+                None => parts.push((surface, first, bit)),
             }
         }
         self.parts(place, parts.iter().copied(), flat);
         self.parts = parts;
     }
 
-    /// The samples of the pixel at `place` show these slots: for each part the slot, the sample that the lowest bit of the
+    /// The samples of the pixel at `place` show these surfaces: for each part the surface, the sample that the lowest bit of the
     /// mask stands for, and the mask.
     #[inline]
     pub(crate) fn parts(
         &mut self,
         place: [u16; 2],
-        parts: impl Iterator<Item = (Slot, u16, u64)>,
-        flat: impl Fn(Slot) -> Option<[u32; 4]>,
+        parts: impl Iterator<Item = (SurfaceId, u16, u64)>,
+        flat: impl Fn(SurfaceId) -> Option<[u32; 4]>,
     ) {
         let pixel = u32::try_from(self.places.len()).unwrap_or(u32::MAX);
         let mut sums = [0; 4];
-        for (slot, first, mask) in parts {
-            match flat(slot) {
+        for (surface, first, mask) in parts {
+            match flat(surface) {
                 None => self.found.push(Fragment {
-                    slot,
+                    surface,
                     part: Part::Masked { pixel, first, mask },
                 }),
                 Some(color) => {
@@ -114,19 +114,19 @@ impl Unresolved {
         self.sums.push(sums);
     }
 
-    /// Sorts the fragments by slot, of which there are `slots`.
-    pub(crate) fn sort(&mut self, slots: usize) {
-        self.sorted.sort(&self.found, slots);
+    /// Sorts the fragments by surface, of which there are `surfaces`.
+    pub(crate) fn sort(&mut self, surfaces: usize) {
+        self.sorted.sort(&self.found, surfaces);
     }
 }
 
 impl SortedFragments {
     /// A counting sort.
-    fn sort(&mut self, found: &[Fragment], slots: usize) {
+    fn sort(&mut self, found: &[Fragment], surfaces: usize) {
         self.starts.clear();
-        self.starts.resize(slots + 1, 0);
+        self.starts.resize(surfaces + 1, 0);
         for fragment in found {
-            self.starts[usize::from(fragment.slot)] += 1;
+            self.starts[usize::from(fragment.surface)] += 1;
         }
         let mut next = 0;
         for start in &mut self.starts {
@@ -135,15 +135,15 @@ impl SortedFragments {
         }
         self.fragments.clear();
         self.fragments.extend_from_slice(found);
-        // From the last one down, so that each slot's end becomes its start.
+        // From the last one down, so that each surface's end becomes its start.
         for fragment in found.iter().rev() {
-            let place = &mut self.starts[usize::from(fragment.slot)];
+            let place = &mut self.starts[usize::from(fragment.surface)];
             *place -= 1;
             self.fragments[*place as usize] = *fragment;
         }
     }
 
-    /// The fragments of each slot that has any, in the order in which they were added.
+    /// The fragments of each surface that has any, in the order in which they were added.
     pub(crate) fn by_slot(&self) -> impl Iterator<Item = &[Fragment]> + '_ {
         self.starts
             .windows(2)
@@ -158,14 +158,14 @@ mod tests {
 
     #[test]
     fn sort_keeps_the_order_inside_a_slot() {
-        let mut unresolved = Unresolved::default();
-        for (slot, x) in [3, 1, 3, 0, 1, 3].into_iter().zip(0..) {
-            unresolved.whole(slot, [x, 0]);
+        let mut unresolved = ShadingQueue::default();
+        for (surface, x) in [3, 1, 3, 0, 1, 3].into_iter().zip(0..) {
+            unresolved.whole(surface, [x, 0]);
         }
         unresolved.sort(5);
         let found: Vec<Vec<Fragment>> = unresolved.sorted.by_slot().map(<[Fragment]>::to_vec).collect();
-        let whole = |slot, x| Fragment {
-            slot,
+        let whole = |surface, x| Fragment {
+            surface,
             part: Part::Whole { place: [x, 0] },
         };
         assert_eq!(
@@ -175,22 +175,26 @@ mod tests {
                 vec![whole(1, 1), whole(1, 4)],
                 vec![whole(3, 0), whole(3, 2), whole(3, 5)]
             ],
-            "slots without fragments are left out"
+            "surfaces without fragments are left out"
         );
     }
 
     #[test]
     fn split_gathers_samples_by_primitive() {
-        let mut unresolved = Unresolved::default();
-        let samples = (0..256).map(|i| if i % 2 == 0 { 7 } else { 1 + Slot::from(i >= 128) });
-        unresolved.split([4, 2], samples, |slot| (slot == 7).then_some([1, 2, 3, 4]));
+        let mut unresolved = ShadingQueue::default();
+        let samples = (0..256).map(|i| if i % 2 == 0 { 7 } else { 1 + SurfaceId::from(i >= 128) });
+        unresolved.split([4, 2], samples, |surface| (surface == 7).then_some([1, 2, 3, 4]));
         assert_eq!(unresolved.sums, [[128, 256, 384, 512]], "half of the samples are flat");
         let odd = 0xAAAA_AAAA_AAAA_AAAA;
-        let parts: Vec<(Slot, Part)> = unresolved.found.iter().map(|found| (found.slot, found.part)).collect();
-        let expected: Vec<(Slot, Part)> = [(1, 0), (1, 64), (2, 128), (2, 192)]
-            .map(|(slot, first)| {
+        let parts: Vec<(SurfaceId, Part)> = unresolved
+            .found
+            .iter()
+            .map(|found| (found.surface, found.part))
+            .collect();
+        let expected: Vec<(SurfaceId, Part)> = [(1, 0), (1, 64), (2, 128), (2, 192)]
+            .map(|(surface, first)| {
                 (
-                    slot,
+                    surface,
                     Part::Masked {
                         pixel: 0,
                         first,

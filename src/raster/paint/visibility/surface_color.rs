@@ -3,9 +3,9 @@
 use crate::color::Premultiplied16;
 use crate::raster::list::chunk::{Paint, ScreenTriangle};
 
-/// What the samples of one slot show.
+/// What the samples of one surface show.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SlotColor<'a> {
+pub(crate) struct SurfaceColor<'a> {
     /// The colour; over a shaded primitive, what translucent paints add to it.
     pub(crate) flat: Premultiplied16,
     /// The same, spread so that many can be added up.
@@ -77,7 +77,7 @@ impl Spread {
     }
 }
 
-impl SlotColor<'_> {
+impl SurfaceColor<'_> {
     /// `count` times the flat colour.
     #[inline]
     pub(crate) fn sum(&self, count: u32) -> [u32; 4] {
@@ -87,7 +87,7 @@ impl SlotColor<'_> {
     }
 }
 
-impl SlotColor<'_> {
+impl SurfaceColor<'_> {
     /// What `count` samples show of which the primitive below has the sum `shaded`.
     #[inline]
     pub(in crate::raster) fn over_shaded(&self, shaded: [u32; 4], kept: u16, count: u32) -> [u32; 4] {

@@ -1,42 +1,42 @@
 //! The colours that the samples of a tile may show, by number.
 //!
-//! Painting a translucent colour over a slot makes a new slot: once for all samples that show the old one.
+//! Painting a translucent colour over a surface makes a new surface: once for all samples that show the old one.
 
 use crate::color::{Premultiplied16, Resolver};
 use crate::raster::list::chunk::{Paint, ScreenTriangle};
-use crate::raster::paint::visibility::flat_resolve::Known;
-use crate::raster::paint::visibility::surface_color::{Shaded, SlotColor, Spread};
-use crate::raster::surface_id::{MAX_SLOTS, Slot};
+use crate::raster::paint::visibility::flat_resolve::FlatResolve;
+use crate::raster::paint::visibility::surface_color::{Shaded, Spread, SurfaceColor};
+use crate::raster::surface_id::{MAX_SURFACES, SurfaceId};
 use crate::rules::Rules;
 
 /// What samples may show.
 #[derive(Debug)]
-pub(crate) struct Slots<'a> {
+pub(crate) struct SurfaceTable<'a> {
     rules: Rules,
-    all: Vec<SlotColor<'a>>,
+    all: Vec<SurfaceColor<'a>>,
     /// The first ones once more.
-    known: Known,
-    /// For each slot what it became under the latest translucent paint, and which paint that was.
-    painted: Vec<(u32, Slot)>,
+    known: FlatResolve,
+    /// For each surface what it became under the latest translucent paint, and which paint that was.
+    painted: Vec<(u32, SurfaceId)>,
     paint: u32,
     /// Whether anything is to be shaded.
     pub(crate) any_shaded: bool,
 }
 
-impl<'a> Slots<'a> {
-    /// No slots.
+impl<'a> SurfaceTable<'a> {
+    /// No surfaces.
     pub(crate) fn new(rules: Rules, resolver: Resolver) -> Self {
         Self {
             rules,
             all: Vec::new(),
-            known: Known::new(resolver),
+            known: FlatResolve::new(resolver),
             painted: Vec::new(),
             paint: 0,
             any_shaded: false,
         }
     }
 
-    /// Forgets all slots.
+    /// Forgets all surfaces.
     pub(crate) fn clear(&mut self) {
         self.all.clear();
         self.known.clear();
@@ -50,29 +50,29 @@ impl<'a> Slots<'a> {
         self.all.len()
     }
 
-    /// What a slot shows.
+    /// What a surface shows.
     #[inline]
-    pub(crate) fn get(&self, slot: Slot) -> &SlotColor<'a> {
-        &self.all[usize::from(slot)]
+    pub(crate) fn get(&self, surface: SurfaceId) -> &SurfaceColor<'a> {
+        &self.all[usize::from(surface)]
     }
 
-    /// What is known of all slots; `None` where there are too many.
+    /// What is known of all surfaces; `None` where there are too many.
     #[inline]
-    pub(crate) fn known(&self) -> Option<&Known> {
+    pub(crate) fn known(&self) -> Option<&FlatResolve> {
         self.known.is_all().then_some(&self.known)
     }
 
-    /// Whether each slot in use may become another one, and one more may come, without running out of numbers.
+    /// Whether each surface in use may become another one, and one more may come, without running out of numbers.
     pub(crate) fn is_full(&self) -> bool {
-        self.all.len() > MAX_SLOTS / 2 - 1
+        self.all.len() > MAX_SURFACES / 2 - 1
     }
 
-    /// A slot for a flat colour; successive ones of the same colour share it.
+    /// A surface for a flat colour; successive ones of the same colour share it.
     #[inline]
-    pub(crate) fn flat(&mut self, color: Premultiplied16) -> Slot {
+    pub(crate) fn flat(&mut self, color: Premultiplied16) -> SurfaceId {
         let newest = self.all.last();
         if newest.is_none_or(|newest| newest.flat != color || newest.shaded.is_some()) {
-            self.push(SlotColor {
+            self.push(SurfaceColor {
                 flat: color,
                 spread: Spread::new(color),
                 pixel: color.to_pixel(self.rules),
@@ -82,11 +82,11 @@ impl<'a> Slots<'a> {
         self.newest()
     }
 
-    /// A slot for an opaque primitive that is to be shaded.
+    /// A surface for an opaque primitive that is to be shaded.
     #[inline]
-    pub(crate) fn shaded(&mut self, triangle: &'a ScreenTriangle, paint: &'a Paint) -> Slot {
+    pub(crate) fn shaded(&mut self, triangle: &'a ScreenTriangle, paint: &'a Paint) -> SurfaceId {
         self.any_shaded = true;
-        self.push(SlotColor {
+        self.push(SurfaceColor {
             flat: Premultiplied16::TRANSPARENT,
             spread: Spread::default(),
             pixel: 0,
@@ -99,29 +99,29 @@ impl<'a> Slots<'a> {
         self.newest()
     }
 
-    /// From here on [`Slots::under`] speaks of another paint.
+    /// From here on [`SurfaceTable::under`] speaks of another paint.
     pub(crate) fn next_paint(&mut self) {
         self.paint += 1;
     }
 
-    /// What samples of `slot` show under a translucent colour, which is the same for all calls between two of
-    /// [`Slots::next_paint`].
+    /// What samples of `surface` show under a translucent colour, which is the same for all calls between two of
+    /// [`SurfaceTable::next_paint`].
     #[inline]
-    pub(crate) fn under(&mut self, slot: Slot, color: Premultiplied16) -> Slot {
+    pub(crate) fn under(&mut self, surface: SurfaceId, color: Premultiplied16) -> SurfaceId {
         if self.painted.len() < self.all.len() {
             self.painted.resize(self.all.len(), (0, 0));
         }
-        let (paint, known) = self.painted[usize::from(slot)];
+        let (paint, known) = self.painted[usize::from(surface)];
         if paint == self.paint {
             return known;
         }
-        let mixed = self.mix(slot, color);
-        self.painted[usize::from(slot)] = (self.paint, mixed);
+        let mixed = self.mix(surface, color);
+        self.painted[usize::from(surface)] = (self.paint, mixed);
         mixed
     }
 
-    /// A new slot for a colour over what `below` shows.
-    pub(crate) fn mix(&mut self, below: Slot, color: Premultiplied16) -> Slot {
+    /// A new surface for a colour over what `below` shows.
+    pub(crate) fn mix(&mut self, below: SurfaceId, color: Premultiplied16) -> SurfaceId {
         let mut mixed = *self.get(below);
         mixed.flat = color.over(mixed.flat, self.rules);
         mixed.spread = Spread::new(mixed.flat);
@@ -137,15 +137,15 @@ impl<'a> Slots<'a> {
         self.newest()
     }
 
-    /// Keeps the slots for which `used` is set; the new number of each.
-    pub(crate) fn keep(&mut self, used: &[bool]) -> Vec<Slot> {
+    /// Keeps the surfaces for which `used` is set; the new number of each.
+    pub(crate) fn keep(&mut self, used: &[bool]) -> Vec<SurfaceId> {
         let mut numbers = vec![0; used.len()];
         let mut kept = 0;
         self.known.clear();
         for (old, number) in numbers.iter_mut().enumerate().filter(|(old, _)| used[*old]) {
             self.all[kept] = self.all[old];
             self.known.set(kept, &self.all[kept]);
-            *number = Slot::try_from(kept).unwrap_or(0);
+            *number = SurfaceId::try_from(kept).unwrap_or(0);
             kept += 1;
         }
         self.all.truncate(kept);
@@ -154,13 +154,13 @@ impl<'a> Slots<'a> {
     }
 
     #[inline]
-    fn push(&mut self, slot: SlotColor<'a>) {
-        self.known.set(self.all.len(), &slot);
-        self.all.push(slot);
+    fn push(&mut self, surface: SurfaceColor<'a>) {
+        self.known.set(self.all.len(), &surface);
+        self.all.push(surface);
     }
 
-    fn newest(&self) -> Slot {
-        debug_assert!(self.all.len() <= MAX_SLOTS, "slots are made room for");
-        Slot::try_from(self.all.len() - 1).unwrap_or(0)
+    fn newest(&self) -> SurfaceId {
+        debug_assert!(self.all.len() <= MAX_SURFACES, "surfaces are made room for");
+        SurfaceId::try_from(self.all.len() - 1).unwrap_or(0)
     }
 }

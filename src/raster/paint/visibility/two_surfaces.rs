@@ -1,8 +1,8 @@
-//! What pixels show that two primitives share: two slots, and a bit for each sample.
+//! What pixels show that two primitives share: two surfaces, and a bit for each sample.
 //!
-//! The masks, first and second slots of a row of pixels each lie side by side, so that those of a few pixels are a vector.
+//! The masks, first and second surfaces of a row of pixels each lie side by side, so that those of a few pixels are a vector.
 
-use crate::raster::surface_id::{LAST_QUAD, QUAD, ROW, Slot};
+use crate::raster::surface_id::{GROUP, LAST_GROUP, ROW, SurfaceId};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, mask16x8, u16x8, u64x2};
 
@@ -12,23 +12,23 @@ use crate::raster::paint::visibility::packed::{joined, lanes};
 const NARROW_SIDE: usize = 4;
 
 /// Four pixels side by side, in the lower half of a vector.
-pub(crate) type Quad<S> = u16x8<S>;
+pub(crate) type Group<S> = u16x8<S>;
 
 /// Some of them.
-pub(crate) type QuadMask<S> = mask16x8<S>;
+pub(crate) type GroupMask<S> = mask16x8<S>;
 
-/// Two slots that share the samples of a pixel.
+/// Two surfaces that share the samples of a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Pair {
+pub(crate) struct TwoSurfaces {
     /// Bit `side * row + column` for each sample that shows `second`; neither all are set nor none.
     pub(crate) mask: u64,
-    pub(crate) first: Slot,
-    pub(crate) second: Slot,
+    pub(crate) first: SurfaceId,
+    pub(crate) second: SurfaceId,
 }
 
 /// One pair for each pixel of a tile, of account or not.
 #[derive(Debug)]
-pub(crate) struct Pairs {
+pub(crate) struct TwoSurfacePixels {
     rows: Vec<Row>,
     /// Whether masks need more than 16 bits, and these masks.
     is_wide: bool,
@@ -39,13 +39,13 @@ pub(crate) struct Pairs {
 #[derive(Clone, Debug)]
 struct Row {
     masks: [u16; ROW],
-    firsts: [Slot; ROW],
-    seconds: [Slot; ROW],
+    firsts: [SurfaceId; ROW],
+    seconds: [SurfaceId; ROW],
 }
 
 /// The pairs of a row, or none.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PairRow<'a> {
+pub(crate) struct TwoSurfaceRow<'a> {
     row: &'a Row,
     wide: Option<&'a [u64; ROW]>,
 }
@@ -58,7 +58,7 @@ impl Row {
     };
 }
 
-impl Pairs {
+impl TwoSurfacePixels {
     /// None, for pixels of `side x side` samples, at most 64.
     pub(crate) fn new(side: usize) -> Self {
         Self {
@@ -81,7 +81,7 @@ impl Pairs {
     /// That of column `x` in row `y`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
-    pub(crate) fn get(&self, (y, x): (usize, usize)) -> Pair {
+    pub(crate) fn get(&self, (y, x): (usize, usize)) -> TwoSurfaces {
         self.row(y).get(x)
     }
 
@@ -89,7 +89,7 @@ impl Pairs {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
     #[expect(clippy::cast_possible_truncation, reason = "narrow masks have sixteen bits")]
-    pub(crate) fn set(&mut self, (y, x): (usize, usize), pair: Pair) {
+    pub(crate) fn set(&mut self, (y, x): (usize, usize), pair: TwoSurfaces) {
         let (row, x) = (&mut self.rows[y], x % ROW);
         if self.is_wide {
             self.wide[y][x] = pair.mask;
@@ -106,8 +106,8 @@ impl Pairs {
     pub(crate) fn set_quad<S: Simd>(
         &mut self,
         simd: S,
-        ((y, x), which): ((usize, usize), QuadMask<S>),
-        (masks, firsts, seconds): (Quad<S>, Quad<S>, Quad<S>),
+        ((y, x), which): ((usize, usize), GroupMask<S>),
+        (masks, firsts, seconds): (Group<S>, Group<S>, Group<S>),
     ) {
         debug_assert!(!self.is_wide, "masks of sixteen bits");
         let row = &mut self.rows[y];
@@ -116,7 +116,7 @@ impl Pairs {
             (&mut row.firsts, firsts),
             (&mut row.seconds, seconds),
         ] {
-            let old = quad(simd, word_at(all, x));
+            let old = group(simd, word_at(all, x));
             put(all, x, which.select(new, old));
         }
     }
@@ -124,21 +124,21 @@ impl Pairs {
     /// Those of row `y`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
-    pub(crate) fn row(&self, y: usize) -> PairRow<'_> {
-        PairRow {
+    pub(crate) fn row(&self, y: usize) -> TwoSurfaceRow<'_> {
+        TwoSurfaceRow {
             row: self.rows.get(y).unwrap_or(&Row::NONE),
             wide: self.wide.get(y),
         }
     }
 }
 
-impl PairRow<'_> {
+impl TwoSurfaceRow<'_> {
     /// That of column `x`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
-    pub(crate) fn get(self, x: usize) -> Pair {
+    pub(crate) fn get(self, x: usize) -> TwoSurfaces {
         let x = x % ROW;
-        Pair {
+        TwoSurfaces {
             mask: match self.wide {
                 Some(masks) => masks[x],
                 None => u64::from(self.row.masks[x]),
@@ -149,26 +149,26 @@ impl PairRow<'_> {
     }
 }
 
-/// The four numbers of a row from number `x` on, at most [`LAST_QUAD`], the first one lowest.
+/// The four numbers of a row from number `x` on, at most [`LAST_GROUP`], the first one lowest.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "one instruction, mostly")]
 pub(crate) fn word_at(row: &[u16; ROW], x: usize) -> u64 {
-    let x = x.min(LAST_QUAD);
+    let x = x.min(LAST_GROUP);
     joined([row[x], row[x + 1], row[x + 2], row[x + 3]])
 }
 
 /// Four numbers, the first one lowest, as a vector.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-pub(crate) fn quad<S: Simd>(simd: S, word: u64) -> Quad<S> {
+pub(crate) fn group<S: Simd>(simd: S, word: u64) -> Group<S> {
     u64x2::splat(simd, word).bitcast()
 }
 
 /// Puts a vector where [`word_at`] finds it.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-pub(crate) fn put<S: Simd>(row: &mut [u16; ROW], x: usize, vector: Quad<S>) {
-    let x = x.min(LAST_QUAD);
+pub(crate) fn put<S: Simd>(row: &mut [u16; ROW], x: usize, vector: Group<S>) {
+    let x = x.min(LAST_GROUP);
     let [word, _] = vector.bitcast::<u64x2<S>>().to_array();
-    row[x..x + QUAD].copy_from_slice(&lanes(word));
+    row[x..x + GROUP].copy_from_slice(&lanes(word));
 }

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use super::sampler::mass;
+use super::course_sampler::mass;
 use super::{MipLevel, MipPyramid, PixelSampling, Reading, SamplingSettings, Taps, UvMap};
-use super::{cell, points, sums};
+use super::{bilinear, pixel_filter, sample_filter};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
 
@@ -56,7 +56,7 @@ struct FilterLevel<'a> {
     level: &'a MipLevel,
     /// Its number in the pyramid.
     number: usize,
-    /// Its part of [`cell::MASS`].
+    /// Its part of [`bilinear::MASS`].
     mass: i32,
     /// Coordinates at the pivot, in texels; whole numbers are corners of texels for [`PixelSampling::Nearest`], their
     /// centres for [`PixelSampling::Bilinear`].
@@ -72,7 +72,7 @@ pub(super) struct GridLevel<'a> {
     pub(super) level: &'a MipLevel,
     /// Its number in the pyramid.
     pub(super) number: usize,
-    /// Its part of [`cell::MASS`].
+    /// Its part of [`bilinear::MASS`].
     pub(super) mass: i32,
     pub(super) x: Axis,
     pub(super) y: Axis,
@@ -122,10 +122,10 @@ impl<'a> Filter<'a> {
             if near { level } else { level.flat() }
         };
         let (finer, coarser) = match mass {
-            0 => (prepare(choice.level, cell::MASS), None),
-            cell::MASS => (prepare(choice.level + 1, cell::MASS), None),
+            0 => (prepare(choice.level, bilinear::MASS), None),
+            bilinear::MASS => (prepare(choice.level + 1, bilinear::MASS), None),
             _ => (
-                prepare(choice.level, cell::MASS - mass),
+                prepare(choice.level, bilinear::MASS - mass),
                 Some(prepare(choice.level + 1, mass)),
             ),
         };
@@ -144,13 +144,13 @@ impl<'a> Filter<'a> {
     /// `points[i]` is a sample column and row counted from the first sample of the grid's origin; sample column `c` of
     /// the screen lies at `(c + 0.5) / side`. The colour at `points[i]` is written to `out[i]`.
     pub fn points(&self, simd: Level, grid: SampleGrid, points: &[[u16; 2]], out: &mut [Premultiplied16]) {
-        points::filter(simd, &self.plan(grid), points, out);
+        sample_filter::filter(simd, &self.plan(grid), points, out);
     }
 
     /// As [`Filter::points`], but as pixels `0xAARRGGBB`: [`Premultiplied16::to_pixel`] of the colours, which must be
     /// opaque.
     pub fn pixels(&self, simd: Level, grid: SampleGrid, points: &[[u16; 2]], out: &mut [u32]) {
-        points::filter(simd, &self.plan(grid), points, out);
+        sample_filter::filter(simd, &self.plan(grid), points, out);
     }
 
     /// The sums of the premultiplied colours over the samples of pixels, channels as in [`Premultiplied16`]. The sum over
@@ -160,7 +160,7 @@ impl<'a> Filter<'a> {
     /// small enough: a sum may differ from the sum of [`Filter::points`] by rounding, far below one level of a byte
     /// per sample. Where every sample reads the same colour `c`, it is exactly the number of samples times `256 c`.
     pub fn sums(&self, simd: Level, grid: SampleGrid, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
-        sums::sum(simd, &self.plan(grid), grid.side, list, sums);
+        pixel_filter::sum(simd, &self.plan(grid), grid.side, list, sums);
     }
 
     pub(super) fn plan(&self, grid: SampleGrid) -> Plan<'a> {
@@ -191,7 +191,7 @@ impl<'a> Filter<'a> {
 impl<'a> FilterLevel<'a> {
     fn new((level, number): (&'a MipLevel, usize), mass: i32, map: &UvMap, pixel: PixelSampling) -> Self {
         let size = DVec2::new(f64::from(level.width()), f64::from(level.height()));
-        let at_pivot = map.uv * size - cell::first_centre(pixel);
+        let at_pivot = map.uv * size - bilinear::first_centre(pixel);
         let (dx, dy) = (map.dx * size, map.dy * size);
         let usable = |vector: DVec2| vector.is_finite() && vector.abs().max_element() < LARGEST;
         let map = Self {

@@ -1,33 +1,33 @@
 //! Images to colours: decoding, pyramid, level of detail, sampling.
 
+mod anisotropic_filter;
 mod anisotropy;
-mod cell;
-mod channels;
+mod bilinear;
+mod course_sampler;
 mod decode;
-mod detail;
 mod filter;
-mod footing;
 mod footprint;
+mod level_of_detail;
 #[cfg(test)]
 mod oracle;
-mod points;
-mod positions;
+mod pixel_filter;
 mod pyramid;
-mod reads;
-mod sampler;
-mod sums;
-mod tails;
-mod taps;
+mod sample_filter;
+mod sample_offsets;
+mod simd_channels;
+mod tent_weights;
+mod texel_coordinates;
+mod trace;
 mod uv_map;
 
 pub use anisotropy::{Anisotropy, Taps};
+pub use course_sampler::{Sampler, SamplingSettings};
 pub use decode::{DecodeError, Memory, Run, decode_rows};
-pub use detail::{Derivatives, FixedLevel, LevelChoice, LevelOfDetail, LodBias, Reading};
 pub use filter::{Filter, PixelList, SampleGrid};
 pub use footprint::Footprint;
+pub use level_of_detail::{Derivatives, FixedLevel, LevelChoice, LevelOfDetail, LodBias, Reading};
 pub use pyramid::{MAX_SIDE, MipLevel, MipPyramid};
-pub use reads::{TapRead, TexelRead, TextureReads};
-pub use sampler::{Sampler, SamplingSettings};
+pub use trace::{TapRead, TexelRead, TextureReads};
 pub use uv_map::UvMap;
 
 /// How a colour is found inside one mip level.

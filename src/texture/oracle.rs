@@ -12,9 +12,9 @@ use arbtest::arbitrary::{Result, Unstructured};
 use glam::DVec2;
 
 use super::filter::Plan;
-use super::footing::{Footing, Scale};
+use super::sample_offsets::{Footing, Scale};
 use super::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
-use super::{Filter, MipLevel, MipPyramid, SampleGrid, SamplingSettings, UvMap, cell, reads};
+use super::{Filter, MipLevel, MipPyramid, SampleGrid, SamplingSettings, UvMap, bilinear, trace};
 use crate::color::Premultiplied16;
 
 /// The colour at one sample: what the kernels do for many.
@@ -24,13 +24,13 @@ pub(super) fn point(plan: &Plan<'_>, point: [u32; 2]) -> Premultiplied16 {
     let mut sums = [0; 4];
     for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
         for tap in 0..count {
-            let place = reads::place(plan, level, point, tap);
-            cell::add(level.level, plan.pixel, place, level.mass, &mut sums);
+            let place = trace::place(plan, level, point, tap);
+            bilinear::add(level.level, plan.pixel, place, level.mass, &mut sums);
         }
     }
     Premultiplied16(match count {
-        1 => sums.map(cell::to_channel),
-        _ => sums.map(|sum| cell::mean(sum, count)),
+        1 => sums.map(bilinear::to_channel),
+        _ => sums.map(|sum| bilinear::mean(sum, count)),
     })
 }
 
@@ -40,12 +40,12 @@ pub(super) fn exact_point(plan: &Plan<'_>, point: [u32; 2]) -> [f64; 4] {
     let count = plan.line.taps.count;
     let mut sums = [0.0; 4];
     for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
-        let mass = f64::from(level.mass) / f64::from(cell::MASS) / f64::from(count);
+        let mass = f64::from(level.mass) / f64::from(bilinear::MASS) / f64::from(count);
         for tap in 0..count {
             let [x, y] = [&level.x, &level.y].map(|axis| {
                 let at = axis.at_pivot + from_pivot.x * axis.right + from_pivot.y * axis.down;
-                let offset = axis.tap(&plan.line, tap).clamp(-cell::REACH, cell::REACH);
-                (at.clamp(-cell::REACH, axis.last + cell::REACH) + offset).clamp(0.0, axis.last)
+                let offset = axis.tap(&plan.line, tap).clamp(-bilinear::REACH, bilinear::REACH);
+                (at.clamp(-bilinear::REACH, axis.last + bilinear::REACH) + offset).clamp(0.0, axis.last)
             });
             for (column, row) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
                 let (column, row) = (x.floor() + column, y.floor() + row);
@@ -78,9 +78,9 @@ pub(super) fn pixel_sum(plan: &Plan<'_>, side: u32, pixel: [u32; 2], covered: im
         return sums;
     };
     let total = (samples.len() as i32) << scale.sample_bits;
-    let part = coarser
-        .as_ref()
-        .map_or(0, |coarser| (total * coarser.level.mass + cell::MASS / 2) / cell::MASS);
+    let part = coarser.as_ref().map_or(0, |coarser| {
+        (total * coarser.level.mass + bilinear::MASS / 2) / bilinear::MASS
+    });
     let mut sums = [0; 4];
     for (footing, total) in [(Some(&finer), total - part), (coarser.as_ref(), part)] {
         if let Some(footing) = footing {

@@ -1,5 +1,5 @@
 //! Filtering many samples at once: first their coordinates and weights, in vectors of samples; then their texels, in
-//! vectors of channels. The same arithmetic as one by one in `cell`, number by number, whatever the vectors' width.
+//! vectors of channels. The same arithmetic as one by one in `bilinear`, number by number, whatever the vectors' width.
 
 #![expect(
     clippy::inline_always,
@@ -10,11 +10,11 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, i16x16, i32x8, u8x16, u16x8, u32x4, u64x2};
 
 use super::PixelSampling;
-use super::cell::FRACTION_BITS;
-use super::channels::{FromColors, Spread, both_columns, in_columns, round, widen};
+use super::anisotropic_filter;
+use super::bilinear::FRACTION_BITS;
 use super::filter::{GridLevel, Plan};
-use super::positions::{Positions, columns_and_rows};
-use super::taps;
+use super::simd_channels::{FromColors, Spread, both_columns, in_columns, round, widen};
+use super::texel_coordinates::{Positions, columns_and_rows};
 use crate::simd::Level;
 
 /// Samples that are prepared together; few, so that short lists do not pay for clearing memory.
@@ -45,7 +45,7 @@ pub(super) fn filter<C: FromColors>(level: Level, plan: &Plan<'_>, points: &[[u1
     if plan.line.taps.count == 1 {
         dispatch!(level, simd => filter_with(simd, plan, points, out));
     } else {
-        dispatch!(level, simd => taps::filter_with(simd, plan, points, out));
+        dispatch!(level, simd => anisotropic_filter::filter_with(simd, plan, points, out));
     }
 }
 

@@ -8,7 +8,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, i16x16, i32x8, u8x16, u8x32, u16x16, u32x4, u32x8, u64x4};
 
-use super::cell::SUM_SHIFT;
+use super::bilinear::SUM_SHIFT;
 use crate::color::Premultiplied16;
 
 /// How to spread the weights of two columns over channels: each half of a 64-bit number four times, the lower half first.

@@ -1,7 +1,7 @@
 //! Where the samples of a pixel stand in a level: the same for all pixels of a triangle, but for where the pixel is.
 
 use super::PixelSampling;
-use super::cell::{MASS, MASS_BITS};
+use super::bilinear::{MASS, MASS_BITS};
 use super::filter::{Axis, GridLevel, Plan};
 
 /// The most samples along one side of a pixel.

@@ -10,13 +10,13 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, i32x8, u8x16};
 use glam::DVec2;
 
-use super::cell::{MASS, MASS_BITS};
-use super::channels::{self, Spread};
+use super::bilinear::{MASS, MASS_BITS};
 use super::filter::{PixelList, Plan};
-use super::footing::{Footing, MAX_SIDE, Scale};
-use super::positions::{MAX_LANES, Positions, columns_and_rows};
-use super::tails::{Covered, Weighed, weigh};
-use super::{points, taps};
+use super::sample_offsets::{Footing, MAX_SIDE, Scale};
+use super::simd_channels::{self, Spread};
+use super::tent_weights::{Covered, Weighed, weigh};
+use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows};
+use super::{anisotropic_filter, sample_filter};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
 
@@ -76,9 +76,9 @@ fn sum_samples<S: Simd, const TAPS: bool>(
         };
         let colors = &mut colors[..samples.len()];
         if TAPS {
-            taps::filter_with(simd, &plan, samples, colors);
+            anisotropic_filter::filter_with(simd, &plan, samples, colors);
         } else {
-            points::filter_with(simd, &plan, samples, colors);
+            sample_filter::filter_with(simd, &plan, samples, colors);
         }
         *sum = [0; 4];
         for color in colors {
@@ -146,7 +146,7 @@ fn cover<S: Simd>(simd: S, scale: Scale, masks: Option<&[u64]>) -> (Covered<S>, 
     let (mut low, mut high, mut counts) = ([0; MAX_LANES], [0; MAX_LANES], [0; MAX_LANES]);
     for (i, mask) in masks.iter().enumerate().take(MAX_LANES) {
         let mask = mask & possible;
-        [low[i], high[i]] = channels::halves(mask);
+        [low[i], high[i]] = simd_channels::halves(mask);
         counts[i] = mask.count_ones();
     }
     let vector = |numbers: &[u32; MAX_LANES]| S::u32s::from_slice(simd, &numbers[..S::u32s::LEN]);
@@ -171,7 +171,8 @@ impl<S: Simd> Blocks<S> {
             weigh::<S, 3>(simd, footing, at, covered)
         };
         let both = |row: usize, column: usize| weights[row][column] | weights[row + 1][column] << 16;
-        let quarter = |row: usize, column: usize| channels::in_columns::<S>(both(row, column), both(row, column + 1));
+        let quarter =
+            |row: usize, column: usize| simd_channels::in_columns::<S>(both(row, column), both(row, column + 1));
         Self {
             offsets,
             weights: [quarter(0, 0), quarter(0, 2), quarter(2, 0), quarter(2, 2)],

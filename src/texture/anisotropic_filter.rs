@@ -2,7 +2,7 @@
 //!
 //! Taps lie at the same distances from every sample, because the map is affine: a sample's place is rounded once, and a
 //! tap adds whole numbers to it. Sums of all taps fit 32 bits, so that they are rounded only once. Each number is that of
-//! `cell`, whatever the vectors' width.
+//! `bilinear`, whatever the vectors' width.
 
 #![expect(
     clippy::inline_always,
@@ -13,11 +13,11 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i32x8};
 
 use super::PixelSampling;
-use super::cell::{FRACTION_BITS, per_tap, tap_offset, to_fixed};
-use super::channels::{FromColors, Spread, both_columns, mean};
+use super::bilinear::{FRACTION_BITS, per_tap, tap_offset, to_fixed};
 use super::filter::{GridLevel, Plan};
-use super::points::{BLOCK, Cells, Source, by_fours};
-use super::positions::{Positions, columns_and_rows};
+use super::sample_filter::{BLOCK, Cells, Source, by_fours};
+use super::simd_channels::{FromColors, Spread, both_columns, mean};
+use super::texel_coordinates::{Positions, columns_and_rows};
 
 /// Where the samples of a block lie in a level, in fixed point: columns, then rows.
 type Centres = [[i32; BLOCK]; 2];

@@ -9,7 +9,7 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 use glam::DVec2;
 
-use super::cell::{REACH, TO_FIXED};
+use super::bilinear::{REACH, TO_FIXED};
 use super::filter::Axis;
 
 /// The most lanes of 32 bits that a vector has.
@@ -69,7 +69,7 @@ impl<S: Simd> Positions<S> {
     /// Where samples lie on an axis, at most two texels outside the level, with `bits` fractional bits.
     #[inline(always)]
     pub(super) fn near(&self, simd: S, axis: &Axis, bits: u32) -> S::i32s {
-        // One half more than in `cell`, so that negative numbers stand below it in two's complement.
+        // One half more than in `bilinear`, so that negative numbers stand below it in two's complement.
         let to_fixed = 1.5 * (1_u64 << (52 - bits)) as f64;
         self.round(simd, axis, (-2.0, axis.last + 2.0), to_fixed)
     }

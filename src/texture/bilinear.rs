@@ -98,7 +98,7 @@ pub(super) fn weights(x: i32, y: i32, mass: i32) -> [i32; 4] {
     [upper - upper_right, upper_right, lower - lower_right, lower_right]
 }
 
-/// Adds the texels around the point `(x, y)`, in fixed point, to `sums`, with weights that sum to `mass`.
+/// Adds the texels around the point `(x, y)`, in fixed point, to `pixel_filter`, with weights that sum to `mass`.
 #[inline]
 pub(super) fn add(level: &MipLevel, pixel: PixelSampling, at: [u32; 2], mass: i32, sums: &mut [i32; 4]) {
     each(pixel, at, mass, |x, y, weight| {

@@ -1,13 +1,13 @@
 //! Which texels one sample reads, and what each weighs: the arithmetic of filtering, noted down instead of summed up.
 //!
-//! For explanations, not for pictures. The weights are those of `cell`, which the kernels share, so that the texels times
+//! For explanations, not for pictures. The weights are those of `bilinear`, which the kernels share, so that the texels times
 //! their weights are the filter's colour to the last bit.
 
 use glam::DVec2;
 
+use super::course_sampler::{Sampler, course_place, course_point};
 use super::filter::{Axis, Filter, GridLevel, Plan, SampleGrid};
-use super::sampler::{Sampler, course_place, course_point};
-use super::{MipLevel, PixelSampling, cell};
+use super::{MipLevel, PixelSampling, bilinear};
 use crate::color::Premultiplied16;
 
 /// A texel that a sample read.
@@ -55,12 +55,12 @@ impl Filter<'_> {
     pub fn reads(&self, grid: SampleGrid, point: [u16; 2]) -> TextureReads {
         let plan = self.plan(grid);
         let count = plan.line.taps.count;
-        let mut notes = Notes::new(f64::from(cell::MASS) * f64::from(count));
+        let mut notes = Notes::new(f64::from(bilinear::MASS) * f64::from(count));
         for level in [Some(&plan.finer), plan.coarser.as_ref()].into_iter().flatten() {
             for tap in 0..count {
                 let place = place(&plan, level, point, tap);
                 notes.tap(level.number, place, plan.pixel);
-                cell::each(plan.pixel, place, level.mass, |x, y, weight| {
+                bilinear::each(plan.pixel, place, level.mass, |x, y, weight| {
                     notes.texel((level.level, level.number), [x, y], f64::from(weight));
                 });
             }
@@ -74,8 +74,8 @@ pub(super) fn place(plan: &Plan<'_>, level: &GridLevel<'_>, point: [u16; 2], tap
     let from_pivot = plan.first + DVec2::new(f64::from(point[0]), f64::from(point[1]));
     let at = |axis: &Axis| (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
     [&level.x, &level.y].map(|axis| match plan.line.taps.count {
-        1 => cell::to_fixed(at(axis), axis.last),
-        _ => cell::tap(at(axis), axis.tap(&plan.line, tap), axis.last),
+        1 => bilinear::to_fixed(at(axis), axis.last),
+        _ => bilinear::tap(at(axis), axis.tap(&plan.line, tap), axis.last),
     })
 }
 
@@ -110,8 +110,8 @@ impl Notes {
     }
 
     fn tap(&mut self, level: usize, place: [u32; 2], pixel: PixelSampling) {
-        let one = f64::from(1_u32 << cell::FRACTION_BITS);
-        let at = DVec2::new(f64::from(place[0]), f64::from(place[1])) / one + cell::first_centre(pixel);
+        let one = f64::from(1_u32 << bilinear::FRACTION_BITS);
+        let at = DVec2::new(f64::from(place[0]), f64::from(place[1])) / one + bilinear::first_centre(pixel);
         self.reads.taps.push(TapRead { level, at });
     }
 
@@ -133,7 +133,7 @@ impl Notes {
         let point = course_point(level.0, pixel, uv).map(f64::from);
         // Beyond the level its last texel goes on.
         let last = DVec2::new(f64::from(level.0.width()), f64::from(level.0.height())) - 0.5;
-        let at = (DVec2::from(point) + cell::first_centre(pixel)).min(last);
+        let at = (DVec2::from(point) + bilinear::first_centre(pixel)).min(last);
         self.reads.taps.push(TapRead { level: level.1, at });
         // A nearest texel far beyond the level has no neighbour to its right, and reads none.
         let (right, bottom) = (left.saturating_add(1), top.saturating_add(1));
@@ -229,7 +229,7 @@ mod tests {
     fn check_decided(reads: &TextureReads, pixel: PixelSampling) {
         for texel in &reads.texels {
             let decides = |tap: &TapRead| {
-                let first = (tap.at - cell::first_centre(pixel)).floor().max(DVec2::ZERO);
+                let first = (tap.at - bilinear::first_centre(pixel)).floor().max(DVec2::ZERO);
                 let beyond = DVec2::from(texel.at.map(f64::from)) - first;
                 let most = if pixel == PixelSampling::Nearest { 0.0 } else { 1.0 };
                 tap.level == texel.level && beyond.cmpge(DVec2::ZERO).all() && beyond.cmple(DVec2::splat(most)).all()

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::{Anisotropy, Footprint, LevelOfDetail, LevelSampling, PixelSampling, Reading, Taps};
-use super::{MipLevel, MipPyramid, cell};
+use super::{MipLevel, MipPyramid, bilinear};
 use crate::color::Premultiplied16;
 use crate::rules::Rules;
 
@@ -52,10 +52,10 @@ pub struct Sampler<'a> {
     rules: Rules,
 }
 
-/// The weight of the next level as a part of [`cell::MASS`].
+/// The weight of the next level as a part of [`bilinear::MASS`].
 #[expect(clippy::cast_possible_truncation, reason = "a weight in 0..=1 becomes 0..=MASS")]
 pub(super) fn mass(weight: f32) -> i32 {
-    (weight * cell::MASS as f32).round() as i32
+    (weight * bilinear::MASS as f32).round() as i32
 }
 
 impl<'a> Sampler<'a> {
@@ -92,11 +92,11 @@ impl<'a> Sampler<'a> {
                 let (level, mass) = self
                     .coarser
                     .map_or((self.finer, 0), |(level, weight)| (level, mass(weight)));
-                self.add(self.finer, at, cell::MASS - mass, &mut sums);
+                self.add(self.finer, at, bilinear::MASS - mass, &mut sums);
                 self.add(level, at, mass, &mut sums);
                 let stored = match self.taps.count {
-                    1 => sums.map(cell::to_channel),
-                    count => sums.map(|sum| cell::mean(sum, count)),
+                    1 => sums.map(bilinear::to_channel),
+                    count => sums.map(|sum| bilinear::mean(sum, count)),
                 };
                 stored.map(|channel| f32::from(channel) / f32::from(Premultiplied16::PER_BYTE))
             }
@@ -116,16 +116,19 @@ impl<'a> Sampler<'a> {
 
     fn add(&self, level: &MipLevel, at: DVec2, mass: i32, sums: &mut [i32; 4]) {
         let size = DVec2::new(f64::from(level.width()), f64::from(level.height()));
-        let at = at * size - cell::first_centre(self.pixel);
+        let at = at * size - bilinear::first_centre(self.pixel);
         let last = size - 1.0;
         for tap in 0..self.taps.count {
             let place = if self.taps.count == 1 {
-                [cell::to_fixed(at.x, last.x), cell::to_fixed(at.y, last.y)]
+                [bilinear::to_fixed(at.x, last.x), bilinear::to_fixed(at.y, last.y)]
             } else {
                 let offset = self.along * size * self.taps.place(tap);
-                [cell::tap(at.x, offset.x, last.x), cell::tap(at.y, offset.y, last.y)]
+                [
+                    bilinear::tap(at.x, offset.x, last.x),
+                    bilinear::tap(at.y, offset.y, last.y),
+                ]
             };
-            cell::add(level, self.pixel, place, mass, sums);
+            bilinear::add(level, self.pixel, place, mass, sums);
         }
     }
 

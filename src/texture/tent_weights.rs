@@ -16,8 +16,8 @@
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::footing::{Footing, Lines, Offsets, Scale, TEXELS};
-use super::positions::Positions;
+use super::sample_offsets::{Footing, Lines, Offsets, Scale, TEXELS};
+use super::texel_coordinates::Positions;
 
 /// Adding this to a 32-bit float rounds it to a whole number, which then stands in the lower bits.
 const WHOLE: f32 = 8_388_608.0;

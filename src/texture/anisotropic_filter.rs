@@ -14,7 +14,7 @@ use fearless_simd::{Simd, i32x8};
 
 use super::PixelSampling;
 use super::bilinear::{FRACTION_BITS, per_tap, tap_offset, to_fixed};
-use super::filter::{GridLevel, Plan};
+use super::filter_plan::{GridLevel, Plan};
 use super::sample_filter::{BLOCK, Cells, Source, by_fours};
 use super::simd_channels::{FromColors, Spread, both_columns, mean};
 use super::texel_coordinates::{Positions, columns_and_rows};

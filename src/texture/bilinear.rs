@@ -98,7 +98,7 @@ pub(super) fn weights(x: i32, y: i32, mass: i32) -> [i32; 4] {
     [upper - upper_right, upper_right, lower - lower_right, lower_right]
 }
 
-/// Adds the texels around the point `(x, y)`, in fixed point, to `pixel_filter`, with weights that sum to `mass`.
+/// Adds the texels around the point `(x, y)`, in fixed point, to `sums`, with weights that sum to `mass`.
 #[inline]
 pub(super) fn add(level: &MipLevel, pixel: PixelSampling, at: [u32; 2], mass: i32, sums: &mut [i32; 4]) {
     each(pixel, at, mass, |x, y, weight| {
@@ -135,4 +135,10 @@ pub(super) fn each(pixel: PixelSampling, [x, y]: [u32; 2], mass: i32, mut read: 
 )]
 pub(super) fn to_channel(sum: i32) -> u16 {
     ((sum + (1 << (SUM_SHIFT - 1))) >> SUM_SHIFT) as u16
+}
+
+/// The weight of the next level as a part of [`MASS`].
+#[expect(clippy::cast_possible_truncation, reason = "a weight in 0..=1 becomes 0..=MASS")]
+pub(super) fn mass(weight: f32) -> i32 {
+    (weight * MASS as f32).round() as i32
 }

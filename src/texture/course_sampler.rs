@@ -2,40 +2,11 @@
 
 use glam::DVec2;
 
-use super::{Anisotropy, Footprint, LevelOfDetail, LevelSampling, PixelSampling, Reading, Taps};
+use super::bilinear::mass;
+use super::{Footprint, PixelSampling, Reading, SamplingSettings, Taps};
 use super::{MipLevel, MipPyramid, bilinear};
 use crate::color::Premultiplied16;
 use crate::rules::Rules;
-
-/// How textures are read: what a user chooses, and how close samples are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SamplingSettings {
-    /// Inside a level.
-    pub pixel: PixelSampling,
-    /// Between levels.
-    pub level: LevelSampling,
-    /// Along a footprint.
-    pub anisotropy: Anisotropy,
-    /// How large a footprint counts.
-    pub detail: LevelOfDetail,
-    /// Distance between samples in pixels, for [`super::Derivatives::Sample`].
-    pub sample_step: f64,
-    /// How texels are addressed.
-    pub rules: Rules,
-}
-
-impl Default for SamplingSettings {
-    fn default() -> Self {
-        Self {
-            pixel: PixelSampling::default(),
-            level: LevelSampling::default(),
-            anisotropy: Anisotropy::OFF,
-            detail: LevelOfDetail::default(),
-            sample_step: 1.0,
-            rules: Rules::default(),
-        }
-    }
-}
 
 /// One texture read at one footprint.
 #[derive(Clone, Copy, Debug)]
@@ -50,12 +21,6 @@ pub struct Sampler<'a> {
     pub(super) along: DVec2,
     pub(super) pixel: PixelSampling,
     rules: Rules,
-}
-
-/// The weight of the next level as a part of [`bilinear::MASS`].
-#[expect(clippy::cast_possible_truncation, reason = "a weight in 0..=1 becomes 0..=MASS")]
-pub(super) fn mass(weight: f32) -> i32 {
-    (weight * bilinear::MASS as f32).round() as i32
 }
 
 impl<'a> Sampler<'a> {
@@ -194,7 +159,7 @@ fn truncate(value: f32) -> i32 {
 #[cfg(test)]
 #[expect(clippy::float_cmp, reason = "these filters promise exact values")]
 mod tests {
-    use super::super::{Filter, SampleGrid, UvMap};
+    use super::super::{Anisotropy, Filter, LevelSampling, SampleGrid, UvMap};
     use super::*;
     use crate::simd;
 

@@ -1,10 +1,13 @@
 //! Filtering many fragments of one triangle: which levels its footprint reads, and where its samples lie in them.
 
+use fearless_simd::dispatch;
 use glam::DVec2;
 
-use super::course_sampler::mass;
+use super::bilinear::mass;
+use super::filter_plan::{Axis, GridLevel, PixelList, Plan, TapLine};
+use super::simd_channels::FromColors;
 use super::{MipLevel, MipPyramid, PixelSampling, Reading, SamplingSettings, Taps, UvMap};
-use super::{bilinear, pixel_filter, sample_filter};
+use super::{anisotropic_filter, bilinear, pixel_filter, sample_filter};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
 
@@ -40,16 +43,6 @@ pub struct SampleGrid {
     pub origin: [i32; 2],
 }
 
-/// Some pixels, and which of their samples count.
-#[derive(Clone, Copy, Debug)]
-pub struct PixelList<'a> {
-    /// Column and row of each pixel, counted from the grid's origin.
-    pub pixels: &'a [[u16; 2]],
-    /// As many as pixels; bit `j` of `masks[i]` says whether sample `j` of `pixels[i]`, counted row by row, takes part.
-    /// Samples from the 64th on do not, then. Without masks all take part.
-    pub masks: Option<&'a [u64]>,
-}
-
 /// One level, its weight, and the map from the screen to its texels.
 #[derive(Clone, Copy, Debug)]
 struct FilterLevel<'a> {
@@ -64,48 +57,6 @@ struct FilterLevel<'a> {
     /// Change per pixel.
     dx: DVec2,
     dy: DVec2,
-}
-
-/// A level as the lists of one call see it: counted in samples from the origin of their grid.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct GridLevel<'a> {
-    pub(super) level: &'a MipLevel,
-    /// Its number in the pyramid.
-    pub(super) number: usize,
-    /// Its part of [`bilinear::MASS`].
-    pub(super) mass: i32,
-    pub(super) x: Axis,
-    pub(super) y: Axis,
-}
-
-/// One coordinate of a level, in texels, as an affine function of sample column and row relative to the pivot.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Axis {
-    pub(super) at_pivot: f64,
-    /// Change per sample to the right, and down.
-    pub(super) right: f64,
-    pub(super) down: f64,
-    /// The greatest coordinate, at the centre of the last texel.
-    pub(super) last: f64,
-}
-
-/// The taps of each sample, as the lists of one call see them.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct TapLine {
-    pub(super) taps: Taps,
-    /// Length of the line that they are spread over, in steps from sample to sample.
-    steps: f64,
-}
-
-/// All that a kernel needs for the lists of one call.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Plan<'a> {
-    pub(super) pixel: PixelSampling,
-    /// Sample `[0, 0]` relative to the pivot, in samples.
-    pub(super) first: DVec2,
-    pub(super) line: TapLine,
-    pub(super) finer: GridLevel<'a>,
-    pub(super) coarser: Option<GridLevel<'a>>,
 }
 
 impl<'a> Filter<'a> {
@@ -144,13 +95,13 @@ impl<'a> Filter<'a> {
     /// `points[i]` is a sample column and row counted from the first sample of the grid's origin; sample column `c` of
     /// the screen lies at `(c + 0.5) / side`. The colour at `points[i]` is written to `out[i]`.
     pub fn points(&self, simd: Level, grid: SampleGrid, points: &[[u16; 2]], out: &mut [Premultiplied16]) {
-        sample_filter::filter(simd, &self.plan(grid), points, out);
+        filter_samples(simd, &self.plan(grid), points, out);
     }
 
     /// As [`Filter::points`], but as pixels `0xAARRGGBB`: [`Premultiplied16::to_pixel`] of the colours, which must be
     /// opaque.
     pub fn pixels(&self, simd: Level, grid: SampleGrid, points: &[[u16; 2]], out: &mut [u32]) {
-        sample_filter::filter(simd, &self.plan(grid), points, out);
+        filter_samples(simd, &self.plan(grid), points, out);
     }
 
     /// The sums of the premultiplied colours over the samples of pixels, channels as in [`Premultiplied16`]. The sum over
@@ -236,11 +187,12 @@ impl<'a> FilterLevel<'a> {
     }
 }
 
-impl Axis {
-    /// How far tap `i` lies from its sample, in texels.
-    pub(super) fn tap(&self, line: &TapLine, i: u32) -> f64 {
-        let step = if line.taps.along_x { self.right } else { self.down };
-        step * line.steps * line.taps.place(i)
+/// See [`super::Filter::points`] and [`super::Filter::pixels`].
+fn filter_samples<C: FromColors>(level: Level, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
+    if plan.line.taps.count == 1 {
+        dispatch!(level, simd => sample_filter::filter_with(simd, plan, points, out));
+    } else {
+        dispatch!(level, simd => anisotropic_filter::filter_with(simd, plan, points, out));
     }
 }
 

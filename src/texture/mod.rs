@@ -6,14 +6,17 @@ mod bilinear;
 mod course_sampler;
 mod decode;
 mod filter;
+mod filter_plan;
 mod footprint;
 mod level_of_detail;
 #[cfg(test)]
 mod oracle;
 mod pixel_filter;
 mod pyramid;
+mod reading;
 mod sample_filter;
 mod sample_offsets;
+mod settings;
 mod simd_channels;
 mod tent_weights;
 mod texel_coordinates;
@@ -21,12 +24,15 @@ mod trace;
 mod uv_map;
 
 pub use anisotropy::{Anisotropy, Taps};
-pub use course_sampler::{Sampler, SamplingSettings};
+pub use course_sampler::Sampler;
 pub use decode::{DecodeError, Memory, Run, decode_rows};
-pub use filter::{Filter, PixelList, SampleGrid};
+pub use filter::{Filter, SampleGrid};
+pub use filter_plan::PixelList;
 pub use footprint::Footprint;
-pub use level_of_detail::{Derivatives, FixedLevel, LevelChoice, LevelOfDetail, LodBias, Reading};
+pub use level_of_detail::{Derivatives, FixedLevel, LevelOfDetail, LodBias};
 pub use pyramid::{MAX_SIDE, MipLevel, MipPyramid};
+pub use reading::{LevelChoice, Reading};
+pub use settings::SamplingSettings;
 pub use trace::{TapRead, TexelRead, TextureReads};
 pub use uv_map::UvMap;
 

@@ -11,7 +11,7 @@
 use arbtest::arbitrary::{Result, Unstructured};
 use glam::DVec2;
 
-use super::filter::Plan;
+use super::filter_plan::Plan;
 use super::sample_offsets::{Footing, Scale};
 use super::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
 use super::{Filter, MipLevel, MipPyramid, SampleGrid, SamplingSettings, UvMap, bilinear, trace};

@@ -11,7 +11,7 @@ use fearless_simd::{Simd, dispatch, i32x8, u8x16};
 use glam::DVec2;
 
 use super::bilinear::{MASS, MASS_BITS};
-use super::filter::{PixelList, Plan};
+use super::filter_plan::{PixelList, Plan};
 use super::sample_offsets::{Footing, MAX_SIDE, Scale};
 use super::simd_channels::{self, Spread};
 use super::tent_weights::{Covered, Weighed, weigh};

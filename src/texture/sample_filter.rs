@@ -7,15 +7,13 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, i16x16, i32x8, u8x16, u16x8, u32x4, u64x2};
+use fearless_simd::{Simd, i16x16, i32x8, u8x16, u16x8, u32x4, u64x2};
 
 use super::PixelSampling;
-use super::anisotropic_filter;
 use super::bilinear::FRACTION_BITS;
-use super::filter::{GridLevel, Plan};
+use super::filter_plan::{GridLevel, Plan};
 use super::simd_channels::{FromColors, Spread, both_columns, in_columns, round, widen};
 use super::texel_coordinates::{Positions, columns_and_rows};
-use crate::simd::Level;
 
 /// Samples that are prepared together; few, so that short lists do not pay for clearing memory.
 pub(super) const BLOCK: usize = 16;
@@ -38,15 +36,6 @@ pub(super) struct Source<'a> {
     lower: &'a [[u8; 4]],
     cells: &'a Cells,
     mass: i32,
-}
-
-/// See [`super::Filter::points`] and [`super::Filter::pixels`].
-pub(super) fn filter<C: FromColors>(level: Level, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
-    if plan.line.taps.count == 1 {
-        dispatch!(level, simd => filter_with(simd, plan, points, out));
-    } else {
-        dispatch!(level, simd => anisotropic_filter::filter_with(simd, plan, points, out));
-    }
 }
 
 /// Filters samples of one tap each.

@@ -2,7 +2,7 @@
 
 use super::PixelSampling;
 use super::bilinear::{MASS, MASS_BITS};
-use super::filter::{Axis, GridLevel, Plan};
+use super::filter_plan::{Axis, GridLevel, Plan};
 
 /// The most samples along one side of a pixel.
 pub(super) const MAX_SIDE: usize = 16;

@@ -84,7 +84,7 @@ pub(super) fn both_columns<S: Simd>(first: i32x8<S>, second: i32x8<S>) -> i32x8<
     first.0.combine(second.0) + first.1.combine(second.1)
 }
 
-/// Rounds the sums of four samples to the bits that are stored; see `cell::to_channel`.
+/// Rounds the sums of four samples to the bits that are stored; see `bilinear::to_channel`.
 #[inline(always)]
 pub(super) fn round<S: Simd>(simd: S, low: i32x8<S>, high: i32x8<S>) -> u16x16<S> {
     let half = i32x8::splat(simd, 1 << (SUM_SHIFT - 1));
@@ -93,7 +93,7 @@ pub(super) fn round<S: Simd>(simd: S, low: i32x8<S>, high: i32x8<S>) -> u16x16<S
     low.relaxed_narrow(high)
 }
 
-/// Scales the sums of four samples to the bits that are stored, rounding to nearest; see `cell::mean`.
+/// Scales the sums of four samples to the bits that are stored, rounding to nearest; see `bilinear::mean`.
 #[inline(always)]
 pub(super) fn mean<S: Simd>(simd: S, low: i32x8<S>, high: i32x8<S>, scale: f32) -> u16x16<S> {
     /// Adding this to a 32-bit float rounds it to a whole number, which then stands in the lower bits.

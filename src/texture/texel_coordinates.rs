@@ -10,7 +10,7 @@ use fearless_simd::prelude::*;
 use glam::DVec2;
 
 use super::bilinear::{REACH, TO_FIXED};
-use super::filter::Axis;
+use super::filter_plan::Axis;
 
 /// The most lanes of 32 bits that a vector has.
 pub(super) const MAX_LANES: usize = 16;
@@ -54,13 +54,13 @@ impl<S: Simd> Positions<S> {
         }
     }
 
-    /// Where samples lie on an axis, inside the level, in fixed point; see `cell::to_fixed`.
+    /// Where samples lie on an axis, inside the level, in fixed point; see `bilinear::to_fixed`.
     #[inline(always)]
     pub(super) fn fixed(&self, simd: S, axis: &Axis) -> S::i32s {
         self.round(simd, axis, (0.0, axis.last), TO_FIXED)
     }
 
-    /// Where samples lie on an axis, at most [`REACH`] texels outside the level, in fixed point; see `cell::tap`.
+    /// Where samples lie on an axis, at most [`REACH`] texels outside the level, in fixed point; see `bilinear::tap`.
     #[inline(always)]
     pub(super) fn far(&self, simd: S, axis: &Axis) -> S::i32s {
         self.round(simd, axis, (-REACH, axis.last + REACH), 1.5 * TO_FIXED)

@@ -6,7 +6,8 @@
 use glam::DVec2;
 
 use super::course_sampler::{Sampler, course_place, course_point};
-use super::filter::{Axis, Filter, GridLevel, Plan, SampleGrid};
+use super::filter::{Filter, SampleGrid};
+use super::filter_plan::{Axis, GridLevel, Plan};
 use super::{MipLevel, PixelSampling, bilinear};
 use crate::color::Premultiplied16;
 

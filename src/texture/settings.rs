@@ -1,0 +1,34 @@
+//! How textures are sampled.
+
+use super::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling};
+use crate::rules::Rules;
+
+/// How textures are read: what a user chooses, and how close samples are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SamplingSettings {
+    /// Inside a level.
+    pub pixel: PixelSampling,
+    /// Between levels.
+    pub level: LevelSampling,
+    /// Along a footprint.
+    pub anisotropy: Anisotropy,
+    /// How large a footprint counts.
+    pub detail: LevelOfDetail,
+    /// Distance between samples in pixels, for [`super::Derivatives::Sample`].
+    pub sample_step: f64,
+    /// How texels are addressed.
+    pub rules: Rules,
+}
+
+impl Default for SamplingSettings {
+    fn default() -> Self {
+        Self {
+            pixel: PixelSampling::default(),
+            level: LevelSampling::default(),
+            anisotropy: Anisotropy::OFF,
+            detail: LevelOfDetail::default(),
+            sample_step: 1.0,
+            rules: Rules::default(),
+        }
+    }
+}

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::explanation::seen_fragments;
+use super::seen::seen_fragments;
 use crate::raster::{PaintedKind, PixelReplay};
 
 /// Paints that are listed, from the last; what samples show is listed besides.

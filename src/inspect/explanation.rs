@@ -246,36 +246,6 @@ impl Question<'_> {
     }
 }
 
-/// For each op and each of its fragments whether anything of it is seen: painted over by nothing opaque.
-pub(super) fn seen_fragments(replay: &PixelReplay) -> Vec<Vec<bool>> {
-    let mut seen: Vec<Vec<bool>> = replay
-        .painted
-        .iter()
-        .map(|op| vec![false; op.fragments.len()])
-        .collect();
-    // From the last to the first: which samples are hidden in each layer that is open there.
-    let mut hidden = vec![vec![false; replay.samples.len()]];
-    for (op, seen) in replay.painted.iter().zip(&mut seen).rev() {
-        let above = hidden.last().cloned().unwrap_or_default();
-        if let Some(hidden) = hidden.last_mut() {
-            for (fragment, seen) in op.fragments.iter().zip(seen) {
-                let sample = &mut hidden[fragment.sample];
-                *seen = !*sample && fragment.color != Premultiplied16::TRANSPARENT;
-                *sample |= fragment.color.is_opaque();
-            }
-        }
-        match op.kind {
-            PaintedKind::Primitive => {}
-            // What is hidden around a layer is hidden in it.
-            PaintedKind::EndLayer(_) => hidden.push(above),
-            PaintedKind::BeginLayer => {
-                hidden.pop();
-            }
-        }
-    }
-    seen
-}
-
 fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> {
     let mut samples: Vec<Sample> = replay
         .samples

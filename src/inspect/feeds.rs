@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 
-use super::explanation::seen_fragments;
+use super::seen::seen_fragments;
 use crate::raster::{Attributes, PieceShape, Region};
 use crate::render::{Neighbourhood, Subject};
 use crate::texture::TextureReads;

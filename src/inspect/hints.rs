@@ -5,9 +5,8 @@
 
 use std::collections::BTreeSet;
 
-use super::model::{Explanation, Interpolated, Missed, Paint, Texture, View};
+use super::model::{Cure, Explanation, Interpolated, Missed, Paint, Setting, Texture, Truth, View};
 use super::numbers::{number, percent, significant};
-use super::truth::{Cure, Setting, Truth};
 
 /// How many times as long as wide a footprint is from which on averaging it both ways blurs.
 const BLURS: f64 = 2.0;

@@ -15,6 +15,7 @@ mod numbers;
 mod pinholes;
 mod samples;
 mod seams;
+mod seen;
 mod text;
 mod truth;
 mod words;
@@ -24,9 +25,8 @@ pub use differences::Difference;
 pub use explanation::Question;
 pub use feeds::{FedPixel, Feeds, TexelPlace};
 pub use model::{
-    Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve, Rounding, Sample, Shape, Source,
-    Tap, Texel, Texture, VERSION, Verdict, View,
+    Cure, Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve, Rounding, Sample, Setting,
+    Shape, Source, Tap, Texel, Texture, Truth, VERSION, Verdict, View,
 };
 pub use samples::{PixelSample, SampleHit, pixel_samples};
 pub use text::Detail;
-pub use truth::{Cure, Setting, Truth};

@@ -7,7 +7,6 @@
 
 use serde::Serialize;
 
-use super::truth::Truth;
 use crate::color::ResolveSpace;
 
 /// The version of the shape of the report.
@@ -65,6 +64,55 @@ pub struct Resolve {
     /// Whether shaded samples were summed before they were rounded to 1/256, so that the sums may differ a little from
     /// those of [`Explanation::samples`].
     pub summed_exactly: bool,
+}
+
+/// What a pixel should be, and how to come nearer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Truth {
+    /// The pixel's true colour, straight red, green, blue, alpha: of 256 samples, each of which reads level 0 of its texture,
+    /// averaged as the picture's are.
+    pub color: [u8; 4],
+    /// How far the pixel is from it: the largest difference of a channel in levels, of premultiplied colours.
+    pub distance: f64,
+    /// The settings that bring it nearer, the best first; each alone.
+    pub cures: Vec<Cure>,
+}
+
+/// A setting that brings a pixel nearer to the truth.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cure {
+    /// Which setting.
+    pub setting: Setting,
+    /// Its value, as the command line has it.
+    pub value: String,
+    /// The pixel's colour with it, straight red, green, blue, alpha.
+    pub color: [u8; 4],
+    /// By how many levels it is nearer.
+    pub nearer: f64,
+}
+
+/// The settings that are tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Setting {
+    /// Whose conventions.
+    Rules,
+    /// A fixed level of detail.
+    LodLevel,
+    /// What is added to the level of detail.
+    LodBias,
+    /// Between mip levels.
+    LevelSampling,
+    /// Along a footprint.
+    Anisotropy,
+    /// Between which points footprints are measured.
+    LodPer,
+    /// Inside a mip level.
+    PixelSampling,
+    /// Samples per pixel.
+    SampleRate,
+    /// Where they lie.
+    Pattern,
 }
 
 impl Resolve {

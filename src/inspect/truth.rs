@@ -1,10 +1,8 @@
 //! How far a pixel is from the truth, and which settings bring it nearer: each is tried on this very pixel, by the code that
 //! draws frames.
 
-use serde::Serialize;
-
 use super::explanation::Question;
-use super::model::Explanation;
+use super::model::{Cure, Explanation, Setting, Truth};
 use crate::raster::{SamplePattern, SampleRate};
 use crate::render::{Nearby, RenderSettings};
 use crate::rules::Rules;
@@ -20,55 +18,6 @@ const ENOUGH: f64 = 0.75;
 const WORTH_A_WORD: f64 = 0.25;
 /// Settings that are told at most.
 const MOST_CURES: usize = 3;
-
-/// What a pixel should be, and how to come nearer.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Truth {
-    /// The pixel's true colour, straight red, green, blue, alpha: of 256 samples, each of which reads level 0 of its texture,
-    /// averaged as the picture's are.
-    pub color: [u8; 4],
-    /// How far the pixel is from it: the largest difference of a channel in levels, of premultiplied colours.
-    pub distance: f64,
-    /// The settings that bring it nearer, the best first; each alone.
-    pub cures: Vec<Cure>,
-}
-
-/// A setting that brings a pixel nearer to the truth.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Cure {
-    /// Which setting.
-    pub setting: Setting,
-    /// Its value, as the command line has it.
-    pub value: String,
-    /// The pixel's colour with it, straight red, green, blue, alpha.
-    pub color: [u8; 4],
-    /// By how many levels it is nearer.
-    pub nearer: f64,
-}
-
-/// The settings that are tried.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Setting {
-    /// Whose conventions.
-    Rules,
-    /// A fixed level of detail.
-    LodLevel,
-    /// What is added to the level of detail.
-    LodBias,
-    /// Between mip levels.
-    LevelSampling,
-    /// Along a footprint.
-    Anisotropy,
-    /// Between which points footprints are measured.
-    LodPer,
-    /// Inside a mip level.
-    PixelSampling,
-    /// Samples per pixel.
-    SampleRate,
-    /// Where they lie.
-    Pattern,
-}
 
 impl Explanation {
     /// Why a pixel has its colour, how far it is from the truth and what brings it nearer; `None` outside the picture.

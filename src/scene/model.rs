@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, Vec2};
 
-use super::{Report, SceneFiles};
+use super::{Report, SceneFiles, SourceLocation};
 use crate::color::Rgba;
 use crate::geometry::Polygon;
 use crate::texture::Texture;
@@ -90,15 +90,6 @@ pub struct Shape {
     pub location: SourceLocation,
 }
 
-/// A place in a document, both counted from 1; the column counts characters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct SourceLocation {
-    /// Line, from 1.
-    pub line: u32,
-    /// Column in characters, from 1.
-    pub column: u32,
-}
-
 /// The smallest thing that is painted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Primitive {
@@ -164,12 +155,6 @@ pub enum Paint {
         /// Multiplies the texture's own opacity, `0.0..=1.0`.
         opacity: f32,
     },
-}
-
-impl std::fmt::Display for SourceLocation {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}:{}", self.line, self.column)
-    }
 }
 
 impl Dialect {

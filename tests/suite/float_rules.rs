@@ -8,7 +8,7 @@ use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, ReadOptions, Scene};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 
-use crate::support::explaining::{advised, explained};
+use crate::support::explaining::{advised_by_default, explained};
 use crate::support::scenes::{at_rate, drawn};
 
 fn own(name: &str) -> Scene {
@@ -65,10 +65,10 @@ fn float_rules_are_measured_against_a_truth_without_pinholes() {
     let scene = own("basic/test4.svg");
     let mut checked = 0;
     for size in [[1280, 800], [1366, 768]] {
-        let view = View::Canvas.transform(scene.canvas, size);
-        let [float, standard] = [Rules::Float, Rules::Standard].map(|rules| drawn(&scene, &view, &by(rules), size));
+        let [float, standard] = [Rules::Float, Rules::Standard].map(|rules| picture(&scene, size, &by(rules)));
         for pixel in different(&float, &standard).iter().step_by(17) {
-            let [found, cured] = [Rules::Float, Rules::Standard].map(|rules| advised(&scene, &by(rules), size, *pixel));
+            let [found, cured] =
+                [Rules::Float, Rules::Standard].map(|rules| advised_by_default(&scene, &by(rules), size, *pixel));
             let [truth, own] = [found.truth.unwrap(), cured.truth.unwrap()];
             assert_eq!(truth.color, own.color, "one truth at {pixel:?}");
             let first = truth.cures.first();

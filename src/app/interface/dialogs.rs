@@ -1,12 +1,11 @@
 //! What covers the picture until it is closed: help, the command palette, going to a pixel.
 
 use egui::text::{CCursor, CCursorRange};
-use egui::{
-    Align, Align2, Area, AtomExt as _, Button, Color32, Context, Id, Key, Layout, Modal, Order, RichText, ScrollArea,
-};
+use egui::{Align, Align2, Area, AtomExt as _, Button, Context, Id, Key, Layout, Modal, Order, RichText, ScrollArea};
 use egui::{TextEdit, Ui, vec2};
 
 use super::look::CONTROL;
+use super::modal::{BACKDROP, modal};
 use super::sheet::SheetDialog;
 use crate::viewer::commands::{self, GESTURES};
 use crate::viewer::{Action, Command, CommandSpec, Dialog, Group, Viewer};
@@ -261,16 +260,6 @@ fn entry(ui: &mut Ui, spec: &CommandSpec, chosen: bool) -> egui::Response {
     let button = Button::selectable(chosen, spec.name).right_text(keys).truncate();
     ui.add_sized([ui.available_width(), CONTROL.y + 2.0], button)
         .accessible_name(spec.name)
-}
-
-/// What darkens the picture below a dialog.
-const BACKDROP: Color32 = Color32::from_black_alpha(90);
-
-pub(super) fn modal(name: &'static str) -> Modal {
-    let id = Id::unique(name);
-    Modal::new(id)
-        .area(Modal::default_area(id).fade_in(false))
-        .backdrop_color(BACKDROP)
 }
 
 /// OK and cancel; which was pressed. OK does nothing while something is `missing`.

@@ -8,6 +8,7 @@ use egui::{
 
 use super::controls::{command_button, tip};
 use super::floating::{around, points};
+use super::look::opaque;
 use super::look::{self, CONTROL};
 use super::{compare, scrubber, twin};
 use crate::inspect::{Difference, Explanation, Paint, TexelPlace};
@@ -372,11 +373,6 @@ fn draw_samples(ui: &Ui, explanation: &Explanation, rect: Rect, told: Option<usi
 #[expect(clippy::cast_possible_truncation, reason = "places on a screen")]
 fn at_part(rect: Rect, [x, y]: [f64; 2]) -> Pos2 {
     rect.min + vec2(rect.width() * x as f32, rect.height() * y as f32)
-}
-
-/// A straight colour without its alpha: swatches are opaque.
-pub(super) fn opaque([r, g, b, _]: [u8; 4]) -> Color32 {
-    Color32::from_rgb(r, g, b)
 }
 
 impl Hovered {

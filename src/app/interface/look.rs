@@ -174,3 +174,8 @@ fn paint(visuals: &mut egui::Visuals, palette: &Palette) {
 
 /// The smallest extent that a control for a finger or a mouse has, in points.
 pub(super) const CONTROL: Vec2 = vec2(28.0, 22.0);
+
+/// A straight colour without its alpha: swatches are opaque.
+pub(super) fn opaque([r, g, b, _]: [u8; 4]) -> Color32 {
+    Color32::from_rgb(r, g, b)
+}

@@ -18,6 +18,7 @@ mod floating;
 mod hits;
 mod lesson;
 mod look;
+mod modal;
 mod pin;
 mod sampling;
 mod scenes;

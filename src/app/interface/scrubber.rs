@@ -2,7 +2,7 @@
 
 use egui::{Color32, Pos2, Rect, RichText, Sense, Shape, Slider, Stroke, Ui, pos2, vec2};
 
-use super::explanation::opaque;
+use super::look::opaque;
 use crate::inspect::Explanation;
 
 /// Height of the plot, in points.

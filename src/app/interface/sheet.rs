@@ -4,8 +4,8 @@ use egui::{Align, Button, Checkbox, Color32, ComboBox, Context, Layout, Rect, Ri
 use egui::{TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2};
 
 use super::controls::{choice, given_up_text, heading, row, tip};
-use super::dialogs::modal;
 use super::look::CONTROL;
+use super::modal::modal;
 use super::scenes::image_of;
 use crate::figure::{Ground, PAGE_WIDTH};
 use crate::viewer::{Axis, Command, PanelSize, SheetChange, SheetPreview, SheetSide, Viewer, commands, options};

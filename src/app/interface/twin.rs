@@ -2,8 +2,8 @@
 
 use egui::{Color32, Pos2, Rect, RichText, Sense, Shape, Stroke, StrokeKind, Ui, vec2};
 
-use super::explanation::opaque;
 use super::fed::LIT;
+use super::look::opaque;
 use crate::inspect::{Interpolated, Level, Paint, Tap, TexelPlace, View};
 use crate::raster::Region;
 use crate::texture::MipLevel;

@@ -10,6 +10,16 @@ pub(crate) fn advised(scene: &Scene, settings: &RenderSettings, size: [u32; 2], 
     told(scene, settings, (View::Canvas, size), pixel, Explanation::advised)
 }
 
+/// As [`advised`], of the picture that is drawn where no view is asked for.
+pub(crate) fn advised_by_default(
+    scene: &Scene,
+    settings: &RenderSettings,
+    size: [u32; 2],
+    pixel: [u32; 2],
+) -> Explanation {
+    told(scene, settings, (View::Default, size), pixel, Explanation::advised)
+}
+
 /// As [`advised`], of the picture that is drawn where no view is asked for, without what would help.
 pub(crate) fn explained(scene: &Scene, settings: &RenderSettings, size: [u32; 2], pixel: [u32; 2]) -> Explanation {
     told(scene, settings, (View::Default, size), pixel, Explanation::new)

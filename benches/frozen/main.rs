@@ -5,6 +5,7 @@
 //! reading textures (`filters`), every visualisation (`visualised`), and what the inspector says of some pixels (`explained`).
 
 use std::fmt::Write as _;
+use std::io::{self, Write as _};
 
 use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::View;
@@ -25,9 +26,9 @@ const SMALL_SIZE: [u32; 2] = [37, 29];
 const RATES: [u32; 5] = [1, 4, 9, 16, 64];
 const VIEWS: [View; 2] = [View::Default, View::Canvas];
 
-fn main() {
+fn main() -> io::Result<()> {
     let lines: Vec<String> = SCENES.par_iter().map(lines).collect();
-    print!("{}", lines.concat());
+    io::stdout().write_all(lines.concat().as_bytes())
 }
 
 /// Every line of a scene.

@@ -97,7 +97,7 @@ impl BandSpans {
     ) {
         match shape {
             Shape::Triangle(corners) => {
-                pixel_rows_4x4::each_row_of_triangle(simd, *corners, self.settings, rect, paint)
+                pixel_rows_4x4::each_row_of_triangle(simd, *corners, self.settings, rect, paint);
             }
             Shape::Outline(outline) => {
                 pixel_rows_4x4::each_row_of_spans(simd, self.of_outline(outline, rect.y), rect, paint);

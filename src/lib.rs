@@ -1,11 +1,40 @@
 //! Rasterscope: see how a picture is sampled.
 //!
+//! A software rasterizer for SVG scenes that can say of every pixel why it has its colour: which samples it has, which
+//! shapes cover them, which texels they read, and which settings would bring it nearer to the truth. The program
+//! `rasterscope` shows it in a window and on the command line; as a library it draws a file and explains a pixel like this:
+//!
+//! ```
+//! use rasterscope::{SampleRate, Scene, Settings, draw, explain};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let scene = Scene::load("svg/basic/test4.svg")?;
+//! let mut settings = Settings::default();
+//! settings.render.sample_rate = SampleRate::new(16).ok_or("no such rate")?;
+//! let picture = draw(&scene, &settings)?;
+//! let explanation = explain(&scene, &settings, [525, 178])?;
+//! assert_eq!(picture.rgba(525, 178), Some(explanation.color));
+//! println!("{explanation}");
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! `examples/explain.rs` is this as a program, which saves the picture too.
+//!
+//! # What is promised
+//!
+//! The names at the root of the crate are its front door: [`Scene`], [`Settings`], [`draw`], [`explain`], [`save_png`], and
+//! the types that they take and return. A version that changes their meaning says so in `CHANGELOG.md`. The modules are the
+//! rooms of the house. They are public for the program, its tests and its benchmarks, they may change with every commit,
+//! and promise nothing to others.
+//!
 //! # The house
 //!
 //! One room per concern; doors open downwards only (`tests/suite/architecture.rs` holds the table).
 //!
 //! | room | turns | into |
 //! |---|---|---|
+//! | `api` | a file and settings | a picture, and why a pixel has its colour: the front door |
 //! | [`cli`] | arguments | a command and its exit status |
 //! | `app` (feature `window`) | window events | [`viewer::Command`]s, and a frame into a presented surface |
 //! | [`viewer`] | commands | state, a finished frame, saved files |
@@ -31,6 +60,7 @@
 //! * Colours are sRGB-encoded values unless a name says `linear`, and straight unless a name says `premultiplied`.
 //! * Frames are in device pixels, always.
 
+mod api;
 #[cfg(feature = "window")]
 pub mod app;
 pub mod cli;
@@ -48,3 +78,24 @@ pub mod scene;
 pub mod simd;
 pub mod texture;
 pub mod viewer;
+
+pub use api::{PictureError, Settings, draw, explain};
+#[doc(inline)]
+pub use figure::save_png;
+#[doc(inline)]
+pub use inspect::Explanation;
+#[doc(inline)]
+pub use raster::Framebuffer;
+#[doc(inline)]
+pub use scene::{Scene, SceneError};
+
+// What settings are made of.
+#[doc(no_inline)]
+pub use {
+    color::{ResolveSpace, Rgba},
+    geometry::View,
+    raster::{SamplePattern, SampleRate},
+    render::{RenderSettings, Visualisation},
+    rules::Rules,
+    texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling},
+};

@@ -9,6 +9,7 @@ use clap::{Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand, V
 
 use super::axes::Lists;
 use super::failure::Failure;
+use super::help;
 use super::recorded;
 use super::size::FrameSize;
 use super::sweep::Quality;
@@ -34,7 +35,7 @@ const MAX_RESTORED_WINDOW: u32 = 4096;
     version,
     about = "See how a picture is sampled: a rasterizer with a pixel microscope."
 )]
-#[command(after_help = "Without a command, `rasterscope [PATH...]` opens the window: see `rasterscope view --help`.")]
+#[command(after_help = help::LIST)]
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) verb: Verb,
@@ -649,6 +650,9 @@ pub(super) fn sampling_of(words: impl Iterator<Item = String>) -> Result<Samplin
 
 /// Reads words that name a command; `repeated` allows options to come again, so that the last counts.
 pub(super) fn parse_words(words: Vec<OsString>, repeated: bool) -> Result<Arguments, Failure> {
+    if let Some(page) = help::page(&words) {
+        return Err(Failure::Text(page));
+    }
     let matches = Arguments::command()
         .args_override_self(repeated)
         .try_get_matches_from(words);

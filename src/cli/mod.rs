@@ -8,6 +8,7 @@ mod axes;
 mod bench;
 mod diff;
 mod failure;
+mod help;
 mod inspect;
 mod interrupt;
 mod lesson;

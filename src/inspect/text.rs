@@ -1,5 +1,7 @@
 //! The report as text for a terminal of 80 columns, and as Markdown for a write-up.
 
+use std::fmt;
+
 use super::model::{Explanation, Shape};
 use super::numbers::{number, runs};
 
@@ -22,6 +24,13 @@ pub enum Detail {
 struct Topic {
     title: String,
     lines: Vec<String>,
+}
+
+/// The text for a terminal that tells of each paint the most telling sample.
+impl fmt::Display for Explanation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.text(Detail::Telling).trim_end())
+    }
 }
 
 impl Explanation {

@@ -189,6 +189,7 @@ impl<'doc> Builder<'doc> {
         };
         let textures = self.textures.load(&mut self.report);
         Scene {
+            name: Arc::default(),
             canvas,
             dialect,
             other_reading: None,

@@ -52,6 +52,18 @@ const MAX_KEPT_DOCUMENT: usize = 32 << 20;
 const MEMORY_PER_BYTE: u64 = 32;
 const MAX_MEMORY: u64 = 1 << 30;
 
+impl Scene {
+    /// Reads the scene in the file `path`, in the dialect that the document seems to be meant in; as the function
+    /// [`load`] with [`DialectChoice::Auto`].
+    ///
+    /// # Errors
+    /// When the file cannot be read or is no drawing. What is skipped, such as a texture that is missing, is in
+    /// [`Scene::report`].
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        load(path.as_ref(), DialectChoice::Auto)
+    }
+}
+
 /// Reads the scene in the file `path`; textures are looked for relative to its folder.
 ///
 /// # Errors
@@ -76,7 +88,9 @@ pub fn load(path: &Path, dialect: DialectChoice) -> Result<Scene, SceneError> {
 /// # Errors
 /// As [`load`].
 pub fn read(document: &[u8], name: &str, options: ReadOptions, resources: &dyn Resources) -> Result<Scene, SceneError> {
-    read_bytes(document, options, resources).map_err(|fault| fault.in_file(name))
+    let mut scene = read_bytes(document, options, resources).map_err(|fault| fault.in_file(name))?;
+    scene.name = name.into();
+    Ok(scene)
 }
 
 fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> Result<Scene, Fault> {

@@ -21,6 +21,8 @@ pub enum Dialect {
 /// A resolved document: what to paint, in painter's order, in user space.
 #[derive(Clone, Debug)]
 pub struct Scene {
+    /// What the document is called in messages: its file or address; empty for a scene that was made in code.
+    pub name: Arc<str>,
     /// Width and height of the canvas in user units, finite and above zero.
     pub canvas: DVec2,
     /// The dialect the document was read in.
@@ -46,6 +48,7 @@ impl Scene {
     /// A canvas with nothing on it; the start of scenes that are made in code.
     pub fn empty(canvas: DVec2, dialect: Dialect) -> Self {
         Self {
+            name: Arc::default(),
             canvas,
             dialect,
             other_reading: None,

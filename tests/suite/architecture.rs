@@ -29,6 +29,11 @@ const ROOMS: &[Room] = &[
         crates: &["clap", "serde", "serde_json", "toml", "indicatif", "ctrlc"],
     },
     Room {
+        name: "api",
+        rooms: &["inspect", "render", "scene", "raster", "geometry", "memory"],
+        crates: &[],
+    },
+    Room {
         name: "app",
         rooms: &[
             "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry",

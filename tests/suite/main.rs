@@ -5,8 +5,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
 
+mod api;
 mod architecture;
 mod cli;
+mod contributing;
 mod coverage;
 mod diff;
 mod disk;

@@ -1,4 +1,4 @@
-//! What the README promises: its key table is the program's, and every option and scene folder is named.
+//! What the README and the reference promise: the key table is the program's, every option and scene folder is named.
 
 use std::fs;
 use std::path::Path;
@@ -26,10 +26,61 @@ fn readme_holds_the_key_table_of_the_program() {
     panic!("the README's key table is not the program's: run with BLESS=1");
 }
 
+/// The pages of the reference by their names, as the program prints them: one for each file.
+fn pages() -> Vec<(String, String)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/cli/help");
+    let files = fs::read_dir(folder).unwrap();
+    let print = |path: &Path| {
+        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        let program = Command::new(env!("CARGO_BIN_EXE_rasterscope"))
+            .args(["help", &name])
+            .output()
+            .unwrap();
+        assert!(program.status.success(), "{name}: {program:?}");
+        (name, String::from_utf8(program.stdout).unwrap())
+    };
+    files.map(|file| print(&file.unwrap().path())).collect()
+}
+
+/// What stands outside of code.
+fn prose_of(text: &str) -> String {
+    let outside_blocks: String = text.split("```").step_by(2).collect();
+    outside_blocks.split('`').step_by(2).collect()
+}
+
+#[test]
+fn readme_is_short_and_names_every_page_that_the_program_prints() {
+    let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+    assert!(readme.lines().count() <= 200, "{} lines", readme.lines().count());
+    let pages = pages();
+    let help = help_of(&[]);
+    for (name, text) in &pages {
+        assert!(text.starts_with("# ") && text.lines().count() > 10, "{name}: {text}");
+        assert!(
+            readme.contains(&format!("`rasterscope help {name}`")),
+            "{name} is in the README"
+        );
+        assert!(help.contains(&format!("{name}`")), "{name} is in the help: {help}");
+        for other in text.split("rasterscope help ").skip(1) {
+            let other = other.split('`').next().unwrap();
+            assert!(pages.iter().any(|(page, _)| page == other), "{name} leads to {other}");
+        }
+    }
+    assert_eq!(pages.len(), 8, "all pages");
+    let (_, keys) = pages.iter().find(|(name, _)| name == "keys").unwrap();
+    assert!(keys.contains(commands::markdown().trim()), "the key table");
+    let refused = Command::new(env!("CARGO_BIN_EXE_rasterscope"))
+        .args(["help", "nothing"])
+        .output()
+        .unwrap();
+    assert_eq!(refused.status.code(), Some(2), "{refused:?}");
+}
+
 #[test]
 fn readme_names_every_option_and_scene_folder() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let text = fs::read_to_string(root.join("README.md")).expect("the README");
+    let mut text = fs::read_to_string(root.join("README.md")).expect("the README");
+    text.extend(pages().into_iter().map(|(_, page)| page));
     for command in [
         "view", "render", "sheet", "sweep", "writeup", "rerun", "inspect", "diff", "lesson", "bench",
     ] {
@@ -41,7 +92,7 @@ fn readme_names_every_option_and_scene_folder() {
         let options = help.split_whitespace().filter_map(|word| word.strip_prefix("--"));
         for option in options.map(|word| word.trim_matches(|c: char| !c.is_alphabetic())) {
             let known = option == "help" || option == "output" || text.contains(&format!("--{option}"));
-            assert!(known, "--{option} of {command} is in the README");
+            assert!(known, "--{option} of {command} is in the README or the reference");
         }
     }
     for entry in fs::read_dir(root.join("svg")).expect("scenes") {
@@ -132,12 +183,11 @@ fn readme_lists_every_command() {
 fn readme_and_help_say_colour() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let readme = fs::read_to_string(root.join("README.md")).unwrap();
-    let outside_blocks: String = readme.split("```").step_by(2).collect();
-    let prose: String = outside_blocks.split('`').step_by(2).collect();
     let mut texts = vec![
-        ("README".to_owned(), prose),
+        ("README".to_owned(), prose_of(&readme)),
         ("table of commands".to_owned(), commands::markdown()),
     ];
+    texts.extend(pages().iter().map(|(name, page)| (name.clone(), prose_of(page))));
     for command in commands_of_the_program() {
         texts.push((format!("help of {command}"), help_of(&[&command])));
     }

@@ -124,7 +124,7 @@ impl SampleBox {
         }
     }
 
-    /// Whether its samples fit the bits of a [`CoverageMask`].
+    /// Whether its samples fit the bits of a coverage mask.
     #[inline]
     pub(crate) fn is_small(self) -> bool {
         self.columns.end - self.columns.start <= SMALL && self.rows.end - self.rows.start <= SMALL

@@ -20,7 +20,7 @@ pub(super) struct GridLevel<'a> {
     pub(super) level: &'a MipLevel,
     /// Its number in the pyramid.
     pub(super) number: usize,
-    /// Its part of [`bilinear::MASS`].
+    /// Its part of [`super::bilinear::MASS`].
     pub(super) mass: i32,
     pub(super) x: Axis,
     pub(super) y: Axis,

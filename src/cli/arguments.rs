@@ -1,32 +1,24 @@
-//! The arguments as written: commands, options, their help.
+//! The arguments as written: the commands, and what they are when read.
 
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 
-use clap::builder::PossibleValue;
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand, ValueEnum};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
-use super::axes::Lists;
-use super::failure::Failure;
+use super::failure::{Failure, one_line};
 use super::help;
-use super::recorded;
-use super::size::FrameSize;
-use super::sweep::Quality;
-use super::view_option;
-use crate::color::{ResolveSpace, Rgba};
-use crate::compare::Measure;
-use crate::figure::{Ground, InsetSpec};
-use crate::geometry::View;
-use crate::raster::{SamplePattern, SampleRate};
-use crate::render::{RenderSettings, Visualisation};
-use crate::rules::Rules;
-use crate::scene::DialectChoice;
-use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
-use crate::viewer::{Against, NameTemplate, Restored, Theme};
-
-/// Longest side of a window that comes back from a picture, in pixels.
-const MAX_RESTORED_WINDOW: u32 = 4096;
+use super::options::bench::BenchOptions;
+use super::options::diff::DiffOptions;
+use super::options::inspect::InspectOptions;
+use super::options::lesson::LessonOptions;
+use super::options::render::RenderOptions;
+use super::options::rerun::RerunOptions;
+use super::options::sampling::SamplingOptions;
+use super::options::sheet::SheetOptions;
+use super::options::sweep::SweepOptions;
+use super::options::view::ViewerOptions;
+use super::options::writeup::WriteupOptions;
 
 /// See how a picture is sampled.
 #[derive(Debug, Parser)]
@@ -86,7 +78,7 @@ impl Verb {
     }
 
     /// The scene, where a picture may stand for it.
-    fn scene(&mut self) -> Option<&mut PathBuf> {
+    pub(super) fn scene(&mut self) -> Option<&mut PathBuf> {
         match self {
             Self::View(options) if options.paths.len() == 1 => options.paths.first_mut(),
             Self::Render(options) => Some(&mut options.scene),
@@ -115,539 +107,6 @@ const RERUN_STATUS: &str = "Exit status: 0 done, with --check: every pixel is th
 const DIFF_STATUS: &str = "Exit status: 0 the pictures agree within the tolerance, 1 they differ, 2 a file or an \
                            argument is at fault.";
 
-#[derive(Clone, Debug, Args)]
-pub(super) struct ViewerOptions {
-    /// SVG files and folders of them, or a PNG of this program: its scene, view and settings
-    pub(super) paths: Vec<PathBuf>,
-    /// The window's size in device pixels [default: 1280x800]
-    #[arg(long, value_name = "WxH")]
-    pub(super) size: Option<FrameSize>,
-    /// Compare with this from the start: `truth` (or `truth stored`, `truth linear`), `settings`, settings such as "sample-rate 16, dialect svg", or the file of a
-    /// PNG or JPEG
-    #[arg(long, value_name = "FILE|truth|SETTINGS", value_parser = against)]
-    pub(super) against: Option<Against>,
-    #[command(flatten)]
-    pub(super) sampling: SamplingOptions,
-    #[command(flatten)]
-    pub(super) framing: FramingOptions,
-    /// Panels light or dark [default: as the desktop]
-    #[arg(long, value_enum)]
-    pub(super) theme: Option<Theme>,
-    /// The folder that screenshots go to [default: the current one]
-    #[arg(long, value_name = "DIR")]
-    pub(super) screenshot_dir: Option<PathBuf>,
-    /// How they are called: words and {scene} {rate} {pixel} {level} {pattern} {time} [default: rasterscope-{time}]
-    #[arg(long, value_name = "TEMPLATE", value_parser = NameTemplate::parse)]
-    pub(super) screenshot_name: Option<NameTemplate>,
-    /// Play a script from a file
-    #[arg(long, value_name = "FILE", conflicts_with = "commands")]
-    pub(super) script: Option<PathBuf>,
-    /// Play a script, such as "key =; pin 512,300; key z; shot out.png"
-    #[arg(long = "do", id = "commands", value_name = "SCRIPT")]
-    pub(super) commands: Option<String>,
-    /// Play the script, or save one picture of the window, without a window
-    #[arg(long)]
-    pub(super) headless: bool,
-    /// Write a line of CSV for each picture that the window shows: what it shows, milliseconds per stage
-    #[arg(long, value_name = "FILE", conflicts_with = "headless")]
-    pub(super) frame_log: Option<PathBuf>,
-    /// Replace files of another making too: the frame log, slides; never what is read
-    #[arg(long)]
-    pub(super) force: bool,
-    /// Device pixels per point of the panels, with --headless only
-    #[arg(long, value_name = "FACTOR", value_parser = scale, requires = "headless")]
-    pub(super) scale: Option<f32>,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct LessonOptions {
-    /// A lesson in TOML, or one of the program's: six-tasks, anisotropy
-    pub(super) lesson: PathBuf,
-    /// Draw each step into a numbered PNG in this folder [size by default: 1600x900]
-    #[arg(long, value_name = "DIR")]
-    pub(super) slides: Option<PathBuf>,
-    /// Draw only this step, counted from 1
-    #[arg(long, value_name = "N", requires = "slides", value_parser = clap::value_parser!(u32).range(1..))]
-    pub(super) step: Option<u32>,
-    #[command(flatten)]
-    pub(super) view: ViewerOptions,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct RenderOptions {
-    /// An SVG file, a folder whose scenes are all drawn, or a PNG of this program: its scene and settings
-    pub(super) scene: PathBuf,
-    /// The PNG file to write; for a folder, the folder to write into
-    #[arg(short, long, value_name = "OUT")]
-    pub(super) output: PathBuf,
-    /// Replace pictures of another making too, in the folder to write into; never what is read
-    #[arg(long)]
-    pub(super) force: bool,
-    /// Leave the legend of a visualisation away
-    #[arg(long)]
-    pub(super) no_legend: bool,
-    #[command(flatten)]
-    pub(super) picture: PictureOptions,
-
-    /// Magnify a region in a corner: X,Y is its middle in pixels, uX,Y in user units; may come several times
-    #[arg(long = "inset", value_name = "X,Y[:REGION@FACTOR[:CORNER]]")]
-    pub(super) insets: Vec<InsetSpec>,
-}
-
-#[derive(Clone, Debug, Args)]
-pub(super) struct SheetOptions {
-    /// An SVG file, a scene of the gallery, or a PNG of this program: its scene and settings
-    pub(super) scene: PathBuf,
-    /// The PNG file to write
-    #[arg(short, long, value_name = "OUT.png")]
-    pub(super) output: PathBuf,
-    /// Pixels of each panel [default: squares that make the sheet 1890 pixels wide, 16 cm at 300 dpi]
-    #[arg(long, value_name = "WxH")]
-    pub(super) size: Option<FrameSize>,
-    /// Magnify a region of every panel: X,Y is its middle in pixels, uX,Y in user units; may come several times
-    #[arg(long = "inset", value_name = "X,Y[:REGION@FACTOR[:CORNER]]")]
-    pub(super) insets: Vec<InsetSpec>,
-    /// Dark ink on white for print, or light ink on black for slides
-    #[arg(long, default_value = Ground::Light.name(), value_enum)]
-    pub(super) theme: Ground,
-    /// Replace panels and snippets of another making too; never what is read
-    #[arg(long)]
-    pub(super) force: bool,
-    /// A sentence that the caption ends with
-    #[arg(long, value_name = "TEXT")]
-    pub(super) note: Option<String>,
-    #[command(flatten)]
-    pub(super) axes: Lists,
-    #[command(flatten)]
-    pub(super) framing: FramingOptions,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct SweepOptions {
-    /// An SVG file, a scene of the gallery, or a PNG of this program: its scene and settings
-    pub(super) scene: PathBuf,
-    /// The table to write
-    #[arg(long, value_name = "OUT.csv")]
-    pub(super) csv: PathBuf,
-    /// The chart to write [default: the table's name, ending in .png]
-    #[arg(long, value_name = "OUT.png")]
-    pub(super) plot: Option<PathBuf>,
-    /// Replace a table or chart of another making too; never what is read
-    #[arg(long)]
-    pub(super) force: bool,
-    /// What the chart shows over the time
-    #[arg(long, default_value = Quality::default().name(), value_enum)]
-    pub(super) quality: Quality,
-    /// Frames whose time is taken, for each combination
-    #[arg(long, default_value = "5", value_name = "K", value_parser = clap::value_parser!(u32).range(1..=10_000))]
-    pub(super) frames: u32,
-    /// Pixels of the pictures
-    #[arg(long, default_value = "1024x1024", value_name = "WxH")]
-    pub(super) size: FrameSize,
-    #[command(flatten)]
-    pub(super) axes: Lists,
-    #[command(flatten)]
-    pub(super) framing: FramingOptions,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct WriteupOptions {
-    /// Which write-up
-    #[arg(value_enum, default_value = Assignment::Course.name())]
-    pub(super) assignment: Assignment,
-    /// The folder to write into; it is made where there is none
-    #[arg(short, long, value_name = "OUT")]
-    pub(super) output: PathBuf,
-    /// The course's scenes, with folders such as basic and texmap; those that are missing come from the gallery
-    #[arg(long, value_name = "DIR")]
-    pub(super) scenes: Option<PathBuf>,
-    /// Your own picture, PNG or JPEG, for the task of levels
-    #[arg(long, value_name = "PHOTO")]
-    pub(super) own: Option<PathBuf>,
-    /// Your own robot
-    #[arg(long, value_name = "ROBOT.svg")]
-    pub(super) robot: Option<PathBuf>,
-    /// Replace files of another making too; never what is read
-    #[arg(long)]
-    pub(super) force: bool,
-    /// Where insets look [default: OUT/pins.toml]
-    #[arg(long, value_name = "FILE")]
-    pub(super) pins: Option<PathBuf>,
-    /// Threads that draw [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
-    pub(super) threads: Option<u16>,
-}
-
-/// A write-up that the program knows the figures of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Assignment {
-    /// A course on rasterization: six tasks and the competition.
-    Course,
-}
-
-impl Assignment {
-    const ALL: [Self; 1] = [Self::Course];
-
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Course => "course",
-        }
-    }
-}
-
-#[derive(Debug, Args)]
-pub(super) struct RerunOptions {
-    /// A PNG that this program wrote
-    pub(super) shot: PathBuf,
-    /// Compare with the picture instead of writing a file
-    #[arg(long, required_unless_present = "output")]
-    pub(super) check: bool,
-    /// The PNG file to write
-    #[arg(short, long, value_name = "OUT.png", conflicts_with = "check")]
-    pub(super) output: Option<PathBuf>,
-    /// The scene, where it is no longer at its place
-    #[arg(long, value_name = "FILE")]
-    pub(super) scene: Option<PathBuf>,
-    /// Threads that draw [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
-    pub(super) threads: Option<u16>,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct InspectOptions {
-    /// An SVG file, or a scene of the gallery such as gallery:basic/test4.svg
-    pub(super) scene: PathBuf,
-    /// Column and row of the pixel, from 0
-    #[arg(long, value_name = "X,Y", value_parser = pixel)]
-    pub(super) pixel: PixelPlace,
-    /// The sample that is told in full of every primitive, from 1 [default: the most telling one]
-    #[arg(long, value_name = "K")]
-    pub(super) sample: Option<u32>,
-    /// Print JSON instead of text: everything about every sample
-    #[arg(long)]
-    pub(super) json: bool,
-    #[command(flatten)]
-    pub(super) picture: PictureOptions,
-}
-
-/// Column and row of a pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct PixelPlace(pub(super) [u32; 2]);
-
-#[derive(Debug, Args)]
-pub(super) struct DiffOptions {
-    /// The reference: a PNG or JPEG, or a scene (.svg, gallery:...) that is drawn at the size of B
-    pub(super) a: PathBuf,
-    /// What is compared with it: a PNG or JPEG of the same size
-    pub(super) b: PathBuf,
-    /// A PNG file to write the difference into, as a picture
-    #[arg(short, long, value_name = "DIFF.png")]
-    pub(super) output: Option<PathBuf>,
-    /// Which difference the picture shows
-    #[arg(long, default_value = Measure::default().name(), value_enum)]
-    pub(super) mode: Measure,
-    /// What the shown difference is multiplied with
-    #[arg(long, default_value = "1", value_name = "G", value_parser = gain, allow_negative_numbers = true)]
-    pub(super) gain: f32,
-    /// Choose the gain that makes the largest difference the last colour
-    #[arg(long, conflicts_with = "gain")]
-    pub(super) normalize: bool,
-    /// Levels of 255 that a channel may differ by without an exit status of 1
-    #[arg(long, default_value_t = 0, value_name = "T")]
-    pub(super) tolerance: u8,
-    /// Most pixels of a picture; comparing takes about 16 bytes of memory for each
-    #[arg(long, default_value_t = MAX_PIXELS, value_name = "N")]
-    pub(super) max_pixels: u64,
-    /// Print JSON instead of text
-    #[arg(long)]
-    pub(super) json: bool,
-    #[command(flatten, next_help_heading = "How a scene is drawn")]
-    pub(super) sampling: SamplingOptions,
-    #[command(flatten)]
-    pub(super) framing: FramingOptions,
-}
-
-/// Pixels of pictures that `diff` compares unasked: with all that it makes of them about 1.6 GB.
-pub(super) const MAX_PIXELS: u64 = 100_000_000;
-
-#[derive(Debug, Args)]
-pub(super) struct BenchOptions {
-    /// SVG files, or scenes of the gallery such as gallery:basic/test4.svg
-    #[arg(required = true, value_name = "SCENE")]
-    pub(super) scenes: Vec<PathBuf>,
-    /// How often each scene is drawn
-    #[arg(long, default_value_t = 30, value_name = "K", value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    pub(super) frames: u32,
-    /// Print JSON instead of text: an object, or for several scenes a list of objects
-    #[arg(long)]
-    pub(super) json: bool,
-    #[command(flatten)]
-    pub(super) picture: PictureOptions,
-}
-
-/// What every command that draws understands.
-#[derive(Debug, Args)]
-pub(super) struct PictureOptions {
-    /// Pixels of the picture
-    #[arg(long, default_value = "1024x1024", value_name = "WxH")]
-    pub(super) size: FrameSize,
-    #[command(flatten)]
-    pub(super) sampling: SamplingOptions,
-    #[command(flatten)]
-    pub(super) framing: FramingOptions,
-}
-
-/// What part of a scene is drawn, and on how many threads.
-#[derive(Clone, Debug, Args)]
-pub(super) struct FramingOptions {
-    /// Which part of the scene: a name, or centre, pixels per user unit and degrees
-    #[arg(long, default_value = "default", value_name = "default|canvas|CX,CY,SCALE[,ROTATION]", value_parser = view_option::parse, allow_hyphen_values = true)]
-    pub(super) view: View,
-    /// Threads that draw or compare [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
-    pub(super) threads: Option<u16>,
-}
-
-/// How a scene is read and sampled.
-#[derive(Clone, Debug, Args)]
-pub(super) struct SamplingOptions {
-    /// Samples per pixel: a square number up to 256; with the patterns halton and r2 any number up to that
-    #[arg(long, default_value = "1", value_name = "N", value_parser = sample_rate)]
-    pub(super) sample_rate: SampleRate,
-    /// Where the samples of a pixel lie
-    #[arg(long, default_value = SamplePattern::default().name(), value_enum)]
-    pub(super) pattern: SamplePattern,
-    /// How a texture is read inside a mip level
-    #[arg(long, default_value = PixelSampling::default().name(), value_enum)]
-    pub(super) pixel_sampling: PixelSampling,
-    /// Which mip levels of a texture are read
-    #[arg(long, default_value = LevelSampling::default().name(), value_enum)]
-    pub(super) level_sampling: LevelSampling,
-    /// The most taps along a footprint that is longer than wide: 1 (off) to 64
-    #[arg(long, default_value = "1", value_name = "N", value_parser = anisotropy)]
-    pub(super) anisotropy: Anisotropy,
-    /// Levels added to a texture's level of detail: -16 to 16
-    #[arg(long, default_value = "0", value_name = "B", value_parser = lod_bias, allow_hyphen_values = true)]
-    pub(super) lod_bias: LodBias,
-    /// The level of detail instead of the footprint's: 0 to 16 [default: the footprint's]
-    #[arg(long, value_name = "L", value_parser = lod_level, allow_hyphen_values = true)]
-    pub(super) lod_level: Option<FixedLevel>,
-    /// Whether a footprint is a pixel's or a sample's
-    #[arg(long, default_value = Derivatives::default().name(), value_enum)]
-    pub(super) lod_per: Derivatives,
-    /// white, transparent or #RRGGBB
-    #[arg(long, default_value = "white", value_name = "COLOUR", value_parser = background)]
-    pub(super) background: Rgba,
-    /// How documents are read
-    #[arg(long, default_value = DialectChoice::default().name(), value_enum)]
-    pub(super) dialect: DialectChoice,
-    /// In which values the samples of a pixel are averaged
-    #[arg(long, default_value = ResolveSpace::default().name(), value_enum)]
-    pub(super) resolve: ResolveSpace,
-    /// What the pixels show; all but colour come with a legend
-    #[arg(long, default_value = Visualisation::default().name(), value_enum, value_name = "WHAT")]
-    pub(super) visualise: Visualisation,
-    /// Whose conventions decide edges, texels and bytes
-    #[arg(long, default_value = Rules::default().name(), value_enum)]
-    pub(super) rules: Rules,
-}
-
-impl SamplingOptions {
-    /// How documents are read: the course's rules ask for the course's dialect where nothing else is said.
-    pub(super) fn reading(&self) -> DialectChoice {
-        match (self.dialect, self.rules) {
-            (DialectChoice::Auto, Rules::Course) => DialectChoice::Course,
-            (dialect, _) => dialect,
-        }
-    }
-
-    /// Which options do not go together, and the cure.
-    fn refusal(&self) -> Option<String> {
-        let refusal = self.pattern.refusal(self.sample_rate)?;
-        Some(format!("--sample-rate {}: {refusal}", self.sample_rate.samples()))
-    }
-
-    /// The same as settings of the engine; the outline belongs to every view but the canvas view.
-    pub(super) fn settings(&self, view: View) -> RenderSettings {
-        RenderSettings {
-            sample_rate: self.sample_rate,
-            pattern: self.pattern,
-            pixel_sampling: self.pixel_sampling,
-            level_sampling: self.level_sampling,
-            anisotropy: self.anisotropy,
-            detail: LevelOfDetail {
-                bias: self.lod_bias,
-                fixed: self.lod_level,
-                derivatives: self.lod_per,
-            },
-            rules: self.rules,
-            resolve: self.resolve,
-            visualisation: self.visualise,
-            background: self.background,
-            outline: view != View::Canvas,
-        }
-    }
-}
-
-/// Gives a settings enum its names on the command line, which are its names everywhere.
-macro_rules! named_values {
-    ($($kind:ty),*) => {$(
-        impl ValueEnum for $kind {
-            fn value_variants<'a>() -> &'a [Self] {
-                &Self::ALL
-            }
-
-            fn to_possible_value(&self) -> Option<PossibleValue> {
-                Some(PossibleValue::new(self.name()))
-            }
-        }
-    )*};
-}
-
-named_values!(
-    Quality,
-    ResolveSpace,
-    SamplePattern,
-    PixelSampling,
-    LevelSampling,
-    Derivatives,
-    Rules,
-    DialectChoice,
-    Theme,
-    Measure,
-    Ground,
-    Assignment
-);
-
-impl ValueEnum for Visualisation {
-    fn value_variants<'a>() -> &'a [Self] {
-        &Self::ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        Some(PossibleValue::new(self.name()).aliases(self.former_name()))
-    }
-}
-
-fn sample_rate(text: &str) -> Result<SampleRate, String> {
-    let rate = text.parse().ok().and_then(SampleRate::new);
-    rate.ok_or_else(|| "the sample rate is a whole number from 1 to 256".to_owned())
-}
-
-fn pixel(text: &str) -> Result<PixelPlace, String> {
-    let place = text
-        .split_once(',')
-        .and_then(|(x, y)| Some(PixelPlace([x.trim().parse().ok()?, y.trim().parse().ok()?])));
-    place.ok_or_else(|| "a pixel is its column and row from 0, such as 300,200".to_owned())
-}
-
-fn anisotropy(text: &str) -> Result<Anisotropy, String> {
-    let taps = text.parse().ok().and_then(Anisotropy::new);
-    taps.ok_or_else(|| "anisotropy is a whole number from 1, which is off, to 64".to_owned())
-}
-
-fn lod_bias(text: &str) -> Result<LodBias, String> {
-    let bias = text.parse().ok().and_then(LodBias::new);
-    bias.ok_or_else(|| "the bias is a number of levels from -16 to 16".to_owned())
-}
-
-fn lod_level(text: &str) -> Result<FixedLevel, String> {
-    let level = text.parse().ok().and_then(FixedLevel::new);
-    level.ok_or_else(|| "a fixed level is a number from 0, the base, to 16".to_owned())
-}
-
-fn against(text: &str) -> Result<Against, String> {
-    let against = Against::from_text(text).filter(|against| *against != Against::Nothing);
-    against.ok_or_else(|| "compare with truth, \"truth stored\", \"truth linear\", settings, settings such as \"sample-rate 16, dialect svg\", or the file of a PNG or JPEG".to_owned())
-}
-
-fn gain(text: &str) -> Result<f32, String> {
-    let gain = text.parse().ok().filter(|gain| (1e-6..=1e6).contains(gain));
-    gain.ok_or_else(|| "the gain is a number from 0.000001 to 1000000".to_owned())
-}
-
-fn scale(text: &str) -> Result<f32, String> {
-    let factor = text.parse().ok().filter(|factor| (0.5..=8.0).contains(factor));
-    factor.ok_or_else(|| "the scale of the panels is a factor from 0.5 to 8".to_owned())
-}
-
-fn background(text: &str) -> Result<Rgba, String> {
-    let hex = |digits: &str| {
-        let value = u32::from_str_radix(digits, 16)
-            .ok()
-            .filter(|_| digits.len() == 6 && digits.is_ascii())?;
-        let [_, r, g, b] = value.to_be_bytes();
-        digits
-            .bytes()
-            .all(|digit| digit.is_ascii_hexdigit())
-            .then(|| Rgba::from_bytes([r, g, b, 255]))
-    };
-    match text {
-        "white" => Ok(Rgba::WHITE),
-        "transparent" => Ok(Rgba::TRANSPARENT),
-        _ => text
-            .strip_prefix('#')
-            .and_then(hex)
-            .ok_or_else(|| "a background is white, transparent or #RRGGBB in hexadecimal".to_owned()),
-    }
-}
-
-/// Reads the arguments, the program's name first. Where a picture that tells how it was made stands for the scene, its
-/// options come before those that were written, so that these count.
-pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<(Arguments, Option<Restored>), Failure> {
-    let words = with_default_command(arguments.into_iter().collect());
-    let mut arguments = parse_words(words.clone(), false)?;
-    let is_view = matches!(arguments.verb, Verb::View(_));
-    let Some(restored) = arguments
-        .verb
-        .scene()
-        .map_or(Ok(None), |scene| recorded::restored(scene))?
-    else {
-        return Ok((arguments, None));
-    };
-    let mut options = restored.spec.options();
-    if is_view && restored.spec.size.iter().any(|side| *side > MAX_RESTORED_WINDOW) {
-        // `--size` and its value: no screen is that large.
-        options.drain(..2);
-    }
-    if matches!(arguments.verb, Verb::Render(_) | Verb::Sheet(_)) {
-        options.extend(restored.spec.inset_options());
-    }
-    if matches!(arguments.verb, Verb::Render(_)) {
-        options.extend(restored.spec.legend_option());
-    }
-    let command = words.len().min(2);
-    let words = [
-        &words[..command],
-        &options.iter().map(OsString::from).collect::<Vec<_>>(),
-        &words[command..],
-    ]
-    .concat();
-    let mut arguments = parse_words(words, true)?;
-    if let Some(scene) = arguments.verb.scene() {
-        *scene = recorded::scene_path(&restored);
-    }
-    Ok((arguments, Some(restored)))
-}
-
-/// The options of sampling alone.
-#[derive(Debug, Parser)]
-#[command(no_binary_name = true)]
-struct SamplingOnly {
-    #[command(flatten)]
-    sampling: SamplingOptions,
-}
-
-/// Reads options of sampling.
-pub(super) fn sampling_of(words: impl Iterator<Item = String>) -> Result<SamplingOptions, String> {
-    let read = SamplingOnly::try_parse_from(words);
-    let sampling = read.map_err(|error| one_line(&error.to_string()))?.sampling;
-    match sampling.refusal() {
-        Some(refusal) => Err(one_line(&refusal)),
-        None => Ok(sampling),
-    }
-}
-
 /// Reads words that name a command; `repeated` allows options to come again, so that the last counts.
 pub(super) fn parse_words(words: Vec<OsString>, repeated: bool) -> Result<Arguments, Failure> {
     if let Some(page) = help::page(&words) {
@@ -670,7 +129,7 @@ pub(super) fn parse_words(words: Vec<OsString>, repeated: bool) -> Result<Argume
 }
 
 /// `rasterscope PATH` means `rasterscope view PATH`.
-fn with_default_command(mut arguments: Vec<OsString>) -> Vec<OsString> {
+pub(super) fn with_default_command(mut arguments: Vec<OsString>) -> Vec<OsString> {
     let named = |word: &OsStr| {
         let general = ["help", "-h", "--help", "-V", "--version"]
             .iter()
@@ -686,21 +145,18 @@ fn with_default_command(mut arguments: Vec<OsString>) -> Vec<OsString> {
     arguments
 }
 
-/// What is wrong and how to find the cure, out of a message of several paragraphs.
-fn one_line(message: &str) -> String {
-    let message = message.strip_prefix("error: ").unwrap_or(message);
-    let usage = message.find("\n\nUsage:").unwrap_or(message.len());
-    let hint = message.find("\n\nFor more information").unwrap_or(message.len());
-    let words: Vec<&str> = message[..usage.min(hint)].split_whitespace().collect();
-    format!(
-        "{}; see `rasterscope --help`",
-        words.join(" ").replace(" tip: ", "; tip: ")
-    )
-}
-
 #[cfg(test)]
 mod tests {
+    use clap::Args as _;
+
     use super::*;
+    use crate::cli::restore::parse;
+    use crate::cli::size::FrameSize;
+    use crate::color::ResolveSpace;
+    use crate::raster::SamplePattern;
+    use crate::render::Visualisation;
+    use crate::rules::Rules;
+    use crate::texture::{Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
 
     fn parsed(line: &str) -> Result<Arguments, Failure> {
         parse(line.split(' ').map(OsString::from)).map(|(arguments, _)| arguments)

@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use super::arguments::BenchOptions;
 use super::failure::{Failure, print, print_json};
 use super::memory::peak_megabytes;
-use super::picture::{Picture, on_threads};
-use super::{progress, recorded};
+use super::options::bench::BenchOptions;
+use super::picture::{Picture, on_threads, spec};
+use super::progress;
 use crate::plain;
 use crate::render::FrameStats;
 
@@ -79,7 +79,7 @@ pub(super) fn run(options: &BenchOptions) -> Result<(), Failure> {
 }
 
 fn measure(scene: &Path, options: &BenchOptions) -> Result<Report, Failure> {
-    let mut picture = Picture::read(recorded::spec(scene, &options.picture))?;
+    let mut picture = Picture::read(spec(scene, &options.picture))?;
     // The first frame pays for memory that later ones find in place.
     picture.draw();
     // It takes the system a while to give every thread a core of its own. A single frame is no measure of time anyway.

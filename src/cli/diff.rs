@@ -4,12 +4,14 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::arguments::{DiffOptions, MAX_PIXELS, PictureOptions};
 use super::failure::{Failure, print, print_json};
+use super::memory;
+use super::options::diff::{DiffOptions, MAX_PIXELS};
+use super::options::framing::PictureOptions;
+use super::picture::spec;
 use super::picture::{Picture, on_threads};
 use super::render::{name_for_png, unwritable};
 use super::size::FrameSize;
-use super::{memory, recorded};
 use crate::compare::{self, DifferenceStyle, Gain, Guess, Levels, Pair, Place};
 use crate::figure::{Guard, Named, Record, save_picture};
 use crate::plain;
@@ -153,7 +155,7 @@ fn with_pair<R>(
     let frames = 1 + u64::from(options.output.is_some());
     memory::ask_for_comparing(memory::pixels(b.size).saturating_mul(frames))?;
     if is_scene(first) {
-        let mut ours = Picture::read(recorded::spec(first, &drawing(options, b.size)))?;
+        let mut ours = Picture::read(spec(first, &drawing(options, b.size)))?;
         let theirs = b.decode(second)?;
         ours.draw();
         let pair = Pair::new(ours.frame(), &theirs).map_err(Failure::input)?;
@@ -297,7 +299,7 @@ fn record(size: [u32; 2], output: &Path, options: &DiffOptions) -> Record {
     }
     if is_scene(&options.a) {
         // The size is that of B.
-        words.extend(recorded::spec(&options.a, &drawing(options, size)).options().drain(2..));
+        words.extend(spec(&options.a, &drawing(options, size)).options().drain(2..));
     }
     plain_record(words, size)
 }

@@ -100,3 +100,15 @@ pub(super) fn print_error(line: &str) {
         let _ = writeln!(std::io::stderr().lock(), "rasterscope: {line}");
     });
 }
+
+/// What is wrong and how to find the cure, out of a message of several paragraphs.
+pub(super) fn one_line(message: &str) -> String {
+    let message = message.strip_prefix("error: ").unwrap_or(message);
+    let usage = message.find("\n\nUsage:").unwrap_or(message.len());
+    let hint = message.find("\n\nFor more information").unwrap_or(message.len());
+    let words: Vec<&str> = message[..usage.min(hint)].split_whitespace().collect();
+    format!(
+        "{}; see `rasterscope --help`",
+        words.join(" ").replace(" tip: ", "; tip: ")
+    )
+}

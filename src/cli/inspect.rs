@@ -1,9 +1,8 @@
 //! `rasterscope inspect`: why a pixel has its colour.
 
-use super::arguments::InspectOptions;
 use super::failure::{Failure, print, print_json};
-use super::picture::{Picture, on_threads};
-use super::recorded;
+use super::options::inspect::InspectOptions;
+use super::picture::{Picture, on_threads, spec};
 use crate::inspect::{Detail, Explanation, Question};
 use crate::viewer::{Restored, SceneSource};
 
@@ -31,7 +30,7 @@ fn report(options: &InspectOptions, restored: Option<&Restored>) -> Result<Strin
     if x >= width || y >= height {
         return Err(outside());
     }
-    let picture = Picture::read(recorded::spec(&options.scene, &options.picture))?;
+    let picture = Picture::read(spec(&options.scene, &options.picture))?;
     picture.tell_changes(restored);
     let file = source.address();
     let question = Question {

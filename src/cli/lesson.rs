@@ -4,8 +4,9 @@ use std::collections::HashSet;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-use super::arguments::{LessonOptions, ViewerOptions};
 use super::failure::Failure;
+use super::options::lesson::LessonOptions;
+use super::options::view::ViewerOptions;
 use super::{memory, progress, render, view};
 use crate::figure::{Guard, Named, Record, save_picture};
 use crate::raster::Framebuffer;

@@ -4,7 +4,6 @@
 //! and `diff` and `rerun --check` of pictures that differ. 130: stopped by Ctrl+C.
 
 mod arguments;
-mod axes;
 mod bench;
 mod diff;
 mod failure;
@@ -13,11 +12,12 @@ mod inspect;
 mod interrupt;
 mod lesson;
 mod memory;
+mod options;
 mod picture;
 mod progress;
-mod recorded;
 mod render;
 mod rerun;
+mod restore;
 mod sheet;
 mod size;
 mod sweep;
@@ -25,7 +25,7 @@ mod view;
 mod view_option;
 mod writeup;
 
-pub use recorded::GRAMMAR;
+pub use restore::GRAMMAR;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -43,7 +43,7 @@ const SIMD_VARIABLE: &str = "RASTERSCOPE_SIMD";
 /// Runs the program with its arguments, its own name first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     interrupt::listen();
-    let done = arguments::parse(arguments).and_then(|(arguments, restored)| {
+    let done = restore::parse(arguments).and_then(|(arguments, restored)| {
         choose_simd()?;
         execute(&arguments, restored.as_ref())
     });

@@ -4,6 +4,8 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::failure::{Failure, print_error};
+use super::options::framing::PictureOptions;
+use super::options::render::RenderOptions;
 use super::{memory, progress};
 use crate::figure::{Guard, Record, add_furniture};
 use crate::geometry::ViewTransform;
@@ -169,4 +171,26 @@ pub(super) fn no_threads(wanted: Option<u16>, error: &rayon::ThreadPoolBuildErro
     Failure::other(format!(
         "cannot start {wanted}: {error}; close other programs or draw with --threads 1"
     ))
+}
+
+/// The figure that `render` draws of one scene.
+pub(super) fn spec_of_render(options: &RenderOptions) -> PictureSpec {
+    PictureSpec {
+        insets: options.insets.clone(),
+        legend: !options.no_legend,
+        ..spec(&options.scene, &options.picture)
+    }
+}
+
+/// The picture that options ask for.
+pub(super) fn spec(scene: &Path, options: &PictureOptions) -> PictureSpec {
+    PictureSpec {
+        scene: SceneSource::from_address(scene),
+        size: options.size.0,
+        view: options.framing.view,
+        render: options.sampling.settings(options.framing.view),
+        dialect: options.sampling.reading(),
+        legend: true,
+        insets: Vec::new(),
+    }
 }

@@ -4,10 +4,10 @@ use std::collections::HashSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::arguments::RenderOptions;
 use super::failure::{Failure, print_error};
-use super::picture::{Picture, on_threads, tell_reading};
-use super::{progress, recorded};
+use super::options::render::RenderOptions;
+use super::picture::{Picture, on_threads, spec, tell_reading};
+use super::progress;
 use crate::figure::{Guard, Named, save_picture};
 use crate::scene::DialectChoice;
 use crate::viewer::{PictureSpec, Restored, SceneEntry, SceneSource, list_scenes};
@@ -101,7 +101,7 @@ fn one(
         dialect,
         legend: !options.no_legend,
         insets: options.insets.clone(),
-        ..recorded::spec(&options.scene, &options.picture)
+        ..spec(&options.scene, &options.picture)
     };
     let mut picture = Picture::read(scene)?;
     if !why.is_empty() {

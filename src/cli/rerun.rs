@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
-use super::arguments::{RerunOptions, Verb};
+use super::arguments::Verb;
 use super::failure::{Failure, print, print_error};
+use super::options::rerun::RerunOptions;
 use super::picture::{Picture, on_threads};
-use super::recorded::{read_arguments, scene_path, verb_of};
 use super::render::{name_for_png, unwritable};
+use super::restore::{read_arguments, scene_path, verb_of};
 use super::{diff, lesson, sheet};
 use crate::compare;
 use crate::figure::{Guard, Named, Record, save_picture};

@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::arguments::SheetOptions;
-use super::axes::sampling;
 use super::failure::{Failure, print_error};
 use super::memory;
+use super::options::lists::sampling;
+use super::options::sheet::SheetOptions;
 use super::picture::{on_threads, read_scene};
 use super::render::{guard_of, name_for_png, unwritable};
 use super::size::FrameSize;

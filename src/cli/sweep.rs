@@ -7,12 +7,12 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::arguments::SweepOptions;
-use super::axes::sampling;
 use super::bench::{median, milliseconds};
 use super::failure::{Failure, print, print_error};
 use super::interrupt;
 use super::memory::peak_of_drawing;
+use super::options::lists::sampling;
+use super::options::sweep::{Quality, SweepOptions};
 use super::picture::{Picture, on_threads};
 use super::render::{guard_of, name_for_png, unwritable_by};
 use super::size::FrameSize;
@@ -29,20 +29,6 @@ const MAX_CHOICES: usize = 1000;
 const CHART: [u32; 2] = [1500, 1000];
 /// The columns of the table after those of the settings.
 const COLUMNS: [&str; 7] = ["median_ms", "min_ms", "peak_mb", "rmse", "psnr_db", "ssim", "flip"];
-
-/// How far a picture is from the truth, as the chart shows it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Quality {
-    /// What people see of the difference: 0 is none.
-    #[default]
-    Flip,
-    /// Likeness of structure: 1 is equal.
-    Ssim,
-    /// Signal to noise in decibels.
-    Psnr,
-    /// Root mean square error in levels of 255.
-    Rmse,
-}
 
 /// What was measured of one combination.
 #[derive(Clone, Copy, Debug)]
@@ -71,40 +57,6 @@ struct Sweep {
 struct Truth {
     spec: PictureSpec,
     frame: Framebuffer,
-}
-
-impl Quality {
-    /// Every value, in the order of help.
-    pub(super) const ALL: [Self; 4] = [Self::Flip, Self::Ssim, Self::Psnr, Self::Rmse];
-
-    /// The name on the command line.
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Flip => "flip",
-            Self::Ssim => "ssim",
-            Self::Psnr => "psnr",
-            Self::Rmse => "rmse",
-        }
-    }
-
-    /// For the axis of the chart.
-    fn title(self) -> &'static str {
-        match self {
-            Self::Flip => "FLIP difference from the truth, 0 is none",
-            Self::Ssim => "SSIM with the truth, 1 is equal",
-            Self::Psnr => "PSNR against the truth in dB, more is nearer",
-            Self::Rmse => "root mean square error against the truth, in levels of 255",
-        }
-    }
-
-    fn of(self, row: &Row) -> f64 {
-        match self {
-            Self::Flip => row.flip,
-            Self::Ssim => row.ssim,
-            Self::Psnr => row.psnr,
-            Self::Rmse => row.rmse,
-        }
-    }
 }
 
 /// Measures every combination and writes table and chart.
@@ -353,6 +305,16 @@ fn value<'c>(choice: &'c Choice, name: &str) -> &'c str {
 }
 
 impl Row {
+    /// One of the numbers that tell how far a picture is from the truth.
+    fn quality(&self, quality: Quality) -> f64 {
+        match quality {
+            Quality::Flip => self.flip,
+            Quality::Ssim => self.ssim,
+            Quality::Psnr => self.psnr,
+            Quality::Rmse => self.rmse,
+        }
+    }
+
     /// The values of [`COLUMNS`]; empty where the system does not tell.
     fn cells(&self) -> [String; 7] {
         [
@@ -433,7 +395,7 @@ impl Sweep {
             });
             let point = |((choice, _), row): &(&(Choice, PictureSpec), &Row)| {
                 let words = first.map_or("", |axis| value(choice, &axis.name));
-                ([row.median_ms, options.quality.of(row)], words.to_owned())
+                ([row.median_ms, row.quality(options.quality)], words.to_owned())
             };
             PlotSeries {
                 name: named.unwrap_or_default(),

@@ -1,7 +1,7 @@
 //! `rasterscope view`: the window.
 
-use super::arguments::ViewerOptions;
 use super::failure::Failure;
+use super::options::view::ViewerOptions;
 use crate::viewer::Restored;
 
 /// Opens the window, or plays a session without one.
@@ -53,7 +53,7 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
         headless: options.headless,
         frame_log: options.frame_log.clone(),
         force: options.force,
-        grammar: Some(super::recorded::GRAMMAR),
+        grammar: Some(super::restore::GRAMMAR),
         restored: restored.cloned(),
     };
     app::run(view_options).map_err(|error| {

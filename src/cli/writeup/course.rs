@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
-use crate::cli::arguments::WriteupOptions;
 use crate::cli::failure::{Failure, print_error};
+use crate::cli::options::writeup::WriteupOptions;
 use crate::compare;
 use crate::scene::FolderResources;
 use crate::viewer::{gallery, is_folder_of_course};

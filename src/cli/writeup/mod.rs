@@ -10,11 +10,14 @@ use std::time::Duration;
 
 use self::course::{ITEMS, Item, Scenes, turned_view};
 use self::pins::Pins;
-use super::arguments::{self, Verb, WriteupOptions};
+use super::arguments::{self, Verb};
 use super::failure::{Failure, print};
+use super::options::sampling::sampling_of;
+use super::options::writeup::WriteupOptions;
+use super::picture::spec_of_render;
 use super::picture::{Picture, on_threads};
 use super::render::unwritable;
-use super::{progress, recorded, sheet};
+use super::{progress, sheet};
 use crate::figure::{Figure, Guard, Named, NewFile, html, latex, markdown, save_files, save_picture};
 use crate::plain;
 use crate::viewer::{PictureSpec, Sheet, caption_of};
@@ -194,7 +197,7 @@ fn parsed(words: &[String], scene: &str) -> Result<Verb, Failure> {
 /// What the words draw, or the first panel of it.
 fn spec_of(words: &[String], scene: &str) -> Result<PictureSpec, Failure> {
     match parsed(words, scene)? {
-        Verb::Render(options) => Ok(recorded::spec_of_render(&options)),
+        Verb::Render(options) => Ok(spec_of_render(&options)),
         Verb::Sheet(options) => sheet::spec(&options).map_err(Failure::Input),
         _ => Err(Failure::other("a figure is a picture or a sheet")),
     }
@@ -204,7 +207,7 @@ fn spec_of(words: &[String], scene: &str) -> Result<PictureSpec, Failure> {
 fn pair(spec: &PictureSpec, compared: [&[&str]; 2]) -> Result<[PictureSpec; 2], Failure> {
     let with = |words: &[&str]| {
         let words = words.iter().map(|word| (*word).to_owned());
-        let sampling = arguments::sampling_of(words).map_err(Failure::Input)?;
+        let sampling = sampling_of(words).map_err(Failure::Input)?;
         Ok(PictureSpec {
             render: sampling.settings(spec.view),
             insets: Vec::new(),

@@ -3,18 +3,18 @@
 use clap::builder::{OsStr, Resettable};
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, value_parser};
 
-use super::arguments::{SamplingOptions, sampling_of};
+use super::sampling::{SamplingOptions, sampling_of};
 use crate::viewer::{Axis, AxisLists, Choice};
 
 /// The lists that were given, in the order they were written in.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Lists(pub(super) AxisLists);
+pub(in crate::cli) struct Lists(pub(in crate::cli) AxisLists);
 
 /// The sampling of a choice.
 ///
 /// # Errors
 /// One line.
-pub(super) fn sampling(choice: &Choice) -> Result<SamplingOptions, String> {
+pub(in crate::cli) fn sampling(choice: &Choice) -> Result<SamplingOptions, String> {
     sampling_of(choice.iter().map(|(name, value)| format!("--{name}={value}")))
 }
 

@@ -3,10 +3,15 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use super::arguments::{self, Arguments, PictureOptions, RenderOptions, Verb};
+use super::arguments::{self, Arguments, Verb};
+
 use super::failure::Failure;
+use super::picture::spec_of_render;
 use crate::figure::Record;
-use crate::viewer::{Grammar, PictureSpec, Restored, SceneSource, SheetRequest};
+use crate::viewer::{Grammar, PictureSpec, Restored, SheetRequest};
+
+/// Longest side of a window that comes back from a picture, in pixels.
+const MAX_RESTORED_WINDOW: u32 = 4096;
 
 /// What is wrong with a command line that shows something else.
 const NO_SCENE: &str = "it draws no scene";
@@ -51,28 +56,6 @@ pub(super) fn verb_of(arguments: &[String]) -> Result<Verb, String> {
     }
 }
 
-/// The figure that `render` draws of one scene.
-pub(super) fn spec_of_render(options: &RenderOptions) -> PictureSpec {
-    PictureSpec {
-        insets: options.insets.clone(),
-        legend: !options.no_legend,
-        ..spec(&options.scene, &options.picture)
-    }
-}
-
-/// The picture that options ask for.
-pub(super) fn spec(scene: &Path, options: &PictureOptions) -> PictureSpec {
-    PictureSpec {
-        scene: SceneSource::from_address(scene),
-        size: options.size.0,
-        view: options.framing.view,
-        render: options.sampling.settings(options.framing.view),
-        dialect: options.sampling.reading(),
-        legend: true,
-        insets: Vec::new(),
-    }
-}
-
 /// The state that a picture tells, for a command whose scene it stands for; `None` for what is no such picture.
 pub(super) fn restored(scene: &Path) -> Result<Option<Restored>, Failure> {
     let is_png = scene
@@ -87,4 +70,38 @@ pub(super) fn restored(scene: &Path) -> Result<Option<Restored>, Failure> {
 /// The scene's path, as the command line takes it.
 pub(super) fn scene_path(restored: &Restored) -> PathBuf {
     restored.spec.scene.address().into()
+}
+
+/// Reads the arguments, the program's name first. Where a picture that tells how it was made stands for the scene, its
+/// options come before those that were written, so that these count.
+pub(super) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<(Arguments, Option<Restored>), Failure> {
+    let words = arguments::with_default_command(arguments.into_iter().collect());
+    let mut arguments = arguments::parse_words(words.clone(), false)?;
+    let is_view = matches!(arguments.verb, Verb::View(_));
+    let Some(restored) = arguments.verb.scene().map_or(Ok(None), |scene| restored(scene))? else {
+        return Ok((arguments, None));
+    };
+    let mut options = restored.spec.options();
+    if is_view && restored.spec.size.iter().any(|side| *side > MAX_RESTORED_WINDOW) {
+        // `--size` and its value: no screen is that large.
+        options.drain(..2);
+    }
+    if matches!(arguments.verb, Verb::Render(_) | Verb::Sheet(_)) {
+        options.extend(restored.spec.inset_options());
+    }
+    if matches!(arguments.verb, Verb::Render(_)) {
+        options.extend(restored.spec.legend_option());
+    }
+    let command = words.len().min(2);
+    let words = [
+        &words[..command],
+        &options.iter().map(OsString::from).collect::<Vec<_>>(),
+        &words[command..],
+    ]
+    .concat();
+    let mut arguments = arguments::parse_words(words, true)?;
+    if let Some(scene) = arguments.verb.scene() {
+        *scene = scene_path(&restored);
+    }
+    Ok((arguments, Some(restored)))
 }

@@ -4,6 +4,21 @@
 //! sorts them into tiles; each tile paints its samples in painter's order in memory that stays in the cache, is
 //! resolved at once and written to the [`Framebuffer`]. Tiles are independent, so they run on all threads, and every
 //! sample depends on its own position only, so neither threads nor tiles show in the result.
+//!
+//! The room has floors, from the bottom up; each imports from those below only:
+//!
+//! | floor | what is decided there |
+//! |---|---|
+//! | `sampling` | how many samples a pixel has, and where they lie |
+//! | `span`, `tile_layout`, `surface_id`, `attributes` | what the floors above share: runs of samples, tiles, surface numbers, planes |
+//! | `coverage` | which samples a shape covers |
+//! | `list` | screen-space primitives as chunks; what is hidden is dropped |
+//! | `shading` | the colour of a paint at a sample |
+//! | `binning` | which commands each tile draws |
+//! | `frame` | where pixels go |
+//! | `paint` | a tile's commands in painter's order, and its resolve |
+//! | `rasterizer` | a whole list: tiles on all threads |
+//! | `refine`, `explain` | the rectangles of a frame that are drawn first; what was drawn at a pixel |
 
 mod attributes;
 mod binning;

@@ -49,7 +49,7 @@ impl Span {
         self.start >= self.end
     }
 
-    /// A row without samples: in a union or an intersection of rows it has no say about the one, and empties the other.
+    /// No samples: the union with it is the other span, the intersection is empty.
     /// Far enough from the ends of the numbers that columns of a frame may be added.
     pub(crate) const EMPTY: Self = Self {
         start: i32::MAX / 2,

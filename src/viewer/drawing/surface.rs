@@ -12,14 +12,14 @@ use super::{Drawing, Stage, Wish};
 /// A frame that is drawn where it is shown is given up after so long: the window must not stand still.
 const LONGEST: Duration = BUDGET.saturating_mul(2);
 
-/// Whether whoever shows frames draws quick ones himself, into what he shows.
+/// Who draws quick frames: the worker, or the event loop straight into the surface that it presents.
 #[derive(Debug)]
 pub(super) enum Surface {
-    /// He does not.
+    /// The worker: the surface stays with the event loop.
     Kept,
-    /// He does.
+    /// The event loop, when a frame is asked for.
     Lent,
-    /// He does, and this one waits for him.
+    /// The event loop; this frame waits for it.
     Awaited(Box<Job>),
 }
 

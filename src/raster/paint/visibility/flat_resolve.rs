@@ -26,7 +26,8 @@ const TABLES: usize = 2;
 /// The channels of a pixel.
 const CHANNELS: usize = 4;
 
-/// What is known of the first surfaces of a tile.
+/// The colours of the first surfaces of a tile, side by side, so that pixels of nothing but flat colours are resolved at
+/// once.
 #[derive(Debug)]
 pub(crate) struct FlatResolve {
     resolver: Resolver,
@@ -53,7 +54,7 @@ pub(crate) struct Mixer<'k, S: Simd> {
 }
 
 impl FlatResolve {
-    /// Nothing of none.
+    /// No surfaces.
     pub(crate) fn new(resolver: Resolver) -> Self {
         Self {
             resolver,
@@ -275,7 +276,7 @@ mod tests {
             for surface in words.iter().flat_map(|word| lanes(*word)) {
                 of_words.add_one(surfaces.get(numbers[usize::from(surface) % 2]).spread);
             }
-            let known = surfaces.known().expect("two surfaces");
+            let known = surfaces.flat_resolve().expect("two surfaces");
             // Equal colours share a surface.
             let two = numbers[0] != numbers[1];
             for (name, level) in simd::tested() {
@@ -315,7 +316,7 @@ mod tests {
                     *surface = *u.choose(&[TWO_SURFACES, SurfaceId::MAX])?;
                 }
             }
-            let known = surfaces.known().expect("few surfaces");
+            let known = surfaces.flat_resolve().expect("few surfaces");
             let mut pixels = vec![0; u.int_in_range(1..=ROW)?];
             for (name, level) in simd::tested() {
                 dispatch!(level, simd => known.row(simd, &shown, &mut pixels));

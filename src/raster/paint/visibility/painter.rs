@@ -252,7 +252,7 @@ impl<'a> VisibilityPainter<'a> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     fn resolve_flat_row<S: Simd>(&self, simd: S, y: i32, line: &mut [u32]) {
-        let Some(known) = self.surfaces.known() else {
+        let Some(known) = self.surfaces.flat_resolve() else {
             return self.resolve_row_of_many(y, line);
         };
         let shown = self.layers[0].shown(y);

@@ -15,7 +15,7 @@ pub(crate) struct SurfaceTable<'a> {
     rules: Rules,
     all: Vec<SurfaceColor<'a>>,
     /// The first ones once more.
-    known: FlatResolve,
+    flat: FlatResolve,
     /// For each surface what it became under the latest translucent paint, and which paint that was.
     painted: Vec<(u32, SurfaceId)>,
     paint: u32,
@@ -29,7 +29,7 @@ impl<'a> SurfaceTable<'a> {
         Self {
             rules,
             all: Vec::new(),
-            known: FlatResolve::new(resolver),
+            flat: FlatResolve::new(resolver),
             painted: Vec::new(),
             paint: 0,
             any_shaded: false,
@@ -39,7 +39,7 @@ impl<'a> SurfaceTable<'a> {
     /// Forgets all surfaces.
     pub(crate) fn clear(&mut self) {
         self.all.clear();
-        self.known.clear();
+        self.flat.clear();
         self.painted.clear();
         self.paint = 0;
         self.any_shaded = false;
@@ -56,10 +56,10 @@ impl<'a> SurfaceTable<'a> {
         &self.all[usize::from(surface)]
     }
 
-    /// What is known of all surfaces; `None` where there are too many.
+    /// The colours of all surfaces for the flat resolve; `None` where there are too many.
     #[inline]
-    pub(crate) fn known(&self) -> Option<&FlatResolve> {
-        self.known.is_all().then_some(&self.known)
+    pub(crate) fn flat_resolve(&self) -> Option<&FlatResolve> {
+        self.flat.is_all().then_some(&self.flat)
     }
 
     /// Whether each surface in use may become another one, and one more may come, without running out of numbers.
@@ -141,10 +141,10 @@ impl<'a> SurfaceTable<'a> {
     pub(crate) fn keep(&mut self, used: &[bool]) -> Vec<SurfaceId> {
         let mut numbers = vec![0; used.len()];
         let mut kept = 0;
-        self.known.clear();
+        self.flat.clear();
         for (old, number) in numbers.iter_mut().enumerate().filter(|(old, _)| used[*old]) {
             self.all[kept] = self.all[old];
-            self.known.set(kept, &self.all[kept]);
+            self.flat.set(kept, &self.all[kept]);
             *number = SurfaceId::try_from(kept).unwrap_or(0);
             kept += 1;
         }
@@ -155,7 +155,7 @@ impl<'a> SurfaceTable<'a> {
 
     #[inline]
     fn push(&mut self, surface: SurfaceColor<'a>) {
-        self.known.set(self.all.len(), &surface);
+        self.flat.set(self.all.len(), &surface);
         self.all.push(surface);
     }
 

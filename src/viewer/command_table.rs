@@ -1,6 +1,6 @@
 //! The lines of the command table, in the order of help and menus.
 
-use super::commands::{Action, CommandSpec, Group};
+use super::command_spec::{Action, CommandSpec, Group};
 use super::key::{Chord, Key, Modifiers};
 use super::typed::{self, Argument};
 use super::{Against, Arrangement, Command, Dialog, LessonSource, Toggle};

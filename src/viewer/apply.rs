@@ -315,6 +315,7 @@ impl Viewer {
                     self.screen.hidden = false;
                 } else {
                     self.inspector.pin = None;
+                    self.inspector.came_with_pin = false;
                 }
             }
             Command::SetInspectorRegion(region) => self.inspector.set_region(region),
@@ -335,7 +336,7 @@ impl Viewer {
         match command {
             Command::Resize(size) => screen.window = *size,
             Command::SetFreeArea(area) => {
-                screen.free_area = *area;
+                self.set_free_area(*area);
                 self.reveal_pin();
             }
             Command::OverlayText(toggle) => screen.shown.text = toggle.of(screen.shown.text),

@@ -17,6 +17,9 @@ pub(super) type Explaining = Latest<Asked, Option<Explained>>;
 /// Most points of an outline that are drawn over the picture.
 const MOST_POINTS: usize = 20_000;
 
+/// What is said about pixels of a scene that could not be read.
+const NO_PICTURE: &str = "no picture to explain: this scene could not be read";
+
 /// Why a pixel has its colour, and why it has B's.
 #[derive(Debug)]
 pub(super) struct Explained {
@@ -79,7 +82,7 @@ impl Viewer {
 
     /// Whether there is to be an explanation in the window.
     pub fn explains(&self) -> bool {
-        let is_open = self.inspector.open && !self.screen.hidden;
+        let is_open = self.inspector.open && !self.screen.hidden && !self.has_no_picture();
         is_open && self.screen.shown.explanation && self.pinned_pixel().is_some()
     }
 
@@ -87,6 +90,10 @@ impl Viewer {
     /// pixel is pinned it pins one, since it would seem to do nothing otherwise.
     pub(super) fn show_explanation(&mut self, toggle: Toggle) {
         let shown = toggle.of(self.explains());
+        if toggle == Toggle::Flip && self.refuses_to_explain() {
+            return;
+        }
+        self.inspector.asked |= shown;
         self.screen.shown.explanation = shown;
         if !shown || toggle != Toggle::Flip {
             return;
@@ -96,6 +103,32 @@ impl Viewer {
         } else if let Some(pixel) = self.hovered_pixel().or_else(|| self.inspected_pixel()) {
             self.pin(pixel.map(i64::from));
         }
+    }
+
+    /// Whether the current scene could not be read, so that there is nothing to look at.
+    pub fn has_no_picture(&self) -> bool {
+        self.current().is_some_and(|entry| entry.failure().is_some())
+    }
+
+    /// Tells whoever asks about a pixel that there is no picture; false where there is one.
+    pub(super) fn refuses_to_explain(&mut self) -> bool {
+        let has_none = self.has_no_picture();
+        if has_none {
+            self.messages.error(NO_PICTURE.to_owned());
+        }
+        has_none
+    }
+
+    /// Tells the user that what he asked for is not to be seen.
+    pub fn say_no_room(&mut self) {
+        let cure = if self.lesson.is_some() {
+            "make the window wider or close the lesson"
+        } else {
+            "make the window wider"
+        };
+        self.messages
+            .done(format!("no room here for the explanation of the pixel: {cure}"));
+        self.revision += 1;
     }
 
     /// Whether everything that is asked about the pinned pixel was found out.

@@ -5,6 +5,7 @@
 
 use glam::DVec2;
 
+use super::Camera;
 use crate::figure::{Corner, Inset, PixelRect, place};
 
 /// The magnifications that the wheel steps through.
@@ -27,6 +28,10 @@ pub(super) const RING_ROOM: u32 = 24;
 const LABEL_MARGIN: f32 = 2.0;
 
 /// State of the pixel inspector.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "what is open, and what led to that, each on its own"
+)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inspector {
     /// Whether it is to be seen.
@@ -40,6 +45,12 @@ pub struct Inspector {
     pub(super) ring_room: u32,
     /// Whether the pin was jumped to, and is to stay in the part of the window that is free, until a hand moves the picture.
     pub(super) revealed: bool,
+    /// Whether a hand asked about the pinned pixel: the view rests while the explanation takes its room.
+    pub(super) asked: bool,
+    /// The view before an explanation took its room, and the one that was set then.
+    pub(super) kept_view: Option<[Camera; 2]>,
+    /// Whether a pin opened the inspector, which then closes with it.
+    pub(super) came_with_pin: bool,
     /// The pixel last under the pointer: shown while the pointer is elsewhere.
     pub(super) last: Option<[u32; 2]>,
     /// Region times pitch that the user chose; the wheel keeps it.
@@ -91,6 +102,9 @@ impl Default for Inspector {
             pin: None,
             ring_room: 0,
             revealed: false,
+            asked: false,
+            kept_view: None,
+            came_with_pin: false,
             last: None,
             extent: region * (magnification + 1),
             corner: Corner::default(),

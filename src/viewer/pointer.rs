@@ -3,12 +3,15 @@
 use glam::DVec2;
 
 use super::inspector::{Pin, RING_ROOM};
-use super::{PixelLabel, PixelRect, PlacedInset, PointerButton, Status, Viewer};
+use super::{Arrangement, PixelLabel, PixelRect, PlacedInset, PointerButton, Sight, Status, Viewer};
 use crate::figure::is_dark;
 
 /// What is said when the pinned place leaves the window, and with it its ring and its explanation.
 pub(super) const PIN_OUTSIDE: &str =
     "the pinned pixel is outside the window now: it comes back with the view, or pin another one";
+
+/// Frame pixels that stay free beside a pinned one in a frame that becomes smaller.
+const PIN_ROOM: i64 = 24;
 
 /// Where the pointer is and what it does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -212,18 +215,78 @@ impl Viewer {
         }
     }
 
-    /// Pins the hovered pixel, or unpins it; without one the pixel that the inspector shows. Whoever points at a pixel
-    /// asks about it: the explanation opens, too, where it was closed.
+    /// Pins the hovered pixel; without one the pixel that the inspector shows. Whoever points at a pixel asks about it: the
+    /// explanation opens, too, where it was closed. Only a pixel that is explained already is unpinned, and the inspector
+    /// closes with it if the pin opened it.
     pub(super) fn pin_under_pointer(&mut self) {
         let Some(pixel) = self.hovered_pixel().or_else(|| self.inspected_pixel()) else {
             return;
         };
-        if self.pinned_pixel() == Some(pixel) {
+        if self.refuses_to_explain() {
+            return;
+        }
+        if self.pinned_pixel() == Some(pixel) && self.explains() {
             self.inspector.pin = None;
+            self.inspector.open &= !std::mem::take(&mut self.inspector.came_with_pin);
         } else {
             self.screen.shown.explanation = true;
+            self.inspector.asked = true;
             self.pin(pixel.map(i64::from));
         }
+    }
+
+    /// Another part of the window is free. Where frames change their size with it, the pixel that a hand asked about stays
+    /// what it is, to the place of its samples; the view comes back when the explanation is closed.
+    pub(super) fn set_free_area(&mut self, area: Option<PixelRect>) {
+        let before = self.sight();
+        self.screen.free_area = area;
+        if self.arrangement() == Arrangement::Wipe {
+            // Its line gives way to panels.
+            self.comparison.touch();
+        }
+        let asks = self.inspector.asked && self.explains();
+        let sights = before.zip(self.sight());
+        if let Some((before, sight)) = sights.filter(|(before, sight)| asks && before.frame != sight.frame) {
+            self.keep_view_of_pin(&before, &sight);
+        }
+        if let Some([first, set]) = self.inspector.kept_view.take_if(|_| !asks) {
+            self.look(|camera, _| {
+                if *camera == set {
+                    *camera = first;
+                }
+            });
+        }
+    }
+
+    /// Sets the view in which the pinned pixel shows what it showed `before`, at the same pixel of the frame if there is
+    /// still one.
+    fn keep_view_of_pin(&mut self, before: &Sight, sight: &Sight) {
+        let Some(Pin {
+            pixel,
+            place: Some((place, _)),
+            ..
+        }) = self.inspector.pin
+        else {
+            return;
+        };
+        let Some(camera) = self.current().map(|entry| entry.camera) else {
+            return;
+        };
+        let stays = |axis: usize| {
+            let last = i64::from(sight.frame[axis]) - 1 - PIN_ROOM;
+            pixel[axis].min(last).max(0) as f64 + 0.5
+        };
+        let at = DVec2::new(stays(0), stays(1));
+        let mut kept = camera;
+        kept.set(camera.numbers(before), sight);
+        let now = kept.transform(sight).to_pixels(place);
+        kept.pan(at - now, sight);
+        let first = match self.inspector.kept_view {
+            Some([first, set]) if set == camera => first,
+            _ => camera,
+        };
+        self.inspector.kept_view = Some([first, kept]);
+        self.look(|camera, _| *camera = kept);
     }
 
     /// Moves the picture so that a pixel that was jumped to lies in the middle of what is free, where a panel covers it.
@@ -256,6 +319,7 @@ impl Viewer {
                 place: None,
             });
             self.inspector.revealed = false;
+            self.inspector.came_with_pin |= !self.inspector.open;
             self.inspector.open = true;
             self.screen.hidden = false;
         }

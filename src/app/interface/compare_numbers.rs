@@ -14,7 +14,12 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer) {
     };
     heading(ui, title);
     let Some((measures, is_current)) = found else {
-        ui.label(RichText::new("measuring …").weak());
+        let words = if viewer.has_no_picture() {
+            "There is no picture to measure: this scene could not be read."
+        } else {
+            "measuring …"
+        };
+        ui.label(RichText::new(words).weak());
         return;
     };
     Grid::new("metrics")

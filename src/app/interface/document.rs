@@ -61,10 +61,11 @@ pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
 /// Time of the last redraw and its stages, as numbers and as a bar, unless pictures must not depend on time; and how
 /// much it filled.
 pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
-    let Some(frame) = viewer.frame() else {
+    // A scene that could not be read has no frame: the lines stay, so that what is below does not move.
+    if viewer.frame().is_none() && !viewer.has_no_picture() {
         return;
-    };
-    let stats = &frame.stats;
+    }
+    let stats = viewer.frame().map(|frame| frame.stats).unwrap_or_default();
     if timed {
         heading(ui, &format!("Redraw  {}", milliseconds(stats.total())));
         let stages = [
@@ -80,7 +81,7 @@ pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
     }
     // Points and hairlines fill nothing; the line stays, so that what is below does not move from scene to scene.
     let text = filled(stats.triangles);
-    if timed || text.is_some() {
+    if timed || text.is_some() || viewer.has_no_picture() {
         ui.label(RichText::new(text.unwrap_or_default()).small().weak());
     }
 }

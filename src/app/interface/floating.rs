@@ -3,12 +3,14 @@
 
 use std::collections::HashMap;
 
-use egui::{Align2, Area, Color32, FontId, Frame, Id, Order, Rect, RichText, Sense, Ui, Vec2, pos2, vec2};
+use egui::{Align2, Area, Button, Color32, FontId, Frame, Id, Order, Rect, RichText, Sense, Ui, Vec2, pos2, vec2};
 
+use super::controls::tip;
+use super::look::CONTROL;
 use crate::color::ResolveSpace;
 use crate::raster::SamplePattern;
 use crate::render::Visualisation;
-use crate::viewer::{ASKS_FOR, Arrangement, Command, Message, MessageKind, PixelRect, Viewer, texture_words};
+use crate::viewer::{ASKS_FOR, Arrangement, Command, Message, MessageKind, PixelRect, Toggle, Viewer, texture_words};
 
 /// Seconds that a message stays.
 const DONE_SECONDS: f64 = 5.0;
@@ -154,6 +156,29 @@ pub(super) fn pixel_labels(ui: &Ui, viewer: &Viewer) {
             let at = pos2(center.x, center.y + row * 9.5);
             ui.painter().text(at, Align2::CENTER_CENTER, value, font.clone(), color);
         }
+    }
+}
+
+/// The button that closes the inspector, while the pointer is over a pinned inset: unpinned it gives way to the pointer.
+pub(super) fn close_of_inset(ui: &Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let Some(placed) = viewer.inset().filter(|_| viewer.pinned_pixel().is_some()) else {
+        return;
+    };
+    let inset = points(&placed.rect, ui.pixels_per_point());
+    if !ui.input(|input| input.pointer.latest_pos().is_some_and(|at| inset.contains(at))) {
+        return;
+    }
+    let button = Area::new(Id::unique("close inspector"))
+        .order(Order::Middle)
+        .fixed_pos(inset.right_top() + vec2(-3.0, 3.0))
+        .pivot(Align2::RIGHT_TOP)
+        .fade_in(false)
+        .show(ui.ctx(), |ui| ui.add(Button::new("\u{d7}").min_size(CONTROL)))
+        .inner
+        .on_hover_text(tip("inspector"))
+        .accessible_name("Close the inspector");
+    if button.clicked() {
+        commands.push(Command::Inspector(Toggle::Off));
     }
 }
 

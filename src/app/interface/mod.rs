@@ -129,6 +129,18 @@ impl Interface {
         explanation::fits(width) && !explanation::fits(width - look::PANEL_WIDTH)
     }
 
+    /// What a lesson leaves of that many points in width.
+    pub(super) fn beside_lesson(viewer: &Viewer, width: f32) -> f32 {
+        let has_panel = viewer.lesson().is_some() && width >= lesson::WIDTH + LEAST_PICTURE;
+        if has_panel { width - lesson::WIDTH } else { width }
+    }
+
+    /// Whether the explanation of a pixel has room in a window of that many points in width.
+    pub(super) fn has_room_to_explain(viewer: &Viewer, width: f32) -> bool {
+        let panel = if viewer.panel() { look::PANEL_WIDTH } else { 0.0 };
+        explanation::fits(Self::beside_lesson(viewer, width) - panel)
+    }
+
     /// Whether the side panel of a window of that many points in width leaves the pinned pixel in sight.
     pub(super) fn panel_leaves_pin(viewer: &Viewer, width: f32, pixels_per_point: f32) -> bool {
         let left = width - look::PANEL_WIDTH - pin::ROOM;
@@ -198,6 +210,7 @@ impl Interface {
         floating::pixel_labels(ui, viewer);
         fed::show(ui, viewer, free);
         hits::hits(ui, viewer);
+        floating::close_of_inset(ui, viewer, &mut asked.commands);
         let messages = self.clock.show(ui, viewer, free, &mut asked.commands);
         if !hidden {
             let mut taken = compare_marks::show(ui, viewer, free, &messages);

@@ -1,4 +1,4 @@
-//! The side panel: settings above, the reader's report, the scenes below.
+//! The side panel: settings above, the scenes and the reader's report below.
 //!
 //! In a high window the settings stay and the list of scenes scrolls by itself; in a low one all of it scrolls as one.
 //! Which of both follows from the window's height and from what is known before anything is laid out, never from heights
@@ -35,17 +35,17 @@ impl Interface {
                 let Some(report_room) = self.report_room(ui.available_height(), viewer) else {
                     let area = ScrollArea::vertical().id_salt("panel").auto_shrink(false);
                     area.show(ui, |ui| {
-                        self.settings(ui, viewer, LONG_REPORT, asked);
+                        self.settings(ui, viewer, asked);
                         // Scrolling to the scene would scroll the settings away.
-                        self.scenes(ui, viewer, false, asked);
+                        self.scenes(ui, viewer, None, asked);
                     });
                     return;
                 };
                 ui.scope(|ui| {
                     ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
-                    self.settings(ui, viewer, report_room, asked);
+                    self.settings(ui, viewer, asked);
                 });
-                self.scenes(ui, viewer, true, asked);
+                self.scenes(ui, viewer, Some(report_room), asked);
             });
         self.covered.push(panel.response.rect);
     }
@@ -64,41 +64,31 @@ impl Interface {
         (room >= least).then_some(room)
     }
 
-    /// What lies above the scenes; the report is at most `report_room` points high. The height of all but the report.
-    fn settings(&mut self, ui: &mut Ui, viewer: &Viewer, report_room: f32, asked: &mut Asked) -> f32 {
+    /// What lies above the scenes, as high for every scene. Its height.
+    fn settings(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) -> f32 {
         let top = ui.cursor().top();
         sampling::show(ui, viewer, &mut asked.commands);
         compare::offer(ui, viewer, &mut asked.commands);
         view_numbers::show(ui, viewer, &mut self.view, &mut asked.commands);
-        let report = ui.scope(|ui| {
-            // Its button must not hide in what scrolls.
-            document::readings(ui, viewer, &mut asked.commands);
-            // A bar that is always to be seen tells that there is more.
-            ui.spacing_mut().scroll = ScrollStyle {
-                floating_width: 4.0,
-                foreground_color: true,
-                ..ScrollStyle::thin()
-            };
-            ScrollArea::vertical()
-                .id_salt("report")
-                .auto_shrink([false, true])
-                .max_height(report_room)
-                .show(ui, |ui| document::report(ui, viewer))
-        });
+        ui.add_space(ui.spacing().item_spacing.y);
         document::timing(ui, viewer, self.timed);
-        ui.cursor().top() - top - report.response.rect.height()
+        ui.cursor().top() - top
     }
 
-    /// The scenes with their heading. With `own_scroll` the list scrolls by itself and follows the current scene.
-    fn scenes(&mut self, ui: &mut Ui, viewer: &Viewer, own_scroll: bool, asked: &mut Asked) {
-        if own_scroll {
-            ui.scope(|ui| {
+    /// The scenes with their heading, and what there is to say about the current one: below the heading, whose arrows stay
+    /// under the pointer. With `report_room` the list scrolls by itself and follows the current scene; the report is at most
+    /// that high then.
+    fn scenes(&mut self, ui: &mut Ui, viewer: &Viewer, report_room: Option<f32>, asked: &mut Asked) {
+        let own_scroll = report_room.is_some();
+        ui.scope(|ui| {
+            if own_scroll {
                 ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
-                scenes::title(ui, viewer, &mut asked.commands);
-            });
-        } else {
+            }
             scenes::title(ui, viewer, &mut asked.commands);
-        }
+            if document::has_readings(viewer) || document::has_report(viewer) {
+                about_scene(ui, viewer, report_room.unwrap_or(LONG_REPORT), asked);
+            }
+        });
         let mut wishes = Wishes {
             follow: own_scroll,
             ..Wishes::default()
@@ -113,6 +103,23 @@ impl Interface {
         }
         asked.thumbnails.extend(wishes.thumbnails);
     }
+}
+
+/// The two readings of a scene and the reader's report.
+fn about_scene(ui: &mut Ui, viewer: &Viewer, report_room: f32, asked: &mut Asked) {
+    // Its button must not hide in what scrolls.
+    document::readings(ui, viewer, &mut asked.commands);
+    // A bar that is always to be seen tells that there is more.
+    ui.spacing_mut().scroll = ScrollStyle {
+        floating_width: 4.0,
+        foreground_color: true,
+        ..ScrollStyle::thin()
+    };
+    ScrollArea::vertical()
+        .id_salt("report")
+        .auto_shrink([false, true])
+        .max_height(report_room)
+        .show(ui, |ui| document::report(ui, viewer));
 }
 
 #[cfg(test)]
@@ -164,7 +171,7 @@ mod tests {
         let mut viewer = viewer(&["svg/basic/test4.svg"]);
         let settings = |interface: &mut Interface, ui: &mut Ui, viewer: &Viewer| {
             ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
-            interface.settings(ui, viewer, 0.0, &mut Asked::default())
+            interface.settings(ui, viewer, &mut Asked::default())
         };
         let whole = measured(|interface, ui| settings(interface, ui, &viewer));
         assert!(
@@ -199,7 +206,7 @@ mod tests {
         let settings = |viewer: &Viewer| {
             measured(|interface, ui| {
                 ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
-                interface.settings(ui, viewer, 0.0, &mut Asked::default())
+                interface.settings(ui, viewer, &mut Asked::default())
             })
         };
         let near = |a: f32, b: f32| (a - b).abs() < 0.5;
@@ -225,7 +232,7 @@ mod tests {
             let laid_out = measured(|interface, ui| {
                 ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
                 let top = ui.cursor().top();
-                interface.scenes(ui, &viewer, false, &mut Asked::default());
+                interface.scenes(ui, &viewer, None, &mut Asked::default());
                 ui.cursor().top() - top
             });
             let known = scenes::height(&viewer);

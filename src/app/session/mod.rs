@@ -1,6 +1,8 @@
 //! A viewer with its panels: routes keys and pointer to the one or the other, runs egui, and puts the picture of the
 //! whole window together. Knows no window system, so that a session runs with or without a display.
 
+#[cfg(test)]
+mod by_mouse;
 mod damage;
 #[cfg(test)]
 mod hands;
@@ -217,11 +219,18 @@ impl Session {
     pub(super) fn run(&mut self, command: Command) {
         let (wanted, command) = self.wanted(command);
         let before = self.viewer.lesson().is_some();
+        let asks_by_hand = matches!(
+            command,
+            Command::PinUnderPointer | Command::PointerPressed(PointerButton::Secondary)
+        );
         self.apply(command);
         if before != self.viewer.lesson().is_some() {
             self.fold_panel();
         }
         self.share_room(wanted);
+        if asks_by_hand {
+            self.tell_no_room(wanted);
+        }
     }
 
     fn apply(&mut self, command: Command) {

@@ -96,9 +96,19 @@ impl Session {
         }
     }
 
+    /// Tells whoever asked why a pixel has its colour that there is no room for the answer.
+    pub(super) fn tell_no_room(&mut self, wanted: Wanted) {
+        let width = self.viewer.window_size()[0] as f32 / self.scale;
+        let asks = wanted == Wanted::Explanation && self.viewer.explains();
+        if asks && !Interface::has_room_to_explain(&self.viewer, width) {
+            self.viewer.say_no_room();
+        }
+    }
+
     /// Whether the window has room for the explanation only without the side panel.
     fn is_narrow(&self) -> bool {
         let [width, _] = self.viewer.window_size();
-        Interface::explanation_needs_panel(width as f32 / self.scale)
+        let width = Interface::beside_lesson(&self.viewer, width as f32 / self.scale);
+        Interface::explanation_needs_panel(width)
     }
 }

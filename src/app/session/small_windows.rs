@@ -18,7 +18,7 @@ const PANEL: f64 = 264.0;
 /// What closes the explanation.
 const CLOSE: &str = "Explanation";
 
-fn right_click(session: &mut Session, at: [f64; 2]) {
+pub(super) fn right_click(session: &mut Session, at: [f64; 2]) {
     session.pointer(Some(DVec2::from(at)));
     for down in [true, false] {
         session.button(PointerButton::Secondary, down);
@@ -26,14 +26,14 @@ fn right_click(session: &mut Session, at: [f64; 2]) {
     session.settle();
 }
 
-fn click_on(session: &mut Session, name: &str) {
+pub(super) fn click_on(session: &mut Session, name: &str) {
     let at = place_of(session, name);
     click(session, at);
     session.settle();
 }
 
 /// Whether this text is to be seen.
-fn says(session: &mut Session, text: &str) -> bool {
+pub(super) fn says(session: &mut Session, text: &str) -> bool {
     let holds = |node: &Node| node.value().is_some_and(|value| value.contains(text));
     nodes(session).iter().any(holds)
 }
@@ -48,7 +48,7 @@ fn top_of(session: &mut Session, text: &str) -> f64 {
 }
 
 /// A session with the side panel open, and with a comparison.
-fn comparing(window: [u32; 2]) -> Session {
+pub(super) fn comparing(window: [u32; 2]) -> Session {
     let mut session = session(Vec::new(), window);
     session.command(Command::Panel(Toggle::On));
     session.command(Command::Compare(Against::Settings));

@@ -237,6 +237,7 @@ impl Viewer {
 
     /// The line follows the pointer at `x`, in window pixels from the left.
     pub(in super::super) fn drag_line(&mut self, x: f64) {
+        let x = self.in_sight_of_line(x);
         let zoom = f64::from(self.settings.pixel_zoom.factor());
         let panes = self.panes();
         let corner = panes.first.corner[0] as f64;

@@ -10,6 +10,9 @@ use super::{Arrangement, FLIP, Paint};
 use crate::compare::{Gain, Pair};
 use crate::raster::Framebuffer;
 
+/// Window pixels between the line of a wipe and a panel at least.
+const LINE_ROOM: f64 = 48.0;
+
 impl Viewer {
     /// Brings the colours of differences and the flipping up to date.
     pub(in super::super) fn update_comparison(&mut self) {
@@ -110,14 +113,34 @@ impl Viewer {
         Composite::new(std::iter::once((panes.first, content)).chain(second).collect())
     }
 
-    /// The first column of the right part.
+    /// The first column of the right part, where no panel covers the line.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "between 0 and a frame's width"
     )]
     fn wipe_column(&self, frame: &Framebuffer) -> u32 {
-        (self.comparison.wipe.clamp(0.0, 1.0) * f64::from(frame.width())).round() as u32
+        let width = f64::from(frame.width());
+        let zoom = f64::from(self.settings.pixel_zoom.factor());
+        let corner = self.panes().first.corner[0] as f64;
+        let wanted = (self.comparison.wipe.clamp(0.0, 1.0) * width).round();
+        let free = self.in_sight_of_line((wanted + corner) * zoom) / zoom - corner;
+        free.round().clamp(0.0, width) as u32
+    }
+
+    /// The nearest place for the line of the wipe that no panel covers, in window pixels from the left: its grip and its
+    /// letters are to be seen beside panels. Without panels any place will do.
+    pub(super) fn in_sight_of_line(&self, x: f64) -> f64 {
+        let Some(free) = self.screen.free_area else { return x };
+        let low = if free.x > 0 { free.x as f64 + LINE_ROOM } else { x };
+        let window = i64::from(self.screen.window[0]);
+        let high = if free.right() < window {
+            free.right() as f64 - LINE_ROOM
+        } else {
+            x
+        };
+        let has_room = f64::from(free.width) > 2.0 * LINE_ROOM;
+        if has_room { x.max(low).min(high.max(low)) } else { x }
     }
 
     /// Where the line of the wipe is, in window pixels from the left; `None` where there is none.

@@ -124,6 +124,7 @@ impl Viewer {
         self.screen.hidden = false;
         self.screen.shown.explanation = explained;
         self.inspector.open = pin.is_some();
+        (self.inspector.asked, self.inspector.kept_view) = (false, None);
         self.inspector.pin = pin.map(|place| Pin {
             pixel: [0, 0],
             place: Some((place, (self.current, self.generation))),
@@ -139,7 +140,9 @@ impl Viewer {
         let camera = self.current().map(|entry| entry.camera);
         let follows = walk.fitted.is_some() && walk.fitted == camera;
         let numbers = walk.lesson.steps.get(walk.at).and_then(|step| step.view);
-        if !walk.view_pending && !follows {
+        // An explanation takes room: another scale would show other content at the pixel that was asked about.
+        let rests = self.inspector.asked && self.explains();
+        if !walk.view_pending && (!follows || rests) {
             return;
         }
         let fitted = if let Some(numbers) = numbers {

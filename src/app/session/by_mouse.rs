@@ -1,0 +1,205 @@
+//! What a hand does that has nothing but a mouse: what it clicks is explained, and what it opens it can close.
+
+use std::path::PathBuf;
+
+use glam::{DVec2, dvec2};
+
+use super::hands::{place_of, session};
+use super::small_windows::{click_on, comparing, right_click, says};
+use super::*;
+use crate::viewer::script::Stage as _;
+use crate::viewer::{Against, Arrangement, Toggle};
+
+/// What closes the explanation.
+const CLOSE: &str = "Explanation";
+
+/// Colour and place of a frame pixel.
+fn content(session: &Session, pixel: [u32; 2]) -> ([u8; 4], DVec2) {
+    let status = session.viewer.status_of(pixel).expect("a scene");
+    (status.rgba.expect("a picture"), status.user)
+}
+
+/// Clicks at a place in the window: what is explained then must be what was there.
+fn explains_what_is_clicked(session: &mut Session, at: [f64; 2]) {
+    let window = session.window();
+    session.pointer(Some(DVec2::from(at)));
+    let clicked = session.viewer.hovered_pixel().expect("the picture");
+    let (color, place) = content(session, clicked);
+    right_click(session, at);
+    let explained = session.viewer.explanation().expect("an explanation");
+    assert_eq!(explained.color, color, "{clicked:?} at {at:?} of {window:?}");
+    let pixel = explained.pixel;
+    let off = (content(session, pixel).1 - place).length();
+    assert!(off < 1e-6, "{off} units from {clicked:?} to {pixel:?} of {window:?}");
+}
+
+#[test]
+fn clicked_pixel_is_the_one_that_is_explained() {
+    for at in [[585.0, 80.0], [586.0, 81.0], [700.0, 300.0], [900.0, 420.0]] {
+        let mut session = session(vec![PathBuf::from("lesson:six-tasks")], [1280, 800]);
+        let before = session.viewer.view_numbers();
+        explains_what_is_clicked(&mut session, at);
+        explains_what_is_clicked(&mut session, [at[0] + 20.0, at[1] + 10.0]);
+        click_on(&mut session, CLOSE);
+        assert_eq!(session.viewer.view_numbers(), before, "the view is fitted again");
+    }
+}
+
+#[test]
+fn clicked_pixel_is_the_one_that_is_explained_side_by_side() {
+    for window in [[1280, 800], [1366, 768]] {
+        for at in [[75.0, 329.0], [330.0, 329.0], [301.0, 402.0], [700.0, 300.0]] {
+            let mut session = comparing(window);
+            session.command(Command::Panel(Toggle::Off));
+            session.command(Command::Arrange(Arrangement::SideBySide));
+            session.settle();
+            let before = session.viewer.view_numbers();
+            explains_what_is_clicked(&mut session, at);
+            click_on(&mut session, CLOSE);
+            assert_eq!(session.viewer.view_numbers(), before, "as before, in {window:?}");
+        }
+    }
+}
+
+#[test]
+fn pinned_pixel_is_explained_again_after_close() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    let at = [700.0, 300.0];
+    right_click(&mut session, at);
+    assert!(says(&mut session, "Pixel 700, 300"), "explained");
+    click_on(&mut session, CLOSE);
+    assert!(!says(&mut session, "Pixel 700, 300"), "closed");
+    right_click(&mut session, at);
+    assert!(says(&mut session, "Pixel 700, 300"), "explained again");
+    right_click(&mut session, at);
+    assert_eq!(session.viewer.pinned_pixel(), None, "a second click unpins it");
+    assert!(session.viewer.inset().is_none(), "and closes what the first one opened");
+    session.command(Command::Inspector(Toggle::On));
+    right_click(&mut session, at);
+    right_click(&mut session, at);
+    assert!(session.viewer.inset().is_some(), "but not what was open before");
+}
+
+#[test]
+fn magnifier_has_a_button_that_closes_it() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    session.command(Command::Inspector(Toggle::On));
+    right_click(&mut session, [700.0, 300.0]);
+    let inset = session.viewer.inset().expect("there is room").rect;
+    session.pointer(Some(dvec2(inset.x as f64 + 20.0, inset.y as f64 + 20.0)));
+    session.settle();
+    let button = place_of(&mut session, "Close the inspector");
+    assert!(
+        button.x > inset.x as f64 && button.x < inset.right() as f64,
+        "{button} on {inset:?}"
+    );
+    click_on(&mut session, "Close the inspector");
+    assert!(session.viewer.inset().is_none(), "closed");
+}
+
+#[test]
+fn line_of_a_wipe_stays_beside_panels() {
+    for window in [[800, 600], [1280, 800], [1366, 768]] {
+        let mut session = comparing(window);
+        session.command(Command::Arrange(Arrangement::Wipe));
+        session.settle();
+        let line = |session: &Session| session.viewer.wipe_line().expect("a wipe");
+        let in_sight = |session: &Session, what: &str| {
+            let (line, free) = (line(session), session.free_area.expect("there is room"));
+            let (left, right) = (free.x as f64, free.right() as f64);
+            assert!(
+                left + 20.0 < line && line < right - 20.0,
+                "{what}: {line} in {free:?} of {window:?}"
+            );
+        };
+        in_sight(&session, "at first");
+        let free = session.free_area.expect("there is room");
+        let y = free.y as f64 + 40.0;
+        for (x, what) in [(100.0, "far left"), (f64::from(window[0]) - 60.0, "far right")] {
+            session.pointer(Some(dvec2(line(&session), y)));
+            session.button(PointerButton::Primary, true);
+            session.pointer(Some(dvec2(x, y)));
+            session.button(PointerButton::Primary, false);
+            session.settle();
+            in_sight(&session, what);
+        }
+        let middle = (free.x + free.right()) as f64 / 2.0;
+        session.pointer(Some(dvec2(line(&session), y)));
+        session.button(PointerButton::Primary, true);
+        session.pointer(Some(dvec2(middle, y)));
+        session.button(PointerButton::Primary, false);
+        assert!((line(&session) - middle).abs() <= 1.0, "and back in {window:?}");
+        for part in [0.0, 1.0] {
+            session.command(Command::SetWipe(part));
+            right_click(&mut session, [middle, y]);
+            in_sight(&session, "beside an explanation");
+        }
+    }
+}
+
+/// A folder of scenes: one that is read in two ways, one that is plain, one with notes, one that cannot be read.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let shape = r##"<polygon fill="#1f6feb" points="5,5 45,9 20,45"/>"##;
+    let circle = r#"<circle cx="35" cy="35" r="9"/>"#;
+    let boxed = r#" viewBox="0 0 50 50""#;
+    for (name, attributes, body) in [
+        ("1.svg", "", shape.to_owned()),
+        ("2.svg", boxed, format!("{shape}{circle}")),
+        ("3.svg", "", format!("{shape}<blink/>")),
+        ("4.svg", "", "<polygon".to_owned()),
+        ("5.svg", "", shape.to_owned()),
+    ] {
+        let document =
+            format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100"{attributes}>{body}</svg>"#);
+        std::fs::write(folder.path().join(name), document).expect("a file");
+    }
+    folder
+}
+
+#[test]
+fn arrows_of_the_scenes_stay_under_the_pointer() {
+    let folder = folder();
+    for window in [[1366, 768], [1600, 1300]] {
+        let mut session = session(vec![folder.path().to_owned()], window);
+        session.command(Command::Panel(Toggle::On));
+        session.settle();
+        let before = place_of(&mut session, "Next scene");
+        let mut noted = 0;
+        for _ in 0..session.viewer.scenes().len() {
+            session.command(Command::NextScene);
+            session.settle();
+            noted += usize::from(session.viewer.reading_note().is_some());
+            let scene = session.viewer.current_index();
+            let now = place_of(&mut session, "Next scene");
+            assert!((now - before).length() < 1.0, "{now}, not {before}, at scene {scene}");
+        }
+        assert!(noted > 0, "some scene has two readings");
+    }
+}
+
+#[test]
+fn scene_without_a_picture_says_so() {
+    let folder = folder();
+    let mut session = session(vec![folder.path().join("4.svg")], [1280, 800]);
+    session.command(Command::Panel(Toggle::On));
+    right_click(&mut session, [500.0, 300.0]);
+    assert!(!session.viewer.explains(), "there is nothing to explain");
+    assert!(says(&mut session, "no picture to explain"), "and it says why");
+    assert!(!says(&mut session, "finding out"), "nothing is found out");
+    session.command(Command::Compare(Against::Truth(None)));
+    session.settle();
+    assert!(says(&mut session, "no picture to measure"), "nor measured");
+    assert!(!says(&mut session, "measuring"), "ever");
+}
+
+#[test]
+fn missing_room_for_an_explanation_is_told() {
+    let mut session = session(vec![PathBuf::from("lesson:six-tasks")], [800, 600]);
+    right_click(&mut session, [550.0, 300.0]);
+    assert!(session.viewer.pinned_pixel().is_some(), "pinned");
+    assert!(says(&mut session, "close the lesson"), "why there is no more");
+    session.resize([1280, 800]);
+    session.settle();
+    assert!(session.viewer.explanation().is_some(), "explained where there is room");
+}

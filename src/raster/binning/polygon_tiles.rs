@@ -1,8 +1,8 @@
 //! An outline in a row of tiles: the tiles it touches and those it covers, without looking at any sample.
 //!
 //! An edge lies in the tiles between the columns where it crosses the first sample row and the last, widened as in
-//! `tile_rows`. The tiles right of it are wound around once more in the rows it crosses. So a tile in which no edge lies
-//! is wound around alike everywhere, once each row counts the same edges left of it.
+//! `coverage::edge_bounds`. The tiles right of it are wound around once more in the rows it crosses. So a tile in which no
+//! edge lies is wound around alike everywhere, once each row counts the same edges left of it.
 
 use crate::geometry::FillRule;
 use crate::geometry::subpixel::SubpixelGrid;

@@ -1,4 +1,4 @@
-//! The outline of a polygon: its edges on the sub-pixel grid, and which samples they enclose.
+//! The outline of a polygon: its edges on the sub-pixel grid. `polygon_rows` finds the samples that they enclose.
 //!
 //! In each sample row the edges that cross it are sorted by the first sample column at or right of the crossing; between
 //! two of them all samples are wound around equally often. An edge crosses the rows from the first at or below its top

@@ -1,4 +1,4 @@
-//! What outlines enclose in one row of tiles, found once for all its tiles.
+//! What shapes cover in one row of tiles; for outlines it is found once for all its tiles.
 
 use fearless_simd::Simd;
 

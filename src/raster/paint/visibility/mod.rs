@@ -1,6 +1,6 @@
 //! Deferred shading: first which surface each sample of a tile shows, then each surface's colour, once per pixel.
 //!
-//! The [`buffer`] holds surface ids, [`packed`] eight to a word; [`two_surfaces`] compresses a pixel of two surfaces as
+//! The [`buffer`] holds surface ids, [`packed`] four to a word; [`two_surfaces`] compresses a pixel of two surfaces as
 //! GPUs do with an FMASK; [`flat_resolve`] averages surfaces of one colour without shading.
 
 pub(in crate::raster) mod buffer;

@@ -147,7 +147,6 @@ pub(super) fn with_default_command(mut arguments: Vec<OsString>) -> Vec<OsString
 
 #[cfg(test)]
 mod tests {
-    use clap::Args as _;
 
     use super::*;
     use crate::cli::restore::parse;
@@ -210,7 +209,15 @@ mod tests {
             match parsed(&line) {
                 Ok(Arguments {
                     verb: Verb::Render(options),
-                }) => assert_eq!(options.picture.sampling.visualise, Visualisation::Color, "{name}"),
+                }) => assert_eq!(
+                    options
+                        .picture
+                        .sampling
+                        .settings(crate::geometry::View::Default)
+                        .visualisation,
+                    Visualisation::Color,
+                    "{name}"
+                ),
                 other => panic!("{line}: {other:?}"),
             }
         }
@@ -275,24 +282,6 @@ mod tests {
                 }
                 other => panic!("{line}: {other:?}"),
             }
-        }
-    }
-
-    #[test]
-    fn arguments_that_sample_are_the_viewers_options() {
-        use crate::viewer::options;
-        let sampling = SamplingOptions::augment_args(clap::Command::new("options"));
-        let here: Vec<&str> = sampling
-            .get_arguments()
-            .filter_map(|argument| argument.get_long())
-            .collect();
-        let there: Vec<&str> = options::names().collect();
-        for name in here.iter().chain(&there) {
-            let known = here.contains(name) && there.contains(name);
-            assert!(
-                known,
-                "--{name} is written on the command line and elsewhere, or nowhere"
-            );
         }
     }
 

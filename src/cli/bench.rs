@@ -100,7 +100,7 @@ fn measure(scene: &Path, options: &BenchOptions) -> Result<Report, Failure> {
         scene: scene.display().to_string(),
         width: picture.frame().width(),
         height: picture.frame().height(),
-        sample_rate: options.picture.sampling.sample_rate.samples(),
+        sample_rate: options.picture.sampling.sample_rate().samples(),
         threads: rayon::current_num_threads(),
         frames: options.frames,
         median_ms: milliseconds(stage(FrameStats::total)),

@@ -2,10 +2,14 @@
 
 use std::ffi::OsString;
 
-use crate::viewer::commands;
+use crate::viewer::picture::{self, Values};
+use crate::viewer::{PictureSetting, commands};
 
 /// Where the page of keys holds the table that every command has its line in.
 const KEYS: &str = "<!-- keys -->";
+
+/// Where the page of options holds a line for each picture setting.
+const SETTINGS: &str = "<!-- settings -->";
 
 /// The pages with their names.
 const PAGES: [(&str, &str); 8] = [
@@ -29,5 +33,28 @@ pub(super) fn page(words: &[OsString]) -> Option<String> {
         return None;
     };
     let (_, text) = PAGES.iter().find(|(page, _)| help == "help" && name == page)?;
-    Some(text.replace(KEYS, commands::markdown().trim()))
+    Some(
+        text.replace(KEYS, commands::markdown().trim())
+            .replace(SETTINGS, settings().trim_end()),
+    )
+}
+
+/// The picture settings as lines of a table in Markdown: option, values, default, what it means.
+fn settings() -> String {
+    let code = |text: &str| format!("`{text}`");
+    let number = |text: &str| text.parse::<f64>().is_ok();
+    let line = |setting: &PictureSetting| {
+        let values = match setting.values {
+            Values::Named(names) => names().into_iter().map(code).collect::<Vec<_>>().join(", "),
+            Values::Open { range, .. } => range.to_owned(),
+        };
+        let default = setting.default_value();
+        let default = if number(&default) { default } else { code(&default) };
+        let mut means = setting.help.to_owned();
+        if let Some(first) = means.get_mut(..1) {
+            first.make_ascii_lowercase();
+        }
+        format!("| `--{}` | {values} | {default} | {means} |\n", setting.option)
+    };
+    picture::all().iter().map(line).collect()
 }

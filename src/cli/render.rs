@@ -91,7 +91,7 @@ fn one(
         .target(output, named)
         .map_err(|error| unwritable(output, &error))?;
     let sampling = &options.picture.sampling;
-    let (dialect, why) = match (sampling.dialect, sampling.reading()) {
+    let (dialect, why) = match (sampling.dialect(), sampling.reading()) {
         (DialectChoice::Auto, DialectChoice::Course) => (DialectChoice::Course, ", as --rules course asks for"),
         (DialectChoice::Auto, _) if is_of_course => (DialectChoice::Course, ", as other scenes of the folder are"),
         (dialect, _) => (dialect, ""),

@@ -85,7 +85,7 @@ pub(super) fn spec(options: &SheetOptions) -> Result<PictureSpec, String> {
 pub(super) fn request(options: &SheetOptions) -> Result<SheetRequest, String> {
     let mut panels = Vec::new();
     for choice in options.axes.0.choices() {
-        panels.push(sampling(&choice)?.rules);
+        panels.push(sampling(&choice)?.rules());
     }
     // Panels that differ in their rules show one reading of the document.
     let by_rules = panels.iter().all(|rules| *rules == Rules::Course);
@@ -107,7 +107,11 @@ fn panel(options: &SheetOptions, choice: &Choice, by_rules: bool) -> Result<Pict
         size,
         view: options.framing.view,
         render: sampling.settings(options.framing.view),
-        dialect: if by_rules { sampling.reading() } else { sampling.dialect },
+        dialect: if by_rules {
+            sampling.reading()
+        } else {
+            sampling.dialect()
+        },
         insets: options.insets.clone(),
         // The sheet has one for all panels.
         legend: false,

@@ -5,16 +5,12 @@ use std::time::Instant;
 use glam::DVec2;
 
 use super::drawing::Wish;
-use super::settings::next_of;
+use super::settings::values::next_of;
 use super::state::Finished;
 use super::{Camera, Command, Effect, PixelRect, PixelZoom, Sight, Theme, Viewer, ending, library};
-use crate::color::ResolveSpace;
 use crate::geometry::View;
-use crate::raster::{Region, SamplePattern, SampleRate};
-use crate::render::{RenderSettings, Visualisation};
-use crate::rules::Rules;
-use crate::scene::DialectChoice;
-use crate::texture::{Derivatives, FixedLevel, LevelSampling, PixelSampling};
+use crate::raster::Region;
+use crate::render::RenderSettings;
 
 /// What one click of the wheel zooms by.
 const WHEEL_FACTOR: f64 = 1.25;
@@ -213,7 +209,7 @@ impl Viewer {
             Command::ActualSize => self.look(Camera::actual_size),
             Command::SetView(numbers) => self.look(|camera, sight| camera.set(numbers, sight)),
             Command::SetPixelZoom(zoom) => self.set_pixel_zoom(zoom),
-            Command::NextPixelZoom => self.set_pixel_zoom(next_of(&PixelZoom::ALL, self.settings.pixel_zoom)),
+            Command::NextPixelZoom => self.set_pixel_zoom(next_of(&PixelZoom::ALL, self.settings.pixel_zoom, 1.0)),
             Command::NextScene if self.step_lesson(true) => {}
             Command::PreviousScene if self.step_lesson(false) => {}
             Command::NextScene => self.step_scene(1),
@@ -235,56 +231,15 @@ impl Viewer {
         }
     }
 
-    pub(super) fn change_sampling(&mut self, command: Command) {
+    fn change_sampling(&mut self, command: Command) {
         let Some(command) = self.change_comparison(command) else {
             return;
         };
-        let render = &mut self.settings.render;
         match command {
-            Command::SampleRateUp => render.sample_rate = render.sample_rate.higher(),
-            Command::SampleRateDown => render.sample_rate = render.sample_rate.lower(),
-            Command::SetSampleRate(rate) => {
-                let pattern = render.pattern;
-                self.set_samples(pattern, rate);
+            Command::Set(change) => {
+                let remark = change.apply(&mut self.settings);
+                remark.into_iter().for_each(|remark| self.messages.error(remark));
             }
-            Command::NextPattern => {
-                let (pattern, rate) = (next_of(&SamplePattern::ALL, render.pattern), render.sample_rate);
-                self.set_samples(pattern, rate);
-            }
-            Command::SetPattern(pattern) => {
-                let rate = render.sample_rate;
-                self.set_samples(pattern, rate);
-            }
-            Command::NextPixelSampling => render.pixel_sampling = next_of(&PixelSampling::ALL, render.pixel_sampling),
-            Command::SetPixelSampling(sampling) => render.pixel_sampling = sampling,
-            Command::NextLevelSampling => render.level_sampling = next_of(&LevelSampling::ALL, render.level_sampling),
-            Command::SetLevelSampling(sampling) => render.level_sampling = sampling,
-            Command::NextAnisotropy => render.anisotropy = render.anisotropy.doubled(),
-            Command::SetAnisotropy(taps) => render.anisotropy = taps,
-            Command::SetLodBias(bias) => render.detail.bias = bias,
-            Command::StepLodBias(by) => render.detail.bias = render.detail.bias.stepped(by),
-            Command::NextFixedLevel => render.detail.fixed = FixedLevel::after(render.detail.fixed),
-            Command::SetFixedLevel(level) => render.detail.fixed = level,
-            Command::NextDerivatives => {
-                render.detail.derivatives = next_of(&Derivatives::ALL, render.detail.derivatives);
-            }
-            Command::SetDerivatives(derivatives) => render.detail.derivatives = derivatives,
-            Command::NextResolveSpace => render.resolve = next_of(&ResolveSpace::ALL, render.resolve),
-            Command::SetResolveSpace(space) => render.resolve = space,
-            Command::NextVisualisation => {
-                render.visualisation = next_of(&Visualisation::ALL, render.visualisation);
-            }
-            Command::PreviousVisualisation => {
-                let mut all = Visualisation::ALL;
-                all.reverse();
-                render.visualisation = next_of(&all, render.visualisation);
-            }
-            Command::SetVisualisation(visualisation) => render.visualisation = visualisation,
-            Command::NextRules => render.rules = next_of(&Rules::ALL, render.rules),
-            Command::SetRules(rules) => render.rules = rules,
-            Command::SetBackground(color) => render.background = color,
-            Command::NextDialect => self.settings.dialect = next_of(&DialectChoice::ALL, self.settings.dialect),
-            Command::SetDialect(dialect) => self.settings.dialect = dialect,
             Command::OtherReading => self.choose_other_reading(),
             Command::Progressive(toggle) => {
                 self.settings.progressive = toggle.of(self.settings.progressive);
@@ -295,15 +250,6 @@ impl Viewer {
             }
             command => self.change_inspector(command),
         }
-    }
-
-    /// A pattern and as many samples as it takes; where those are others than asked for, the user is told.
-    fn set_samples(&mut self, pattern: SamplePattern, rate: SampleRate) {
-        if let Some(refusal) = pattern.refusal(rate) {
-            self.messages.error(refusal);
-        }
-        self.settings.render.pattern = pattern;
-        self.settings.render.sample_rate = pattern.nearest(rate);
     }
 
     fn change_inspector(&mut self, command: Command) {
@@ -347,7 +293,7 @@ impl Viewer {
             }
             Command::CloseDialog => screen.dialog = None,
             Command::SetTheme(theme) => screen.theme = *theme,
-            Command::NextTheme => screen.theme = next_of(&Theme::ALL, screen.theme),
+            Command::NextTheme => screen.theme = next_of(&Theme::ALL, screen.theme, 1.0),
             Command::DismissMessage(id) => self.messages.dismiss(*id),
             // What has effects was handled in `dispatch`; letting go of another button does nothing.
             _ => {}

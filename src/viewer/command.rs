@@ -7,16 +7,11 @@ use std::path::PathBuf;
 
 use glam::DVec2;
 
-use super::{Against, Arrangement, LessonSource, PixelZoom, SheetChange, Theme, Toggle, ViewNumbers};
-use crate::color::{ResolveSpace, Rgba};
+use super::{Against, Arrangement, LessonSource, PixelZoom, SettingChange, SheetChange, Theme, Toggle, ViewNumbers};
 use crate::compare::Measure;
 use crate::figure::PixelRect;
 use crate::inspect::TexelPlace;
-use crate::raster::{Framebuffer, SamplePattern, SampleRate};
-use crate::render::Visualisation;
-use crate::rules::Rules;
-use crate::scene::DialectChoice;
-use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
+use crate::raster::Framebuffer;
 
 /// One thing that a user can do.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,62 +72,10 @@ pub enum Command {
     NextPixelZoom,
 
     // Sampling.
-    /// The next higher sample rate that keys reach.
-    SampleRateUp,
-    /// The next lower sample rate.
-    SampleRateDown,
-    /// This sample rate, or the nearest one that the pattern takes.
-    SetSampleRate(SampleRate),
-    /// The next sample pattern, round and round.
-    NextPattern,
-    /// This sample pattern. A sample rate that it does not take becomes the nearest one that it takes.
-    SetPattern(SamplePattern),
-    /// The next pixel sampling, round and round.
-    NextPixelSampling,
-    /// This pixel sampling.
-    SetPixelSampling(PixelSampling),
-    /// The next level sampling, round and round.
-    NextLevelSampling,
-    /// This level sampling.
-    SetLevelSampling(LevelSampling),
-    /// Twice as many taps at most, up to 64; then one again.
-    NextAnisotropy,
-    /// So many taps at most.
-    SetAnisotropy(Anisotropy),
-    /// This bias of the level of detail.
-    SetLodBias(LodBias),
-    /// So many levels more, kept within the limits.
-    StepLodBias(f64),
-    /// The next whole level, from the footprint's own over 0 to 8 and round.
-    NextFixedLevel,
-    /// This level, or the one that fits the footprint.
-    SetFixedLevel(Option<FixedLevel>),
-    /// The other kind of derivatives.
-    NextDerivatives,
-    /// These derivatives.
-    SetDerivatives(Derivatives),
-    /// The other resolve space.
-    NextResolveSpace,
-    /// Averages samples in these values.
-    SetResolveSpace(ResolveSpace),
-    /// What the pixels show next, round and round.
-    NextVisualisation,
-    /// What they showed before that.
-    PreviousVisualisation,
-    /// Shows this.
-    SetVisualisation(Visualisation),
-    /// The next rules, round and round.
-    NextRules,
-    /// These rules.
-    SetRules(Rules),
-    /// The next dialect, round and round; the scene is read again.
-    NextDialect,
-    /// This dialect; the scene is read again.
-    SetDialect(DialectChoice),
+    /// Changes a setting of the picture; of its dialect, and the scene is read again.
+    Set(SettingChange),
     /// The other dialect for the current scene and its folder.
     OtherReading,
-    /// What lies below the first primitive.
-    SetBackground(Rgba),
     /// Whether coarse pictures may stand in for slow ones while the view moves.
     Progressive(Toggle),
 
@@ -251,6 +194,22 @@ pub enum Command {
     Escape,
     /// Ends the program.
     Quit,
+}
+
+impl Command {
+    /// Sets a picture setting, named by its option, to a value such as `16`.
+    ///
+    /// # Errors
+    /// One line where there is no such setting or no such value.
+    pub fn set(option: &str, value: &str) -> Result<Self, String> {
+        SettingChange::of(option, value).map(Self::Set)
+    }
+
+    /// Steps a picture setting to its next value, or to the one before where `by` is below zero; `None` where there is no
+    /// such setting.
+    pub fn step(option: &str, by: f64) -> Option<Self> {
+        super::picture::find(option).map(|setting| Self::Set(setting.step(by)))
+    }
 }
 
 /// A button of the mouse.

@@ -4,14 +4,13 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::settings::background_name;
-use super::{Effect, SceneSource, Viewer};
+use super::settings::picture;
+use super::{Effect, SceneSource, Settings, Viewer};
 use crate::figure::{InsetPlace, InsetSpec, Record, RecordedFile};
 use crate::geometry::View;
 use crate::plain;
 use crate::render::RenderSettings;
 use crate::scene::{DialectChoice, FileDigest, Scene};
-use crate::texture::FixedLevel;
 
 impl Viewer {
     pub(super) fn copy_pixel(&mut self) -> Vec<Effect> {
@@ -160,35 +159,15 @@ impl PictureSpec {
 
     /// The settings that differ from their defaults: names and values of the command line's options.
     pub fn settings(&self) -> Vec<(&'static str, String)> {
-        let (render, default) = (&self.render, RenderSettings::default());
-        let mut options = Vec::new();
-        let mut option = |differs: bool, name: &'static str, value: &str| {
-            if differs {
-                options.push((name, value.to_owned()));
-            }
+        let settings = Settings {
+            render: self.render,
+            dialect: self.dialect,
+            ..Settings::default()
         };
-        let (rate, pixel, level) = (render.sample_rate, render.pixel_sampling, render.level_sampling);
-        option(rate != default.sample_rate, "sample-rate", &rate.samples().to_string());
-        option(render.pattern != default.pattern, "pattern", render.pattern.name());
-        option(pixel != default.pixel_sampling, "pixel-sampling", pixel.name());
-        option(level != default.level_sampling, "level-sampling", level.name());
-        let (taps, detail) = (render.anisotropy, render.detail);
-        option(taps != default.anisotropy, "anisotropy", &taps.taps().to_string());
-        let bias = detail.bias.levels().to_string();
-        option(detail.bias != default.detail.bias, "lod-bias", &bias);
-        let fixed = detail.fixed.map(FixedLevel::level).unwrap_or_default().to_string();
-        option(detail.fixed.is_some(), "lod-level", &fixed);
-        let per = detail.derivatives;
-        option(per != default.detail.derivatives, "lod-per", per.name());
-        let background = background_name(render.background);
-        option(render.background != default.background, "background", &background);
-        let dialect = self.dialect;
-        option(dialect != DialectChoice::default(), "dialect", dialect.name());
-        option(render.resolve != default.resolve, "resolve", render.resolve.name());
-        let shown = render.visualisation;
-        option(shown != default.visualisation, "visualise", shown.name());
-        option(render.rules != default.rules, "rules", render.rules.name());
-        options
+        let changed = picture::all().iter().filter(|setting| !setting.is_default(&settings));
+        changed
+            .map(|setting| (setting.option, setting.value(&settings)))
+            .collect()
     }
 
     /// The record of the picture that was drawn of `scene`, for a file `output`.

@@ -2,6 +2,7 @@
 
 use super::Command;
 use super::key::{Chord, Key};
+use super::settings::picture::PictureSetting;
 use super::typed::Argument;
 
 /// One line of the table.
@@ -51,6 +52,8 @@ pub enum Action {
     Run(&'static Command),
     /// One of these for each of its keys, in their order.
     PerKey(&'static [Command]),
+    /// Steps so far through the values of a setting.
+    Step(&'static PictureSetting, f64),
     /// Nothing: it needs its argument.
     NeedsArgument,
 }
@@ -95,10 +98,19 @@ impl CommandSpec {
     }
 
     /// The command without an argument; `None` where it needs one or depends on the key.
-    pub fn command(&self) -> Option<&'static Command> {
+    pub fn command(&self) -> Option<Command> {
         match self.action {
-            Action::Run(command) => Some(command),
+            Action::Run(command) => Some(command.clone()),
+            Action::Step(setting, by) => Some(Command::Set(setting.step(by))),
             Action::PerKey(_) | Action::NeedsArgument => None,
+        }
+    }
+
+    /// The command of one of its keys, counted from 0.
+    pub fn command_of_key(&self, at: usize) -> Option<Command> {
+        match self.action {
+            Action::PerKey(commands) => commands.get(at).cloned(),
+            _ => self.command(),
         }
     }
 

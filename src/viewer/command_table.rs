@@ -105,154 +105,7 @@ pub(super) static TABLE: &[CommandSpec] = &[
     )
     .run(&Command::NextPixelZoom)
     .argument(typed::PIXEL_ZOOM),
-    // Sampling.
-    spec(
-        "rate-down",
-        "Lower sample rate",
-        "Takes fewer samples per pixel",
-        Group::Sampling,
-    )
-    .keys(&[Chord::char('-')])
-    .run(&Command::SampleRateDown),
-    spec(
-        "rate-up",
-        "Higher sample rate",
-        "Takes more samples per pixel",
-        Group::Sampling,
-    )
-    .keys(&[Chord::char('='), Chord::anywhere('+')])
-    .run(&Command::SampleRateUp),
-    spec(
-        "rate",
-        "Sample rate",
-        "Sets the samples per pixel: 1, 4, 9, 16 ... 256; with the patterns halton and r2 any number",
-        Group::Sampling,
-    )
-    .argument(typed::SAMPLE_RATE),
-    spec(
-        "pattern",
-        "Sample pattern",
-        "Moves the samples inside their pixels: a grid, a rotated grid, jitter in every pixel or the same in all, halton, r2",
-        Group::Sampling,
-    )
-    .more("Off the grid, edges that are nearly upright or level get more shades, and jitter turns aliases into noise")
-    .keys(&[Chord::char('a')])
-    .run(&Command::NextPattern)
-    .argument(typed::PATTERN),
-    spec(
-        "pixel-sampling",
-        "Pixel sampling",
-        "Switches between nearest and bilinear texels",
-        Group::Sampling,
-    )
-    .keys(&[Chord::char('p')])
-    .run(&Command::NextPixelSampling)
-    .argument(typed::PIXEL_SAMPLING),
-    spec(
-        "level-sampling",
-        "Level sampling",
-        "Switches between mip level zero, nearest and linear",
-        Group::Sampling,
-    )
-    .keys(&[Chord::char('l')])
-    .run(&Command::NextLevelSampling)
-    .argument(typed::LEVEL_SAMPLING),
-    spec(
-        "anisotropy",
-        "Anisotropy",
-        "Doubles the most texture taps along a footprint that is longer than wide: 1, which is off, to 64",
-        Group::Sampling,
-    )
-    .more("The level then fits the footprint's width, so that floors stay sharp towards the horizon")
-    .keys(&[Chord::char('t')])
-    .run(&Command::NextAnisotropy)
-    .argument(typed::ANISOTROPY),
-    spec(
-        "lod-bias",
-        "Level of detail bias",
-        "Adds to the level of detail of every texture",
-        Group::Sampling,
-    )
-    .more("Below zero textures are sharper and shimmer, above zero they are blurred; level sampling zero has no level to change")
-    .argument(typed::LOD_BIAS),
-    spec(
-        "sharper",
-        "Sharper textures",
-        "Lowers the bias of the level of detail by a half",
-        Group::Sampling,
-    )
-    .keys(&[Chord::char(',')])
-    .run(&Command::StepLodBias(-0.5)),
-    spec(
-        "softer",
-        "Softer textures",
-        "Raises the bias of the level of detail by a half",
-        Group::Sampling,
-    )
-    .keys(&[Chord::char('.')])
-    .run(&Command::StepLodBias(0.5)),
-    spec(
-        "lod-level",
-        "Fixed level",
-        "Reads every texture at one mip level instead of the one that fits: auto, 0, 1, 2 ... 8",
-        Group::Sampling,
-    )
-    .more("Level sampling linear also takes levels between two, up to 16; a texture with fewer levels shows its last")
-    .keys(&[Chord::char('m')])
-    .run(&Command::NextFixedLevel)
-    .argument(typed::LOD_LEVEL),
-    spec(
-        "lod-per",
-        "Level of detail per",
-        "Switches between the level of detail of a pixel's footprint and of a sample's",
-        Group::Sampling,
-    )
-    .more("Per sample, higher rates read finer levels and leave the averaging to the samples")
-    .run(&Command::NextDerivatives)
-    .argument(typed::LOD_PER),
-    spec(
-        "resolve",
-        "Resolve space",
-        "Switches between averaging the samples of a pixel as stored and as the light that they stand for",
-        Group::Sampling,
-    )
-    .more("In linear light half black and half white is 188, which from afar looks like the pattern itself; stored it is 128 and looks darker")
-    .run(&Command::NextResolveSpace)
-    .argument(typed::RESOLVE),
-    spec(
-        "visualise",
-        "Visualisation",
-        "Shows the next of colour, coverage, overdraw, primitives, wireframe, barycentric weights, (u, v), level of detail, mip levels, anisotropy",
-        Group::Sampling,
-    )
-    .more("Shapes and samples stay those of the picture, only what they are painted with changes; the legend says how")
-    .keys(&[Chord::char('v')])
-    .run(&Command::NextVisualisation)
-    .argument(typed::VISUALISE),
-    spec(
-        "visualise-back",
-        "Previous visualisation",
-        "Shows the visualisation before this one",
-        Group::Sampling,
-    )
-    .keys(&[shift(Key::Char('v'))])
-    .run(&Command::PreviousVisualisation),
-    spec(
-        "rules",
-        "Rules",
-        "Shows the picture by the next rules: standard, the course's, a first draft's",
-        Group::Sampling,
-    )
-    .more("A first draft has edges in 32-bit floats and no rule for ties: samples on a shared edge are nobody's")
-    .run(&Command::NextRules)
-    .argument(typed::RULES),
-    spec(
-        "background",
-        "Background",
-        "Sets what lies below the scene: white, transparent or a colour",
-        Group::Sampling,
-    )
-    .argument(typed::BACKGROUND),
+    // Sampling: after the picture settings.
     spec(
         "progressive",
         "Progressive drawing",
@@ -342,14 +195,9 @@ pub(super) static TABLE: &[CommandSpec] = &[
     )
     .more("Panning and zooming move both")
     .run(&Command::ToggleArrangement(Arrangement::SideBySide)),
-    spec(
-        "flip",
-        "Flip",
-        "Shows A and B in turn",
-        Group::Compare,
-    )
-    .more("What differs then jumps to the eye")
-    .run(&Command::ToggleArrangement(Arrangement::Flip)),
+    spec("flip", "Flip", "Shows A and B in turn", Group::Compare)
+        .more("What differs then jumps to the eye")
+        .run(&Command::ToggleArrangement(Arrangement::Flip)),
     spec(
         "flip-by-hand",
         "Flip by hand",
@@ -478,14 +326,6 @@ pub(super) static TABLE: &[CommandSpec] = &[
     spec("reload", "Reload", "Reads the scene again", Group::Scenes)
         .keys(&[Chord::ctrl('r'), Chord::named(Key::F(5))])
         .run(&Command::Reload),
-    spec(
-        "dialect",
-        "Dialect",
-        "Switches how documents are read: auto, course or svg",
-        Group::Scenes,
-    )
-    .run(&Command::NextDialect)
-    .argument(typed::DIALECT),
     spec(
         "other-reading",
         "Read in the other dialect",

@@ -1,10 +1,14 @@
 //! The one table of commands: name, keys, help line, action. Key handling, help, palette, menus, tool tips, scripts
 //! and the README's key table all read it.
 
+use std::sync::LazyLock;
+
 use super::Command;
 use super::command_spec::{Action, CommandSpec, Group};
 use super::command_table::TABLE;
 use super::key::{Chord, KeyPress};
+use super::settings::picture::{self, About, PictureSetting};
+use super::typed::Argument;
 
 /// A gesture of the mouse, for help and the README.
 #[derive(Clone, Copy, Debug)]
@@ -15,26 +19,56 @@ pub struct Gesture {
     pub help: &'static str,
 }
 
-/// The whole table, in the order of help and menus.
+/// The whole table, in the order of help and menus: each heading's own lines, and those of the picture settings.
 pub fn all() -> &'static [CommandSpec] {
-    TABLE
+    static ALL: LazyLock<Vec<CommandSpec>> = LazyLock::new(|| {
+        let of_settings: Vec<CommandSpec> = picture::all().iter().flat_map(of_setting).collect();
+        let of = |specs: &'static [CommandSpec], group| specs.iter().filter(move |spec| spec.group == group).copied();
+        let mut all = Vec::new();
+        for group in Group::ALL {
+            let settings = of_settings.iter().filter(|spec| spec.group == group).copied();
+            if group == Group::Sampling {
+                all.extend(settings.chain(of(TABLE, group)));
+            } else {
+                all.extend(of(TABLE, group).chain(settings));
+            }
+        }
+        all
+    });
+    &ALL
+}
+
+/// The lines of a setting.
+fn of_setting(setting: &'static PictureSetting) -> impl Iterator<Item = CommandSpec> {
+    let group = match setting.about {
+        About::Samples | About::Textures => Group::Sampling,
+        About::Document => Group::Scenes,
+    };
+    setting.commands.iter().map(move |command| CommandSpec {
+        id: command.id,
+        name: command.name,
+        help: command.help,
+        more: command.more,
+        group,
+        keys: command.keys,
+        action: command
+            .step
+            .map_or(Action::NeedsArgument, |by| Action::Step(setting, by)),
+        argument: command.takes_value.then_some(Argument::Value(setting)),
+    })
 }
 
 /// The command called `id`.
 pub fn find(id: &str) -> Option<&'static CommandSpec> {
-    TABLE.iter().find(|spec| spec.id == id)
+    all().iter().find(|spec| spec.id == id)
 }
 
 /// What a press of a key asks for: the layout's character decides first, the key's place second.
-pub fn for_key(press: &KeyPress) -> Option<&'static Command> {
+pub fn for_key(press: &KeyPress) -> Option<Command> {
     let search = |matches: fn(&Chord, &KeyPress) -> bool| {
-        TABLE.iter().find_map(|spec| {
+        all().iter().find_map(|spec| {
             let at = spec.keys.iter().position(|chord| matches(chord, press))?;
-            match spec.action {
-                Action::Run(command) => Some(command),
-                Action::PerKey(commands) => commands.get(at),
-                Action::NeedsArgument => None,
-            }
+            spec.command_of_key(at)
         })
     };
     search(Chord::matches_logical).or_else(|| search(Chord::matches_place))
@@ -46,7 +80,7 @@ pub fn markdown() -> String {
 
     let mut text = String::new();
     for group in Group::ALL {
-        let lines = TABLE.iter().filter(|spec| spec.group == group && !spec.keys.is_empty());
+        let lines = all().iter().filter(|spec| spec.group == group && !spec.keys.is_empty());
         // Writing to a `String` cannot fail.
         let _ = writeln!(text, "| {} | |\n|---|---|", group.name());
         for spec in lines {
@@ -99,12 +133,12 @@ mod tests {
 
     #[test]
     fn table_is_consistent() {
-        let mut ids: Vec<&str> = TABLE.iter().map(|spec| spec.id).collect();
+        let mut ids: Vec<&str> = all().iter().map(|spec| spec.id).collect();
         ids.sort_unstable();
         let count = ids.len();
         ids.dedup();
         assert_eq!(ids.len(), count, "every id stands once");
-        for spec in TABLE {
+        for spec in all() {
             if let Action::PerKey(commands) = spec.action {
                 assert_eq!(commands.len(), spec.keys.len(), "{}: a command for each key", spec.id);
             }
@@ -121,7 +155,7 @@ mod tests {
 
     #[test]
     fn table_has_no_key_twice() {
-        let chords: Vec<&Chord> = TABLE.iter().flat_map(|spec| spec.keys).collect();
+        let chords: Vec<&Chord> = all().iter().flat_map(|spec| spec.keys).collect();
         for (i, chord) in chords.iter().enumerate() {
             let twice = chords[..i]
                 .iter()
@@ -132,22 +166,19 @@ mod tests {
 
     #[test]
     fn keys_find_their_commands() {
-        for spec in TABLE {
+        for spec in all() {
             for (at, chord) in spec.keys.iter().enumerate() {
-                let expected = match spec.action {
-                    Action::Run(command) => command,
-                    Action::PerKey(commands) => &commands[at],
-                    Action::NeedsArgument => panic!("{} has a key and nothing to do", spec.id),
-                };
+                let expected = spec.command_of_key(at);
+                assert!(expected.is_some(), "{} has a key and something to do", spec.id);
                 let by_character = KeyPress::logical(chord.key, chord.modifiers);
-                assert_eq!(for_key(&by_character), Some(expected), "{chord} by its character");
+                assert_eq!(for_key(&by_character), expected, "{chord} by its character");
                 if let Some((physical, modifiers)) = chord.place {
                     let by_place = KeyPress {
                         logical: None,
                         physical: Some(physical),
                         modifiers,
                     };
-                    assert_eq!(for_key(&by_place), Some(expected), "{chord} by its place");
+                    assert_eq!(for_key(&by_place), expected, "{chord} by its place");
                 }
             }
         }
@@ -166,7 +197,7 @@ mod tests {
     #[test]
     fn markdown_holds_every_key() {
         let text = markdown();
-        for spec in TABLE.iter().filter(|spec| !spec.keys.is_empty()) {
+        for spec in all().iter().filter(|spec| !spec.keys.is_empty()) {
             assert!(text.contains(spec.help), "{}", spec.id);
         }
         assert!(text.contains("| `1-9` |") && text.contains("| `` ` `` |"), "{text}");

@@ -31,7 +31,6 @@ mod lesson;
 mod library;
 mod messages;
 mod naming;
-pub mod options;
 mod pointer;
 mod present;
 mod probing;
@@ -63,7 +62,8 @@ pub use naming::NameTemplate;
 pub use present::WindowPixels;
 pub use probing::{Hit, ProbedSample};
 pub use recorded::{Grammar, ReadArguments, Restored};
-pub use settings::{PixelZoom, Settings, Theme, Toggle, sample_words, texture_words};
+pub use settings::picture::{self, PictureSetting, SettingChange};
+pub use settings::{PixelZoom, Settings, Theme, Toggle};
 pub use sheet::{
     Axis, AxisLists, Choice, Panel, PanelSize, ReadSheet, SceneReader, Sheet, SheetChange, SheetDraft, SheetPreview,
     SheetRequest, SheetSide, caption_of,

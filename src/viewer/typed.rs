@@ -1,47 +1,62 @@
 //! Arguments that a person types after a command's word, in scripts and in the palette: text to [`Command`].
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
-use super::{Against, Arrangement, Command, LessonSource, PanelSize, PixelZoom, SheetChange, SheetSide, Theme};
+use super::settings::picture::PictureSetting;
+use super::settings::values::{named, number, whole};
+use super::{Against, Arrangement, Axis, Command, LessonSource, PanelSize, PixelZoom, SheetChange, SheetSide, Theme};
 use super::{Toggle, ViewNumbers};
-use crate::color::{ResolveSpace, Rgba};
+use crate::color::ResolveSpace;
 use crate::compare::Measure;
 use crate::figure::Ground;
-use crate::raster::{SamplePattern, SampleRate};
-use crate::render::Visualisation;
-use crate::rules::Rules;
-use crate::scene::DialectChoice;
-use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
 
 /// What may follow a command's word.
 #[derive(Clone, Copy)]
-pub struct Argument {
-    /// Its form, such as `X,Y` or `nearest|bilinear`.
-    pub usage: &'static str,
-    /// The command that the text asks for; `None` when the text does not have the form.
-    parse: fn(&str) -> Option<Command>,
+pub enum Argument {
+    /// Text of this form.
+    Form {
+        /// Such as `X,Y` or `on|off`.
+        usage: &'static str,
+        /// The command that the text asks for; `None` when the text does not have the form.
+        parse: fn(&str) -> Option<Command>,
+    },
+    /// A value of this setting.
+    Value(&'static PictureSetting),
 }
 
 impl Argument {
+    /// Its form, such as `X,Y` or `nearest|bilinear`.
+    pub fn usage(&self) -> Cow<'static, str> {
+        match self {
+            Self::Form { usage, .. } => Cow::Borrowed(usage),
+            Self::Value(setting) => Cow::Owned(setting.form()),
+        }
+    }
+
     /// The command that `text` asks for.
     ///
     /// # Errors
     /// One line that quotes the text and gives the form.
     pub fn parse(&self, text: &str) -> Result<Command, String> {
-        (self.parse)(text.trim()).ok_or_else(|| format!("\"{}\" is not {}", text.trim(), self.usage))
+        let text = text.trim();
+        match self {
+            Self::Form { usage, parse } => parse(text).ok_or_else(|| format!("\"{text}\" is not {usage}")),
+            Self::Value(setting) => setting.to(text).map(Command::Set),
+        }
     }
 }
 
 impl std::fmt::Debug for Argument {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_tuple("Argument").field(&self.usage).finish()
+        f.debug_tuple("Argument").field(&self.usage()).finish()
     }
 }
 
 const fn argument(usage: &'static str, parse: fn(&str) -> Option<Command>) -> Argument {
-    Argument { usage, parse }
+    Argument::Form { usage, parse }
 }
 
 pub(super) const ROTATE: Argument = argument("DEGREES", |text| {
@@ -76,54 +91,6 @@ pub(super) const VIEW: Argument = argument("default, or X,Y,SCALE[,DEGREES]", |t
 });
 pub(super) const PIXEL_ZOOM: Argument = argument("1, 2, 3, 4, 6 or 8", |text| {
     whole(text).and_then(PixelZoom::new).map(Command::SetPixelZoom)
-});
-pub(super) const SAMPLE_RATE: Argument = argument("a whole number from 1 to 256", |text| {
-    whole(text).and_then(SampleRate::new).map(Command::SetSampleRate)
-});
-pub(super) const PATTERN: Argument = argument("grid|rotated|jittered|jittered-same|halton|r2", |text| {
-    named(&SamplePattern::ALL, SamplePattern::name, text).map(Command::SetPattern)
-});
-pub(super) const PIXEL_SAMPLING: Argument = argument("nearest|bilinear", |text| {
-    named(&PixelSampling::ALL, PixelSampling::name, text).map(Command::SetPixelSampling)
-});
-pub(super) const LEVEL_SAMPLING: Argument = argument("zero|nearest|linear", |text| {
-    named(&LevelSampling::ALL, LevelSampling::name, text).map(Command::SetLevelSampling)
-});
-pub(super) const ANISOTROPY: Argument = argument("a whole number from 1 to 64", |text| {
-    whole(text).and_then(Anisotropy::new).map(Command::SetAnisotropy)
-});
-pub(super) const LOD_BIAS: Argument = argument("a number of levels from -16 to 16", |text| {
-    number(text).and_then(LodBias::new).map(Command::SetLodBias)
-});
-pub(super) const LOD_LEVEL: Argument = argument("auto, or a number from 0 to 16", |text| match text {
-    "auto" => Some(Command::SetFixedLevel(None)),
-    _ => number(text)
-        .and_then(FixedLevel::new)
-        .map(|level| Command::SetFixedLevel(Some(level))),
-});
-pub(super) const LOD_PER: Argument = argument("pixel|sample", |text| {
-    named(&Derivatives::ALL, Derivatives::name, text).map(Command::SetDerivatives)
-});
-pub(super) const RESOLVE: Argument = argument("stored|linear", |text| {
-    named(&ResolveSpace::ALL, ResolveSpace::name, text).map(Command::SetResolveSpace)
-});
-pub(super) const VISUALISE: Argument = argument(
-    "colour|coverage|overdraw|primitive|wireframe|barycentric|uv|lod|mip|anisotropy",
-    |text| {
-        let former = || {
-            Visualisation::ALL
-                .into_iter()
-                .find(|value| value.former_name() == Some(text))
-        };
-        let known = named(&Visualisation::ALL, Visualisation::name, text).or_else(former);
-        known.map(Command::SetVisualisation)
-    },
-);
-pub(super) const RULES: Argument = argument("standard|course|float", |text| {
-    named(&Rules::ALL, Rules::name, text).map(Command::SetRules)
-});
-pub(super) const BACKGROUND: Argument = argument("white|transparent|#RRGGBB", |text| {
-    background(text).map(Command::SetBackground)
 });
 pub(super) const PROGRESSIVE: Argument = argument("on|off|flip", |text| toggle(text).map(Command::Progressive));
 pub(super) const WIPE: Argument = argument("a part of the width from 0 to 1", |text| {
@@ -163,9 +130,6 @@ pub(super) const LESSON_STEP: Argument = argument("a step's number, from 1", |te
 });
 pub(super) const OPEN: Argument = argument("a path", |text| {
     (!text.is_empty()).then(|| Command::Open(vec![path(text)]))
-});
-pub(super) const DIALECT: Argument = argument("auto|course|svg", |text| {
-    named(&DialectChoice::ALL, DialectChoice::name, text).map(Command::SetDialect)
 });
 pub(super) const INSPECTOR: Argument = argument("on|off|flip", |text| toggle(text).map(Command::Inspector));
 pub(super) const PIN: Argument = argument("X,Y in whole pixels", |text| pixels(text).map(Command::Pin));
@@ -214,32 +178,18 @@ fn sheet_axis(side: SheetSide, text: &str) -> Option<Command> {
         None
     } else {
         let (name, values) = text.split_once(char::is_whitespace)?;
-        Some(super::options::axis(name, values).ok()?)
+        Some(Axis::of(name, values).ok()?)
     };
     Some(Command::ChangeSheet(SheetChange::Axis(side, axis)))
-}
-
-/// The value of `all` that is called `text`.
-fn named<T: Copy>(all: &[T], name: impl Fn(T) -> &'static str, text: &str) -> Option<T> {
-    all.iter().copied().find(|value| name(*value) == text)
 }
 
 fn toggle(text: &str) -> Option<Toggle> {
     named(&Toggle::ALL, Toggle::name, text)
 }
 
-/// A finite number.
-fn number(text: &str) -> Option<f64> {
-    text.trim().parse().ok().filter(|value: &f64| value.is_finite())
-}
-
 /// Finite numbers with commas between them.
 fn numbers(text: &str) -> Option<Vec<f64>> {
     text.split(',').map(number).collect()
-}
-
-fn whole(text: &str) -> Option<u32> {
-    text.trim().parse().ok()
 }
 
 /// `X,Y`.
@@ -270,23 +220,6 @@ fn path_from(text: &str, home: Option<&Path>) -> PathBuf {
             home.join(rest.trim_start_matches(std::path::is_separator))
         }
         _ => text.into(),
-    }
-}
-
-/// `white`, `transparent` or `#RRGGBB`.
-pub(super) fn background(text: &str) -> Option<Rgba> {
-    match text {
-        "white" => Some(Rgba::WHITE),
-        "transparent" => Some(Rgba::TRANSPARENT),
-        _ => {
-            let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6)?;
-            // `from_str_radix` would take a sign.
-            if !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
-                return None;
-            }
-            let [_, r, g, b] = u32::from_str_radix(digits, 16).ok()?.to_be_bytes();
-            Some(Rgba::from_bytes([r, g, b, 255]))
-        }
     }
 }
 
@@ -325,13 +258,6 @@ mod tests {
     }
 
     #[test]
-    fn visualisations_by_old_names() {
-        let colours = Ok(Command::SetVisualisation(Visualisation::Color));
-        assert_eq!(VISUALISE.parse("colour"), colours, "as it is called");
-        assert_eq!(VISUALISE.parse("color"), colours, "as it was called once");
-    }
-
-    #[test]
     fn argument_forms() {
         let zoomed = ZOOM.parse("2 10,20");
         let expected = Command::ZoomAt {
@@ -345,23 +271,11 @@ mod tests {
             "blanks do not matter"
         );
         assert_eq!(SCENE.parse("1"), Ok(Command::Scene(0)), "people count from 1");
-        assert_eq!(
-            BACKGROUND.parse("#ff8000"),
-            Ok(Command::SetBackground(Rgba::from_bytes([255, 128, 0, 255]))),
-            "a colour"
-        );
         for (argument, wrong) in [
             (ZOOM, "-1"),
             (ZOOM, "inf"),
             (PAN, "1"),
             (VIEW, "0,0,0"),
-            (SAMPLE_RATE, "257"),
-            (ANISOTROPY, "0"),
-            (ANISOTROPY, "65"),
-            (LOD_BIAS, "-17"),
-            (LOD_LEVEL, "-1"),
-            (LOD_LEVEL, "none"),
-            (LOD_PER, "texel"),
             (WIPE, "1.5"),
             (DIFFERENCE, "other"),
             (GAIN, "0"),
@@ -370,12 +284,10 @@ mod tests {
             (AGAINST, ""),
             (SCENE, "0"),
             (PIN, "1.5,2"),
-            (BACKGROUND, "#+12345"),
-            (BACKGROUND, "#12345é"),
             (OPEN, ""),
         ] {
             let message = argument.parse(wrong).expect_err(wrong);
-            assert!(message.contains(argument.usage), "{message} gives the form");
+            assert!(message.contains(&*argument.usage()), "{message} gives the form");
         }
     }
 }

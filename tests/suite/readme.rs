@@ -192,7 +192,9 @@ fn readme_and_help_say_colour() {
         texts.push((format!("help of {command}"), help_of(&[&command])));
     }
     for spec in commands::all() {
-        let usage = spec.argument.map_or("", |argument| argument.usage);
+        let usage = spec
+            .argument
+            .map_or(String::new(), |argument| argument.usage().into_owned());
         texts.push((
             spec.id.to_owned(),
             format!("{} {} {} {usage}", spec.name, spec.help, spec.more),

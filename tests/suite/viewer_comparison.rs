@@ -16,7 +16,7 @@ use rasterscope::viewer::{
     Against, Arrangement, Command, Effect, MessageKind, Other, PixelRect, PixelZoom, PointerButton, Toggle,
 };
 
-use crate::support::session::{SQUARE, Session, TRIANGLES};
+use crate::support::session::{SQUARE, Session, TRIANGLES, set, step};
 
 const WINDOW: [u32; 2] = [160, 120];
 
@@ -24,7 +24,7 @@ const WINDOW: [u32; 2] = [160, 120];
 fn sixteen_against_one(window: [u32; 2]) -> Session {
     let mut session = Session::open(&[TRIANGLES, SQUARE], window);
     session.keys(&["r"]);
-    session.run(Command::SetSampleRate(SampleRate::new(16).unwrap()));
+    session.run(set("sample-rate", "16"));
     session
 }
 
@@ -331,7 +331,7 @@ fn comparison_draws_the_parts_that_changed() {
         Command::Arrange(Arrangement::Wipe),
         Command::SetWipe(0.3),
         Command::SwapAb,
-        Command::SampleRateDown,
+        step("sample-rate", -1.0),
         Command::Arrange(Arrangement::Difference),
         Command::Normalize(Toggle::On),
         Command::PanBy { by: dvec2(3.0, 0.0) },
@@ -355,7 +355,7 @@ fn comparison_of_a_moving_view_never_mixes_two_views() {
     let mut session = sixteen_against_one([400, 300]);
     // Previews differ by more.
     session.run(Command::Progressive(Toggle::Off));
-    session.run(Command::SetSampleRate(SampleRate::new(64).unwrap()));
+    session.run(set("sample-rate", "64"));
     session.keys(&["d"]);
     // A difference of one view has few pixels that differ; one of two views differs along every edge by several pixels.
     let black = DifferencePaint::new(Measure::Absolute, 1.0).pixel(0, 0);
@@ -579,7 +579,7 @@ fn comparison_goes_from_difference_to_difference() {
         "the one that differs most of the new picture"
     );
     session.run(Command::Unpin);
-    session.run(Command::SetSampleRate(SampleRate::ONE));
+    session.run(set("sample-rate", "1"));
     session.keys(&["n"]);
     assert_eq!(session.viewer.pinned_pixel(), None, "nothing differs");
     let message = &session.viewer.messages().last().unwrap().text;
@@ -623,7 +623,7 @@ fn comparison_with_the_truth() {
     );
     let title = session.viewer.title();
     assert!(title.contains("A against the truth: sample rate 1 | 256"), "{title}");
-    session.run(Command::NextPixelSampling);
+    session.run(step("pixel-sampling", 1.0));
     let truth = RenderSettings {
         pixel_sampling: PixelSampling::Nearest,
         ..truth
@@ -672,8 +672,8 @@ fn truth_averages_as_a_does_unless_asked() {
         Pair::new(&a, &b).unwrap().levels().psnr()
     };
     for own in ResolveSpace::ALL {
-        session.run(Command::SetResolveSpace(own));
-        session.run(Command::SetSampleRate(SampleRate::new(64).unwrap()));
+        session.run(set("resolve", own.name()));
+        session.run(set("sample-rate", "64"));
         let mut ratios = Vec::new();
         for (text, resolve) in [("truth", own), ("truth stored", Stored), ("truth linear", Linear)] {
             session.run(Command::Compare(Against::from_text(text).unwrap()));
@@ -694,7 +694,7 @@ fn truth_averages_as_a_does_unless_asked() {
         );
     }
     session.run(Command::Compare(Against::Truth(None)));
-    session.run(Command::SetResolveSpace(Stored));
+    session.run(set("resolve", Stored.name()));
     assert_eq!(session.viewer.other_settings().unwrap().resolve, Stored, "it follows A");
 }
 

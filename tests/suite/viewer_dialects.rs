@@ -5,9 +5,9 @@ use std::fs;
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::{self, RenderSettings};
 use rasterscope::scene::{self, DialectChoice};
-use rasterscope::viewer::{Against, Arrangement, Command, Other, options};
+use rasterscope::viewer::{Against, Arrangement, Command, Other, picture};
 
-use crate::support::session::Session;
+use crate::support::session::{Session, set};
 
 /// The dialect `course` ignores the `viewBox`, so that all is half as large, and skips the circle.
 const BOXED: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100" viewBox="0 0 50 50">
@@ -45,7 +45,7 @@ fn dialects_of_a_and_b_are_their_own() {
     let mut session = Session::open(&[BOXED], [200, 160]);
     session.run(Command::Compare(Against::Settings));
     session.run(Command::Arrange(Arrangement::Wipe));
-    session.run(Command::SetDialect(Course));
+    session.run(set("dialect", Course.name()));
     assert_both(&session, [Course, Auto], "A reads anew, B does not");
     let title = session.viewer.title();
     assert!(title.contains("dialect course | auto"), "{title}");
@@ -60,7 +60,7 @@ fn dialects_of_a_and_b_are_their_own() {
         "the dialect changes places, too"
     );
     assert_both(&session, [Auto, Course], "swapped");
-    session.run(Command::SetDialect(Svg));
+    session.run(set("dialect", Svg.name()));
     assert_both(&session, [Svg, Course], "A's choice leaves B alone");
     session.run(Command::Pin([100, 80]));
     assert!(session.viewer.explanation().is_some(), "A is explained");
@@ -77,7 +77,7 @@ fn dialects_of_a_and_b_are_their_own() {
     fs::write(&path, BOXED.replace("#1f6feb", "#d1495b")).unwrap();
     session.run(Command::Reload);
     assert_both(&session, [Svg, Course], "both are read again");
-    session.run(Command::SetDialect(Course));
+    session.run(set("dialect", Course.name()));
     let same = session.pixels() == session.viewer.other_pixels().unwrap();
     assert!(same, "one dialect, one scene");
     assert!(
@@ -86,7 +86,7 @@ fn dialects_of_a_and_b_are_their_own() {
         session.viewer.title()
     );
     session.run(Command::Compare(Against::Truth(None)));
-    session.run(Command::SetDialect(Svg));
+    session.run(set("dialect", Svg.name()));
     assert_both(&session, [Svg, Svg], "the truth is that of A's dialect");
 }
 
@@ -122,10 +122,10 @@ fn other_reading_holds_for_the_folder() {
     session.run(Command::OtherReading);
     session.run(Command::Scene(0));
     is_read(&session, Svg, "back again, for both");
-    session.run(Command::SetRules(rasterscope::rules::Rules::Course));
+    session.run(set("rules", rasterscope::rules::Rules::Course.name()));
     let line = session.viewer.command_line().unwrap();
     assert!(line.contains("--dialect svg"), "rules alone would say course: {line}");
-    session.run(Command::SetDialect(Course));
+    session.run(set("dialect", Course.name()));
     session.run(Command::OtherReading);
     assert_eq!(
         session.viewer.settings().dialect,
@@ -139,7 +139,7 @@ fn dialects_change_with_scenes() {
     let mut session = Session::open(&[BOXED, BOXED], [120, 100]);
     session.run(Command::Compare(Against::Settings));
     session.run(Command::Arrange(Arrangement::SideBySide));
-    session.run(Command::SetDialect(DialectChoice::Course));
+    session.run(set("dialect", DialectChoice::Course.name()));
     for index in [1, 0, 1] {
         session.run(Command::Scene(index));
         assert_both(&session, [DialectChoice::Course, DialectChoice::Auto], "the next scene");
@@ -188,7 +188,7 @@ fn settings_for_b_are_written_as_the_command_line_has_them() {
         "a path may have blanks and commas"
     );
     assert!(
-        options::option("lod-per").is_some() && options::option("size").is_none(),
+        picture::find("lod-per").is_some() && picture::find("size").is_none(),
         "settings only"
     );
 }

@@ -1,10 +1,10 @@
 //! The pixel inspector without a window: pin, inset, labels, samples.
 
 use glam::dvec2;
-use rasterscope::raster::{SamplePattern, SampleRate};
+use rasterscope::raster::SamplePattern;
 use rasterscope::viewer::{Command, Effect, PixelRect, PixelZoom, Toggle, ViewNumbers};
 
-use crate::support::session::{Session, TRIANGLES};
+use crate::support::session::{Session, TRIANGLES, set};
 
 #[test]
 fn inspector_pin_and_nudge() {
@@ -60,7 +60,7 @@ fn inspector_pin_stays_at_its_place_in_the_scene() {
         Command::RotateBy { degrees: 35.0 },
         Command::Resize([500, 420]),
         Command::SetPixelZoom(PixelZoom::ALL[1]),
-        Command::SetSampleRate(SampleRate::new(9).expect("a square number")),
+        set("sample-rate", "9"),
     ] {
         session.run(command.clone());
         let numbers = session.viewer.view_numbers().expect("a view");
@@ -90,7 +90,7 @@ fn inspector_explains_the_pinned_pixel() {
     let frame = session.viewer.frame().expect("a frame");
     assert_eq!(explained.pixel, [200, 150], "the pinned one");
     assert_eq!(Some(explained.color), frame.final_rgba(200, 150), "as in the frame");
-    session.run(Command::SetSampleRate(SampleRate::new(4).expect("a square number")));
+    session.run(set("sample-rate", "4"));
     assert_eq!(
         session.viewer.explanation().map(|explained| explained.samples.len()),
         Some(4),
@@ -98,7 +98,7 @@ fn inspector_explains_the_pinned_pixel() {
     );
     assert!(session.viewer.other_explanation().is_none(), "there is no B");
     session.keys(&["r"]);
-    session.run(Command::SetSampleRate(SampleRate::new(9).expect("a square number")));
+    session.run(set("sample-rate", "9"));
     let explained = session.viewer.explanation().expect("a pinned pixel");
     let other = session.viewer.other_explanation().expect("B is drawn by us");
     let differences = explained.differences(other);
@@ -228,7 +228,7 @@ fn inspector_samples_of_the_inspected_pixel() {
         )
     };
     let mut session = Session::open(&[&half(0), &half(5000)], [120, 120]);
-    session.run(Command::SetSampleRate(SampleRate::new(16).unwrap()));
+    session.run(set("sample-rate", "16"));
     for key in ["1", "2"] {
         session.keys(&[key]);
         // The red edge runs through the middle of the pixel.
@@ -276,12 +276,12 @@ fn inspector_counts_the_shades_of_an_edge() {
         rotation: 0.0,
     }));
     assert_eq!(session.viewer.region_colors(), None, "the inspector is closed");
-    session.run(Command::SetSampleRate(SampleRate::new(4).unwrap()));
+    session.run(set("sample-rate", "4"));
     session.run(Command::SetInspectorRegion(32));
     session.run(Command::SetMagnification(6));
     session.run(Command::Pin([320, 240]));
     let found = session.viewer.region_colors();
-    session.run(Command::SetPattern(SamplePattern::Rotated));
+    session.run(set("pattern", SamplePattern::Rotated.name()));
     assert_eq!(
         (found, session.viewer.region_colors()),
         (Some(3), Some(5)),

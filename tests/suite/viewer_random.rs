@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use arbtest::arbitrary::{Result, Unstructured};
 use glam::{DVec2, dvec2};
 use rasterscope::raster::Framebuffer;
-use rasterscope::viewer::{Action, Command, PixelRect, PointerButton, ViewNumbers, Viewer, ViewerOptions, commands};
+use rasterscope::viewer::{Command, PixelRect, PointerButton, ViewNumbers, Viewer, ViewerOptions, commands};
 
-use crate::support::session::{SQUARE, Session, TRIANGLES};
+use crate::support::session::{SQUARE, Session, TRIANGLES, step};
 
 /// A number, often one that breaks things.
 fn number(u: &mut Unstructured<'_>) -> Result<f64> {
@@ -75,12 +75,13 @@ fn command(u: &mut Unstructured<'_>) -> Result<Command> {
         })),
         16 => Command::PointerLeft,
         17 => Command::Scene(u.int_in_range(0..=4)?),
-        _ => match u.choose(commands::all())?.action {
+        _ => {
+            let spec = u.choose(commands::all())?;
+            let command = spec.command_of_key(u.choose_index(spec.keys.len().max(1))?);
             // Whoever saves pictures in a loop fills the disk; screenshots have tests of their own.
-            Action::Run(Command::Screenshot) | Action::NeedsArgument => Command::SampleRateDown,
-            Action::Run(command) => command.clone(),
-            Action::PerKey(commands) => u.choose(commands)?.clone(),
-        },
+            let harmless = command.filter(|command| *command != Command::Screenshot);
+            harmless.unwrap_or(step("sample-rate", -1.0))
+        }
     })
 }
 
@@ -146,7 +147,7 @@ fn random_keys_alone() {
             if spec.id != "screenshot"
                 && let Some(command) = spec.command()
             {
-                let _ = session.viewer.apply(command.clone());
+                let _ = session.viewer.apply(command);
             }
         }
         session.viewer.finish();

@@ -5,10 +5,10 @@ use rasterscope::color::ResolveSpace;
 use rasterscope::raster::{SamplePattern, SampleRate};
 use rasterscope::rules::Rules;
 use rasterscope::scene::DialectChoice;
-use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
+use rasterscope::texture::{LevelSampling, PixelSampling};
 use rasterscope::viewer::{Command, Dialog, Effect, MessageKind, PixelZoom, PointerButton, Toggle, ViewNumbers};
 
-use crate::support::session::{SQUARE, Session, TRIANGLES};
+use crate::support::session::{SQUARE, Session, TRIANGLES, set, step};
 
 #[test]
 fn replay_every_change_reaches_the_frame() {
@@ -16,7 +16,7 @@ fn replay_every_change_reaches_the_frame() {
     session.assert_frame_is_current();
     let mut before = session.pixels().clone();
     let steps = [
-        Command::SampleRateUp,
+        step("sample-rate", 1.0),
         Command::PanBy { by: dvec2(7.0, -3.0) },
         Command::ZoomAt {
             at: Some(dvec2(30.0, 40.0)),
@@ -26,7 +26,7 @@ fn replay_every_change_reaches_the_frame() {
         Command::FitView,
         Command::ActualSize,
         Command::NextScene,
-        Command::SetRules(Rules::Course),
+        set("rules", Rules::Course.name()),
         Command::Resize([90, 70]),
         Command::SetPixelZoom(PixelZoom::new(3).unwrap()),
         Command::PreviousScene,
@@ -257,7 +257,7 @@ fn replay_reload_and_dialect_read_again() {
     assert!(*session.pixels() != before, "the new colours");
     session.assert_frame_is_current();
     assert_eq!(session.viewer.view_numbers(), numbers, "the view stays");
-    session.run(Command::SetDialect(DialectChoice::Course));
+    session.run(set("dialect", DialectChoice::Course.name()));
     let scene = session.viewer.current().unwrap().scene().unwrap();
     assert_eq!(scene.dialect.name(), "course", "read as asked");
 }
@@ -307,7 +307,7 @@ fn replay_copies() {
     );
     assert_eq!(line, expected, "all defaults");
     session.keys(&["=", "p", "l"]);
-    session.run(Command::SetRules(Rules::Course));
+    session.run(set("rules", Rules::Course.name()));
     session.run(Command::SetView(ViewNumbers {
         center: dvec2(-1.5, 2.25),
         scale: 0.1,
@@ -318,7 +318,7 @@ fn replay_copies() {
                    --level-sampling nearest --rules course";
     assert!(line.ends_with(options), "{line}");
     session.keys(&["t", "t", "m", "m", "m", ",", ",", ","]);
-    session.run(Command::NextDerivatives);
+    session.run(step("lod-per", 1.0));
     let line = session.viewer.command_line().unwrap();
     let options = "--anisotropy 4 --lod-bias -1.5 --lod-level 2 --lod-per sample --rules course";
     assert!(line.ends_with(options), "{line}");
@@ -328,9 +328,9 @@ fn replay_copies() {
         "{title}"
     );
     session.keys(&[".", ".", "."]);
-    session.run(Command::SetFixedLevel(None));
-    session.run(Command::SetAnisotropy(Anisotropy::OFF));
-    session.run(Command::NextDerivatives);
+    session.run(set("lod-level", "auto"));
+    session.run(set("anisotropy", "1"));
+    session.run(step("lod-per", 1.0));
     let line = session.viewer.command_line().unwrap();
     assert!(line.ends_with("--level-sampling nearest --rules course"), "{line}");
 }
@@ -353,7 +353,7 @@ fn replay_steps_through_patterns_and_tells_which_rates_they_refuse() {
     assert!(line.contains(" --sample-rate 4 --pattern jittered"), "{line}");
     session.assert_frame_is_current();
     session.keys(&["a", "a"]);
-    session.run(Command::SetSampleRate(SampleRate::new(5).unwrap()));
+    session.run(set("sample-rate", "5"));
     assert_eq!(render(&session).sample_rate.samples(), 5, "halton takes any number");
     assert!(session.viewer.messages().is_empty(), "nothing to tell");
     session.assert_frame_is_current();
@@ -369,9 +369,9 @@ fn replay_steps_through_patterns_and_tells_which_rates_they_refuse() {
         told, "pattern grid takes a square number of samples, not 5; 4 is nearest, and halton and r2 take any",
         "in one line"
     );
-    session.run(Command::SetSampleRate(SampleRate::new(8).unwrap()));
+    session.run(set("sample-rate", "8"));
     assert_eq!(render(&session).sample_rate.samples(), 9, "also when typed");
-    session.run(Command::NextResolveSpace);
+    session.run(step("resolve", 1.0));
     assert_eq!(render(&session).resolve, ResolveSpace::Linear, "the other one");
     assert!(
         session.viewer.title().contains("resolve linear"),
@@ -381,7 +381,7 @@ fn replay_steps_through_patterns_and_tells_which_rates_they_refuse() {
     let line = session.viewer.command_line().unwrap();
     assert!(line.ends_with(" --resolve linear"), "{line}");
     session.assert_frame_is_current();
-    session.run(Command::SetResolveSpace(ResolveSpace::Stored));
+    session.run(set("resolve", ResolveSpace::Stored.name()));
     session.keys(&["a"]);
     let (rotated, rate) = (render(&session).pattern, render(&session).sample_rate.samples());
     assert_eq!(
@@ -438,13 +438,13 @@ fn replay_opening_keeps_the_other_scenes() {
 fn replay_command_line_makes_the_same_picture() {
     let mut session = Session::open(&[TRIANGLES], [90, 70]);
     for command in [
-        Command::SampleRateUp,
+        step("sample-rate", 1.0),
         Command::ZoomAt {
             at: Some(dvec2(20.0, 30.0)),
             factor: 1.7,
         },
         Command::RotateBy { degrees: 17.0 },
-        Command::SetBackground(rasterscope::color::Rgba::from_bytes([10, 200, 30, 255])),
+        set("background", "#0ac81e"),
         Command::SetPixelZoom(PixelZoom::new(2).unwrap()),
     ] {
         session.run(command);
@@ -531,7 +531,7 @@ fn replay_revisions_tell_what_to_draw() {
         Command::PointerMoved {
             at: dvec2(200.0, 150.0),
         },
-        Command::SampleRateUp,
+        step("sample-rate", 1.0),
         Command::StepMagnification(1),
     ] {
         let (picture, window) = (session.viewer.picture_revision(), session.viewer.window_picture());

@@ -4,7 +4,7 @@ use rasterscope::figure::Record;
 use rasterscope::raster::Framebuffer;
 use rasterscope::viewer::{Against, Command, Effect, MessageKind, NameTemplate, PixelZoom, Viewer, ViewerOptions};
 
-use crate::support::session::{Session, TRIANGLES};
+use crate::support::session::{Session, TRIANGLES, step};
 
 fn read(path: &std::path::Path) -> Vec<[u8; 4]> {
     let picture = image::open(path).unwrap().into_rgba8();
@@ -19,7 +19,7 @@ fn rgba(picture: &Framebuffer) -> Vec<[u8; 4]> {
 #[test]
 fn screenshot_is_the_frame() {
     let mut session = Session::open(&[TRIANGLES], [80, 60]);
-    session.run(Command::SampleRateUp);
+    session.run(step("sample-rate", 1.0));
     session.keys(&["s"]);
     let pictures = session.pictures();
     assert_eq!(pictures.len(), 1, "{pictures:?}");
@@ -196,7 +196,7 @@ fn screenshots_are_named_by_a_template() {
     for command in [
         Command::Screenshot,
         Command::Screenshot,
-        Command::SampleRateUp,
+        step("sample-rate", 1.0),
         Command::Screenshot,
     ] {
         let _ = viewer.apply(command);

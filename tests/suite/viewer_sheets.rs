@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rasterscope::figure::Record;
 use rasterscope::viewer::{
-    Command, Dialog, MessageKind, PanelSize, SheetChange, SheetSide, Viewer, ViewerOptions, commands, options,
+    Axis, Command, Dialog, MessageKind, PanelSize, SheetChange, SheetSide, Viewer, ViewerOptions, commands,
 };
 
 use crate::support::folder::names;
@@ -192,7 +192,7 @@ fn previews_follow_what_is_set() {
     let side = |side, text: &str| {
         let axis = text
             .split_once(' ')
-            .map(|(name, values)| options::axis(name, values).unwrap());
+            .map(|(name, values)| Axis::of(name, values).unwrap());
         Command::ChangeSheet(SheetChange::Axis(side, axis))
     };
     session.run(side(SheetSide::Rows, "sample-rate 4,9"));

@@ -6,7 +6,7 @@ use rasterscope::raster::Framebuffer;
 use rasterscope::render::Visualisation;
 use rasterscope::viewer::{Against, Arrangement, Command, PixelRect, WindowPixels};
 
-use crate::support::session::{Session, TRIANGLES};
+use crate::support::session::{Session, TRIANGLES, set, step};
 
 const WINDOW: [u32; 2] = [640, 480];
 
@@ -47,7 +47,7 @@ fn visualisations_follow_each_other_by_key() {
 fn visualised_window_shows_the_legend_where_it_hides_nothing() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
     assert!(session.viewer.legend_places().is_empty(), "a picture needs none");
-    session.run(Command::SetVisualisation(Visualisation::Overdraw));
+    session.run(set("visualise", Visualisation::Overdraw.name()));
     let legend = {
         let scene = session.viewer.current().unwrap().scene().unwrap();
         Visualisation::Overdraw.legend(scene).unwrap()
@@ -88,15 +88,15 @@ fn visualised_window_draws_the_parts_that_changed() {
     let mut window = session.viewer.window_picture();
     assert!(session.viewer.take_damage().is_none(), "at first everything");
     for command in [
-        Command::NextVisualisation,
+        step("visualise", 1.0),
         Command::Pin([100, 440]),
-        Command::SetVisualisation(Visualisation::Wireframe),
+        set("visualise", Visualisation::Wireframe.name()),
         Command::PanBy { by: dvec2(3.0, 0.0) },
         Command::Compare(Against::Settings),
         Command::Arrange(Arrangement::Wipe),
-        Command::SetVisualisation(Visualisation::Barycentric),
+        set("visualise", Visualisation::Barycentric.name()),
         Command::Arrange(Arrangement::Difference),
-        Command::SetVisualisation(Visualisation::Color),
+        set("visualise", Visualisation::Color.name()),
     ] {
         session.run(command.clone());
         let parts = session.viewer.take_damage();
@@ -111,11 +111,11 @@ fn visualised_window_draws_the_parts_that_changed() {
 fn visualised_comparison_has_a_legend_for_each_side_that_differs() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
     let legends = |session: &Session| session.viewer.legend_places().len();
-    session.run(Command::SetVisualisation(Visualisation::Coverage));
+    session.run(set("visualise", Visualisation::Coverage.name()));
     session.run(Command::Compare(Against::Settings));
     session.run(Command::Arrange(Arrangement::Wipe));
     assert_eq!(legends(&session), 1, "both show the same");
-    session.run(Command::SetVisualisation(Visualisation::Primitive));
+    session.run(set("visualise", Visualisation::Primitive.name()));
     assert_eq!(legends(&session), 2, "one each");
     session.run(Command::Arrange(Arrangement::Difference));
     assert_eq!(legends(&session), 0, "the difference has other colours");
@@ -126,7 +126,7 @@ fn visualised_comparison_has_a_legend_for_each_side_that_differs() {
 #[test]
 fn visualised_screenshots_carry_the_legend() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
-    session.run(Command::SetVisualisation(Visualisation::Coverage));
+    session.run(set("visualise", Visualisation::Coverage.name()));
     session.keys(&["s"]);
     let mut expected = session.pixels().clone();
     let scene = session.viewer.current().unwrap().scene().unwrap();
@@ -143,7 +143,7 @@ fn visualised_pixels_are_explained_as_the_picture() {
     session.run(Command::Pin([300, 240]));
     let explained = |session: &Session| session.viewer.explanation().unwrap().color;
     let before = explained(&session);
-    session.run(Command::SetVisualisation(Visualisation::Primitive));
+    session.run(set("visualise", Visualisation::Primitive.name()));
     assert_eq!(explained(&session), before, "its colour");
     assert_ne!(
         session.pixels().rgba(300, 240).unwrap()[..3],

@@ -13,7 +13,7 @@ fn compare_by_keys() {
     program.shows(&viewed(&path, &[]), "the first picture");
     let cases = [
         ('r', &[][..], Command::SwapAb),
-        ('=', &[], Command::SampleRateUp),
+        ('=', &[], Command::step("sample-rate", 1.0).expect("a setting")),
         ('r', &[], Command::SwapAb),
         ('d', &[], Command::ToggleArrangement(Arrangement::Difference)),
         ('D', &[], Command::Normalize(Toggle::Flip)),

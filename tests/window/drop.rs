@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use rasterscope::raster::{Framebuffer, SampleRate};
+use rasterscope::raster::Framebuffer;
 use rasterscope::viewer::{Command, ViewNumbers};
 use x11rb::connection::Connection as _;
 use x11rb::protocol::Event;
@@ -41,7 +41,7 @@ fn drop_opens_the_lesson() {
         scale: 0.8,
         rotation: 0.0,
     });
-    let four = Command::SetSampleRate(SampleRate::new(4).unwrap());
+    let four = Command::set("sample-rate", "4").expect("a value");
     let first = viewed(&scene, &[view.clone(), four]);
     program.shows_somewhere(&beside_the_text(&first), "the first step, as its author meant it");
     program.desktop.press(keysym::PAGE_DOWN, &[]);

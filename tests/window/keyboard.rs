@@ -166,7 +166,7 @@ fn keys_go_to_the_line_of_text_that_asks_for_them() {
         program.desktop.type_char(character, &[]);
     }
     program.desktop.press(keysym::RETURN, &[]);
-    let sixteen = [Command::SetSampleRate(SampleRate::new(16).unwrap())];
+    let sixteen = [Command::set("sample-rate", "16").expect("a value")];
     program.shows(
         &viewed(&path, &sixteen),
         "the palette set the rate, and no letter did anything else",

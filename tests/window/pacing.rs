@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
-use rasterscope::raster::SampleRate;
 use rasterscope::texture::{LevelSampling, PixelSampling};
 use rasterscope::viewer::{Command, PointerButton};
 
@@ -35,9 +34,9 @@ const SLOWLY: [&str; 6] = [
 /// The same settings at any rate, and then more commands.
 fn at_rate(samples: u32, more: &[Command]) -> Vec<Command> {
     let settings = [
-        Command::SetSampleRate(SampleRate::new(samples).unwrap()),
-        Command::SetPixelSampling(PixelSampling::Bilinear),
-        Command::SetLevelSampling(LevelSampling::Linear),
+        Command::set("sample-rate", &samples.to_string()).expect("a value"),
+        Command::set("pixel-sampling", PixelSampling::Bilinear.name()).expect("a value"),
+        Command::set("level-sampling", LevelSampling::Linear.name()).expect("a value"),
     ];
     [&settings, more].concat()
 }

@@ -7,7 +7,7 @@ use super::controls::{choice, command_button, gave_up, heading, row, tip};
 use super::look::CONTROL;
 use crate::color::{Colormap, ResolveSpace};
 use crate::compare::{Gain, Guess, Measure};
-use crate::viewer::{Action, Against, Arrangement, Command, Other, Toggle, Viewer, commands};
+use crate::viewer::{Against, Arrangement, Command, CommandSpec, Other, Toggle, Viewer, commands};
 
 /// Height of the legend's colours, in points.
 const LEGEND: f32 = 12.0;
@@ -130,9 +130,7 @@ fn truth(ui: &mut Ui, current: Option<ResolveSpace>, commands: &mut Vec<Command>
 
 /// Runs a command of the table.
 fn run(id: &str, commands: &mut Vec<Command>) {
-    if let Some(Action::Run(command)) = commands::find(id).map(|spec| spec.action) {
-        commands.push(command.clone());
-    }
+    commands.extend(commands::find(id).and_then(CommandSpec::command));
 }
 
 fn arrangement(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {

@@ -248,7 +248,7 @@ mod tests {
             Command::SetFreeArea(Some(free)),
             Command::Compare(Against::Settings),
             // Side by side, B's tag ends where the letter of an inset in the upper right corner stands.
-            Command::SetPixelSampling(PixelSampling::Bilinear),
+            Command::set("pixel-sampling", PixelSampling::Bilinear.name()).expect("a value"),
             Command::Explanation(Toggle::Off),
         ] {
             assert!(viewer.apply(command).is_empty(), "nothing to do");

@@ -142,7 +142,7 @@ impl Dialogs {
             self.text = format!("{} ", spec.id);
             self.caret_to_end = true;
             self.chosen = 0;
-            self.problem = spec.argument.map(|argument| format!("type {}", argument.usage));
+            self.problem = spec.argument.map(|argument| format!("type {}", argument.usage()));
             return;
         }
         match spec.argument.map(|kind| kind.parse(argument)) {
@@ -252,7 +252,7 @@ fn rank(spec: &CommandSpec, wanted: &str) -> Option<usize> {
 /// One command in the palette.
 fn entry(ui: &mut Ui, spec: &CommandSpec, chosen: bool) -> egui::Response {
     let keys = match spec.argument {
-        Some(argument) if spec.keys.is_empty() => argument.usage.to_owned(),
+        Some(argument) if spec.keys.is_empty() => argument.usage().into_owned(),
         _ => spec.keys_text(),
     };
     // Where both do not fit, the end of what may follow gives way; the name is always whole.

@@ -228,7 +228,7 @@ fn other_view(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     ui.label(RichText::new(note).color(ui.visuals().warn_fg_color));
     let button = ui.add(Button::new("Back to the picture").min_size(CONTROL));
     if button.on_hover_text(tip("visualise")).clicked() {
-        commands.push(Command::SetVisualisation(Visualisation::Color));
+        commands.extend(Command::set("visualise", Visualisation::Color.name()));
     }
 }
 

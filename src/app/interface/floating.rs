@@ -7,10 +7,9 @@ use egui::{Align2, Area, Button, Color32, FontId, Frame, Id, Order, Rect, RichTe
 
 use super::controls::tip;
 use super::look::CONTROL;
-use crate::color::ResolveSpace;
 use crate::raster::SamplePattern;
-use crate::render::Visualisation;
-use crate::viewer::{ASKS_FOR, Arrangement, Command, Message, MessageKind, PixelRect, Toggle, Viewer, texture_words};
+use crate::viewer::picture::{self, About, Told, changed_words};
+use crate::viewer::{ASKS_FOR, Arrangement, Command, Message, MessageKind, PixelRect, Toggle, Viewer};
 
 /// Seconds that a message stays.
 const DONE_SECONDS: f64 = 5.0;
@@ -72,18 +71,18 @@ fn overlay_words(viewer: &Viewer) -> Vec<String> {
             render.level_sampling.name()
         ),
     ];
-    let words = texture_words(render);
+    let words = changed_words(viewer.settings(), About::Textures);
     if !words.is_empty() {
         lines.push(words.join(", "));
     }
-    if render.resolve != ResolveSpace::default() {
-        lines.push(format!("resolve: {}", render.resolve.name()));
-    }
-    if render.visualisation != Visualisation::default() {
-        lines.push(format!("visualise: {}", render.visualisation.name()));
-    }
-    if render.rules != crate::rules::Rules::default() {
-        lines.push(format!("rules: {}", render.rules.name()));
+    let others = picture::all()
+        .iter()
+        .filter(|setting| setting.told == Told::IfChanged && setting.about == About::Samples);
+    for setting in others {
+        // The pattern stands beside the number of samples.
+        if setting.option != "pattern" && !setting.is_default(viewer.settings()) {
+            lines.push(format!("{}: {}", setting.label, setting.shown(viewer.settings())));
+        }
     }
     lines
 }

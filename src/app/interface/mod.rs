@@ -9,7 +9,6 @@ mod compare;
 mod compare_marks;
 mod compare_numbers;
 mod controls;
-mod detail;
 mod dialogs;
 mod document;
 mod explanation;

@@ -1,81 +1,184 @@
-//! The settings of the picture: sample rate, samplings, rules, dialect, pixel zoom.
+//! The settings of the picture, a control for each row of their table; pixel zoom and progressive drawing.
 
-use egui::Ui;
+use egui::{DragValue, Layout, Ui, vec2};
 
-use super::controls::{choice, drop_down, heading, row, tip};
-use super::detail;
-use crate::color::ResolveSpace;
-use crate::raster::{SamplePattern, SampleRate};
-use crate::render::Visualisation;
-use crate::rules::Rules;
-use crate::scene::{Dialect, DialectChoice};
-use crate::texture::{LevelSampling, PixelSampling};
-use crate::viewer::{Command, PixelZoom, SceneEntry, Toggle, Viewer};
+use super::controls::{choice, drop_down, gave_up, heading, row, tip};
+use super::look::CONTROL;
+use crate::scene::Dialect;
+use crate::viewer::picture::{self, About, Control, PanelRow};
+use crate::viewer::{Command, PictureSetting, PixelZoom, SceneEntry, Settings, Toggle, Viewer};
+
+/// Levels per point of dragging.
+const SPEED: f64 = 0.02;
+/// Half a step: how far below the smallest number [`Control::Number`]'s `none` stands, so that dragging to the left reaches it.
+const BELOW: f64 = 0.5;
 
 /// Shows the settings and adds what was changed to `commands`.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    let settings = viewer.settings();
-    let render = &settings.render;
+    let (document, sampling): (Vec<_>, Vec<_>) = picture::all()
+        .iter()
+        .partition(|setting| setting.about == About::Document);
     heading(ui, "Sampling");
-    let rates = sample_rates(render.sample_rate);
-    ui.label(egui::RichText::new("Samples per pixel").weak());
-    let keys = format!("{}; {}", tip("rate-down"), tip("rate-up"));
-    commands.extend(choice(ui, "Samples per pixel", &keys, render.sample_rate, &rates).map(Command::SetSampleRate));
-    ui.label(egui::RichText::new("Sample pattern").weak());
-    for patterns in SamplePattern::ALL.chunks(3) {
-        let values: Vec<_> = patterns.iter().map(|value| (*value, value.name().to_owned())).collect();
-        let chosen = choice(ui, "Sample pattern", &tip("pattern"), render.pattern, &values);
-        commands.extend(chosen.map(Command::SetPattern));
-    }
-    row(ui, "Pixel", |ui| {
-        let values = PixelSampling::ALL.map(|value| (value, value.name().to_owned()));
-        let chosen = choice(
-            ui,
-            "Pixel sampling",
-            &tip("pixel-sampling"),
-            render.pixel_sampling,
-            &values,
-        );
-        commands.extend(chosen.map(Command::SetPixelSampling));
-    });
-    row(ui, "Level", |ui| {
-        let values = LevelSampling::ALL.map(|value| (value, value.name().to_owned()));
-        let chosen = choice(
-            ui,
-            "Level sampling",
-            &tip("level-sampling"),
-            render.level_sampling,
-            &values,
-        );
-        commands.extend(chosen.map(Command::SetLevelSampling));
-    });
-    detail::show(ui, viewer, commands);
-    row(ui, "Resolve", |ui| {
-        let values = ResolveSpace::ALL.map(|value| (value, value.name().to_owned()));
-        let chosen = choice(ui, "Resolve space", &tip("resolve"), render.resolve, &values);
-        commands.extend(chosen.map(Command::SetResolveSpace));
-    });
-    row(ui, "Show", |ui| {
-        let values = Visualisation::ALL.map(|value| (value, value.name()));
-        let chosen = drop_down(ui, "Visualisation", &tip("visualise"), render.visualisation, &values);
-        commands.extend(chosen.map(Command::SetVisualisation));
-    });
-    row(ui, "Rules", |ui| {
-        let values = Rules::ALL.map(|value| (value, value.name().to_owned()));
-        let chosen = choice(ui, "Rules", &tip("rules"), render.rules, &values);
-        commands.extend(chosen.map(Command::SetRules));
-    });
+    rows(ui, &sampling, viewer.settings(), commands);
+    rows(ui, &document, viewer.settings(), commands);
     reading(ui, viewer, commands);
+}
+
+/// Settings below each other; those without a label stand beside the one before them.
+fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], now: &Settings, commands: &mut Vec<Command>) {
+    let shown: Vec<(&'static PictureSetting, &PanelRow)> = settings
+        .iter()
+        .filter_map(|setting| Some((*setting, setting.panel.as_ref()?)))
+        .collect();
+    for group in shown.chunk_by(|_, (_, next)| next.label.is_empty()) {
+        let [(first, panel), ..] = group else { continue };
+        if let Control::WideButtons(across) = panel.control {
+            ui.label(egui::RichText::new(panel.label).weak());
+            for values in first.offered(now).chunks(across) {
+                buttons(ui, first, panel, values, now, commands);
+            }
+            continue;
+        }
+        row(ui, panel.label, |ui| {
+            let gaps = (group.len() - 1) as f32 * 4.0;
+            let width = (ui.available_width() - gaps) / group.len() as f32;
+            for (setting, panel) in group {
+                control(ui, setting, panel, (now, width), commands);
+            }
+        });
+    }
+}
+
+fn control(
+    ui: &mut Ui,
+    setting: &'static PictureSetting,
+    panel: &PanelRow,
+    (now, width): (&Settings, f32),
+    commands: &mut Vec<Command>,
+) {
+    match panel.control {
+        Control::Buttons | Control::WideButtons(_) => {
+            buttons(ui, setting, panel, &setting.offered(now), now, commands);
+        }
+        Control::List => {
+            let current = setting.value(now);
+            let names = setting.names();
+            let values: Vec<(&str, &str)> = names.iter().map(|name| (*name, *name)).collect();
+            let chosen = drop_down(ui, panel.name, &tip_of(setting), current.as_str(), &values);
+            commands.extend(chosen.and_then(|value| setting.to(value).ok()).map(Command::Set));
+        }
+        Control::Number { range, prefix, none } => {
+            let number = Number { range, prefix, none };
+            let chosen = number.show(ui, setting, panel.name, (now, width));
+            commands.extend(chosen.and_then(|value| setting.to(&value).ok()).map(Command::Set));
+        }
+    }
+}
+
+/// A button for each of these values.
+fn buttons(
+    ui: &mut Ui,
+    setting: &'static PictureSetting,
+    panel: &PanelRow,
+    values: &[String],
+    now: &Settings,
+    commands: &mut Vec<Command>,
+) {
+    let current = setting.value(now);
+    let values: Vec<(&str, String)> = values.iter().map(|value| (value.as_str(), value.clone())).collect();
+    let chosen = choice(ui, panel.name, &tip_of(setting), current.as_str(), &values);
+    commands.extend(chosen.and_then(|value| setting.to(value).ok()).map(Command::Set));
+}
+
+/// What the tool tips of a setting's commands say, those that step through it both ways.
+fn tip_of(setting: &PictureSetting) -> String {
+    let with_value = setting
+        .commands
+        .iter()
+        .find(|command| command.takes_value && command.step.is_some());
+    let tips: Vec<String> = match with_value {
+        Some(command) => vec![tip(command.id)],
+        None => {
+            let steps = setting.commands.iter().filter(|command| command.step.is_some());
+            steps.map(|command| tip(command.id)).collect()
+        }
+    };
+    tips.join("; ")
+}
+
+/// A number to drag or to type.
+struct Number {
+    range: [f64; 2],
+    prefix: &'static str,
+    none: Option<&'static str>,
+}
+
+impl Number {
+    /// The new value, if there is one.
+    fn show(
+        &self,
+        ui: &mut Ui,
+        setting: &PictureSetting,
+        name: &str,
+        (now, width): (&Settings, f32),
+    ) -> Option<String> {
+        let Self { range, prefix, none } = *self;
+        let least = if none.is_some() { range[0] - BELOW } else { range[0] };
+        let before = setting.value(now).parse().unwrap_or(least);
+        let mut number = before;
+        let signed = setting.signed;
+        let field = DragValue::new(&mut number)
+            .range(least..=range[1])
+            .speed(SPEED)
+            .max_decimals(2)
+            .prefix(prefix)
+            .custom_formatter(move |number, _| {
+                let rounded = (number * 100.0).round() / 100.0;
+                match none {
+                    Some(none) if number < range[0] => none.to_owned(),
+                    _ if signed => format!("{rounded:+}"),
+                    _ => rounded.to_string(),
+                }
+            })
+            .custom_parser(move |text| {
+                let text = text.trim().trim_start_matches(prefix.trim()).trim();
+                match none {
+                    Some(none) if text.is_empty() || text == none => Some(least),
+                    _ => text.parse().ok(),
+                }
+            });
+        let is_taken = sized(ui, width, field, name, &number_tip(setting));
+        #[expect(clippy::float_cmp, reason = "a number that nobody touched is the same one")]
+        let is_new = is_taken && number != before;
+        is_new.then(|| match none {
+            Some(none) if number < range[0] => none.to_owned(),
+            _ => number.to_string(),
+        })
+    }
+}
+
+/// What the command says that takes the number.
+fn number_tip(setting: &PictureSetting) -> String {
+    let taking = setting.commands.iter().find(|command| command.takes_value);
+    taking.map_or(String::new(), |command| tip(command.id))
+}
+
+/// A number's field of this width; whether the number that it leaves counts.
+fn sized(ui: &mut Ui, width: f32, field: DragValue<'_>, name: &str, tip: &str) -> bool {
+    let layout = Layout::centered_and_justified(ui.layout().main_dir());
+    let shown = ui.allocate_ui_with_layout(vec2(width, CONTROL.y), layout, |ui| {
+        let tip = format!("{tip}\ndrag, or click and type");
+        let response = ui.add(field.clip_text(true).update_while_editing(false));
+        let is_taken = !gave_up(ui, &response);
+        response.on_hover_text(tip).accessible_name(name);
+        is_taken
+    });
+    shown.inner
 }
 
 /// How scenes are read and shown, whatever the sampling.
 fn reading(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let settings = viewer.settings();
-    row(ui, "Dialect", |ui| {
-        let values = DialectChoice::ALL.map(|value| (value, value.name().to_owned()));
-        let tip = format!("{}\n{}", tip("dialect"), dialect_in_force(viewer));
-        commands.extend(choice(ui, "Dialect", &tip, settings.dialect, &values).map(Command::SetDialect));
-    });
     // For every choice, so that what is below stays under the pointer.
     row(ui, "", |ui| {
         ui.label(egui::RichText::new(dialect_in_force(viewer)).weak().small())
@@ -93,23 +196,6 @@ fn reading(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             commands.push(Command::Progressive(if on { Toggle::On } else { Toggle::Off }));
         }
     });
-}
-
-/// The rates that keys reach, and the current one if it lies beyond.
-fn sample_rates(current: SampleRate) -> Vec<(SampleRate, String)> {
-    let mut rates = vec![SampleRate::ONE];
-    while let Some(last) = rates.last()
-        && last.higher() != *last
-    {
-        rates.push(last.higher());
-    }
-    if !rates.contains(&current) {
-        rates.push(current);
-    }
-    rates
-        .into_iter()
-        .map(|rate| (rate, rate.samples().to_string()))
-        .collect()
 }
 
 /// In which dialect the current scene was read.

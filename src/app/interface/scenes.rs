@@ -87,11 +87,7 @@ pub(super) fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             ui.spacing_mut().item_spacing.x = 4.0;
             for (id, text) in [("next-scene", "›"), ("previous-scene", "‹")] {
                 if command_button(ui, id, text).clicked() {
-                    commands.extend(
-                        crate::viewer::commands::find(id)
-                            .and_then(crate::viewer::CommandSpec::command)
-                            .cloned(),
-                    );
+                    commands.extend(crate::viewer::commands::find(id).and_then(crate::viewer::CommandSpec::command));
                 }
             }
             let place = format!("{} of {}", viewer.current_index() + 1, viewer.scenes().len());

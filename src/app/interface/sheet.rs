@@ -8,7 +8,10 @@ use super::look::CONTROL;
 use super::modal::modal;
 use super::scenes::image_of;
 use crate::figure::{Ground, PAGE_WIDTH};
-use crate::viewer::{Axis, Command, PanelSize, SheetChange, SheetPreview, SheetSide, Viewer, commands, options};
+use crate::viewer::{
+    Axis, Command, CommandSpec, PanelSize, PictureSetting, SheetChange, SheetPreview, SheetSide, Viewer,
+};
+use crate::viewer::{commands, picture};
 
 /// Width of the controls, in points.
 const CONTROLS: f32 = 272.0;
@@ -108,7 +111,7 @@ impl SheetDialog {
             .selected_text(name.replace('-', " "))
             .height(f32::INFINITY)
             .show_ui(ui, |ui| {
-                let all = std::iter::once("nothing").chain(options::names());
+                let all = std::iter::once("nothing").chain(picture::all().iter().map(|setting| setting.option));
                 for other in all {
                     let label = other.replace('-', " ");
                     if ui.selectable_label(other == name, label).clicked() && other != name {
@@ -120,12 +123,12 @@ impl SheetDialog {
             .on_hover_text(tip(id))
             .accessible_name(title);
         if let Some(name) = chosen {
-            let axis = (name != "nothing").then(|| options::first_axis(name)).flatten();
+            let axis = picture::find(name).map(Axis::first);
             commands.push(Command::ChangeSheet(SheetChange::Axis(side, axis)));
             return;
         }
         let Some(axis) = current else { return };
-        let counted = options::values(&axis.name);
+        let counted = picture::find(&axis.name).map_or(Vec::new(), PictureSetting::names);
         if counted.is_empty() {
             self.typed(ui, axis, side, commands);
         } else {
@@ -157,7 +160,7 @@ impl SheetDialog {
         let is_new = response.changed() || before.is_some();
         typed.text = before.unwrap_or_else(|| std::mem::take(&mut typed.text));
         if is_new {
-            match options::axis(&axis.name, &typed.text) {
+            match Axis::of(&axis.name, &typed.text) {
                 Ok(axis) => {
                     typed.problem = None;
                     commands.push(Command::ChangeSheet(SheetChange::Axis(side, Some(axis))));
@@ -335,7 +338,7 @@ fn buttons(ui: &mut Ui, commands: &mut Vec<Command>) {
         let response = ui.add_sized([width, CONTROL.y], Button::new(text));
         let response = response.on_hover_text(tip(id));
         if response.clicked() {
-            commands.extend(commands::find(id).and_then(|spec| spec.command().cloned()));
+            commands.extend(commands::find(id).and_then(CommandSpec::command));
         }
     };
     let width = ui.available_width();

@@ -3,7 +3,8 @@
 use egui::{Align, Color32, CornerRadius, FontId, Layout, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::controls::tip;
-use crate::viewer::{Command, Status, Toggle, Viewer, sample_words, texture_words};
+use crate::viewer::picture::{About, changed_words};
+use crate::viewer::{Command, Status, Toggle, Viewer};
 
 /// Height of the line's contents, in points.
 const HEIGHT: f32 = 18.0;
@@ -117,13 +118,13 @@ fn picture(ui: &mut Ui, viewer: &Viewer) {
         words.push(format!("{} px/unit", short(numbers.scale)));
     }
     words.push(format!("{}×", render.sample_rate.samples()));
-    words.extend(sample_words(render));
+    words.extend(changed_words(viewer.settings(), About::Samples));
     words.push(format!(
         "{} / {}",
         render.pixel_sampling.name(),
         render.level_sampling.name()
     ));
-    words.extend(texture_words(render));
+    words.extend(changed_words(viewer.settings(), About::Textures));
     for word in words {
         let font = FontId::proportional(11.0);
         let color = ui.visuals().weak_text_color();

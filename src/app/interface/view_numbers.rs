@@ -80,7 +80,7 @@ fn rows(ui: &mut Ui, before: ViewNumbers, commands: &mut Vec<Command>) {
         ] {
             if command_button(ui, id, text).clicked() {
                 let known = crate::viewer::commands::find(id).and_then(crate::viewer::CommandSpec::command);
-                commands.push(known.cloned().unwrap_or(command));
+                commands.push(known.unwrap_or(command));
             }
         }
     });

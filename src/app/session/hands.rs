@@ -7,7 +7,6 @@ use egui::accesskit::Node;
 use glam::{DVec2, dvec2};
 
 use super::*;
-use crate::raster::SampleRate;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Toggle, ViewerOptions};
 
@@ -114,7 +113,7 @@ fn explained_pixel_leaves_the_numbers_of_a_comparison() {
         let mut session = session(Vec::new(), window);
         session.command(Command::Panel(Toggle::On));
         session.command(Command::SwapAb);
-        session.command(Command::SetSampleRate(SampleRate::new(16).expect("a rate")));
+        session.command(Command::set("sample-rate", "16").expect("a value"));
         session.settle();
         let mut told = |what| {
             let nodes = nodes(&mut session);

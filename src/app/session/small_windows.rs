@@ -8,7 +8,6 @@ use glam::{DVec2, dvec2};
 
 use super::hands::{click, key, nodes, place_of, session};
 use super::*;
-use crate::raster::SampleRate;
 use crate::render::Visualisation;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Against, Arrangement, Toggle};
@@ -52,7 +51,7 @@ pub(super) fn comparing(window: [u32; 2]) -> Session {
     let mut session = session(Vec::new(), window);
     session.command(Command::Panel(Toggle::On));
     session.command(Command::Compare(Against::Settings));
-    session.command(Command::SetSampleRate(SampleRate::new(4).expect("a rate")));
+    session.command(Command::set("sample-rate", "4").expect("a value"));
     session.wait(Duration::from_secs(10));
     session.settle();
     session
@@ -264,7 +263,7 @@ fn comparing_with_a_picture_says_that_its_path_is_missing() {
 #[test]
 fn explanation_of_another_view_leads_back_to_the_picture() {
     let mut session = session(Vec::new(), [1280, 800]);
-    session.command(Command::SetVisualisation(Visualisation::LevelOfDetail));
+    session.command(Command::set("visualise", Visualisation::LevelOfDetail.name()).expect("a value"));
     right_click(&mut session, [700.0, 300.0]);
     assert!(
         says(&mut session, "shows the level-of-detail view"),

@@ -32,14 +32,15 @@ pub(super) fn modifiers(held: ModifiersState) -> Modifiers {
 
 /// Whether holding the key down repeats the command: steps do, switches do not.
 pub(super) fn repeats(command: &Command) -> bool {
+    if let Command::Set(change) = command {
+        return change.repeats();
+    }
     matches!(
         command,
         Command::Nudge(_)
             | Command::RotateBy { .. }
             | Command::ZoomAt { .. }
             | Command::PanBy { .. }
-            | Command::SampleRateUp
-            | Command::SampleRateDown
             | Command::NextScene
             | Command::PreviousScene
             | Command::StepMagnification(_)
@@ -157,7 +158,7 @@ mod tests {
     use super::*;
     use crate::viewer::commands;
 
-    fn command(logical_key: &LogicalKey, code: KeyCode, held: ModifiersState) -> Option<&'static Command> {
+    fn command(logical_key: &LogicalKey, code: KeyCode, held: ModifiersState) -> Option<Command> {
         commands::for_key(&KeyPress {
             logical: logical(logical_key),
             physical: place(code),
@@ -170,11 +171,11 @@ mod tests {
         let character = |text: &str| LogicalKey::Character(text.into());
         let none = ModifiersState::empty();
         let azerty_digit = command(&character("&"), KeyCode::Digit1, none);
-        assert_eq!(azerty_digit, Some(&Command::Scene(0)), "AZERTY makes & where 1 is");
+        assert_eq!(azerty_digit, Some(Command::Scene(0)), "AZERTY makes & where 1 is");
         let qwertz_equals = command(&character("="), KeyCode::Digit0, ModifiersState::SHIFT);
         assert_eq!(
             qwertz_equals,
-            Some(&Command::SampleRateUp),
+            Command::step("sample-rate", 1.0),
             "QWERTZ makes = with Shift and 0"
         );
         let swedish_backtick = command(&LogicalKey::Dead(Some('`')), KeyCode::Equal, ModifiersState::SHIFT);
@@ -187,7 +188,7 @@ mod tests {
             KeyCode::KeyS,
             ModifiersState::SHIFT | ModifiersState::CONTROL,
         );
-        assert_eq!(capital, Some(&Command::WindowScreenshot), "Shift makes a capital");
+        assert_eq!(capital, Some(Command::WindowScreenshot), "Shift makes a capital");
         assert_eq!(
             logical(&LogicalKey::Named(NamedKey::F5)),
             Some(Key::F(5)),

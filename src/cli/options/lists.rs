@@ -98,7 +98,7 @@ mod tests {
         let choices = lists.choices();
         let rates: Vec<u32> = choices
             .iter()
-            .map(|choice| sampling(choice).expect("valid").sample_rate.samples())
+            .map(|choice| sampling(choice).expect("valid").sample_rate().samples())
             .collect();
         assert_eq!(rates, [1, 1, 4, 4, 16, 16], "the first axis changes fastest");
         let words = [

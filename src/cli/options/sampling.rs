@@ -1,94 +1,118 @@
-//! How a scene is read and sampled: the options of every command that draws.
+//! How a scene is read and sampled: the options of every command that draws, one for each row of the table of picture settings.
 
-use clap::{Args, Parser};
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::error::ErrorKind;
+use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Parser};
 
 use crate::cli::failure::one_line;
-use crate::color::{ResolveSpace, Rgba};
 use crate::geometry::View;
-use crate::raster::{SamplePattern, SampleRate};
-use crate::render::{RenderSettings, Visualisation};
+use crate::raster::SampleRate;
+use crate::render::RenderSettings;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
-use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
+use crate::viewer::picture::{self, Values};
+use crate::viewer::{PictureSetting, Settings};
 
 /// How a scene is read and sampled.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug)]
 pub(in crate::cli) struct SamplingOptions {
-    /// Samples per pixel: a square number up to 256; with the patterns halton and r2 any number up to that
-    #[arg(long, default_value = "1", value_name = "N", value_parser = sample_rate)]
-    pub(in crate::cli) sample_rate: SampleRate,
-    /// Where the samples of a pixel lie
-    #[arg(long, default_value = SamplePattern::default().name(), value_enum)]
-    pub(in crate::cli) pattern: SamplePattern,
-    /// How a texture is read inside a mip level
-    #[arg(long, default_value = PixelSampling::default().name(), value_enum)]
-    pub(in crate::cli) pixel_sampling: PixelSampling,
-    /// Which mip levels of a texture are read
-    #[arg(long, default_value = LevelSampling::default().name(), value_enum)]
-    pub(in crate::cli) level_sampling: LevelSampling,
-    /// The most taps along a footprint that is longer than wide: 1 (off) to 64
-    #[arg(long, default_value = "1", value_name = "N", value_parser = anisotropy)]
-    pub(in crate::cli) anisotropy: Anisotropy,
-    /// Levels added to a texture's level of detail: -16 to 16
-    #[arg(long, default_value = "0", value_name = "B", value_parser = lod_bias, allow_hyphen_values = true)]
-    pub(in crate::cli) lod_bias: LodBias,
-    /// The level of detail instead of the footprint's: 0 to 16 [default: the footprint's]
-    #[arg(long, value_name = "L", value_parser = lod_level, allow_hyphen_values = true)]
-    pub(in crate::cli) lod_level: Option<FixedLevel>,
-    /// Whether a footprint is a pixel's or a sample's
-    #[arg(long, default_value = Derivatives::default().name(), value_enum)]
-    pub(in crate::cli) lod_per: Derivatives,
-    /// white, transparent or #RRGGBB
-    #[arg(long, default_value = "white", value_name = "COLOUR", value_parser = background)]
-    pub(in crate::cli) background: Rgba,
-    /// How documents are read
-    #[arg(long, default_value = DialectChoice::default().name(), value_enum)]
-    pub(in crate::cli) dialect: DialectChoice,
-    /// In which values the samples of a pixel are averaged
-    #[arg(long, default_value = ResolveSpace::default().name(), value_enum)]
-    pub(in crate::cli) resolve: ResolveSpace,
-    /// What the pixels show; all but colour come with a legend
-    #[arg(long, default_value = Visualisation::default().name(), value_enum, value_name = "WHAT")]
-    pub(in crate::cli) visualise: Visualisation,
-    /// Whose conventions decide edges, texels and bytes
-    #[arg(long, default_value = Rules::default().name(), value_enum)]
-    pub(in crate::cli) rules: Rules,
+    settings: Settings,
 }
 
 impl SamplingOptions {
     /// How documents are read: the course's rules ask for the course's dialect where nothing else is said.
     pub(in crate::cli) fn reading(&self) -> DialectChoice {
-        match (self.dialect, self.rules) {
+        match (self.settings.dialect, self.settings.render.rules) {
             (DialectChoice::Auto, Rules::Course) => DialectChoice::Course,
             (dialect, _) => dialect,
         }
     }
 
+    /// The dialect that was asked for.
+    pub(in crate::cli) fn dialect(&self) -> DialectChoice {
+        self.settings.dialect
+    }
+
+    /// The rules of the picture.
+    pub(in crate::cli) fn rules(&self) -> Rules {
+        self.settings.render.rules
+    }
+
+    /// Samples per pixel.
+    pub(in crate::cli) fn sample_rate(&self) -> SampleRate {
+        self.settings.render.sample_rate
+    }
+
     /// Which options do not go together, and the cure.
     pub(in crate::cli) fn refusal(&self) -> Option<String> {
-        let refusal = self.pattern.refusal(self.sample_rate)?;
-        Some(format!("--sample-rate {}: {refusal}", self.sample_rate.samples()))
+        let rate = self.sample_rate();
+        let refusal = self.settings.render.pattern.refusal(rate)?;
+        Some(format!("--sample-rate {}: {refusal}", rate.samples()))
     }
 
     /// The same as settings of the engine; the outline belongs to every view but the canvas view.
     pub(in crate::cli) fn settings(&self, view: View) -> RenderSettings {
         RenderSettings {
-            sample_rate: self.sample_rate,
-            pattern: self.pattern,
-            pixel_sampling: self.pixel_sampling,
-            level_sampling: self.level_sampling,
-            anisotropy: self.anisotropy,
-            detail: LevelOfDetail {
-                bias: self.lod_bias,
-                fixed: self.lod_level,
-                derivatives: self.lod_per,
-            },
-            rules: self.rules,
-            resolve: self.resolve,
-            visualisation: self.visualise,
-            background: self.background,
             outline: view != View::Canvas,
+            ..self.settings.render
         }
+    }
+}
+
+/// The option of a setting.
+fn option(setting: &'static PictureSetting) -> Arg {
+    let option = Arg::new(setting.option)
+        .long(setting.option)
+        .help(setting.help)
+        .default_value(setting.default_value())
+        // A number may start with a minus.
+        .allow_negative_numbers(true);
+    let option = match setting.placeholder {
+        "" => option,
+        name => option.value_name(name),
+    };
+    match setting.values {
+        Values::Named(names) => {
+            let names = names()
+                .into_iter()
+                .map(|name| PossibleValue::new(name).aliases((setting.former)(name)));
+            option.value_parser(PossibleValuesParser::new(names))
+        }
+        Values::Open { form, .. } => option.value_parser(move |text: &str| match setting.to(text) {
+            Ok(_) => Ok(text.to_owned()),
+            Err(_) => Err(format!("the value is {form}")),
+        }),
+    }
+}
+
+impl Args for SamplingOptions {
+    fn augment_args(command: Command) -> Command {
+        command.args(picture::all().iter().map(option))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for SamplingOptions {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut settings = Settings::default();
+        for setting in picture::all() {
+            let Some(value) = matches.get_one::<String>(setting.option) else {
+                continue;
+            };
+            if !setting.set(&mut settings, value) {
+                let problem = format!("--{} {value}: not {}", setting.option, setting.form());
+                return Err(clap::Error::raw(ErrorKind::InvalidValue, problem));
+            }
+        }
+        Ok(Self { settings })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
     }
 }
 
@@ -107,46 +131,5 @@ pub(in crate::cli) fn sampling_of(words: impl Iterator<Item = String>) -> Result
     match sampling.refusal() {
         Some(refusal) => Err(one_line(&refusal)),
         None => Ok(sampling),
-    }
-}
-
-fn sample_rate(text: &str) -> Result<SampleRate, String> {
-    let rate = text.parse().ok().and_then(SampleRate::new);
-    rate.ok_or_else(|| "the sample rate is a whole number from 1 to 256".to_owned())
-}
-
-fn anisotropy(text: &str) -> Result<Anisotropy, String> {
-    let taps = text.parse().ok().and_then(Anisotropy::new);
-    taps.ok_or_else(|| "anisotropy is a whole number from 1, which is off, to 64".to_owned())
-}
-
-fn lod_bias(text: &str) -> Result<LodBias, String> {
-    let bias = text.parse().ok().and_then(LodBias::new);
-    bias.ok_or_else(|| "the bias is a number of levels from -16 to 16".to_owned())
-}
-
-fn lod_level(text: &str) -> Result<FixedLevel, String> {
-    let level = text.parse().ok().and_then(FixedLevel::new);
-    level.ok_or_else(|| "a fixed level is a number from 0, the base, to 16".to_owned())
-}
-
-fn background(text: &str) -> Result<Rgba, String> {
-    let hex = |digits: &str| {
-        let value = u32::from_str_radix(digits, 16)
-            .ok()
-            .filter(|_| digits.len() == 6 && digits.is_ascii())?;
-        let [_, r, g, b] = value.to_be_bytes();
-        digits
-            .bytes()
-            .all(|digit| digit.is_ascii_hexdigit())
-            .then(|| Rgba::from_bytes([r, g, b, 255]))
-    };
-    match text {
-        "white" => Ok(Rgba::WHITE),
-        "transparent" => Ok(Rgba::TRANSPARENT),
-        _ => text
-            .strip_prefix('#')
-            .and_then(hex)
-            .ok_or_else(|| "a background is white, transparent or #RRGGBB in hexadecimal".to_owned()),
     }
 }

@@ -5,14 +5,8 @@ use clap::builder::PossibleValue;
 
 use super::sweep::Quality;
 use super::writeup::Assignment;
-use crate::color::ResolveSpace;
 use crate::compare::Measure;
 use crate::figure::Ground;
-use crate::raster::SamplePattern;
-use crate::render::Visualisation;
-use crate::rules::Rules;
-use crate::scene::DialectChoice;
-use crate::texture::{Derivatives, LevelSampling, PixelSampling};
 use crate::viewer::Theme;
 
 /// Gives a settings enum its names on the command line, which are its names everywhere.
@@ -30,27 +24,4 @@ macro_rules! named_values {
     )*};
 }
 
-named_values!(
-    Quality,
-    ResolveSpace,
-    SamplePattern,
-    PixelSampling,
-    LevelSampling,
-    Derivatives,
-    Rules,
-    DialectChoice,
-    Theme,
-    Measure,
-    Ground,
-    Assignment
-);
-
-impl ValueEnum for Visualisation {
-    fn value_variants<'a>() -> &'a [Self] {
-        &Self::ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        Some(PossibleValue::new(self.name()).aliases(self.former_name()))
-    }
-}
+named_values!(Quality, Theme, Measure, Ground, Assignment);

@@ -1,6 +1,6 @@
 //! What commands do to a comparison.
 
-use super::super::{Command, Viewer};
+use super::super::{Command, Settings, Viewer};
 use super::{Against, Arrangement, Comparison, Measuring, Moved, Other};
 use crate::compare::{DifferenceStyle, Gain};
 use crate::viewer::background::Mailbox;
@@ -33,6 +33,16 @@ impl Comparison {
             swaps: 0,
             measuring: Measuring::default(),
             number: 0,
+        }
+    }
+}
+
+impl Other {
+    /// The same scene under these settings.
+    fn with(settings: &Settings) -> Self {
+        Self::Settings {
+            render: settings.render,
+            dialect: settings.dialect,
         }
     }
 }
@@ -156,20 +166,17 @@ impl Viewer {
         self.comparison.loading = None;
         match against {
             Against::Settings => {
-                self.set_other(Some(self.settings_as_other()));
+                self.set_other(Some(Other::with(&self.settings)));
                 self.messages.done(
                     "B keeps these settings; now change A with its keys. R swaps both, W wipes, D shows the difference"
                         .to_owned(),
                 );
             }
             Against::Changed(changes) => {
-                let own = self.settings;
-                for change in changes {
-                    self.change_sampling(change);
-                }
-                let other = self.settings_as_other();
-                self.settings = own;
-                self.set_other(Some(other));
+                let mut other = self.settings;
+                let remarks = changes.iter().filter_map(|change| change.apply(&mut other));
+                remarks.for_each(|remark| self.messages.error(remark));
+                self.set_other(Some(Other::with(&other)));
                 self.show_somehow();
             }
             Against::Truth(resolve) => {
@@ -181,14 +188,6 @@ impl Viewer {
                 self.set_other(None);
                 self.comparison.arrangement = Arrangement::Alone;
             }
-        }
-    }
-
-    /// A's settings, for B.
-    fn settings_as_other(&self) -> Other {
-        Other::Settings {
-            render: self.settings.render,
-            dialect: self.settings.dialect,
         }
     }
 

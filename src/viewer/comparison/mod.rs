@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 use super::background::Mailbox;
 use super::drawing::Drawing;
 use super::state::Finished;
-use super::{Command, Frame};
+use super::{Frame, SettingChange};
 use crate::color::ResolveSpace;
 use crate::compare::{DifferencePaint, DifferenceStyle};
 use crate::render::RenderSettings;
@@ -60,8 +60,8 @@ pub enum Other {
 pub enum Against {
     /// A copy of the settings of this moment.
     Settings,
-    /// A copy of the settings of this moment, to which these commands are given.
-    Changed(Vec<Command>),
+    /// A copy of the settings of this moment with these changes.
+    Changed(Vec<SettingChange>),
     /// The same scene with 256 samples per pixel, averaged in these values or in those of A.
     Truth(Option<ResolveSpace>),
     /// The PNG or JPEG in this file.

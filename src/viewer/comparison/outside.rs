@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::super::background::guarded;
 use super::super::typed::path;
-use super::super::{Viewer, options};
+use super::super::{Viewer, picture};
 use super::{Against, Arrangement, Other};
 use crate::color::ResolveSpace;
 use crate::compare;
@@ -140,7 +140,7 @@ impl Against {
     pub fn from_text(text: &str) -> Option<Self> {
         match text {
             "" => None,
-            text if options::are_meant(text) => options::parse(text).map(Self::Changed),
+            text if picture::are_meant(text) => picture::parse_changes(text).map(Self::Changed),
             "settings" => Some(Self::Settings),
             "truth" => Some(Self::Truth(None)),
             "truth stored" => Some(Self::Truth(Some(ResolveSpace::Stored))),

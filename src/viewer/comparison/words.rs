@@ -1,10 +1,9 @@
 //! A and B in words: which settings differ, and what each of both is.
 
-use super::super::Viewer;
-use super::super::settings::{sample_words, settings_words, texture_words};
+use super::super::settings::picture::{self, About, told_words};
+use super::super::{Settings, Viewer};
 use super::Other;
 use crate::color::ResolveSpace;
-use crate::render::RenderSettings;
 
 impl Viewer {
     /// Which settings of A and B differ, in words such as `sample rate 1 | 16`; `None` without B, and for a picture from
@@ -50,25 +49,19 @@ impl Viewer {
 
     /// A's settings as the title tells them.
     pub(in super::super) fn own_words(&self) -> Vec<String> {
-        let render = &self.settings.render;
-        let mut words = vec![format!("sample rate {}", render.sample_rate.samples())];
-        words.extend(sample_words(render));
-        words.extend([
-            format!("pixel sampling {}", render.pixel_sampling.name()),
-            format!("level sampling {}", render.level_sampling.name()),
-        ]);
-        words.extend(texture_words(render));
-        words
+        [About::Samples, About::Textures]
+            .into_iter()
+            .flat_map(|about| told_words(&self.settings, about))
+            .collect()
     }
 
     fn differing_settings(&self) -> Option<Vec<Differing>> {
-        let mut words = differing(&self.settings.render, &self.other_settings()?);
-        if let Some(dialect) = self.own_dialect_of_b() {
-            let names = [self.settings.dialect, dialect].map(|dialect| dialect.name().to_owned());
-            let [a, b] = names;
-            words.push(("dialect", a, b));
-        }
-        Some(words)
+        let other = Settings {
+            render: self.other_settings()?,
+            dialect: self.own_dialect_of_b().unwrap_or(self.settings.dialect),
+            ..self.settings
+        };
+        Some(differing(&self.settings, &other))
     }
 }
 
@@ -85,8 +78,11 @@ fn truth_words(resolve: ResolveSpace) -> String {
 type Differing = (&'static str, String, String);
 
 /// What differs.
-fn differing(a: &RenderSettings, b: &RenderSettings) -> Vec<Differing> {
-    let (a, b) = (settings_words(a), settings_words(b));
-    let unequal = a.into_iter().zip(b).filter(|(a, b)| a != b);
-    unequal.map(|((name, a), (_, b))| (name, a, b)).collect()
+fn differing(a: &Settings, b: &Settings) -> Vec<Differing> {
+    let unequal = picture::all()
+        .iter()
+        .filter(|setting| setting.value(a) != setting.value(b));
+    unequal
+        .map(|setting| (setting.label, setting.shown(a), setting.shown(b)))
+        .collect()
 }

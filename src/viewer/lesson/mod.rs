@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
-use super::{Against, Arrangement, Command, SceneSource, ViewNumbers};
+use super::{Against, Arrangement, SceneSource, SettingChange, ViewNumbers};
 
 pub use markdown::{Block, Look, Span};
 pub use slides::{SlideError, slides};
@@ -60,7 +60,7 @@ pub struct LessonStep {
     /// What it shows.
     pub scene: SceneSource,
     /// The settings that differ from their defaults.
-    pub settings: Vec<Command>,
+    pub settings: Vec<SettingChange>,
     /// From where; `None` is the whole canvas in the part of the window that is free.
     pub view: Option<ViewNumbers>,
     /// The pinned place, in user units.

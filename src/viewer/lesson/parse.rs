@@ -12,7 +12,7 @@ use super::markdown::blocks;
 use super::{Lesson, LessonError, LessonStep};
 use crate::plain;
 use crate::viewer::typed::{self, point};
-use crate::viewer::{Against, Arrangement, Command, SceneSource, Toggle, gallery, options};
+use crate::viewer::{Against, Arrangement, Command, SceneSource, SettingChange, Toggle, gallery, picture};
 
 /// Most steps of a lesson.
 const MOST_STEPS: usize = 200;
@@ -135,14 +135,14 @@ fn step(
             "text" => step.text = blocks(&words(value, LONGEST_TEXT)?),
             "scene" => scene = Some(self::scene(value, folder)?),
             "view" => {
-                step.view = match command(value, typed::VIEW.parse(&text(value)?))? {
+                step.view = match meant(value, typed::VIEW.parse(&text(value)?))? {
                     Command::SetView(numbers) => Some(numbers),
                     _ => None,
                 }
             }
             "pin" => step.pin = Some(pin(value)?),
             "explanation" => {
-                let shown = command(value, typed::EXPLANATION.parse(&text(value)?))?;
+                let shown = meant(value, typed::EXPLANATION.parse(&text(value)?))?;
                 step.explained = shown == Command::Explanation(Toggle::On);
             }
             "against" => against = Some(self::against(value)?),
@@ -165,13 +165,14 @@ fn step(
     }
 }
 
-fn setting(name: &str, key: &Key<'_>, value: &Value<'_>) -> Found<Command> {
-    let Some(argument) = options::option(name) else {
-        let known: Vec<&str> = KEYS.into_iter().chain(options::names()).collect();
+fn setting(name: &str, key: &Key<'_>, value: &Value<'_>) -> Found<SettingChange> {
+    let Some(setting) = picture::find(name) else {
+        let options = picture::all().iter().map(|setting| setting.option);
+        let known: Vec<&str> = KEYS.into_iter().chain(options).collect();
         let problem = format!("`{}` is unknown; a step has {}", short(name), known.join(", "));
         return mistake(key.span(), problem);
     };
-    command(value, argument.parse(&text(value)?))
+    meant(value, setting.to(&text(value)?))
 }
 
 /// A title.
@@ -180,7 +181,7 @@ fn shown(value: &Value<'_>) -> Found<String> {
 }
 
 /// What a value asks for, or its mistake in its place.
-fn command(value: &Value<'_>, parsed: Result<Command, String>) -> Found<Command> {
+fn meant<T>(value: &Value<'_>, parsed: Result<T, String>) -> Found<T> {
     parsed.or_else(|problem| mistake(value.span(), format!("{}; write it as that", short(&problem))))
 }
 
@@ -219,9 +220,9 @@ fn against(value: &Value<'_>) -> Found<Against> {
 }
 
 fn arrange(value: &Value<'_>) -> Found<Arrangement> {
-    match command(value, typed::ARRANGE.parse(&text(value)?))? {
+    match meant(value, typed::ARRANGE.parse(&text(value)?))? {
         Command::Arrange(arrangement) => Ok(arrangement),
-        _ => mistake(value.span(), format!("arrange as {}", typed::ARRANGE.usage)),
+        _ => mistake(value.span(), format!("arrange as {}", typed::ARRANGE.usage())),
     }
 }
 
@@ -267,7 +268,6 @@ fn short(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::raster::SampleRate;
 
     fn read(document: &str) -> Result<Lesson, String> {
         parse(document, "lesson.toml", None).map_err(|error| error.to_string())
@@ -297,9 +297,7 @@ mod tests {
             panic!("{lesson:?}")
         };
         assert_eq!(first.settings.len(), 3, "{:?}", first.settings);
-        let rate = SampleRate::new(16)
-            .map(Command::SetSampleRate)
-            .expect("a square number");
+        let rate = SettingChange::of("sample-rate", "16").expect("a square number");
         assert!(first.settings.contains(&rate), "{:?}", first.settings);
         assert_eq!(first.view.map(|view| view.rotation), Some(90.0), "the view");
         assert_eq!(

@@ -114,8 +114,9 @@ impl Viewer {
             against,
             ..
         } = step;
-        for setting in settings {
-            self.change_sampling(setting);
+        for change in settings {
+            let remark = change.apply(&mut self.settings);
+            remark.into_iter().for_each(|remark| self.messages.error(remark));
         }
         if let Some((against, arrangement)) = against {
             self.compare(against);

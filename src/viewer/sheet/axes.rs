@@ -1,5 +1,8 @@
 //! The axes of a sheet: settings by the names of the command line's options, each with a list of values.
 
+use crate::viewer::SettingChange;
+use crate::viewer::settings::picture::PictureSetting;
+
 /// Settings with their values, in the order they were given in.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AxisLists {
@@ -39,6 +42,26 @@ impl Axis {
             name: name.to_owned(),
             values,
         })
+    }
+
+    /// The same of a picture setting, with values that it takes.
+    ///
+    /// # Errors
+    /// One line when there is no such setting, or a value is none of it.
+    pub fn of(name: &str, text: &str) -> Result<Self, String> {
+        let axis = Self::parse(name, text)?;
+        for value in &axis.values {
+            SettingChange::of(name, value)?;
+        }
+        Ok(axis)
+    }
+
+    /// An axis to begin with: every value where they have names.
+    pub fn first(setting: &PictureSetting) -> Self {
+        Self {
+            name: setting.option.to_owned(),
+            values: setting.some_values().into_iter().map(str::to_owned).collect(),
+        }
     }
 
     /// The word of the command line.
@@ -128,6 +151,13 @@ mod tests {
             let problem = Axis::parse("sample-rate", text).expect_err(text);
             assert!(problem.contains(why), "{text}: {problem}");
         }
+    }
+
+    #[test]
+    fn axes_have_values_of_their_setting() {
+        assert!(Axis::of("sample-rate", "1, 4").is_ok(), "numbers");
+        assert!(Axis::of("sample-rate", "1, many").is_err(), "no number");
+        assert!(Axis::of("colour", "red, blue").is_err(), "no setting");
     }
 
     #[test]

@@ -18,6 +18,16 @@ pub(crate) const SQUARE: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" widt
   <rect fill="#00798c" x="25" y="25" width="50" height="50" transform="matrix(0.7 0.7 -0.7 0.7 50 -20)"/>
 </svg>"##;
 
+/// Sets a picture setting by its option's name.
+pub(crate) fn set(option: &str, value: &str) -> Command {
+    Command::set(option, value).unwrap()
+}
+
+/// Steps a picture setting.
+pub(crate) fn step(option: &str, by: f64) -> Command {
+    Command::step(option, by).unwrap()
+}
+
 /// A viewer, and the folder with its scenes and screenshots.
 pub(crate) struct Session {
     pub(crate) viewer: Viewer,

@@ -1,10 +1,11 @@
 //! What a user sets: small types with their names in menus, scripts and the command line.
 
-use crate::color::Rgba;
+pub mod picture;
+mod table;
+pub(super) mod values;
+
 use crate::render::RenderSettings;
-use crate::rules::Rules;
 use crate::scene::DialectChoice;
-use crate::texture::{Anisotropy, LevelOfDetail};
 
 /// Everything about pictures that a user sets apart from scene and view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,84 +122,4 @@ impl Toggle {
             Self::Off => false,
         }
     }
-}
-
-/// Where samples lie, how they are averaged and what they show, where that is not the default: few words each, such as
-/// `pattern halton` or `resolve linear`.
-pub fn sample_words(render: &RenderSettings) -> Vec<String> {
-    let default = RenderSettings::default();
-    let words = [
-        (render.pattern != default.pattern).then(|| format!("pattern {}", render.pattern.name())),
-        (render.resolve != default.resolve).then(|| format!("resolve {}", render.resolve.name())),
-        (render.visualisation != default.visualisation).then(|| format!("visualise {}", render.visualisation.name())),
-    ];
-    words.into_iter().flatten().collect()
-}
-
-/// How textures are read beyond pixel and level sampling, where it differs from the default: few words each, such as
-/// `anisotropy 16` or `level 2`.
-pub fn texture_words(render: &RenderSettings) -> Vec<String> {
-    let (taps, detail, default) = (render.anisotropy, render.detail, LevelOfDetail::default());
-    let words = [
-        (taps != Anisotropy::OFF).then(|| format!("anisotropy {}", taps.taps())),
-        detail.fixed.map(|level| format!("level {}", level.level())),
-        (detail.bias != default.bias).then(|| format!("bias {:+}", detail.bias.levels())),
-        (detail.derivatives != default.derivatives).then(|| format!("level per {}", detail.derivatives.name())),
-    ];
-    words.into_iter().flatten().collect()
-}
-
-/// Every setting by its name, with its value in words, always in the same order: what tells two pictures apart.
-pub(super) fn settings_words(render: &RenderSettings) -> Vec<(&'static str, String)> {
-    // Named one by one, so that no setting that is added can be forgotten here. The outline follows the view.
-    let RenderSettings {
-        sample_rate,
-        pattern,
-        pixel_sampling,
-        level_sampling,
-        anisotropy,
-        detail,
-        rules,
-        resolve,
-        visualisation,
-        background,
-        outline: _,
-    } = render;
-    let LevelOfDetail {
-        bias,
-        fixed,
-        derivatives,
-    } = detail;
-    let level = fixed.map_or("auto".to_owned(), |level| level.level().to_string());
-    vec![
-        ("sample rate", sample_rate.samples().to_string()),
-        ("pattern", pattern.name().to_owned()),
-        ("pixel sampling", pixel_sampling.name().to_owned()),
-        ("level sampling", level_sampling.name().to_owned()),
-        ("anisotropy", anisotropy.taps().to_string()),
-        ("level", level),
-        ("bias", format!("{:+}", bias.levels())),
-        ("level per", derivatives.name().to_owned()),
-        ("resolve", resolve.name().to_owned()),
-        ("visualise", visualisation.name().to_owned()),
-        ("rules", rules.name().to_owned()),
-        ("background", background_name(*background)),
-    ]
-}
-
-/// As `--background` takes it.
-pub(super) fn background_name(color: Rgba) -> String {
-    if color == Rgba::WHITE {
-        return "white".to_owned();
-    }
-    match color.to_bytes(Rules::Standard) {
-        [_, _, _, 0] => "transparent".to_owned(),
-        [r, g, b, _] => format!("#{r:02x}{g:02x}{b:02x}"),
-    }
-}
-
-/// The value after `current` in `all`, the first after the last.
-pub(super) fn next_of<T: Copy + PartialEq>(all: &[T], current: T) -> T {
-    let at = all.iter().position(|value| *value == current).unwrap_or(0);
-    all.get(at + 1).or(all.first()).copied().unwrap_or(current)
 }

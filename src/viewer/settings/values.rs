@@ -1,0 +1,81 @@
+//! Values as people type them: names, numbers, colours.
+
+use crate::color::Rgba;
+use crate::rules::Rules;
+
+/// The value of `all` that is called `text`.
+pub(in crate::viewer) fn named<T: Copy>(all: &[T], name: impl Fn(T) -> &'static str, text: &str) -> Option<T> {
+    all.iter().copied().find(|value| name(*value) == text)
+}
+
+/// A finite number.
+pub(in crate::viewer) fn number(text: &str) -> Option<f64> {
+    text.trim().parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+/// A whole number that is not below zero.
+pub(in crate::viewer) fn whole(text: &str) -> Option<u32> {
+    text.trim().parse().ok()
+}
+
+/// `white`, `transparent` or `#RRGGBB`.
+pub(super) fn color(text: &str) -> Option<Rgba> {
+    match text {
+        "white" => Some(Rgba::WHITE),
+        "transparent" => Some(Rgba::TRANSPARENT),
+        _ => {
+            let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6)?;
+            // `from_str_radix` would take a sign.
+            if !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
+                return None;
+            }
+            let [_, r, g, b] = u32::from_str_radix(digits, 16).ok()?.to_be_bytes();
+            Some(Rgba::from_bytes([r, g, b, 255]))
+        }
+    }
+}
+
+/// The same as text.
+pub(super) fn color_name(color: Rgba) -> String {
+    if color == Rgba::WHITE {
+        return "white".to_owned();
+    }
+    match color.to_bytes(Rules::Standard) {
+        [_, _, _, 0] => "transparent".to_owned(),
+        [r, g, b, _] => format!("#{r:02x}{g:02x}{b:02x}"),
+    }
+}
+
+/// The value `by` places after `current` in `all`, round and round; before it where `by` is below zero.
+pub(in crate::viewer) fn next_of<T: Copy + PartialEq>(all: &[T], current: T, by: f64) -> T {
+    let at = all.iter().position(|value| *value == current).unwrap_or(0);
+    let next = match by < 0.0 {
+        true => (at + all.len()).checked_sub(1),
+        false => at.checked_add(1),
+    };
+    let next = next.and_then(|next| next.checked_rem(all.len()));
+    next.and_then(|next| all.get(next)).copied().unwrap_or(current)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_follow_each_other_round_and_round() {
+        let all = ["a", "b", "c"];
+        assert_eq!(all.map(|value| next_of(&all, value, 1.0)), ["b", "c", "a"], "onwards");
+        assert_eq!(all.map(|value| next_of(&all, value, -1.0)), ["c", "a", "b"], "back");
+        assert_eq!(next_of(&[], "d", 1.0), "d", "there is no other");
+    }
+
+    #[test]
+    fn colors_are_read_as_they_are_written() {
+        for text in ["white", "transparent", "#ff8000", "#000000"] {
+            assert_eq!(color(text).map(color_name).as_deref(), Some(text), "{text}");
+        }
+        for wrong in ["", "red", "#+12345", "#12345é", "#fff"] {
+            assert_eq!(color(wrong), None, "{wrong}");
+        }
+    }
+}

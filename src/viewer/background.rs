@@ -1,51 +1,13 @@
-//! Threads that do one kind of work beside the user interface, and how what they finished comes back.
+//! Threads that do one kind of work beside the user interface.
 //!
-//! The viewer decides what is worth doing; a thread only takes the next job. Results arrive in one channel, and the
-//! waker tells whoever waits for events that something is there.
+//! The viewer decides what is worth doing; a thread only takes the next job.
 
 use std::collections::VecDeque;
 use std::fmt;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::mpsc::Sender;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
-
-use super::Waker;
-
-/// Where finished work goes.
-pub(super) struct Mailbox<T> {
-    sender: Sender<T>,
-    waker: Waker,
-}
-
-impl<T> Mailbox<T> {
-    pub(super) fn new(sender: Sender<T>, waker: Waker) -> Self {
-        Self { sender, waker }
-    }
-
-    /// Hands over `result` and wakes the receiver. Nobody may be there any more: then the result is dropped.
-    pub(super) fn post(&self, result: T) {
-        if self.sender.send(result).is_ok() {
-            (self.waker)();
-        }
-    }
-}
-
-impl<T> fmt::Debug for Mailbox<T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Mailbox").finish_non_exhaustive()
-    }
-}
-
-impl<T> Clone for Mailbox<T> {
-    fn clone(&self) -> Self {
-        Self {
-            sender: self.sender.clone(),
-            waker: Arc::clone(&self.waker),
-        }
-    }
-}
 
 /// What happens to waiting jobs and to the one at work when the crew is dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -200,13 +162,6 @@ mod tests {
         (1..=100).for_each(|n| crew.push(n));
         drop(crew);
         assert_eq!(count.load(Ordering::SeqCst), 5050, "all jobs were done before the end");
-    }
-
-    #[test]
-    fn mailbox_without_receiver() {
-        let (sender, receiver) = std::sync::mpsc::channel();
-        drop(receiver);
-        Mailbox::new(sender, Arc::new(|| panic!("nobody is there to be woken"))).post(1);
     }
 
     #[test]

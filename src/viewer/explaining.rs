@@ -2,10 +2,10 @@
 
 use std::io;
 
-use super::background::{Mailbox, guarded};
+use super::background::guarded;
 use super::latest::Latest;
+use super::mailbox::Mailbox;
 use super::probing::Target;
-use super::state::Finished;
 use super::{Effect, Picture, Toggle, Viewer};
 use crate::inspect::{Detail, Explanation, Question};
 use crate::render::Subject;
@@ -38,11 +38,10 @@ pub(super) struct Asked {
 }
 
 /// Starts the thread that explains.
-pub(super) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Explaining> {
-    let mailbox = mailbox.clone();
+pub(super) fn start(mailbox: Mailbox<(Asked, Option<Explained>)>) -> io::Result<Explaining> {
     Latest::start("explain", move |asked: Asked| {
         let explained = guarded(|| asked.explain()).unwrap_or_default();
-        mailbox.post(Finished::Explained(asked, Box::new(explained)));
+        mailbox.post((asked, explained));
     })
 }
 

@@ -4,10 +4,10 @@
 use std::io;
 
 use super::Viewer;
-use super::background::{Mailbox, guarded};
+use super::background::guarded;
 use super::latest::Latest;
+use super::mailbox::Mailbox;
 use super::probing::Target;
-use super::state::Finished;
 use crate::inspect::{FedPixel, Feeds, TexelPlace};
 use crate::raster::Region;
 
@@ -15,12 +15,11 @@ use crate::raster::Region;
 pub(super) type Feeding = Latest<Target, Option<Feeds>>;
 
 /// Starts the thread.
-pub(super) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Feeding> {
-    let mailbox = mailbox.clone();
+pub(super) fn start(mailbox: Mailbox<(Target, Option<Feeds>)>) -> io::Result<Feeding> {
     Latest::start("feed", move |target: Target| {
         let picture = &target.picture;
         let feeds = guarded(|| Feeds::around(&picture.subject(), picture.size, target.pixel));
-        mailbox.post(Finished::Fed(target, Box::new(feeds.unwrap_or_default())));
+        mailbox.post((target, feeds.unwrap_or_default()));
     })
 }
 

@@ -29,6 +29,7 @@ mod latest;
 mod legends;
 mod lesson;
 mod library;
+mod mailbox;
 mod messages;
 mod naming;
 mod pointer;
@@ -57,6 +58,7 @@ pub use inspector::{Inspector, PixelLabel, PlacedInset};
 pub use key::{Chord, Key, KeyPress, Modifiers};
 pub use lesson::{BUILT_IN, Block, Lesson, LessonError, LessonSource, LessonStep, Look, SlideError, Span, slides};
 pub use library::{SceneEntry, SceneSource, SceneState, is_folder_of_course, list_scenes};
+pub use mailbox::Waker;
 pub use messages::{Message, MessageKind};
 pub use naming::NameTemplate;
 pub use present::WindowPixels;
@@ -68,7 +70,7 @@ pub use sheet::{
     Axis, AxisLists, Choice, Panel, PanelSize, ReadSheet, SceneReader, Sheet, SheetChange, SheetDraft, SheetPreview,
     SheetRequest, SheetSide, caption_of,
 };
-pub use state::{Viewer, ViewerOptions, Waker};
+pub use state::{Viewer, ViewerOptions};
 pub use status::Status;
 pub use typed::Argument;
 

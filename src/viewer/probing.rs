@@ -4,9 +4,9 @@
 use std::fmt;
 use std::io;
 
-use super::background::{Mailbox, guarded};
+use super::background::guarded;
 use super::latest::Latest;
-use super::state::Finished;
+use super::mailbox::Mailbox;
 use super::{Picture, Viewer};
 use crate::figure::SampleMark;
 use crate::inspect::{SampleHit, pixel_samples};
@@ -63,11 +63,10 @@ impl fmt::Display for Hit {
 }
 
 /// Starts the thread that probes.
-pub(super) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Probing> {
-    let mailbox = mailbox.clone();
+pub(super) fn start(mailbox: Mailbox<(Target, Vec<ProbedSample>)>) -> io::Result<Probing> {
     Latest::start("probe", move |target: Target| {
         let samples = target.probe();
-        mailbox.post(Finished::Probed(target, samples));
+        mailbox.post((target, samples));
     })
 }
 

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::background::{AtEnd, Crew, Mailbox, guarded};
-use super::state::Finished;
+use super::background::{AtEnd, Crew, guarded};
+use super::mailbox::Mailbox;
 use super::{SceneEntry, SceneSource, SceneState, Viewer};
 use crate::geometry::{View, ViewTransform};
 use crate::raster::{Framebuffer, SampleRate};
@@ -86,8 +86,7 @@ pub(super) struct Thumbnail {
 }
 
 impl Readers {
-    pub(super) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Self> {
-        let mail = mailbox.clone();
+    pub(super) fn start(scenes: Mailbox<ReadScene>, thumbnails: Mailbox<Thumbnail>) -> io::Result<Self> {
         let read = move |order: Order| {
             let Order {
                 generation,
@@ -97,23 +96,22 @@ impl Readers {
                 ..
             } = order;
             let result = order.read();
-            mail.post(Finished::Read(ReadScene {
+            scenes.post(ReadScene {
                 generation,
                 index,
                 document,
                 dialect,
                 result,
-            }));
+            });
         };
-        let mail = mailbox.clone();
         let draw = move |order: Order| {
             let (generation, index) = (order.generation, order.index);
             let picture = order.thumbnail();
-            mail.post(Finished::Thumbnail(Thumbnail {
+            thumbnails.post(Thumbnail {
                 generation,
                 index,
                 picture,
-            }));
+            });
         };
         Ok(Self {
             scenes: Crew::start("read", READERS, AtEnd::Detach, read)?,

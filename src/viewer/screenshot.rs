@@ -9,9 +9,9 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
-use super::background::{AtEnd, Crew, Mailbox, guarded};
+use super::background::{AtEnd, Crew, guarded};
+use super::mailbox::Mailbox;
 use super::sheet::SheetJob;
-use super::state::Finished;
 use super::{Effect, Frame, NameTemplate, PictureSpec, Viewer};
 use crate::figure::{InsetSpec, Record, add_furniture, add_legends, encode_png, write_new};
 use crate::raster::Framebuffer;
@@ -86,11 +86,10 @@ enum Shot {
 pub(super) struct Saved(Result<(PathBuf, [u32; 2]), String>);
 
 impl Saver {
-    pub(super) fn start(mailbox: &Mailbox<Finished>, folder: Option<PathBuf>, name: NameTemplate) -> io::Result<Self> {
-        let mailbox = mailbox.clone();
+    pub(super) fn start(mailbox: Mailbox<Saved>, folder: Option<PathBuf>, name: NameTemplate) -> io::Result<Self> {
         let work = move |job: Job| {
             let saved = guarded(|| job.save()).unwrap_or_else(|| Err("saving failed inside the program".to_owned()));
-            mailbox.post(Finished::Saved(Saved(saved)));
+            mailbox.post(Saved(saved));
         };
         Ok(Self {
             crew: Crew::start("save", 1, AtEnd::Complete, work)?,

@@ -6,14 +6,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use super::background::Mailbox;
-use super::comparison::{Against, Comparison, Measured, Panes, ReadPicture, is_picture};
+use super::comparison::{Against, Comparison, Measured, Measuring, Panes, ReadPicture, is_picture};
 use super::drawing::{Drawing, DrawingId, Drawn};
 use super::ending::Ending;
 use super::explaining::{self, Asked, Explained, Explaining};
 use super::feeding::{self, Feeding};
 use super::legends::{Legends, PlacedLegends};
 use super::lesson::{LessonSource, Walk};
+use super::mailbox::{Mailbox, Waker};
 use super::messages::Messages;
 use super::pointer::Pointer;
 use super::probing::{self, ProbedSample, Probing, Target};
@@ -32,9 +32,6 @@ use crate::scene::Dialect;
 
 /// Longest title of the window, in characters.
 const MAX_TITLE: usize = 300;
-
-/// Called from other threads when [`Viewer::poll`] has something to take in.
-pub type Waker = Arc<dyn Fn() + Send + Sync>;
 
 /// How a viewer starts.
 #[derive(Clone)]
@@ -236,22 +233,34 @@ impl Viewer {
             legends: Legends::default(),
             messages: Messages::default(),
             ending: Ending::default(),
-            drawing: Drawing::start(&mailbox, DrawingId::First)?,
+            drawing: Drawing::start(
+                mailbox.of(|drawn| Finished::Drawn(DrawingId::First, drawn)),
+                DrawingId::First,
+            )?,
             surface_pool: None,
-            comparison: Comparison::new(mailbox.clone()),
-            probing: probing::start(&mailbox)?,
-            explaining: explaining::start(&mailbox)?,
-            feeding: feeding::start(&mailbox)?,
+            comparison: Comparison::new(
+                mailbox.of(|drawn| Finished::Drawn(DrawingId::Second, drawn)),
+                Measuring::new(mailbox.of(Finished::Measured), mailbox.of(Finished::PictureRead)),
+            ),
+            probing: probing::start(mailbox.of(|(target, samples)| Finished::Probed(target, samples)))?,
+            explaining: explaining::start(mailbox.of(|(asked, found)| Finished::Explained(asked, Box::new(found))))?,
+            feeding: feeding::start(mailbox.of(|(target, feeds)| Finished::Fed(target, Box::new(feeds))))?,
             pointed_texel: None,
-            readers: Readers::start(&mailbox)?,
-            saver: Saver::start(&mailbox, options.screenshot_dir, options.screenshot_name)?,
+            readers: Readers::start(mailbox.of(Finished::Read), mailbox.of(Finished::Thumbnail))?,
+            saver: Saver::start(
+                mailbox.of(Finished::Saved),
+                options.screenshot_dir,
+                options.screenshot_name,
+            )?,
             results,
             revision: 0,
             picture_revision: 0,
             last_drawn: None,
             last_shown: None,
             grammar: options.grammar,
-            sheet: SheetDesk::new(sheet::start(&mailbox)?),
+            sheet: SheetDesk::new(sheet::start(
+                mailbox.of(|(question, drawn)| Finished::SheetDrawn(question, Box::new(drawn))),
+            )?),
             restored: options.restored,
         };
         viewer.drawing.set_progressive(viewer.settings.progressive);

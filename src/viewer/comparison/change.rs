@@ -3,8 +3,8 @@
 use super::super::{Command, Settings, Viewer};
 use super::{Against, Arrangement, Comparison, Measuring, Moved, Other};
 use crate::compare::{DifferenceStyle, Gain};
-use crate::viewer::background::Mailbox;
-use crate::viewer::state::Finished;
+use crate::viewer::drawing::Drawn;
+use crate::viewer::mailbox::Mailbox;
 
 /// The smallest and the largest gain.
 const GAINS: [f32; 2] = [1e-6, 1e6];
@@ -12,7 +12,7 @@ const GAINS: [f32; 2] = [1e-6, 1e6];
 const GRIP: f64 = 6.0;
 
 impl Comparison {
-    pub(in super::super) fn new(mailbox: Mailbox<Finished>) -> Self {
+    pub(in super::super) fn new(drawn: Mailbox<Drawn>, measuring: Measuring) -> Self {
         Self {
             other: None,
             arrangement: Arrangement::Alone,
@@ -21,7 +21,7 @@ impl Comparison {
             wipe: 0.5,
             drags_line: false,
             flip: None,
-            mailbox,
+            drawn,
             drawing: None,
             held: None,
             paint: None,
@@ -31,7 +31,7 @@ impl Comparison {
             moved: Moved::default(),
             others: 0,
             swaps: 0,
-            measuring: Measuring::default(),
+            measuring,
             number: 0,
         }
     }

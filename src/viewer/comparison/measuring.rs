@@ -8,9 +8,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::super::background::{AtEnd, Crew, Mailbox, guarded};
+use super::super::background::{AtEnd, Crew, guarded};
 use super::super::drawing::{Drawing, DrawingId};
-use super::super::state::Finished;
+use super::super::mailbox::Mailbox;
 use super::super::{Frame, Picture, Viewer};
 use super::{Against, Other, ReadPicture};
 use crate::compare::{self, Guess, Levels, Pair, Place};
@@ -64,8 +64,10 @@ pub(in super::super) struct Which {
 }
 
 /// The state of measuring.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(in super::super) struct Measuring {
+    measured: Mailbox<Measured>,
+    read: Mailbox<ReadPicture>,
     /// Started with the first work.
     crew: Option<Crew<Work>>,
     wanted: Option<(Which, Instant)>,
@@ -112,6 +114,20 @@ enum Stage {
 }
 
 impl Measuring {
+    pub(in super::super) fn new(measured: Mailbox<Measured>, read: Mailbox<ReadPicture>) -> Self {
+        Self {
+            measured,
+            read,
+            crew: None,
+            wanted: None,
+            running: None,
+            found: None,
+            complete: None,
+            hurry: false,
+            jumps: false,
+        }
+    }
+
     /// Whether somebody waits.
     pub(super) fn hurries(&self) -> bool {
         self.hurry
@@ -124,9 +140,9 @@ impl Measuring {
     }
 
     /// Reads a picture, before anything else is measured.
-    pub(super) fn load(&mut self, mailbox: &Mailbox<Finished>, path: PathBuf) -> io::Result<()> {
+    pub(super) fn load(&mut self, path: PathBuf) -> io::Result<()> {
         self.cancel();
-        self.push(mailbox, Work::Read(path))
+        self.push(Work::Read(path))
     }
 
     /// Somebody waits, or waits no more.
@@ -154,20 +170,20 @@ impl Measuring {
             .flatten()
     }
 
-    fn start(&mut self, mailbox: &Mailbox<Finished>, job: Job) -> io::Result<()> {
+    fn start(&mut self, job: Job) -> io::Result<()> {
         let running = Some((job.which, Arc::clone(&job.cancel)));
-        self.push(mailbox, Work::Measure(job))?;
+        self.push(Work::Measure(job))?;
         self.running = running;
         Ok(())
     }
 
     /// Starts the thread with the first work.
-    fn push(&mut self, mailbox: &Mailbox<Finished>, work: Work) -> io::Result<()> {
+    fn push(&mut self, work: Work) -> io::Result<()> {
         if self.crew.is_none() {
-            let mailbox = mailbox.clone();
+            let (measured, read) = (self.measured.clone(), self.read.clone());
             let serve = move |work: Work| match work {
-                Work::Measure(job) => job.measure(&mailbox),
-                Work::Read(path) => mailbox.post(Finished::PictureRead(ReadPicture::read(path))),
+                Work::Measure(job) => job.measure(&measured),
+                Work::Read(path) => read.post(ReadPicture::read(path)),
             };
             self.crew = Some(Crew::start("compare", 1, AtEnd::Detach, serve)?);
         }
@@ -186,13 +202,13 @@ impl Drop for Measuring {
 
 impl Job {
     /// Posts what is found as it comes; the last message ends the job.
-    fn measure(&self, mailbox: &Mailbox<Finished>) {
+    fn measure(&self, mailbox: &Mailbox<Measured>) {
         let post = |measures, stage| {
-            mailbox.post(Finished::Measured(Measured {
+            mailbox.post(Measured {
                 which: self.which,
                 measures,
                 stage,
-            }));
+            });
         };
         let measures = guarded(|| self.work(&|measures| post(Some(measures), Stage::More))).flatten();
         let given_up = measures.is_none() && self.cancel.is_cancelled();
@@ -281,7 +297,7 @@ impl Viewer {
             subject: self.frame().filter(|_| is_outside).map(|frame| frame.picture.clone()),
             cancel: Arc::default(),
         };
-        if let Err(error) = self.comparison.measuring.start(&self.comparison.mailbox, job) {
+        if let Err(error) = self.comparison.measuring.start(job) {
             self.comparison.measuring.complete = Some(which);
             self.messages
                 .error(format!("cannot measure A against B: {error}; close other programs"));

@@ -16,9 +16,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::background::Mailbox;
-use super::drawing::Drawing;
-use super::state::Finished;
+use super::drawing::{Drawing, Drawn};
+use super::mailbox::Mailbox;
 use super::{Frame, SettingChange};
 use crate::color::ResolveSpace;
 use crate::compare::{DifferencePaint, DifferenceStyle};
@@ -33,7 +32,7 @@ pub(super) use outside::{ReadPicture, is_picture};
 use panes::Moved;
 pub(super) use panes::Panes;
 
-use measuring::Measuring;
+pub(super) use measuring::Measuring;
 
 /// How long each of both is to be seen while they flip.
 const FLIP: Duration = Duration::from_millis(700);
@@ -103,7 +102,8 @@ pub(super) struct Comparison {
     /// When both change places next (never by themselves where a hand flips them), and whether the one in the back is to
     /// be seen now.
     flip: Option<(Option<Instant>, bool)>,
-    mailbox: Mailbox<Finished>,
+    /// Where B's frames arrive.
+    drawn: Mailbox<Drawn>,
     /// B's frames: started for the first B, and kept.
     drawing: Option<Drawing>,
     /// What is to be seen while one of both frames shows where the other was before.

@@ -77,7 +77,7 @@ impl Viewer {
     }
 
     pub(super) fn load_picture(&mut self, path: PathBuf) {
-        match self.comparison.measuring.load(&self.comparison.mailbox, path.clone()) {
+        match self.comparison.measuring.load(path.clone()) {
             Ok(()) => self.comparison.loading = Some(path),
             Err(error) => self.messages.error(format!(
                 "{}: cannot be read: {error}; close other programs",

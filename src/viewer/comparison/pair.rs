@@ -217,7 +217,7 @@ impl Viewer {
             }
         }
         if self.comparison.drawing.is_none() {
-            match Drawing::start(&self.comparison.mailbox, DrawingId::Second) {
+            match Drawing::start(self.comparison.drawn.clone(), DrawingId::Second) {
                 Ok(mut drawing) => {
                     drawing.set_progressive(self.settings.progressive);
                     drawing.set_hurry(self.comparison.measuring.hurries());

@@ -19,9 +19,9 @@ use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::background::{AtEnd, Crew, Mailbox};
+use super::background::{AtEnd, Crew};
 use super::frame::ExactCells;
-use super::state::Finished;
+use super::mailbox::Mailbox;
 use super::{Frame, Manner, Picture, Preview};
 use crate::raster::{Framebuffer, Region};
 use crate::render::{CancelToken, FrameStats};
@@ -130,9 +130,8 @@ impl Wish {
 }
 
 impl Drawing {
-    pub(super) fn start(mailbox: &Mailbox<Finished>, id: DrawingId) -> io::Result<Self> {
-        let mailbox = mailbox.clone();
-        let work = move |job: Job| job.draw(&|drawn| mailbox.post(Finished::Drawn(id, drawn)));
+    pub(super) fn start(mailbox: Mailbox<Drawn>, id: DrawingId) -> io::Result<Self> {
+        let work = move |job: Job| job.draw(&|drawn| mailbox.post(drawn));
         Ok(Self {
             id,
             crew: Crew::start("draw", 1, AtEnd::Abandon, work)?,

@@ -19,7 +19,7 @@ const SLOW_FRAME: Duration = Duration::from_millis(200);
 /// Drawing, and the thread's messages.
 struct Desk {
     drawing: Drawing,
-    messages: Receiver<Finished>,
+    messages: Receiver<Drawn>,
     scene: Arc<Scene>,
 }
 
@@ -67,7 +67,7 @@ fn shaded() -> Arc<Scene> {
 impl Desk {
     fn new() -> Self {
         let (sender, messages) = channel();
-        let drawing = Drawing::start(&Mailbox::new(sender, Arc::new(|| {})), DrawingId::First).expect("a thread");
+        let drawing = Drawing::start(Mailbox::new(sender, Arc::new(|| {})), DrawingId::First).expect("a thread");
         let scene = scene();
         Self {
             drawing,
@@ -122,11 +122,8 @@ impl Desk {
         }
     }
 
-    fn take_in(&mut self, message: Finished) {
-        match message {
-            Finished::Drawn(DrawingId::First, drawn) => self.drawing.finished(drawn),
-            other => panic!("{other:?} is not about drawing"),
-        };
+    fn take_in(&mut self, drawn: Drawn) {
+        self.drawing.finished(drawn);
     }
 
     /// Lets the hand rest, and takes in what comes of it.

@@ -8,7 +8,6 @@ use glam::DVec2;
 
 use crate::plain;
 use crate::raster::Framebuffer;
-use crate::viewer::Action;
 use crate::viewer::commands;
 use crate::viewer::typed::{self, point};
 use crate::viewer::{Command, KeyPress, PointerButton};

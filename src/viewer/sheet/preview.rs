@@ -6,9 +6,9 @@ use std::path::Path;
 use super::{KnownScene, ReadSheet, SheetRequest};
 use crate::figure::shrunk;
 use crate::raster::Framebuffer;
-use crate::viewer::background::{Mailbox, guarded};
+use crate::viewer::background::guarded;
 use crate::viewer::latest::Latest;
-use crate::viewer::state::Finished;
+use crate::viewer::mailbox::Mailbox;
 
 /// The state of previews.
 pub(in crate::viewer) type Previews = Latest<SheetQuestion, Result<SheetPreview, String>>;
@@ -41,12 +41,13 @@ impl PartialEq for SheetQuestion {
 }
 
 /// Starts the thread that draws previews.
-pub(in crate::viewer) fn start(mailbox: &Mailbox<Finished>) -> io::Result<Previews> {
-    let mailbox = mailbox.clone();
+pub(in crate::viewer) fn start(
+    mailbox: Mailbox<(SheetQuestion, Result<SheetPreview, String>)>,
+) -> io::Result<Previews> {
     Latest::start("sheet", move |question: SheetQuestion| {
         let drawn = guarded(|| question.preview());
         let drawn = drawn.unwrap_or_else(|| Err("drawing this sheet failed inside the program".to_owned()));
-        mailbox.post(Finished::SheetDrawn(question, Box::new(drawn)));
+        mailbox.post((question, drawn));
     })
 }
 

@@ -6,29 +6,39 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use super::comparison::{Against, Comparison, Measured, Measuring, Panes, ReadPicture, is_picture};
-use super::drawing::{Drawing, DrawingId, Drawn};
-use super::ending::Ending;
-use super::explaining::{self, Asked, Explained, Explaining};
-use super::feeding::{self, Feeding};
-use super::legends::{Legends, PlacedLegends};
-use super::lesson::{LessonSource, Walk};
-use super::mailbox::{Mailbox, Waker};
-use super::messages::Messages;
-use super::pointer::Pointer;
-use super::probing::{self, ProbedSample, Probing, Target};
-use super::reading::{ReadScene, Readers, Thumbnail};
-use super::recorded::{Grammar, Restored};
-use super::screenshot::{Saved, Saver};
-use super::sheet::{self, SheetDesk, SheetPreview, SheetQuestion};
-use super::{
-    Camera, Dialog, Frame, Inspector, Message, NameTemplate, PixelRect, PixelZoom, PlacedInset, SceneEntry,
-    SceneSource, Settings, Sight, Theme, ViewNumbers, library,
-};
 use crate::geometry::View;
 use crate::inspect::{Feeds, TexelPlace};
 use crate::plain;
 use crate::scene::Dialect;
+use crate::viewer::ab::comparison::Comparison;
+use crate::viewer::ab::measuring::{Measured, Measuring};
+use crate::viewer::ab::other::Against;
+use crate::viewer::ab::outside::ReadPicture;
+use crate::viewer::chrome::ending::Ending;
+use crate::viewer::chrome::messages::{Message, Messages};
+use crate::viewer::chrome::{Dialog, Screen, Shown};
+use crate::viewer::export::naming::NameTemplate;
+use crate::viewer::export::record::{Grammar, Restored};
+use crate::viewer::export::saver::{Saved, Saver};
+use crate::viewer::export::sheet::desk::SheetDesk;
+use crate::viewer::export::sheet::preview;
+use crate::viewer::export::sheet::preview::{SheetPreview, SheetQuestion};
+use crate::viewer::frames::drawing::{Drawing, DrawingId};
+use crate::viewer::frames::frame::Frame;
+use crate::viewer::frames::job::Drawn;
+use crate::viewer::frames::legends::{Legends, PlacedLegends};
+use crate::viewer::inspector::contributions::Feeding;
+use crate::viewer::inspector::explanation::{Asked, Explained, Explaining};
+use crate::viewer::inspector::samples::{ProbedSample, Probing, Target};
+use crate::viewer::inspector::{Inspector, PlacedInset, contributions, explanation, samples};
+use crate::viewer::jobs::mailbox::{Mailbox, Waker};
+use crate::viewer::lesson::walk::Walk;
+use crate::viewer::library::SceneEntry;
+use crate::viewer::library::readers::{ReadScene, Readers, Thumbnail};
+use crate::viewer::settings::{PixelZoom, Settings, Theme};
+use crate::viewer::view::camera::{Sight, ViewNumbers};
+use crate::viewer::view::panes::Panes;
+use crate::viewer::view::pointer::Pointer;
 
 /// Longest title of the window, in characters.
 const MAX_TITLE: usize = 300;
@@ -63,97 +73,72 @@ pub struct ViewerOptions {
 /// The program without a window.
 #[derive(Debug)]
 pub struct Viewer {
-    pub(super) scenes: Vec<SceneEntry>,
+    pub(in crate::viewer) scenes: Vec<SceneEntry>,
     /// The dialects that were chosen for the scenes of folders.
-    pub(super) chosen_readings: HashMap<PathBuf, Dialect>,
+    pub(in crate::viewer) chosen_readings: HashMap<PathBuf, Dialect>,
     /// Below `scenes.len()`, unless there are none.
-    pub(super) current: usize,
+    pub(in crate::viewer) current: usize,
     /// Grows when the list is replaced: results for an older list are dropped.
-    pub(super) generation: u64,
+    pub(in crate::viewer) generation: u64,
     /// The lesson that is open.
-    pub(super) lesson: Option<Walk>,
+    pub(in crate::viewer) lesson: Option<Walk>,
     /// Documents that were read so far.
-    pub(super) documents: u64,
+    pub(in crate::viewer) documents: u64,
     /// The scenes shown last, latest last: the others are let go to save memory.
-    pub(super) recent: Vec<usize>,
-    pub(super) start_view: View,
-    pub(super) settings: Settings,
-    pub(super) screen: Screen,
-    pub(super) pointer: Pointer,
-    pub(super) inspector: Inspector,
-    pub(super) inset: Option<PlacedInset>,
+    pub(in crate::viewer) recent: Vec<usize>,
+    pub(in crate::viewer) start_view: View,
+    pub(in crate::viewer) settings: Settings,
+    pub(in crate::viewer) screen: Screen,
+    pub(in crate::viewer) pointer: Pointer,
+    pub(in crate::viewer) inspector: Inspector,
+    pub(in crate::viewer) inset: Option<PlacedInset>,
     /// B's, below A's, where both share the window.
-    pub(super) other_inset: Option<PlacedInset>,
-    pub(super) legends: Legends,
-    pub(super) messages: Messages,
-    pub(super) ending: Ending,
-    pub(super) drawing: Drawing,
+    pub(in crate::viewer) other_inset: Option<PlacedInset>,
+    pub(in crate::viewer) legends: Legends,
+    pub(in crate::viewer) messages: Messages,
+    pub(in crate::viewer) ending: Ending,
+    pub(in crate::viewer) drawing: Drawing,
     /// Draws quick frames for whoever shows them on a surface that he lends.
-    pub(super) surface_pool: Option<rayon::ThreadPool>,
-    pub(super) comparison: Comparison,
-    pub(super) probing: Probing,
-    pub(super) explaining: Explaining,
-    pub(super) feeding: Feeding,
+    pub(in crate::viewer) surface_pool: Option<rayon::ThreadPool>,
+    pub(in crate::viewer) comparison: Comparison,
+    pub(in crate::viewer) probing: Probing,
+    pub(in crate::viewer) explaining: Explaining,
+    pub(in crate::viewer) feeding: Feeding,
     /// The texel of the explanation that the pointer is over.
-    pub(super) pointed_texel: Option<TexelPlace>,
-    pub(super) readers: Readers,
-    pub(super) saver: Saver,
-    pub(super) results: Receiver<Finished>,
-    pub(super) revision: u64,
-    pub(super) picture_revision: u64,
+    pub(in crate::viewer) pointed_texel: Option<TexelPlace>,
+    pub(in crate::viewer) readers: Readers,
+    pub(in crate::viewer) saver: Saver,
+    pub(in crate::viewer) results: Receiver<Finished>,
+    pub(in crate::viewer) revision: u64,
+    pub(in crate::viewer) picture_revision: u64,
     /// What `picture_revision` stands for.
-    pub(super) last_drawn: Option<DrawnState>,
+    pub(in crate::viewer) last_drawn: Option<DrawnState>,
     /// What [`Viewer::take_damage`] told last.
-    pub(super) last_shown: Option<DrawnState>,
-    pub(super) grammar: Option<Grammar>,
+    pub(in crate::viewer) last_shown: Option<DrawnState>,
+    pub(in crate::viewer) grammar: Option<Grammar>,
     /// The sheet that is being put together.
-    pub(super) sheet: SheetDesk,
+    pub(in crate::viewer) sheet: SheetDesk,
     /// What was restored from a picture, until its scene was read.
-    pub(super) restored: Option<Restored>,
-}
-
-/// What is to be seen in the window besides the picture.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Screen {
-    pub(super) window: [u32; 2],
-    pub(super) free_area: Option<PixelRect>,
-    pub(super) theme: Theme,
-    pub(super) dialog: Option<Dialog>,
-    /// Only the picture is to be seen; what is shown besides comes back as it was.
-    pub(super) hidden: bool,
-    pub(super) shown: Shown,
-}
-
-/// What of the overlay is shown.
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "three things that are shown or not, each on its own"
-)]
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Shown {
-    pub(super) text: bool,
-    pub(super) panel: bool,
-    /// Why the pinned pixel has its colour.
-    pub(super) explanation: bool,
+    pub(in crate::viewer) restored: Option<Restored>,
 }
 
 /// What decides the pixels of [`Viewer::draw_window`]; a frame and probed samples by their numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct DrawnState {
-    pub(super) frame: u64,
-    pub(super) comparison: [u64; 2],
-    pub(super) panes: Panes,
-    pub(super) samples: u64,
-    pub(super) inset: Option<PlacedInset>,
-    pub(super) other_inset: Option<PlacedInset>,
-    pub(super) legends: PlacedLegends,
-    pub(super) pixel_zoom: PixelZoom,
-    pub(super) window: [u32; 2],
+pub(in crate::viewer) struct DrawnState {
+    pub(in crate::viewer) frame: u64,
+    pub(in crate::viewer) comparison: [u64; 2],
+    pub(in crate::viewer) panes: Panes,
+    pub(in crate::viewer) samples: u64,
+    pub(in crate::viewer) inset: Option<PlacedInset>,
+    pub(in crate::viewer) other_inset: Option<PlacedInset>,
+    pub(in crate::viewer) legends: PlacedLegends,
+    pub(in crate::viewer) pixel_zoom: PixelZoom,
+    pub(in crate::viewer) window: [u32; 2],
 }
 
 /// What a thread finished.
 #[derive(Debug)]
-pub(super) enum Finished {
+pub(in crate::viewer) enum Finished {
     Read(ReadScene),
     Drawn(DrawingId, Drawn),
     Measured(Measured),
@@ -242,9 +227,9 @@ impl Viewer {
                 mailbox.of(|drawn| Finished::Drawn(DrawingId::Second, drawn)),
                 Measuring::new(mailbox.of(Finished::Measured), mailbox.of(Finished::PictureRead)),
             ),
-            probing: probing::start(mailbox.of(|(target, samples)| Finished::Probed(target, samples)))?,
-            explaining: explaining::start(mailbox.of(|(asked, found)| Finished::Explained(asked, Box::new(found))))?,
-            feeding: feeding::start(mailbox.of(|(target, feeds)| Finished::Fed(target, Box::new(feeds))))?,
+            probing: samples::start(mailbox.of(|(target, samples)| Finished::Probed(target, samples)))?,
+            explaining: explanation::start(mailbox.of(|(asked, found)| Finished::Explained(asked, Box::new(found))))?,
+            feeding: contributions::start(mailbox.of(|(target, feeds)| Finished::Fed(target, Box::new(feeds))))?,
             pointed_texel: None,
             readers: Readers::start(mailbox.of(Finished::Read), mailbox.of(Finished::Thumbnail))?,
             saver: Saver::start(
@@ -258,7 +243,7 @@ impl Viewer {
             last_drawn: None,
             last_shown: None,
             grammar: options.grammar,
-            sheet: SheetDesk::new(sheet::start(
+            sheet: SheetDesk::new(preview::start(
                 mailbox.of(|(question, drawn)| Finished::SheetDrawn(question, Box::new(drawn))),
             )?),
             restored: options.restored,
@@ -272,87 +257,6 @@ impl Viewer {
         Ok(viewer)
     }
 
-    /// Adds the scenes in `paths` to the list and shows the first of them; at the start they are the list, or the
-    /// gallery is where they hold none. A PNG with a record brings its state back; another picture becomes B.
-    pub(super) fn open(&mut self, paths: &[PathBuf]) {
-        let lesson = paths.iter().find_map(|path| LessonSource::from_address(path));
-        if let Some(lesson) = lesson {
-            self.open_lesson(&lesson);
-            return self.open_gallery_if_empty();
-        }
-        let (pictures, documents): (Vec<&PathBuf>, Vec<&PathBuf>) = paths.iter().partition(|path| is_picture(path));
-        let documents: Vec<PathBuf> = documents.into_iter().cloned().collect();
-        if let ([], Some(picture)) = (documents.as_slice(), pictures.last())
-            && self.restore(picture)
-        {
-            return self.open_gallery_if_empty();
-        }
-        // A picture alone at the start is told that it is no scene.
-        let compares = !self.scenes.is_empty() || !documents.is_empty();
-        let (mut scenes, problems) = library::list_scenes(if compares { &documents } else { paths });
-        if let Some(picture) = pictures.last().filter(|_| compares) {
-            self.compare(Against::File((*picture).clone()));
-        }
-        for problem in problems {
-            self.messages.error(problem);
-        }
-        if self.scenes.is_empty() {
-            if scenes.is_empty() {
-                scenes = library::gallery_entries();
-            }
-            self.replace_scenes(scenes);
-        } else if !scenes.is_empty() {
-            self.add_scenes(scenes);
-        }
-    }
-
-    /// A picture whose scene is gone leaves a list with something to look at too.
-    fn open_gallery_if_empty(&mut self) {
-        if self.scenes.is_empty() {
-            self.replace_scenes(library::gallery_entries());
-        }
-    }
-
-    /// Appends scenes and shows the first of them; one that is in the list already is read again instead.
-    pub(super) fn add_scenes(&mut self, scenes: Vec<SceneEntry>) {
-        let place = |list: &[SceneEntry], source: &SceneSource| list.iter().position(|entry| entry.source == *source);
-        let first = scenes.first().map(|entry| entry.source.clone());
-        for mut scene in scenes {
-            if place(&self.scenes, &scene.source).is_some() {
-                continue;
-            }
-            if self.scenes.len() >= library::MAX_SCENES {
-                self.messages.error(format!(
-                    "{}: the list is full; start the program anew with it",
-                    scene.label
-                ));
-                break;
-            }
-            scene.camera = Camera::new(self.start_view);
-            self.scenes.push(scene);
-        }
-        if let Some(index) = first.and_then(|source| place(&self.scenes, &source)) {
-            let known = self.scenes[index].scene().is_some() || self.scenes[index].failure().is_some();
-            self.current = index;
-            if known {
-                self.read_current();
-            }
-        }
-    }
-
-    pub(super) fn replace_scenes(&mut self, mut scenes: Vec<SceneEntry>) {
-        // Its steps would show other scenes.
-        self.lesson = None;
-        for scene in &mut scenes {
-            scene.camera = Camera::new(self.start_view);
-        }
-        self.scenes = scenes;
-        self.generation += 1;
-        self.readers.drop_thumbnails();
-        self.recent.clear();
-        self.current = 0;
-    }
-
     /// Grows whenever something that is to be seen changed.
     pub fn revision(&self) -> u64 {
         self.revision
@@ -362,20 +266,6 @@ impl Viewer {
     /// moved.
     pub fn picture_revision(&self) -> u64 {
         self.picture_revision
-    }
-
-    pub(super) fn drawn_state(&self) -> DrawnState {
-        DrawnState {
-            frame: self.drawing.number(),
-            comparison: self.comparison.state(),
-            panes: self.panes(),
-            samples: self.probing.number(),
-            inset: self.inset,
-            other_inset: self.other_inset,
-            legends: self.legends.places(),
-            pixel_zoom: self.settings.pixel_zoom,
-            window: self.screen.window,
-        }
     }
 
     /// All scenes, in the order of the list.
@@ -468,7 +358,7 @@ impl Viewer {
     }
 
     /// What the current camera looks at; `None` before the scene was read.
-    pub(super) fn sight(&self) -> Option<Sight> {
+    pub(in crate::viewer) fn sight(&self) -> Option<Sight> {
         let scene = self.current()?.scene()?;
         Some(Sight {
             canvas: scene.canvas,

@@ -65,7 +65,7 @@ struct Reader {
 }
 
 /// The blocks of a Markdown text.
-pub(super) fn blocks(text: &str) -> Vec<Block> {
+pub(in crate::viewer) fn blocks(text: &str) -> Vec<Block> {
     let mut reader = Reader::default();
     for event in Parser::new(text) {
         reader.take(event);
@@ -90,7 +90,7 @@ impl Reader {
         }
     }
 
-    fn start(&mut self, tag: &Tag<'_>) {
+    pub(in crate::viewer) fn start(&mut self, tag: &Tag<'_>) {
         match tag {
             Tag::Strong => self.bold += 1,
             Tag::Emphasis => self.italic += 1,
@@ -143,7 +143,7 @@ impl Reader {
         }
     }
 
-    fn add(&mut self, text: &str, code: bool) {
+    pub(in crate::viewer) fn add(&mut self, text: &str, code: bool) {
         let look = match () {
             () if code => Look::Code,
             () if self.bold > 0 => Look::Bold,

@@ -8,18 +8,25 @@ use glam::DVec2;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use super::markdown::blocks;
-use super::{Lesson, LessonError, LessonStep};
 use crate::plain;
-use crate::viewer::typed::{self, point};
-use crate::viewer::{Against, Arrangement, Command, SceneSource, SettingChange, Toggle, gallery, picture};
+use crate::viewer::ab::other::{Against, Arrangement};
+use crate::viewer::lesson::markdown::blocks;
+use crate::viewer::lesson::model::{Lesson, LessonError, LessonStep};
+use crate::viewer::library::{SceneSource, gallery};
+use crate::viewer::settings::picture::SettingChange;
+use crate::viewer::settings::values::{named, point, toggle};
+use crate::viewer::settings::{Toggle, picture};
+use crate::viewer::view::camera::ViewNumbers;
 
 /// Most steps of a lesson.
 const MOST_STEPS: usize = 200;
+
 /// Longest text of a step, in bytes.
 const LONGEST_TEXT: usize = 20_000;
+
 /// Longest title, in bytes.
 const LONGEST_TITLE: usize = 200;
+
 /// The keys of a step besides settings.
 const KEYS: [&str; 8] = [
     "title",
@@ -48,7 +55,7 @@ fn mistake<T>(at: Range<usize>, problem: impl Into<String>) -> Found<T> {
 }
 
 /// The lesson in `document`, which is called `file`; scenes are found from `folder`, or in the gallery alone without one.
-pub(super) fn parse(document: &str, file: &str, folder: Option<&Path>) -> Result<Lesson, LessonError> {
+pub(in crate::viewer) fn parse(document: &str, file: &str, folder: Option<&Path>) -> Result<Lesson, LessonError> {
     let table = DeTable::parse(document).map_err(|error| Mistake {
         at: error.span().unwrap_or(0..0),
         problem: format!("not TOML: {}; see https://toml.io", error.message().replace('\n', " ")),
@@ -59,6 +66,16 @@ pub(super) fn parse(document: &str, file: &str, folder: Option<&Path>) -> Result
         at: Some(place(document, at.start)),
         problem,
     })
+}
+
+impl Lesson {
+    /// Reads the lesson in the TOML `document`, called `name` in messages. Its scenes are those of the gallery.
+    ///
+    /// # Errors
+    /// For the first mistake, with its place.
+    pub fn parse(document: &str, name: &str) -> Result<Self, LessonError> {
+        parse(document, name, None)
+    }
 }
 
 /// Line and column of a byte.
@@ -73,6 +90,7 @@ fn place(document: &str, byte: usize) -> [usize; 2] {
 }
 
 type Key<'i> = Spanned<DeString<'i>>;
+
 type Value<'i> = Spanned<DeValue<'i>>;
 
 fn lesson(table: &DeTable<'_>, folder: Option<&Path>) -> Found<Lesson> {
@@ -135,15 +153,15 @@ fn step(
             "text" => step.text = blocks(&words(value, LONGEST_TEXT)?),
             "scene" => scene = Some(self::scene(value, folder)?),
             "view" => {
-                step.view = match meant(value, typed::VIEW.parse(&text(value)?))? {
-                    Command::SetView(numbers) => Some(numbers),
-                    _ => None,
+                step.view = match text(value)?.trim() {
+                    "default" => None,
+                    text => Some(of_form(value, ViewNumbers::parse(text), ViewNumbers::FORM)?),
                 }
             }
             "pin" => step.pin = Some(pin(value)?),
             "explanation" => {
-                let shown = meant(value, typed::EXPLANATION.parse(&text(value)?))?;
-                step.explained = shown == Command::Explanation(Toggle::On);
+                let shown = toggle(text(value)?.trim());
+                step.explained = of_form(value, shown, Toggle::FORM)? == Toggle::On;
             }
             "against" => against = Some(self::against(value)?),
             "arrange" => arrangement = Some((arrange(value)?, key.span())),
@@ -185,6 +203,14 @@ fn meant<T>(value: &Value<'_>, parsed: Result<T, String>) -> Found<T> {
     parsed.or_else(|problem| mistake(value.span(), format!("{}; write it as that", short(&problem))))
 }
 
+/// What was read, or the form that a value does not have.
+fn of_form<T>(value: &Value<'_>, read: Option<T>, form: &str) -> Found<T> {
+    match read {
+        Some(read) => Ok(read),
+        None => meant(value, Err(format!("\"{}\" is not {form}", text(value)?.trim()))),
+    }
+}
+
 fn scene(value: &Value<'_>, folder: Option<&Path>) -> Found<SceneSource> {
     let address = words(value, LONGEST_TITLE * 10)?;
     let source = SceneSource::from_address(Path::new(&address));
@@ -220,10 +246,8 @@ fn against(value: &Value<'_>) -> Found<Against> {
 }
 
 fn arrange(value: &Value<'_>) -> Found<Arrangement> {
-    match meant(value, typed::ARRANGE.parse(&text(value)?))? {
-        Command::Arrange(arrangement) => Ok(arrangement),
-        _ => mistake(value.span(), format!("arrange as {}", typed::ARRANGE.usage())),
-    }
+    let arrangement = named(&Arrangement::ALL, Arrangement::name, text(value)?.trim());
+    of_form(value, arrangement, Arrangement::FORM)
 }
 
 /// A string of at most so many bytes.
@@ -376,8 +400,8 @@ mod tests {
 
     #[test]
     fn built_in_lessons_are_whole() {
-        for (index, (name, _)) in super::super::BUILT_IN.iter().enumerate() {
-            let lesson = super::super::LessonSource::BuiltIn(index).read();
+        for (index, (name, _)) in crate::viewer::BUILT_IN.iter().enumerate() {
+            let lesson = crate::viewer::LessonSource::BuiltIn(index).read();
             let lesson = lesson.unwrap_or_else(|error| panic!("{error}"));
             for step in &lesson.steps {
                 assert!(

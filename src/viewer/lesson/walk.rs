@@ -1,190 +1,30 @@
-//! Walking through a lesson: every step sets scene, settings, view, pin and comparison, whatever was changed before.
+//! A lesson that is open, and what comes back when it is closed.
 
-use super::{Lesson, LessonSource, LessonStep};
-use crate::geometry::View;
-use crate::render::RenderSettings;
-use crate::scene::DialectChoice;
-use crate::viewer::inspector::Pin;
-use crate::viewer::{Against, Camera, SceneEntry, SceneState, Settings, Viewer, library};
+use crate::viewer::lesson::model::Lesson;
+use crate::viewer::library::SceneEntry;
+use crate::viewer::settings::Settings;
+use crate::viewer::view::camera::Camera;
 
 /// A lesson that is open.
 #[derive(Debug)]
-pub(in super::super) struct Walk {
-    lesson: Lesson,
+pub(in crate::viewer) struct Walk {
+    pub(in crate::viewer) lesson: Lesson,
     /// The step that is shown.
-    at: usize,
+    pub(in crate::viewer) at: usize,
     /// For each step its place in the list of scenes.
-    scenes: Vec<usize>,
+    pub(in crate::viewer) scenes: Vec<usize>,
     /// Whether the step's view is to be set as soon as its scene was read.
-    view_pending: bool,
+    pub(in crate::viewer) view_pending: bool,
     /// The view that shows the whole canvas, while nobody moved it: it follows the free part of the window.
-    fitted: Option<Camera>,
-    before: Before,
+    pub(in crate::viewer) fitted: Option<Camera>,
+    pub(in crate::viewer) before: Before,
 }
 
 /// What comes back when the lesson is closed.
 #[derive(Debug)]
-struct Before {
-    scenes: Vec<SceneEntry>,
-    current: usize,
-    settings: Settings,
-    explanation: bool,
-}
-
-impl Viewer {
-    /// The lesson that is open, and the number of its step, from 0.
-    pub fn lesson(&self) -> Option<(&Lesson, usize)> {
-        self.lesson.as_ref().map(|walk| (&walk.lesson, walk.at))
-    }
-
-    /// Opens a lesson at its first step; where it cannot be read, the user is told.
-    pub(in super::super) fn open_lesson(&mut self, source: &LessonSource) {
-        match source.read() {
-            Ok(lesson) => self.begin(lesson),
-            Err(error) => self.messages.error(error.to_string()),
-        }
-    }
-
-    /// The same of a lesson that was read already.
-    pub(super) fn show_lesson(&mut self, lesson: Lesson) {
-        self.begin(lesson);
-        self.update();
-    }
-
-    fn begin(&mut self, lesson: Lesson) {
-        let before = match self.lesson.take() {
-            Some(walk) => walk.before,
-            None => Before {
-                scenes: std::mem::take(&mut self.scenes),
-                current: self.current,
-                settings: self.settings,
-                explanation: self.screen.shown.explanation,
-            },
-        };
-        let mut entries: Vec<SceneEntry> = Vec::new();
-        let mut scenes = Vec::new();
-        for step in &lesson.steps {
-            let known = entries.iter().position(|entry| entry.source == step.scene);
-            scenes.push(known.unwrap_or(entries.len()));
-            if known.is_none() {
-                entries.push(library::entry_of(step.scene.clone()));
-            }
-        }
-        self.replace_scenes(entries);
-        self.lesson = Some(Walk {
-            lesson,
-            at: 0,
-            scenes,
-            view_pending: false,
-            fitted: None,
-            before,
-        });
-        self.take_step(0);
-    }
-
-    /// Goes on or back by one step; false where no lesson is open.
-    pub(in super::super) fn step_lesson(&mut self, forward: bool) -> bool {
-        let Some(walk) = &self.lesson else { return false };
-        let last = walk.lesson.steps.len() - 1;
-        match (forward, walk.at) {
-            (true, at) if at < last => self.take_step(at + 1),
-            (true, _) => self
-                .messages
-                .done("that was the last step; Esc closes the lesson".to_owned()),
-            (false, at) => self.take_step(at.saturating_sub(1)),
-        }
-        true
-    }
-
-    /// Shows a step, counted from 0, as its author meant it; nothing happens where there is none.
-    pub(in super::super) fn take_step(&mut self, at: usize) {
-        let Some(walk) = self.lesson.as_mut().filter(|walk| at < walk.lesson.steps.len()) else {
-            return;
-        };
-        (walk.at, walk.view_pending, walk.fitted) = (at, true, None);
-        let (scene, step) = (walk.scenes[at], walk.lesson.steps[at].clone());
-        self.current = scene.min(self.scenes.len().saturating_sub(1));
-        self.compare(Against::Nothing);
-        self.settings.render = RenderSettings::default();
-        self.settings.dialect = DialectChoice::default();
-        let LessonStep {
-            settings,
-            pin,
-            explained,
-            against,
-            ..
-        } = step;
-        for change in settings {
-            let remark = change.apply(&mut self.settings);
-            remark.into_iter().for_each(|remark| self.messages.error(remark));
-        }
-        if let Some((against, arrangement)) = against {
-            self.compare(against);
-            self.arrange(arrangement);
-        }
-        self.screen.hidden = false;
-        self.screen.shown.explanation = explained;
-        self.inspector.open = pin.is_some();
-        (self.inspector.asked, self.inspector.kept_view) = (false, None);
-        self.inspector.pin = pin.map(|place| Pin {
-            pixel: [0, 0],
-            place: Some((place, (self.current, self.generation))),
-        });
-    }
-
-    /// Sets the view that a step asks for, as soon as its scene was read; without one all of the canvas is shown in the part of
-    /// the window that is free, until a hand moves it.
-    pub(in super::super) fn follow_lesson(&mut self) {
-        let (Some(walk), Some(sight)) = (&self.lesson, self.sight()) else {
-            return;
-        };
-        let camera = self.current().map(|entry| entry.camera);
-        let follows = walk.fitted.is_some() && walk.fitted == camera;
-        let numbers = walk.lesson.steps.get(walk.at).and_then(|step| step.view);
-        // An explanation takes room: another scale would show other content at the pixel that was asked about.
-        let rests = self.inspector.asked && self.explains();
-        if !walk.view_pending && (!follows || rests) {
-            return;
-        }
-        let fitted = if let Some(numbers) = numbers {
-            self.look(|camera, _| camera.set(numbers, &sight));
-            None
-        } else {
-            self.look(|camera, _| *camera = Camera::new(View::Default));
-            self.fit_view();
-            self.current().map(|entry| entry.camera)
-        };
-        if let Some(walk) = &mut self.lesson {
-            (walk.view_pending, walk.fitted) = (false, fitted);
-        }
-    }
-
-    /// Closes the lesson and brings back what was open before; false where none is open.
-    pub(in super::super) fn close_lesson(&mut self) -> bool {
-        let Some(Walk { before, .. }) = self.lesson.take() else {
-            return false;
-        };
-        self.compare(Against::Nothing);
-        let mut scenes = before.scenes;
-        if scenes.is_empty() {
-            scenes = library::gallery_entries();
-        }
-        for entry in &mut scenes {
-            if entry.is_reading() {
-                entry.state = SceneState::Unread;
-            }
-            entry.other_state = SceneState::Unread;
-            entry.thumbnail_asked = entry.thumbnail.is_some();
-        }
-        let cameras: Vec<Camera> = scenes.iter().map(|entry| entry.camera).collect();
-        self.replace_scenes(scenes);
-        for (entry, camera) in self.scenes.iter_mut().zip(cameras) {
-            entry.camera = camera;
-        }
-        self.current = before.current.min(self.scenes.len().saturating_sub(1));
-        self.settings = before.settings;
-        self.screen.shown.explanation = before.explanation;
-        (self.inspector.pin, self.inspector.open) = (None, false);
-        true
-    }
+pub(in crate::viewer) struct Before {
+    pub(in crate::viewer) scenes: Vec<SceneEntry>,
+    pub(in crate::viewer) current: usize,
+    pub(in crate::viewer) settings: Settings,
+    pub(in crate::viewer) explanation: bool,
 }

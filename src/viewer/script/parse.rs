@@ -9,7 +9,7 @@ use glam::DVec2;
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::viewer::commands;
-use crate::viewer::typed::{self, point};
+use crate::viewer::settings::values::{path, point};
 use crate::viewer::{Command, KeyPress, PointerButton};
 
 /// Longest wait in one step.
@@ -197,7 +197,7 @@ fn parse_step(text: &str) -> Result<Step, String> {
             .ok_or_else(|| form("WxH in pixels, up to 16384 each")),
         "wait" => wait(rest).ok_or_else(|| form("MILLISECONDS up to 60000, or nothing")),
         "shot" if rest.is_empty() => Err("a picture needs a name; write shot FILE.png".to_owned()),
-        "shot" => Ok(Step::Shot(typed::path(rest))),
+        "shot" => Ok(Step::Shot(path(rest))),
         _ => parse_command(word, rest).map(Step::Run),
     }
 }

@@ -1,6 +1,7 @@
 //! What a user sets: small types with their names in menus, scripts and the command line.
 
 pub mod picture;
+mod row;
 mod table;
 pub(super) mod values;
 
@@ -102,6 +103,8 @@ impl Theme {
 }
 
 impl Toggle {
+    /// The names, as people are told them.
+    pub(in crate::viewer) const FORM: &str = "on|off|flip";
     /// Every value.
     pub const ALL: [Self; 3] = [Self::Flip, Self::On, Self::Off];
 

@@ -3,7 +3,7 @@
 //! A setting that a picture knows is a row here and the code that reads it: keys, help and palette, the panel, the options of
 //! the command line and their help, records, lessons, captions and the axes of sheets come from the rows.
 
-use super::picture::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
+use super::row::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
 use super::{Settings, values};
 use crate::color::ResolveSpace;
 use crate::raster::{SamplePattern, SampleRate};
@@ -11,7 +11,7 @@ use crate::render::Visualisation;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
-use crate::viewer::key::{Chord, Key, Modifiers};
+use crate::viewer::keys::{Chord, Key, Modifiers};
 
 /// What stands for a level that nobody fixed.
 const AUTO: &str = "auto";

@@ -1,5 +1,10 @@
 //! Values as people type them: names, numbers, colours.
 
+use std::path::{Path, PathBuf};
+
+use glam::DVec2;
+
+use super::Toggle;
 use crate::color::Rgba;
 use crate::rules::Rules;
 
@@ -46,6 +51,47 @@ pub(super) fn color_name(color: Rgba) -> String {
     }
 }
 
+/// `flip`, `on` or `off`.
+pub(in crate::viewer) fn toggle(text: &str) -> Option<Toggle> {
+    named(&Toggle::ALL, Toggle::name, text)
+}
+
+/// Finite numbers with commas between them.
+pub(in crate::viewer) fn numbers(text: &str) -> Option<Vec<f64>> {
+    text.split(',').map(number).collect()
+}
+
+/// `X,Y`.
+pub(in crate::viewer) fn point(text: &str) -> Option<DVec2> {
+    match *numbers(text)?.as_slice() {
+        [x, y] => Some(DVec2::new(x, y)),
+        _ => None,
+    }
+}
+
+/// `X,Y` in whole pixels.
+pub(in crate::viewer) fn pixels(text: &str) -> Option<[i64; 2]> {
+    let (x, y) = text.split_once(',')?;
+    let whole = |part: &str| part.trim().parse::<i32>().ok().map(i64::from);
+    Some([whole(x)?, whole(y)?])
+}
+
+/// A path as people type it: `~` at its beginning is the home folder, as in a shell.
+pub(in crate::viewer) fn path(text: &str) -> PathBuf {
+    path_from(text, std::env::home_dir().as_deref())
+}
+
+/// The same where this is the home folder. Another user's, `~name`, is a name like any other.
+fn path_from(text: &str, home: Option<&Path>) -> PathBuf {
+    match (text.strip_prefix('~'), home) {
+        (Some(""), Some(home)) => home.to_owned(),
+        (Some(rest), Some(home)) if rest.starts_with(std::path::is_separator) => {
+            home.join(rest.trim_start_matches(std::path::is_separator))
+        }
+        _ => text.into(),
+    }
+}
+
 /// The value `by` places after `current` in `all`, round and round; before it where `by` is below zero.
 pub(in crate::viewer) fn next_of<T: Copy + PartialEq>(all: &[T], current: T, by: f64) -> T {
     let at = all.iter().position(|value| *value == current).unwrap_or(0);
@@ -60,6 +106,25 @@ pub(in crate::viewer) fn next_of<T: Copy + PartialEq>(all: &[T], current: T, by:
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn paths_begin_at_home() {
+        let home = Some(Path::new("/home/me"));
+        for (typed, path) in [
+            ("~", "/home/me"),
+            ("~/scenes/a b.svg", "/home/me/scenes/a b.svg"),
+            ("~other/a.svg", "~other/a.svg"),
+            ("a/~/b.svg", "a/~/b.svg"),
+            ("/tmp/~", "/tmp/~"),
+        ] {
+            assert_eq!(path_from(typed, home), PathBuf::from(path), "{typed}");
+        }
+        assert_eq!(
+            path_from("~/a.svg", None),
+            PathBuf::from("~/a.svg"),
+            "nobody is at home"
+        );
+    }
 
     #[test]
     fn values_follow_each_other_round_and_round() {

@@ -1,0 +1,47 @@
+//! What of the window is to be seen besides the picture: panels, dialogs, messages.
+
+pub(in crate::viewer) mod ending;
+pub(in crate::viewer) mod messages;
+
+use crate::figure::PixelRect;
+use crate::viewer::settings::Theme;
+
+/// Something that covers the picture and takes the keyboard until it is closed. One at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Dialog {
+    /// All keys and commands.
+    Help,
+    /// The command palette.
+    Palette,
+    /// Asks for a pixel.
+    GoToPixel,
+    /// Asks for a picture's path.
+    ComparePicture,
+    /// Puts a sheet together.
+    Sheet,
+}
+
+/// What is to be seen in the window besides the picture.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::viewer) struct Screen {
+    pub(in crate::viewer) window: [u32; 2],
+    pub(in crate::viewer) free_area: Option<PixelRect>,
+    pub(in crate::viewer) theme: Theme,
+    pub(in crate::viewer) dialog: Option<Dialog>,
+    /// Only the picture is to be seen; what is shown besides comes back as it was.
+    pub(in crate::viewer) hidden: bool,
+    pub(in crate::viewer) shown: Shown,
+}
+
+/// What of the overlay is shown.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "three things that are shown or not, each on its own"
+)]
+#[derive(Clone, Copy, Debug)]
+pub(in crate::viewer) struct Shown {
+    pub(in crate::viewer) text: bool,
+    pub(in crate::viewer) panel: bool,
+    /// Why the pinned pixel has its colour.
+    pub(in crate::viewer) explanation: bool,
+}

@@ -1,0 +1,260 @@
+//! Arguments that a person types after a command's word, in scripts and in the palette: text to [`Command`].
+
+use std::borrow::Cow;
+
+use crate::color::ResolveSpace;
+use crate::compare::Measure;
+use crate::figure::Ground;
+use crate::viewer::ab::other::{Against, Arrangement};
+use crate::viewer::command::Command;
+use crate::viewer::export::sheet::axes::Axis;
+use crate::viewer::export::sheet::draft::{PanelSize, SheetChange, SheetSide};
+use crate::viewer::lesson::source::LessonSource;
+use crate::viewer::settings::picture::PictureSetting;
+use crate::viewer::settings::values::{named, number, path, pixels, point, toggle, whole};
+use crate::viewer::settings::{PixelZoom, Theme, Toggle};
+use crate::viewer::view::camera::ViewNumbers;
+
+/// What may follow a command's word.
+#[derive(Clone, Copy)]
+pub enum Argument {
+    /// Text of this form.
+    Form {
+        /// Such as `X,Y` or `on|off`.
+        usage: &'static str,
+        /// The command that the text asks for; `None` when the text does not have the form.
+        parse: fn(&str) -> Option<Command>,
+    },
+    /// A value of this setting.
+    Value(&'static PictureSetting),
+}
+
+impl Argument {
+    /// Its form, such as `X,Y` or `nearest|bilinear`.
+    pub fn usage(&self) -> Cow<'static, str> {
+        match self {
+            Self::Form { usage, .. } => Cow::Borrowed(usage),
+            Self::Value(setting) => Cow::Owned(setting.form()),
+        }
+    }
+
+    /// The command that `text` asks for.
+    ///
+    /// # Errors
+    /// One line that quotes the text and gives the form.
+    pub fn parse(&self, text: &str) -> Result<Command, String> {
+        let text = text.trim();
+        match self {
+            Self::Form { usage, parse } => parse(text).ok_or_else(|| format!("\"{text}\" is not {usage}")),
+            Self::Value(setting) => setting.to(text).map(Command::Set),
+        }
+    }
+}
+
+impl std::fmt::Debug for Argument {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Argument").field(&self.usage()).finish()
+    }
+}
+
+const fn argument(usage: &'static str, parse: fn(&str) -> Option<Command>) -> Argument {
+    Argument::Form { usage, parse }
+}
+
+pub(in crate::viewer) const ROTATE: Argument = argument("DEGREES", |text| {
+    number(text).map(|degrees| Command::RotateBy { degrees })
+});
+
+pub(in crate::viewer) const ZOOM: Argument = argument("FACTOR [X,Y]", |text| {
+    let (factor, at) = match text.split_once(char::is_whitespace) {
+        Some((factor, at)) => (factor, Some(point(at)?)),
+        None => (text, None),
+    };
+    let factor = number(factor).filter(|factor| *factor > 0.0)?;
+    Some(Command::ZoomAt { at, factor })
+});
+
+pub(in crate::viewer) const PAN: Argument = argument("X,Y", |text| point(text).map(|by| Command::PanBy { by }));
+
+pub(in crate::viewer) const VIEW: Argument = argument(ViewNumbers::FORM, |text| match text {
+    "default" => Some(Command::ResetView),
+    _ => ViewNumbers::parse(text).map(Command::SetView),
+});
+pub(in crate::viewer) const PIXEL_ZOOM: Argument = argument("1, 2, 3, 4, 6 or 8", |text| {
+    whole(text).and_then(PixelZoom::new).map(Command::SetPixelZoom)
+});
+
+pub(in crate::viewer) const PROGRESSIVE: Argument =
+    argument(Toggle::FORM, |text| toggle(text).map(Command::Progressive));
+
+pub(in crate::viewer) const WIPE: Argument = argument("a part of the width from 0 to 1", |text| {
+    number(text)
+        .filter(|part| (0.0..=1.0).contains(part))
+        .map(Command::SetWipe)
+});
+
+pub(in crate::viewer) const DIFFERENCE: Argument = argument("signed|absolute|relative|squared", |text| {
+    named(&Measure::ALL, Measure::name, text).map(Command::SetMeasure)
+});
+
+pub(in crate::viewer) const NORMALIZE: Argument = argument(Toggle::FORM, |text| toggle(text).map(Command::Normalize));
+
+pub(in crate::viewer) const GAIN: Argument = argument("a number from 0.000001 to 1000000", |text| {
+    let gain = text.trim().parse().ok().filter(|gain| (1e-6..=1e6).contains(gain));
+    gain.map(Command::SetGain)
+});
+
+pub(in crate::viewer) const ARRANGE: Argument = argument(Arrangement::FORM, |text| {
+    named(&Arrangement::ALL, Arrangement::name, text).map(Command::Arrange)
+});
+
+pub(in crate::viewer) const TRUTH: Argument = argument("stored|linear", |text| {
+    let resolve = named(&ResolveSpace::ALL, ResolveSpace::name, text)?;
+    Some(Command::Compare(Against::Truth(Some(resolve))))
+});
+
+pub(in crate::viewer) const AGAINST: Argument = argument(
+    "settings|truth|truth stored|truth linear|none, settings such as \"sample-rate 16, dialect svg\", or a picture's path",
+    |text| Against::from_text(text).map(Command::Compare),
+);
+
+pub(in crate::viewer) const SCENE: Argument = argument("a scene's number, from 1", |text| {
+    let index = usize::try_from(whole(text)?).ok()?.checked_sub(1)?;
+    Some(Command::Scene(index))
+});
+
+pub(in crate::viewer) const LESSON: Argument = argument("lesson:NAME, or the path of a lesson in TOML", |text| {
+    LessonSource::from_address(&path(text)).map(Command::OpenLesson)
+});
+
+pub(in crate::viewer) const LESSON_STEP: Argument = argument("a step's number, from 1", |text| {
+    let index = usize::try_from(whole(text)?).ok()?.checked_sub(1)?;
+    Some(Command::LessonStep(index))
+});
+
+pub(in crate::viewer) const OPEN: Argument = argument("a path", |text| {
+    (!text.is_empty()).then(|| Command::Open(vec![path(text)]))
+});
+
+pub(in crate::viewer) const INSPECTOR: Argument = argument(Toggle::FORM, |text| toggle(text).map(Command::Inspector));
+
+pub(in crate::viewer) const PIN: Argument = argument("X,Y in whole pixels", |text| pixels(text).map(Command::Pin));
+
+pub(in crate::viewer) const NUDGE: Argument = argument("X,Y in whole pixels", |text| pixels(text).map(Command::Nudge));
+
+pub(in crate::viewer) const MAGNIFICATION: Argument = argument("a whole number of window pixels", |text| {
+    whole(text).map(Command::SetMagnification)
+});
+
+pub(in crate::viewer) const REGION: Argument = argument("a whole number from 8 to 64", |text| {
+    whole(text).map(Command::SetInspectorRegion)
+});
+
+pub(in crate::viewer) const OVERLAY: Argument = argument(Toggle::FORM, |text| toggle(text).map(Command::OverlayText));
+
+pub(in crate::viewer) const HIDE: Argument = argument(Toggle::FORM, |text| toggle(text).map(Command::HideEverything));
+
+pub(in crate::viewer) const EXPLANATION: Argument =
+    argument(Toggle::FORM, |text| toggle(text).map(Command::Explanation));
+
+pub(in crate::viewer) const PANEL: Argument = argument(Toggle::FORM, |text| toggle(text).map(Command::Panel));
+
+pub(in crate::viewer) const THEME: Argument = argument("dark|light", |text| {
+    named(&Theme::ALL, Theme::name, text).map(Command::SetTheme)
+});
+
+pub(in crate::viewer) const SHEET_COLUMNS: Argument = argument(SHEET_AXIS, |text| sheet_axis(SheetSide::Columns, text));
+
+pub(in crate::viewer) const SHEET_ROWS: Argument = argument(SHEET_AXIS, |text| sheet_axis(SheetSide::Rows, text));
+
+pub(in crate::viewer) const SHEET_INSET: Argument = argument("on|off", |text| {
+    let inset = match text {
+        "on" => true,
+        "off" => false,
+        _ => return None,
+    };
+    Some(Command::ChangeSheet(SheetChange::Inset(inset)))
+});
+
+pub(in crate::viewer) const SHEET_PANELS: Argument = argument("window, page or WIDTHxHEIGHT", |text| {
+    let panels = PanelSize::parse(text)?;
+    Some(Command::ChangeSheet(SheetChange::Panels(panels)))
+});
+
+pub(in crate::viewer) const SHEET_THEME: Argument = argument("light|dark", |text| {
+    named(&Ground::ALL, Ground::name, text).map(|theme| Command::ChangeSheet(SheetChange::Theme(theme)))
+});
+
+pub(in crate::viewer) const SHEET_NOTE: Argument = argument("a sentence, or none", |text| {
+    let note = if text == "none" { "" } else { text };
+    (!text.is_empty()).then(|| Command::ChangeSheet(SheetChange::Note(note.to_owned())))
+});
+
+/// The form of an axis.
+const SHEET_AXIS: &str = "a setting and its values, such as sample-rate 1,4,16; or none";
+
+fn sheet_axis(side: SheetSide, text: &str) -> Option<Command> {
+    let axis = if text == "none" {
+        None
+    } else {
+        let (name, values) = text.split_once(char::is_whitespace)?;
+        Some(Axis::of(name, values).ok()?)
+    };
+    Some(Command::ChangeSheet(SheetChange::Axis(side, axis)))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::*;
+
+    #[test]
+    fn paths_are_read_as_people_type_them() {
+        let at_home = path("~/a.svg");
+        assert_eq!(
+            OPEN.parse("~/a.svg"),
+            Ok(Command::Open(vec![at_home.clone()])),
+            "a scene"
+        );
+        assert_eq!(
+            AGAINST.parse("~/a.svg"),
+            Ok(Command::Compare(Against::File(at_home))),
+            "a picture"
+        );
+    }
+
+    #[test]
+    fn argument_forms() {
+        let zoomed = ZOOM.parse("2 10,20");
+        let expected = Command::ZoomAt {
+            at: Some(DVec2::new(10.0, 20.0)),
+            factor: 2.0,
+        };
+        assert_eq!(zoomed, Ok(expected), "factor and place");
+        assert_eq!(
+            PIN.parse(" 512, 300 "),
+            Ok(Command::Pin([512, 300])),
+            "blanks do not matter"
+        );
+        assert_eq!(SCENE.parse("1"), Ok(Command::Scene(0)), "people count from 1");
+        for (argument, wrong) in [
+            (ZOOM, "-1"),
+            (ZOOM, "inf"),
+            (PAN, "1"),
+            (VIEW, "0,0,0"),
+            (WIPE, "1.5"),
+            (DIFFERENCE, "other"),
+            (GAIN, "0"),
+            (GAIN, "nan"),
+            (ARRANGE, "both"),
+            (AGAINST, ""),
+            (SCENE, "0"),
+            (PIN, "1.5,2"),
+            (OPEN, ""),
+        ] {
+            let message = argument.parse(wrong).expect_err(wrong);
+            assert!(message.contains(&*argument.usage()), "{message} gives the form");
+        }
+    }
+}

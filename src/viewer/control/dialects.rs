@@ -1,0 +1,74 @@
+//! In which dialect a scene is read, and which one its folder was given by hand.
+
+use std::path::{Path, PathBuf};
+
+use crate::scene::{Dialect, DialectChoice};
+use crate::viewer::library::SceneEntry;
+use crate::viewer::state::Viewer;
+
+impl Viewer {
+    /// How the scene at `index` is read where the settings say `choice`.
+    pub(in crate::viewer) fn reading_of(&self, index: usize, choice: DialectChoice) -> DialectChoice {
+        let Some(entry) = self.scenes.get(index).filter(|_| choice == DialectChoice::Auto) else {
+            return choice;
+        };
+        let chosen = entry.folder().and_then(|folder| self.chosen_readings.get(folder));
+        match chosen {
+            Some(Dialect::Course) => DialectChoice::Course,
+            Some(Dialect::Svg) => DialectChoice::Svg,
+            None if entry.is_of_course => DialectChoice::Course,
+            None => DialectChoice::Auto,
+        }
+    }
+
+    /// The choice of dialect that makes the current picture from its file alone.
+    pub(in crate::viewer) fn dialect_of_picture(&self) -> DialectChoice {
+        let choice = self.reading_of(self.current, self.settings.dialect);
+        let asks_for_course = self.settings.render.rules == crate::rules::Rules::Course;
+        let scene = self.current().and_then(SceneEntry::scene);
+        match scene.map(|scene| scene.dialect) {
+            // On a command line the course's rules ask for the course's dialect.
+            Some(Dialect::Svg) if choice == DialectChoice::Auto && asks_for_course => DialectChoice::Svg,
+            _ => choice,
+        }
+    }
+
+    /// Which reading the current scene has, in few words, where it may be meant in the other dialect.
+    pub fn reading_words(&self) -> Option<String> {
+        let scene = self.current()?.scene()?;
+        scene.other_reading.map(|_| format!("read as {}", scene.dialect.name()))
+    }
+
+    /// Which reading the current scene has where it may be meant in the other dialect, and why, in one line.
+    pub fn reading_note(&self) -> Option<String> {
+        let entry = self.current()?;
+        let scene = entry.scene()?;
+        let folder = entry.folder()?;
+        let other = scene.other_reading?.name();
+        let why = match self.settings.dialect {
+            DialectChoice::Course | DialectChoice::Svg => ", as the setting says",
+            DialectChoice::Auto if self.chosen_readings.contains_key(folder) => ", as you chose for its folder",
+            DialectChoice::Auto if entry.is_of_course => ", as other scenes of its folder are",
+            DialectChoice::Auto => "",
+        };
+        let taken = scene.dialect.name();
+        Some(format!("read as {taken}{why}; as {other} it is another picture"))
+    }
+
+    /// Reads the current scene in the other dialect, and with it all of its folder.
+    pub(in crate::viewer) fn choose_other_reading(&mut self) {
+        let Some(entry) = self.current() else { return };
+        let Some(scene) = entry.scene() else { return };
+        let (other, choice) = match scene.dialect {
+            Dialect::Course => (Dialect::Svg, DialectChoice::Svg),
+            Dialect::Svg => (Dialect::Course, DialectChoice::Course),
+        };
+        let folder: Option<PathBuf> = entry.folder().map(Path::to_owned);
+        match folder.filter(|_| self.settings.dialect == DialectChoice::Auto) {
+            Some(folder) => {
+                self.chosen_readings.insert(folder, other);
+            }
+            None => self.settings.dialect = choice,
+        }
+    }
+}

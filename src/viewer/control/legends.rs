@@ -1,0 +1,80 @@
+//! Which legends are to be seen, and where there is room for them.
+
+use std::sync::Arc;
+
+use crate::render::{Legend, Visualisation};
+use crate::viewer::PixelRect;
+use crate::viewer::ab::other::Arrangement;
+use crate::viewer::frames::legends::Wish;
+use crate::viewer::frames::present::{WindowPixels, paste};
+use crate::viewer::state::Viewer;
+
+impl Viewer {
+    /// Where legends lie in the window, in window pixels.
+    pub fn legend_places(&self) -> Vec<PixelRect> {
+        self.legends.placed.iter().map(|(rect, _)| *rect).collect()
+    }
+
+    /// What the picture on the screen shows: A, then B where that is seen and shows something else.
+    fn visualisations(&self) -> Vec<Visualisation> {
+        let Some(frame) = self.frame() else { return Vec::new() };
+        let mut shown = vec![frame.picture.settings.visualisation];
+        if self.arrangement() == Arrangement::Difference {
+            // The difference has colours of its own.
+            return Vec::new();
+        }
+        if self.comparison.shows_both() {
+            shown.extend(self.other_settings().map(|settings| settings.visualisation));
+            shown.dedup();
+        }
+        shown.retain(|shown| *shown != Visualisation::Color);
+        shown
+    }
+
+    /// Puts the legends where there is room now.
+    pub(in crate::viewer) fn place_legends(&mut self) {
+        let shown = if self.screen.hidden {
+            Vec::new()
+        } else {
+            self.visualisations()
+        };
+        let scene = self.frame().map(|frame| Arc::clone(&frame.picture.scene));
+        let wish = scene.filter(|_| !shown.is_empty()).map(|scene| {
+            let window = PixelRect::of_size(self.screen.window);
+            let insets = [self.inset, self.other_inset].into_iter().flatten();
+            let pixel = self.inset.and_then(|placed| self.in_frame(placed.inset.center));
+            Wish {
+                scene,
+                shown,
+                window: self.screen.window,
+                area: self.screen.free_area.map_or(window, |free| free.intersection(&window)),
+                spared: insets
+                    .map(|placed| placed.rect)
+                    .chain(pixel.map(|pixel| self.shown_at(pixel)))
+                    .collect(),
+            }
+        });
+        if wish == self.legends.wish {
+            return;
+        }
+        self.legends.placed = wish.as_ref().map_or_else(Vec::new, Wish::place);
+        self.legends.wish = wish;
+        self.legends.number += 1;
+    }
+
+    /// Draws the legends as far as they lie in `parts`.
+    pub(in crate::viewer) fn draw_legends(&self, parts: &[PixelRect], window: &mut WindowPixels<'_>) {
+        for (rect, picture) in &self.legends.placed {
+            for part in parts {
+                paste(picture, [rect.x, rect.y], window, part);
+            }
+        }
+    }
+
+    /// The legends that a saved picture carries.
+    pub(in crate::viewer) fn legends_of_picture(&self) -> Vec<Legend> {
+        let Some(frame) = self.frame() else { return Vec::new() };
+        let legends = self.visualisations().into_iter();
+        legends.filter_map(|shown| shown.legend(&frame.picture.scene)).collect()
+    }
+}

@@ -1,0 +1,228 @@
+//! B's frame beside A's: both show the same scene from the same place.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use crate::raster::Framebuffer;
+use crate::render::RenderSettings;
+use crate::scene::DialectChoice;
+use crate::viewer::ab::measuring::SharedPicture;
+use crate::viewer::ab::other::Other;
+use crate::viewer::frames::drawing::{Drawing, DrawingId};
+use crate::viewer::frames::frame::Picture;
+use crate::viewer::frames::request::Wish;
+use crate::viewer::library::SceneState;
+use crate::viewer::state::Viewer;
+
+impl Viewer {
+    /// B's settings, where it is drawn.
+    pub fn other_settings(&self) -> Option<RenderSettings> {
+        match self.comparison.other.as_ref()? {
+            Other::Settings { render, .. } => Some(*render),
+            Other::Truth(resolve) => {
+                let own = self.settings.render;
+                Some(RenderSettings {
+                    resolve: resolve.unwrap_or(own.resolve),
+                    ..own.truth()
+                })
+            }
+            Other::Picture(_) => None,
+        }
+    }
+
+    /// The dialect that B's scene is read in, where that is not A's.
+    pub fn own_dialect_of_b(&self) -> Option<DialectChoice> {
+        match self.comparison.other.as_ref()? {
+            Other::Settings { dialect, .. } => Some(*dialect).filter(|dialect| *dialect != self.settings.dialect),
+            Other::Truth(_) | Other::Picture(_) => None,
+        }
+    }
+
+    /// What B shows where A shows `own`; `None` unless B is drawn, and while its scene is being read.
+    pub(in crate::viewer) fn other_picture(&self, own: &Picture) -> Option<Picture> {
+        let settings = self.other_settings()?;
+        let scene = match self.own_dialect_of_b() {
+            None => Arc::clone(&own.scene),
+            Some(_) => Arc::clone(self.current()?.other_state.scene()?),
+        };
+        let outline = settings.outline && own.settings.outline;
+        Some(Picture {
+            settings: RenderSettings { outline, ..settings },
+            scene,
+            ..own.clone()
+        })
+    }
+
+    /// Both pictures on the screen, the one in front first; `None` while they cannot be compared.
+    pub(in crate::viewer) fn pair(&self) -> Option<[&Framebuffer; 2]> {
+        let [a, b] = match &self.comparison.held {
+            Some([a, b]) => [&a.pixels, &b.pixels],
+            None => self.pair_in_step()?,
+        };
+        Some(if self.comparison.swapped { [b, a] } else { [a, b] })
+    }
+
+    /// B's pixels as they are on the screen or would be; they may be a preview's.
+    pub fn other_pixels(&self) -> Option<&Framebuffer> {
+        match (self.comparison.other.as_ref()?, &self.comparison.held) {
+            (Other::Picture(picture), _) => Some(&picture.pixels),
+            (_, Some([_, b])) => Some(&b.pixels),
+            (_, None) => Some(&self.comparison.drawing.as_ref()?.frame()?.pixels),
+        }
+    }
+
+    /// A pixel of B, straight `[r, g, b, a]`, if it is final.
+    pub(in crate::viewer) fn other_final_rgba(&self, x: u32, y: u32) -> Option<[u8; 4]> {
+        match (self.comparison.other.as_ref()?, &self.comparison.held) {
+            (Other::Picture(picture), _) => picture.pixels.rgba(x, y),
+            (_, Some([_, b])) => b.final_rgba(x, y),
+            (_, None) => self.comparison.drawing.as_ref()?.frame()?.final_rgba(x, y),
+        }
+    }
+
+    /// A's pixels and B's, where they show the scene from the same place.
+    pub(in crate::viewer) fn pair_in_step(&self) -> Option<[&Framebuffer; 2]> {
+        let a = self.drawing.frame()?;
+        if let Some(Other::Picture(picture)) = &self.comparison.other {
+            let size = [picture.pixels.width(), picture.pixels.height()];
+            return (a.picture.size == size).then_some([&a.pixels, &picture.pixels]);
+        }
+        let b = self.comparison.drawing.as_ref()?.frame()?;
+        let in_step = match self.own_dialect_of_b() {
+            None => a.picture.is_seen_as(&b.picture),
+            Some(_) => a.picture.shows_document_of(&b.picture),
+        };
+        in_step.then_some([&a.pixels, &b.pixels])
+    }
+
+    /// The same for threads.
+    pub(in crate::viewer) fn shared_pair(&self) -> Option<[SharedPicture; 2]> {
+        self.pair_in_step()?;
+        let a = Arc::clone(self.drawing.shared_frame()?) as SharedPicture;
+        let b = match self.comparison.other.as_ref()? {
+            Other::Picture(picture) => Arc::clone(picture) as SharedPicture,
+            _ => Arc::clone(self.comparison.drawing.as_ref()?.shared_frame()?) as SharedPicture,
+        };
+        Some([a, b])
+    }
+
+    /// To be called before another frame is taken in: both on the screen stay until both of the next are there.
+    pub(in crate::viewer) fn hold_pair(&mut self) {
+        if !self.comparison.shows_both() || self.comparison.held.is_some() || self.pair_in_step().is_none() {
+            return;
+        }
+        let b = self.comparison.drawn_other().and_then(Drawing::shared_frame);
+        if let Some((a, b)) = self.drawing.shared_frame().zip(b) {
+            self.comparison.held = Some([Arc::clone(a), Arc::clone(b)]);
+        }
+    }
+
+    /// To be called after that: lets go of the frames before once they are not needed.
+    pub(in crate::viewer) fn release_pair(&mut self) {
+        let in_step = self.pair_in_step().is_some();
+        // One that never comes is not waited for.
+        let other = self.comparison.drawn_other();
+        let coming = !self.drawing.has_arrived() || other.is_some_and(|drawing| !drawing.has_arrived());
+        let needed = self.comparison.shows_both() && self.drawing.frame().is_some() && !in_step && coming;
+        if self.comparison.held.is_some() && !needed {
+            self.comparison.held = None;
+            self.comparison.touch();
+        }
+    }
+
+    /// Whether `picture` must wait until both frames have come to the last view.
+    pub(in crate::viewer) fn lags_behind(&self, picture: &Picture) -> bool {
+        let Some(other) = self.comparison.drawn_other().filter(|_| self.comparison.shows_both()) else {
+            return false;
+        };
+        let moves = self.drawing.wanted().is_some_and(|wanted| !wanted.is_seen_as(picture));
+        let same_scene = self
+            .drawing
+            .wanted()
+            .is_some_and(|wanted| Arc::ptr_eq(&wanted.scene, &picture.scene) && wanted.size == picture.size);
+        moves && same_scene && !(self.drawing.has_arrived() && other.has_arrived())
+    }
+
+    /// Wants B's frame beside A's `wish`.
+    pub(in crate::viewer) fn want_other(&mut self, wish: &Wish) {
+        let failed = self.own_dialect_of_b().is_some()
+            && matches!(
+                self.current().map(|entry| &entry.other_state),
+                Some(SceneState::Failed { .. })
+            );
+        if self.other_settings().is_none() || failed {
+            if let Some(drawing) = &mut self.comparison.drawing {
+                drawing.close();
+            }
+            return;
+        }
+        // While its scene is read, what is there of B stays.
+        let Some(picture) = self.other_picture(&wish.picture) else {
+            return;
+        };
+        if !self.comparison.shows_both() {
+            if !self.drawing.is_current() {
+                return;
+            }
+            // What nobody sees must not slow down the hand.
+            let rest = self.drawing.rest().filter(|rest| *rest > Instant::now());
+            if rest.is_some() && !self.comparison.measuring.hurries() {
+                self.comparison.postponed = rest;
+                return;
+            }
+        }
+        if self.comparison.drawing.is_none() {
+            match Drawing::start(self.comparison.drawn.clone(), DrawingId::Second) {
+                Ok(mut drawing) => {
+                    drawing.set_progressive(self.settings.progressive);
+                    drawing.set_hurry(self.comparison.measuring.hurries());
+                    self.comparison.drawing = Some(drawing);
+                }
+                Err(error) => {
+                    self.comparison.other = None;
+                    self.messages.error(format!(
+                        "cannot compare: no thread for B: {error}; close other programs"
+                    ));
+                    return;
+                }
+            }
+        }
+        if let Some(drawing) = &mut self.comparison.drawing {
+            drawing.want(Wish::new(picture, wish.from, wish.focus));
+        }
+    }
+
+    /// A and B change places: settings and frames.
+    pub(in crate::viewer) fn swap_frames(&mut self) {
+        if let Some(drawing) = &mut self.comparison.drawing {
+            std::mem::swap(&mut self.drawing, drawing);
+        }
+        if let Some([a, b]) = &mut self.comparison.held {
+            std::mem::swap(a, b);
+        }
+        self.comparison.swaps += 1;
+        self.comparison.touch();
+        self.wait_for_newest_frame();
+    }
+
+    /// The drawing that a result came from.
+    pub(in crate::viewer) fn drawing_of(&mut self, id: DrawingId) -> Option<&mut Drawing> {
+        if self.drawing.id() == id {
+            return Some(&mut self.drawing);
+        }
+        self.comparison.drawing.as_mut().filter(|drawing| drawing.id() == id)
+    }
+
+    /// Whether somebody waits for final frames, of both.
+    pub(in crate::viewer) fn set_hurry(&mut self, hurry: bool) {
+        self.drawing.set_hurry(hurry);
+        if let Some(drawing) = &mut self.comparison.drawing {
+            drawing.set_hurry(hurry);
+        }
+        self.comparison.measuring.set_hurry(hurry);
+        if hurry && self.comparison.postponed.is_some() {
+            self.want_frame();
+        }
+        self.want_measures();
+    }
+}

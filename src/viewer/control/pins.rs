@@ -1,0 +1,197 @@
+//! The pinned pixel: where it is pinned, how it keeps its place in the scene, and where its inset goes.
+
+use glam::DVec2;
+
+use crate::viewer::PixelRect;
+use crate::viewer::ab::other::Arrangement;
+use crate::viewer::inspector::{Pin, RING_ROOM};
+use crate::viewer::state::Viewer;
+use crate::viewer::view::camera::Sight;
+use crate::viewer::view::pointer::window_pixel;
+
+/// What is said when the pinned place leaves the window, and with it its ring and its explanation.
+pub(in crate::viewer) const PIN_OUTSIDE: &str =
+    "the pinned pixel is outside the window now: it comes back with the view, or pin another one";
+
+/// Frame pixels that stay free beside a pinned one in a frame that becomes smaller.
+const PIN_ROOM: i64 = 24;
+
+impl Viewer {
+    /// The pinned pixel; `None` too while the pinned place of the scene is outside the frame.
+    pub fn pinned_pixel(&self) -> Option<[u32; 2]> {
+        self.in_frame(self.inspector.pin?.pixel)
+    }
+
+    /// Keeps the pin at its place in the scene, whatever the view and the window do. Another scene has other places: there
+    /// it stays at its pixel.
+    pub(in crate::viewer) fn keep_pin_in_place(&mut self) {
+        let Some(mut pin) = self.inspector.pin else { return };
+        let Some(sight) = self.sight().filter(|sight| !sight.frame.contains(&0)) else {
+            return;
+        };
+        let Some(entry) = self.current() else { return };
+        let scene = (self.current, self.generation);
+        let view = entry.camera.transform(&sight);
+        match pin.place {
+            Some((place, of)) if of == scene => {
+                let before = self.in_frame(pin.pixel);
+                pin.pixel = window_pixel(view.to_pixels(place));
+                if before.is_some() && self.in_frame(pin.pixel).is_none() {
+                    self.messages.done(PIN_OUTSIDE.to_owned());
+                }
+            }
+            _ => {
+                let centre = DVec2::new(pin.pixel[0] as f64, pin.pixel[1] as f64) + 0.5;
+                pin.place = Some((view.to_scene(centre), scene));
+            }
+        }
+        self.inspector.pin = Some(pin);
+    }
+
+    /// The pixel in the middle of the inspector: the pinned one, else the one last under the pointer, else the one in
+    /// the middle of the frame.
+    pub fn inspected_pixel(&self) -> Option<[u32; 2]> {
+        let middle = self.frame_size().map(|side| i64::from(side / 2));
+        let free = self.inspector.last.map_or(middle, |pixel| pixel.map(i64::from));
+        self.pinned_pixel().or_else(|| self.nearest_in_frame(free))
+    }
+
+    /// Pins the hovered pixel; without one the pixel that the inspector shows. Whoever points at a pixel asks about it: the
+    /// explanation opens, too, where it was closed. Only a pixel that is explained already is unpinned, and the inspector
+    /// closes with it if the pin opened it.
+    pub(in crate::viewer) fn pin_under_pointer(&mut self) {
+        let Some(pixel) = self.hovered_pixel().or_else(|| self.inspected_pixel()) else {
+            return;
+        };
+        if self.refuses_to_explain() {
+            return;
+        }
+        if self.pinned_pixel() == Some(pixel) && self.explains() {
+            self.inspector.pin = None;
+            self.inspector.open &= !std::mem::take(&mut self.inspector.came_with_pin);
+        } else {
+            self.screen.shown.explanation = true;
+            self.inspector.asked = true;
+            self.pin(pixel.map(i64::from));
+        }
+    }
+
+    /// Another part of the window is free. Where frames change their size with it, the pixel that a hand asked about stays
+    /// what it is, to the place of its samples; the view comes back when the explanation is closed.
+    pub(in crate::viewer) fn set_free_area(&mut self, area: Option<PixelRect>) {
+        let before = self.sight();
+        self.screen.free_area = area;
+        if self.arrangement() == Arrangement::Wipe {
+            // Its line gives way to panels.
+            self.comparison.touch();
+        }
+        let asks = self.inspector.asked && self.explains();
+        let sights = before.zip(self.sight());
+        if let Some((before, sight)) = sights.filter(|(before, sight)| asks && before.frame != sight.frame) {
+            self.keep_view_of_pin(&before, &sight);
+        }
+        if let Some([first, set]) = self.inspector.kept_view.take_if(|_| !asks) {
+            self.look(|camera, _| {
+                if *camera == set {
+                    *camera = first;
+                }
+            });
+        }
+    }
+
+    /// Sets the view in which the pinned pixel shows what it showed `before`, at the same pixel of the frame if there is
+    /// still one.
+    fn keep_view_of_pin(&mut self, before: &Sight, sight: &Sight) {
+        let Some(Pin {
+            pixel,
+            place: Some((place, _)),
+            ..
+        }) = self.inspector.pin
+        else {
+            return;
+        };
+        let Some(camera) = self.current().map(|entry| entry.camera) else {
+            return;
+        };
+        let stays = |axis: usize| {
+            let last = i64::from(sight.frame[axis]) - 1 - PIN_ROOM;
+            pixel[axis].min(last).max(0) as f64 + 0.5
+        };
+        let at = DVec2::new(stays(0), stays(1));
+        let mut kept = camera;
+        kept.set(camera.numbers(before), sight);
+        let now = kept.transform(sight).to_pixels(place);
+        kept.pan(at - now, sight);
+        let first = match self.inspector.kept_view {
+            Some([first, set]) if set == camera => first,
+            _ => camera,
+        };
+        self.inspector.kept_view = Some([first, kept]);
+        self.look(|camera, _| *camera = kept);
+    }
+
+    /// Moves the picture so that a pixel that was jumped to lies in the middle of what is free, where a panel covers it.
+    pub(in crate::viewer) fn reveal_pin(&mut self) {
+        let Some(pixel) = self.pinned_pixel().filter(|_| self.inspector.revealed) else {
+            return;
+        };
+        let window = PixelRect::of_size(self.screen.window);
+        let free = self.screen.free_area.map_or(window, |free| free.intersection(&window));
+        let shown = self.shown_at(pixel);
+        if free.width == 0 || free.height == 0 || free.contains([shown.x, shown.y]) {
+            return;
+        }
+        let zoom = f64::from(self.settings.pixel_zoom.factor());
+        let middle =
+            DVec2::new(free.x as f64, free.y as f64) + DVec2::new(f64::from(free.width), f64::from(free.height)) / 2.0;
+        let by = middle - DVec2::new(shown.x as f64, shown.y as f64);
+        // The place that was pinned moves along.
+        self.keep_pin_in_place();
+        // By whole frame pixels, so that the pinned one stays what it is.
+        self.pan((by / zoom).round() * zoom);
+        self.keep_pin_in_place();
+    }
+
+    /// Pins the pixel, or the nearest in the frame, and shows the inspector.
+    pub(in crate::viewer) fn pin(&mut self, pixel: [i64; 2]) {
+        if let Some(pixel) = self.nearest_in_frame(pixel) {
+            self.inspector.pin = Some(Pin {
+                pixel: pixel.map(i64::from),
+                place: None,
+            });
+            self.inspector.revealed = false;
+            self.inspector.came_with_pin |= !self.inspector.open;
+            self.inspector.open = true;
+            self.screen.hidden = false;
+        }
+    }
+
+    pub(in crate::viewer) fn nudge(&mut self, by: [i64; 2]) {
+        if self.inspector.pin.is_none() && !self.inspector.open {
+            return;
+        }
+        if let Some([x, y]) = self.inspected_pixel() {
+            self.pin([i64::from(x).saturating_add(by[0]), i64::from(y).saturating_add(by[1])]);
+        }
+    }
+
+    /// Where the inset goes now.
+    pub(in crate::viewer) fn place_inset(&mut self) {
+        let to_be_seen = self.inspector.open && !self.screen.hidden;
+        let center = self.inspected_pixel().filter(|_| to_be_seen);
+        let window = PixelRect::of_size(self.screen.window);
+        let area = self.screen.free_area.map_or(window, |free| free.intersection(&window));
+        (self.inset, self.other_inset) = (None, None);
+        let Some(center) = center else { return };
+        let shown = self.shown_at(center);
+        // The panels that draw the ring tell what area is free; pictures without them have none.
+        let is_ringed = self.screen.free_area.is_some() && self.pinned_pixel().is_some();
+        self.inspector.ring_room = if is_ringed { RING_ROOM } else { 0 };
+        if self.comparison.shows_both() {
+            let both = self.inspector.place_both(center, &shown, &area);
+            (self.inset, self.other_inset) = both.map_or((None, None), |[a, b]| (Some(a), Some(b)));
+        } else {
+            self.inset = self.inspector.place(center, &shown, &area);
+        }
+    }
+}

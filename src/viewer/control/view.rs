@@ -1,0 +1,92 @@
+//! Moving, scaling and turning the view of the current scene.
+
+use glam::DVec2;
+
+use crate::viewer::PixelRect;
+use crate::viewer::settings::PixelZoom;
+use crate::viewer::state::Viewer;
+use crate::viewer::view::camera::{Camera, Sight};
+
+/// What one click of the wheel zooms by.
+const WHEEL_FACTOR: f64 = 1.25;
+
+/// Clicks of the wheel that count at once.
+const MAX_CLICKS: f64 = 100.0;
+
+impl Viewer {
+    /// The point in the middle of the window, in frame pixels.
+    pub(in crate::viewer) fn middle(&self) -> DVec2 {
+        DVec2::from(self.frame_size().map(f64::from)) / 2.0
+    }
+
+    pub(in crate::viewer) fn wheel(&mut self, clicks: f64) {
+        if self.pointer_over_inset() {
+            self.inspector.wheel(clicks);
+        } else if clicks.is_finite() {
+            let factor = WHEEL_FACTOR.powf(clicks.clamp(-MAX_CLICKS, MAX_CLICKS));
+            self.zoom(self.pointer.at, factor);
+        }
+    }
+
+    /// Changes the current scene's camera; nothing happens before the scene was read.
+    pub(in crate::viewer) fn look(&mut self, change: impl FnOnce(&mut Camera, &Sight)) {
+        if let Some((sight, entry)) = self.sight().zip(self.scenes.get_mut(self.current)) {
+            change(&mut entry.camera, &sight);
+        }
+    }
+
+    /// Into the part of the window that no panel covers.
+    pub(in crate::viewer) fn fit_view(&mut self) {
+        let zoom = f64::from(self.settings.pixel_zoom.factor());
+        let window = PixelRect::of_size(self.screen.window);
+        let free = self.screen.free_area.map_or(window, |free| free.intersection(&window));
+        let panes = self.panes();
+        let (corner, size) = if panes.second.is_some() || self.fixed_size().is_some() {
+            (DVec2::ZERO, DVec2::from(panes.frame.map(f64::from)))
+        } else {
+            let corner = DVec2::new(free.x as f64, free.y as f64) / zoom;
+            (corner, DVec2::new(f64::from(free.width), f64::from(free.height)) / zoom)
+        };
+        self.look(|camera, sight| camera.fit([corner, size], sight));
+    }
+
+    pub(in crate::viewer) fn reset_view(&mut self) {
+        if let Some(entry) = self.scenes.get_mut(self.current) {
+            entry.camera = Camera::default();
+        }
+        self.center_fixed();
+    }
+
+    /// By window pixels.
+    pub(in crate::viewer) fn pan(&mut self, by: DVec2) {
+        let zoom = f64::from(self.settings.pixel_zoom.factor());
+        if by.is_finite() && !self.move_fixed(by / zoom) {
+            self.look(|camera, sight| camera.pan(by / zoom, sight));
+        }
+    }
+
+    /// About the centre of a window pixel, so that the status line goes on telling the same place.
+    pub(in crate::viewer) fn zoom(&mut self, at: Option<DVec2>, factor: f64) {
+        if self.zoom_fixed(at, factor) {
+            return;
+        }
+        let at = at.map_or(self.middle(), |at| self.frame_position(at.floor() + 0.5));
+        self.look(|camera, sight| camera.zoom(at, factor, sight));
+    }
+
+    /// Frame pixels become larger or smaller: the views are adapted so that the window shows the same part.
+    pub(in crate::viewer) fn set_pixel_zoom(&mut self, zoom: PixelZoom) {
+        if self.fixed_size().is_some() {
+            return self.zoom_fixed_to(None, zoom);
+        }
+        let factor = f64::from(self.settings.pixel_zoom.factor()) / f64::from(zoom.factor());
+        self.settings.pixel_zoom = zoom;
+        let frame = self.frame_size();
+        for entry in &mut self.scenes {
+            if let Some(canvas) = entry.scene().map(|scene| scene.canvas) {
+                entry.camera.rescale(factor, &Sight { canvas, frame });
+            }
+        }
+        self.follow_pointer();
+    }
+}

@@ -1,0 +1,281 @@
+//! Screenshots: PNG files named by a template, at first the time to the millisecond, that tell how they were made and never replace another
+//! file.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use jiff::Timestamp;
+use jiff::tz::TimeZone;
+
+use crate::figure::{InsetSpec, Record, add_furniture, encode_png, write_new};
+use crate::raster::Framebuffer;
+use crate::render::Legend;
+use crate::scene::Scene;
+use crate::viewer::export::naming::NameTemplate;
+use crate::viewer::export::sheet::saving::SheetJob;
+use crate::viewer::export::spec::PictureSpec;
+use crate::viewer::frames::frame::Frame;
+use crate::viewer::jobs::mailbox::Mailbox;
+use crate::viewer::jobs::pool::{AtEnd, Crew, guarded};
+
+/// Names that are tried for one picture: others may have been saved in the same millisecond.
+const ATTEMPTS: u32 = 1000;
+
+/// Largest file of a time zone that is read, in bytes.
+const MAX_ZONE: u64 = 1 << 20;
+
+/// The state of saving.
+#[derive(Debug)]
+pub(in crate::viewer) struct Saver {
+    crew: Crew<Job>,
+    /// Where pictures go; `None` is the current folder.
+    folder: Option<PathBuf>,
+    name: NameTemplate,
+    /// Screenshots that wait for a final frame, and the wish that it must not be older than: what was to be seen when
+    /// the last was asked for.
+    pub(in crate::viewer) waiting: u32,
+    pub(in crate::viewer) since: u64,
+    /// Pictures at work.
+    pub(in crate::viewer) running: u32,
+}
+
+/// What is to be saved, and where.
+pub(in crate::viewer) struct Job {
+    folder: PathBuf,
+    name: NameTemplate,
+    work: Work,
+}
+
+pub(in crate::viewer) enum Work {
+    Picture(Shot, Option<Box<Recipe>>),
+    Sheet(Box<SheetJob>),
+}
+
+/// How a picture was made; its record names the file, whose name is not known before it is written.
+#[derive(Clone, Debug)]
+pub(in crate::viewer) struct Recipe {
+    pub(in crate::viewer) spec: PictureSpec,
+    pub(in crate::viewer) scene: Arc<Scene>,
+    /// How the picture differs from what `spec` alone makes.
+    pub(in crate::viewer) differs: Option<String>,
+}
+
+impl Recipe {
+    /// The record for the file `output`.
+    pub(in crate::viewer) fn record(&self, output: &Path) -> Record {
+        Record {
+            differs: self.differs.clone(),
+            ..self.spec.record(&self.scene, output)
+        }
+    }
+}
+
+pub(in crate::viewer) enum Shot {
+    /// A frame, what of it is magnified, and what its colours show.
+    Frame {
+        frame: Arc<Frame>,
+        insets: Vec<InsetSpec>,
+        legends: Vec<Legend>,
+    },
+    /// A picture that is put together already.
+    Ready(Framebuffer),
+}
+
+/// What became of a picture.
+#[derive(Debug)]
+pub(in crate::viewer) struct Saved(pub(in crate::viewer) Result<(PathBuf, [u32; 2]), String>);
+
+impl Saver {
+    pub(in crate::viewer) fn start(
+        mailbox: Mailbox<Saved>,
+        folder: Option<PathBuf>,
+        name: NameTemplate,
+    ) -> io::Result<Self> {
+        let work = move |job: Job| {
+            let saved = guarded(|| job.save()).unwrap_or_else(|| Err("saving failed inside the program".to_owned()));
+            mailbox.post(Saved(saved));
+        };
+        Ok(Self {
+            crew: Crew::start("save", 1, AtEnd::Complete, work)?,
+            folder,
+            name,
+            waiting: 0,
+            since: 0,
+            running: 0,
+        })
+    }
+
+    pub(in crate::viewer) fn is_idle(&self) -> bool {
+        self.waiting == 0 && self.running == 0
+    }
+
+    /// Whether a screenshot waits for its frame.
+    pub(in crate::viewer) fn is_waiting(&self) -> bool {
+        self.waiting > 0
+    }
+
+    /// Saves a sheet beside the pictures.
+    pub(in crate::viewer) fn push_sheet(&mut self, sheet: SheetJob) {
+        self.push(Work::Sheet(Box::new(sheet)));
+    }
+
+    pub(in crate::viewer) fn push(&mut self, work: Work) {
+        let folder = self.folder.clone().unwrap_or_else(|| PathBuf::from("."));
+        self.running += 1;
+        self.crew.push(Job {
+            folder,
+            name: self.name.clone(),
+            work,
+        });
+    }
+}
+
+impl Shot {
+    pub(in crate::viewer) fn picture(self) -> Result<Framebuffer, String> {
+        match self {
+            Self::Frame { frame, insets, legends } => {
+                let mut picture = frame.pixels.clone();
+                add_furniture(&mut picture, &insets, &frame.picture.subject(), &legends)
+                    .map_err(|error| error.to_string())?;
+                Ok(picture)
+            }
+            Self::Ready(picture) => Ok(picture),
+        }
+    }
+}
+
+impl Job {
+    fn save(self) -> Result<(PathBuf, [u32; 2]), String> {
+        match self.work {
+            Work::Picture(picture, recipe) => {
+                save_new((&self.folder, &self.name), &picture.picture()?, recipe.as_deref())
+            }
+            Work::Sheet(sheet) => {
+                let stem = self.name.name(Some(sheet.spec()), &now());
+                sheet.save(&self.folder, &format!("{stem}-sheet"))
+            }
+        }
+    }
+}
+
+/// The time of day, as names of files tell it.
+pub(in crate::viewer) fn now() -> String {
+    time_text(SystemTime::now(), zone())
+}
+
+/// A clock that is set to another age than calendars know tells seconds.
+fn time_text(time: SystemTime, zone: TimeZone) -> String {
+    if let Ok(time) = Timestamp::try_from(time) {
+        return time.to_zoned(zone).strftime("%Y-%m-%d_%H-%M-%S_%3f").to_string();
+    }
+    match time.duration_since(UNIX_EPOCH) {
+        Ok(after) => format!("{}s", after.as_secs()),
+        Err(before) => format!("{}s-before-1970", before.duration().as_secs()),
+    }
+}
+
+/// The zone of the system; UTC where `TZ` leads to what is no file of a zone, such as a pipe that would be read for ever.
+fn zone() -> TimeZone {
+    let named = std::env::var_os("TZ").unwrap_or_default();
+    let named = named.to_string_lossy();
+    let about = std::fs::metadata(named.strip_prefix(':').unwrap_or(&named));
+    if about.is_ok_and(|about| !about.is_file() || about.len() > MAX_ZONE) {
+        return TimeZone::UTC;
+    }
+    TimeZone::system()
+}
+
+/// Saves `picture` in `folder` under a name that did not exist.
+fn save_new(
+    (folder, name): (&Path, &NameTemplate),
+    picture: &Framebuffer,
+    recipe: Option<&Recipe>,
+) -> Result<(PathBuf, [u32; 2]), String> {
+    let cure = "choose another folder with --screenshot-dir";
+    let stem = name.name(recipe.map(|recipe| &recipe.spec), &now());
+    for attempt in 1..=ATTEMPTS {
+        let name = match attempt {
+            1 => format!("{stem}.png"),
+            _ => format!("{stem}-{attempt}.png"),
+        };
+        let path = folder.join(name);
+        let path = path.strip_prefix(".").unwrap_or(&path).to_owned();
+        let record = recipe.map(|recipe| recipe.record(&path));
+        let bytes = encode_png(picture, record.as_ref())
+            .map_err(|error| format!("cannot make a PNG of this picture: {error}"))?;
+        match write_new(&path, &bytes) {
+            Ok(()) => return Ok((path, [picture.width(), picture.height()])),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(format!("{}: cannot save here: {error}; {cure}", folder.display())),
+        }
+    }
+    Err(format!(
+        "{}: every name for this picture is taken; {cure}",
+        folder.display()
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn screenshots_never_replace() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let mut picture = Framebuffer::new(3, 2);
+        picture.pixels_mut()[4] = 0x80ff_8000;
+        let paths: Vec<PathBuf> = (0..20)
+            .map(|_| {
+                save_new((folder.path(), &NameTemplate::default()), &picture, None)
+                    .expect("a writable folder")
+                    .0
+            })
+            .collect();
+        let files = std::fs::read_dir(folder.path()).expect("the folder").count();
+        assert_eq!(files, paths.len(), "each picture has a file of its own");
+        let back = image::open(&paths[0]).expect("a PNG").into_rgba8();
+        assert_eq!(back.get_pixel(1, 1).0, [255, 128, 0, 128], "straight alpha");
+        assert!(write_new(&paths[0], b"x").is_err(), "an existing file is left alone");
+        assert_eq!(
+            image::open(&paths[0]).expect("still whole").into_rgba8(),
+            back,
+            "unchanged"
+        );
+    }
+
+    #[test]
+    fn screenshot_names_come_from_any_clock() {
+        let at = |seconds: i64| {
+            let distance = std::time::Duration::from_secs(seconds.unsigned_abs());
+            let time = if seconds < 0 {
+                UNIX_EPOCH - distance
+            } else {
+                UNIX_EPOCH + distance
+            };
+            time_text(time, TimeZone::UTC)
+        };
+        assert_eq!(at(0), "1970-01-01_00-00-00_000", "the start");
+        assert_eq!(at(-86_400), "1969-12-31_00-00-00_000", "before it");
+        assert_eq!(at(253_402_300_800), "253402300800s", "the year 10000");
+        assert_eq!(at(i64::MAX / 4), "2305843009213693951s", "the end of time");
+        assert_eq!(
+            at(-900_000_000_000),
+            "900000000000s-before-1970",
+            "before all calendars"
+        );
+    }
+
+    #[test]
+    fn screenshot_folder_missing() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let nowhere = folder.path().join("no/such");
+        let problem =
+            save_new((&nowhere, &NameTemplate::default()), &Framebuffer::new(1, 1), None).expect_err("no folder");
+        assert!(
+            problem.contains("no/such") && problem.contains("--screenshot-dir"),
+            "{problem}"
+        );
+    }
+}

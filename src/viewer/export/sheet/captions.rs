@@ -1,0 +1,91 @@
+//! What is said below pictures: the scene, the settings, size and view.
+
+use crate::plain;
+use crate::viewer::export::sheet::axes::{Axis, Choice};
+use crate::viewer::export::spec::PictureSpec;
+use crate::viewer::library::SceneSource;
+
+/// Longest name of a scene, in characters.
+const MAX_NAME: usize = 200;
+
+/// What is said of a single picture.
+pub fn caption_of(spec: &PictureSpec) -> String {
+    let settings = shared_words(spec, |_| false);
+    let what = match settings.as_str() {
+        "" => title(&spec.scene),
+        settings => format!("{} with {settings}", title(&spec.scene)),
+    };
+    let parts = std::iter::once(what).chain(seen(spec, ""));
+    format!("{}.", parts.collect::<Vec<_>>().join(". "))
+}
+
+/// What differs between the panels of a sheet and what all of them share.
+pub(in crate::viewer) fn caption(first: &PictureSpec, axes: &[&Axis], note: Option<&str>) -> String {
+    let list = |axis: &Axis| format!("{} {}", axis.title(), axis.values.join(", "));
+    let scene = title(&first.scene);
+    let what = match axes {
+        [] => scene,
+        [across] => format!("{scene} with {}", list(across)),
+        [across, down @ ..] => {
+            let down: Vec<String> = down.iter().map(|axis| list(axis)).collect();
+            format!(
+                "{scene}: from left to right {}; from top to bottom {}",
+                list(across),
+                down.join("; ")
+            )
+        }
+    };
+    let shared = shared_words(first, |name| axes.iter().any(|axis| axis.name == name));
+    let shared = (!shared.is_empty()).then(|| format!("In all: {shared}"));
+    let parts = [Some(what), shared]
+        .into_iter()
+        .flatten()
+        .chain(seen(first, "Each "))
+        .chain(note.map(|note| plain::line(note).into_owned()));
+    format!("{}.", parts.collect::<Vec<_>>().join(". "))
+}
+
+/// What tells a panel from the others.
+pub(in crate::viewer) fn difference<'a>(axes: impl Iterator<Item = &'a Axis>, choice: &Choice) -> String {
+    let words = axes.filter_map(|axis| {
+        let (_, value) = choice.iter().find(|(name, _)| *name == axis.name)?;
+        Some(axis.words(value))
+    });
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// A scene's name on a picture: not its folder, for a picture that is drawn again where both were moved must be the same.
+pub(in crate::viewer) fn title(scene: &SceneSource) -> String {
+    let address = scene.address();
+    let name = match scene {
+        SceneSource::File(path) => path
+            .file_name()
+            .map_or(address, |name| name.to_string_lossy().into_owned()),
+        SceneSource::Gallery(_) => address.trim_start_matches("gallery:").to_owned(),
+    };
+    plain::short_line(&name, MAX_NAME)
+}
+
+/// The settings in words that differ from their defaults, but for those that are `told` elsewhere.
+fn shared_words(spec: &PictureSpec, told: impl Fn(&str) -> bool) -> String {
+    let settings = spec.settings().into_iter().filter(|(name, _)| !told(name));
+    let words = settings.map(|(name, value)| format!("{} {value}", name.replace('-', " ")));
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// Size, view and insets in words.
+fn seen(spec: &PictureSpec, each: &str) -> Vec<String> {
+    let [width, height] = spec.size;
+    let mut parts = vec![format!(
+        "{each}{width} \u{d7} {height} pixels, view {}",
+        spec.view_text()
+    )];
+    for inset in &spec.insets {
+        let [region, factor] = [inset.region, inset.magnification];
+        parts.push(format!(
+            "Inset: {region} \u{d7} {region} pixels around {}, {factor}\u{d7}",
+            inset.at.words()
+        ));
+    }
+    parts
+}

@@ -1,0 +1,65 @@
+//! Legends of visualisations as pictures, kept while they are the same.
+
+use std::sync::Arc;
+
+use crate::figure::place_legends;
+use crate::raster::Framebuffer;
+use crate::render::{Legend, Visualisation};
+use crate::scene::Scene;
+use crate::viewer::PixelRect;
+
+/// The legends on the screen: of A, and of B where that shows something else.
+#[derive(Debug, Default)]
+pub(in crate::viewer) struct Legends {
+    pub(in crate::viewer) wish: Option<Wish>,
+    pub(in crate::viewer) placed: Vec<(PixelRect, Framebuffer)>,
+    pub(in crate::viewer) number: u64,
+}
+
+/// Where the legends lie, and a number that grows with every change of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::viewer) struct PlacedLegends {
+    pub(in crate::viewer) rects: [Option<PixelRect>; 2],
+    number: u64,
+}
+
+/// What decides legends and their places.
+#[derive(Debug)]
+pub(in crate::viewer) struct Wish {
+    pub(in crate::viewer) scene: Arc<Scene>,
+    pub(in crate::viewer) shown: Vec<Visualisation>,
+    pub(in crate::viewer) window: [u32; 2],
+    pub(in crate::viewer) area: PixelRect,
+    pub(in crate::viewer) spared: Vec<PixelRect>,
+}
+
+impl PartialEq for Wish {
+    fn eq(&self, other: &Self) -> bool {
+        let places = |wish: &Self| (wish.window, wish.area);
+        Arc::ptr_eq(&self.scene, &other.scene)
+            && self.shown == other.shown
+            && places(self) == places(other)
+            && self.spared == other.spared
+    }
+}
+
+impl Legends {
+    pub(in crate::viewer) fn places(&self) -> PlacedLegends {
+        let rect = |index: usize| self.placed.get(index).map(|(rect, _)| *rect);
+        PlacedLegends {
+            rects: [rect(0), rect(1)],
+            number: self.number,
+        }
+    }
+}
+
+impl Wish {
+    pub(in crate::viewer) fn place(&self) -> Vec<(PixelRect, Framebuffer)> {
+        let legends: Vec<Legend> = self
+            .shown
+            .iter()
+            .filter_map(|shown| shown.legend(&self.scene))
+            .collect();
+        place_legends(&legends, self.window, &self.area, &self.spared)
+    }
+}

@@ -1,0 +1,389 @@
+//! The pixel inspector: which pixel it shows, how large, and where its inset lies in the window.
+//!
+//! It reads the frame, never the screen. Unpinned it follows the pointer and gives way to it; pinned it stays, so
+//! that the pointer can go into the inset and read the magnified pixels.
+
+pub(in crate::viewer) mod contributions;
+pub(in crate::viewer) mod explanation;
+pub(in crate::viewer) mod samples;
+pub(in crate::viewer) mod status;
+
+use glam::DVec2;
+
+use crate::figure::{Corner, Inset, PixelRect, place};
+use crate::viewer::view::camera::Camera;
+
+/// The magnifications that the wheel steps through.
+const STEPS: [u32; 17] = [2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 28, 32, 40, 48, 64, 96];
+
+/// As many steps as there can be.
+const MAX_STEPS: u32 = 20;
+
+/// Part of the shorter side of its area that an inset may take.
+const SHARE: f64 = 0.8;
+
+/// What it may take in the smallest window, in pixels.
+const LEAST: f64 = 48.0;
+
+/// Lines of a magnified pixel's label: red, green, blue.
+const LABEL_LINES: f32 = 3.0;
+
+/// Characters of a label's longest line.
+const LABEL_CHARACTERS: f32 = 3.0;
+
+/// Pixels between the inset of A and that of B.
+const BETWEEN: u32 = 4;
+
+/// Window pixels around a pinned pixel that its ring takes, on a display with two pixels per point.
+pub(in crate::viewer) const RING_ROOM: u32 = 24;
+
+/// Free pixels around a label.
+const LABEL_MARGIN: f32 = 2.0;
+
+/// State of the pixel inspector.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "what is open, and what led to that, each on its own"
+)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inspector {
+    /// Whether it is to be seen.
+    pub open: bool,
+    /// Source pixels along each side, 8 to 64.
+    pub region: u32,
+    /// Window pixels along each side of a magnified pixel.
+    pub magnification: u32,
+    pub(in crate::viewer) pin: Option<Pin>,
+    /// Window pixels around the pinned one that a ring takes which marks it in the picture.
+    pub(in crate::viewer) ring_room: u32,
+    /// Whether the pin was jumped to, and is to stay in the part of the window that is free, until a hand moves the picture.
+    pub(in crate::viewer) revealed: bool,
+    /// Whether a hand asked about the pinned pixel: the view rests while the explanation takes its room.
+    pub(in crate::viewer) asked: bool,
+    /// The view before an explanation took its room, and the one that was set then.
+    pub(in crate::viewer) kept_view: Option<[Camera; 2]>,
+    /// Whether a pin opened the inspector, which then closes with it.
+    pub(in crate::viewer) came_with_pin: bool,
+    /// The pixel last under the pointer: shown while the pointer is elsewhere.
+    pub(in crate::viewer) last: Option<[u32; 2]>,
+    /// Region times pitch that the user chose; the wheel keeps it.
+    extent: u32,
+    /// Where the inset was last.
+    corner: Corner,
+    /// Turns of the wheel that did not make a whole step yet.
+    rest: f64,
+}
+
+/// What is pinned: a place of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::viewer) struct Pin {
+    /// The frame pixel that the place falls in now; it may lie outside the frame.
+    pub(in crate::viewer) pixel: [i64; 2],
+    /// The place in user units, and the scene's number and generation; `None` until the scene was read.
+    pub(in crate::viewer) place: Option<(DVec2, (usize, u64))>,
+}
+
+/// The inset in the window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlacedInset {
+    /// What it shows. In a small window less than the user chose.
+    pub inset: Inset,
+    /// Where it lies, in window pixels.
+    pub rect: PixelRect,
+}
+
+/// The numbers of a magnified pixel, and where to write them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelLabel {
+    /// The frame pixel.
+    pub pixel: [u32; 2],
+    /// Its block, in window pixels.
+    pub block: PixelRect,
+    /// Straight `[r, g, b, a]`; red, green and blue are to be written in decimal below each other.
+    pub rgba: [u8; 4],
+    /// Whether the colour is dark, so that the text must be light.
+    pub dark: bool,
+}
+
+impl Default for Inspector {
+    fn default() -> Self {
+        let (region, magnification) = (15, 20);
+        Self {
+            open: false,
+            region,
+            magnification,
+            pin: None,
+            ring_room: 0,
+            revealed: false,
+            asked: false,
+            kept_view: None,
+            came_with_pin: false,
+            last: None,
+            extent: region * (magnification + 1),
+            corner: Corner::default(),
+            rest: 0.0,
+        }
+    }
+}
+
+impl Inspector {
+    pub(in crate::viewer) fn set_region(&mut self, region: u32) {
+        self.apply(Inset::new([0, 0], region, self.magnification));
+        self.extent = self.region * (self.magnification + 1);
+    }
+
+    pub(in crate::viewer) fn set_magnification(&mut self, magnification: u32) {
+        self.apply(Inset::new([0, 0], self.region, magnification));
+        self.extent = self.region * (self.magnification + 1);
+    }
+
+    /// So many steps through [`STEPS`]; the inset's size stays about the same.
+    pub(in crate::viewer) fn step(&mut self, steps: i32) {
+        let now = self.magnification;
+        for _ in 0..steps.unsigned_abs().min(MAX_STEPS) {
+            let next = if steps > 0 {
+                STEPS.into_iter().find(|m| *m > self.magnification)
+            } else {
+                STEPS.into_iter().rfind(|m| *m < self.magnification)
+            };
+            self.magnification = next.unwrap_or(self.magnification);
+        }
+        if self.magnification != now {
+            let region = (self.extent + self.magnification.div_ceil(2)) / (self.magnification + 1);
+            self.apply(Inset::new([0, 0], region, self.magnification));
+        }
+    }
+
+    /// Turns of the wheel over the inset: every whole one is a step.
+    pub(in crate::viewer) fn wheel(&mut self, clicks: f64) {
+        let turned = (self.rest + clicks).clamp(-100.0, 100.0);
+        let whole = turned.trunc();
+        self.rest = turned - whole;
+        #[expect(clippy::cast_possible_truncation, reason = "clamped to 100 steps")]
+        self.step(whole as i32);
+    }
+
+    fn apply(&mut self, limits: Inset) {
+        self.region = limits.region;
+        self.magnification = limits.magnification;
+    }
+
+    /// Where the inset for the frame pixel `center` goes: inside `area`, never over that pixel as the window shows it in
+    /// `shown`, beside the ring of a pinned one where there is room, and never most of the area. In a tight window the large pixel goes first, then the region shrinks, then the
+    /// magnification. Remembers the corner, so that the inset only moves when it must.
+    pub(in crate::viewer) fn place(
+        &mut self,
+        center: [u32; 2],
+        shown: &PixelRect,
+        area: &PixelRect,
+    ) -> Option<PlacedInset> {
+        self.place_stack(center, shown, area, Inset::size)
+    }
+
+    /// As [`Inspector::place`] for two insets of the same pixel, one above the other; the lower has no large pixel.
+    pub(in crate::viewer) fn place_both(
+        &mut self,
+        center: [u32; 2],
+        shown: &PixelRect,
+        area: &PixelRect,
+    ) -> Option<[PlacedInset; 2]> {
+        let height = |inset: &Inset| inset.size()[1];
+        let upper = self.place_stack(center, shown, area, |inset| {
+            let both = height(inset) + BETWEEN + height(&inset.without_detail());
+            [inset.size()[0], both]
+        })?;
+        let inset = upper.inset.without_detail();
+        let rect = PixelRect {
+            y: upper.rect.bottom() + i64::from(BETWEEN),
+            height: height(&inset),
+            ..upper.rect
+        };
+        Some([upper, PlacedInset { inset, rect }])
+    }
+
+    /// Places what is as large as `size` says for an inset, which stands at its upper end.
+    fn place_stack(
+        &mut self,
+        center: [u32; 2],
+        shown: &PixelRect,
+        area: &PixelRect,
+        size: impl Fn(&Inset) -> [u32; 2],
+    ) -> Option<PlacedInset> {
+        let center = center.map(i64::from);
+        let (region, magnification) = (self.region, self.magnification);
+        let smallest = *Inset::REGION.start();
+        let inset = |region, magnification| Inset::new(center, region, magnification);
+        let regions = |least: u32| (least..=region).rev().map(move |region| inset(region, magnification));
+        // The ring is worth a somewhat smaller inset, not a tiny one.
+        let ring = (self.ring_room > 0).then(|| with_ring(shown, self.ring_room));
+        let beside_ring = regions((region * 2).div_ceil(3).max(smallest));
+        if let Some(placed) = ring.and_then(|ring| self.first_place(beside_ring, &ring, area, &size)) {
+            return Some(placed);
+        }
+        let magnifications = (*Inset::MAGNIFICATION.start()..magnification).rev();
+        let smaller = magnifications.map(|magnification| inset(smallest, magnification));
+        self.first_place(regions(smallest).chain(smaller), shown, area, &size)
+    }
+
+    /// Places the first of these insets that has room inside `area` beside `taken`, rather without its large pixel than
+    /// a smaller one.
+    fn first_place(
+        &mut self,
+        insets: impl Iterator<Item = Inset>,
+        taken: &PixelRect,
+        area: &PixelRect,
+        size: &impl Fn(&Inset) -> [u32; 2],
+    ) -> Option<PlacedInset> {
+        let longest = (f64::from(area.width.min(area.height)) * SHARE).max(LEAST);
+        for inset in insets {
+            for inset in [inset, inset.without_detail()] {
+                let whole = size(&inset);
+                if f64::from(whole[0].max(whole[1])) > longest {
+                    continue;
+                }
+                if let Some((corner, rect)) = place(area, whole, taken, self.corner) {
+                    self.corner = corner;
+                    let height = inset.size()[1];
+                    let rect = PixelRect { height, ..rect };
+                    return Some(PlacedInset { inset, rect });
+                }
+            }
+        }
+        None
+    }
+}
+
+/// A pinned pixel with so much room around it.
+fn with_ring(pixel: &PixelRect, room: u32) -> PixelRect {
+    PixelRect {
+        x: pixel.x - i64::from(room),
+        y: pixel.y - i64::from(room),
+        width: pixel.width + 2 * room,
+        height: pixel.height + 2 * room,
+    }
+}
+
+impl PlacedInset {
+    /// The frame pixel magnified at a window pixel; it may lie outside the frame. `None` beside the grid.
+    pub fn pixel_at(&self, [x, y]: [i64; 2]) -> Option<[i64; 2]> {
+        if !self.rect.contains([x, y]) {
+            return None;
+        }
+        self.inset.pixel_at([x - self.rect.x, y - self.rect.y])
+    }
+
+    /// The block of a frame pixel, in window pixels.
+    pub fn block(&self, pixel: [i64; 2]) -> Option<PixelRect> {
+        let block = self.inset.block(pixel)?;
+        Some(PixelRect {
+            x: block.x + self.rect.x,
+            y: block.y + self.rect.y,
+            ..block
+        })
+    }
+
+    /// Where there is room for words about the pixel in the middle, in window pixels. The ground is light in every
+    /// theme.
+    pub fn text_area(&self) -> Option<PixelRect> {
+        let area = self.inset.text_area()?;
+        Some(PixelRect {
+            x: area.x + self.rect.x,
+            y: area.y + self.rect.y,
+            ..area
+        })
+    }
+
+    /// Whether the numbers of a pixel fit its block when a character is `[width, height]` window pixels.
+    pub fn labels_fit(&self, character: [f32; 2]) -> bool {
+        let room = self.inset.magnification as f32 - LABEL_MARGIN;
+        character[0] * LABEL_CHARACTERS <= room && character[1] * LABEL_LINES <= room
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wheel_keeps_the_size() {
+        let mut inspector = Inspector::default();
+        let side = |inspector: &Inspector| inspector.region * (inspector.magnification + 1);
+        let before = side(&inspector);
+        inspector.wheel(0.5);
+        assert_eq!(inspector.magnification, 20, "half a click is no step");
+        inspector.wheel(0.5);
+        assert_eq!(inspector.magnification, 24, "two halves are one");
+        assert!(side(&inspector).abs_diff(before) <= 20, "{inspector:?}");
+        inspector.wheel(-1.0);
+        assert_eq!((inspector.magnification, inspector.region), (20, 15), "and back");
+        inspector.wheel(1e300);
+        inspector.wheel(f64::NAN);
+        assert_eq!((inspector.magnification, inspector.region), (96, 8), "the end");
+    }
+
+    #[test]
+    fn place_gives_way_and_shrinks() {
+        let mut inspector = Inspector::default();
+        let area = PixelRect::of_size([800, 600]);
+        let mut place = |at: [u32; 2], area: &PixelRect| inspector.place(at, &pixel(at), area);
+        let far = place([10, 500], &area).expect("there is room");
+        assert_eq!(far.inset.region, 15, "as chosen");
+        let near = place([700, 100], &area).expect("there is room");
+        assert_ne!(near.rect, far.rect, "it moved away");
+        let back = place([10, 300], &area).expect("there is room");
+        assert_eq!(back.rect, near.rect, "it only moves when it must");
+        let tight = place([60, 60], &PixelRect::of_size([120, 120])).expect("a small one fits");
+        assert!(tight.rect.width <= 90, "{tight:?}");
+        assert_eq!(place([0, 0], &PixelRect::of_size([20, 20])), None, "no room at all");
+        assert_eq!(place([0, 0], &PixelRect::default()), None, "nor here");
+    }
+
+    #[test]
+    fn place_leaves_the_ring_of_a_pin_uncovered() {
+        let area = PixelRect::of_size([800, 600]);
+        let mut inspector = Inspector::default();
+        let far = inspector
+            .place([10, 500], &pixel([10, 500]), &area)
+            .expect("there is room");
+        // Beside the inset by a few pixels: only the ring is in its way.
+        let at = [u32::try_from(far.rect.x).expect("inside") - 3, 100];
+        let free = inspector.place(at, &pixel(at), &area).expect("there is room");
+        assert_eq!(free.rect, far.rect, "without a ring it stays");
+        inspector.ring_room = RING_ROOM;
+        let pinned = inspector.place(at, &pixel(at), &area).expect("there is room");
+        assert!(!pinned.rect.overlaps(&with_ring(&pixel(at), RING_ROOM)), "{pinned:?}");
+        assert_eq!(pinned.inset.region, 15, "as large as before");
+        let tight = PixelRect::of_size([120, 120]);
+        let small = inspector.place([60, 60], &pixel([60, 60]), &tight);
+        assert!(small.is_some(), "where only the ring has no room, it is covered");
+    }
+
+    fn pixel(at: [u32; 2]) -> PixelRect {
+        let [x, y] = at.map(i64::from);
+        PixelRect {
+            x,
+            y,
+            width: 1,
+            height: 1,
+        }
+    }
+
+    #[test]
+    fn place_both_stacks_them_in_the_free_area() {
+        let mut inspector = Inspector::default();
+        for (size, at) in [([800, 600], [700, 100]), ([1280, 1000], [5, 5]), ([300, 260], [40, 40])] {
+            let area = PixelRect::of_size(size);
+            let [a, b] = inspector.place_both(at, &pixel(at), &area).expect("there is room");
+            for placed in [&a, &b] {
+                assert_eq!(placed.rect.intersection(&area), placed.rect, "inside {size:?}");
+                assert!(!placed.rect.overlaps(&pixel(at)), "beside the pixel");
+                assert_eq!([placed.rect.width, placed.rect.height], placed.inset.size(), "its size");
+            }
+            assert!(
+                a.rect.bottom() < b.rect.y && a.rect.x == b.rect.x,
+                "one above the other"
+            );
+            assert_eq!(a.inset.source(), b.inset.source(), "the same pixels");
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Where lessons come from: the program's own, and files.
+
+use crate::viewer::lesson::parse;
+use std::fs;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+use crate::viewer::lesson::model::{Lesson, LessonError};
+
+/// Starts the address of a built-in lesson.
+const PREFIX: &str = "lesson:";
+
+/// Largest file that is read, in bytes.
+const MOST_BYTES: u64 = 1 << 20;
+
+/// The lessons that come with the program: names and documents.
+pub static BUILT_IN: [(&str, &str); 2] = [
+    ("six-tasks", include_str!("../../../assets/lessons/six-tasks.toml")),
+    ("anisotropy", include_str!("../../../assets/lessons/anisotropy.toml")),
+];
+
+/// Where a lesson is read from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LessonSource {
+    /// One of [`BUILT_IN`].
+    BuiltIn(usize),
+    /// A file.
+    File(PathBuf),
+}
+
+impl LessonSource {
+    /// The lesson that a person writes as an address: `lesson:NAME` or the path of a TOML file; `None` for other paths.
+    pub fn from_address(address: &Path) -> Option<Self> {
+        if let Some(name) = address.to_str().and_then(|text| text.strip_prefix(PREFIX)) {
+            let known = BUILT_IN.iter().position(|(known, _)| *known == name);
+            return known.map(Self::BuiltIn);
+        }
+        let ending = address.extension()?;
+        ending
+            .eq_ignore_ascii_case("toml")
+            .then(|| Self::File(address.to_owned()))
+    }
+
+    /// The lesson's address on a command line.
+    pub fn address(&self) -> String {
+        match self {
+            Self::BuiltIn(index) => format!("{PREFIX}{}", BUILT_IN.get(*index).map_or("", |(name, _)| name)),
+            Self::File(path) => path.display().to_string(),
+        }
+    }
+
+    /// Reads the lesson.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is too large, or is no lesson: one line with the place and the cure.
+    pub fn read(&self) -> Result<Lesson, LessonError> {
+        let whole = |problem: String| LessonError {
+            file: self.address(),
+            at: None,
+            problem,
+        };
+        match self {
+            Self::BuiltIn(index) => {
+                let document = BUILT_IN.get(*index).map(|(_, document)| *document);
+                let document = document.ok_or_else(|| whole("no such lesson".to_owned()))?;
+                Lesson::parse(document, &self.address())
+            }
+            Self::File(path) => {
+                let unreadable =
+                    |error: std::io::Error| whole(format!("cannot be read: {error}; give a lesson in TOML"));
+                let mut bytes = Vec::new();
+                let is_file = fs::metadata(path).map_err(unreadable)?.is_file();
+                if !is_file {
+                    return Err(whole("is no file; give a lesson in TOML".to_owned()));
+                }
+                let file = fs::File::open(path).map_err(unreadable)?;
+                file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+                if bytes.len() as u64 > MOST_BYTES {
+                    let most = MOST_BYTES >> 20;
+                    return Err(whole(format!(
+                        "is larger than {most} MiB; split it into several lessons"
+                    )));
+                }
+                let text = String::from_utf8(bytes)
+                    .map_err(|_| whole("is no text in UTF-8; save it in that encoding".to_owned()))?;
+                parse::parse(&text, &self.address(), path.parent())
+            }
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! The scenes and textures that are built into the program.
+//!
+//! They are the files of `svg` and `assets/textures`; the suite holds this table against the folders.
+
+use crate::scene::{ResourceError, Resources};
+
+/// A scene of the built-in gallery.
+#[derive(Clone, Copy, Debug)]
+pub struct GalleryScene {
+    /// Its name, such as `basic/test4.svg`.
+    pub name: &'static str,
+    /// The document.
+    pub document: &'static str,
+}
+
+/// A texture of the built-in gallery.
+#[derive(Clone, Copy, Debug)]
+pub struct GalleryTexture {
+    /// Its file name, such as `map.png`.
+    pub name: &'static str,
+    /// The file, PNG or JPEG.
+    pub bytes: &'static [u8],
+}
+
+/// Where the gallery's scenes look for their textures.
+const TEXTURE_FOLDER: &str = "../../assets/textures/";
+
+macro_rules! scenes {
+    ($($name:literal),* $(,)?) => {
+        &[$(GalleryScene { name: $name, document: include_str!(concat!("../../../svg/", $name)) }),*]
+    };
+}
+
+macro_rules! textures {
+    ($($name:literal),* $(,)?) => {
+        &[$(GalleryTexture { name: $name, bytes: include_bytes!(concat!("../../../assets/textures/", $name)) }),*]
+    };
+}
+
+/// Every scene of the gallery, in the order of the list: the handsome ones first, the cruel ones last.
+pub static SCENES: &[GalleryScene] = scenes![
+    "illustration/01_lighthouse.svg",
+    "illustration/02_fox.svg",
+    "illustration/03_night_city.svg",
+    "illustration/04_balloons.svg",
+    "illustration/05_swell.svg",
+    "illustration/06_rosette.svg",
+    "illustration/07_guilloche.svg",
+    "illustration/08_veils.svg",
+    "illustration/09_poster.svg",
+    "basic/test1.svg",
+    "basic/test2.svg",
+    "basic/test3.svg",
+    "basic/test4.svg",
+    "basic/test5.svg",
+    "basic/test6.svg",
+    "basic/test7.svg",
+    "basic/test8.svg",
+    "texmap/test1.svg",
+    "texmap/test2.svg",
+    "texmap/test3.svg",
+    "texmap/test4.svg",
+    "texmap/test5.svg",
+    "texmap/test6.svg",
+    "transforms/robot.svg",
+    "transforms/runner.svg",
+    "study/01_zone_plate.svg",
+    "study/02_siemens_star.svg",
+    "study/03_edge_fan.svg",
+    "study/04_picket_fence.svg",
+    "study/05_seams.svg",
+    "study/06_zone_texture.svg",
+    "study/07_checker_floor.svg",
+    "study/08_checker_fan.svg",
+    "study/09_mip_lanes.svg",
+    "study/10_pixel_centres.svg",
+    "study/11_city_floor.svg",
+    "study/12_sharp_or_still.svg",
+    "study/13_thin_rays.svg",
+    "study/14_one_edge.svg",
+    "study/15_upright_bars.svg",
+    "study/16_what_is_painted.svg",
+    "study/17_half_the_light.svg",
+    "subdiv/triangle0.svg",
+    "subdiv/triangle1.svg",
+    "subdiv/triangle2.svg",
+    "subdiv/triangle3.svg",
+    "subdiv/triangle4.svg",
+    "subdiv/triangle5.svg",
+    "subdiv/triangle6.svg",
+    "hardcore/01_degenerate_square1.svg",
+    "hardcore/02_degenerate_square2.svg",
+    "hardcore/03_concave.svg",
+    "hardcore/04_repeated_points.svg",
+    "hardcore/05_far_away.svg",
+    "hardcore/06_t_junctions.svg",
+    "hardcore/07_needles.svg",
+];
+
+/// Every texture of the gallery.
+pub static TEXTURES: &[GalleryTexture] = textures![
+    "checker.png",
+    "foliage.jpg",
+    "grid.png",
+    "lanes.png",
+    "map.png",
+    "picture.png",
+    "plan.png",
+    "seal.png",
+    "zone.png",
+];
+
+/// The gallery's textures, by the addresses that its scenes use.
+#[derive(Clone, Copy, Debug)]
+pub struct Textures;
+
+impl Resources for Textures {
+    fn read(&self, address: &str) -> Result<Vec<u8>, ResourceError> {
+        let name = address.strip_prefix(TEXTURE_FOLDER).ok_or(ResourceError::NotFound)?;
+        let texture = TEXTURES.iter().find(|texture| texture.name == name);
+        texture
+            .map(|texture| texture.bytes.to_vec())
+            .ok_or(ResourceError::NotFound)
+    }
+}

@@ -1,0 +1,273 @@
+//! A row of [the table of picture settings](super::table), and changes of a setting as data.
+
+use std::fmt;
+
+use super::{Settings, values};
+use crate::viewer::keys::Chord;
+
+/// A setting that decides the pixels of a picture, besides scene and view.
+pub struct PictureSetting {
+    /// The option's name without its dashes.
+    pub option: &'static str,
+    /// What it is called beside a value, as in `sample rate 16`.
+    pub label: &'static str,
+    /// What the value stands for in the help of an option, such as `N`.
+    pub placeholder: &'static str,
+    /// Its line in the help of the command line: no full stop.
+    pub help: &'static str,
+    /// Which values there are.
+    pub values: Values,
+    /// What it is about.
+    pub about: About,
+    /// Where its value is told besides the panel.
+    pub told: Told,
+    /// Its control in the panel, if it has one.
+    pub panel: Option<PanelRow>,
+    /// Its lines in the table of commands.
+    pub commands: &'static [SettingCommand],
+    /// Whether the value takes a sign in words: `bias +1`.
+    pub signed: bool,
+    /// Whether steps go round and round instead of ending at the first and the last value.
+    pub goes_round: bool,
+    /// The name that a value had once, by its name of today.
+    pub former: fn(&str) -> Option<&'static str>,
+    /// The value as text, which `set` takes.
+    pub(super) get: fn(&Settings) -> String,
+    /// Takes a value; `None` where the text is none.
+    pub(super) set: fn(&mut Settings, &str) -> Option<()>,
+    /// Steps to the next value, or to the one before where the number is below zero.
+    pub(super) step: fn(&mut Settings, f64),
+}
+
+/// Which values a setting has.
+#[derive(Debug)]
+pub enum Values {
+    /// These, by name.
+    Named(fn() -> Vec<&'static str>),
+    /// More than can be listed.
+    Open {
+        /// In words, such as `a whole number from 1 to 256`.
+        form: &'static str,
+        /// In the table of options, such as `1 ... 64`.
+        range: &'static str,
+        /// A few of them, for the first axis of a sheet.
+        some: &'static [&'static str],
+        /// Those that the panel offers as buttons; a number's field has none.
+        offered: fn(&Settings) -> Vec<String>,
+    },
+}
+
+/// Where the value of a setting is told in status line, title and the texts over the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// Always.
+    Always,
+    /// Where it is not the default.
+    IfChanged,
+    /// Only where A and B differ in it.
+    IfDifferent,
+}
+
+/// What a setting is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum About {
+    /// Where samples lie, how they are averaged and what they show.
+    Samples,
+    /// How textures are read.
+    Textures,
+    /// How the document is read.
+    Document,
+}
+
+/// A setting in the panel.
+#[derive(Debug)]
+pub struct PanelRow {
+    /// On the left, or above where the control is as wide as the panel. A setting without one stands beside the one before it.
+    pub label: &'static str,
+    /// For screen readers.
+    pub name: &'static str,
+    /// What is pressed or dragged.
+    pub control: Control,
+}
+
+/// What sets a value in the panel.
+#[derive(Debug)]
+pub enum Control {
+    /// A button for every value, beside the label.
+    Buttons,
+    /// A button for every value, so many in a row, below the label.
+    WideButtons(usize),
+    /// A list that drops down.
+    List,
+    /// A number to drag or to type.
+    Number {
+        /// The smallest and the largest.
+        range: [f64; 2],
+        /// Before the number.
+        prefix: &'static str,
+        /// What stands for no number at all; half a step below the smallest.
+        none: Option<&'static str>,
+    },
+}
+
+/// A command that keys, palette and scripts know a setting by.
+#[derive(Debug)]
+pub struct SettingCommand {
+    /// The word in scripts and in the palette.
+    pub id: &'static str,
+    /// The name in menus and in the palette.
+    pub name: &'static str,
+    /// What it does: one sentence without a full stop.
+    pub help: &'static str,
+    /// What else a tool tip says: one sentence without a full stop, or nothing.
+    pub more: &'static str,
+    /// Its keys.
+    pub keys: &'static [Chord],
+    /// What it does without a value: steps so far. `None` where it needs its value.
+    pub step: Option<f64>,
+    /// Whether a value may follow.
+    pub takes_value: bool,
+}
+
+/// A change of a picture's settings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SettingChange {
+    setting: &'static PictureSetting,
+    to: To,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum To {
+    /// A text that the setting takes.
+    Value(String),
+    Step(f64),
+}
+
+impl PictureSetting {
+    /// The value as text, as [`PictureSetting::to`] takes it.
+    pub fn value(&self, settings: &Settings) -> String {
+        (self.get)(settings)
+    }
+
+    /// The value of a picture of which nothing is said.
+    pub fn default_value(&self) -> String {
+        self.value(&Settings::default())
+    }
+
+    /// Whether it is at its default.
+    pub fn is_default(&self, settings: &Settings) -> bool {
+        self.value(settings) == self.default_value()
+    }
+
+    /// Such as `sample rate 16` or `bias +1`.
+    pub fn words(&self, settings: &Settings) -> String {
+        format!("{} {}", self.label, self.shown(settings))
+    }
+
+    /// The value as people read it.
+    pub fn shown(&self, settings: &Settings) -> String {
+        let value = self.value(settings);
+        match values::number(&value).filter(|_| self.signed) {
+            Some(number) => format!("{number:+}"),
+            None => value,
+        }
+    }
+
+    /// The names of its values, in the order of menus; none where they cannot be listed.
+    pub fn names(&self) -> Vec<&'static str> {
+        match self.values {
+            Values::Named(names) => names(),
+            Values::Open { .. } => Vec::new(),
+        }
+    }
+
+    /// The values that have buttons or lines of a list.
+    pub fn offered(&self, settings: &Settings) -> Vec<String> {
+        match self.values {
+            Values::Named(names) => names().into_iter().map(str::to_owned).collect(),
+            Values::Open { offered, .. } => offered(settings),
+        }
+    }
+
+    /// The form of a value, such as `nearest|bilinear` or `a whole number from 1 to 256`.
+    pub fn form(&self) -> String {
+        match self.values {
+            Values::Named(names) => names().join("|"),
+            Values::Open { form, .. } => form.to_owned(),
+        }
+    }
+
+    /// The values of an axis to begin with.
+    pub fn some_values(&self) -> Vec<&'static str> {
+        match self.values {
+            Values::Named(names) => names(),
+            Values::Open { some, .. } => some.to_vec(),
+        }
+    }
+
+    /// Takes a value; false where the text is none.
+    pub fn set(&self, settings: &mut Settings, value: &str) -> bool {
+        let value = value.trim();
+        let mut names = self.names().into_iter();
+        let renamed = names.find(|name| (self.former)(name) == Some(value));
+        (self.set)(settings, renamed.unwrap_or(value)).is_some()
+    }
+
+    /// The change that sets this value.
+    ///
+    /// # Errors
+    /// One line that quotes the text and gives the form.
+    pub fn to(&'static self, value: &str) -> Result<SettingChange, String> {
+        let value = value.trim();
+        let mut settings = Settings::default();
+        if !self.set(&mut settings, value) {
+            return Err(format!("\"{value}\" is not {}", self.form()));
+        }
+        Ok(SettingChange {
+            setting: self,
+            to: To::Value(self.value(&settings)),
+        })
+    }
+
+    /// The change that steps to the next value, or to the one before where `by` is below zero.
+    pub const fn step(&'static self, by: f64) -> SettingChange {
+        SettingChange {
+            setting: self,
+            to: To::Step(by),
+        }
+    }
+}
+
+impl SettingChange {
+    /// Whether it is worth to be repeated while a key is held: a step that ends somewhere.
+    pub fn repeats(&self) -> bool {
+        matches!(self.to, To::Step(_)) && !self.setting.goes_round
+    }
+
+    /// Changes the settings; tells what else had to change, in one line.
+    pub fn apply(&self, settings: &mut Settings) -> Option<String> {
+        match &self.to {
+            // It was tried when the change was made.
+            To::Value(value) => {
+                self.setting.set(settings, value);
+            }
+            To::Step(by) => (self.setting.step)(settings, *by),
+        }
+        let render = &mut settings.render;
+        let refusal = render.pattern.refusal(render.sample_rate);
+        render.sample_rate = render.pattern.nearest(render.sample_rate);
+        refusal
+    }
+}
+
+impl PartialEq for PictureSetting {
+    fn eq(&self, other: &Self) -> bool {
+        self.option == other.option
+    }
+}
+
+impl fmt::Debug for PictureSetting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("PictureSetting").field(&self.option).finish()
+    }
+}

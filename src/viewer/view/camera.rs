@@ -1,0 +1,338 @@
+//! Where the user looks: the default view until a hand moves it, then a free one. Each scene has its own.
+//!
+//! Kept in frame pixels, so that what stands here is what `--view` takes.
+
+use glam::{DVec2, dvec2};
+
+use crate::geometry::{View, ViewTransform};
+use crate::viewer::settings::values;
+
+/// `scale * distance` that a view may reach, in pixels. Beyond it neighbouring pixels would share a coordinate:
+/// a user-space number has 53 bits, of which this leaves 8 below the pixel.
+const REACH: f64 = (1_u64 << 45) as f64;
+
+/// Smallest size of the canvas, in pixels: far below it nothing could be seen, and numbers stay finite.
+const SMALLEST_CANVAS: f64 = 1.0 / (1_u64 << 30) as f64;
+
+/// A view of one scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Camera {
+    view: View,
+}
+
+/// What a camera looks at and through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sight {
+    /// The canvas in user units.
+    pub canvas: DVec2,
+    /// The frame in pixels.
+    pub frame: [u32; 2],
+}
+
+/// The numbers of a view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewNumbers {
+    /// The user-space point in the middle of the frame.
+    pub center: DVec2,
+    /// Frame pixels per user unit.
+    pub scale: f64,
+    /// Clockwise, in degrees, above -180 and up to 180.
+    pub rotation: f64,
+}
+
+impl Sight {
+    /// The frame as a vector; a frame without pixels counts as one pixel, so that no view divides by zero.
+    fn size(&self) -> DVec2 {
+        let [width, height] = self.frame.map(|side| f64::from(side.max(1)));
+        dvec2(width, height)
+    }
+}
+
+impl ViewNumbers {
+    /// How people write a view.
+    pub(in crate::viewer) const FORM: &str = "default, or X,Y,SCALE[,DEGREES]";
+
+    /// Reads `X,Y,SCALE[,DEGREES]`; the scale is above zero.
+    pub(in crate::viewer) fn parse(text: &str) -> Option<Self> {
+        let values = values::numbers(text)?;
+        let (x, y, scale, rotation) = match *values.as_slice() {
+            [x, y, scale] => (x, y, scale, 0.0),
+            [x, y, scale, rotation] => (x, y, scale, rotation),
+            _ => return None,
+        };
+        let center = DVec2::new(x, y);
+        (scale > 0.0).then_some(Self {
+            center,
+            scale,
+            rotation,
+        })
+    }
+}
+
+impl Camera {
+    /// A camera with this view.
+    pub fn new(view: View) -> Self {
+        Self { view }
+    }
+
+    /// The view, as `--view` would take it.
+    pub fn view(&self) -> View {
+        self.view
+    }
+
+    /// Whether no hand has moved the default view.
+    pub fn is_default(&self) -> bool {
+        self.view == View::Default
+    }
+
+    /// The map from user space to frame pixels.
+    pub fn transform(&self, sight: &Sight) -> ViewTransform {
+        self.view.transform(sight.canvas, sight.frame.map(|side| side.max(1)))
+    }
+
+    /// The view's numbers.
+    pub fn numbers(&self, sight: &Sight) -> ViewNumbers {
+        match self.view {
+            View::At {
+                center,
+                scale,
+                rotation,
+            } => ViewNumbers {
+                center,
+                scale,
+                rotation,
+            },
+            View::Default => ViewNumbers {
+                center: sight.canvas / 2.0,
+                scale: View::default_scale(sight.canvas, sight.frame.map(|side| side.max(1))),
+                rotation: 0.0,
+            },
+            View::Canvas => ViewNumbers {
+                center: sight.canvas / 2.0,
+                scale: (sight.size() / sight.canvas).min_element(),
+                rotation: 0.0,
+            },
+        }
+    }
+
+    /// The view with these numbers, brought into the range where pixels can be told apart.
+    pub fn set(&mut self, numbers: ViewNumbers, sight: &Sight) {
+        let finite = numbers.center.is_finite() && numbers.scale > 0.0 && numbers.rotation.is_finite();
+        if !finite {
+            return;
+        }
+        let extent = sight.canvas.max_element();
+        let lowest = SMALLEST_CANVAS / extent;
+        let highest = REACH / extent;
+        let scale = numbers.scale.clamp(lowest, highest);
+        let limit = DVec2::splat(REACH / scale);
+        self.view = View::At {
+            center: numbers.center.clamp(-limit, limit),
+            scale,
+            rotation: half_turn(numbers.rotation),
+        };
+    }
+
+    /// Moves the picture by frame pixels.
+    pub fn pan(&mut self, by: DVec2, sight: &Sight) {
+        let numbers = self.numbers(sight);
+        let moved = unturned(by, numbers.rotation) / numbers.scale;
+        let center = numbers.center - moved;
+        self.set(ViewNumbers { center, ..numbers }, sight);
+    }
+
+    /// Scales by `factor`; the user-space point at the frame position `at` stays there.
+    pub fn zoom(&mut self, at: DVec2, factor: f64, sight: &Sight) {
+        if !(factor > 0.0 && factor.is_finite() && at.is_finite()) {
+            return;
+        }
+        let before = self.numbers(sight);
+        let arm = unturned(at - sight.size() / 2.0, before.rotation);
+        let fixed = before.center + arm / before.scale;
+        // The limit depends on how far out the view lies: ask for the scale first, then place the centre.
+        let reach = REACH / fixed.abs().max_element().max(sight.canvas.max_element());
+        let scale = (before.scale * factor).min(reach.max(before.scale));
+        let lowest = SMALLEST_CANVAS / sight.canvas.max_element();
+        let scale = scale.max(lowest.min(before.scale));
+        let center = fixed - arm / scale;
+        self.set(
+            ViewNumbers {
+                center,
+                scale,
+                ..before
+            },
+            sight,
+        );
+    }
+
+    /// Turns clockwise about the middle of the frame.
+    pub fn rotate(&mut self, degrees: f64, sight: &Sight) {
+        let numbers = self.numbers(sight);
+        let rotation = numbers.rotation + degrees;
+        self.set(ViewNumbers { rotation, ..numbers }, sight);
+    }
+
+    /// The largest view that shows the whole canvas in a part of the frame, given by its corner and size in frame
+    /// pixels; the rotation stays.
+    pub fn fit(&mut self, [corner, size]: [DVec2; 2], sight: &Sight) {
+        let numbers = self.numbers(sight);
+        let (sin, cos) = numbers.rotation.to_radians().sin_cos();
+        let (sin, cos) = (sin.abs(), cos.abs());
+        let canvas = sight.canvas;
+        let turned = dvec2(canvas.x * cos + canvas.y * sin, canvas.x * sin + canvas.y * cos);
+        let scale = (size.max(DVec2::ONE) / turned).min_element();
+        let aside = unturned(corner + size / 2.0 - sight.size() / 2.0, numbers.rotation) / scale;
+        let fitted = ViewNumbers {
+            center: canvas / 2.0 - aside,
+            scale,
+            ..numbers
+        };
+        self.set(fitted, sight);
+    }
+
+    /// One user unit is one frame pixel; the middle of the frame stays.
+    pub fn actual_size(&mut self, sight: &Sight) {
+        let numbers = self.numbers(sight);
+        self.set(ViewNumbers { scale: 1.0, ..numbers }, sight);
+    }
+
+    /// The same part of the scene when frame pixels become `factor` times as many along each side.
+    pub fn rescale(&mut self, factor: f64, sight: &Sight) {
+        if !self.is_default() {
+            let numbers = self.numbers(sight);
+            let scale = numbers.scale * factor;
+            self.set(ViewNumbers { scale, ..numbers }, sight);
+        }
+    }
+}
+
+/// A screen-space vector turned back by a view's rotation.
+fn unturned(vector: DVec2, rotation: f64) -> DVec2 {
+    DVec2::from_angle(-rotation.to_radians()).rotate(vector)
+}
+
+/// An angle in degrees brought above -180 and up to 180.
+fn half_turn(degrees: f64) -> f64 {
+    let turned = degrees.rem_euclid(360.0);
+    if turned > 180.0 { turned - 360.0 } else { turned }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIGHT: Sight = Sight {
+        canvas: DVec2::new(200.0, 100.0),
+        frame: [640, 480],
+    };
+
+    /// Any finite view near the canvas, from a stream of bytes.
+    fn arbitrary_camera(u: &mut arbtest::arbitrary::Unstructured<'_>) -> arbtest::arbitrary::Result<Camera> {
+        let mut camera = Camera::default();
+        let part = |n: u16| f64::from(n) / 65536.0;
+        let numbers = ViewNumbers {
+            center: dvec2(part(u.arbitrary()?) * 300.0 - 50.0, part(u.arbitrary()?) * 200.0 - 50.0),
+            scale: 2_f64.powf(part(u.arbitrary()?) * 40.0 - 20.0),
+            rotation: part(u.arbitrary()?) * 720.0 - 360.0,
+        };
+        camera.set(numbers, &SIGHT);
+        Ok(camera)
+    }
+
+    #[test]
+    fn zoom_fixes_the_point_under_the_cursor() {
+        arbtest::arbtest(|u| {
+            let mut camera = arbitrary_camera(u)?;
+            let at = dvec2(f64::from(u.int_in_range(0..=640)?), f64::from(u.int_in_range(0..=480)?));
+            let factor = 2_f64.powf(f64::from(u.int_in_range(-80..=80)?) / 8.0);
+            let before = camera.transform(&SIGHT).to_scene(at);
+            camera.zoom(at, factor, &SIGHT);
+            let after = camera.transform(&SIGHT).to_pixels(before);
+            // Coordinates up to 300 units at scales below 2^31: an ulp of the product is 2^-13 of a pixel.
+            assert!(
+                after.abs_diff_eq(at, 1e-2),
+                "{at} went to {after} by {factor}, {camera:?}"
+            );
+            Ok(())
+        })
+        .budget_ms(300);
+    }
+
+    #[test]
+    fn pan_is_one_to_one() {
+        arbtest::arbtest(|u| {
+            let mut camera = arbitrary_camera(u)?;
+            let by = dvec2(
+                f64::from(u.int_in_range(-999..=999)?),
+                f64::from(u.int_in_range(-999..=999)?),
+            );
+            let point = camera.transform(&SIGHT).to_scene(DVec2::ZERO);
+            camera.pan(by, &SIGHT);
+            let after = camera.transform(&SIGHT).to_pixels(point);
+            assert!(
+                after.abs_diff_eq(by, 1e-3),
+                "moved by {after} instead of {by}, {camera:?}"
+            );
+            Ok(())
+        })
+        .budget_ms(300);
+    }
+
+    #[test]
+    fn zoom_has_no_end_but_numbers() {
+        let mut camera = Camera::default();
+        for _ in 0..10_000 {
+            camera.zoom(dvec2(3.0, 4.0), 1e3, &SIGHT);
+        }
+        assert!(camera.numbers(&SIGHT).scale > 1e11, "{camera:?}");
+        for _ in 0..10_000 {
+            camera.zoom(dvec2(3.0, 4.0), 1e-3, &SIGHT);
+        }
+        let numbers = camera.numbers(&SIGHT);
+        assert!(numbers.scale > 0.0 && numbers.center.is_finite(), "{numbers:?}");
+        for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let before = camera;
+            camera.zoom(DVec2::ZERO, wrong, &SIGHT);
+            assert_eq!(camera, before, "{wrong} is no factor");
+        }
+    }
+
+    #[test]
+    fn fit_touches_the_frame() {
+        let mut camera = Camera::default();
+        let whole = [DVec2::ZERO, SIGHT.size()];
+        camera.fit(whole, &SIGHT);
+        let scale = camera.numbers(&SIGHT).scale;
+        assert!((scale - 3.2).abs() < 1e-12, "640 px for 200 units: {scale}");
+        camera.rotate(90.0, &SIGHT);
+        camera.fit(whole, &SIGHT);
+        let numbers = camera.numbers(&SIGHT);
+        assert!((numbers.scale - 2.4).abs() < 1e-9, "480 px for 200 units: {numbers:?}");
+        assert!((numbers.rotation - 90.0).abs() < 1e-12, "the rotation stays");
+        let part = [dvec2(40.0, 30.0), dvec2(400.0, 400.0)];
+        camera.fit(part, &SIGHT);
+        let middle = camera.transform(&SIGHT).to_pixels(SIGHT.canvas / 2.0);
+        assert!(
+            middle.abs_diff_eq(dvec2(240.0, 230.0), 1e-9),
+            "in the middle of the part: {middle}"
+        );
+        assert!(
+            (camera.numbers(&SIGHT).scale - 2.0).abs() < 1e-9,
+            "400 px for 200 units"
+        );
+    }
+
+    #[test]
+    fn rotation_stays_in_half_turns() {
+        for (given, kept) in [
+            (180.0, 180.0),
+            (-180.0, 180.0),
+            (190.0, -170.0),
+            (720.0, 0.0),
+            (-5.0, -5.0),
+        ] {
+            let turned = half_turn(given);
+            assert!((turned - kept).abs() < 1e-12, "{given} degrees became {turned}");
+        }
+    }
+}

@@ -83,7 +83,7 @@ impl Hand {
         }
     }
 
-    /// Moves along a path for so long, `pace` motions after another; `at` tells the place after so many motions.
+    /// Moves along a path for so long, `budget` motions after another; `at` tells the place after so many motions.
     fn path(&self, time: Duration, at: impl Fn(i16) -> [i16; 2]) -> [f64; 2] {
         let start = (Instant::now(), log::now());
         let mut step = 0;

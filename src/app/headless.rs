@@ -105,7 +105,9 @@ pub(super) fn run(options: &ViewOptions) -> Result<Option<String>, AppError> {
     }
     session.settle();
     untroubled(&session)?;
-    session.run(crate::viewer::Command::WindowScreenshot);
+    session.run(crate::viewer::Command::Export(
+        crate::viewer::ExportCommand::WindowScreenshot,
+    ));
     session.settle();
     match session.viewer().messages().last() {
         Some(Message {

@@ -34,7 +34,10 @@ pub use command::arguments::Argument;
 pub use command::lookup as commands;
 pub use command::lookup::Gesture;
 pub use command::spec::{Action, CommandSpec, Group};
-pub use command::{Command, Effect};
+pub use command::{
+    AbCommand, Command, Effect, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, SceneCommand,
+    SheetCommand, ViewCommand, WindowCommand,
+};
 pub use export::naming::NameTemplate;
 pub use export::record::{Grammar, ReadArguments, Restored};
 pub use export::sheet::axes::{Axis, AxisLists, Choice};
@@ -44,7 +47,7 @@ pub use export::sheet::drawing::{Panel, SceneReader, Sheet, SheetRequest};
 pub use export::sheet::preview::ReadSheet;
 pub use export::sheet::preview::SheetPreview;
 pub use export::spec::{PictureSpec, as_path, plain_record, shell_line};
-pub use frames::frame::{Frame, Manner, Picture, Preview};
+pub use frames::frame::{Frame, Picture, Preview, PreviewQuality};
 pub use frames::present::WindowPixels;
 pub use inspector::samples::{Hit, ProbedSample};
 pub use inspector::status::Status;

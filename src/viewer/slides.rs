@@ -1,5 +1,6 @@
 //! The steps of a lesson as slides: the words on the left, on the right the picture that the window shows.
 
+use crate::viewer::LessonCommand;
 use std::io;
 use std::ops::RangeInclusive;
 
@@ -79,7 +80,7 @@ pub fn slides<E: From<SlideError>>(
         if !numbers.contains(&(number + 1)) {
             continue;
         }
-        let _ = viewer.apply(Command::LessonStep(number));
+        let _ = viewer.apply(Command::Lesson(LessonCommand::Step(number)));
         viewer.finish();
         if let Some(problem) = viewer.current().and_then(|entry| entry.failure()) {
             let problem = problem.to_owned();

@@ -1,5 +1,6 @@
 //! Which pixels a texel feeds: exactly those whose explanations read it.
 
+use rasterscope::viewer::{InspectorCommand, ViewCommand};
 use std::collections::HashMap;
 
 use rasterscope::geometry::View as SceneView;
@@ -162,7 +163,7 @@ fn feeds_end_where_the_work_becomes_too_much() {
 #[test]
 fn feeds_are_found_for_the_texel_that_is_pointed_at() {
     let mut session = Session::open(&[LAYERS], [60, 40]);
-    session.run(Command::Pin([20, 12]));
+    session.run(Command::Inspector(InspectorCommand::Pin([20, 12])));
     let texel = session
         .viewer
         .explanation()
@@ -186,18 +187,18 @@ fn feeds_are_found_for_the_texel_that_is_pointed_at() {
         });
     assert!(texel.is_some(), "the pixel shows a texture");
     assert_eq!(session.viewer.fed_region(), None, "nothing is looked for unasked");
-    session.run(Command::PointAtTexel(texel));
+    session.run(Command::Inspector(InspectorCommand::PointAtTexel(texel)));
     let lit: Vec<[u32; 2]> = session.viewer.fed_pixels().iter().map(|fed| fed.pixel).collect();
     assert!(
         lit.contains(&[20, 12]) && lit.len() > 1,
         "the pinned pixel and others: {lit:?}"
     );
-    session.run(Command::PanBy {
+    session.run(Command::View(ViewCommand::PanBy {
         by: glam::dvec2(3.0, 0.0),
-    });
+    }));
     let moved: Vec<[u32; 2]> = session.viewer.fed_pixels().iter().map(|fed| fed.pixel).collect();
     assert!(moved.contains(&[23, 12]), "they follow the picture: {moved:?}");
-    session.run(Command::Unpin);
+    session.run(Command::Inspector(InspectorCommand::Unpin));
     assert!(
         session.viewer.fed_pixels().is_empty(),
         "without an explanation nothing is lit"

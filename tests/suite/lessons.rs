@@ -1,5 +1,6 @@
 //! Lessons: walking through them by commands, and their slides.
 
+use rasterscope::viewer::{LessonCommand, SceneCommand, ViewCommand, WindowCommand};
 use std::fs;
 use std::path::Path;
 use std::process::Command as Process;
@@ -55,7 +56,9 @@ fn lesson_is_walked_by_keys_and_closed_by_escape() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
     session.keys(&["p", "="]);
     let (settings, before) = (*session.viewer.settings(), session.pixels().clone());
-    session.run(Command::Open(vec![folder.path().join("lesson.toml")]));
+    session.run(Command::Scenes(SceneCommand::Open(vec![
+        folder.path().join("lesson.toml"),
+    ])));
     assert_eq!(title(&session.viewer).as_deref(), Some("First"));
     assert_eq!(session.viewer.scenes().len(), 2, "each scene of the lesson once");
     assert_eq!(
@@ -90,7 +93,7 @@ fn lesson_is_walked_by_keys_and_closed_by_escape() {
     assert_eq!(title(&session.viewer).as_deref(), Some("Third"), "the last one stays");
     assert_eq!(session.viewer.other(), None, "without a comparison");
     session.keys(&["=", "]", "PageUp"]);
-    session.run(Command::LessonStep(2));
+    session.run(Command::Lesson(LessonCommand::Step(2)));
     assert_eq!(
         session.viewer.settings().render.sample_rate.samples(),
         1,
@@ -100,14 +103,14 @@ fn lesson_is_walked_by_keys_and_closed_by_escape() {
         session.viewer.view_numbers().unwrap().rotation.abs() < 1e-9,
         "upright again"
     );
-    session.run(Command::LessonStep(17));
+    session.run(Command::Lesson(LessonCommand::Step(17)));
     assert_eq!(
         title(&session.viewer).as_deref(),
         Some("Third"),
         "there is no such step"
     );
 
-    session.run(Command::Escape);
+    session.run(Command::Window(WindowCommand::Escape));
     assert_eq!(session.viewer.lesson(), None, "closed");
     assert_eq!(*session.viewer.settings(), settings, "the settings are back");
     assert_eq!(session.viewer.scenes().len(), 1, "and the scenes");
@@ -119,7 +122,9 @@ fn lesson_shows_the_canvas_where_no_panel_is_until_a_hand_moves_it() {
     use rasterscope::viewer::PixelRect;
     let folder = folder();
     let mut session = Session::open(&[TRIANGLES], [600, 300]);
-    session.run(Command::Open(vec![folder.path().join("lesson.toml")]));
+    session.run(Command::Scenes(SceneCommand::Open(vec![
+        folder.path().join("lesson.toml"),
+    ])));
     let middle = |session: &Session| {
         let entry = session.viewer.current().unwrap();
         let canvas = entry.scene().unwrap().canvas;
@@ -130,12 +135,12 @@ fn lesson_shows_the_canvas_where_no_panel_is_until_a_hand_moves_it() {
             .to_pixels(canvas / 2.0)
     };
     let free = |x: i64, width: u32| {
-        Command::SetFreeArea(Some(PixelRect {
+        Command::Window(WindowCommand::SetFreeArea(Some(PixelRect {
             x,
             y: 0,
             width,
             height: 300,
-        }))
+        })))
     };
     session.run(free(200, 400));
     assert!(
@@ -149,7 +154,7 @@ fn lesson_shows_the_canvas_where_no_panel_is_until_a_hand_moves_it() {
         "{}",
         middle(&session)
     );
-    session.run(Command::PanBy { by: dvec2(-50.0, 0.0) });
+    session.run(Command::View(ViewCommand::PanBy { by: dvec2(-50.0, 0.0) }));
     session.run(free(0, 600));
     assert!(
         middle(&session).distance(dvec2(350.0, 150.0)) < 1.0,
@@ -164,7 +169,7 @@ fn lesson_that_cannot_be_read_changes_nothing() {
     let path = folder.path().join("broken.toml");
     fs::write(&path, "title = \"T\"\n[[step]]\nscene = \"nowhere.svg\"\n").unwrap();
     let mut session = Session::open(&[TRIANGLES], [200, 100]);
-    session.run(Command::OpenLesson(LessonSource::File(path)));
+    session.run(Command::Lesson(LessonCommand::Open(LessonSource::File(path))));
     assert_eq!(session.viewer.lesson(), None);
     let message = &session.viewer.messages().last().unwrap().text;
     assert!(
@@ -283,7 +288,7 @@ fn lesson_names_the_colours_of_the_weights() {
         (name, corner)
     });
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
-    session.run(Command::OpenLesson(LessonSource::BuiltIn(0)));
+    session.run(Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(0))));
     let (lesson, _) = session.viewer.lesson().unwrap();
     let step = lesson.steps.iter().find(|step| step.title == "The weights themselves");
     let text = format!("{:?}", step.unwrap().text);

@@ -1,5 +1,8 @@
 //! A against B without a window: which settings each has, what the window shows of both, what Esc closes.
 
+use rasterscope::viewer::{
+    AbCommand, ExportCommand, InspectorCommand, PointerCommand, SceneCommand, ViewCommand, WindowCommand,
+};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -77,12 +80,12 @@ fn comparison_keeps_view_and_scene_together() {
     let mut session = sixteen_against_one(WINDOW);
     session.keys(&["w"]);
     for command in [
-        Command::PanBy { by: dvec2(9.0, 4.0) },
-        Command::ZoomAt { at: None, factor: 1.7 },
-        Command::RotateBy { degrees: 20.0 },
-        Command::NextScene,
-        Command::Resize([200, 90]),
-        Command::SetPixelZoom(PixelZoom::new(2).unwrap()),
+        Command::View(ViewCommand::PanBy { by: dvec2(9.0, 4.0) }),
+        Command::View(ViewCommand::ZoomAt { at: None, factor: 1.7 }),
+        Command::View(ViewCommand::RotateBy { degrees: 20.0 }),
+        Command::Scenes(SceneCommand::Next),
+        Command::Window(WindowCommand::Resize([200, 90])),
+        Command::View(ViewCommand::SetPixelZoom(PixelZoom::new(2).unwrap())),
     ] {
         session.run(command.clone());
         let [a, b] = frames(&session);
@@ -99,10 +102,10 @@ fn comparison_wipe_is_pixel_exact() {
     // A third of 160 window pixels are 54 frame pixels.
     for (zoom, columns) in [(1, [80, 0, 160, 40]), (3, [27, 0, 54, 14])] {
         let mut session = sixteen_against_one(WINDOW);
-        session.run(Command::SetPixelZoom(PixelZoom::new(zoom).unwrap()));
-        session.run(Command::Arrange(Arrangement::Wipe));
+        session.run(Command::View(ViewCommand::SetPixelZoom(PixelZoom::new(zoom).unwrap())));
+        session.run(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
         for (part, column) in [0.5, 0.0, 1.0, 0.25].into_iter().zip(columns) {
-            session.run(Command::SetWipe(part));
+            session.run(Command::Ab(AbCommand::SetWipe(part)));
             let [a, b] = frames(&session);
             assert_eq!(session.viewer.wipe_line(), Some(f64::from(column * zoom)), "the line");
             let window = session.viewer.window_picture();
@@ -126,11 +129,11 @@ fn comparison_line_is_dragged() {
     session.keys(&["w"]);
     let view = session.viewer.view_numbers();
     for command in [
-        Command::PointerMoved { at: dvec2(82.0, 60.0) },
-        Command::PointerPressed(PointerButton::Primary),
-        Command::PointerMoved { at: dvec2(40.0, 70.0) },
-        Command::PointerReleased(PointerButton::Primary),
-        Command::PointerMoved { at: dvec2(100.0, 70.0) },
+        Command::Pointer(PointerCommand::Moved { at: dvec2(82.0, 60.0) }),
+        Command::Pointer(PointerCommand::Pressed(PointerButton::Primary)),
+        Command::Pointer(PointerCommand::Moved { at: dvec2(40.0, 70.0) }),
+        Command::Pointer(PointerCommand::Released(PointerButton::Primary)),
+        Command::Pointer(PointerCommand::Moved { at: dvec2(100.0, 70.0) }),
     ] {
         session.run(command);
     }
@@ -140,8 +143,8 @@ fn comparison_line_is_dragged() {
         "the line went with the pointer until the button went up"
     );
     assert_eq!(session.viewer.view_numbers(), view, "the picture stayed");
-    session.run(Command::PointerPressed(PointerButton::Primary));
-    session.run(Command::PointerMoved { at: dvec2(110.0, 70.0) });
+    session.run(Command::Pointer(PointerCommand::Pressed(PointerButton::Primary)));
+    session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(110.0, 70.0) }));
     assert_ne!(
         session.viewer.view_numbers(),
         view,
@@ -165,26 +168,26 @@ fn comparison_difference_is_the_pairs_picture() {
     shows(&session, style, "absolute");
     for measure in Measure::ALL {
         style.measure = measure;
-        session.run(Command::SetMeasure(measure));
+        session.run(Command::Ab(AbCommand::SetMeasure(measure)));
         shows(&session, style, measure.name());
     }
     style.gain = Gain::Factor(8.0);
-    session.run(Command::SetGain(4.0));
-    session.run(Command::StepGain(1));
+    session.run(Command::Ab(AbCommand::SetGain(4.0)));
+    session.run(Command::Ab(AbCommand::StepGain(1)));
     shows(&session, style, "a gain of 8");
     style.gain = Gain::Normalize;
     session.keys(&["Shift+D"]);
     shows(&session, style, "normalised");
-    session.run(Command::ZoomAt { at: None, factor: 1.4 });
+    session.run(Command::View(ViewCommand::ZoomAt { at: None, factor: 1.4 }));
     shows(&session, style, "normalised anew for another view");
     session.keys(&["r"]);
     shows(&session, style, "normalised anew for the swapped pair");
     session.keys(&["Shift+D"]);
     style.gain = Gain::Factor(8.0);
     shows(&session, style, "back to the gain of before");
-    session.run(Command::Normalize(Toggle::On));
+    session.run(Command::Ab(AbCommand::Normalize(Toggle::On)));
     style.gain = Gain::Factor(session.viewer.difference_gain().unwrap() / 2.0);
-    session.run(Command::StepGain(-1));
+    session.run(Command::Ab(AbCommand::StepGain(-1)));
     shows(&session, style, "half of the normalised gain");
     session.keys(&["d"]);
     assert!(session.viewer.window_picture() == *session.pixels(), "A alone again");
@@ -193,13 +196,13 @@ fn comparison_difference_is_the_pairs_picture() {
 #[test]
 fn comparison_side_by_side_shows_all_of_both() {
     let mut session = sixteen_against_one([400, 200]);
-    session.run(Command::SetFreeArea(Some(PixelRect {
+    session.run(Command::Window(WindowCommand::SetFreeArea(Some(PixelRect {
         x: 40,
         y: 10,
         width: 301,
         height: 180,
-    })));
-    session.run(Command::ToggleArrangement(Arrangement::SideBySide));
+    }))));
+    session.run(Command::Ab(AbCommand::ToggleArrangement(Arrangement::SideBySide)));
     let [a, b] = frames(&session);
     assert_eq!(
         [a.width(), a.height()],
@@ -215,7 +218,7 @@ fn comparison_side_by_side_shows_all_of_both() {
         }
     }
     for (at, pixel) in [([45.0, 12.0], [5, 2]), ([40.0 + 151.0 + 7.0, 13.0], [7, 3])] {
-        session.run(Command::PointerMoved { at: at.into() });
+        session.run(Command::Pointer(PointerCommand::Moved { at: at.into() }));
         assert_eq!(
             session.viewer.hovered_pixel(),
             Some(pixel),
@@ -223,12 +226,12 @@ fn comparison_side_by_side_shows_all_of_both() {
         );
     }
     // Zooming about a place in B's half keeps what is there.
-    session.run(Command::PointerMoved { at: dvec2(260.5, 60.5) });
+    session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(260.5, 60.5) }));
     let before = session.viewer.status().unwrap().user;
-    session.run(Command::Wheel { clicks: 2.0 });
+    session.run(Command::Pointer(PointerCommand::Wheel { clicks: 2.0 }));
     let after = session.viewer.status().unwrap().user;
     assert!(after.abs_diff_eq(before, 1e-9), "{before} moved to {after}");
-    session.run(Command::Screenshot);
+    session.run(Command::Export(ExportCommand::Screenshot));
     let saved = image::open(&session.pictures()[0]).unwrap().into_rgba8();
     assert_eq!(
         saved.dimensions(),
@@ -240,7 +243,7 @@ fn comparison_side_by_side_shows_all_of_both() {
 #[test]
 fn comparison_escape_leaves_the_mode_first_and_b_last() {
     let mut session = sixteen_against_one([400, 300]);
-    session.run(Command::Pin([20, 30]));
+    session.run(Command::Inspector(InspectorCommand::Pin([20, 30])));
     session.keys(&["w", "d"]);
     let state = |session: &Session| {
         let viewer = &session.viewer;
@@ -262,12 +265,20 @@ fn comparison_escape_leaves_the_mode_first_and_b_last() {
         (Arrangement::Alone, false, false, true),
         (Arrangement::Alone, false, false, false),
     ] {
-        assert_eq!(session.run(Command::Escape), [], "not yet");
+        assert_eq!(session.run(Command::Window(WindowCommand::Escape)), [], "not yet");
         assert_eq!(state(&session), expected, "arrangement, pin, inspector, B");
     }
     assert!(session.viewer.other_pixels().is_none(), "B's frame is let go");
-    assert_eq!(session.run(Command::Escape), [], "nothing is open any more: it asks");
-    assert_eq!(session.run(Command::Escape), [Effect::Quit], "and ends");
+    assert_eq!(
+        session.run(Command::Window(WindowCommand::Escape)),
+        [],
+        "nothing is open any more: it asks"
+    );
+    assert_eq!(
+        session.run(Command::Window(WindowCommand::Escape)),
+        [Effect::Quit],
+        "and ends"
+    );
 }
 
 #[test]
@@ -291,7 +302,7 @@ fn comparison_saves_what_is_on_the_screen() {
 fn comparison_inspects_both_at_the_same_pixel() {
     let mut session = sixteen_against_one([640, 480]);
     let [x, y] = session.viewer.measures().unwrap().0.places[0].at;
-    session.run(Command::Pin([x.into(), y.into()]));
+    session.run(Command::Inspector(InspectorCommand::Pin([x.into(), y.into()])));
     assert!(session.viewer.other_inset().is_none(), "A alone");
     session.keys(&["d"]);
     let (a, b) = (session.viewer.inset().unwrap(), session.viewer.other_inset().unwrap());
@@ -313,9 +324,9 @@ fn comparison_inspects_both_at_the_same_pixel() {
             unequal += u32::from(frames[0].rgba(x, y + 1) != frames[1].rgba(x, y + 1));
         }
         let corner = placed.rect;
-        session.run(Command::PointerMoved {
+        session.run(Command::Pointer(PointerCommand::Moved {
             at: dvec2((corner.x + 20) as f64, (corner.y + 20) as f64),
-        });
+        }));
         assert!(session.viewer.pointer_over_inset(), "both can be read");
         assert!(session.viewer.hovered_pixel().is_some(), "magnified pixels");
     }
@@ -328,16 +339,16 @@ fn comparison_draws_the_parts_that_changed() {
     let mut window = session.viewer.window_picture();
     assert!(session.viewer.take_damage().is_none(), "at first everything");
     for command in [
-        Command::Arrange(Arrangement::Wipe),
-        Command::SetWipe(0.3),
-        Command::SwapAb,
+        Command::Ab(AbCommand::Arrange(Arrangement::Wipe)),
+        Command::Ab(AbCommand::SetWipe(0.3)),
+        Command::Ab(AbCommand::Swap),
         step("sample-rate", -1.0),
-        Command::Arrange(Arrangement::Difference),
-        Command::Normalize(Toggle::On),
-        Command::PanBy { by: dvec2(3.0, 0.0) },
-        Command::Compare(Against::Nothing),
-        Command::Compare(Against::Settings),
-        Command::Arrange(Arrangement::SideBySide),
+        Command::Ab(AbCommand::Arrange(Arrangement::Difference)),
+        Command::Ab(AbCommand::Normalize(Toggle::On)),
+        Command::View(ViewCommand::PanBy { by: dvec2(3.0, 0.0) }),
+        Command::Ab(AbCommand::Compare(Against::Nothing)),
+        Command::Ab(AbCommand::Compare(Against::Settings)),
+        Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)),
     ] {
         session.run(command.clone());
         let parts = session.viewer.take_damage();
@@ -354,7 +365,7 @@ fn comparison_draws_the_parts_that_changed() {
 fn comparison_of_a_moving_view_never_mixes_two_views() {
     let mut session = sixteen_against_one([400, 300]);
     // Previews differ by more.
-    session.run(Command::Progressive(Toggle::Off));
+    session.run(Command::View(ViewCommand::Progressive(Toggle::Off)));
     session.run(set("sample-rate", "64"));
     session.keys(&["d"]);
     // A difference of one view has few pixels that differ; one of two views differs along every edge by several pixels.
@@ -365,9 +376,9 @@ fn comparison_of_a_moving_view_never_mixes_two_views() {
     };
     let calm = strong(&session);
     for step in 0..60 {
-        let _ = session.viewer.apply(Command::PanBy {
+        let _ = session.viewer.apply(Command::View(ViewCommand::PanBy {
             by: dvec2(if step % 20 < 10 { 9.0 } else { -9.0 }, 0.0),
-        });
+        }));
         session.viewer.poll();
         std::thread::sleep(Duration::from_millis(2));
         session.viewer.poll();
@@ -380,13 +391,13 @@ fn comparison_of_a_moving_view_never_mixes_two_views() {
 fn comparison_flips_in_time() {
     let mut session = sixteen_against_one(WINDOW);
     let [a, b] = frames(&session);
-    session.run(Command::ToggleArrangement(Arrangement::Flip));
+    session.run(Command::Ab(AbCommand::ToggleArrangement(Arrangement::Flip)));
     assert!(session.viewer.window_picture() == a, "A first");
     let due = session.viewer.due().expect("something is to happen");
     std::thread::sleep(due.saturating_duration_since(Instant::now()));
     assert!(session.viewer.poll(), "it is time");
     assert!(session.viewer.window_picture() == b, "then B");
-    session.run(Command::Escape);
+    session.run(Command::Window(WindowCommand::Escape));
     assert!(session.viewer.window_picture() == a, "A alone");
     assert_eq!(session.viewer.due(), None, "nothing to wait for");
 }
@@ -395,9 +406,9 @@ fn comparison_flips_in_time() {
 #[test]
 fn comparison_jumps_to_what_can_be_seen() {
     let mut session = sixteen_against_one(WINDOW);
-    session.run(Command::NextDifference);
+    session.run(Command::Ab(AbCommand::NextDifference));
     let first = session.viewer.pinned_pixel().expect("the largest difference");
-    session.run(Command::Unpin);
+    session.run(Command::Inspector(InspectorCommand::Unpin));
     // A panel over the half that holds it.
     let half = WINDOW[0] / 2;
     let free = PixelRect {
@@ -406,9 +417,9 @@ fn comparison_jumps_to_what_can_be_seen() {
         width: half,
         height: WINDOW[1],
     };
-    session.run(Command::SetFreeArea(Some(free)));
+    session.run(Command::Window(WindowCommand::SetFreeArea(Some(free))));
     let place = session.viewer.status_of(first).unwrap().user;
-    session.run(Command::NextDifference);
+    session.run(Command::Ab(AbCommand::NextDifference));
     let pinned = session.viewer.pinned_pixel().expect("the same again");
     let shown = session.viewer.shown_at(pinned);
     assert!(free.contains([shown.x, shown.y]), "{shown:?} in {free:?}");
@@ -418,7 +429,10 @@ fn comparison_jumps_to_what_can_be_seen() {
         "the same place of the scene: {now}, {place}"
     );
     let view = session.viewer.view_numbers();
-    session.run(Command::Pin([first[0].into(), first[1].into()]));
+    session.run(Command::Inspector(InspectorCommand::Pin([
+        first[0].into(),
+        first[1].into(),
+    ])));
     assert_eq!(
         session.viewer.view_numbers(),
         view,
@@ -435,13 +449,13 @@ fn comparison_flips_by_hand() {
     assert_eq!(session.viewer.due(), None, "until the key is pressed again");
     session.keys(&["b"]);
     assert!(session.viewer.window_picture() == a, "A");
-    session.run(Command::ToggleArrangement(Arrangement::Flip));
-    session.run(Command::ToggleArrangement(Arrangement::Flip));
+    session.run(Command::Ab(AbCommand::ToggleArrangement(Arrangement::Flip)));
+    session.run(Command::Ab(AbCommand::ToggleArrangement(Arrangement::Flip)));
     assert!(session.viewer.due().is_some(), "from alone both flip in time");
     session.keys(&["b"]);
     assert!(session.viewer.window_picture() == b, "the other of both");
     assert_eq!(session.viewer.due(), None, "a hand stops the time");
-    session.run(Command::Escape);
+    session.run(Command::Window(WindowCommand::Escape));
     assert!(session.viewer.window_picture() == a, "A alone");
 }
 
@@ -459,7 +473,9 @@ fn comparison_draws_b_in_the_back_at_rest() {
         picture.view != view && *session.viewer.other_pixels().unwrap() == expected
     };
     let start = Instant::now();
-    let _ = session.viewer.apply(Command::PanBy { by: dvec2(5.0, 5.0) });
+    let _ = session
+        .viewer
+        .apply(Command::View(ViewCommand::PanBy { by: dvec2(5.0, 5.0) }));
     while !is_in_step(&mut session) {
         assert!(start.elapsed() < Duration::from_secs(20), "in the end");
         assert!(!session.viewer.is_settled(), "there is something to wait for");
@@ -472,9 +488,9 @@ fn comparison_draws_b_in_the_back_at_rest() {
 fn comparison_copies_both_colours() {
     let mut session = sixteen_against_one(WINDOW);
     let [x, y] = session.viewer.measures().unwrap().0.places[0].at;
-    session.run(Command::Pin([x.into(), y.into()]));
+    session.run(Command::Inspector(InspectorCommand::Pin([x.into(), y.into()])));
     let [r, g, b, _] = frames(&session)[1].rgba(x, y).unwrap();
-    let effects = session.run(Command::CopyPixel);
+    let effects = session.run(Command::Export(ExportCommand::CopyPixel));
     let [Effect::CopyText(text)] = effects.as_slice() else {
         panic!("{effects:?}")
     };
@@ -511,7 +527,9 @@ fn comparison_measures_are_the_pairs() {
         assert_eq!(Some(seen.flip), pair.flip(&never), "FLIP after {key}");
     }
     // Numbers of an older picture say so.
-    let _ = session.viewer.apply(Command::PanBy { by: dvec2(5.0, 5.0) });
+    let _ = session
+        .viewer
+        .apply(Command::View(ViewCommand::PanBy { by: dvec2(5.0, 5.0) }));
     assert!(
         session.viewer.measures().is_some_and(|(_, is_current)| !is_current),
         "stale"
@@ -521,14 +539,16 @@ fn comparison_measures_are_the_pairs() {
         session.viewer.measures().is_some_and(|(_, is_current)| is_current),
         "found out anew"
     );
-    session.run(Command::Compare(Against::Nothing));
+    session.run(Command::Ab(AbCommand::Compare(Against::Nothing)));
     assert!(session.viewer.measures().is_none(), "nothing is compared");
 }
 
 #[test]
 fn comparison_measures_wait_for_rest() {
     let mut session = sixteen_against_one(WINDOW);
-    let _ = session.viewer.apply(Command::PanBy { by: dvec2(5.0, 5.0) });
+    let _ = session
+        .viewer
+        .apply(Command::View(ViewCommand::PanBy { by: dvec2(5.0, 5.0) }));
     let start = Instant::now();
     while !session.viewer.measures().is_some_and(|(_, is_current)| is_current) {
         let due = session.viewer.due();
@@ -567,10 +587,12 @@ fn comparison_goes_from_difference_to_difference() {
         session.keys(&["n"]);
         assert_eq!(session.viewer.pinned_pixel(), Some(*place), "the next, round and round");
     }
-    session.run(Command::Unpin);
+    session.run(Command::Inspector(InspectorCommand::Unpin));
     // Asked for before anything is known of the new picture.
-    let _ = session.viewer.apply(Command::PanBy { by: dvec2(7.0, 2.0) });
-    let _ = session.viewer.apply(Command::NextDifference);
+    let _ = session
+        .viewer
+        .apply(Command::View(ViewCommand::PanBy { by: dvec2(7.0, 2.0) }));
+    let _ = session.viewer.apply(Command::Ab(AbCommand::NextDifference));
     session.viewer.finish();
     let first = session.viewer.measures().unwrap().0.places[0].at;
     assert_eq!(
@@ -578,7 +600,7 @@ fn comparison_goes_from_difference_to_difference() {
         Some(first),
         "the one that differs most of the new picture"
     );
-    session.run(Command::Unpin);
+    session.run(Command::Inspector(InspectorCommand::Unpin));
     session.run(set("sample-rate", "1"));
     session.keys(&["n"]);
     assert_eq!(session.viewer.pinned_pixel(), None, "nothing differs");
@@ -589,18 +611,18 @@ fn comparison_goes_from_difference_to_difference() {
 #[test]
 fn comparison_without_a_window_or_a_scene_ends() {
     let mut session = Session::open(&[TRIANGLES, "<svg"], WINDOW);
-    session.run(Command::Resize([0, 0]));
+    session.run(Command::Window(WindowCommand::Resize([0, 0])));
     session.keys(&["r", "w", "n", "="]);
-    session.run(Command::Resize(WINDOW));
+    session.run(Command::Window(WindowCommand::Resize(WINDOW)));
     session.assert_frame_is_current();
     assert!(session.viewer.other_pixels().is_some(), "B too");
-    session.run(Command::NextScene);
+    session.run(Command::Scenes(SceneCommand::Next));
     session.keys(&["d", "r", "n", "w"]);
     assert!(
         session.viewer.other_pixels().is_none(),
         "no picture of a scene that cannot be read"
     );
-    session.run(Command::PreviousScene);
+    session.run(Command::Scenes(SceneCommand::Previous));
     session.keys(&["d"]);
     session.assert_frame_is_current();
 }
@@ -609,7 +631,7 @@ fn comparison_without_a_window_or_a_scene_ends() {
 fn comparison_with_the_truth() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
     session.keys(&["p", "l", "t", "."]);
-    session.run(Command::Compare(Against::Truth(None)));
+    session.run(Command::Ab(AbCommand::Compare(Against::Truth(None))));
     assert_eq!(session.viewer.arrangement(), Arrangement::Wipe, "to be seen at once");
     let truth = RenderSettings {
         sample_rate: SampleRate::new(256).unwrap(),
@@ -640,7 +662,7 @@ fn comparison_with_the_truth() {
     let view = entry.camera.view().transform(scene.canvas, WINDOW);
     render::draw(scene, &view, &truth, &mut expected);
     assert!(b == expected, "what the renderer makes of 256 samples");
-    session.run(Command::Escape);
+    session.run(Command::Window(WindowCommand::Escape));
     assert!(session.viewer.window_picture() == a, "A alone");
     session.keys(&["r"]);
     assert!(session.viewer.window_picture() == b, "R shows the truth in place of A");
@@ -659,7 +681,7 @@ fn comparison_with_the_truth() {
     let window = session.viewer.window_picture();
     assert_eq!(window.rgba(79, 60), b.rgba(79, 60), "the truth on the left");
     assert_eq!(window.rgba(80, 60), session.pixels().rgba(80, 60), "A on the right");
-    assert_eq!(session.run(Command::Escape), [], "the wipe");
+    assert_eq!(session.run(Command::Window(WindowCommand::Escape)), [], "the wipe");
     assert!(session.viewer.window_picture() == *session.pixels(), "A in front again");
 }
 
@@ -676,7 +698,7 @@ fn truth_averages_as_a_does_unless_asked() {
         session.run(set("sample-rate", "64"));
         let mut ratios = Vec::new();
         for (text, resolve) in [("truth", own), ("truth stored", Stored), ("truth linear", Linear)] {
-            session.run(Command::Compare(Against::from_text(text).unwrap()));
+            session.run(Command::Ab(AbCommand::Compare(Against::from_text(text).unwrap())));
             assert_eq!(session.viewer.other_settings().unwrap().resolve, resolve, "{text}");
             let [_, told] = session.viewer.comparison_sides().unwrap();
             let words = if resolve == Linear {
@@ -693,7 +715,7 @@ fn truth_averages_as_a_does_unless_asked() {
             "{own:?}: the same values leave sampling alone: {ratios:?}"
         );
     }
-    session.run(Command::Compare(Against::Truth(None)));
+    session.run(Command::Ab(AbCommand::Compare(Against::Truth(None))));
     session.run(set("resolve", Stored.name()));
     assert_eq!(session.viewer.other_settings().unwrap().resolve, Stored, "it follows A");
 }
@@ -718,7 +740,7 @@ fn comparison_with_a_picture_from_outside() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
     let (path, picture) = picture_of_rate_four(&session, [90, 70]);
     // Dropped on the window.
-    session.run(Command::Open(vec![path]));
+    session.run(Command::Scenes(SceneCommand::Open(vec![path])));
     assert_eq!(session.viewer.scenes().len(), 1, "a picture is no scene");
     assert_eq!(session.viewer.frame_size(), [90, 70], "A takes its size");
     session.assert_frame_is_current();
@@ -739,7 +761,7 @@ fn comparison_with_a_picture_from_outside() {
     assert!(is_current && measures.levels.differing() == 0, "then nothing does");
     assert_eq!(measures.guess, None, "and there is nothing to guess");
     // Both in the middle of the window, (160 - 90) / 2 and (120 - 70) / 2 pixels from its corner.
-    session.run(Command::Escape);
+    session.run(Command::Window(WindowCommand::Escape));
     let shows = |session: &Session, [left, top]: [u32; 2], what: &str| {
         let window = session.viewer.window_picture();
         for (x, y) in [(0, 0), (17, 40), (45, 35), (60, 12)] {
@@ -751,11 +773,11 @@ fn comparison_with_a_picture_from_outside() {
     let beside = session.viewer.window_picture().rgba(34, 40);
     assert_eq!(beside, Some([128, 128, 128, 255]), "grey beside it");
     let view = session.viewer.view_numbers();
-    session.run(Command::PanBy { by: dvec2(-5.0, 12.0) });
+    session.run(Command::View(ViewCommand::PanBy { by: dvec2(-5.0, 12.0) }));
     shows(&session, [30, 37], "moved by the hand");
-    session.run(Command::PointerMoved { at: dvec2(47.0, 77.0) });
+    session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(47.0, 77.0) }));
     assert_eq!(session.viewer.hovered_pixel(), Some([17, 40]), "read where it is");
-    session.run(Command::Wheel { clicks: 1.0 });
+    session.run(Command::Pointer(PointerCommand::Wheel { clicks: 1.0 }));
     assert_eq!(session.viewer.settings().pixel_zoom.factor(), 2, "the wheel magnifies");
     assert_eq!(session.viewer.hovered_pixel(), Some([17, 40]), "about the pointer");
     assert_eq!(
@@ -763,7 +785,7 @@ fn comparison_with_a_picture_from_outside() {
         view,
         "the scene's view stays: it is the picture's"
     );
-    session.run(Command::Compare(Against::Nothing));
+    session.run(Command::Ab(AbCommand::Compare(Against::Nothing)));
     assert_eq!(
         session.viewer.frame_size(),
         [80, 60],
@@ -782,7 +804,7 @@ fn comparison_with_what_is_no_picture_says_so() {
     std::fs::create_dir(folder.join("folder.png")).unwrap();
     for name in ["huge.png", "text.png", "folder.png", "nowhere.png"] {
         let before = session.viewer.messages().last().map(|message| message.id);
-        session.run(Command::Compare(Against::File(folder.join(name))));
+        session.run(Command::Ab(AbCommand::Compare(Against::File(folder.join(name)))));
         let message = session.viewer.messages().last().unwrap();
         assert!(before < Some(message.id), "{name} is told");
         assert_eq!(message.kind, MessageKind::Error, "{name}");
@@ -801,9 +823,13 @@ fn comparison_with_what_is_no_picture_says_so() {
 fn comparison_newest_picture_wins() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
     let (path, _) = picture_of_rate_four(&session, [90, 70]);
-    let _ = session.viewer.apply(Command::Compare(Against::File(path.clone())));
-    let _ = session.viewer.apply(Command::Arrange(Arrangement::SideBySide));
-    let _ = session.viewer.apply(Command::SwapAb);
+    let _ = session
+        .viewer
+        .apply(Command::Ab(AbCommand::Compare(Against::File(path.clone()))));
+    let _ = session
+        .viewer
+        .apply(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
+    let _ = session.viewer.apply(Command::Ab(AbCommand::Swap));
     session.viewer.finish();
     assert!(
         matches!(session.viewer.other(), Some(Other::Picture(_))),
@@ -814,8 +840,12 @@ fn comparison_newest_picture_wins() {
         Arrangement::SideBySide,
         "arranged as asked meanwhile"
     );
-    let _ = session.viewer.apply(Command::Compare(Against::File(path)));
-    let _ = session.viewer.apply(Command::Compare(Against::Truth(None)));
+    let _ = session
+        .viewer
+        .apply(Command::Ab(AbCommand::Compare(Against::File(path))));
+    let _ = session
+        .viewer
+        .apply(Command::Ab(AbCommand::Compare(Against::Truth(None))));
     session.viewer.finish();
     assert_eq!(
         session.viewer.other(),

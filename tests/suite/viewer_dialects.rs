@@ -1,5 +1,6 @@
 //! A and B with a dialect each: the scene is read twice.
 
+use rasterscope::viewer::{AbCommand, InspectorCommand, SceneCommand, ViewCommand};
 use std::fs;
 
 use rasterscope::raster::Framebuffer;
@@ -43,17 +44,17 @@ fn assert_both(session: &Session, dialects: [DialectChoice; 2], when: &str) {
 fn dialects_of_a_and_b_are_their_own() {
     use DialectChoice::{Auto, Course, Svg};
     let mut session = Session::open(&[BOXED], [200, 160]);
-    session.run(Command::Compare(Against::Settings));
-    session.run(Command::Arrange(Arrangement::Wipe));
+    session.run(Command::Ab(AbCommand::Compare(Against::Settings)));
+    session.run(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
     session.run(set("dialect", Course.name()));
     assert_both(&session, [Course, Auto], "A reads anew, B does not");
     let title = session.viewer.title();
     assert!(title.contains("dialect course | auto"), "{title}");
-    session.run(Command::PanBy {
+    session.run(Command::View(ViewCommand::PanBy {
         by: glam::dvec2(7.0, -3.0),
-    });
+    }));
     assert_both(&session, [Course, Auto], "they move together");
-    session.run(Command::SwapAb);
+    session.run(Command::Ab(AbCommand::Swap));
     assert_eq!(
         session.viewer.settings().dialect,
         Auto,
@@ -62,7 +63,7 @@ fn dialects_of_a_and_b_are_their_own() {
     assert_both(&session, [Auto, Course], "swapped");
     session.run(set("dialect", Svg.name()));
     assert_both(&session, [Svg, Course], "A's choice leaves B alone");
-    session.run(Command::Pin([100, 80]));
+    session.run(Command::Inspector(InspectorCommand::Pin([100, 80])));
     assert!(session.viewer.explanation().is_some(), "A is explained");
     let [own, other] = [session.viewer.explanation(), session.viewer.other_explanation()].map(Option::unwrap);
     assert_eq!(
@@ -75,7 +76,7 @@ fn dialects_of_a_and_b_are_their_own() {
     );
     let path = session.folder.path().join("1.svg");
     fs::write(&path, BOXED.replace("#1f6feb", "#d1495b")).unwrap();
-    session.run(Command::Reload);
+    session.run(Command::Scenes(SceneCommand::Reload));
     assert_both(&session, [Svg, Course], "both are read again");
     session.run(set("dialect", Course.name()));
     let same = session.pixels() == session.viewer.other_pixels().unwrap();
@@ -85,7 +86,7 @@ fn dialects_of_a_and_b_are_their_own() {
         "{}",
         session.viewer.title()
     );
-    session.run(Command::Compare(Against::Truth(None)));
+    session.run(Command::Ab(AbCommand::Compare(Against::Truth(None))));
     session.run(set("dialect", Svg.name()));
     assert_both(&session, [Svg, Svg], "the truth is that of A's dialect");
 }
@@ -103,7 +104,7 @@ fn other_reading_holds_for_the_folder() {
     assert_eq!(note, "read as svg; as course it is another picture", "the note");
     let words = |session: &Session| session.viewer.reading_words();
     assert_eq!(words(&session).as_deref(), Some("read as svg"), "the status line");
-    session.run(Command::OtherReading);
+    session.run(Command::Scenes(SceneCommand::OtherReading));
     assert_eq!(session.viewer.settings().dialect, Auto, "the setting stays");
     is_read(&session, Course, "after the button");
     assert_eq!(words(&session).as_deref(), Some("read as course"), "the status line");
@@ -117,16 +118,16 @@ fn other_reading_holds_for_the_folder() {
         line.contains("--dialect course"),
         "the command line makes the same: {line}"
     );
-    session.run(Command::Scene(1));
+    session.run(Command::Scenes(SceneCommand::Show(1)));
     is_read(&session, Course, "the next of the folder");
-    session.run(Command::OtherReading);
-    session.run(Command::Scene(0));
+    session.run(Command::Scenes(SceneCommand::OtherReading));
+    session.run(Command::Scenes(SceneCommand::Show(0)));
     is_read(&session, Svg, "back again, for both");
     session.run(set("rules", rasterscope::rules::Rules::Course.name()));
     let line = session.viewer.command_line().unwrap();
     assert!(line.contains("--dialect svg"), "rules alone would say course: {line}");
     session.run(set("dialect", Course.name()));
-    session.run(Command::OtherReading);
+    session.run(Command::Scenes(SceneCommand::OtherReading));
     assert_eq!(
         session.viewer.settings().dialect,
         Svg,
@@ -137,11 +138,11 @@ fn other_reading_holds_for_the_folder() {
 #[test]
 fn dialects_change_with_scenes() {
     let mut session = Session::open(&[BOXED, BOXED], [120, 100]);
-    session.run(Command::Compare(Against::Settings));
-    session.run(Command::Arrange(Arrangement::SideBySide));
+    session.run(Command::Ab(AbCommand::Compare(Against::Settings)));
+    session.run(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
     session.run(set("dialect", DialectChoice::Course.name()));
     for index in [1, 0, 1] {
-        session.run(Command::Scene(index));
+        session.run(Command::Scenes(SceneCommand::Show(index)));
         assert_both(&session, [DialectChoice::Course, DialectChoice::Auto], "the next scene");
     }
 }
@@ -150,7 +151,7 @@ fn dialects_change_with_scenes() {
 fn settings_for_b_are_written_as_the_command_line_has_them() {
     let mut session = Session::open(&[BOXED], [120, 100]);
     let against = Against::from_text("sample-rate 16, dialect course").unwrap();
-    session.run(Command::Compare(against));
+    session.run(Command::Ab(AbCommand::Compare(against)));
     assert_eq!(session.viewer.settings().render.sample_rate.samples(), 1, "A stays");
     assert_eq!(session.viewer.settings().dialect, DialectChoice::Auto, "in its dialect");
     match session.viewer.other() {

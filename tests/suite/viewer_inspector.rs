@@ -2,6 +2,7 @@
 
 use glam::dvec2;
 use rasterscope::raster::SamplePattern;
+use rasterscope::viewer::{AbCommand, ExportCommand, InspectorCommand, PointerCommand, ViewCommand, WindowCommand};
 use rasterscope::viewer::{Command, Effect, PixelRect, PixelZoom, Toggle, ViewNumbers};
 
 use crate::support::session::{Session, TRIANGLES, set};
@@ -15,51 +16,51 @@ fn inspector_pin_and_nudge() {
         None,
         "arrows do nothing before the inspector is open"
     );
-    session.run(Command::PointerMoved { at: dvec2(100.2, 50.9) });
+    session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(100.2, 50.9) }));
     session.keys(&["Enter"]);
     assert_eq!(session.viewer.pinned_pixel(), Some([100, 50]), "pinned");
     assert!(session.viewer.inspector().open, "and to be seen");
-    session.run(Command::PointerMoved { at: dvec2(3.0, 4.0) });
+    session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(3.0, 4.0) }));
     session.keys(&["Left", "Up", "Shift+Right", "Shift+Down"]);
     assert_eq!(session.viewer.pinned_pixel(), Some([109, 59]), "nudged");
-    session.run(Command::Nudge([100_000, -100_000]));
+    session.run(Command::Inspector(InspectorCommand::Nudge([100_000, -100_000])));
     assert_eq!(session.viewer.pinned_pixel(), Some([399, 0]), "within the frame");
-    session.run(Command::Resize([200, 300]));
+    session.run(Command::Window(WindowCommand::Resize([200, 300])));
     assert_eq!(
         session.viewer.pinned_pixel(),
         None,
         "a smaller frame does not reach the place"
     );
-    session.run(Command::Resize([0, 0]));
+    session.run(Command::Window(WindowCommand::Resize([0, 0])));
     assert_eq!(session.viewer.pinned_pixel(), None, "a minimised window has no pixels");
-    session.run(Command::Resize([400, 300]));
+    session.run(Command::Window(WindowCommand::Resize([400, 300])));
     assert_eq!(session.viewer.pinned_pixel(), Some([399, 0]), "as the user chose it");
 }
 
 #[test]
 fn inspector_pin_stays_at_its_place_in_the_scene() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
-    session.run(Command::Pin([150, 120]));
+    session.run(Command::Inspector(InspectorCommand::Pin([150, 120])));
     let place = |session: &Session| {
         let pixel = session.viewer.pinned_pixel().expect("in the frame");
         session.viewer.status_of(pixel).expect("a scene").user
     };
     let (before, scale) = (place(&session), session.viewer.view_numbers().expect("a view").scale);
-    session.run(Command::ZoomAt {
+    session.run(Command::View(ViewCommand::ZoomAt {
         at: Some(dvec2(130.0, 110.0)),
         factor: 3.0,
-    });
+    }));
     assert_eq!(
         session.viewer.pinned_pixel(),
         Some([190, 140]),
         "three times as far from what stays"
     );
-    session.run(Command::PanBy { by: dvec2(-40.0, 25.0) });
+    session.run(Command::View(ViewCommand::PanBy { by: dvec2(-40.0, 25.0) }));
     assert_eq!(session.viewer.pinned_pixel(), Some([150, 165]), "with the picture");
     for command in [
-        Command::RotateBy { degrees: 35.0 },
-        Command::Resize([500, 420]),
-        Command::SetPixelZoom(PixelZoom::ALL[1]),
+        Command::View(ViewCommand::RotateBy { degrees: 35.0 }),
+        Command::Window(WindowCommand::Resize([500, 420])),
+        Command::View(ViewCommand::SetPixelZoom(PixelZoom::ALL[1])),
         set("sample-rate", "9"),
     ] {
         session.run(command.clone());
@@ -69,9 +70,9 @@ fn inspector_pin_stays_at_its_place_in_the_scene() {
             "{command:?}: less than a pixel away"
         );
     }
-    session.run(Command::PanBy { by: dvec2(9000.0, 0.0) });
+    session.run(Command::View(ViewCommand::PanBy { by: dvec2(9000.0, 0.0) }));
     assert_eq!(session.viewer.pinned_pixel(), None, "out of sight");
-    session.run(Command::ResetView);
+    session.run(Command::View(ViewCommand::Reset));
     assert!(
         (place(&session) - before).length() < 1.0 / scale.min(1.0),
         "and back: {:?}",
@@ -83,9 +84,9 @@ fn inspector_pin_stays_at_its_place_in_the_scene() {
 fn inspector_explains_the_pinned_pixel() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
     assert!(session.viewer.explanation().is_none(), "nothing is pinned");
-    session.run(Command::Inspector(Toggle::On));
+    session.run(Command::Inspector(InspectorCommand::Show(Toggle::On)));
     assert!(session.viewer.explanation().is_none(), "the pointer is not followed");
-    session.run(Command::Pin([200, 150]));
+    session.run(Command::Inspector(InspectorCommand::Pin([200, 150])));
     let explained = session.viewer.explanation().expect("a pinned pixel").clone();
     let frame = session.viewer.frame().expect("a frame");
     assert_eq!(explained.pixel, [200, 150], "the pinned one");
@@ -116,7 +117,7 @@ fn inspector_explains_the_pinned_pixel() {
     assert!(session.viewer.explanation().is_none(), "closed");
     session.keys(&["e"]);
     assert!(session.viewer.explanation().is_some(), "open again");
-    let copied = session.run(Command::CopyExplanation);
+    let copied = session.run(Command::Export(ExportCommand::CopyExplanation));
     assert!(
         matches!(copied.as_slice(), [Effect::CopyText(text)] if text.starts_with("## Pixel (200, 150)")),
         "{copied:?}"
@@ -126,12 +127,12 @@ fn inspector_explains_the_pinned_pixel() {
 #[test]
 fn inspector_inset_reads_the_frame() {
     let mut session = Session::open(&[TRIANGLES], [640, 480]);
-    session.run(Command::Pin([320, 240]));
+    session.run(Command::Inspector(InspectorCommand::Pin([320, 240])));
     let placed = session.viewer.inset().unwrap();
     let block = placed.block([322, 239]).unwrap();
-    session.run(Command::PointerMoved {
+    session.run(Command::Pointer(PointerCommand::Moved {
         at: dvec2(block.x as f64 + 1.5, block.y as f64 + 2.5),
-    });
+    }));
     assert!(session.viewer.pointer_over_inset(), "over the inset");
     assert_eq!(session.viewer.hovered_pixel(), Some([322, 239]), "the magnified pixel");
     assert_eq!(
@@ -148,7 +149,7 @@ fn inspector_inset_reads_the_frame() {
     );
     let magnification = session.viewer.inspector().magnification;
     let numbers = session.viewer.view_numbers();
-    session.run(Command::Wheel { clicks: 1.0 });
+    session.run(Command::Pointer(PointerCommand::Wheel { clicks: 1.0 }));
     assert!(
         session.viewer.inspector().magnification > magnification,
         "the wheel magnifies here"
@@ -159,20 +160,20 @@ fn inspector_inset_reads_the_frame() {
 #[test]
 fn inspector_inset_never_hides_its_pixel() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
-    session.run(Command::Inspector(Toggle::On));
-    session.run(Command::SetFreeArea(Some(PixelRect {
+    session.run(Command::Inspector(InspectorCommand::Show(Toggle::On)));
+    session.run(Command::Window(WindowCommand::SetFreeArea(Some(PixelRect {
         x: 60,
         y: 0,
         width: 340,
         height: 290,
-    })));
+    }))));
     for zoom in PixelZoom::ALL {
-        session.run(Command::SetPixelZoom(zoom));
+        session.run(Command::View(ViewCommand::SetPixelZoom(zoom)));
         for y in (0..300).step_by(7) {
             for x in (0..400).step_by(13) {
-                let _ = session.viewer.apply(Command::PointerMoved {
+                let _ = session.viewer.apply(Command::Pointer(PointerCommand::Moved {
                     at: dvec2(f64::from(x), f64::from(y)),
-                });
+                }));
                 let [px, py] = session.viewer.inspected_pixel().unwrap();
                 let k = zoom.factor();
                 assert_eq!([px, py], [x / k, y / k], "follows the pointer, below the inset too");
@@ -196,12 +197,12 @@ fn inspector_inset_never_hides_its_pixel() {
 #[test]
 fn inspector_labels_only_where_they_fit() {
     let mut session = Session::open(&[TRIANGLES], [640, 480]);
-    session.run(Command::Pin([0, 0]));
+    session.run(Command::Inspector(InspectorCommand::Pin([0, 0])));
     assert!(
         session.viewer.pixel_labels([7.0, 12.0]).is_empty(),
         "20 pixels are too few for 3 lines of 12"
     );
-    session.run(Command::SetMagnification(40));
+    session.run(Command::Inspector(InspectorCommand::SetMagnification(40)));
     let labels = session.viewer.pixel_labels([7.0, 12.0]);
     let inset = session.viewer.inset().unwrap().inset;
     let visible = usize::try_from(inset.region - inset.region / 2).unwrap();
@@ -232,12 +233,12 @@ fn inspector_samples_of_the_inspected_pixel() {
     for key in ["1", "2"] {
         session.keys(&[key]);
         // The red edge runs through the middle of the pixel.
-        session.run(Command::SetView(ViewNumbers {
+        session.run(Command::View(ViewCommand::Set(ViewNumbers {
             center: dvec2(49.5, 50.0),
             scale: 1.0,
             rotation: 0.0,
-        }));
-        session.run(Command::Pin([60, 60]));
+        })));
+        session.run(Command::Inspector(InspectorCommand::Pin([60, 60])));
         let samples = session.viewer.pixel_samples();
         assert_eq!(samples.len(), 16, "scene {key}");
         let hits: Vec<(String, usize)> = session
@@ -270,16 +271,16 @@ fn inspector_counts_the_shades_of_an_edge() {
     let stairs: String = (0..32).map(stair).collect();
     let edge = format!(r#"<svg width="100" height="100"><polygon points="0,34 {stairs}0,66" fill="black"/></svg>"#);
     let mut session = Session::open(&[&edge], [640, 480]);
-    session.run(Command::SetView(ViewNumbers {
+    session.run(Command::View(ViewCommand::Set(ViewNumbers {
         center: dvec2(50.0, 50.0),
         scale: 1.0,
         rotation: 0.0,
-    }));
+    })));
     assert_eq!(session.viewer.region_colors(), None, "the inspector is closed");
     session.run(set("sample-rate", "4"));
-    session.run(Command::SetInspectorRegion(32));
-    session.run(Command::SetMagnification(6));
-    session.run(Command::Pin([320, 240]));
+    session.run(Command::Inspector(InspectorCommand::SetRegion(32)));
+    session.run(Command::Inspector(InspectorCommand::SetMagnification(6)));
+    session.run(Command::Inspector(InspectorCommand::Pin([320, 240])));
     let found = session.viewer.region_colors();
     session.run(set("pattern", SamplePattern::Rotated.name()));
     assert_eq!(
@@ -293,7 +294,7 @@ fn inspector_counts_the_shades_of_an_edge() {
 #[test]
 fn inspector_explanation_goes_by_what_is_seen() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
-    session.run(Command::PointerMoved { at: dvec2(100.0, 50.0) });
+    session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(100.0, 50.0) }));
     session.keys(&["e"]);
     assert_eq!(
         session.viewer.pinned_pixel(),
@@ -304,7 +305,7 @@ fn inspector_explanation_goes_by_what_is_seen() {
     session.keys(&["e"]);
     assert!(!session.viewer.explains(), "E hides what is shown");
     assert_eq!(session.viewer.pinned_pixel(), Some([100, 50]), "the pin stays");
-    session.run(Command::PointerMoved { at: dvec2(120.0, 60.0) });
+    session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(120.0, 60.0) }));
     session.keys(&["Enter"]);
     assert_eq!(session.viewer.pinned_pixel(), Some([120, 60]), "the pin moves");
     assert!(session.viewer.explains(), "who points at another pixel asks about it");
@@ -323,7 +324,7 @@ fn inspector_explanation_goes_by_what_is_seen() {
 #[test]
 fn inspector_says_that_the_pin_left_the_window() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
-    session.run(Command::Pin([100, 50]));
+    session.run(Command::Inspector(InspectorCommand::Pin([100, 50])));
     let told = |session: &Session| {
         let messages = session.viewer.messages();
         messages
@@ -332,11 +333,11 @@ fn inspector_says_that_the_pin_left_the_window() {
     };
     assert!(!told(&session), "it is in sight");
     let at = dvec2(300.0, 250.0);
-    session.run(Command::PointerMoved { at });
-    session.run(Command::Wheel { clicks: 6.0 });
+    session.run(Command::Pointer(PointerCommand::Moved { at }));
+    session.run(Command::Pointer(PointerCommand::Wheel { clicks: 6.0 }));
     assert_eq!(session.viewer.pinned_pixel(), None, "zoomed away");
     assert!(told(&session), "and not in silence");
-    session.run(Command::Wheel { clicks: -6.0 });
+    session.run(Command::Pointer(PointerCommand::Wheel { clicks: -6.0 }));
     assert_eq!(session.viewer.pinned_pixel(), Some([100, 50]), "it comes back");
     assert!(session.viewer.explains(), "with its explanation");
 }
@@ -346,15 +347,19 @@ fn inspector_says_that_the_pin_left_the_window() {
 fn inspector_pin_has_a_place_in_every_pane() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
     assert!(session.viewer.pinned_places().is_empty(), "no pin");
-    session.run(Command::Pin([100, 50]));
+    session.run(Command::Inspector(InspectorCommand::Pin([100, 50])));
     let corners = |session: &Session| -> Vec<[i64; 2]> {
         let places = session.viewer.pinned_places();
         places.iter().map(|place| [place.x, place.y]).collect()
     };
     assert_eq!(corners(&session), [[100, 50]], "in the frame");
-    session.run(Command::SwapAb);
-    session.run(Command::SetFreeArea(Some(PixelRect::of_size([400, 300]))));
-    session.run(Command::Arrange(rasterscope::viewer::Arrangement::SideBySide));
+    session.run(Command::Ab(AbCommand::Swap));
+    session.run(Command::Window(WindowCommand::SetFreeArea(Some(PixelRect::of_size([
+        400, 300,
+    ])))));
+    session.run(Command::Ab(AbCommand::Arrange(
+        rasterscope::viewer::Arrangement::SideBySide,
+    )));
     let pixel = session.viewer.pinned_pixel().expect("in both halves");
     let [x, y] = pixel.map(i64::from);
     assert_eq!(corners(&session), [[x, y], [x + 201, y]], "in both");

@@ -1,5 +1,6 @@
 //! Any commands in any order: no panic, no hang, and the frame shows the state.
 
+use rasterscope::viewer::{ExportCommand, InspectorCommand, PointerCommand, SceneCommand, ViewCommand, WindowCommand};
 use std::path::PathBuf;
 
 use arbtest::arbitrary::{Result, Unstructured};
@@ -45,41 +46,44 @@ fn whole(u: &mut Unstructured<'_>) -> Result<i64> {
 fn command(u: &mut Unstructured<'_>) -> Result<Command> {
     let buttons = [PointerButton::Primary, PointerButton::Secondary];
     Ok(match u.int_in_range(0..=18)? {
-        0 => Command::PointerMoved { at: point(u)? },
-        1 => Command::PointerPressed(*u.choose(&buttons)?),
-        2 => Command::PointerReleased(*u.choose(&buttons)?),
-        3 => Command::Wheel { clicks: number(u)? },
-        4 => Command::Pinch { factor: number(u)? },
-        5 => Command::PanBy { by: point(u)? },
-        6 => Command::ZoomAt {
+        0 => Command::Pointer(PointerCommand::Moved { at: point(u)? }),
+        1 => Command::Pointer(PointerCommand::Pressed(*u.choose(&buttons)?)),
+        2 => Command::Pointer(PointerCommand::Released(*u.choose(&buttons)?)),
+        3 => Command::Pointer(PointerCommand::Wheel { clicks: number(u)? }),
+        4 => Command::Pointer(PointerCommand::Pinch { factor: number(u)? }),
+        5 => Command::View(ViewCommand::PanBy { by: point(u)? }),
+        6 => Command::View(ViewCommand::ZoomAt {
             at: Some(point(u)?),
             factor: number(u)?,
-        },
-        7 => Command::RotateBy { degrees: number(u)? },
-        8 => Command::SetView(ViewNumbers {
+        }),
+        7 => Command::View(ViewCommand::RotateBy { degrees: number(u)? }),
+        8 => Command::View(ViewCommand::Set(ViewNumbers {
             center: point(u)?,
             scale: number(u)?,
             rotation: number(u)?,
-        }),
-        9 => Command::Resize([u.int_in_range(0..=40)?, u.int_in_range(0..=40)?]),
-        10 => Command::Pin([whole(u)?, whole(u)?]),
-        11 => Command::Nudge([whole(u)?, whole(u)?]),
-        12 => Command::SetMagnification(u.arbitrary()?),
-        13 => Command::SetInspectorRegion(u.arbitrary()?),
-        14 => Command::StepMagnification(u.arbitrary()?),
-        15 => Command::SetFreeArea(Some(PixelRect {
+        })),
+        9 => Command::Window(WindowCommand::Resize([
+            u.int_in_range(0..=40)?,
+            u.int_in_range(0..=40)?,
+        ])),
+        10 => Command::Inspector(InspectorCommand::Pin([whole(u)?, whole(u)?])),
+        11 => Command::Inspector(InspectorCommand::Nudge([whole(u)?, whole(u)?])),
+        12 => Command::Inspector(InspectorCommand::SetMagnification(u.arbitrary()?)),
+        13 => Command::Inspector(InspectorCommand::SetRegion(u.arbitrary()?)),
+        14 => Command::Inspector(InspectorCommand::StepMagnification(u.arbitrary()?)),
+        15 => Command::Window(WindowCommand::SetFreeArea(Some(PixelRect {
             x: whole(u)?,
             y: whole(u)?,
             width: u.arbitrary()?,
             height: u.int_in_range(0..=50)?,
-        })),
-        16 => Command::PointerLeft,
-        17 => Command::Scene(u.int_in_range(0..=4)?),
+        }))),
+        16 => Command::Pointer(PointerCommand::Left),
+        17 => Command::Scenes(SceneCommand::Show(u.int_in_range(0..=4)?)),
         _ => {
             let spec = u.choose(commands::all())?;
             let command = spec.command_of_key(u.choose_index(spec.keys.len().max(1))?);
             // Whoever saves pictures in a loop fills the disk; screenshots have tests of their own.
-            let harmless = command.filter(|command| *command != Command::Screenshot);
+            let harmless = command.filter(|command| *command != Command::Export(ExportCommand::Screenshot));
             harmless.unwrap_or(step("sample-rate", -1.0))
         }
     })

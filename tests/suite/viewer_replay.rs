@@ -7,6 +7,7 @@ use rasterscope::rules::Rules;
 use rasterscope::scene::DialectChoice;
 use rasterscope::texture::{LevelSampling, PixelSampling};
 use rasterscope::viewer::{Command, Dialog, Effect, MessageKind, PixelZoom, PointerButton, Toggle, ViewNumbers};
+use rasterscope::viewer::{ExportCommand, InspectorCommand, PointerCommand, SceneCommand, ViewCommand, WindowCommand};
 
 use crate::support::session::{SQUARE, Session, TRIANGLES, set, step};
 
@@ -17,20 +18,20 @@ fn replay_every_change_reaches_the_frame() {
     let mut before = session.pixels().clone();
     let steps = [
         step("sample-rate", 1.0),
-        Command::PanBy { by: dvec2(7.0, -3.0) },
-        Command::ZoomAt {
+        Command::View(ViewCommand::PanBy { by: dvec2(7.0, -3.0) }),
+        Command::View(ViewCommand::ZoomAt {
             at: Some(dvec2(30.0, 40.0)),
             factor: 2.5,
-        },
-        Command::RotateBy { degrees: 30.0 },
-        Command::FitView,
-        Command::ActualSize,
-        Command::NextScene,
+        }),
+        Command::View(ViewCommand::RotateBy { degrees: 30.0 }),
+        Command::View(ViewCommand::Fit),
+        Command::View(ViewCommand::ActualSize),
+        Command::Scenes(SceneCommand::Next),
         set("rules", Rules::Course.name()),
-        Command::Resize([90, 70]),
-        Command::SetPixelZoom(PixelZoom::new(3).unwrap()),
-        Command::PreviousScene,
-        Command::ResetView,
+        Command::Window(WindowCommand::Resize([90, 70])),
+        Command::View(ViewCommand::SetPixelZoom(PixelZoom::new(3).unwrap())),
+        Command::Scenes(SceneCommand::Previous),
+        Command::View(ViewCommand::Reset),
     ];
     for step in steps {
         session.run(step.clone());
@@ -63,15 +64,15 @@ fn replay_the_courses_keys() {
 #[test]
 fn replay_drag_moves_pixels_with_the_pointer() {
     let mut session = Session::open(&[TRIANGLES], [160, 120]);
-    session.run(Command::ActualSize);
+    session.run(Command::View(ViewCommand::ActualSize));
     let before = session.pixels().clone();
     for command in [
-        Command::PointerMoved { at: dvec2(50.0, 60.0) },
-        Command::PointerPressed(PointerButton::Primary),
-        Command::PointerMoved { at: dvec2(53.0, 61.0) },
-        Command::PointerMoved { at: dvec2(62.0, 55.0) },
-        Command::PointerReleased(PointerButton::Primary),
-        Command::PointerMoved { at: dvec2(90.0, 90.0) },
+        Command::Pointer(PointerCommand::Moved { at: dvec2(50.0, 60.0) }),
+        Command::Pointer(PointerCommand::Pressed(PointerButton::Primary)),
+        Command::Pointer(PointerCommand::Moved { at: dvec2(53.0, 61.0) }),
+        Command::Pointer(PointerCommand::Moved { at: dvec2(62.0, 55.0) }),
+        Command::Pointer(PointerCommand::Released(PointerButton::Primary)),
+        Command::Pointer(PointerCommand::Moved { at: dvec2(90.0, 90.0) }),
     ] {
         session.run(command);
     }
@@ -87,9 +88,9 @@ fn replay_drag_moves_pixels_with_the_pointer() {
 #[test]
 fn replay_wheel_zooms_about_the_pointer() {
     let mut session = Session::open(&[TRIANGLES], [160, 120]);
-    session.run(Command::PointerMoved { at: dvec2(40.5, 30.5) });
+    session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(40.5, 30.5) }));
     let before = session.viewer.status().unwrap();
-    session.run(Command::Wheel { clicks: 3.0 });
+    session.run(Command::Pointer(PointerCommand::Wheel { clicks: 3.0 }));
     let after = session.viewer.status().unwrap();
     assert!(
         after.scale > before.scale * 1.9,
@@ -109,12 +110,12 @@ fn replay_wheel_zooms_about_the_pointer() {
 #[test]
 fn replay_each_scene_keeps_its_view() {
     let mut session = Session::open(&[TRIANGLES, SQUARE], [160, 120]);
-    session.run(Command::PanBy { by: dvec2(5.0, 9.0) });
+    session.run(Command::View(ViewCommand::PanBy { by: dvec2(5.0, 9.0) }));
     let first = session.viewer.view_numbers().unwrap();
     session.keys(&["2"]);
     assert_eq!(session.viewer.current_index(), 1, "2 shows the second scene");
     assert!(session.viewer.current().unwrap().camera.is_default(), "its own view");
-    session.run(Command::RotateBy { degrees: 10.0 });
+    session.run(Command::View(ViewCommand::RotateBy { degrees: 10.0 }));
     session.keys(&["PageDown"]);
     assert_eq!(
         session.viewer.view_numbers(),
@@ -130,12 +131,12 @@ fn replay_each_scene_keeps_its_view() {
 #[test]
 fn replay_pixel_zoom_shows_the_same_part() {
     let mut session = Session::open(&[TRIANGLES], [160, 120]);
-    session.run(Command::SetView(ViewNumbers {
+    session.run(Command::View(ViewCommand::Set(ViewNumbers {
         center: dvec2(60.0, 50.0),
         scale: 4.0,
         rotation: 0.0,
-    }));
-    session.run(Command::SetPixelZoom(PixelZoom::new(2).unwrap()));
+    })));
+    session.run(Command::View(ViewCommand::SetPixelZoom(PixelZoom::new(2).unwrap())));
     let numbers = session.viewer.view_numbers().unwrap();
     assert_eq!(
         (session.pixels().width(), session.pixels().height()),
@@ -151,7 +152,7 @@ fn replay_pixel_zoom_shows_the_same_part() {
             "{x}, {y} magnified"
         );
     }
-    session.run(Command::PointerMoved { at: dvec2(81.0, 7.0) });
+    session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(81.0, 7.0) }));
     assert_eq!(session.viewer.hovered_pixel(), Some([40, 3]), "frame pixels");
 }
 
@@ -159,7 +160,7 @@ fn replay_pixel_zoom_shows_the_same_part() {
 fn replay_escape_closes_one_thing_at_a_time() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
     session.keys(&["z"]);
-    session.run(Command::Pin([10, 20]));
+    session.run(Command::Inspector(InspectorCommand::Pin([10, 20])));
     session.keys(&["Tab", "?"]);
     assert_eq!(session.viewer.dialog(), Some(Dialog::Help), "help is open");
     session.keys(&["Ctrl+G"]);
@@ -180,11 +181,19 @@ fn replay_escape_closes_one_thing_at_a_time() {
         (false, false, true, false),
         (false, false, false, false),
     ] {
-        assert_eq!(session.run(Command::Escape), [], "not yet");
+        assert_eq!(session.run(Command::Window(WindowCommand::Escape)), [], "not yet");
         assert_eq!(state(&session), expected, "dialog, pin, inspector, hidden");
     }
-    assert_eq!(session.run(Command::Escape), [], "nothing is open any more: it asks");
-    assert_eq!(session.run(Command::Escape), [Effect::Quit], "and ends");
+    assert_eq!(
+        session.run(Command::Window(WindowCommand::Escape)),
+        [],
+        "nothing is open any more: it asks"
+    );
+    assert_eq!(
+        session.run(Command::Window(WindowCommand::Escape)),
+        [Effect::Quit],
+        "and ends"
+    );
 }
 
 #[test]
@@ -194,19 +203,31 @@ fn replay_escape_asks_before_it_ends() {
         let asked = |message: &&rasterscope::viewer::Message| message.kind == MessageKind::Question;
         session.viewer.messages().iter().filter(asked).count()
     };
-    assert_eq!(session.run(Command::Escape), [], "it asks");
+    assert_eq!(session.run(Command::Window(WindowCommand::Escape)), [], "it asks");
     let text = session.viewer.messages().last().map(|message| message.text.clone());
     assert_eq!(text.as_deref(), Some("Esc again ends the program"));
     session.keys(&["z"]);
-    assert_eq!(session.run(Command::Escape), [], "the inspector was open");
     assert_eq!(
-        session.run(Command::Escape),
+        session.run(Command::Window(WindowCommand::Escape)),
+        [],
+        "the inspector was open"
+    );
+    assert_eq!(
+        session.run(Command::Window(WindowCommand::Escape)),
         [],
         "another thing was closed: it asks anew"
     );
     assert_eq!(questions(&session), 1, "one question at a time");
-    assert_eq!(session.run(Command::Escape), [Effect::Quit], "the answer");
-    assert_eq!(session.run(Command::Quit), [Effect::Quit], "Ctrl+Q never asks");
+    assert_eq!(
+        session.run(Command::Window(WindowCommand::Escape)),
+        [Effect::Quit],
+        "the answer"
+    );
+    assert_eq!(
+        session.run(Command::Window(WindowCommand::Quit)),
+        [Effect::Quit],
+        "Ctrl+Q never asks"
+    );
 }
 
 #[test]
@@ -228,9 +249,9 @@ fn replay_broken_scene_leaves_the_others_usable() {
         "no picture of another scene under this name"
     );
     for command in [
-        Command::PanBy { by: dvec2(1.0, 1.0) },
-        Command::FitView,
-        Command::CopyCommandLine,
+        Command::View(ViewCommand::PanBy { by: dvec2(1.0, 1.0) }),
+        Command::View(ViewCommand::Fit),
+        Command::Export(ExportCommand::CopyCommandLine),
     ] {
         session.run(command);
     }
@@ -245,7 +266,7 @@ fn replay_broken_scene_leaves_the_others_usable() {
 #[test]
 fn replay_reload_and_dialect_read_again() {
     let mut session = Session::open(&[TRIANGLES], [64, 64]);
-    session.run(Command::PanBy { by: dvec2(3.0, 0.0) });
+    session.run(Command::View(ViewCommand::PanBy { by: dvec2(3.0, 0.0) }));
     let numbers = session.viewer.view_numbers();
     std::fs::write(
         session.folder.path().join("1.svg"),
@@ -290,8 +311,8 @@ fn replay_thumbnails_come_when_asked_for() {
 #[test]
 fn replay_copies() {
     let mut session = Session::open(&[TRIANGLES], [64, 48]);
-    session.run(Command::Pin([32, 24]));
-    let effects = session.run(Command::CopyPixel);
+    session.run(Command::Inspector(InspectorCommand::Pin([32, 24])));
+    let effects = session.run(Command::Export(ExportCommand::CopyPixel));
     let status = session.viewer.status().unwrap();
     assert_eq!(
         effects,
@@ -308,11 +329,11 @@ fn replay_copies() {
     assert_eq!(line, expected, "all defaults");
     session.keys(&["=", "p", "l"]);
     session.run(set("rules", Rules::Course.name()));
-    session.run(Command::SetView(ViewNumbers {
+    session.run(Command::View(ViewCommand::Set(ViewNumbers {
         center: dvec2(-1.5, 2.25),
         scale: 0.1,
         rotation: -30.0,
-    }));
+    })));
     let line = session.viewer.command_line().unwrap();
     let options = "--size 64x48 --view=-1.5,2.25,0.1,-30 --sample-rate 4 --pixel-sampling bilinear \
                    --level-sampling nearest --rules course";
@@ -396,7 +417,9 @@ fn replay_gallery_without_paths() {
     let mut session = Session::open(&[], [64, 64]);
     assert!(!session.viewer.scenes().is_empty(), "the built-in gallery");
     session.assert_frame_is_current();
-    session.run(Command::Open(vec![session.folder.path().to_owned()]));
+    session.run(Command::Scenes(SceneCommand::Open(vec![
+        session.folder.path().to_owned(),
+    ])));
     assert_eq!(session.viewer.messages().len(), 1, "an empty folder is told");
     session.assert_frame_is_current();
 }
@@ -407,11 +430,13 @@ fn replay_opening_keeps_the_other_scenes() {
     let count = session.viewer.scenes().len();
     let broken = session.folder.path().join("broken.svg");
     std::fs::write(&broken, "<svg").unwrap();
-    session.run(Command::Open(vec![session.folder.path().join("nowhere.svg")]));
+    session.run(Command::Scenes(SceneCommand::Open(vec![
+        session.folder.path().join("nowhere.svg"),
+    ])));
     assert_eq!(session.viewer.scenes().len(), count, "a missing file changes nothing");
     assert_eq!(session.viewer.messages().len(), 1, "but is told");
     for _ in 0..2 {
-        session.run(Command::Open(vec![broken.clone()]));
+        session.run(Command::Scenes(SceneCommand::Open(vec![broken.clone()])));
         assert_eq!(session.viewer.scenes().len(), count + 1, "added once, at the end");
         assert_eq!(session.viewer.current_index(), count, "and shown");
     }
@@ -419,10 +444,10 @@ fn replay_opening_keeps_the_other_scenes() {
         session.viewer.current().unwrap().failure().is_some(),
         "as broken as it is"
     );
-    session.run(Command::PreviousScene);
+    session.run(Command::Scenes(SceneCommand::Previous));
     session.assert_frame_is_current();
     std::fs::write(&broken, SQUARE).unwrap();
-    session.run(Command::Open(vec![broken]));
+    session.run(Command::Scenes(SceneCommand::Open(vec![broken])));
     session.assert_frame_is_current();
     let left: Vec<_> = session
         .viewer
@@ -439,13 +464,13 @@ fn replay_command_line_makes_the_same_picture() {
     let mut session = Session::open(&[TRIANGLES], [90, 70]);
     for command in [
         step("sample-rate", 1.0),
-        Command::ZoomAt {
+        Command::View(ViewCommand::ZoomAt {
             at: Some(dvec2(20.0, 30.0)),
             factor: 1.7,
-        },
-        Command::RotateBy { degrees: 17.0 },
+        }),
+        Command::View(ViewCommand::RotateBy { degrees: 17.0 }),
         set("background", "#0ac81e"),
-        Command::SetPixelZoom(PixelZoom::new(2).unwrap()),
+        Command::View(ViewCommand::SetPixelZoom(PixelZoom::new(2).unwrap())),
     ] {
         session.run(command);
     }
@@ -469,7 +494,7 @@ fn replay_command_line_makes_the_same_picture() {
 #[test]
 fn replay_hide_leaves_only_the_picture() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
-    session.run(Command::Pin([200, 150]));
+    session.run(Command::Inspector(InspectorCommand::Pin([200, 150])));
     session.keys(&["Tab"]);
     assert!(
         session.viewer.everything_hidden() && session.viewer.inset().is_none(),
@@ -487,7 +512,7 @@ fn replay_hide_leaves_only_the_picture() {
 }
 
 #[test]
-fn replay_newest_wish_wins() {
+fn replay_newest_request_wins() {
     use std::sync::Arc;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -502,12 +527,12 @@ fn replay_newest_wish_wins() {
     viewer.finish();
     woken.store(0, Ordering::SeqCst);
     for _ in 0..200 {
-        let _ = viewer.apply(Command::RotateBy { degrees: 0.25 });
+        let _ = viewer.apply(Command::View(ViewCommand::RotateBy { degrees: 0.25 }));
     }
     viewer.finish();
     let frames = woken.load(Ordering::SeqCst);
     // The waker is called after the result is sent: the one for the first frame may come late.
-    assert!((1..=3).contains(&frames), "{frames} frames were drawn for 200 wishes");
+    assert!((1..=3).contains(&frames), "{frames} frames were drawn for 200 requests");
     let rotation = viewer.view_numbers().unwrap().rotation;
     assert!((rotation - 50.0).abs() < 1e-9, "all of them count: {rotation}");
     assert!(!viewer.poll(), "nothing is left to take in");
@@ -516,23 +541,23 @@ fn replay_newest_wish_wins() {
 #[test]
 fn replay_revisions_tell_what_to_draw() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
-    session.run(Command::PointerMoved { at: dvec2(10.0, 10.0) });
+    session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(10.0, 10.0) }));
     let revisions = |session: &Session| (session.viewer.revision(), session.viewer.picture_revision());
     let before = revisions(&session);
-    session.run(Command::PointerMoved { at: dvec2(10.0, 10.0) });
-    session.run(Command::Resize([400, 300]));
+    session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(10.0, 10.0) }));
+    session.run(Command::Window(WindowCommand::Resize([400, 300])));
     assert_eq!(revisions(&session), before, "nothing new");
-    session.run(Command::PointerMoved { at: dvec2(11.0, 10.0) });
+    session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(11.0, 10.0) }));
     let moved = revisions(&session);
     assert!(moved.0 > before.0, "the status line changes");
     assert_eq!(moved.1, before.1, "the pixels do not");
     for command in [
-        Command::Inspector(Toggle::On),
-        Command::PointerMoved {
+        Command::Inspector(InspectorCommand::Show(Toggle::On)),
+        Command::Pointer(PointerCommand::Moved {
             at: dvec2(200.0, 150.0),
-        },
+        }),
         step("sample-rate", 1.0),
-        Command::StepMagnification(1),
+        Command::Inspector(InspectorCommand::StepMagnification(1)),
     ] {
         let (picture, window) = (session.viewer.picture_revision(), session.viewer.window_picture());
         session.run(command.clone());
@@ -550,13 +575,13 @@ fn replay_reload_draws_the_thumbnail_again() {
     let thumbnail = |session: &Session| session.viewer.scenes()[0].thumbnail.clone().expect("drawn");
     let before = thumbnail(&session);
     std::fs::write(session.folder.path().join("1.svg"), SQUARE).unwrap();
-    session.run(Command::Reload);
+    session.run(Command::Scenes(SceneCommand::Reload));
     session.viewer.finish_thumbnails();
     let after = thumbnail(&session);
     assert!(*before != *after, "the new document");
     // Shown again much later, when it was let go, a file may have changed too.
     std::fs::write(session.folder.path().join("1.svg"), TRIANGLES).unwrap();
-    session.run(Command::Reload);
+    session.run(Command::Scenes(SceneCommand::Reload));
     session.viewer.finish_thumbnails();
     assert!(*before == *thumbnail(&session), "and back");
 }

@@ -2,6 +2,7 @@
 
 use rasterscope::figure::Record;
 use rasterscope::raster::Framebuffer;
+use rasterscope::viewer::{AbCommand, ExportCommand, InspectorCommand, ViewCommand};
 use rasterscope::viewer::{Against, Command, Effect, MessageKind, NameTemplate, PixelZoom, Viewer, ViewerOptions};
 
 use crate::support::session::{Session, TRIANGLES, step};
@@ -54,7 +55,7 @@ fn screenshot_tells_how_it_was_made() {
         line.ends_with(after) && first.differs.is_none(),
         "the command line of the moment"
     );
-    session.run(Command::Compare(Against::Settings));
+    session.run(Command::Ab(AbCommand::Compare(Against::Settings)));
     session.keys(&["w", "s"]);
     let both = told(&session, 1).differs.unwrap();
     assert!(both.contains("A and B share this picture"), "{both}");
@@ -63,8 +64,10 @@ fn screenshot_tells_how_it_was_made() {
 #[test]
 fn screenshot_waits_for_the_frame_it_was_asked_for() {
     let mut session = Session::open(&[TRIANGLES], [80, 60]);
-    let _ = session.viewer.apply(Command::RotateBy { degrees: 45.0 });
-    let _ = session.viewer.apply(Command::Screenshot);
+    let _ = session
+        .viewer
+        .apply(Command::View(ViewCommand::RotateBy { degrees: 45.0 }));
+    let _ = session.viewer.apply(Command::Export(ExportCommand::Screenshot));
     session.viewer.finish();
     assert!(read(&session.pictures()[0]) == rgba(session.pixels()), "turned");
     session.assert_frame_is_current();
@@ -73,7 +76,7 @@ fn screenshot_waits_for_the_frame_it_was_asked_for() {
 #[test]
 fn screenshot_holds_the_inset() {
     let mut session = Session::open(&[TRIANGLES], [800, 600]);
-    session.run(Command::Pin([300, 200]));
+    session.run(Command::Inspector(InspectorCommand::Pin([300, 200])));
     session.keys(&["s"]);
     let shot = &session.pictures()[0];
     let told = Record::of_file(shot).unwrap().unwrap();
@@ -97,7 +100,7 @@ fn screenshot_holds_the_inset() {
         .output()
         .unwrap();
     assert!(again.status.success(), "{again:?}");
-    session.run(Command::SetPixelZoom(PixelZoom::new(4).unwrap()));
+    session.run(Command::View(ViewCommand::SetPixelZoom(PixelZoom::new(4).unwrap())));
     session.keys(&["s"]);
     let told = Record::of_file(&session.pictures()[1]).unwrap().unwrap();
     assert_eq!(told.size, [200, 150], "frame pixels");
@@ -112,7 +115,7 @@ fn screenshot_holds_the_inset() {
 fn screenshots_have_names_of_their_own() {
     let mut session = Session::open(&[TRIANGLES], [8, 8]);
     for _ in 0..30 {
-        let _ = session.viewer.apply(Command::Screenshot);
+        let _ = session.viewer.apply(Command::Export(ExportCommand::Screenshot));
     }
     session.viewer.finish();
     assert_eq!(session.pictures().len(), 30, "none replaced another");
@@ -130,7 +133,7 @@ fn screenshot_folder_that_is_none() {
             ..ViewerOptions::default()
         };
         let mut viewer = Viewer::new(options).unwrap();
-        let _ = viewer.apply(Command::Screenshot);
+        let _ = viewer.apply(Command::Export(ExportCommand::Screenshot));
         viewer.finish();
         let message = viewer.messages().last().unwrap();
         assert_eq!(message.kind, MessageKind::Error, "{}", message.text);
@@ -143,7 +146,7 @@ fn screenshot_folder_that_is_none() {
 fn screenshot_of_the_window_is_asked_for() {
     let mut session = Session::open(&[TRIANGLES], [8, 8]);
     assert_eq!(
-        session.run(Command::WindowScreenshot),
+        session.run(Command::Export(ExportCommand::WindowScreenshot)),
         [Effect::PictureOfWindow],
         "the window is elsewhere"
     );
@@ -161,7 +164,7 @@ fn screenshot_of_the_window_is_asked_for() {
 fn screenshots_are_whole_when_the_program_ends() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
     for _ in 0..5 {
-        let _ = session.viewer.apply(Command::Screenshot);
+        let _ = session.viewer.apply(Command::Export(ExportCommand::Screenshot));
     }
     let Session { viewer, folder } = session;
     drop(viewer);
@@ -194,10 +197,10 @@ fn screenshots_are_named_by_a_template() {
     let mut viewer = Viewer::new(options).unwrap();
     viewer.finish();
     for command in [
-        Command::Screenshot,
-        Command::Screenshot,
+        Command::Export(ExportCommand::Screenshot),
+        Command::Export(ExportCommand::Screenshot),
         step("sample-rate", 1.0),
-        Command::Screenshot,
+        Command::Export(ExportCommand::Screenshot),
     ] {
         let _ = viewer.apply(command);
         viewer.finish();
@@ -214,16 +217,16 @@ fn screenshots_are_named_by_a_template() {
 #[test]
 fn copy_takes_the_picture_unless_a_pixel_is_inspected() {
     let mut session = Session::open(&[TRIANGLES], [80, 60]);
-    let effects = session.run(Command::Copy);
+    let effects = session.run(Command::Export(ExportCommand::Copy));
     let frame = session.pixels().clone();
     assert_eq!(effects, [Effect::CopyPicture(frame)], "what a screenshot saves");
-    session.run(Command::Pin([30, 20]));
-    let effects = session.run(Command::Copy);
+    session.run(Command::Inspector(InspectorCommand::Pin([30, 20])));
+    let effects = session.run(Command::Export(ExportCommand::Copy));
     assert!(
         matches!(&effects[..], [Effect::CopyText(text)] if text.starts_with("pixel 30, 20")),
         "{effects:?}"
     );
-    let effects = session.run(Command::CopyPicture);
+    let effects = session.run(Command::Export(ExportCommand::CopyPicture));
     assert!(
         matches!(&effects[..], [Effect::CopyPicture(_)]),
         "by name still the picture"

@@ -1,5 +1,6 @@
 //! Sheets that are put together in the window: they are what their command line makes.
 
+use rasterscope::viewer::{SceneCommand, SheetCommand};
 use std::path::{Path, PathBuf};
 
 use rasterscope::figure::Record;
@@ -160,8 +161,8 @@ fn pages_show_the_same_part_and_the_pinned_place() {
 fn sheets_wait_for_their_scene_and_never_replace() {
     let mut session = session([90, 70]);
     for _ in 0..3 {
-        let _ = session.viewer.apply(Command::Reload);
-        let _ = session.viewer.apply(Command::SaveSheet);
+        let _ = session.viewer.apply(Command::Scenes(SceneCommand::Reload));
+        let _ = session.viewer.apply(Command::Sheet(SheetCommand::Save));
     }
     session.viewer.finish();
     let pictures = session.pictures();
@@ -176,7 +177,7 @@ fn previews_follow_what_is_set() {
     assert!(session.viewer.sheet_preview().is_none(), "the dialog is closed");
     session.keys(&["Shift+S"]);
     assert_eq!(session.viewer.dialog(), Some(Dialog::Sheet), "it is open");
-    session.run(Command::SetSheetRoom([400, 300]));
+    session.run(Command::Sheet(SheetCommand::SetRoom([400, 300])));
     let shown = |session: &Session| {
         let (preview, stale) = session.viewer.sheet_preview().unwrap();
         assert!(!stale, "it was waited for");
@@ -193,7 +194,7 @@ fn previews_follow_what_is_set() {
         let axis = text
             .split_once(' ')
             .map(|(name, values)| Axis::of(name, values).unwrap());
-        Command::ChangeSheet(SheetChange::Axis(side, axis))
+        Command::Sheet(SheetCommand::Change(SheetChange::Axis(side, axis)))
     };
     session.run(side(SheetSide::Rows, "sample-rate 4,9"));
     assert!(session.viewer.sheet().columns.is_none(), "a setting has one side");
@@ -211,12 +212,12 @@ fn previews_follow_what_is_set() {
         problem.contains('5') && !problem.contains('\n'),
         "the grid takes squares: {problem}"
     );
-    session.run(Command::ChangeSheet(SheetChange::Panels(PanelSize::Exact([
-        9000, 9000,
-    ]))));
+    session.run(Command::Sheet(SheetCommand::Change(SheetChange::Panels(
+        PanelSize::Exact([9000, 9000]),
+    ))));
     session.run(side(SheetSide::Rows, ""));
     assert!(shown(&session).unwrap_err().contains("smaller"), "too large");
-    session.run(Command::SaveSheet);
+    session.run(Command::Sheet(SheetCommand::Save));
     let message = session.viewer.messages().last().unwrap();
     assert_eq!(message.kind, MessageKind::Error, "{}", message.text);
     assert!(session.pictures().is_empty(), "nothing is left");

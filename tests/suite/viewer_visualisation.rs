@@ -4,6 +4,7 @@ use glam::dvec2;
 use rasterscope::figure::{add_legends, place_legends};
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::Visualisation;
+use rasterscope::viewer::{AbCommand, InspectorCommand, ViewCommand, WindowCommand};
 use rasterscope::viewer::{Against, Arrangement, Command, PixelRect, WindowPixels};
 
 use crate::support::session::{Session, TRIANGLES, set, step};
@@ -58,7 +59,7 @@ fn visualised_window_shows_the_legend_where_it_hides_nothing() {
         width: 640,
         height: 300,
     };
-    session.run(Command::SetFreeArea(Some(free)));
+    session.run(Command::Window(WindowCommand::SetFreeArea(Some(free))));
     let expected = place_legends(&[legend], WINDOW, &free, &[]);
     let [(rect, picture)] = &expected[..] else {
         panic!("there is room")
@@ -70,7 +71,10 @@ fn visualised_window_shows_the_legend_where_it_hides_nothing() {
         assert_eq!(&window.pixels()[row(y)..][..pixels.len()], pixels, "row {y}");
     }
     // A pin where the legend was.
-    session.run(Command::Pin([rect.x + 4, rect.bottom() - 4]));
+    session.run(Command::Inspector(InspectorCommand::Pin([
+        rect.x + 4,
+        rect.bottom() - 4,
+    ])));
     for place in session.viewer.legend_places() {
         assert!(!place.contains([rect.x + 4, rect.bottom() - 4]), "the pixel is seen");
         assert!(
@@ -89,13 +93,13 @@ fn visualised_window_draws_the_parts_that_changed() {
     assert!(session.viewer.take_damage().is_none(), "at first everything");
     for command in [
         step("visualise", 1.0),
-        Command::Pin([100, 440]),
+        Command::Inspector(InspectorCommand::Pin([100, 440])),
         set("visualise", Visualisation::Wireframe.name()),
-        Command::PanBy { by: dvec2(3.0, 0.0) },
-        Command::Compare(Against::Settings),
-        Command::Arrange(Arrangement::Wipe),
+        Command::View(ViewCommand::PanBy { by: dvec2(3.0, 0.0) }),
+        Command::Ab(AbCommand::Compare(Against::Settings)),
+        Command::Ab(AbCommand::Arrange(Arrangement::Wipe)),
         set("visualise", Visualisation::Barycentric.name()),
-        Command::Arrange(Arrangement::Difference),
+        Command::Ab(AbCommand::Arrange(Arrangement::Difference)),
         set("visualise", Visualisation::Color.name()),
     ] {
         session.run(command.clone());
@@ -112,14 +116,14 @@ fn visualised_comparison_has_a_legend_for_each_side_that_differs() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
     let legends = |session: &Session| session.viewer.legend_places().len();
     session.run(set("visualise", Visualisation::Coverage.name()));
-    session.run(Command::Compare(Against::Settings));
-    session.run(Command::Arrange(Arrangement::Wipe));
+    session.run(Command::Ab(AbCommand::Compare(Against::Settings)));
+    session.run(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
     assert_eq!(legends(&session), 1, "both show the same");
     session.run(set("visualise", Visualisation::Primitive.name()));
     assert_eq!(legends(&session), 2, "one each");
-    session.run(Command::Arrange(Arrangement::Difference));
+    session.run(Command::Ab(AbCommand::Arrange(Arrangement::Difference)));
     assert_eq!(legends(&session), 0, "the difference has other colours");
-    session.run(Command::Arrange(Arrangement::Alone));
+    session.run(Command::Ab(AbCommand::Arrange(Arrangement::Alone)));
     assert_eq!(legends(&session), 1, "A's");
 }
 
@@ -140,7 +144,7 @@ fn visualised_screenshots_carry_the_legend() {
 #[test]
 fn visualised_pixels_are_explained_as_the_picture() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
-    session.run(Command::Pin([300, 240]));
+    session.run(Command::Inspector(InspectorCommand::Pin([300, 240])));
     let explained = |session: &Session| session.viewer.explanation().unwrap().color;
     let before = explained(&session);
     session.run(set("visualise", Visualisation::Primitive.name()));

@@ -1,6 +1,7 @@
 //! A against B through real keys and a real pointer: the window then shows what the viewer makes of the same commands.
 
 use glam::dvec2;
+use rasterscope::viewer::{AbCommand, PointerCommand, WindowCommand};
 use rasterscope::viewer::{Arrangement, Command, PointerButton, Toggle};
 
 use super::desktop::keysym;
@@ -12,15 +13,19 @@ fn compare_by_keys() {
     let program = Program::start_bare(&path);
     program.shows(&viewed(&path, &[]), "the first picture");
     let cases = [
-        ('r', &[][..], Command::SwapAb),
+        ('r', &[][..], Command::Ab(AbCommand::Swap)),
         ('=', &[], Command::step("sample-rate", 1.0).expect("a setting")),
-        ('r', &[], Command::SwapAb),
-        ('d', &[], Command::ToggleArrangement(Arrangement::Difference)),
-        ('D', &[], Command::Normalize(Toggle::Flip)),
-        ('w', &[], Command::ToggleArrangement(Arrangement::Wipe)),
+        ('r', &[], Command::Ab(AbCommand::Swap)),
+        (
+            'd',
+            &[],
+            Command::Ab(AbCommand::ToggleArrangement(Arrangement::Difference)),
+        ),
+        ('D', &[], Command::Ab(AbCommand::Normalize(Toggle::Flip))),
+        ('w', &[], Command::Ab(AbCommand::ToggleArrangement(Arrangement::Wipe))),
     ];
     // Everything but the picture is hidden, with its free area.
-    let mut played = vec![Command::HideEverything(Toggle::On)];
+    let mut played = vec![Command::Window(WindowCommand::HideEverything(Toggle::On))];
     for (key, held, command) in cases {
         program.desktop.type_char(key, held);
         played.push(command.clone());
@@ -34,14 +39,14 @@ fn compare_by_keys() {
     program.desktop.point(100, middle[1]);
     program.desktop.button(1, false);
     played.extend([
-        Command::PointerMoved {
+        Command::Pointer(PointerCommand::Moved {
             at: dvec2(middle[0].into(), middle[1].into()),
-        },
-        Command::PointerPressed(PointerButton::Primary),
-        Command::PointerMoved {
+        }),
+        Command::Pointer(PointerCommand::Pressed(PointerButton::Primary)),
+        Command::Pointer(PointerCommand::Moved {
             at: dvec2(100.0, middle[1].into()),
-        },
-        Command::PointerReleased(PointerButton::Primary),
+        }),
+        Command::Pointer(PointerCommand::Released(PointerButton::Primary)),
     ]);
     program.shows(&viewed(&path, &played), "the line, dragged");
     program.desktop.press(keysym::TAB, &[]);

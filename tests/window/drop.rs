@@ -1,5 +1,6 @@
 //! A file dropped on the window, spoken as XDND: the protocol by which file managers do it.
 
+use rasterscope::viewer::ViewCommand;
 use std::path::Path;
 
 use rasterscope::raster::Framebuffer;
@@ -36,11 +37,11 @@ fn drop_opens_the_lesson() {
     );
     std::fs::write(&lesson, text).unwrap();
     drop_file(&program, &lesson);
-    let view = Command::SetView(ViewNumbers {
+    let view = Command::View(ViewCommand::Set(ViewNumbers {
         center: [256.0, 256.0].into(),
         scale: 0.8,
         rotation: 0.0,
-    });
+    }));
     let four = Command::set("sample-rate", "4").expect("a value");
     let first = viewed(&scene, &[view.clone(), four]);
     program.shows_somewhere(&beside_the_text(&first), "the first step, as its author meant it");

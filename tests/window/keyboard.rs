@@ -4,6 +4,7 @@ use rasterscope::raster::SampleRate;
 use rasterscope::render::RenderSettings;
 use rasterscope::texture::{LevelSampling, PixelSampling};
 use rasterscope::viewer::{Command, Toggle};
+use rasterscope::viewer::{InspectorCommand, ViewCommand};
 
 use super::desktop::keysym;
 use super::program::{
@@ -46,10 +47,10 @@ fn keys_change_the_view() {
     let start = viewed(&path, &[]);
     program.shows(&start, "the first picture");
     let cases = [
-        (']', Command::RotateBy { degrees: 5.0 }),
-        ('[', Command::RotateBy { degrees: -5.0 }),
-        ('f', Command::FitView),
-        (' ', Command::ResetView),
+        (']', Command::View(ViewCommand::RotateBy { degrees: 5.0 })),
+        ('[', Command::View(ViewCommand::RotateBy { degrees: -5.0 })),
+        ('f', Command::View(ViewCommand::Fit)),
+        (' ', Command::View(ViewCommand::Reset)),
     ];
     let mut played = Vec::new();
     for (key, command) in cases {
@@ -58,7 +59,10 @@ fn keys_change_the_view() {
         program.shows(&viewed(&path, &played), &format!("after {key:?}"));
     }
     program.desktop.type_char('0', &[keysym::CONTROL]);
-    program.shows(&viewed(&path, &[Command::ActualSize]), "one unit one pixel");
+    program.shows(
+        &viewed(&path, &[Command::View(ViewCommand::ActualSize)]),
+        "one unit one pixel",
+    );
 }
 
 #[test]
@@ -73,7 +77,7 @@ fn keys_switch_scenes_and_keep_their_views() {
     let (a, b) = (folder.path().join("a.svg"), folder.path().join("b.svg"));
     program.shows(&viewed(&a, &[]), "the first scene");
     program.desktop.type_char('f', &[]);
-    let fitted = viewed(&a, &[Command::FitView]);
+    let fitted = viewed(&a, &[Command::View(ViewCommand::Fit)]);
     program.shows(&fitted, "fitted");
     program.desktop.press(keysym::PAGE_DOWN, &[]);
     program.shows(&viewed(&b, &[]), "the second scene");
@@ -91,7 +95,10 @@ fn keys_of_the_inspector() {
     program.desktop.type_char('z', &[]);
     let open = [
         &SMALL_INSET_COMMANDS[..],
-        &[Command::Inspector(Toggle::On), Command::Pin([250, 200])],
+        &[
+            Command::Inspector(InspectorCommand::Show(Toggle::On)),
+            Command::Inspector(InspectorCommand::Pin([250, 200])),
+        ],
     ]
     .concat();
     program.shows_somewhere(&inset(&path, &open), "the inset under the pointer");
@@ -99,7 +106,14 @@ fn keys_of_the_inspector() {
     program.desktop.point(20, 300);
     program.desktop.press(keysym::LEFT, &[]);
     program.desktop.press(keysym::RIGHT, &[keysym::SHIFT]);
-    let nudged = [&open[..], &[Command::Nudge([-1, 0]), Command::Nudge([10, 0])]].concat();
+    let nudged = [
+        &open[..],
+        &[
+            Command::Inspector(InspectorCommand::Nudge([-1, 0])),
+            Command::Inspector(InspectorCommand::Nudge([10, 0])),
+        ],
+    ]
+    .concat();
     program.shows_somewhere(&inset(&path, &nudged), "the pin, nudged");
     program.desktop.press(keysym::ESCAPE, &[]);
     program.desktop.press(keysym::ESCAPE, &[]);

@@ -1,5 +1,6 @@
 //! Slow scenes in the window: previews while the view moves, the final picture when it rests, nothing else in files.
 
+use rasterscope::viewer::{PointerCommand, WindowCommand};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -67,11 +68,16 @@ fn slow_zoom_shows_a_preview_then_the_final_picture_then_rests() {
     let mut seen = false;
     // The wheel as the window tells it: a click from XTEST arrives as one or as two events.
     let mut turned = Vec::new();
-    let turns = |count: usize| vec![Command::Wheel { clicks: 1.0 }; count];
+    let turns = |count: usize| vec![Command::Pointer(PointerCommand::Wheel { clicks: 1.0 }); count];
     // On a busy machine a preview may be gone before anybody looks: another click, another chance.
     for _ in 0..6 {
         let candidates = [1, 2].map(|more| {
-            let all = [&[Command::PointerMoved { at }], &turned[..], &turns(more)].concat();
+            let all = [
+                &[Command::Pointer(PointerCommand::Moved { at })],
+                &turned[..],
+                &turns(more),
+            ]
+            .concat();
             [1, 256].map(|rate| plain(viewed(&path, &at_rate(rate, &all)).pixels()))
         });
         program.desktop.button(4, true);
@@ -102,10 +108,15 @@ fn slow_drag_ends_final_and_its_screenshots_are_so() {
     settle();
     program.desktop.button(1, true);
     // The same motions for the expected pictures: their sum would have other last digits.
-    let moved = |x: i16, y: i16| Command::PointerMoved {
-        at: DVec2::from([AT[0] + x, AT[1] - y].map(f64::from)),
+    let moved = |x: i16, y: i16| {
+        Command::Pointer(PointerCommand::Moved {
+            at: DVec2::from([AT[0] + x, AT[1] - y].map(f64::from)),
+        })
     };
-    let mut motions = vec![moved(0, 0), Command::PointerPressed(PointerButton::Primary)];
+    let mut motions = vec![
+        moved(0, 0),
+        Command::Pointer(PointerCommand::Pressed(PointerButton::Primary)),
+    ];
     for step in 1..=5 {
         program.desktop.point(AT[0] + 6 * step, AT[1] - 3 * step);
         motions.push(moved(6 * step, 3 * step));
@@ -167,7 +178,7 @@ fn drag_of_a_large_textured_scene_keeps_up() {
     program.resize([1920, 1080]);
     program.desktop.point(900, 500);
     program.desktop.press(keysym::TAB, &[]);
-    let start = at_rate(16, &[Command::Resize([1920, 1080])]);
+    let start = at_rate(16, &[Command::Window(WindowCommand::Resize([1920, 1080]))]);
     program.shows(&viewed(&path, &start), "the first picture");
     program.desktop.button(1, true);
     let begin = Instant::now();

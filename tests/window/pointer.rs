@@ -1,5 +1,6 @@
 //! The pointer: dragging, the wheel, pinning.
 
+use rasterscope::viewer::{InspectorCommand, PointerCommand, ViewCommand, WindowCommand};
 use std::time::Duration;
 
 use glam::DVec2;
@@ -27,9 +28,9 @@ fn pointer_drags_the_picture_pixel_by_pixel() {
         program.desktop.point(AT[0] + 5 * step, AT[1] - 3 * step);
     }
     program.desktop.button(1, false);
-    let moved = [Command::PanBy {
+    let moved = [Command::View(ViewCommand::PanBy {
         by: DVec2::new(35.0, -21.0),
-    }];
+    })];
     program.shows(&viewed(&path, &moved), "moved by exactly 35, -21 pixels");
     // Without the button the picture stays.
     program.desktop.point(300, 300);
@@ -48,7 +49,15 @@ fn pointer_wheel_zooms_about_it() {
     program.desktop.button(4, false);
     // A click from XTEST arrives as one or as two events.
     let at = DVec2::new(f64::from(AT[0]), f64::from(AT[1]));
-    let zoomed = |clicks| viewed(&path, &[Command::PointerMoved { at }, Command::Wheel { clicks }]);
+    let zoomed = |clicks| {
+        viewed(
+            &path,
+            &[
+                Command::Pointer(PointerCommand::Moved { at }),
+                Command::Pointer(PointerCommand::Wheel { clicks }),
+            ],
+        )
+    };
     let (one, two) = (zoomed(1.0), zoomed(2.0));
     let plain = |pixels: &[u32]| pixels.iter().map(|pixel| pixel & 0x00ff_ffff).collect::<Vec<_>>();
     let expected = [plain(one.pixels()), plain(two.pixels())];
@@ -70,7 +79,11 @@ fn pointer_right_click_pins() {
     settle();
     program.desktop.button(3, true);
     program.desktop.button(3, false);
-    let pin = [&SMALL_INSET_COMMANDS[..], &[Command::Pin(AT.map(i64::from))]].concat();
+    let pin = [
+        &SMALL_INSET_COMMANDS[..],
+        &[Command::Inspector(InspectorCommand::Pin(AT.map(i64::from)))],
+    ]
+    .concat();
     let pinned = inset(&path, &pin);
     program.shows_somewhere(&pinned, "the pixel pinned by a right click");
     program.desktop.point(20, 300);
@@ -89,7 +102,7 @@ fn resize_storm_ends_sharp() {
     }
     for size in [[641, 479], [1333, 777], SIZE] {
         program.resize(size);
-        let picture = viewed(&path, &[Command::Resize(size)]);
+        let picture = viewed(&path, &[Command::Window(WindowCommand::Resize(size))]);
         program.shows(&picture, &format!("sharp at {size:?}"));
     }
 }

@@ -1,5 +1,6 @@
 //! The program in its window, and what it should show.
 
+use rasterscope::viewer::InspectorCommand;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command as Process, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
@@ -269,4 +270,7 @@ fn viewer_after(path: &Path, commands: &[Command]) -> Viewer {
 pub(crate) const SMALL_INSET: &str = "region 8; magnification 9";
 
 /// The commands of [`SMALL_INSET`].
-pub(crate) const SMALL_INSET_COMMANDS: [Command; 2] = [Command::SetInspectorRegion(8), Command::SetMagnification(9)];
+pub(crate) const SMALL_INSET_COMMANDS: [Command; 2] = [
+    Command::Inspector(InspectorCommand::SetRegion(8)),
+    Command::Inspector(InspectorCommand::SetMagnification(9)),
+];

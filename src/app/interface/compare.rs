@@ -1,5 +1,6 @@
 //! The panel of a comparison: what A and B are, how they share the window, how far they are apart.
 
+use crate::viewer::AbCommand;
 use egui::{Button, DragValue, Layout, RichText, Sense, Ui, pos2, vec2};
 
 use super::compare_numbers;
@@ -52,7 +53,7 @@ pub(super) fn offer(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let close = ui.add_enabled(is_open, Button::new("\u{d7}").min_size(CONTROL));
         let close = close.on_hover_text(CLOSE_TIP).accessible_name("End the comparison");
         if close.clicked() {
-            commands.push(Command::Compare(Against::Nothing));
+            commands.push(Command::Ab(AbCommand::Compare(Against::Nothing)));
         }
     });
 }
@@ -75,7 +76,7 @@ pub(super) fn controls(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>
             .add(Button::new("Forget B").min_size(CONTROL))
             .on_hover_text(CLOSE_TIP);
         if close.accessible_name("Close comparison").clicked() {
-            commands.push(Command::Compare(Against::Nothing));
+            commands.push(Command::Ab(AbCommand::Compare(Against::Nothing)));
         }
     });
     arrangement(ui, viewer, commands);
@@ -124,7 +125,7 @@ fn truth(ui: &mut Ui, current: Option<ResolveSpace>, commands: &mut Vec<Command>
     let values: Vec<_> = values.collect();
     row(ui, "Averages", |ui| {
         let chosen = choice(ui, "The truth averages", tip, current, &values);
-        commands.extend(chosen.map(|resolve| Command::Compare(Against::Truth(resolve))));
+        commands.extend(chosen.map(|resolve| Command::Ab(AbCommand::Compare(Against::Truth(resolve)))));
     });
 }
 
@@ -144,7 +145,11 @@ fn arrangement(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         (value, name.to_owned())
     });
     let tips = [tip("wipe"), tip("side"), tip("difference"), tip("flip")].join("\n");
-    commands.extend(choice(ui, "Show", &tips, viewer.arrangement(), &values).map(Command::Arrange));
+    commands.extend(
+        choice(ui, "Show", &tips, viewer.arrangement(), &values)
+            .map(AbCommand::Arrange)
+            .map(Command::Ab),
+    );
 }
 
 /// Which difference, how strong, and what its colours mean.
@@ -153,7 +158,7 @@ fn difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let style = viewer.difference_style();
     let values = Measure::ALL.map(|value| (value, value.name().to_owned()));
     let chosen = choice(ui, "Difference", &tip("difference"), style.measure, &values);
-    commands.extend(chosen.map(Command::SetMeasure));
+    commands.extend(chosen.map(AbCommand::SetMeasure).map(Command::Ab));
     let gain = viewer.difference_gain().unwrap_or(1.0);
     let normalized = style.gain == Gain::Normalize;
     row(ui, "Gain", |ui| {
@@ -174,7 +179,7 @@ fn difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         });
         #[expect(clippy::float_cmp, reason = "a number that nobody touched is the same one")]
         if shown.inner && value != gain {
-            commands.push(Command::SetGain(value));
+            commands.push(Command::Ab(AbCommand::SetGain(value)));
         }
         for (id, text) in [("weaker-difference", "÷2"), ("stronger-difference", "×2")] {
             if command_button(ui, id, text).clicked() {
@@ -186,7 +191,11 @@ fn difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let mut on = normalized;
         let response = ui.checkbox(&mut on, "to the largest").on_hover_text(tip("normalize"));
         if response.accessible_name("Normalise").changed() {
-            commands.push(Command::Normalize(if on { Toggle::On } else { Toggle::Off }));
+            commands.push(Command::Ab(AbCommand::Normalize(if on {
+                Toggle::On
+            } else {
+                Toggle::Off
+            })));
         }
     });
     legend(ui, style.measure, gain);
@@ -271,7 +280,7 @@ fn next_difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let button = ui.add_enabled(count > 0, Button::new("Next difference").min_size(CONTROL));
         let button = button.on_hover_text(tip("next-difference"));
         if button.accessible_name("Next difference").clicked() {
-            commands.push(Command::NextDifference);
+            commands.push(Command::Ab(AbCommand::NextDifference));
         }
         if let Some(index) = viewer.pinned_place() {
             let place = format!("{} of {count}", index + 1);

@@ -190,6 +190,7 @@ fn tag(ui: &Ui, free: Rect, taken: &[Rect], (text, x, align, wide): (&str, f32, 
 mod tests {
     use super::*;
     use crate::texture::PixelSampling;
+    use crate::viewer::{AbCommand, InspectorCommand, WindowCommand};
     use crate::viewer::{Against, Command, PixelRect, Toggle, ViewerOptions};
 
     #[test]
@@ -213,10 +214,10 @@ mod tests {
             ..ViewerOptions::default()
         };
         let mut viewer = Viewer::new(options).expect("threads");
-        let _ = viewer.apply(Command::Compare(Against::Truth(None)));
+        let _ = viewer.apply(Command::Ab(AbCommand::Compare(Against::Truth(None))));
         let (ctx, area) = (egui::Context::default(), points(&PixelRect::of_size(window), 1.0));
         for part in [0.06, 0.1, 0.2, 0.5, 0.8, 0.94] {
-            let _ = viewer.apply(Command::SetWipe(part));
+            let _ = viewer.apply(Command::Ab(AbCommand::SetWipe(part)));
             viewer.finish();
             let line = viewer.wipe_line().expect("a wipe");
             let mut places = Vec::new();
@@ -245,11 +246,11 @@ mod tests {
         let mut free = PixelRect::of_size(window);
         free.height -= 26;
         for command in [
-            Command::SetFreeArea(Some(free)),
-            Command::Compare(Against::Settings),
+            Command::Window(WindowCommand::SetFreeArea(Some(free))),
+            Command::Ab(AbCommand::Compare(Against::Settings)),
             // Side by side, B's tag ends where the letter of an inset in the upper right corner stands.
             Command::set("pixel-sampling", PixelSampling::Bilinear.name()).expect("a value"),
-            Command::Explanation(Toggle::Off),
+            Command::Inspector(InspectorCommand::Explanation(Toggle::Off)),
         ] {
             assert!(viewer.apply(command).is_empty(), "nothing to do");
         }
@@ -266,7 +267,10 @@ mod tests {
                 [780, 30],
                 [780, 540],
             ] {
-                for command in [Command::Arrange(arrangement), Command::Pin(pin)] {
+                for command in [
+                    Command::Ab(AbCommand::Arrange(arrangement)),
+                    Command::Inspector(InspectorCommand::Pin(pin)),
+                ] {
                     assert!(viewer.apply(command).is_empty(), "nothing to do");
                 }
                 let mut places = Vec::new();

@@ -1,5 +1,6 @@
 //! What covers the picture until it is closed: help, the command palette, going to a pixel.
 
+use crate::viewer::WindowCommand;
 use egui::text::{CCursor, CCursorRange};
 use egui::{Align, Align2, Area, AtomExt as _, Button, Context, Id, Key, Layout, Modal, Order, RichText, ScrollArea};
 use egui::{TextEdit, Ui, vec2};
@@ -124,7 +125,7 @@ impl Dialogs {
             pressed == Some(false)
         });
         if modal.inner || modal.backdrop_response.clicked() {
-            commands.push(Command::CloseDialog);
+            commands.push(Command::Window(WindowCommand::CloseDialog));
         }
     }
 
@@ -135,7 +136,7 @@ impl Dialogs {
         };
         if argument.trim().is_empty() {
             if let Action::Run(command) = spec.action {
-                commands.extend([Command::CloseDialog, command.clone()]);
+                commands.extend([Command::Window(WindowCommand::CloseDialog), command.clone()]);
                 return;
             }
             // The palette goes on with the argument.
@@ -146,7 +147,7 @@ impl Dialogs {
             return;
         }
         match spec.argument.map(|kind| kind.parse(argument)) {
-            Some(Ok(command)) => commands.extend([Command::CloseDialog, command]),
+            Some(Ok(command)) => commands.extend([Command::Window(WindowCommand::CloseDialog), command]),
             Some(Err(problem)) => self.problem = Some(problem),
             None => self.problem = Some(format!("{} takes nothing behind it", spec.id)),
         }
@@ -206,7 +207,7 @@ impl Dialogs {
                 }
             });
         if modal.backdrop_response.clicked() {
-            commands.push(Command::CloseDialog);
+            commands.push(Command::Window(WindowCommand::CloseDialog));
         }
     }
 
@@ -310,7 +311,7 @@ fn help(ctx: &Context, commands: &mut Vec<Command>) {
             }
     });
     if modal.inner || modal.backdrop_response.clicked() {
-        commands.push(Command::CloseDialog);
+        commands.push(Command::Window(WindowCommand::CloseDialog));
     }
 }
 

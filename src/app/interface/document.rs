@@ -1,5 +1,6 @@
 //! What the reader has to say about the document, and where the time of the last redraw went.
 
+use crate::viewer::SceneCommand;
 use std::time::Duration;
 
 use egui::{RichText, Sense, Ui, vec2};
@@ -31,7 +32,7 @@ pub(super) fn readings(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>
     heading(ui, "Two readings");
     ui.label(RichText::new(note).small());
     if command_button(ui, "other-reading", "The other reading").clicked() {
-        commands.push(Command::OtherReading);
+        commands.push(Command::Scenes(SceneCommand::OtherReading));
     }
 }
 

@@ -1,5 +1,6 @@
 //! Why the pinned pixel has its colour: a tree beside the picture. What the pointer is over is outlined in the scene.
 
+use crate::viewer::{ExportCommand, InspectorCommand};
 use egui::text::{LayoutJob, TextFormat};
 use egui::{
     Button, CollapsingHeader, Color32, FontId, Pos2, Rect, Response, RichText, ScrollArea, Sense, Shape, Stroke, Ui,
@@ -294,10 +295,10 @@ fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         ui.label(RichText::new(format!("Pixel {x}, {y}")).strong().size(14.0));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if command_button(ui, "explanation", "Close").clicked() {
-                commands.push(Command::Explanation(Toggle::Off));
+                commands.push(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
             }
             if command_button(ui, "copy-explanation", "Copy").clicked() {
-                commands.push(Command::CopyExplanation);
+                commands.push(Command::Export(ExportCommand::CopyExplanation));
             }
         });
     });
@@ -379,7 +380,7 @@ impl Hovered {
     /// Tells the viewer which texel the pointer is over.
     pub(super) fn point_at_texel(&self, viewer: &Viewer, commands: &mut Vec<Command>) {
         if self.texel != viewer.pointed_texel() {
-            commands.push(Command::PointAtTexel(self.texel));
+            commands.push(Command::Inspector(InspectorCommand::PointAtTexel(self.texel)));
         }
     }
 

@@ -1,6 +1,7 @@
 //! What floats over the picture without taking part in the layout: overlay text, pixel numbers in the inspector's
 //! inset, messages, the handle of the folded panel.
 
+use crate::viewer::{InspectorCommand, WindowCommand};
 use std::collections::HashMap;
 
 use egui::{Align2, Area, Button, Color32, FontId, Frame, Id, Order, Rect, RichText, Sense, Ui, Vec2, pos2, vec2};
@@ -177,7 +178,7 @@ pub(super) fn close_of_inset(ui: &Ui, viewer: &Viewer, commands: &mut Vec<Comman
         .on_hover_text(tip("inspector"))
         .accessible_name("Close the inspector");
     if button.clicked() {
-        commands.push(Command::Inspector(Toggle::Off));
+        commands.push(Command::Inspector(InspectorCommand::Show(Toggle::Off)));
     }
 }
 
@@ -209,7 +210,7 @@ impl MessageClock {
             let rect = toast(ui, message, pos2(free.left() + 10.0, bottom), free.width() - 20.0);
             let (rect, clicked) = rect;
             if now >= end || clicked {
-                commands.push(Command::DismissMessage(message.id));
+                commands.push(Command::Window(WindowCommand::DismissMessage(message.id)));
             } else {
                 let rest = std::time::Duration::from_secs_f64((end - now).clamp(0.02, 60.0));
                 ui.ctx().request_repaint_after(rest);

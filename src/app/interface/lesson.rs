@@ -1,5 +1,6 @@
 //! The text of a lesson's step, beside the picture.
 
+use crate::viewer::{LessonCommand, SceneCommand};
 use egui::text::{LayoutJob, TextFormat};
 use egui::{FontFamily, FontId, RichText, ScrollArea, Ui};
 
@@ -24,13 +25,13 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         ui.label(RichText::new(of).size(12.0).weak());
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if command_button(ui, "close-lesson", "Close").clicked() {
-                commands.push(Command::CloseLesson);
+                commands.push(Command::Lesson(LessonCommand::Close));
             }
             if command_button(ui, "next-scene", "Next").clicked() {
-                commands.push(Command::NextScene);
+                commands.push(Command::Scenes(SceneCommand::Next));
             }
             if command_button(ui, "previous-scene", "Back").clicked() {
-                commands.push(Command::PreviousScene);
+                commands.push(Command::Scenes(SceneCommand::Previous));
             }
         });
     });

@@ -28,6 +28,7 @@ mod status;
 mod twin;
 mod view_numbers;
 
+use crate::viewer::WindowCommand;
 use egui::{Context, Frame, Margin, Panel, Pos2, Rect, ScrollArea, Ui};
 use glam::DVec2;
 
@@ -199,7 +200,10 @@ impl Interface {
         hovered.point_at_texel(viewer, &mut asked.commands);
         asked
             .commands
-            .push(Command::SetFreeArea(Some(device_rect(free, ui.pixels_per_point()))));
+            .push(Command::Window(WindowCommand::SetFreeArea(Some(device_rect(
+                free,
+                ui.pixels_per_point(),
+            )))));
         if !hidden {
             floating::progress(ui, viewer, free);
         }

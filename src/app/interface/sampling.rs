@@ -1,5 +1,6 @@
 //! The settings of the picture, a control for each row of their table; pixel zoom and progressive drawing.
 
+use crate::viewer::ViewCommand;
 use egui::{DragValue, Layout, Ui, vec2};
 
 use super::controls::{choice, drop_down, gave_up, heading, row, tip};
@@ -186,14 +187,18 @@ fn reading(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     row(ui, "Pixel zoom", |ui| {
         let values = PixelZoom::ALL.map(|value| (value, value.factor().to_string()));
         let chosen = choice(ui, "Pixel zoom", &tip("pixel-zoom"), settings.pixel_zoom, &values);
-        commands.extend(chosen.map(Command::SetPixelZoom));
+        commands.extend(chosen.map(ViewCommand::SetPixelZoom).map(Command::View));
     });
     row(ui, "Moving", |ui| {
         let mut on = settings.progressive;
         let response = ui.checkbox(&mut on, "coarse first, then fine");
         let response = response.on_hover_text(tip("progressive"));
         if response.accessible_name("Progressive drawing").changed() {
-            commands.push(Command::Progressive(if on { Toggle::On } else { Toggle::Off }));
+            commands.push(Command::View(ViewCommand::Progressive(if on {
+                Toggle::On
+            } else {
+                Toggle::Off
+            })));
         }
     });
 }

@@ -1,5 +1,6 @@
 //! The list of scenes: thumbnails under the names of their folders.
 
+use crate::viewer::SceneCommand;
 use std::ffi::OsStr;
 use std::ops::Range;
 use std::path::Path;
@@ -114,7 +115,7 @@ pub(super) fn list(
     ui: &mut Ui,
     viewer: &Viewer,
     thumbnails: &mut Thumbnails,
-    wishes: &mut Wishes,
+    requests: &mut Wishes,
     commands: &mut Vec<Command>,
 ) {
     let width = ((ui.available_width() - GAP * (COLUMNS - 1) as f32) / COLUMNS as f32).floor();
@@ -128,8 +129,8 @@ pub(super) fn list(
         for first in scenes.step_by(COLUMNS) {
             ui.horizontal(|ui| {
                 for scene in first..(first + COLUMNS).min(end) {
-                    if picture(ui, viewer, scene, cell, (thumbnails, wishes)) {
-                        commands.push(Command::Scene(scene));
+                    if picture(ui, viewer, scene, cell, (thumbnails, requests)) {
+                        commands.push(Command::Scenes(SceneCommand::Show(scene)));
                     }
                 }
             });
@@ -164,19 +165,19 @@ fn picture(
     viewer: &Viewer,
     index: usize,
     cell: Vec2,
-    (thumbnails, wishes): (&mut Thumbnails, &mut Wishes),
+    (thumbnails, requests): (&mut Thumbnails, &mut Wishes),
 ) -> bool {
     let entry = &viewer.scenes()[index];
     let (rect, response) = ui.allocate_exact_size(cell, Sense::click());
     let current = index == viewer.current_index();
-    if current && wishes.follow && thumbnails.shown != Some(index) {
+    if current && requests.follow && thumbnails.shown != Some(index) {
         response.scroll_to_me(Some(egui::Align::Center));
         thumbnails.shown = Some(index);
     }
     if !ui.is_rect_visible(rect) {
         return false;
     }
-    paint(ui, viewer, index, &response, (thumbnails, wishes));
+    paint(ui, viewer, index, &response, (thumbnails, requests));
     let key = if index < 9 {
         format!(" ({})", index + 1)
     } else {
@@ -198,7 +199,7 @@ fn paint(
     viewer: &Viewer,
     index: usize,
     response: &egui::Response,
-    (thumbnails, wishes): (&mut Thumbnails, &mut Wishes),
+    (thumbnails, requests): (&mut Thumbnails, &mut Wishes),
 ) {
     let entry = &viewer.scenes()[index];
     let (rect, current) = (response.rect, index == viewer.current_index());
@@ -222,7 +223,7 @@ fn paint(
             visuals.error_fg_color,
         );
     } else {
-        wishes.thumbnails.push(index);
+        requests.thumbnails.push(index);
     }
     let line = if current {
         egui::Stroke::new(2.0, visuals.selection.bg_fill)

@@ -1,5 +1,6 @@
 //! The dialog that puts a sheet together: what differs, beside a preview of what will be saved.
 
+use crate::viewer::{SheetCommand, WindowCommand};
 use egui::{Align, Button, Checkbox, Color32, ComboBox, Context, Layout, Rect, RichText, ScrollArea, TextEdit};
 use egui::{TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2};
 
@@ -76,7 +77,7 @@ impl SheetDialog {
             }
         });
         if modal.backdrop_response.clicked() {
-            commands.push(Command::CloseDialog);
+            commands.push(Command::Window(WindowCommand::CloseDialog));
         }
     }
 
@@ -124,7 +125,7 @@ impl SheetDialog {
             .accessible_name(title);
         if let Some(name) = chosen {
             let axis = picture::find(name).map(Axis::first);
-            commands.push(Command::ChangeSheet(SheetChange::Axis(side, axis)));
+            commands.push(Command::Sheet(SheetCommand::Change(SheetChange::Axis(side, axis))));
             return;
         }
         let Some(axis) = current else { return };
@@ -163,7 +164,10 @@ impl SheetDialog {
             match Axis::of(&axis.name, &typed.text) {
                 Ok(axis) => {
                     typed.problem = None;
-                    commands.push(Command::ChangeSheet(SheetChange::Axis(side, Some(axis))));
+                    commands.push(Command::Sheet(SheetCommand::Change(SheetChange::Axis(
+                        side,
+                        Some(axis),
+                    ))));
                 }
                 Err(problem) => typed.problem = Some(problem),
             }
@@ -177,7 +181,7 @@ impl SheetDialog {
     fn panels(&mut self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         heading(ui, "Panels");
         let draft = viewer.sheet();
-        let change = |panels| Command::ChangeSheet(SheetChange::Panels(panels));
+        let change = |panels| Command::Sheet(SheetCommand::Change(SheetChange::Panels(panels)));
         let [width, height] = viewer.frame_size();
         let exact = match draft.panels {
             PanelSize::Exact(size) => size,
@@ -223,7 +227,7 @@ impl SheetDialog {
         };
         let response = ui.add_enabled(can, Checkbox::new(&mut inset, text));
         if response.on_hover_text(tip("sheet-inset")).changed() {
-            commands.push(Command::ChangeSheet(SheetChange::Inset(inset)));
+            commands.push(Command::Sheet(SheetCommand::Change(SheetChange::Inset(inset))));
         }
     }
 
@@ -233,7 +237,7 @@ impl SheetDialog {
         const LINE: f32 = 20.0;
         let room = ui.available_size() - vec2(0.0, LINE);
         let scale = ui.pixels_per_point();
-        commands.push(Command::SetSheetRoom(device_size(room, scale)));
+        commands.push(Command::Sheet(SheetCommand::SetRoom(device_size(room, scale))));
         ui.allocate_ui_with_layout(ui.available_size(), Layout::top_down(Align::Min), |ui| {
             let (area, _) = ui.allocate_exact_size(room, egui::Sense::hover());
             ui.painter().rect_filled(area, 4.0, ui.visuals().faint_bg_color);
@@ -299,7 +303,10 @@ fn ticked(ui: &mut Ui, axis: &Axis, counted: &[&'static str], side: SheetSide, c
                     name: axis.name.clone(),
                     values: values.collect(),
                 };
-                commands.push(Command::ChangeSheet(SheetChange::Axis(side, Some(axis))));
+                commands.push(Command::Sheet(SheetCommand::Change(SheetChange::Axis(
+                    side,
+                    Some(axis),
+                ))));
             }
         }
     });
@@ -311,7 +318,7 @@ fn words(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let draft = viewer.sheet();
     let values = Ground::ALL.map(|ground| (ground, ground.name().to_owned()));
     let chosen = choice(ui, "Ground", &tip("sheet-theme"), draft.theme, &values);
-    commands.extend(chosen.map(|theme| Command::ChangeSheet(SheetChange::Theme(theme))));
+    commands.extend(chosen.map(|theme| Command::Sheet(SheetCommand::Change(SheetChange::Theme(theme)))));
     heading(ui, "Caption");
     let mut note = draft.note.clone();
     let field = TextEdit::multiline(&mut note)
@@ -328,7 +335,7 @@ fn words(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let note = before.unwrap_or(note);
         // It is one sentence on one line of the command.
         let note = note.replace(['\n', '\r'], " ");
-        commands.push(Command::ChangeSheet(SheetChange::Note(note)));
+        commands.push(Command::Sheet(SheetCommand::Change(SheetChange::Note(note))));
     }
 }
 

@@ -89,19 +89,19 @@ impl Interface {
                 about_scene(ui, viewer, report_room.unwrap_or(LONG_REPORT), asked);
             }
         });
-        let mut wishes = Wishes {
+        let mut requests = Wishes {
             follow: own_scroll,
             ..Wishes::default()
         };
         let thumbnails = &mut self.thumbnails;
-        let mut list = |ui: &mut Ui| scenes::list(ui, viewer, thumbnails, &mut wishes, &mut asked.commands);
+        let mut list = |ui: &mut Ui| scenes::list(ui, viewer, thumbnails, &mut requests, &mut asked.commands);
         if own_scroll {
             let area = ScrollArea::vertical().id_salt("scenes").auto_shrink(false);
             area.show(ui, list);
         } else {
             list(ui);
         }
-        asked.thumbnails.extend(wishes.thumbnails);
+        asked.thumbnails.extend(requests.thumbnails);
     }
 }
 
@@ -124,6 +124,7 @@ fn about_scene(ui: &mut Ui, viewer: &Viewer, report_room: f32, asked: &mut Asked
 
 #[cfg(test)]
 mod tests {
+    use crate::viewer::{AbCommand, SceneCommand};
     use std::path::Path;
     use std::sync::Arc;
 
@@ -178,7 +179,7 @@ mod tests {
             (SETTINGS - 6.0..=SETTINGS).contains(&whole),
             "{whole} points, not {SETTINGS}: all rows are shown"
         );
-        let _ = viewer.apply(Command::SwapAb);
+        let _ = viewer.apply(Command::Ab(AbCommand::Swap));
         viewer.finish();
         let meanwhile = measured(|interface, ui| settings(interface, ui, &viewer));
         assert!(
@@ -213,7 +214,7 @@ mod tests {
         let mut viewer = viewer(&["svg/basic"]);
         let before = settings(&viewer);
         for _ in 0..viewer.scenes().len() {
-            let _ = viewer.apply(Command::NextScene);
+            let _ = viewer.apply(Command::Scenes(SceneCommand::Next));
             let meanwhile = settings(&viewer);
             assert!(
                 near(meanwhile, before),

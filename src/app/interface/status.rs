@@ -1,5 +1,6 @@
 //! The status line: the pixel under the pointer, where it lies, its colour; and what the window shows.
 
+use crate::viewer::WindowCommand;
 use egui::{Align, Color32, CornerRadius, FontId, Layout, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::controls::tip;
@@ -55,7 +56,7 @@ fn panel_switch(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         .accessible_name("Side panel")
         .clicked()
     {
-        commands.push(Command::Panel(Toggle::Flip));
+        commands.push(Command::Window(WindowCommand::Panel(Toggle::Flip)));
     }
     ui.add_space(4.0);
 }

@@ -1,5 +1,6 @@
 //! The view in numbers that can be typed or dragged.
 
+use crate::viewer::ViewCommand;
 use egui::text::CCursorRange;
 use egui::{Color32, DragValue, Layout, TextEdit, Ui, vec2};
 
@@ -67,16 +68,24 @@ fn rows(ui: &mut Ui, before: ViewNumbers, commands: &mut Vec<Command>) {
         rotation.show(ui, ui.available_width(), &mut numbers.rotation);
     });
     if numbers != before {
-        commands.push(Command::SetView(ViewNumbers { ..numbers }));
+        commands.push(Command::View(ViewCommand::Set(ViewNumbers { ..numbers })));
     }
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         for (id, text, command) in [
-            ("reset-view", "Reset", Command::ResetView),
-            ("fit", "Fit", Command::FitView),
-            ("actual-size", "1:1", Command::ActualSize),
-            ("rotate-left", "−5°", Command::RotateBy { degrees: -5.0 }),
-            ("rotate-right", "+5°", Command::RotateBy { degrees: 5.0 }),
+            ("reset-view", "Reset", Command::View(ViewCommand::Reset)),
+            ("fit", "Fit", Command::View(ViewCommand::Fit)),
+            ("actual-size", "1:1", Command::View(ViewCommand::ActualSize)),
+            (
+                "rotate-left",
+                "−5°",
+                Command::View(ViewCommand::RotateBy { degrees: -5.0 }),
+            ),
+            (
+                "rotate-right",
+                "+5°",
+                Command::View(ViewCommand::RotateBy { degrees: 5.0 }),
+            ),
         ] {
             if command_button(ui, id, text).clicked() {
                 let known = crate::viewer::commands::find(id).and_then(crate::viewer::CommandSpec::command);

@@ -1,5 +1,6 @@
 //! What a hand does that has nothing but a mouse: what it clicks is explained, and what it opens it can close.
 
+use crate::viewer::{AbCommand, InspectorCommand, SceneCommand, WindowCommand};
 use std::path::PathBuf;
 
 use glam::{DVec2, dvec2};
@@ -50,8 +51,8 @@ fn clicked_pixel_is_the_one_that_is_explained_side_by_side() {
     for window in [[1280, 800], [1366, 768]] {
         for at in [[75.0, 329.0], [330.0, 329.0], [301.0, 402.0], [700.0, 300.0]] {
             let mut session = comparing(window);
-            session.command(Command::Panel(Toggle::Off));
-            session.command(Command::Arrange(Arrangement::SideBySide));
+            session.command(Command::Window(WindowCommand::Panel(Toggle::Off)));
+            session.command(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
             session.settle();
             let before = session.viewer.view_numbers();
             explains_what_is_clicked(&mut session, at);
@@ -74,7 +75,7 @@ fn pinned_pixel_is_explained_again_after_close() {
     right_click(&mut session, at);
     assert_eq!(session.viewer.pinned_pixel(), None, "a second click unpins it");
     assert!(session.viewer.inset().is_none(), "and closes what the first one opened");
-    session.command(Command::Inspector(Toggle::On));
+    session.command(Command::Inspector(InspectorCommand::Show(Toggle::On)));
     right_click(&mut session, at);
     right_click(&mut session, at);
     assert!(session.viewer.inset().is_some(), "but not what was open before");
@@ -83,7 +84,7 @@ fn pinned_pixel_is_explained_again_after_close() {
 #[test]
 fn magnifier_has_a_button_that_closes_it() {
     let mut session = session(Vec::new(), [1280, 800]);
-    session.command(Command::Inspector(Toggle::On));
+    session.command(Command::Inspector(InspectorCommand::Show(Toggle::On)));
     right_click(&mut session, [700.0, 300.0]);
     let inset = session.viewer.inset().expect("there is room").rect;
     session.pointer(Some(dvec2(inset.x as f64 + 20.0, inset.y as f64 + 20.0)));
@@ -101,7 +102,7 @@ fn magnifier_has_a_button_that_closes_it() {
 fn line_of_a_wipe_stays_beside_panels() {
     for window in [[800, 600], [1280, 800], [1366, 768]] {
         let mut session = comparing(window);
-        session.command(Command::Arrange(Arrangement::Wipe));
+        session.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
         session.settle();
         let line = |session: &Session| session.viewer.wipe_line().expect("a wipe");
         let in_sight = |session: &Session, what: &str| {
@@ -130,7 +131,7 @@ fn line_of_a_wipe_stays_beside_panels() {
         session.button(PointerButton::Primary, false);
         assert!((line(&session) - middle).abs() <= 1.0, "and back in {window:?}");
         for part in [0.0, 1.0] {
-            session.command(Command::SetWipe(part));
+            session.command(Command::Ab(AbCommand::SetWipe(part)));
             right_click(&mut session, [middle, y]);
             in_sight(&session, "beside an explanation");
         }
@@ -162,12 +163,12 @@ fn arrows_of_the_scenes_stay_under_the_pointer() {
     let folder = folder();
     for window in [[1366, 768], [1600, 1300]] {
         let mut session = session(vec![folder.path().to_owned()], window);
-        session.command(Command::Panel(Toggle::On));
+        session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
         session.settle();
         let before = place_of(&mut session, "Next scene");
         let mut noted = 0;
         for _ in 0..session.viewer.scenes().len() {
-            session.command(Command::NextScene);
+            session.command(Command::Scenes(SceneCommand::Next));
             session.settle();
             noted += usize::from(session.viewer.reading_note().is_some());
             let scene = session.viewer.current_index();
@@ -182,12 +183,12 @@ fn arrows_of_the_scenes_stay_under_the_pointer() {
 fn scene_without_a_picture_says_so() {
     let folder = folder();
     let mut session = session(vec![folder.path().join("4.svg")], [1280, 800]);
-    session.command(Command::Panel(Toggle::On));
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     right_click(&mut session, [500.0, 300.0]);
     assert!(!session.viewer.explains(), "there is nothing to explain");
     assert!(says(&mut session, "no picture to explain"), "and it says why");
     assert!(!says(&mut session, "finding out"), "nothing is found out");
-    session.command(Command::Compare(Against::Truth(None)));
+    session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
     session.settle();
     assert!(says(&mut session, "no picture to measure"), "nor measured");
     assert!(!says(&mut session, "measuring"), "ever");

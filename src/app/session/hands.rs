@@ -1,6 +1,7 @@
 //! What a hand does to the panels, and what an eye finds there: controls are looked up by the names that screen readers
 //! are told, so that no test knows where they lie.
 
+use crate::viewer::{AbCommand, InspectorCommand, WindowCommand};
 use std::path::PathBuf;
 
 use egui::accesskit::Node;
@@ -54,9 +55,9 @@ pub(super) fn key(session: &mut Session, name: &str) {
 fn number_fields_keep_the_old_number_on_escape() {
     let mut session = session(Vec::new(), [1600, 1300]);
     for command in [
-        Command::Panel(Toggle::On),
-        Command::SwapAb,
-        Command::SetMeasure(crate::compare::Measure::Signed),
+        Command::Window(WindowCommand::Panel(Toggle::On)),
+        Command::Ab(AbCommand::Swap),
+        Command::Ab(AbCommand::SetMeasure(crate::compare::Measure::Signed)),
     ] {
         session.command(command);
     }
@@ -90,7 +91,7 @@ fn number_fields_keep_the_old_number_on_escape() {
 #[test]
 fn lines_of_a_sheet_keep_the_old_text_on_escape() {
     let mut session = session(Vec::new(), [1000, 800]);
-    session.command(Command::ToggleDialog(Dialog::Sheet));
+    session.command(Command::Window(WindowCommand::ToggleDialog(Dialog::Sheet)));
     session.settle();
     let sheet = |session: &Session| format!("{:?}", session.viewer().sheet());
     for name in ["Values of the columns", "Caption"] {
@@ -111,15 +112,15 @@ fn lines_of_a_sheet_keep_the_old_text_on_escape() {
 fn explained_pixel_leaves_the_numbers_of_a_comparison() {
     for window in [[1280, 800], [1366, 768], [1920, 1080]] {
         let mut session = session(Vec::new(), window);
-        session.command(Command::Panel(Toggle::On));
-        session.command(Command::SwapAb);
+        session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+        session.command(Command::Ab(AbCommand::Swap));
         session.command(Command::set("sample-rate", "16").expect("a value"));
         session.settle();
         let mut told = |what| {
             let nodes = nodes(&mut session);
             let rmse = nodes.iter().filter(|node| node.value() == Some("RMSE"));
             assert_eq!(rmse.count(), 1, "the numbers once, {what} at {window:?}");
-            session.command(Command::Pin([500, 300]));
+            session.command(Command::Inspector(InspectorCommand::Pin([500, 300])));
             session.settle();
         };
         told("beside the picture alone");
@@ -159,9 +160,9 @@ fn pin_is_ringed_in_the_picture() {
         let path = folder.path().join(name);
         std::fs::write(&path, document).expect("a file");
         let mut session = session(vec![path], [600, 400]);
-        session.command(Command::Explanation(Toggle::Off));
+        session.command(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
         let pin = [300_i64, 200];
-        session.command(Command::Pin(pin));
+        session.command(Command::Inspector(InspectorCommand::Pin(pin)));
         session.settle();
         let (shown, plain) = (session.picture(), session.viewer().window_picture());
         // How much a pixel of the window differs from the picture, in levels.
@@ -180,8 +181,8 @@ fn pin_is_ringed_in_the_picture() {
         };
         assert_eq!(around(4), 0, "the pixel and its neighbours as they are, on {ground}");
         assert!(around(12) > 40, "{} pixels of a ring on {ground}", around(12));
-        session.command(Command::Unpin);
-        session.command(Command::Inspector(Toggle::Off));
+        session.command(Command::Inspector(InspectorCommand::Unpin));
+        session.command(Command::Inspector(InspectorCommand::Show(Toggle::Off)));
         session.settle();
         assert!(
             session.picture().rgba(300, 191) == session.viewer().window_picture().rgba(300, 191),

@@ -13,6 +13,7 @@ mod stage;
 #[cfg(test)]
 mod tests;
 
+use crate::viewer::{InspectorCommand, PointerCommand, SheetCommand, WindowCommand};
 use std::collections::VecDeque;
 use std::io::Write as _;
 use std::time::{Duration, Instant};
@@ -209,7 +210,7 @@ impl Session {
     pub(super) fn set_size(&mut self, size: [u32; 2], scale: f32) {
         self.scale = scale;
         if self.viewer.window_size() != size {
-            self.run(Command::Resize(size));
+            self.run(Command::Window(WindowCommand::Resize(size)));
         }
         self.fold_panel();
         self.share_room(Wanted::Explanation);
@@ -221,7 +222,8 @@ impl Session {
         let before = self.viewer.lesson().is_some();
         let asks_by_hand = matches!(
             command,
-            Command::PinUnderPointer | Command::PointerPressed(PointerButton::Secondary)
+            Command::Inspector(InspectorCommand::PinUnderPointer)
+                | Command::Pointer(PointerCommand::Pressed(PointerButton::Secondary))
         );
         self.apply(command);
         if before != self.viewer.lesson().is_some() {
@@ -270,8 +272,8 @@ impl Session {
         self.pointer = at;
         let on_picture = self.holds_picture || self.is_on_picture();
         match at {
-            Some(at) if on_picture => self.run(Command::PointerMoved { at }),
-            _ if self.viewer.pointer().is_some() => self.run(Command::PointerLeft),
+            Some(at) if on_picture => self.run(Command::Pointer(PointerCommand::Moved { at })),
+            _ if self.viewer.pointer().is_some() => self.run(Command::Pointer(PointerCommand::Left)),
             _ => {}
         }
         on_picture
@@ -281,12 +283,12 @@ impl Session {
     pub(super) fn pointer_button(&mut self, button: PointerButton, down: bool) -> bool {
         if down && self.is_on_picture() {
             self.holds_picture = button == PointerButton::Primary;
-            self.run(Command::PointerPressed(button));
+            self.run(Command::Pointer(PointerCommand::Pressed(button)));
             return true;
         }
         if !down && self.holds_picture {
             self.holds_picture = false;
-            self.run(Command::PointerReleased(button));
+            self.run(Command::Pointer(PointerCommand::Released(button)));
             self.pointer_at(self.pointer);
             return true;
         }
@@ -297,7 +299,7 @@ impl Session {
     pub(super) fn turn_wheel(&mut self, clicks: f64) -> bool {
         let on_picture = self.is_on_picture();
         if on_picture {
-            self.run(Command::Wheel { clicks });
+            self.run(Command::Pointer(PointerCommand::Wheel { clicks }));
         }
         on_picture
     }
@@ -306,7 +308,7 @@ impl Session {
     pub(super) fn pinch(&mut self, factor: f64) -> bool {
         let on_picture = self.is_on_picture();
         if on_picture {
-            self.run(Command::Pinch { factor });
+            self.run(Command::Pointer(PointerCommand::Pinch { factor }));
         }
         on_picture
     }
@@ -396,12 +398,12 @@ impl Session {
         let mut any = false;
         for command in asked.commands {
             // The layout of a sheet's dialog tells its room in every pass.
-            if let Command::SetSheetRoom(room) = command
+            if let Command::Sheet(SheetCommand::SetRoom(room)) = command
                 && !self.viewer.sheet_room_changes(room)
             {
                 continue;
             }
-            if let Command::SetFreeArea(area) = command {
+            if let Command::Window(WindowCommand::SetFreeArea(area)) = command {
                 if self.free_area == area {
                     continue;
                 }

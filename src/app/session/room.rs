@@ -3,6 +3,7 @@
 use super::Session;
 use crate::app::interface::Interface;
 use crate::viewer::{Command, PointerButton, Toggle};
+use crate::viewer::{InspectorCommand, PointerCommand, WindowCommand};
 
 /// What the session does to the side panel by itself.
 #[derive(Clone, Copy, Debug)]
@@ -34,11 +35,11 @@ impl Wanted {
     /// Jumps to another pixel do not ask why it has its colour: who steps through differences wants the panel to stay.
     fn of(command: &Command) -> Self {
         match command {
-            Command::Panel(_) => Self::Panel,
-            Command::PinUnderPointer
-            | Command::Pin(_)
-            | Command::PointerPressed(PointerButton::Secondary)
-            | Command::Explanation(_) => Self::Explanation,
+            Command::Window(WindowCommand::Panel(_)) => Self::Panel,
+            Command::Inspector(InspectorCommand::PinUnderPointer)
+            | Command::Inspector(InspectorCommand::Pin(_))
+            | Command::Pointer(PointerCommand::Pressed(PointerButton::Secondary))
+            | Command::Inspector(InspectorCommand::Explanation(_)) => Self::Explanation,
             _ => Self::Neither,
         }
     }
@@ -52,7 +53,7 @@ impl Session {
         let fits = Interface::panel_fits(size) && self.viewer.lesson().is_none();
         if self.room.follows && fits != self.viewer.panel() {
             let to = if fits { Toggle::On } else { Toggle::Off };
-            self.apply(Command::Panel(to));
+            self.apply(Command::Window(WindowCommand::Panel(to)));
         }
     }
 
@@ -63,7 +64,9 @@ impl Session {
         self.room.follows &= wanted != Wanted::Panel;
         let is_unseen = self.viewer.panel() && self.viewer.explains() && self.is_narrow();
         match command {
-            Command::Explanation(Toggle::Flip) if is_unseen => (wanted, Command::Explanation(Toggle::On)),
+            Command::Inspector(InspectorCommand::Explanation(Toggle::Flip)) if is_unseen => {
+                (wanted, Command::Inspector(InspectorCommand::Explanation(Toggle::On)))
+            }
             command => (wanted, command),
         }
     }
@@ -77,19 +80,19 @@ impl Session {
             Wanted::Panel => {
                 self.room.gave_way = false;
                 if is_narrow && panel && explains {
-                    self.apply(Command::Explanation(Toggle::Off));
+                    self.apply(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
                 }
             }
             Wanted::Explanation if is_narrow && panel && explains => {
                 self.room.gave_way = true;
-                self.apply(Command::Panel(Toggle::Off));
+                self.apply(Command::Window(WindowCommand::Panel(Toggle::Off)));
             }
             _ if self.room.gave_way && !self.viewer.is_dragging() && !self.viewer.everything_hidden() => {
                 let width = self.viewer.window_size()[0] as f32 / self.scale;
                 let is_free = !explains && Interface::panel_leaves_pin(&self.viewer, width, self.scale);
                 if is_free || !is_narrow {
                     self.room.gave_way = false;
-                    self.apply(Command::Panel(Toggle::On));
+                    self.apply(Command::Window(WindowCommand::Panel(Toggle::On)));
                 }
             }
             _ => {}

@@ -1,6 +1,7 @@
 //! What stays in reach of the mouse where there is little room: panels make way for each other and for the pinned pixel,
 //! and controls stay under the pointer that clicks them.
 
+use crate::viewer::{AbCommand, InspectorCommand, WindowCommand};
 use std::collections::BTreeMap;
 
 use egui::accesskit::{Node, Rect};
@@ -49,8 +50,8 @@ fn top_of(session: &mut Session, text: &str) -> f64 {
 /// A session with the side panel open, and with a comparison.
 pub(super) fn comparing(window: [u32; 2]) -> Session {
     let mut session = session(Vec::new(), window);
-    session.command(Command::Panel(Toggle::On));
-    session.command(Command::Compare(Against::Settings));
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.command(Command::Ab(AbCommand::Compare(Against::Settings)));
     session.command(Command::set("sample-rate", "4").expect("a value"));
     session.wait(Duration::from_secs(10));
     session.settle();
@@ -93,7 +94,7 @@ fn comparison_stays_at_hand_beside_an_explained_pixel() {
 #[test]
 fn explanation_takes_the_room_of_the_side_panel() {
     let mut session = session(Vec::new(), [800, 600]);
-    session.command(Command::Panel(Toggle::On));
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     right_click(&mut session, [300.0, 300.0]);
     assert!(says(&mut session, "Pixel 300, 300"), "explained at once");
     assert!(!session.viewer.panel(), "the panel made way");
@@ -111,11 +112,11 @@ fn explanation_takes_the_room_of_the_side_panel() {
         "and who wants the explanation, that"
     );
     // A pixel that the panel would cover keeps it away.
-    session.command(Command::Pin([700, 300]));
+    session.command(Command::Inspector(InspectorCommand::Pin([700, 300])));
     session.settle();
     click_on(&mut session, CLOSE);
     assert!(!session.viewer.panel(), "the pinned pixel stays in sight");
-    session.command(Command::Unpin);
+    session.command(Command::Inspector(InspectorCommand::Unpin));
     assert!(session.viewer.panel(), "without a pin the panel is back");
     // Where there is room for both, nothing folds.
     session.resize([1280, 800]);
@@ -127,11 +128,11 @@ fn explanation_takes_the_room_of_the_side_panel() {
 fn panels_leave_the_pinned_pixel_in_sight() {
     for x in [60, 100, 200, 260, 300, 420, 520, 700] {
         let mut session = comparing([800, 600]);
-        session.command(Command::Pin([300, 300]));
+        session.command(Command::Inspector(InspectorCommand::Pin([300, 300])));
         right_click(&mut session, [f64::from(x), 300.0]);
         if session.viewer.pinned_pixel().map(|[x, _]| x) != Some(x) {
             // The explanation lies there.
-            session.command(Command::Pin([x.into(), 300]));
+            session.command(Command::Inspector(InspectorCommand::Pin([x.into(), 300])));
             session.settle();
         }
         click_on(&mut session, CLOSE);
@@ -150,7 +151,7 @@ fn button_of_the_other_reading_is_whole() {
     std::fs::write(&path, document).expect("a file");
     for window in [[800, 600], [1280, 800], [1366, 768]] {
         let mut session = session(vec![path.clone()], window);
-        session.command(Command::Panel(Toggle::On));
+        session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
         let name = "Read in the other dialect";
         session.pointer(Some(dvec2(f64::from(window[0]) - 100.0, 300.0)));
         let mut turns = 0;
@@ -174,7 +175,7 @@ fn button_of_the_other_reading_is_whole() {
 fn controls_stay_under_the_pointer() {
     let window = [1600, 1300];
     let mut session = session(Vec::new(), window);
-    session.command(Command::Panel(Toggle::On));
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     let side = f64::from(window[0]) - PANEL..f64::from(window[0]);
     let before = controls(&mut session, side.clone());
     assert!(before.len() > 40, "{before:?}");
@@ -216,7 +217,7 @@ fn controls_stay_under_the_pointer() {
 #[test]
 fn lines_of_a_comparison_follow_a_swap_with_the_truth() {
     let mut session = comparing([1280, 800]);
-    session.command(Command::Compare(Against::Truth(None)));
+    session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
     session.settle();
     let order = |session: &mut Session| top_of(session, "A: sample rate") < top_of(session, "B: the truth");
     assert!(order(&mut session) && says(&mut session, "A against B"), "A in front");
@@ -244,7 +245,7 @@ fn another_pixel_is_explained_from_the_top() {
 #[test]
 fn comparing_with_a_picture_says_that_its_path_is_missing() {
     let mut session = session(Vec::new(), [800, 600]);
-    session.command(Command::ToggleDialog(Dialog::ComparePicture));
+    session.command(Command::Window(WindowCommand::ToggleDialog(Dialog::ComparePicture)));
     session.settle();
     let button = |session: &mut Session| {
         let nodes = nodes(session);

@@ -1,5 +1,6 @@
 //! What a surface shows after any number of partial updates, and how much of it is written.
 
+use crate::viewer::{InspectorCommand, ViewCommand};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -94,14 +95,15 @@ fn compose_writes_only_what_changed() {
 fn compose_lays_panels_over_what_was_drawn_on_the_surface() {
     let mut desk = Desk::new([640, 480]);
     desk.session.lend_surface();
-    desk.session.command(Command::Pin([300, 200]));
+    desk.session
+        .command(Command::Inspector(InspectorCommand::Pin([300, 200])));
     let mut drawn = 0;
     // Where other work takes both processors, no frame may be quick for a while.
     for step in 0..200 {
         desk.session.settle();
-        desk.session.command(Command::PanBy {
+        desk.session.command(Command::View(ViewCommand::PanBy {
             by: DVec2::new(if step % 2 == 0 { 7.5 } else { -7.5 }, 3.25),
-        });
+        }));
         let waits = desk.session.viewer.waits_for_surface();
         let shown = desk.session.viewer.frame().map(|frame| frame.picture.clone());
         desk.compose();
@@ -138,10 +140,13 @@ fn compose_in_parts_is_the_whole() {
                 }
                 4 => session.wheel(f64::from(u.int_in_range(-2..=2)?)),
                 5 => session.resize([u.int_in_range(320..=700)?, u.int_in_range(240..=500)?]),
-                6 => session.command(Command::PanBy {
+                6 => session.command(Command::View(ViewCommand::PanBy {
                     by: (point - 200.0).round() / 8.0,
-                }),
-                7 => session.command(Command::Pin([u.int_in_range(0..=640)?, u.int_in_range(0..=480)?])),
+                })),
+                7 => session.command(Command::Inspector(InspectorCommand::Pin([
+                    u.int_in_range(0..=640)?,
+                    u.int_in_range(0..=480)?,
+                ]))),
                 8 => {
                     let names = ["z", "=", "?", "Tab", "`", "Ctrl+Shift+P", "Escape", "a"];
                     let press = KeyPress::from_name(u.choose(&names)?).expect("a key");

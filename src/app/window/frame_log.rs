@@ -95,7 +95,7 @@ fn shows(viewer: &Viewer) -> String {
     match viewer.preview() {
         None => "final".to_owned(),
         Some(_) if viewer.is_refining() => "refining".to_owned(),
-        Some(manner) => manner.to_string(),
+        Some(quality) => quality.to_string(),
     }
 }
 

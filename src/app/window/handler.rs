@@ -1,5 +1,6 @@
 //! winit's events to what the session understands.
 
+use crate::viewer::{SceneCommand, WindowCommand};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -146,7 +147,7 @@ impl ApplicationHandler<Wake> for Handler {
                 }
             }
             WindowEvent::ThemeChanged(to) if self.options.theme.is_none() => {
-                opened.session.run(Command::SetTheme(theme(to)));
+                opened.session.run(Command::Window(WindowCommand::SetTheme(theme(to))));
             }
             event => opened.pointer_event(&event),
         }
@@ -157,7 +158,9 @@ impl ApplicationHandler<Wake> for Handler {
             return;
         };
         if !self.dropped.is_empty() {
-            opened.session.run(Command::Open(std::mem::take(&mut self.dropped)));
+            opened
+                .session
+                .run(Command::Scenes(SceneCommand::Open(std::mem::take(&mut self.dropped))));
         }
         let mut again = None;
         if let Some(player) = &mut self.player {

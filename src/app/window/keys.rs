@@ -1,5 +1,6 @@
 //! winit's keys as the viewer's: the character first, the key's place second.
 
+use crate::viewer::{AbCommand, InspectorCommand, SceneCommand, ViewCommand};
 use winit::event::KeyEvent;
 use winit::keyboard::{Key as LogicalKey, KeyCode, ModifiersState, NamedKey, PhysicalKey};
 
@@ -37,15 +38,15 @@ pub(super) fn repeats(command: &Command) -> bool {
     }
     matches!(
         command,
-        Command::Nudge(_)
-            | Command::RotateBy { .. }
-            | Command::ZoomAt { .. }
-            | Command::PanBy { .. }
-            | Command::NextScene
-            | Command::PreviousScene
-            | Command::StepMagnification(_)
-            | Command::StepGain(_)
-            | Command::NextDifference
+        Command::Inspector(InspectorCommand::Nudge(_))
+            | Command::View(ViewCommand::RotateBy { .. })
+            | Command::View(ViewCommand::ZoomAt { .. })
+            | Command::View(ViewCommand::PanBy { .. })
+            | Command::Scenes(SceneCommand::Next)
+            | Command::Scenes(SceneCommand::Previous)
+            | Command::Inspector(InspectorCommand::StepMagnification(_))
+            | Command::Ab(AbCommand::StepGain(_))
+            | Command::Ab(AbCommand::NextDifference)
     )
 }
 
@@ -157,6 +158,7 @@ fn place(code: KeyCode) -> Option<Key> {
 mod tests {
     use super::*;
     use crate::viewer::commands;
+    use crate::viewer::{ExportCommand, WindowCommand};
 
     fn command(logical_key: &LogicalKey, code: KeyCode, held: ModifiersState) -> Option<Command> {
         commands::for_key(&KeyPress {
@@ -171,7 +173,11 @@ mod tests {
         let character = |text: &str| LogicalKey::Character(text.into());
         let none = ModifiersState::empty();
         let azerty_digit = command(&character("&"), KeyCode::Digit1, none);
-        assert_eq!(azerty_digit, Some(Command::Scene(0)), "AZERTY makes & where 1 is");
+        assert_eq!(
+            azerty_digit,
+            Some(Command::Scenes(SceneCommand::Show(0))),
+            "AZERTY makes & where 1 is"
+        );
         let qwertz_equals = command(&character("="), KeyCode::Digit0, ModifiersState::SHIFT);
         assert_eq!(
             qwertz_equals,
@@ -180,7 +186,7 @@ mod tests {
         );
         let swedish_backtick = command(&LogicalKey::Dead(Some('`')), KeyCode::Equal, ModifiersState::SHIFT);
         assert!(
-            matches!(swedish_backtick, Some(Command::OverlayText(_))),
+            matches!(swedish_backtick, Some(Command::Window(WindowCommand::OverlayText(_)))),
             "a dead key: {swedish_backtick:?}"
         );
         let capital = command(
@@ -188,7 +194,11 @@ mod tests {
             KeyCode::KeyS,
             ModifiersState::SHIFT | ModifiersState::CONTROL,
         );
-        assert_eq!(capital, Some(Command::WindowScreenshot), "Shift makes a capital");
+        assert_eq!(
+            capital,
+            Some(Command::Export(ExportCommand::WindowScreenshot)),
+            "Shift makes a capital"
+        );
         assert_eq!(
             logical(&LogicalKey::Named(NamedKey::F5)),
             Some(Key::F(5)),
@@ -198,7 +208,10 @@ mod tests {
 
     #[test]
     fn keys_that_repeat() {
-        assert!(repeats(&Command::Nudge([1, 0])), "a step");
-        assert!(!repeats(&Command::Screenshot), "a held S saves one picture");
+        assert!(repeats(&Command::Inspector(InspectorCommand::Nudge([1, 0]))), "a step");
+        assert!(
+            !repeats(&Command::Export(ExportCommand::Screenshot)),
+            "a held S saves one picture"
+        );
     }
 }

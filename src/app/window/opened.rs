@@ -135,7 +135,7 @@ impl Opened {
         // A window system that shows nothing at the moment must not hold up a frame that waits to be shown.
         let patience = due.filter(|_| viewer.waits_for_surface());
         self.dirty |= viewer.revision() != self.drawn_revision || viewer.waits_for_surface();
-        if self.next_wish.is_some_and(|wish| wish <= now) {
+        if self.next_wish.is_some_and(|request| request <= now) {
             self.dirty = true;
         }
         if self.occluded || self.size.width == 0 || self.size.height == 0 {

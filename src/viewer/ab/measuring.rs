@@ -16,7 +16,7 @@ use crate::viewer::ab::outside::ReadPicture;
 use crate::viewer::frames::drawing::DrawingId;
 use crate::viewer::frames::frame::{Frame, Picture};
 use crate::viewer::jobs::mailbox::Mailbox;
-use crate::viewer::jobs::pool::{AtEnd, Crew, guarded};
+use crate::viewer::jobs::pool::{AtEnd, WorkerPool, guarded};
 
 /// So long after the last change both pictures count as at rest.
 pub(in crate::viewer) const REST: Duration = Duration::from_millis(120);
@@ -71,7 +71,7 @@ pub(in crate::viewer) struct Measuring {
     measured: Mailbox<Measured>,
     read: Mailbox<ReadPicture>,
     /// Started with the first work.
-    crew: Option<Crew<Work>>,
+    workers: Option<WorkerPool<Work>>,
     pub(in crate::viewer) wanted: Option<(Which, Instant)>,
     pub(in crate::viewer) running: Option<(Which, Arc<CancelToken>)>,
     pub(in crate::viewer) found: Option<(Which, Measures)>,
@@ -120,7 +120,7 @@ impl Measuring {
         Self {
             measured,
             read,
-            crew: None,
+            workers: None,
             wanted: None,
             running: None,
             found: None,
@@ -181,16 +181,16 @@ impl Measuring {
 
     /// Starts the thread with the first work.
     pub(in crate::viewer) fn push(&mut self, work: Work) -> io::Result<()> {
-        if self.crew.is_none() {
+        if self.workers.is_none() {
             let (measured, read) = (self.measured.clone(), self.read.clone());
             let serve = move |work: Work| match work {
                 Work::Measure(job) => job.measure(&measured),
                 Work::Read(path) => read.post(ReadPicture::read(path)),
             };
-            self.crew = Some(Crew::start("compare", 1, AtEnd::Detach, serve)?);
+            self.workers = Some(WorkerPool::start("compare", 1, AtEnd::Detach, serve)?);
         }
-        if let Some(crew) = &self.crew {
-            crew.push(work);
+        if let Some(workers) = &self.workers {
+            workers.push(work);
         }
         Ok(())
     }

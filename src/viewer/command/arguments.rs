@@ -1,5 +1,8 @@
 //! Arguments that a person types after a command's word, in scripts and in the palette: text to [`Command`].
 
+use crate::viewer::{
+    AbCommand, InspectorCommand, LessonCommand, SceneCommand, SheetCommand, ViewCommand, WindowCommand,
+};
 use std::borrow::Cow;
 
 use crate::color::ResolveSpace;
@@ -62,7 +65,7 @@ const fn argument(usage: &'static str, parse: fn(&str) -> Option<Command>) -> Ar
 }
 
 pub(in crate::viewer) const ROTATE: Argument = argument("DEGREES", |text| {
-    number(text).map(|degrees| Command::RotateBy { degrees })
+    number(text).map(|degrees| Command::View(ViewCommand::RotateBy { degrees }))
 });
 
 pub(in crate::viewer) const ZOOM: Argument = argument("FACTOR [X,Y]", |text| {
@@ -71,96 +74,128 @@ pub(in crate::viewer) const ZOOM: Argument = argument("FACTOR [X,Y]", |text| {
         None => (text, None),
     };
     let factor = number(factor).filter(|factor| *factor > 0.0)?;
-    Some(Command::ZoomAt { at, factor })
+    Some(Command::View(ViewCommand::ZoomAt { at, factor }))
 });
 
-pub(in crate::viewer) const PAN: Argument = argument("X,Y", |text| point(text).map(|by| Command::PanBy { by }));
+pub(in crate::viewer) const PAN: Argument = argument("X,Y", |text| {
+    point(text).map(|by| Command::View(ViewCommand::PanBy { by }))
+});
 
 pub(in crate::viewer) const VIEW: Argument = argument(ViewNumbers::FORM, |text| match text {
-    "default" => Some(Command::ResetView),
-    _ => ViewNumbers::parse(text).map(Command::SetView),
+    "default" => Some(Command::View(ViewCommand::Reset)),
+    _ => ViewNumbers::parse(text).map(ViewCommand::Set).map(Command::View),
 });
 pub(in crate::viewer) const PIXEL_ZOOM: Argument = argument("1, 2, 3, 4, 6 or 8", |text| {
-    whole(text).and_then(PixelZoom::new).map(Command::SetPixelZoom)
+    whole(text)
+        .and_then(PixelZoom::new)
+        .map(ViewCommand::SetPixelZoom)
+        .map(Command::View)
 });
 
-pub(in crate::viewer) const PROGRESSIVE: Argument =
-    argument(Toggle::FORM, |text| toggle(text).map(Command::Progressive));
+pub(in crate::viewer) const PROGRESSIVE: Argument = argument(Toggle::FORM, |text| {
+    toggle(text).map(ViewCommand::Progressive).map(Command::View)
+});
 
 pub(in crate::viewer) const WIPE: Argument = argument("a part of the width from 0 to 1", |text| {
     number(text)
         .filter(|part| (0.0..=1.0).contains(part))
-        .map(Command::SetWipe)
+        .map(AbCommand::SetWipe)
+        .map(Command::Ab)
 });
 
 pub(in crate::viewer) const DIFFERENCE: Argument = argument("signed|absolute|relative|squared", |text| {
-    named(&Measure::ALL, Measure::name, text).map(Command::SetMeasure)
+    named(&Measure::ALL, Measure::name, text)
+        .map(AbCommand::SetMeasure)
+        .map(Command::Ab)
 });
 
-pub(in crate::viewer) const NORMALIZE: Argument = argument(Toggle::FORM, |text| toggle(text).map(Command::Normalize));
+pub(in crate::viewer) const NORMALIZE: Argument = argument(Toggle::FORM, |text| {
+    toggle(text).map(AbCommand::Normalize).map(Command::Ab)
+});
 
 pub(in crate::viewer) const GAIN: Argument = argument("a number from 0.000001 to 1000000", |text| {
     let gain = text.trim().parse().ok().filter(|gain| (1e-6..=1e6).contains(gain));
-    gain.map(Command::SetGain)
+    gain.map(AbCommand::SetGain).map(Command::Ab)
 });
 
 pub(in crate::viewer) const ARRANGE: Argument = argument(Arrangement::FORM, |text| {
-    named(&Arrangement::ALL, Arrangement::name, text).map(Command::Arrange)
+    named(&Arrangement::ALL, Arrangement::name, text)
+        .map(AbCommand::Arrange)
+        .map(Command::Ab)
 });
 
 pub(in crate::viewer) const TRUTH: Argument = argument("stored|linear", |text| {
     let resolve = named(&ResolveSpace::ALL, ResolveSpace::name, text)?;
-    Some(Command::Compare(Against::Truth(Some(resolve))))
+    Some(Command::Ab(AbCommand::Compare(Against::Truth(Some(resolve)))))
 });
 
 pub(in crate::viewer) const AGAINST: Argument = argument(
     "settings|truth|truth stored|truth linear|none, settings such as \"sample-rate 16, dialect svg\", or a picture's path",
-    |text| Against::from_text(text).map(Command::Compare),
+    |text| Against::from_text(text).map(AbCommand::Compare).map(Command::Ab),
 );
 
 pub(in crate::viewer) const SCENE: Argument = argument("a scene's number, from 1", |text| {
     let index = usize::try_from(whole(text)?).ok()?.checked_sub(1)?;
-    Some(Command::Scene(index))
+    Some(Command::Scenes(SceneCommand::Show(index)))
 });
 
 pub(in crate::viewer) const LESSON: Argument = argument("lesson:NAME, or the path of a lesson in TOML", |text| {
-    LessonSource::from_address(&path(text)).map(Command::OpenLesson)
+    LessonSource::from_address(&path(text))
+        .map(LessonCommand::Open)
+        .map(Command::Lesson)
 });
 
 pub(in crate::viewer) const LESSON_STEP: Argument = argument("a step's number, from 1", |text| {
     let index = usize::try_from(whole(text)?).ok()?.checked_sub(1)?;
-    Some(Command::LessonStep(index))
+    Some(Command::Lesson(LessonCommand::Step(index)))
 });
 
 pub(in crate::viewer) const OPEN: Argument = argument("a path", |text| {
-    (!text.is_empty()).then(|| Command::Open(vec![path(text)]))
+    (!text.is_empty()).then(|| Command::Scenes(SceneCommand::Open(vec![path(text)])))
 });
 
-pub(in crate::viewer) const INSPECTOR: Argument = argument(Toggle::FORM, |text| toggle(text).map(Command::Inspector));
+pub(in crate::viewer) const INSPECTOR: Argument = argument(Toggle::FORM, |text| {
+    toggle(text).map(InspectorCommand::Show).map(Command::Inspector)
+});
 
-pub(in crate::viewer) const PIN: Argument = argument("X,Y in whole pixels", |text| pixels(text).map(Command::Pin));
+pub(in crate::viewer) const PIN: Argument = argument("X,Y in whole pixels", |text| {
+    pixels(text).map(InspectorCommand::Pin).map(Command::Inspector)
+});
 
-pub(in crate::viewer) const NUDGE: Argument = argument("X,Y in whole pixels", |text| pixels(text).map(Command::Nudge));
+pub(in crate::viewer) const NUDGE: Argument = argument("X,Y in whole pixels", |text| {
+    pixels(text).map(InspectorCommand::Nudge).map(Command::Inspector)
+});
 
 pub(in crate::viewer) const MAGNIFICATION: Argument = argument("a whole number of window pixels", |text| {
-    whole(text).map(Command::SetMagnification)
+    whole(text)
+        .map(InspectorCommand::SetMagnification)
+        .map(Command::Inspector)
 });
 
 pub(in crate::viewer) const REGION: Argument = argument("a whole number from 8 to 64", |text| {
-    whole(text).map(Command::SetInspectorRegion)
+    whole(text).map(InspectorCommand::SetRegion).map(Command::Inspector)
 });
 
-pub(in crate::viewer) const OVERLAY: Argument = argument(Toggle::FORM, |text| toggle(text).map(Command::OverlayText));
+pub(in crate::viewer) const OVERLAY: Argument = argument(Toggle::FORM, |text| {
+    toggle(text).map(WindowCommand::OverlayText).map(Command::Window)
+});
 
-pub(in crate::viewer) const HIDE: Argument = argument(Toggle::FORM, |text| toggle(text).map(Command::HideEverything));
+pub(in crate::viewer) const HIDE: Argument = argument(Toggle::FORM, |text| {
+    toggle(text).map(WindowCommand::HideEverything).map(Command::Window)
+});
 
-pub(in crate::viewer) const EXPLANATION: Argument =
-    argument(Toggle::FORM, |text| toggle(text).map(Command::Explanation));
+pub(in crate::viewer) const EXPLANATION: Argument = argument(Toggle::FORM, |text| {
+    toggle(text).map(InspectorCommand::Explanation).map(Command::Inspector)
+});
 
-pub(in crate::viewer) const PANEL: Argument = argument(Toggle::FORM, |text| toggle(text).map(Command::Panel));
+pub(in crate::viewer) const PANEL: Argument = argument(Toggle::FORM, |text| {
+    toggle(text).map(WindowCommand::Panel).map(Command::Window)
+});
 
 pub(in crate::viewer) const THEME: Argument = argument("dark|light", |text| {
-    named(&Theme::ALL, Theme::name, text).map(Command::SetTheme)
+    named(&Theme::ALL, Theme::name, text)
+        .map(WindowCommand::SetTheme)
+        .map(Command::Window)
 });
 
 pub(in crate::viewer) const SHEET_COLUMNS: Argument = argument(SHEET_AXIS, |text| sheet_axis(SheetSide::Columns, text));
@@ -173,21 +208,21 @@ pub(in crate::viewer) const SHEET_INSET: Argument = argument("on|off", |text| {
         "off" => false,
         _ => return None,
     };
-    Some(Command::ChangeSheet(SheetChange::Inset(inset)))
+    Some(Command::Sheet(SheetCommand::Change(SheetChange::Inset(inset))))
 });
 
 pub(in crate::viewer) const SHEET_PANELS: Argument = argument("window, page or WIDTHxHEIGHT", |text| {
     let panels = PanelSize::parse(text)?;
-    Some(Command::ChangeSheet(SheetChange::Panels(panels)))
+    Some(Command::Sheet(SheetCommand::Change(SheetChange::Panels(panels))))
 });
 
 pub(in crate::viewer) const SHEET_THEME: Argument = argument("light|dark", |text| {
-    named(&Ground::ALL, Ground::name, text).map(|theme| Command::ChangeSheet(SheetChange::Theme(theme)))
+    named(&Ground::ALL, Ground::name, text).map(|theme| Command::Sheet(SheetCommand::Change(SheetChange::Theme(theme))))
 });
 
 pub(in crate::viewer) const SHEET_NOTE: Argument = argument("a sentence, or none", |text| {
     let note = if text == "none" { "" } else { text };
-    (!text.is_empty()).then(|| Command::ChangeSheet(SheetChange::Note(note.to_owned())))
+    (!text.is_empty()).then(|| Command::Sheet(SheetCommand::Change(SheetChange::Note(note.to_owned()))))
 });
 
 /// The form of an axis.
@@ -200,7 +235,7 @@ fn sheet_axis(side: SheetSide, text: &str) -> Option<Command> {
         let (name, values) = text.split_once(char::is_whitespace)?;
         Some(Axis::of(name, values).ok()?)
     };
-    Some(Command::ChangeSheet(SheetChange::Axis(side, axis)))
+    Some(Command::Sheet(SheetCommand::Change(SheetChange::Axis(side, axis))))
 }
 
 #[cfg(test)]
@@ -214,12 +249,12 @@ mod tests {
         let at_home = path("~/a.svg");
         assert_eq!(
             OPEN.parse("~/a.svg"),
-            Ok(Command::Open(vec![at_home.clone()])),
+            Ok(Command::Scenes(SceneCommand::Open(vec![at_home.clone()]))),
             "a scene"
         );
         assert_eq!(
             AGAINST.parse("~/a.svg"),
-            Ok(Command::Compare(Against::File(at_home))),
+            Ok(Command::Ab(AbCommand::Compare(Against::File(at_home)))),
             "a picture"
         );
     }
@@ -227,17 +262,21 @@ mod tests {
     #[test]
     fn argument_forms() {
         let zoomed = ZOOM.parse("2 10,20");
-        let expected = Command::ZoomAt {
+        let expected = Command::View(ViewCommand::ZoomAt {
             at: Some(DVec2::new(10.0, 20.0)),
             factor: 2.0,
-        };
+        });
         assert_eq!(zoomed, Ok(expected), "factor and place");
         assert_eq!(
             PIN.parse(" 512, 300 "),
-            Ok(Command::Pin([512, 300])),
+            Ok(Command::Inspector(InspectorCommand::Pin([512, 300]))),
             "blanks do not matter"
         );
-        assert_eq!(SCENE.parse("1"), Ok(Command::Scene(0)), "people count from 1");
+        assert_eq!(
+            SCENE.parse("1"),
+            Ok(Command::Scenes(SceneCommand::Show(0))),
+            "people count from 1"
+        );
         for (argument, wrong) in [
             (ZOOM, "-1"),
             (ZOOM, "inf"),

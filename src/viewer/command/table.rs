@@ -8,6 +8,9 @@ use crate::viewer::command::{Command, arguments};
 use crate::viewer::keys::{Chord, Key, Modifiers};
 use crate::viewer::lesson::source::LessonSource;
 use crate::viewer::settings::Toggle;
+use crate::viewer::{
+    AbCommand, ExportCommand, InspectorCommand, LessonCommand, SceneCommand, SheetCommand, ViewCommand, WindowCommand,
+};
 
 /// Degrees that one press of a key turns the picture.
 const TURN: f64 = 5.0;
@@ -28,7 +31,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::View,
     )
     .keys(&[Chord::named(Key::Space)])
-    .run(&Command::ResetView),
+    .run(&Command::View(ViewCommand::Reset)),
     spec(
         "fit",
         "Fit",
@@ -36,7 +39,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::View,
     )
     .keys(&[Chord::char('f')])
-    .run(&Command::FitView),
+    .run(&Command::View(ViewCommand::Fit)),
     spec(
         "actual-size",
         "Actual size",
@@ -44,7 +47,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::View,
     )
     .keys(&[Chord::ctrl('0')])
-    .run(&Command::ActualSize),
+    .run(&Command::View(ViewCommand::ActualSize)),
     spec(
         "rotate-left",
         "Rotate left",
@@ -52,7 +55,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::View,
     )
     .keys(&[Chord::char('[')])
-    .run(&Command::RotateBy { degrees: -TURN }),
+    .run(&Command::View(ViewCommand::RotateBy { degrees: -TURN })),
     spec(
         "rotate-right",
         "Rotate right",
@@ -60,7 +63,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::View,
     )
     .keys(&[Chord::char(']')])
-    .run(&Command::RotateBy { degrees: TURN }),
+    .run(&Command::View(ViewCommand::RotateBy { degrees: TURN })),
     spec(
         "rotate",
         "Rotate by",
@@ -74,20 +77,20 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         "Enlarges the picture about the middle of the window",
         Group::View,
     )
-    .run(&Command::ZoomAt {
+    .run(&Command::View(ViewCommand::ZoomAt {
         at: None,
         factor: ZOOM_STEP,
-    }),
+    })),
     spec(
         "zoom-out",
         "Zoom out",
         "Shrinks the picture about the middle of the window",
         Group::View,
     )
-    .run(&Command::ZoomAt {
+    .run(&Command::View(ViewCommand::ZoomAt {
         at: None,
         factor: 1.0 / ZOOM_STEP,
-    }),
+    })),
     spec(
         "zoom",
         "Zoom by",
@@ -109,7 +112,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         "Shows every frame pixel as a square of 1, 2, 3 ... window pixels",
         Group::View,
     )
-    .run(&Command::NextPixelZoom)
+    .run(&Command::View(ViewCommand::NextPixelZoom))
     .argument(arguments::PIXEL_ZOOM),
     // Sampling: after the picture settings.
     spec(
@@ -118,7 +121,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         "Draws coarsely while the view moves and refines the picture when it rests",
         Group::Sampling,
     )
-    .run(&Command::Progressive(Toggle::Flip))
+    .run(&Command::View(ViewCommand::Progressive(Toggle::Flip)))
     .argument(arguments::PROGRESSIVE),
     // A against B.
     spec(
@@ -129,7 +132,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
     )
     .more("The first press keeps the settings of now as B")
     .keys(&[Chord::char('r')])
-    .run(&Command::SwapAb),
+    .run(&Command::Ab(AbCommand::Swap)),
     spec(
         "wipe",
         "Wipe",
@@ -138,7 +141,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
     )
     .more("Drag the line to move it")
     .keys(&[Chord::char('w')])
-    .run(&Command::ToggleArrangement(Arrangement::Wipe))
+    .run(&Command::Ab(AbCommand::ToggleArrangement(Arrangement::Wipe)))
     .argument(arguments::WIPE),
     spec(
         "difference",
@@ -148,7 +151,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
     )
     .more("Every pixel has the number of its channel that differs most")
     .keys(&[Chord::char('d')])
-    .run(&Command::ToggleArrangement(Arrangement::Difference))
+    .run(&Command::Ab(AbCommand::ToggleArrangement(Arrangement::Difference)))
     .argument(arguments::DIFFERENCE),
     spec(
         "normalize",
@@ -158,7 +161,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
     )
     .more("Else colours stand for the same numbers in every picture")
     .keys(&[Chord::new(Key::Char('d'), Modifiers::SHIFT)])
-    .run(&Command::Normalize(Toggle::Flip))
+    .run(&Command::Ab(AbCommand::Normalize(Toggle::Flip)))
     .argument(arguments::NORMALIZE),
     spec(
         "next-difference",
@@ -168,7 +171,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
     )
     .more("One pixel of each block of 16 x 16 pixels counts, up to 64 of them")
     .keys(&[Chord::char('n')])
-    .run(&Command::NextDifference),
+    .run(&Command::Ab(AbCommand::NextDifference)),
     spec(
         "gain",
         "Difference gain",
@@ -184,7 +187,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Compare,
     )
     .more("Small differences come to light, large ones all take the last colour")
-    .run(&Command::StepGain(1)),
+    .run(&Command::Ab(AbCommand::StepGain(1))),
     spec(
         "weaker-difference",
         "Weaker difference",
@@ -192,7 +195,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Compare,
     )
     .more("Large differences can be told apart again")
-    .run(&Command::StepGain(-1)),
+    .run(&Command::Ab(AbCommand::StepGain(-1))),
     spec(
         "side",
         "Side by side",
@@ -200,10 +203,10 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Compare,
     )
     .more("Panning and zooming move both")
-    .run(&Command::ToggleArrangement(Arrangement::SideBySide)),
+    .run(&Command::Ab(AbCommand::ToggleArrangement(Arrangement::SideBySide))),
     spec("flip", "Flip", "Shows A and B in turn", Group::Compare)
         .more("What differs then jumps to the eye")
-        .run(&Command::ToggleArrangement(Arrangement::Flip)),
+        .run(&Command::Ab(AbCommand::ToggleArrangement(Arrangement::Flip))),
     spec(
         "flip-by-hand",
         "Flip by hand",
@@ -212,7 +215,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
     )
     .more("Look at one place while you press it")
     .keys(&[Chord::char('b')])
-    .run(&Command::FlipByHand),
+    .run(&Command::Ab(AbCommand::FlipByHand)),
     spec(
         "truth",
         "Compare with the truth",
@@ -220,7 +223,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Compare,
     )
     .more("Each of them reads textures at level zero; all else is A's, and so are the values that are averaged")
-    .run(&Command::Compare(Against::Truth(None)))
+    .run(&Command::Ab(AbCommand::Compare(Against::Truth(None))))
     .argument(arguments::TRUTH),
     spec(
         "compare-picture",
@@ -229,7 +232,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Compare,
     )
     .more("A is then drawn with its size; a picture can also be dropped on the window")
-    .run(&Command::ToggleDialog(Dialog::ComparePicture)),
+    .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::ComparePicture))),
     spec(
         "arrange",
         "Arrange A and B",
@@ -250,15 +253,15 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
     spec("scene", "Scene", "Shows the scene with this number", Group::Scenes)
         .keys(&DIGITS)
         .per_key(&[
-            Command::Scene(0),
-            Command::Scene(1),
-            Command::Scene(2),
-            Command::Scene(3),
-            Command::Scene(4),
-            Command::Scene(5),
-            Command::Scene(6),
-            Command::Scene(7),
-            Command::Scene(8),
+            Command::Scenes(SceneCommand::Show(0)),
+            Command::Scenes(SceneCommand::Show(1)),
+            Command::Scenes(SceneCommand::Show(2)),
+            Command::Scenes(SceneCommand::Show(3)),
+            Command::Scenes(SceneCommand::Show(4)),
+            Command::Scenes(SceneCommand::Show(5)),
+            Command::Scenes(SceneCommand::Show(6)),
+            Command::Scenes(SceneCommand::Show(7)),
+            Command::Scenes(SceneCommand::Show(8)),
         ])
         .argument(arguments::SCENE),
     spec(
@@ -268,7 +271,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Scenes,
     )
     .keys(&[Chord::named(Key::PageUp)])
-    .run(&Command::PreviousScene),
+    .run(&Command::Scenes(SceneCommand::Previous)),
     spec(
         "next-scene",
         "Next scene",
@@ -276,7 +279,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Scenes,
     )
     .keys(&[Chord::named(Key::PageDown)])
-    .run(&Command::NextScene),
+    .run(&Command::Scenes(SceneCommand::Next)),
     spec(
         "open",
         "Open",
@@ -290,7 +293,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         "Opens the scenes that come with the program",
         Group::Scenes,
     )
-    .run(&Command::OpenGallery),
+    .run(&Command::Scenes(SceneCommand::OpenGallery)),
     spec(
         "six-tasks",
         "Lesson: six tasks",
@@ -298,7 +301,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Scenes,
     )
     .more("PageDown goes to its next step, Esc closes it")
-    .run(&Command::OpenLesson(LessonSource::BuiltIn(0))),
+    .run(&Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(0)))),
     spec(
         "lesson-anisotropy",
         "Lesson: anisotropy",
@@ -306,7 +309,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Scenes,
     )
     .more("PageDown goes to its next step, Esc closes it")
-    .run(&Command::OpenLesson(LessonSource::BuiltIn(1))),
+    .run(&Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(1)))),
     spec(
         "lesson",
         "Lesson",
@@ -328,17 +331,17 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         "Brings back what was open before the lesson",
         Group::Scenes,
     )
-    .run(&Command::CloseLesson),
+    .run(&Command::Lesson(LessonCommand::Close)),
     spec("reload", "Reload", "Reads the scene again", Group::Scenes)
         .keys(&[Chord::ctrl('r'), Chord::named(Key::F(5))])
-        .run(&Command::Reload),
+        .run(&Command::Scenes(SceneCommand::Reload)),
     spec(
         "other-reading",
         "Read in the other dialect",
         "Reads the scene, and those of its folder, as course instead of svg, or the other way",
         Group::Scenes,
     )
-    .run(&Command::OtherReading),
+    .run(&Command::Scenes(SceneCommand::OtherReading)),
     // Inspector.
     spec(
         "inspector",
@@ -347,7 +350,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Inspector,
     )
     .keys(&[Chord::char('z')])
-    .run(&Command::Inspector(Toggle::Flip))
+    .run(&Command::Inspector(InspectorCommand::Show(Toggle::Flip)))
     .argument(arguments::INSPECTOR),
     spec(
         "pin",
@@ -356,7 +359,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Inspector,
     )
     .keys(&[Chord::named(Key::Enter)])
-    .run(&Command::PinUnderPointer)
+    .run(&Command::Inspector(InspectorCommand::PinUnderPointer))
     .argument(arguments::PIN),
     spec(
         "unpin",
@@ -364,7 +367,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         "Lets the inspector follow the pointer again",
         Group::Inspector,
     )
-    .run(&Command::Unpin),
+    .run(&Command::Inspector(InspectorCommand::Unpin)),
     spec("nudge", "Nudge pin", "Moves the pin by one pixel", Group::Inspector)
         .keys(&[
             Chord::named(Key::Left),
@@ -373,10 +376,10 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
             Chord::named(Key::Down),
         ])
         .per_key(&[
-            Command::Nudge([-1, 0]),
-            Command::Nudge([1, 0]),
-            Command::Nudge([0, -1]),
-            Command::Nudge([0, 1]),
+            Command::Inspector(InspectorCommand::Nudge([-1, 0])),
+            Command::Inspector(InspectorCommand::Nudge([1, 0])),
+            Command::Inspector(InspectorCommand::Nudge([0, -1])),
+            Command::Inspector(InspectorCommand::Nudge([0, 1])),
         ])
         .argument(arguments::NUDGE),
     spec(
@@ -387,10 +390,10 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
     )
     .keys(&[shift(Key::Left), shift(Key::Right), shift(Key::Up), shift(Key::Down)])
     .per_key(&[
-        Command::Nudge([-FAR, 0]),
-        Command::Nudge([FAR, 0]),
-        Command::Nudge([0, -FAR]),
-        Command::Nudge([0, FAR]),
+        Command::Inspector(InspectorCommand::Nudge([-FAR, 0])),
+        Command::Inspector(InspectorCommand::Nudge([FAR, 0])),
+        Command::Inspector(InspectorCommand::Nudge([0, -FAR])),
+        Command::Inspector(InspectorCommand::Nudge([0, FAR])),
     ]),
     spec(
         "go-to-pixel",
@@ -399,7 +402,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Inspector,
     )
     .keys(&[Chord::ctrl('g')])
-    .run(&Command::ToggleDialog(Dialog::GoToPixel)),
+    .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::GoToPixel))),
     spec(
         "explanation",
         "Explanation",
@@ -408,7 +411,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
     )
     .more("Samples, primitives, edges, weights and texels, from the sum back to the line of the document")
     .keys(&[Chord::char('e')])
-    .run(&Command::Explanation(Toggle::Flip))
+    .run(&Command::Inspector(InspectorCommand::Explanation(Toggle::Flip)))
     .argument(arguments::EXPLANATION),
     spec(
         "magnify-more",
@@ -416,14 +419,14 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         "Shows fewer pixels larger in the inspector",
         Group::Inspector,
     )
-    .run(&Command::StepMagnification(1)),
+    .run(&Command::Inspector(InspectorCommand::StepMagnification(1))),
     spec(
         "magnify-less",
         "Magnify less",
         "Shows more pixels smaller in the inspector",
         Group::Inspector,
     )
-    .run(&Command::StepMagnification(-1)),
+    .run(&Command::Inspector(InspectorCommand::StepMagnification(-1))),
     spec(
         "magnification",
         "Magnification",
@@ -446,7 +449,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Save,
     )
     .keys(&[Chord::char('s')])
-    .run(&Command::Screenshot),
+    .run(&Command::Export(ExportCommand::Screenshot)),
     spec(
         "window-screenshot",
         "Save window",
@@ -454,7 +457,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Save,
     )
     .keys(&[Chord::ctrl_shift('s')])
-    .run(&Command::WindowScreenshot),
+    .run(&Command::Export(ExportCommand::WindowScreenshot)),
     spec(
         "sheet",
         "Sheet",
@@ -463,7 +466,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
     )
     .more("With a preview of what is saved; every other setting, the view and the pin are those of the picture")
     .keys(&[shift(Key::Char('s'))])
-    .run(&Command::ToggleDialog(Dialog::Sheet)),
+    .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::Sheet))),
     spec(
         "sheet-columns",
         "Columns of the sheet",
@@ -512,14 +515,14 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         "Saves the sheet as PNG, and beside it a folder with its panels and snippets for documents",
         Group::Save,
     )
-    .run(&Command::SaveSheet),
+    .run(&Command::Sheet(SheetCommand::Save)),
     spec(
         "copy-sheet-command-line",
         "Copy the sheet's command line",
         "Copies the command line that makes the sheet",
         Group::Save,
     )
-    .run(&Command::CopySheetCommandLine),
+    .run(&Command::Sheet(SheetCommand::CopyCommandLine)),
     spec(
         "copy",
         "Copy",
@@ -527,28 +530,28 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Save,
     )
     .keys(&[Chord::ctrl('c')])
-    .run(&Command::Copy),
+    .run(&Command::Export(ExportCommand::Copy)),
     spec(
         "copy-pixel",
         "Copy pixel",
         "Copies place and colour of the inspected pixel",
         Group::Save,
     )
-    .run(&Command::CopyPixel),
+    .run(&Command::Export(ExportCommand::CopyPixel)),
     spec(
         "copy-picture",
         "Copy picture",
         "Copies the picture as a screenshot shows it",
         Group::Save,
     )
-    .run(&Command::CopyPicture),
+    .run(&Command::Export(ExportCommand::CopyPicture)),
     spec(
         "copy-explanation",
         "Copy explanation",
         "Copies why the inspected pixel has its colour, as Markdown",
         Group::Save,
     )
-    .run(&Command::CopyExplanation),
+    .run(&Command::Export(ExportCommand::CopyExplanation)),
     spec(
         "copy-command-line",
         "Copy command line",
@@ -556,7 +559,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Save,
     )
     .keys(&[Chord::ctrl_shift('c')])
-    .run(&Command::CopyCommandLine),
+    .run(&Command::Export(ExportCommand::CopyCommandLine)),
     // Window.
     spec(
         "overlay",
@@ -565,7 +568,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Window,
     )
     .keys(&[Chord::char('`')])
-    .run(&Command::OverlayText(Toggle::Flip))
+    .run(&Command::Window(WindowCommand::OverlayText(Toggle::Flip)))
     .argument(arguments::OVERLAY),
     spec(
         "hide",
@@ -574,10 +577,10 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Window,
     )
     .keys(&[Chord::named(Key::Tab)])
-    .run(&Command::HideEverything(Toggle::Flip))
+    .run(&Command::Window(WindowCommand::HideEverything(Toggle::Flip)))
     .argument(arguments::HIDE),
     spec("panel", "Side panel", "Shows or hides the side panel", Group::Window)
-        .run(&Command::Panel(Toggle::Flip))
+        .run(&Command::Window(WindowCommand::Panel(Toggle::Flip)))
         .argument(arguments::PANEL),
     spec(
         "theme",
@@ -585,11 +588,11 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         "Switches between the dark and the light theme",
         Group::Window,
     )
-    .run(&Command::NextTheme)
+    .run(&Command::Window(WindowCommand::NextTheme))
     .argument(arguments::THEME),
     spec("help", "Help", "Shows all keys", Group::Window)
         .keys(&[Chord::shifted('?', '/'), Chord::named(Key::F(1))])
-        .run(&Command::ToggleDialog(Dialog::Help)),
+        .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::Help))),
     spec(
         "palette",
         "Command palette",
@@ -597,7 +600,7 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Window,
     )
     .keys(&[Chord::ctrl_shift('p')])
-    .run(&Command::ToggleDialog(Dialog::Palette)),
+    .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::Palette))),
     spec(
         "escape",
         "Close",
@@ -605,10 +608,10 @@ pub(in crate::viewer) static TABLE: &[CommandSpec] = &[
         Group::Window,
     )
     .keys(&[Chord::named(Key::Escape)])
-    .run(&Command::Escape),
+    .run(&Command::Window(WindowCommand::Escape)),
     spec("quit", "Quit", "Ends the program at once", Group::Window)
         .keys(&[Chord::ctrl('q')])
-        .run(&Command::Quit),
+        .run(&Command::Window(WindowCommand::Quit)),
 ];
 
 /// `1` to `9`.

@@ -1,14 +1,19 @@
 //! Commands to changes of state.
 
+use crate::viewer::command::parts::{
+    ExportCommand, InspectorCommand, LessonCommand, PointerCommand, SceneCommand, SheetCommand, ViewCommand,
+    WindowCommand,
+};
 use std::time::Instant;
 
 use crate::viewer::chrome::ending;
 use crate::viewer::command::{Command, Effect};
 use crate::viewer::library;
 use crate::viewer::settings::values::next_of;
-use crate::viewer::settings::{PixelZoom, Theme};
+use crate::viewer::settings::{PixelZoom, Theme, Toggle};
 use crate::viewer::state::Viewer;
 use crate::viewer::view::camera::Camera;
+use crate::viewer::view::pointer::PointerButton;
 
 impl Viewer {
     /// Does what `command` says, without waiting for anything, and returns what the program around has to do.
@@ -32,142 +37,170 @@ impl Viewer {
     /// Whether a command that windows repeat tells nothing new.
     fn is_so_already(&self, command: &Command) -> bool {
         match command {
-            Command::PointerMoved { at } => self.pointer.at == Some(*at),
-            Command::PointerLeft => self.pointer.at.is_none(),
-            Command::Resize(size) => self.screen.window == *size,
-            Command::SetFreeArea(area) => self.screen.free_area == *area,
-            Command::PointAtTexel(texel) => self.pointed_texel == *texel,
-            Command::SetSheetRoom(room) => !self.sheet_room_changes(*room),
+            Command::Pointer(PointerCommand::Moved { at }) => self.pointer.at == Some(*at),
+            Command::Pointer(PointerCommand::Left) => self.pointer.at.is_none(),
+            Command::Window(WindowCommand::Resize(size)) => self.screen.window == *size,
+            Command::Window(WindowCommand::SetFreeArea(area)) => self.screen.free_area == *area,
+            Command::Inspector(InspectorCommand::PointAtTexel(texel)) => self.pointed_texel == *texel,
+            Command::Sheet(SheetCommand::SetRoom(room)) => !self.sheet_room_changes(*room),
             _ => false,
         }
     }
 
+    /// Every command has its arm: one that nobody carries out does not compile.
     fn dispatch(&mut self, command: Command) -> Vec<Effect> {
         match command {
-            Command::CopyPixel => return self.copy_pixel(),
-            Command::Copy => return self.copy(),
-            Command::CopyPicture => return self.copy_picture(),
-            Command::CopyCommandLine => return self.copy_command_line(),
-            Command::CopyExplanation => return self.copy_explanation(),
-            Command::CopySheetCommandLine => return self.copy_sheet_command_line(),
-            Command::WindowScreenshot => return vec![Effect::PictureOfWindow],
-            Command::Escape => return self.escape(),
-            Command::Quit => return vec![Effect::Quit],
-            command => self.change(command),
-        }
-        Vec::new()
-    }
-
-    /// Commands that only change the state.
-    fn change(&mut self, command: Command) {
-        match command {
-            Command::PointerMoved { at } => self.pointer_moved(at),
-            Command::PointerLeft => self.pointer.at = None,
-            Command::PointerPressed(button) => {
-                self.inspector.revealed = false;
-                self.pointer_pressed(button);
-            }
-            Command::PointerReleased(crate::viewer::view::pointer::PointerButton::Primary) => {
-                (self.pointer.dragging, self.comparison.drags_line) = (false, false);
-            }
-            Command::Wheel { clicks } => self.wheel(clicks),
-            Command::Pinch { factor } => self.zoom(self.pointer.at, factor),
-            Command::PanBy { by } => self.pan(by),
-            Command::ZoomAt { at, factor } => self.zoom(at, factor),
-            Command::RotateBy { degrees } => self.look(|camera, sight| camera.rotate(degrees, sight)),
-            Command::ResetView => self.reset_view(),
-            Command::FitView => self.fit_view(),
-            Command::ActualSize => self.look(Camera::actual_size),
-            Command::SetView(numbers) => self.look(|camera, sight| camera.set(numbers, sight)),
-            Command::SetPixelZoom(zoom) => self.set_pixel_zoom(zoom),
-            Command::NextPixelZoom => self.set_pixel_zoom(next_of(&PixelZoom::ALL, self.settings.pixel_zoom, 1.0)),
-            Command::NextScene if self.step_lesson(true) => {}
-            Command::PreviousScene if self.step_lesson(false) => {}
-            Command::NextScene => self.step_scene(1),
-            Command::PreviousScene => self.step_scene(self.scenes.len().saturating_sub(1)),
-            Command::OpenLesson(source) => self.open_lesson(&source),
-            Command::LessonStep(step) => self.take_step(step),
-            Command::CloseLesson => {
-                self.close_lesson();
-            }
-            Command::Scene(index) => self.show_scene(index),
-            Command::Open(paths) => self.open(&paths),
-            Command::OpenGallery => self.replace_scenes(library::gallery_entries()),
-            Command::Reload => self.read_current(),
-            Command::Screenshot => self.ask_for_screenshot(),
-            Command::SaveSheet => self.ask_for_sheet(),
-            Command::ChangeSheet(change) => self.change_sheet(change),
-            Command::SetSheetRoom(room) => self.set_sheet_room(room),
-            command => self.change_sampling(command),
-        }
-    }
-
-    fn change_sampling(&mut self, command: Command) {
-        let Some(command) = self.change_comparison(command) else {
-            return;
-        };
-        match command {
+            Command::Pointer(command) => self.apply_pointer(command),
+            Command::View(command) => self.apply_view(command),
             Command::Set(change) => {
                 let remark = change.apply(&mut self.settings);
                 remark.into_iter().for_each(|remark| self.messages.error(remark));
             }
-            Command::OtherReading => self.choose_other_reading(),
-            Command::Progressive(toggle) => {
+            Command::Ab(command) => self.apply_ab(command),
+            Command::Scenes(command) => self.apply_scenes(command),
+            Command::Lesson(command) => self.apply_lesson(command),
+            Command::Inspector(command) => self.apply_inspector(command),
+            Command::Export(command) => return self.apply_export(command),
+            Command::Sheet(command) => return self.apply_sheet(command),
+            Command::Window(command) => return self.apply_window(command),
+        }
+        Vec::new()
+    }
+
+    fn apply_pointer(&mut self, command: PointerCommand) {
+        match command {
+            PointerCommand::Moved { at } => self.pointer_moved(at),
+            PointerCommand::Left => self.pointer.at = None,
+            PointerCommand::Pressed(button) => {
+                self.inspector.revealed = false;
+                self.pointer_pressed(button);
+            }
+            PointerCommand::Released(PointerButton::Primary) => {
+                (self.pointer.dragging, self.comparison.drags_line) = (false, false);
+            }
+            PointerCommand::Released(PointerButton::Secondary) => {}
+            PointerCommand::Wheel { clicks } => self.wheel(clicks),
+            PointerCommand::Pinch { factor } => self.zoom(self.pointer.at, factor),
+        }
+    }
+
+    fn apply_view(&mut self, command: ViewCommand) {
+        match command {
+            ViewCommand::PanBy { by } => self.pan(by),
+            ViewCommand::ZoomAt { at, factor } => self.zoom(at, factor),
+            ViewCommand::RotateBy { degrees } => self.look(|camera, sight| camera.rotate(degrees, sight)),
+            ViewCommand::Reset => self.reset_view(),
+            ViewCommand::Fit => self.fit_view(),
+            ViewCommand::ActualSize => self.look(Camera::actual_size),
+            ViewCommand::Set(numbers) => self.look(|camera, sight| camera.set(numbers, sight)),
+            ViewCommand::SetPixelZoom(zoom) => self.set_pixel_zoom(zoom),
+            ViewCommand::NextPixelZoom => self.set_pixel_zoom(next_of(&PixelZoom::ALL, self.settings.pixel_zoom, 1.0)),
+            ViewCommand::Progressive(toggle) => {
                 self.settings.progressive = toggle.of(self.settings.progressive);
                 self.drawing.set_progressive(self.settings.progressive);
                 if let Some(drawing) = self.comparison.drawing_mut() {
                     drawing.set_progressive(self.settings.progressive);
                 }
             }
-            command => self.change_inspector(command),
         }
     }
 
-    fn change_inspector(&mut self, command: Command) {
+    fn apply_scenes(&mut self, command: SceneCommand) {
         match command {
-            Command::Inspector(toggle) => {
-                // What is hidden is not open to the eye: the key shows it again.
-                self.inspector.open = toggle.of(self.inspector.open && !self.screen.hidden);
-                if self.inspector.open {
-                    self.screen.hidden = false;
-                } else {
-                    self.inspector.pin = None;
-                    self.inspector.came_with_pin = false;
-                }
-            }
-            Command::SetInspectorRegion(region) => self.inspector.set_region(region),
-            Command::SetMagnification(magnification) => self.inspector.set_magnification(magnification),
-            Command::StepMagnification(steps) => self.inspector.step(steps),
-            Command::PinUnderPointer => self.pin_under_pointer(),
-            Command::Pin(pixel) => self.pin(pixel),
-            Command::Nudge(by) => self.nudge(by),
-            Command::Unpin => self.inspector.pin = None,
-            Command::PointAtTexel(texel) => self.pointed_texel = texel,
-            Command::Explanation(toggle) => self.show_explanation(toggle),
-            command => self.change_screen(&command),
+            SceneCommand::Next if self.step_lesson(true) => {}
+            SceneCommand::Previous if self.step_lesson(false) => {}
+            SceneCommand::Next => self.step_scene(1),
+            SceneCommand::Previous => self.step_scene(self.scenes.len().saturating_sub(1)),
+            SceneCommand::Show(index) => self.show_scene(index),
+            SceneCommand::Open(paths) => self.open(&paths),
+            SceneCommand::OpenGallery => self.replace_scenes(library::gallery_entries()),
+            SceneCommand::Reload => self.read_current(),
+            SceneCommand::OtherReading => self.choose_other_reading(),
         }
     }
 
-    fn change_screen(&mut self, command: &Command) {
+    fn apply_lesson(&mut self, command: LessonCommand) {
+        match command {
+            LessonCommand::Open(source) => self.open_lesson(&source),
+            LessonCommand::Step(step) => self.take_step(step),
+            LessonCommand::Close => {
+                self.close_lesson();
+            }
+        }
+    }
+
+    fn apply_inspector(&mut self, command: InspectorCommand) {
+        match command {
+            InspectorCommand::Show(toggle) => self.show_inspector(toggle),
+            InspectorCommand::SetRegion(region) => self.inspector.set_region(region),
+            InspectorCommand::SetMagnification(magnification) => self.inspector.set_magnification(magnification),
+            InspectorCommand::StepMagnification(steps) => self.inspector.step(steps),
+            InspectorCommand::PinUnderPointer => self.pin_under_pointer(),
+            InspectorCommand::Pin(pixel) => self.pin(pixel),
+            InspectorCommand::Nudge(by) => self.nudge(by),
+            InspectorCommand::Unpin => self.inspector.pin = None,
+            InspectorCommand::PointAtTexel(texel) => self.pointed_texel = texel,
+            InspectorCommand::Explanation(toggle) => self.show_explanation(toggle),
+        }
+    }
+
+    fn apply_export(&mut self, command: ExportCommand) -> Vec<Effect> {
+        match command {
+            ExportCommand::CopyPixel => self.copy_pixel(),
+            ExportCommand::Copy => self.copy(),
+            ExportCommand::CopyPicture => self.copy_picture(),
+            ExportCommand::CopyExplanation => self.copy_explanation(),
+            ExportCommand::CopyCommandLine => self.copy_command_line(),
+            ExportCommand::WindowScreenshot => vec![Effect::PictureOfWindow],
+            ExportCommand::Screenshot => {
+                self.ask_for_screenshot();
+                Vec::new()
+            }
+        }
+    }
+
+    fn apply_sheet(&mut self, command: SheetCommand) -> Vec<Effect> {
+        match command {
+            SheetCommand::Change(change) => self.change_sheet(change),
+            SheetCommand::SetRoom(room) => self.set_sheet_room(room),
+            SheetCommand::Save => self.ask_for_sheet(),
+            SheetCommand::CopyCommandLine => return self.copy_sheet_command_line(),
+        }
+        Vec::new()
+    }
+
+    fn apply_window(&mut self, command: WindowCommand) -> Vec<Effect> {
         let screen = &mut self.screen;
         match command {
-            Command::Resize(size) => screen.window = *size,
-            Command::SetFreeArea(area) => {
-                self.set_free_area(*area);
+            WindowCommand::Resize(size) => screen.window = size,
+            WindowCommand::SetFreeArea(area) => {
+                self.set_free_area(area);
                 self.reveal_pin();
             }
-            Command::OverlayText(toggle) => screen.shown.text = toggle.of(screen.shown.text),
-            Command::Panel(toggle) => screen.shown.panel = toggle.of(screen.shown.panel),
-            Command::HideEverything(toggle) => screen.hidden = toggle.of(screen.hidden),
-            Command::ToggleDialog(dialog) => {
-                screen.dialog = Some(*dialog).filter(|dialog| screen.dialog != Some(*dialog));
+            WindowCommand::OverlayText(toggle) => screen.shown.text = toggle.of(screen.shown.text),
+            WindowCommand::Panel(toggle) => screen.shown.panel = toggle.of(screen.shown.panel),
+            WindowCommand::HideEverything(toggle) => screen.hidden = toggle.of(screen.hidden),
+            WindowCommand::ToggleDialog(dialog) => {
+                screen.dialog = Some(dialog).filter(|dialog| screen.dialog != Some(*dialog));
             }
-            Command::CloseDialog => screen.dialog = None,
-            Command::SetTheme(theme) => screen.theme = *theme,
-            Command::NextTheme => screen.theme = next_of(&Theme::ALL, screen.theme, 1.0),
-            Command::DismissMessage(id) => self.messages.dismiss(*id),
-            // What has effects was handled in `dispatch`; letting go of another button does nothing.
-            _ => {}
+            WindowCommand::CloseDialog => screen.dialog = None,
+            WindowCommand::SetTheme(theme) => screen.theme = theme,
+            WindowCommand::NextTheme => screen.theme = next_of(&Theme::ALL, screen.theme, 1.0),
+            WindowCommand::DismissMessage(id) => self.messages.dismiss(id),
+            WindowCommand::Escape => return self.escape(),
+            WindowCommand::Quit => return vec![Effect::Quit],
+        }
+        Vec::new()
+    }
+
+    fn show_inspector(&mut self, toggle: Toggle) {
+        // What is hidden is not open to the eye: the key shows it again.
+        self.inspector.open = toggle.of(self.inspector.open && !self.screen.hidden);
+        if self.inspector.open {
+            self.screen.hidden = false;
+        } else {
+            self.inspector.pin = None;
+            self.inspector.came_with_pin = false;
         }
     }
 

@@ -1,8 +1,8 @@
 //! What commands do to a comparison.
 
 use crate::compare::{DifferenceStyle, Gain};
+use crate::viewer::AbCommand;
 use crate::viewer::ab::other::{Against, Arrangement, Other};
-use crate::viewer::command::Command;
 use crate::viewer::state::Viewer;
 use crate::viewer::view::panes::Moved;
 
@@ -38,33 +38,34 @@ impl Viewer {
         Some(self.comparison.paint.as_ref()?.colors.gain())
     }
 
-    /// Commands about comparing; the others come back.
-    pub(in crate::viewer) fn change_comparison(&mut self, command: Command) -> Option<Command> {
+    pub(in crate::viewer) fn apply_ab(&mut self, command: AbCommand) {
         match command {
-            Command::SwapAb => self.swap_ab(),
-            Command::Compare(against) => self.compare(against),
-            Command::Arrange(arrangement) => self.arrange(arrangement),
-            Command::ToggleArrangement(arrangement) => {
+            AbCommand::Swap => self.swap_ab(),
+            AbCommand::Compare(against) => self.compare(against),
+            AbCommand::Arrange(arrangement) => self.arrange(arrangement),
+            AbCommand::ToggleArrangement(arrangement) => {
                 let shown = self.arrangement() == arrangement;
                 self.arrange(if shown { Arrangement::Alone } else { arrangement });
             }
-            Command::FlipByHand => self.flip_by_hand(),
-            Command::SetWipe(part) if part.is_finite() => {
+            AbCommand::FlipByHand => self.flip_by_hand(),
+            AbCommand::SetWipe(part) if !part.is_finite() => return,
+            AbCommand::SetGain(gain) if !gain.is_finite() => return,
+            AbCommand::SetWipe(part) => {
                 self.comparison.wipe = part.clamp(0.0, 1.0);
                 self.arrange(Arrangement::Wipe);
             }
-            Command::SetMeasure(measure) => {
+            AbCommand::SetMeasure(measure) => {
                 self.comparison.style.measure = measure;
                 self.arrange(Arrangement::Difference);
             }
-            Command::SetGain(gain) if gain.is_finite() => {
+            AbCommand::SetGain(gain) => {
                 self.comparison.gain = gain.clamp(GAINS[0], GAINS[1]);
                 self.comparison.style.gain = Gain::Factor(self.comparison.gain);
                 self.arrange(Arrangement::Difference);
             }
-            Command::StepGain(steps) => self.step_gain(steps),
-            Command::NextDifference => self.next_difference(),
-            Command::Normalize(toggle) => {
+            AbCommand::StepGain(steps) => self.step_gain(steps),
+            AbCommand::NextDifference => self.next_difference(),
+            AbCommand::Normalize(toggle) => {
                 let before =
                     self.comparison.style.gain == Gain::Normalize && self.arrangement() == Arrangement::Difference;
                 self.comparison.style.gain = if toggle.of(before) {
@@ -74,10 +75,8 @@ impl Viewer {
                 };
                 self.arrange(Arrangement::Difference);
             }
-            command => return Some(command),
         }
         self.comparison.touch();
-        None
     }
 
     /// Closes what both share the window in; true if there was such.
@@ -124,7 +123,7 @@ impl Viewer {
     }
 
     pub(in crate::viewer) fn compare(&mut self, against: Against) {
-        // The newest wish counts.
+        // The newest request counts.
         self.comparison.loading = None;
         match against {
             Against::Settings => {

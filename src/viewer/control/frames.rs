@@ -6,8 +6,8 @@ use crate::geometry::View;
 use crate::raster::Region;
 use crate::render::RenderSettings;
 use crate::viewer::PixelRect;
-use crate::viewer::frames::frame::Manner;
-use crate::viewer::frames::request::Wish;
+use crate::viewer::frames::frame::PreviewQuality;
+use crate::viewer::frames::request::FrameRequest;
 use crate::viewer::state::Viewer;
 
 /// A refinement that takes longer shows how far it is.
@@ -26,8 +26,8 @@ fn in_frame(rect: &PixelRect, size: [u32; 2]) -> Region {
 
 impl Viewer {
     /// How the frame on the screen was made, unless it is final.
-    pub fn preview(&self) -> Option<Manner> {
-        Some(self.frame()?.preview.as_ref()?.manner)
+    pub fn preview(&self) -> Option<PreviewQuality> {
+        Some(self.frame()?.preview.as_ref()?.quality)
     }
 
     /// Since when the picture on the screen has been wanted.
@@ -51,7 +51,7 @@ impl Viewer {
         let preview = self.preview();
         match (preview, self.drawing.refinement()) {
             (Some(_), Some((_, done))) => Some(format!("refining {:.0} %", done * 100.0)),
-            (Some(manner), None) => Some(format!("preview, {manner}")),
+            (Some(quality), None) => Some(format!("preview, {quality}")),
             (None, _) => None,
         }
     }
@@ -93,9 +93,9 @@ impl Viewer {
         }
         let from = self.attention();
         let focus = self.inset.map(|placed| in_frame(&placed.inset.source(), size));
-        let wish = Wish::new(picture, from, focus);
-        self.drawing.want(wish.clone());
-        self.want_other(&wish);
+        let request = FrameRequest::new(picture, from, focus);
+        self.drawing.want(request.clone());
+        self.want_other(&request);
         self.release_pair();
     }
 

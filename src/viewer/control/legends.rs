@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::render::{Legend, Visualisation};
 use crate::viewer::PixelRect;
 use crate::viewer::ab::other::Arrangement;
-use crate::viewer::frames::legends::Wish;
+use crate::viewer::frames::legends::LegendRequest;
 use crate::viewer::frames::present::{WindowPixels, paste};
 use crate::viewer::state::Viewer;
 
@@ -39,11 +39,11 @@ impl Viewer {
             self.visualisations()
         };
         let scene = self.frame().map(|frame| Arc::clone(&frame.picture.scene));
-        let wish = scene.filter(|_| !shown.is_empty()).map(|scene| {
+        let request = scene.filter(|_| !shown.is_empty()).map(|scene| {
             let window = PixelRect::of_size(self.screen.window);
             let insets = [self.inset, self.other_inset].into_iter().flatten();
             let pixel = self.inset.and_then(|placed| self.in_frame(placed.inset.center));
-            Wish {
+            LegendRequest {
                 scene,
                 shown,
                 window: self.screen.window,
@@ -54,11 +54,11 @@ impl Viewer {
                     .collect(),
             }
         });
-        if wish == self.legends.wish {
+        if request == self.legends.request {
             return;
         }
-        self.legends.placed = wish.as_ref().map_or_else(Vec::new, Wish::place);
-        self.legends.wish = wish;
+        self.legends.placed = request.as_ref().map_or_else(Vec::new, LegendRequest::place);
+        self.legends.request = request;
         self.legends.number += 1;
     }
 

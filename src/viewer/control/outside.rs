@@ -23,7 +23,7 @@ impl Viewer {
         }
     }
 
-    /// Takes in a picture that was read; the newest wish counts.
+    /// Takes in a picture that was read; the newest request counts.
     pub(in crate::viewer) fn picture_read(&mut self, read: ReadPicture) {
         if self.comparison.loading.as_ref() != Some(&read.path) {
             return;

@@ -10,7 +10,7 @@ use crate::viewer::ab::measuring::SharedPicture;
 use crate::viewer::ab::other::Other;
 use crate::viewer::frames::drawing::{Drawing, DrawingId};
 use crate::viewer::frames::frame::Picture;
-use crate::viewer::frames::request::Wish;
+use crate::viewer::frames::request::FrameRequest;
 use crate::viewer::library::SceneState;
 use crate::viewer::state::Viewer;
 
@@ -143,8 +143,8 @@ impl Viewer {
         moves && same_scene && !(self.drawing.has_arrived() && other.has_arrived())
     }
 
-    /// Wants B's frame beside A's `wish`.
-    pub(in crate::viewer) fn want_other(&mut self, wish: &Wish) {
+    /// Wants B's frame beside A's `request`.
+    pub(in crate::viewer) fn want_other(&mut self, request: &FrameRequest) {
         let failed = self.own_dialect_of_b().is_some()
             && matches!(
                 self.current().map(|entry| &entry.other_state),
@@ -157,7 +157,7 @@ impl Viewer {
             return;
         }
         // While its scene is read, what is there of B stays.
-        let Some(picture) = self.other_picture(&wish.picture) else {
+        let Some(picture) = self.other_picture(&request.picture) else {
             return;
         };
         if !self.comparison.shows_both() {
@@ -188,7 +188,7 @@ impl Viewer {
             }
         }
         if let Some(drawing) = &mut self.comparison.drawing {
-            drawing.want(Wish::new(picture, wish.from, wish.focus));
+            drawing.want(FrameRequest::new(picture, request.from, request.focus));
         }
     }
 

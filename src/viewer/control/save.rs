@@ -27,14 +27,14 @@ impl Viewer {
 
     pub(in crate::viewer) fn ask_for_screenshot(&mut self) {
         self.saver.waiting = self.saver.waiting.saturating_add(1);
-        self.saver.since = self.drawing.newest_wish();
+        self.saver.since = self.drawing.newest_request();
         // No preview, and no rest: the picture of this moment, even if the view goes on moving.
         self.set_hurry(true);
     }
 
     /// The picture that screenshots wait for is another one now.
     pub(in crate::viewer) fn wait_for_newest_frame(&mut self) {
-        self.saver.since = self.drawing.newest_wish();
+        self.saver.since = self.drawing.newest_request();
     }
 
     /// Saves the screenshots that wait, as soon as there is a final frame of the state when they were asked for, or of
@@ -96,7 +96,7 @@ impl Viewer {
 
     /// The picture as a screenshot of this moment shows it.
     pub(in crate::viewer) fn copy_picture(&mut self) -> Vec<Effect> {
-        let frame = self.drawing.final_frame(self.drawing.newest_wish()).cloned();
+        let frame = self.drawing.final_frame(self.drawing.newest_request()).cloned();
         let both_current = !self.comparison.shows_both() || self.comparison.is_current();
         let Some(frame) = frame.filter(|_| both_current) else {
             let problem = "nothing copied: there is no finished picture yet; copy again when it is drawn";

@@ -18,7 +18,7 @@ use crate::viewer::export::sheet::saving::SheetJob;
 use crate::viewer::export::spec::PictureSpec;
 use crate::viewer::frames::frame::Frame;
 use crate::viewer::jobs::mailbox::Mailbox;
-use crate::viewer::jobs::pool::{AtEnd, Crew, guarded};
+use crate::viewer::jobs::pool::{AtEnd, WorkerPool, guarded};
 
 /// Names that are tried for one picture: others may have been saved in the same millisecond.
 const ATTEMPTS: u32 = 1000;
@@ -29,11 +29,11 @@ const MAX_ZONE: u64 = 1 << 20;
 /// The state of saving.
 #[derive(Debug)]
 pub(in crate::viewer) struct Saver {
-    crew: Crew<Job>,
+    workers: WorkerPool<Job>,
     /// Where pictures go; `None` is the current folder.
     folder: Option<PathBuf>,
     name: NameTemplate,
-    /// Screenshots that wait for a final frame, and the wish that it must not be older than: what was to be seen when
+    /// Screenshots that wait for a final frame, and the request that it must not be older than: what was to be seen when
     /// the last was asked for.
     pub(in crate::viewer) waiting: u32,
     pub(in crate::viewer) since: u64,
@@ -98,7 +98,7 @@ impl Saver {
             mailbox.post(Saved(saved));
         };
         Ok(Self {
-            crew: Crew::start("save", 1, AtEnd::Complete, work)?,
+            workers: WorkerPool::start("save", 1, AtEnd::Complete, work)?,
             folder,
             name,
             waiting: 0,
@@ -124,7 +124,7 @@ impl Saver {
     pub(in crate::viewer) fn push(&mut self, work: Work) {
         let folder = self.folder.clone().unwrap_or_else(|| PathBuf::from("."));
         self.running += 1;
-        self.crew.push(Job {
+        self.workers.push(Job {
             folder,
             name: self.name.clone(),
             work,

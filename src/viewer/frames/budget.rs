@@ -9,7 +9,7 @@ use std::time::Duration;
 use crate::raster::SampleRate;
 use crate::render::RenderSettings;
 use crate::scene::Scene;
-use crate::viewer::frames::frame::{Manner, Picture};
+use crate::viewer::frames::frame::{Picture, PreviewQuality};
 
 /// What a frame may take while the view moves.
 pub(in crate::viewer) const BUDGET: Duration = Duration::from_millis(16);
@@ -24,11 +24,15 @@ const REMEMBERED: usize = 16;
 const WORTH: f64 = 0.7;
 
 /// The ladder: from one sample per pixel down.
-const STEPS: [Manner; 3] = [Manner::RateOne, Manner::Coarse(2), Manner::Coarse(4)];
+const STEPS: [PreviewQuality; 3] = [
+    PreviewQuality::RateOne,
+    PreviewQuality::Coarse(2),
+    PreviewQuality::Coarse(4),
+];
 
 /// Measured times of one scene.
 #[derive(Debug, Default)]
-pub(in crate::viewer) struct Pace {
+pub(in crate::viewer) struct FrameBudget {
     scene: Weak<Scene>,
     /// Seconds per pixel of whole frames, the latest settings last.
     whole: Vec<(RenderSettings, f64)>,
@@ -38,20 +42,20 @@ pub(in crate::viewer) struct Pace {
     moved: Option<f64>,
 }
 
-impl Pace {
-    /// Takes in that a drawing of `picture` took so long; `manner` is `None` for a whole frame.
-    pub(in crate::viewer) fn note(&mut self, picture: &Picture, manner: Option<Manner>, took: Duration) {
+impl FrameBudget {
+    /// Takes in that a drawing of `picture` took so long; `quality` is `None` for a whole frame.
+    pub(in crate::viewer) fn note(&mut self, picture: &Picture, quality: Option<PreviewQuality>, took: Duration) {
         self.follow(&picture.scene);
         let cost = took.as_secs_f64() / pixels(picture);
-        match manner {
+        match quality {
             // One frame that was held up by others does not make a scene slow.
             None => self.set_whole(
                 picture,
                 self.whole_cost(picture)
                     .map_or(cost, |known| cost.min(f64::midpoint(known, cost))),
             ),
-            Some(Manner::Moved) => self.moved = Some(cost),
-            Some(manner) => self.note_step(manner, cost),
+            Some(PreviewQuality::Moved) => self.moved = Some(cost),
+            Some(quality) => self.note_step(quality, cost),
         }
     }
 
@@ -63,8 +67,8 @@ impl Pace {
         self.whole.push((picture.settings, cost));
     }
 
-    fn note_step(&mut self, manner: Manner, cost: f64) {
-        let Some(at) = STEPS.iter().position(|step| *step == manner) else {
+    fn note_step(&mut self, quality: PreviewQuality, cost: f64) {
+        let Some(at) = STEPS.iter().position(|step| *step == quality) else {
             return;
         };
         self.steps[at] = Some(cost);
@@ -110,36 +114,40 @@ impl Pace {
 
     /// The finest step of the ladder that fits the budget; where none does, the finest that costs little more than the
     /// quickest.
-    pub(in crate::viewer) fn step(&self, picture: &Picture) -> Manner {
+    pub(in crate::viewer) fn step(&self, picture: &Picture) -> PreviewQuality {
         let first = usize::from(picture.settings.sample_rate == SampleRate::ONE);
         let ladder = &STEPS[first..];
-        let cost = |manner| {
-            self.step_cost(picture, manner)
-                .unwrap_or_else(|| self.least(picture, manner))
+        let cost = |quality| {
+            self.step_cost(picture, quality)
+                .unwrap_or_else(|| self.least(picture, quality))
         };
-        let fits = |manner: &&Manner| cost(**manner) <= BUDGET;
+        let fits = |quality: &&PreviewQuality| cost(**quality) <= BUDGET;
         if let Some(step) = ladder.iter().find(fits) {
             return *step;
         }
         let costs = ladder.iter().filter_map(|step| self.step_cost(picture, *step));
         let least = costs.min().unwrap_or_default().as_secs_f64();
-        let near = |manner: &&Manner| {
-            let cost = self.step_cost(picture, **manner);
+        let near = |quality: &&PreviewQuality| {
+            let cost = self.step_cost(picture, **quality);
             cost.is_some_and(|cost| cost.as_secs_f64() * WORTH <= least)
         };
         ladder.iter().find(near).copied().unwrap_or(STEPS[STEPS.len() - 1])
     }
 
     /// What a step takes at least: its samples are a part of those of the whole frame.
-    fn least(&self, picture: &Picture, manner: Manner) -> Duration {
+    fn least(&self, picture: &Picture, quality: PreviewQuality) -> Duration {
         let whole = self.whole_frame(picture).unwrap_or_default();
-        let side = if let Manner::Coarse(side) = manner { side } else { 1 };
+        let side = if let PreviewQuality::Coarse(side) = quality {
+            side
+        } else {
+            1
+        };
         whole / (picture.settings.sample_rate.samples() * side * side).max(1)
     }
 
     /// What a step of the ladder took, for so many pixels; `None` where it was not drawn yet.
-    pub(in crate::viewer) fn step_cost(&self, picture: &Picture, manner: Manner) -> Option<Duration> {
-        let at = STEPS.iter().position(|step| *step == manner)?;
+    pub(in crate::viewer) fn step_cost(&self, picture: &Picture, quality: PreviewQuality) -> Option<Duration> {
+        let at = STEPS.iter().position(|step| *step == quality)?;
         let cost = self.steps[at].filter(|_| self.knows(&picture.scene))?;
         Some(seconds(cost * pixels(picture)))
     }
@@ -198,77 +206,97 @@ mod tests {
 
     #[test]
     fn pace_goes_down_the_ladder_and_up_again() {
-        let (mut pace, picture) = (Pace::default(), picture(16));
-        assert_eq!(pace.whole_frame(&picture), None, "nothing is known");
-        pace.note(&picture, None, ms(200));
+        let (mut budget, picture) = (FrameBudget::default(), picture(16));
+        assert_eq!(budget.whole_frame(&picture), None, "nothing is known");
+        budget.note(&picture, None, ms(200));
         assert_eq!(
-            pace.step(&picture),
-            Manner::RateOne,
+            budget.step(&picture),
+            PreviewQuality::RateOne,
             "the finest, as nothing is known of it"
         );
-        pace.note(&picture, Some(Manner::RateOne), ms(40));
-        assert_eq!(pace.step(&picture), Manner::Coarse(2), "rate 1 is too slow");
-        pace.note(&picture, Some(Manner::Coarse(2)), ms(20));
-        assert_eq!(pace.step(&picture), Manner::Coarse(4), "so is half the size");
-        pace.note(&picture, Some(Manner::Coarse(4)), ms(2));
+        budget.note(&picture, Some(PreviewQuality::RateOne), ms(40));
+        assert_eq!(budget.step(&picture), PreviewQuality::Coarse(2), "rate 1 is too slow");
+        budget.note(&picture, Some(PreviewQuality::Coarse(2)), ms(20));
+        assert_eq!(budget.step(&picture), PreviewQuality::Coarse(4), "so is half the size");
+        budget.note(&picture, Some(PreviewQuality::Coarse(4)), ms(2));
         assert_eq!(
-            pace.step(&picture),
-            Manner::Coarse(2),
+            budget.step(&picture),
+            PreviewQuality::Coarse(2),
             "a quarter in 2 ms is a half in at most 8"
         );
-        pace.note(&picture, Some(Manner::Coarse(2)), ms(3));
-        assert_eq!(pace.step(&picture), Manner::RateOne, "and at most 12 for rate 1");
+        budget.note(&picture, Some(PreviewQuality::Coarse(2)), ms(3));
+        assert_eq!(
+            budget.step(&picture),
+            PreviewQuality::RateOne,
+            "and at most 12 for rate 1"
+        );
     }
 
     #[test]
     fn pace_does_not_coarsen_for_nothing() {
-        let (mut pace, picture) = (Pace::default(), picture(1));
-        pace.note(&picture, None, ms(100));
-        for (manner, time) in [(Manner::Coarse(4), 60), (Manner::Coarse(2), 70)] {
-            pace.note(&picture, Some(manner), ms(time));
+        let (mut budget, picture) = (FrameBudget::default(), picture(1));
+        budget.note(&picture, None, ms(100));
+        for (quality, time) in [(PreviewQuality::Coarse(4), 60), (PreviewQuality::Coarse(2), 70)] {
+            budget.note(&picture, Some(quality), ms(time));
         }
-        assert_eq!(pace.step(&picture), Manner::Coarse(2), "a quarter would be as slow");
+        assert_eq!(
+            budget.step(&picture),
+            PreviewQuality::Coarse(2),
+            "a quarter would be as slow"
+        );
     }
 
     #[test]
     fn pace_does_not_try_what_cannot_be_quick() {
-        let (mut pace, picture) = (Pace::default(), picture(16));
-        pace.note(&picture, None, ms(400));
-        assert_eq!(pace.step(&picture), Manner::Coarse(2), "rate 1 would take 25 ms");
-        pace.note(&picture, None, ms(2000));
-        assert_eq!(pace.step(&picture), Manner::Coarse(4), "half the size would take 31 ms");
-        pace.note(&picture, None, ms(20_000));
-        assert_eq!(pace.step(&picture), Manner::Coarse(4), "there is no quicker one");
+        let (mut budget, picture) = (FrameBudget::default(), picture(16));
+        budget.note(&picture, None, ms(400));
+        assert_eq!(
+            budget.step(&picture),
+            PreviewQuality::Coarse(2),
+            "rate 1 would take 25 ms"
+        );
+        budget.note(&picture, None, ms(2000));
+        assert_eq!(
+            budget.step(&picture),
+            PreviewQuality::Coarse(4),
+            "half the size would take 31 ms"
+        );
+        budget.note(&picture, None, ms(20_000));
+        assert_eq!(
+            budget.step(&picture),
+            PreviewQuality::Coarse(4),
+            "there is no quicker one"
+        );
     }
 
     #[test]
     fn pace_scales_with_the_frame_and_forgets_other_scenes() {
-        let (mut pace, mut small) = (Pace::default(), picture(4));
-        pace.note(&small, None, ms(10));
-        assert_eq!(pace.whole_frame(&small), Some(ms(10)), "as measured");
+        let (mut budget, mut small) = (FrameBudget::default(), picture(4));
+        budget.note(&small, None, ms(10));
+        assert_eq!(budget.whole_frame(&small), Some(ms(10)), "as measured");
         small.size = [200, 100];
-        assert_eq!(pace.whole_frame(&small), Some(ms(20)), "twice the pixels");
-        pace.note_given_up(&small, ms(18));
-        assert_eq!(pace.whole_frame(&small), Some(ms(20)), "given up early tells nothing");
-        pace.note_given_up(&small, ms(50));
-        assert_eq!(pace.whole_frame(&small), Some(ms(50)), "at least so long");
+        assert_eq!(budget.whole_frame(&small), Some(ms(20)), "twice the pixels");
+        budget.note_given_up(&small, ms(18));
+        assert_eq!(budget.whole_frame(&small), Some(ms(20)), "given up early tells nothing");
+        budget.note_given_up(&small, ms(50));
+        assert_eq!(budget.whole_frame(&small), Some(ms(50)), "at least so long");
         let other = picture(4);
-        assert_eq!(pace.whole_frame(&other), None, "another scene");
-        pace.note(&other, None, ms(1));
-        assert_eq!(pace.whole_frame(&small), None, "one scene at a time");
+        assert_eq!(budget.whole_frame(&other), None, "another scene");
+        budget.note(&other, None, ms(1));
+        assert_eq!(budget.whole_frame(&small), None, "one scene at a time");
     }
 
     #[test]
     fn pace_believes_the_second_slow_frame() {
-        let (mut pace, picture) = (Pace::default(), picture(16));
-        pace.note(&picture, None, ms(2));
-        pace.note(&picture, None, ms(12));
-        assert_eq!(pace.whole_frame(&picture), Some(ms(7)), "half of what is new");
-        pace.note(&picture, None, ms(12));
-        assert!(pace.whole_frame(&picture) > Some(QUICK), "it is slow");
-        pace.note(&picture, None, ms(3));
+        let (mut budget, picture) = (FrameBudget::default(), picture(16));
+        budget.note(&picture, None, ms(2));
+        budget.note(&picture, None, ms(12));
+        assert_eq!(budget.whole_frame(&picture), Some(ms(7)), "half of what is new");
+        budget.note(&picture, None, ms(12));
+        assert!(budget.whole_frame(&picture) > Some(QUICK), "it is slow");
+        budget.note(&picture, None, ms(3));
         assert_eq!(
-            pace.whole_frame(&picture),
+            budget.whole_frame(&picture),
             Some(ms(3)),
             "nothing makes a frame quicker than it is"
         );
@@ -276,19 +304,23 @@ mod tests {
 
     #[test]
     fn pace_moves_where_it_pays() {
-        let (mut pace, picture) = (Pace::default(), picture(16));
-        pace.note(&picture, None, ms(5));
-        assert!(!pace.moves(&picture), "a quick frame is drawn");
-        pace.note(&picture, None, ms(100));
-        assert!(pace.moves(&picture), "a slow one is moved");
-        pace.note(&picture, Some(Manner::Moved), ms(50));
+        let (mut budget, picture) = (FrameBudget::default(), picture(16));
+        budget.note(&picture, None, ms(5));
+        assert!(!budget.moves(&picture), "a quick frame is drawn");
+        budget.note(&picture, None, ms(100));
+        assert!(budget.moves(&picture), "a slow one is moved");
+        budget.note(&picture, Some(PreviewQuality::Moved), ms(50));
         assert!(
-            !pace.moves(&picture),
+            !budget.moves(&picture),
             "unless that is slow too, and nothing is known of steps"
         );
-        for manner in [Manner::Coarse(4), Manner::Coarse(2), Manner::RateOne] {
-            pace.note(&picture, Some(manner), ms(60));
+        for quality in [
+            PreviewQuality::Coarse(4),
+            PreviewQuality::Coarse(2),
+            PreviewQuality::RateOne,
+        ] {
+            budget.note(&picture, Some(quality), ms(60));
         }
-        assert!(pace.moves(&picture), "or every step is slower");
+        assert!(budget.moves(&picture), "or every step is slower");
     }
 }

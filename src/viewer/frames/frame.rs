@@ -40,14 +40,14 @@ pub struct Frame {
 #[derive(Clone, Debug)]
 pub struct Preview {
     /// How it was made.
-    pub manner: Manner,
+    pub quality: PreviewQuality,
     /// The parts that are final already.
     pub(in crate::viewer) exact: ExactCells,
 }
 
 /// How a preview was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Manner {
+pub enum PreviewQuality {
     /// One sample per pixel.
     RateOne,
     /// One sample for so many pixels along each side.
@@ -112,7 +112,7 @@ impl Frame {
     }
 }
 
-impl fmt::Display for Manner {
+impl fmt::Display for PreviewQuality {
     /// In few words, such as `rate 1`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -10,7 +10,7 @@ use crate::raster::{Framebuffer, Region, SampleRate};
 use crate::render::{
     CancelToken, FrameStats, RenderSettings, Subject, draw_cancellable, draw_onto, draw_regions, refine,
 };
-use crate::viewer::frames::frame::{ExactCells, Frame, Manner, Picture, Preview};
+use crate::viewer::frames::frame::{ExactCells, Frame, Picture, Preview, PreviewQuality};
 use crate::viewer::frames::preview::{coarse_view, magnify, shift, view_of_part};
 use crate::viewer::jobs::pool::guarded;
 
@@ -37,9 +37,9 @@ pub(in crate::viewer) enum Plan {
     /// All of it at once.
     Whole,
     /// A step of the ladder.
-    Coarse(Manner),
+    Coarse(PreviewQuality),
     /// A step of the ladder, then final tiles; a picture that is quick to draw comes at once.
-    CoarseThenFine(Manner),
+    CoarseThenFine(PreviewQuality),
     /// This frame, moved by so many pixels.
     Moved(Arc<Frame>, [i64; 2]),
     /// Final tiles over what is on the screen.
@@ -89,11 +89,11 @@ impl Job {
     /// many pixels. One that takes longer than `limit` is given up half-way.
     pub(in crate::viewer) fn draw_onto(mut self, surface: &mut [u32], pool: &ThreadPool, limit: Duration) -> Drawn {
         let mut pixels = self.pixels();
-        let manner = match self.plan {
-            Plan::Coarse(manner) => Some(manner),
+        let quality = match self.plan {
+            Plan::Coarse(quality) => Some(quality),
             _ => None,
         };
-        let settings = manner.map_or(self.picture.settings, |_| self.at_rate_one());
+        let settings = quality.map_or(self.picture.settings, |_| self.at_rate_one());
         let subject = Subject {
             settings: &settings,
             ..self.picture.subject()
@@ -111,8 +111,8 @@ impl Job {
                 self.cancel.cancel();
             }
         });
-        let preview = manner.map(|manner| Preview {
-            manner,
+        let preview = quality.map(|quality| Preview {
+            quality,
             exact: ExactCells::new(self.picture.size),
         });
         match stats {
@@ -134,9 +134,9 @@ impl Job {
                 let stats = draw_cancellable(scene, view, settings, &mut pixels, &self.cancel)?;
                 Some(self.frame(pixels, stats, None, true))
             }
-            Plan::Coarse(manner) => self.coarse(manner, true),
+            Plan::Coarse(quality) => self.coarse(quality, true),
             Plan::Moved(frame, by) => self.moved(&frame, by),
-            Plan::CoarseThenFine(manner) => match self.coarse(manner, false)? {
+            Plan::CoarseThenFine(quality) => match self.coarse(quality, false)? {
                 Drawn::Frame { frame, .. } if start.elapsed() < TICK => self.fine(post, Some(frame), start),
                 preview => {
                     post(preview);
@@ -173,12 +173,12 @@ impl Job {
     }
 
     /// A preview on a step of the ladder.
-    fn coarse(&mut self, manner: Manner, ended: bool) -> Option<Drawn> {
+    fn coarse(&mut self, quality: PreviewQuality, ended: bool) -> Option<Drawn> {
         let settings = self.at_rate_one();
         let mut pixels = self.pixels();
         let Picture { scene, view, .. } = &self.picture;
-        let stats = match manner {
-            Manner::Coarse(side) => {
+        let stats = match quality {
+            PreviewQuality::Coarse(side) => {
                 let [width, height] = self.picture.size.map(|length| length.div_ceil(side));
                 let mut small = Framebuffer::new(width, height);
                 let view = coarse_view(view, side);
@@ -189,7 +189,7 @@ impl Job {
             _ => draw_cancellable(scene, view, &settings, &mut pixels, &self.cancel)?,
         };
         let exact = self.sharpen(&mut pixels)?;
-        Some(self.frame(pixels, stats, Some(Preview { manner, exact }), ended))
+        Some(self.frame(pixels, stats, Some(Preview { quality, exact }), ended))
     }
 
     /// A preview from a frame that lies elsewhere.
@@ -200,8 +200,8 @@ impl Job {
             add(&mut stats, &self.strip(strip, &mut pixels)?);
         }
         let exact = self.sharpen(&mut pixels)?;
-        let manner = Manner::Moved;
-        Some(self.frame(pixels, stats, Some(Preview { manner, exact }), true))
+        let quality = PreviewQuality::Moved;
+        Some(self.frame(pixels, stats, Some(Preview { quality, exact }), true))
     }
 
     /// Draws a strip as a frame of its own: the tiles of the whole frame that it touches have many times its pixels. Samples

@@ -11,7 +11,7 @@ use crate::viewer::PixelRect;
 /// The legends on the screen: of A, and of B where that shows something else.
 #[derive(Debug, Default)]
 pub(in crate::viewer) struct Legends {
-    pub(in crate::viewer) wish: Option<Wish>,
+    pub(in crate::viewer) request: Option<LegendRequest>,
     pub(in crate::viewer) placed: Vec<(PixelRect, Framebuffer)>,
     pub(in crate::viewer) number: u64,
 }
@@ -25,7 +25,7 @@ pub(in crate::viewer) struct PlacedLegends {
 
 /// What decides legends and their places.
 #[derive(Debug)]
-pub(in crate::viewer) struct Wish {
+pub(in crate::viewer) struct LegendRequest {
     pub(in crate::viewer) scene: Arc<Scene>,
     pub(in crate::viewer) shown: Vec<Visualisation>,
     pub(in crate::viewer) window: [u32; 2],
@@ -33,9 +33,9 @@ pub(in crate::viewer) struct Wish {
     pub(in crate::viewer) spared: Vec<PixelRect>,
 }
 
-impl PartialEq for Wish {
+impl PartialEq for LegendRequest {
     fn eq(&self, other: &Self) -> bool {
-        let places = |wish: &Self| (wish.window, wish.area);
+        let places = |request: &Self| (request.window, request.area);
         Arc::ptr_eq(&self.scene, &other.scene)
             && self.shown == other.shown
             && places(self) == places(other)
@@ -53,7 +53,7 @@ impl Legends {
     }
 }
 
-impl Wish {
+impl LegendRequest {
     pub(in crate::viewer) fn place(&self) -> Vec<(PixelRect, Framebuffer)> {
         let legends: Vec<Legend> = self
             .shown

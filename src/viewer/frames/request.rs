@@ -7,7 +7,7 @@ use crate::viewer::frames::frame::Picture;
 
 /// What is wanted.
 #[derive(Clone, Debug)]
-pub(in crate::viewer) struct Wish {
+pub(in crate::viewer) struct FrameRequest {
     pub(in crate::viewer) picture: Picture,
     /// Final tiles come nearest to this pixel first.
     pub(in crate::viewer) from: [u32; 2],
@@ -17,7 +17,7 @@ pub(in crate::viewer) struct Wish {
     pub(in crate::viewer) since: Instant,
 }
 
-impl Wish {
+impl FrameRequest {
     pub(in crate::viewer) fn new(picture: Picture, from: [u32; 2], focus: Option<Region>) -> Self {
         Self {
             picture,

@@ -6,9 +6,9 @@ use rayon::ThreadPool;
 
 use crate::viewer::frames::budget::{BUDGET, QUICK};
 use crate::viewer::frames::drawing::{Drawing, Stage, Surface};
-use crate::viewer::frames::frame::Manner;
+use crate::viewer::frames::frame::PreviewQuality;
 use crate::viewer::frames::job::{Drawn, Job, Plan};
-use crate::viewer::frames::request::Wish;
+use crate::viewer::frames::request::FrameRequest;
 
 /// A frame that is drawn where it is shown is given up after so long: the window must not stand still.
 const LONGEST: Duration = BUDGET.saturating_mul(2);
@@ -48,8 +48,8 @@ impl Drawing {
         running.started = Instant::now();
         let drawn = job.draw_onto(surface, pool, LONGEST);
         if matches!(drawn, Drawn::GivenUp) && running.stage == Stage::Preview {
-            let (picture, took) = (&running.wish.picture, running.started.elapsed());
-            self.pace.note(picture, Some(Manner::RateOne), took);
+            let (picture, took) = (&running.request.picture, running.started.elapsed());
+            self.budget.note(picture, Some(PreviewQuality::RateOne), took);
         }
         Some(drawn)
     }
@@ -67,7 +67,7 @@ impl Drawing {
     /// Hands what waits to be drawn where it is shown to the thread.
     pub(in crate::viewer) fn wait_no_longer(&mut self) {
         if let Some(job) = self.take_waiting() {
-            self.crew.push(job);
+            self.workers.push(job);
         }
     }
 
@@ -79,12 +79,12 @@ impl Drawing {
     }
 
     /// Whether a frame is known to take so little time that it can be drawn where it is shown.
-    pub(in crate::viewer) fn is_quick(&self, plan: &Plan, wish: &Wish) -> bool {
+    pub(in crate::viewer) fn is_quick(&self, plan: &Plan, request: &FrameRequest) -> bool {
         let expected = match plan {
-            Plan::Whole => self.pace.whole_frame(&wish.picture),
+            Plan::Whole => self.budget.whole_frame(&request.picture),
             // What the inspector shows is drawn over the preview, which takes two steps.
-            Plan::Coarse(Manner::RateOne) if wish.focus.is_none() => {
-                self.pace.step_cost(&wish.picture, Manner::RateOne)
+            Plan::Coarse(PreviewQuality::RateOne) if request.focus.is_none() => {
+                self.budget.step_cost(&request.picture, PreviewQuality::RateOne)
             }
             _ => None,
         };

@@ -2,12 +2,12 @@
 
 use std::io;
 
-use crate::viewer::jobs::pool::{AtEnd, Crew};
+use crate::viewer::jobs::pool::{AtEnd, WorkerPool};
 
 /// The newest question, and the newest answer.
 #[derive(Debug)]
 pub(in crate::viewer) struct Latest<Q, A> {
-    crew: Crew<Q>,
+    workers: WorkerPool<Q>,
     wanted: Option<Q>,
     found: Option<(Q, A)>,
     is_running: bool,
@@ -22,7 +22,7 @@ impl<Q: Clone + PartialEq + Send + 'static, A> Latest<Q, A> {
     /// When the system gives no thread.
     pub(in crate::viewer) fn start(name: &str, work: impl Fn(Q) + Clone + Send + 'static) -> io::Result<Self> {
         Ok(Self {
-            crew: Crew::start(name, 1, AtEnd::Detach, work)?,
+            workers: WorkerPool::start(name, 1, AtEnd::Detach, work)?,
             wanted: None,
             found: None,
             is_running: false,
@@ -84,7 +84,7 @@ impl<Q: Clone + PartialEq + Send + 'static, A> Latest<Q, A> {
             && let Some(question) = self.wanted.clone()
         {
             self.is_running = true;
-            self.crew.push(question);
+            self.workers.push(question);
         }
     }
 }

@@ -8,7 +8,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
 use std::{fmt, io};
 
-/// What happens to waiting jobs and to the one at work when the crew is dropped.
+/// What happens to waiting jobs and to the one at work when the pool is dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::viewer) enum AtEnd {
     /// Every job is done first: files are to be whole.
@@ -20,7 +20,7 @@ pub(in crate::viewer) enum AtEnd {
 }
 
 /// Threads that share a queue of jobs.
-pub(in crate::viewer) struct Crew<J> {
+pub(in crate::viewer) struct WorkerPool<J> {
     queue: Arc<Queue<J>>,
     threads: Vec<JoinHandle<()>>,
     at_end: AtEnd,
@@ -36,15 +36,15 @@ struct QueueState<J> {
     ended: bool,
 }
 
-impl<J> fmt::Debug for Crew<J> {
+impl<J> fmt::Debug for WorkerPool<J> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Crew")
+        f.debug_struct("WorkerPool")
             .field("threads", &self.threads)
             .finish_non_exhaustive()
     }
 }
 
-impl<J: Send + 'static> Crew<J> {
+impl<J: Send + 'static> WorkerPool<J> {
     /// Starts `count` threads called `name`, each of which calls `work` with every job it takes. `work` must not
     /// panic; use [`guarded`].
     ///
@@ -63,21 +63,21 @@ impl<J: Send + 'static> Crew<J> {
             }),
             changed: Condvar::new(),
         });
-        let mut crew = Self {
+        let mut workers = Self {
             queue,
             threads: Vec::new(),
             at_end,
         };
         for _ in 0..count {
-            let (queue, work) = (Arc::clone(&crew.queue), work.clone());
+            let (queue, work) = (Arc::clone(&workers.queue), work.clone());
             let serve = move || {
                 while let Some(job) = queue.take() {
                     work(job);
                 }
             };
-            crew.threads.push(Builder::new().name(name.to_owned()).spawn(serve)?);
+            workers.threads.push(Builder::new().name(name.to_owned()).spawn(serve)?);
         }
-        Ok(crew)
+        Ok(workers)
     }
 
     /// Adds a job behind those that wait.
@@ -99,7 +99,7 @@ impl<J: Send + 'static> Crew<J> {
     }
 }
 
-impl<J> Drop for Crew<J> {
+impl<J> Drop for WorkerPool<J> {
     fn drop(&mut self) {
         {
             let mut state = self.queue.lock();
@@ -157,9 +157,9 @@ mod tests {
         let work = move |n: usize| {
             seen.fetch_add(n, Ordering::SeqCst);
         };
-        let crew = Crew::start("test", 2, AtEnd::Complete, work).expect("threads");
-        (1..=100).for_each(|n| crew.push(n));
-        drop(crew);
+        let workers = WorkerPool::start("test", 2, AtEnd::Complete, work).expect("threads");
+        (1..=100).for_each(|n| workers.push(n));
+        drop(workers);
         assert_eq!(count.load(Ordering::SeqCst), 5050, "all jobs were done before the end");
     }
 

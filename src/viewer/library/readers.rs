@@ -9,7 +9,7 @@ use crate::render::{RenderSettings, draw};
 use crate::scene::{DialectChoice, Scene};
 use crate::texture::{LevelSampling, PixelSampling};
 use crate::viewer::jobs::mailbox::Mailbox;
-use crate::viewer::jobs::pool::{AtEnd, Crew, guarded};
+use crate::viewer::jobs::pool::{AtEnd, WorkerPool, guarded};
 use crate::viewer::library::{SceneEntry, SceneSource, SceneState};
 
 /// Threads that read: a second one, so that a slow scene does not hold up the next.
@@ -21,8 +21,8 @@ const THUMBNAIL_SIDE: f64 = 160.0;
 /// The threads that read.
 #[derive(Debug)]
 pub(in crate::viewer) struct Readers {
-    pub(in crate::viewer) scenes: Crew<Order>,
-    pub(in crate::viewer) thumbnails: Crew<Order>,
+    pub(in crate::viewer) scenes: WorkerPool<Order>,
+    pub(in crate::viewer) thumbnails: WorkerPool<Order>,
     pub(in crate::viewer) pending_thumbnails: usize,
 }
 
@@ -111,8 +111,8 @@ impl Readers {
             });
         };
         Ok(Self {
-            scenes: Crew::start("read", READERS, AtEnd::Detach, read)?,
-            thumbnails: Crew::start("thumbnails", 1, AtEnd::Detach, draw)?,
+            scenes: WorkerPool::start("read", READERS, AtEnd::Detach, read)?,
+            thumbnails: WorkerPool::start("thumbnails", 1, AtEnd::Detach, draw)?,
             pending_thumbnails: 0,
         })
     }

@@ -273,6 +273,7 @@ fn wait(text: &str) -> Option<Step> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::viewer::InspectorCommand;
     use crate::viewer::Key;
 
     fn steps(text: &str) -> Vec<Step> {
@@ -286,7 +287,7 @@ mod tests {
         assert_eq!(parsed.len(), 4, "{parsed:?}");
         assert_eq!(
             parsed[1],
-            Step::Run(Command::Pin([512, 300])),
+            Step::Run(Command::Inspector(InspectorCommand::Pin([512, 300]))),
             "a command with its argument"
         );
         assert!(

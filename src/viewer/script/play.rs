@@ -1,5 +1,6 @@
 //! Plays a script on a stage: the viewer alone, or a whole window.
 
+use crate::viewer::{PointerCommand, WindowCommand};
 use std::io;
 use std::path::Path;
 use std::time::Duration;
@@ -44,28 +45,28 @@ pub trait Stage {
     /// Moves the pointer to a window pixel, or out of the window.
     fn pointer(&mut self, at: Option<DVec2>) {
         self.command(match at {
-            Some(at) => Command::PointerMoved { at },
-            None => Command::PointerLeft,
+            Some(at) => Command::Pointer(PointerCommand::Moved { at }),
+            None => Command::Pointer(PointerCommand::Left),
         });
     }
 
     /// Presses (`down`) or releases a button of the mouse.
     fn button(&mut self, button: PointerButton, down: bool) {
         self.command(if down {
-            Command::PointerPressed(button)
+            Command::Pointer(PointerCommand::Pressed(button))
         } else {
-            Command::PointerReleased(button)
+            Command::Pointer(PointerCommand::Released(button))
         });
     }
 
     /// Turns the wheel.
     fn wheel(&mut self, clicks: f64) {
-        self.command(Command::Wheel { clicks });
+        self.command(Command::Pointer(PointerCommand::Wheel { clicks }));
     }
 
     /// Gives the window another size, in device pixels.
     fn resize(&mut self, size: [u32; 2]) {
-        self.command(Command::Resize(size));
+        self.command(Command::Window(WindowCommand::Resize(size)));
     }
 
     /// Lets time pass.

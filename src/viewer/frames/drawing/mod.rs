@@ -1,8 +1,8 @@
 //! Frames: which one is wanted, what is drawn in its stead while the view moves, when to give one up.
 //!
-//! One frame is drawn at a time, in a thread of its own; the newest wish is drawn next. While the view moves and final
+//! One frame is drawn at a time, in a thread of its own; the newest request is drawn next. While the view moves and final
 //! frames would take longer than the budget, previews are drawn; when the hand rests, final tiles replace them, those
-//! nearest to the pointer first. A newer wish ends that at once. Without previews a quick frame is left to finish even
+//! nearest to the pointer first. A newer request ends that at once. Without previews a quick frame is left to finish even
 //! if a newer one is wanted, since a drag would otherwise show nothing until it ends; a slow one is given up, but
 //! never for so long that the window seems dead.
 //!
@@ -17,13 +17,13 @@ use std::time::{Duration, Instant};
 
 use crate::raster::{Framebuffer, Region};
 use crate::render::{CancelToken, FrameStats};
-use crate::viewer::frames::budget::{BUDGET, Pace};
-use crate::viewer::frames::frame::{ExactCells, Frame, Manner, Picture, Preview};
+use crate::viewer::frames::budget::{BUDGET, FrameBudget};
+use crate::viewer::frames::frame::{ExactCells, Frame, Picture, Preview, PreviewQuality};
 use crate::viewer::frames::job::{Drawn, Job, Plan, TilePixels};
 use crate::viewer::frames::preview::whole_pixels;
-use crate::viewer::frames::request::Wish;
+use crate::viewer::frames::request::FrameRequest;
 use crate::viewer::jobs::mailbox::Mailbox;
-use crate::viewer::jobs::pool::{AtEnd, Crew};
+use crate::viewer::jobs::pool::{AtEnd, WorkerPool};
 
 /// Who draws quick frames: the worker, or the event loop straight into the surface that it presents.
 #[derive(Debug)]
@@ -36,13 +36,13 @@ pub(in crate::viewer) enum Surface {
     Awaited(Box<Job>),
 }
 
-/// A final frame that takes longer is given up for a newer wish.
+/// A final frame that takes longer is given up for a newer request.
 const SLOW: Duration = Duration::from_millis(400);
 
 /// After so long without a new frame, the one that is drawn is left to finish.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// So long after the last wish the hand counts as resting.
+/// So long after the last request the hand counts as resting.
 pub(in crate::viewer) const REST: Duration = Duration::from_millis(100);
 
 /// Which of the viewer's drawings: the results of all arrive in one channel.
@@ -58,18 +58,18 @@ pub(in crate::viewer) enum DrawingId {
 #[derive(Debug)]
 pub(in crate::viewer) struct Drawing {
     id: DrawingId,
-    pub(in crate::viewer) crew: Crew<Job>,
-    /// The frame on the screen, and the number of the wish that it came of.
+    pub(in crate::viewer) workers: WorkerPool<Job>,
+    /// The frame on the screen, and the number of the request that it came of.
     frame: Option<Arc<Frame>>,
     frame_wish: u64,
     /// When that was wished.
     frame_since: Instant,
     /// What is to be on the screen.
-    wanted: Option<Wish>,
+    wanted: Option<FrameRequest>,
     pub(in crate::viewer) running: Option<Running>,
     /// A picture whose drawing failed: not tried again.
     failed: Option<Picture>,
-    pub(in crate::viewer) pace: Pace,
+    pub(in crate::viewer) budget: FrameBudget,
     /// Whether previews may be shown.
     progressive: bool,
     /// Somebody waits for the final frame: no previews, no rest.
@@ -78,7 +78,7 @@ pub(in crate::viewer) struct Drawing {
     last_finished: Instant,
     /// Grows with every change of `frame`.
     number: u64,
-    wishes: u64,
+    requests: u64,
     changes: Changes,
     /// Memory of an old frame.
     pub(in crate::viewer) spare: Option<Framebuffer>,
@@ -86,7 +86,7 @@ pub(in crate::viewer) struct Drawing {
 
 #[derive(Debug)]
 pub(in crate::viewer) struct Running {
-    pub(in crate::viewer) wish: Wish,
+    pub(in crate::viewer) request: FrameRequest,
     pub(in crate::viewer) stage: Stage,
     cancel: Arc<CancelToken>,
     pub(in crate::viewer) started: Instant,
@@ -117,20 +117,20 @@ impl Drawing {
         let work = move |job: Job| job.draw(&|drawn| mailbox.post(drawn));
         Ok(Self {
             id,
-            crew: Crew::start("draw", 1, AtEnd::Abandon, work)?,
+            workers: WorkerPool::start("draw", 1, AtEnd::Abandon, work)?,
             frame: None,
             frame_wish: 0,
             frame_since: Instant::now(),
             wanted: None,
             running: None,
             failed: None,
-            pace: Pace::default(),
+            budget: FrameBudget::default(),
             progressive: true,
             hurry: false,
             surface: Surface::Kept,
             last_finished: Instant::now(),
             number: 0,
-            wishes: 0,
+            requests: 0,
             changes: Changes::All,
             spare: None,
         })
@@ -163,7 +163,7 @@ impl Drawing {
 
     /// What is wanted.
     pub(in crate::viewer) fn wanted(&self) -> Option<&Picture> {
-        self.wanted.as_ref().map(|wish| &wish.picture)
+        self.wanted.as_ref().map(|request| &request.picture)
     }
 
     /// Another number, another frame.
@@ -171,16 +171,16 @@ impl Drawing {
         self.number
     }
 
-    /// The frame for threads that outlive this state of the viewer, if it is final and no older than the wish of this
+    /// The frame for threads that outlive this state of the viewer, if it is final and no older than the request of this
     /// number.
-    pub(in crate::viewer) fn final_frame(&self, wish: u64) -> Option<&Arc<Frame>> {
+    pub(in crate::viewer) fn final_frame(&self, request: u64) -> Option<&Arc<Frame>> {
         let frame = self.frame.as_ref()?;
-        (frame.preview.is_none() && self.frame_wish >= wish).then_some(frame)
+        (frame.preview.is_none() && self.frame_wish >= request).then_some(frame)
     }
 
-    /// The number of the newest wish.
-    pub(in crate::viewer) fn newest_wish(&self) -> u64 {
-        self.wishes
+    /// The number of the newest request.
+    pub(in crate::viewer) fn newest_request(&self) -> u64 {
+        self.requests
     }
 
     /// Whether the frame shows what is wanted and is final, or never will.
@@ -207,7 +207,7 @@ impl Drawing {
     pub(in crate::viewer) fn refinement(&self) -> Option<(Instant, f64)> {
         let running = self.running.as_ref()?;
         let is_fine = running.stage == Stage::Fine;
-        let [width, height] = running.wish.picture.size.map(f64::from);
+        let [width, height] = running.request.picture.size.map(f64::from);
         is_fine.then_some((running.started, running.done as f64 / (width * height).max(1.0)))
     }
 
@@ -276,29 +276,29 @@ impl Drawing {
     }
 
     /// This is to be on the screen.
-    pub(in crate::viewer) fn want(&mut self, wish: Wish) {
-        if let Some(wanted) = self.wanted.as_mut().filter(|wanted| wanted.picture == wish.picture) {
-            (wanted.from, wanted.focus) = (wish.from, wish.focus);
+    pub(in crate::viewer) fn want(&mut self, request: FrameRequest) {
+        if let Some(wanted) = self.wanted.as_mut().filter(|wanted| wanted.picture == request.picture) {
+            (wanted.from, wanted.focus) = (request.from, request.focus);
             return;
         }
         self.forget_waiting();
         if let Some(running) = &self.running
-            && running.wish.picture != wish.picture
-            && self.gives_up(running, &wish.picture)
+            && running.request.picture != request.picture
+            && self.gives_up(running, &request.picture)
         {
             running.cancel.cancel();
         }
-        self.wishes += 1;
-        self.wanted = Some(Wish {
-            number: self.wishes,
-            ..wish
+        self.requests += 1;
+        self.wanted = Some(FrameRequest {
+            number: self.requests,
+            ..request
         });
         self.next();
     }
 
     /// Whether a running frame is not worth finishing, now that `newer` is wanted.
     fn gives_up(&self, running: &Running, newer: &Picture) -> bool {
-        let before = &running.wish.picture;
+        let before = &running.request.picture;
         let other = !Arc::ptr_eq(&before.scene, &newer.scene) || before.size != newer.size;
         let elapsed = running.started.elapsed();
         match running.stage {
@@ -321,7 +321,7 @@ impl Drawing {
                 let fresh = self.wanted.is_some();
                 if let Some(running) = self.running.as_ref().filter(|_| fresh) {
                     self.last_finished = Instant::now();
-                    (self.frame_wish, self.frame_since) = (running.wish.number, running.wish.since);
+                    (self.frame_wish, self.frame_since) = (running.request.number, running.request.since);
                     let old = self.frame.replace(Arc::from(frame));
                     self.spare = old.and_then(Arc::into_inner).map(|frame| frame.pixels);
                     self.changed(Changes::All);
@@ -342,14 +342,14 @@ impl Drawing {
                 if let Some(running) = self.running.take()
                     && running.stage != Stage::Preview
                 {
-                    self.pace
-                        .note_given_up(&running.wish.picture, running.started.elapsed());
+                    self.budget
+                        .note_given_up(&running.request.picture, running.started.elapsed());
                 }
                 self.next();
                 false
             }
             Drawn::Failed => {
-                self.failed = self.running.take().map(|running| running.wish.picture);
+                self.failed = self.running.take().map(|running| running.request.picture);
                 self.next();
                 true
             }
@@ -361,7 +361,7 @@ impl Drawing {
         let (Some(running), Some(frame)) = (&mut self.running, &mut self.frame) else {
             return false;
         };
-        let picture = &running.wish.picture;
+        let picture = &running.request.picture;
         if self.wanted.is_none() || frame.picture.size != picture.size {
             return false;
         }
@@ -369,11 +369,11 @@ impl Drawing {
         if frame.picture != *picture {
             frame.picture = picture.clone();
             frame.preview = None;
-            (self.frame_wish, self.frame_since) = (running.wish.number, running.wish.since);
+            (self.frame_wish, self.frame_since) = (running.request.number, running.request.since);
         }
         let exact = ExactCells::new(picture.size);
-        let manner = Manner::Earlier;
-        let preview = frame.preview.get_or_insert(Preview { manner, exact });
+        let quality = PreviewQuality::Earlier;
+        let preview = frame.preview.get_or_insert(Preview { quality, exact });
         let mut regions = Vec::with_capacity(tiles.len());
         for tile in tiles {
             tile.put(&mut frame.pixels);
@@ -383,8 +383,8 @@ impl Drawing {
         }
         if let Some(stats) = ended {
             (frame.preview, frame.stats) = (None, stats);
-            (self.frame_wish, self.frame_since) = (running.wish.number, running.wish.since);
-            self.pace.note(&running.wish.picture, None, stats.total());
+            (self.frame_wish, self.frame_since) = (running.request.number, running.request.since);
+            self.budget.note(&running.request.picture, None, stats.total());
             self.last_finished = Instant::now();
         }
         self.changed(Changes::Regions(regions));
@@ -393,8 +393,8 @@ impl Drawing {
 
     /// Learns from the times of a frame.
     fn note(&mut self, frame: &Frame) {
-        let manner = frame.preview.as_ref().map(|preview| preview.manner);
-        self.pace.note(&frame.picture, manner, frame.stats.total());
+        let quality = frame.preview.as_ref().map(|preview| preview.quality);
+        self.budget.note(&frame.picture, quality, frame.stats.total());
     }
 
     fn end(&mut self) {
@@ -413,7 +413,7 @@ impl Drawing {
 
     /// Whether the renderer failed on what is wanted.
     pub(in crate::viewer) fn has_failed(&self) -> bool {
-        let wanted = self.wanted.as_ref().map(|wish| &wish.picture);
+        let wanted = self.wanted.as_ref().map(|request| &request.picture);
         self.failed.is_some() && self.failed.as_ref() == wanted
     }
 
@@ -422,26 +422,26 @@ impl Drawing {
         if self.running.is_some() || self.is_current() {
             return;
         }
-        let Some(wish) = self.wanted.clone() else { return };
-        let Some(plan) = self.plan(&wish) else { return };
+        let Some(request) = self.wanted.clone() else { return };
+        let Some(plan) = self.plan(&request) else { return };
         let stage = plan.stage();
-        let quick = self.is_quick(&plan, &wish);
+        let quick = self.is_quick(&plan, &request);
         let cancel = Arc::new(CancelToken::default());
         let job = Job {
-            picture: wish.picture.clone(),
+            picture: request.picture.clone(),
             plan,
             cancel: Arc::clone(&cancel),
             spare: self.spare.take(),
-            from: wish.from,
-            focus: wish.focus,
+            from: request.from,
+            focus: request.focus,
         };
         if quick && matches!(self.surface, Surface::Lent) && !self.hurry {
             self.surface = Surface::Awaited(Box::new(job));
         } else {
-            self.crew.push(job);
+            self.workers.push(job);
         }
         self.running = Some(Running {
-            wish,
+            request,
             stage,
             cancel,
             started: Instant::now(),
@@ -450,21 +450,21 @@ impl Drawing {
     }
 
     /// How to come to what is wanted; `None` while a preview of it is on the screen and the hand does not rest.
-    fn plan(&self, wish: &Wish) -> Option<Plan> {
-        let picture = &wish.picture;
+    fn plan(&self, request: &FrameRequest) -> Option<Plan> {
+        let picture = &request.picture;
         if self.hurry || !self.progressive {
             return Some(Plan::Whole);
         }
         if self.shows(picture) {
-            return (wish.since.elapsed() >= REST).then_some(Plan::Fine);
+            return (request.since.elapsed() >= REST).then_some(Plan::Fine);
         }
-        let expected = self.pace.whole_frame(picture);
+        let expected = self.budget.whole_frame(picture);
         let before = self
             .frame
             .as_ref()
             .filter(|frame| Arc::ptr_eq(&frame.picture.scene, &picture.scene) && frame.picture.size == picture.size);
         let moved = before.and_then(|frame| Some((frame, whole_pixels(frame, picture)?)));
-        if let Some((frame, by)) = moved.filter(|_| expected.is_some() && self.pace.moves(picture)) {
+        if let Some((frame, by)) = moved.filter(|_| expected.is_some() && self.budget.moves(picture)) {
             return Some(Plan::Moved(Arc::clone(frame), by));
         }
         if expected.is_some_and(|expected| expected <= BUDGET) {
@@ -474,7 +474,7 @@ impl Drawing {
         if before.is_some_and(|frame| frame.picture.view == picture.view) {
             return Some(Plan::Fine);
         }
-        let step = self.pace.step(picture);
+        let step = self.budget.step(picture);
         Some(if expected.is_some() && before.is_some() {
             Plan::Coarse(step)
         } else {
@@ -500,7 +500,7 @@ fn is_too_slow(takes: Duration, since: Duration) -> bool {
 
 impl Drop for Drawing {
     fn drop(&mut self) {
-        // The crew, dropped next, waits for the thread.
+        // The workers, dropped next, waits for the thread.
         if let Some(running) = &self.running {
             running.cancel.cancel();
         }

@@ -95,18 +95,22 @@ impl Desk {
     }
 
     fn want(&mut self, picture: &Picture) {
-        self.drawing.want(Wish::new(picture.clone(), [20, 30], None));
+        self.drawing.want(FrameRequest::new(picture.clone(), [20, 30], None));
     }
 
     /// Whole frames of `picture` are slow from now on, and previews of one sample per pixel are not.
     fn is_slow(&mut self, picture: &Picture) {
-        self.drawing.pace.note(picture, None, SLOW_FRAME);
-        self.drawing.pace.note(picture, Some(Manner::RateOne), Duration::ZERO);
+        self.drawing.budget.note(picture, None, SLOW_FRAME);
+        self.drawing
+            .budget
+            .note(picture, Some(PreviewQuality::RateOne), Duration::ZERO);
     }
 
     /// Moving by whole pixels takes no time, however busy the machine is.
     fn moves_quickly(&mut self, picture: &Picture) {
-        self.drawing.pace.note(picture, Some(Manner::Moved), Duration::ZERO);
+        self.drawing
+            .budget
+            .note(picture, Some(PreviewQuality::Moved), Duration::ZERO);
     }
 
     /// Takes in messages until the thread has nothing more to do; the hand does not rest meanwhile, however long it takes.
@@ -140,14 +144,14 @@ impl Desk {
         self.drawing.frame().expect("a frame")
     }
 
-    fn manner(&self) -> Option<Manner> {
-        self.frame().preview.as_ref().map(|preview| preview.manner)
+    fn quality(&self) -> Option<PreviewQuality> {
+        self.frame().preview.as_ref().map(|preview| preview.quality)
     }
 
     /// Asserts that the final frame of `picture` is on the screen.
     fn shows_final(&self, picture: &Picture, what: &str) {
         assert!(self.drawing.is_current(), "{what}: nothing is left to do");
-        assert_eq!(self.manner(), None, "{what}: no preview");
+        assert_eq!(self.quality(), None, "{what}: no preview");
         assert!(self.frame().pixels == drawn(picture), "{what}: other bytes than draw's");
         assert_eq!(self.drawing.due(), None, "{what}: nothing to wait for");
     }
@@ -177,7 +181,7 @@ fn zooming_previews_and_resting_refines() {
     desk.is_slow(&first);
     desk.want(&second);
     desk.work();
-    assert_eq!(desk.manner(), Some(Manner::RateOne), "the finest step");
+    assert_eq!(desk.quality(), Some(PreviewQuality::RateOne), "the finest step");
     let coarse = Picture {
         settings: RenderSettings {
             sample_rate: SampleRate::ONE,
@@ -203,10 +207,12 @@ fn slow_steps_become_coarser() {
     desk.want(&first);
     desk.work();
     desk.is_slow(&first);
-    desk.drawing.pace.note(&first, Some(Manner::RateOne), SLOW_FRAME);
+    desk.drawing
+        .budget
+        .note(&first, Some(PreviewQuality::RateOne), SLOW_FRAME);
     desk.want(&second);
     desk.work();
-    assert_eq!(desk.manner(), Some(Manner::Coarse(2)), "squares of 2x2 pixels");
+    assert_eq!(desk.quality(), Some(PreviewQuality::Coarse(2)), "squares of 2x2 pixels");
     let pixels = &desk.frame().pixels;
     for y in 0..SIZE[1] {
         for x in 0..SIZE[0] {
@@ -231,7 +237,7 @@ fn panning_moves_what_is_there() {
         let moved = desk.picture(16, center, 1.0);
         desk.want(&moved);
         desk.work();
-        assert_eq!(desk.manner(), Some(Manner::Moved), "by {by:?}");
+        assert_eq!(desk.quality(), Some(PreviewQuality::Moved), "by {by:?}");
         assert!(
             desk.frame().pixels == drawn(&moved),
             "whole pixels move the picture by {by:?}"
@@ -244,7 +250,11 @@ fn panning_moves_what_is_there() {
     desk.is_slow(&last);
     desk.want(&half);
     desk.work();
-    assert_eq!(desk.manner(), Some(Manner::RateOne), "half a pixel is another picture");
+    assert_eq!(
+        desk.quality(),
+        Some(PreviewQuality::RateOne),
+        "half a pixel is another picture"
+    );
 }
 
 #[test]
@@ -262,7 +272,7 @@ fn panning_shades_only_what_comes_into_view() {
         let center = [50.0 - f64::from(step), 50.0 - 0.5 * f64::from(step)];
         desk.want(&desk.picture(16, center, 2.0));
         desk.work();
-        assert_eq!(desk.manner(), Some(Manner::Moved), "step {step}");
+        assert_eq!(desk.quality(), Some(PreviewQuality::Moved), "step {step}");
         // Two columns and a row at most; blocks of samples may reach a little farther.
         let samples = desk.frame().stats.counters.samples_shaded;
         assert!(samples * 25 < all, "{samples} of {all} samples in step {step}");
@@ -293,9 +303,10 @@ fn inspected_pixels_are_final_in_previews() {
         width: 24,
         height: 24,
     };
-    desk.drawing.want(Wish::new(second.clone(), [50, 60], Some(focus)));
+    desk.drawing
+        .want(FrameRequest::new(second.clone(), [50, 60], Some(focus)));
     desk.work();
-    assert_eq!(desk.manner(), Some(Manner::RateOne), "a preview");
+    assert_eq!(desk.quality(), Some(PreviewQuality::RateOne), "a preview");
     let expected = drawn(&second);
     let final_pixels = (40..64).flat_map(|x| (56..72).map(move |y| (x, y)));
     for (x, y) in final_pixels {
@@ -335,7 +346,7 @@ fn whoever_waits_gets_final_frames() {
     desk.is_slow(&first);
     desk.want(&first);
     desk.work();
-    assert!(desk.manner().is_some(), "a preview again");
+    assert!(desk.quality().is_some(), "a preview again");
     desk.drawing.set_progressive(false);
     desk.work();
     desk.shows_final(&first, "previews turned off");
@@ -366,7 +377,7 @@ impl Desk {
 
     /// Whole frames of `picture` are quick from now on, however busy the machine is.
     fn is_quick(&mut self, picture: &Picture) {
-        self.drawing.pace.note(picture, None, Duration::ZERO);
+        self.drawing.budget.note(picture, None, Duration::ZERO);
     }
 
     /// Draws what waits for the surface.
@@ -395,7 +406,9 @@ fn quick_frames_are_drawn_where_they_are_shown() {
     assert!(surface == drawn(&second).pixels(), "the surface holds the frame");
     assert!(!desk.drawing.waits_for_surface(), "nothing waits any more");
     desk.is_slow(&second);
-    desk.drawing.pace.note(&second, Some(Manner::RateOne), SLOW_FRAME);
+    desk.drawing
+        .budget
+        .note(&second, Some(PreviewQuality::RateOne), SLOW_FRAME);
     let third = desk.picture(16, [50.0, 50.0], 1.7);
     desk.want(&third);
     assert!(!desk.drawing.waits_for_surface(), "slow frames are for the thread");
@@ -411,7 +424,7 @@ fn quick_previews_are_drawn_where_they_are_shown() {
     desk.want(&second);
     assert!(desk.drawing.waits_for_surface(), "a preview at rate 1");
     desk.draw_onto(&mut surface);
-    assert_eq!(desk.manner(), Some(Manner::RateOne), "one sample per pixel");
+    assert_eq!(desk.quality(), Some(PreviewQuality::RateOne), "one sample per pixel");
     assert!(surface == desk.frame().pixels.pixels(), "the surface holds it");
     assert!(desk.frame().final_rgba(20, 30).is_none(), "no number comes from it");
     assert!(!desk.drawing.is_current(), "not what is wanted");
@@ -425,12 +438,12 @@ fn quick_previews_are_drawn_where_they_are_shown() {
         width: 24,
         height: 24,
     };
-    desk.drawing.want(Wish::new(third, [50, 60], Some(focus)));
+    desk.drawing.want(FrameRequest::new(third, [50, 60], Some(focus)));
     assert!(!desk.drawing.waits_for_surface(), "what is inspected is final");
 }
 
 #[test]
-fn newest_wish_waits_for_the_surface() {
+fn newest_request_waits_for_the_surface() {
     let (mut desk, second) = Desk::with_surface();
     let first = desk.frame().picture.clone();
     desk.want(&second);
@@ -439,7 +452,7 @@ fn newest_wish_waits_for_the_surface() {
     let mut surface = surface();
     desk.draw_onto(&mut surface);
     assert!(surface == drawn(&third).pixels(), "the newest");
-    desk.shows_final(&third, "nothing is left of the wish before");
+    desk.shows_final(&third, "nothing is left of the request before");
     desk.is_quick(&third);
     desk.want(&first);
     assert!(desk.drawing.waits_for_surface(), "back");
@@ -540,7 +553,7 @@ fn any_wishes_end_in_the_same_bytes() {
                 2 => desk.is_slow(&picture),
                 3 | 4 if desk.drawing.waits_for_surface() => {
                     desk.draw_onto(&mut surface);
-                    if desk.manner().is_none() {
+                    if desk.quality().is_none() {
                         desk.shows_final(&picture, "on the surface");
                     }
                     assert!(surface == desk.frame().pixels.pixels(), "in the surface");
@@ -553,7 +566,7 @@ fn any_wishes_end_in_the_same_bytes() {
                 _ => {}
             }
         }
-        let last = desk.drawing.wanted.as_ref().expect("a wish").picture.clone();
+        let last = desk.drawing.wanted.as_ref().expect("a request").picture.clone();
         desk.rest();
         desk.shows_final(&last, "in the end");
         Ok(())

@@ -30,7 +30,7 @@
 //!
 //! # The house
 //!
-//! One room per concern; doors open downwards only (`tests/suite/architecture.rs` holds the table).
+//! One room per concern; doors open downwards only (`tests/suite/house/architecture.rs` holds the table).
 //!
 //! | room | turns | into |
 //! |---|---|---|

@@ -500,7 +500,7 @@ fn is_too_slow(takes: Duration, since: Duration) -> bool {
 
 impl Drop for Drawing {
     fn drop(&mut self) {
-        // The workers, dropped next, waits for the thread.
+        // The pool of workers, dropped next, waits for the thread.
         if let Some(running) = &self.running {
             running.cancel.cancel();
         }

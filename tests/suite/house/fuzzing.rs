@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use crate::support::mutation::mutate;
 
-#[path = "../../fuzz/targets.rs"]
+#[path = "../../../fuzz/targets.rs"]
 mod targets;
 
 use targets::{TARGETS, Target};

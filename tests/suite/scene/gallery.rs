@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use rasterscope::scene::{self, DialectChoice, ReadOptions, Scene};
 use rasterscope::viewer::gallery::{GalleryScene, SCENES, TEXTURES, Textures};
 
-#[path = "../../assets/generate/catalogue.rs"]
+#[path = "../../../assets/generate/catalogue.rs"]
 mod catalogue;
 
 /// What the gallery adds to the program and to every clone, at most, in bytes.

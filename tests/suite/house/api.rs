@@ -7,7 +7,7 @@ use rasterscope::{PictureError, RenderSettings, SampleRate, Scene, Settings, Vie
 use crate::support::program::done;
 
 #[expect(dead_code, reason = "the program's own start is not called")]
-#[path = "../../examples/explain.rs"]
+#[path = "../../../examples/explain.rs"]
 mod example;
 
 fn root() -> &'static Path {

@@ -1,0 +1,5 @@
+//! The overlay, without a window.
+
+mod goldens;
+mod painter;
+mod repaints;

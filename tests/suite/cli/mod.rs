@@ -1,0 +1,15 @@
+//! The binary on the command line.
+
+mod arguments;
+mod diff;
+mod disk;
+mod figures;
+mod full_disk;
+mod guess;
+mod hostile_names;
+mod interrupts;
+mod lessons;
+mod outputs;
+mod records;
+mod sweep;
+mod writeup;

@@ -1,0 +1,8 @@
+//! The project itself: rooms and floors, documents, the front door, fuzzing seeds.
+
+mod api;
+mod architecture;
+mod contributing;
+mod floors;
+mod fuzzing;
+mod readme;

@@ -1,0 +1,6 @@
+//! What is said about a pixel.
+
+mod advice;
+mod contributions;
+mod pixels;
+mod seams;

@@ -1,0 +1,13 @@
+//! What is drawn: coverage, patterns, rules, goldens, and the oracle that draws everything again.
+
+mod coverage;
+mod float_rules;
+mod golden;
+mod instruction_guard;
+mod limits;
+mod oracle;
+mod patterns;
+mod regions;
+mod render;
+mod robustness;
+mod visualisation;

@@ -1,0 +1,6 @@
+//! What is read: both dialects, polygons into triangles, the gallery.
+
+mod course;
+mod gallery;
+mod svg;
+mod triangulation;

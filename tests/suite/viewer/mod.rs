@@ -1,0 +1,11 @@
+//! The program without a window: commands, sessions, screenshots, sheets.
+
+mod comparison;
+mod dialects;
+mod inspector;
+mod random;
+mod replay;
+mod screenshots;
+mod scripts;
+mod sheets;
+mod visualisation;

@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 
+use crate::raster::SamplePattern;
 use crate::viewer::picture::{self, Values};
 use crate::viewer::{PictureSetting, commands};
 
@@ -10,6 +11,9 @@ const KEYS: &str = "<!-- keys -->";
 
 /// Where the page of options holds a line for each picture setting.
 const SETTINGS: &str = "<!-- settings -->";
+
+/// Where the page of pixels holds the table of sample patterns.
+const PATTERNS: &str = "<!-- patterns -->";
 
 /// The pages with their names.
 const PAGES: [(&str, &str); 8] = [
@@ -35,7 +39,8 @@ pub(super) fn page(words: &[OsString]) -> Option<String> {
     let (_, text) = PAGES.iter().find(|(page, _)| help == "help" && name == page)?;
     Some(
         text.replace(KEYS, commands::markdown().trim())
-            .replace(SETTINGS, settings().trim_end()),
+            .replace(SETTINGS, settings().trim_end())
+            .replace(PATTERNS, patterns().trim_end()),
     )
 }
 
@@ -57,4 +62,15 @@ fn settings() -> String {
         format!("| `--{}` | {values} | {default} | {means} |\n", setting.option)
     };
     picture::all().iter().map(line).collect()
+}
+
+/// The sample patterns as a table in Markdown.
+fn patterns() -> String {
+    let line = |pattern: SamplePattern| {
+        let [name, description, source] = [pattern.name(), pattern.description(), pattern.source()];
+        let counts = if pattern.needs_square() { "squares" } else { "any" };
+        format!("| `{name}` | {description} | {counts} | {source} |\n")
+    };
+    let lines: String = SamplePattern::ALL.into_iter().map(line).collect();
+    format!("| pattern | samples of a pixel | how many | after |\n|---|---|---|---|\n{lines}")
 }

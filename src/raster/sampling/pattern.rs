@@ -52,6 +52,29 @@ impl SamplePattern {
         }
     }
 
+    /// Where the samples of a pixel lie, in few words.
+    pub const fn description(self) -> &'static str {
+        match self {
+            Self::Grid => "the middles of n x n cells",
+            Self::Rotated => "one in each of n x n cells, no two in a column or row: the grid turned by `atan(1/n)`",
+            Self::Jittered => "anywhere in each of n x n cells, other places in every pixel",
+            Self::JitteredSame => "anywhere in each of n x n cells, the same places in every pixel",
+            Self::Halton => "radical inverses in bases 2 and 3, from number 1 on",
+            Self::R2 => "additive recurrence with the plastic number, from the middle on",
+        }
+    }
+
+    /// Whom the pattern goes back to; empty where it is everybody's.
+    pub const fn source(self) -> &'static str {
+        match self {
+            Self::Grid | Self::JitteredSame => "",
+            Self::Rotated => "graphics hardware for 4; Chiu, Shirley, Wang 1994",
+            Self::Jittered => "Cook 1986",
+            Self::Halton => "Halton 1960",
+            Self::R2 => "Roberts 2018",
+        }
+    }
+
     /// Whether the pattern divides a pixel into cells, so that only square numbers of samples are possible.
     pub const fn needs_square(self) -> bool {
         !matches!(self, Self::Halton | Self::R2)
@@ -71,11 +94,17 @@ impl SamplePattern {
     /// Why `rate` is not possible, and what is nearest; `None` where it is possible.
     pub fn refusal(self, rate: SampleRate) -> Option<String> {
         (!self.takes(rate)).then(|| {
+            let free: Vec<&str> = Self::ALL
+                .iter()
+                .filter(|other| !other.needs_square())
+                .map(|other| other.name())
+                .collect();
             format!(
-                "pattern {} takes a square number of samples, not {}; {} is nearest, and halton and r2 take any",
+                "pattern {} takes a square number of samples, not {}; {} is nearest, and {} take any",
                 self.name(),
                 rate.samples(),
-                self.nearest(rate).samples()
+                self.nearest(rate).samples(),
+                free.join(" and ")
             )
         })
     }

@@ -108,7 +108,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
             ..command(
                 "pattern",
                 "Sample pattern",
-                "Moves the samples inside their pixels: a grid, a rotated grid, jitter in every pixel or the same in all, halton, r2",
+                "Moves the samples inside their pixels, by the next pattern",
             )
         }],
         ..named!("pattern", "pattern", SamplePattern, render.pattern)
@@ -348,7 +348,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
                 ..command(
                     "visualise",
                     "Visualisation",
-                    "Shows the next of colour, coverage, overdraw, primitives, wireframe, barycentric weights, (u, v), level of detail, mip levels, anisotropy",
+                    "Shows the next of what decides the picture, such as coverage, wireframe or mip levels, in place of its colours",
                 )
             },
             SettingCommand {

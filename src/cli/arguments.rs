@@ -112,6 +112,9 @@ pub(super) fn parse_words(words: Vec<OsString>, repeated: bool) -> Result<Argume
     if let Some(page) = help::page(&words) {
         return Err(Failure::Text(page));
     }
+    if let Some(page) = help::man_page(&words, &Arguments::command()) {
+        return Err(page.map_or_else(Failure::Input, Failure::Text));
+    }
     let matches = Arguments::command()
         .args_override_self(repeated)
         .try_get_matches_from(words);

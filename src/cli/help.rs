@@ -2,6 +2,10 @@
 
 use std::ffi::OsString;
 
+use clap::Command;
+use clap_mangen::Man;
+
+use crate::plain;
 use crate::raster::SamplePattern;
 use crate::viewer::picture::{self, Values};
 use crate::viewer::{PictureSetting, commands};
@@ -29,7 +33,8 @@ const PAGES: [(&str, &str); 8] = [
 
 /// Names all pages, at the end of the program's help.
 pub(super) const LIST: &str = "Without a command, `rasterscope [PATH...]` opens the window: see `rasterscope view --help`.\n\
-    The reference: `rasterscope help options`, `keys`, `pixels`, `figures`, `records`, `lessons`, `scripts`, `json`.";
+    The reference: `rasterscope help options`, `keys`, `pixels`, `figures`, `records`, `lessons`, `scripts`, `json`.\n\
+    Man pages: `rasterscope help man [COMMAND] | man -l -`.";
 
 /// The page that the words of a command line ask for, if they ask for one.
 pub(super) fn page(words: &[OsString]) -> Option<String> {
@@ -42,6 +47,35 @@ pub(super) fn page(words: &[OsString]) -> Option<String> {
             .replace(SETTINGS, settings().trim_end())
             .replace(PATTERNS, patterns().trim_end()),
     )
+}
+
+/// The man page that the words of a command line ask for, if they ask for one: of the program or of one of its commands.
+///
+/// # Errors
+/// One line where there is no such command.
+pub(super) fn man_page(words: &[OsString], program: &Command) -> Option<Result<String, String>> {
+    let command = match words {
+        [_, help, man] if help == "help" && man == "man" => program.clone(),
+        [_, help, man, name] if help == "help" && man == "man" => {
+            let mut program = program.clone();
+            // So that its usage begins with the program's name.
+            program.build();
+            let Some(command) = program.find_subcommand(name).cloned() else {
+                let name = name.to_string_lossy();
+                return Some(Err(format!(
+                    "{}: no such command; see `rasterscope --help`",
+                    plain::line(&name)
+                )));
+            };
+            let name = format!("{}-{}", program.get_name(), command.get_name());
+            command.name(name).version(env!("CARGO_PKG_VERSION"))
+        }
+        _ => return None,
+    };
+    let mut page = Vec::new();
+    // Writing to memory cannot fail.
+    let _ = Man::new(command).render(&mut page);
+    Some(Ok(String::from_utf8_lossy(&page).into_owned()))
 }
 
 /// The picture settings as lines of a table in Markdown: option, values, default, what it means.

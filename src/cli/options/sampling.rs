@@ -68,7 +68,7 @@ fn option(setting: &'static PictureSetting) -> Arg {
         // A number may start with a minus.
         .allow_negative_numbers(true);
     let option = match setting.placeholder {
-        "" => option,
+        "" => option.value_name(setting.option.replace('-', "_").to_uppercase()),
         name => option.value_name(name),
     };
     match setting.values {

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use rasterscope::viewer::commands;
+use rasterscope::raster::SamplePattern;
+use rasterscope::viewer::{commands, picture};
 
 const START: &str = "<!-- keys: made by the command table, `BLESS=1 cargo test readme` writes it anew -->\n";
 const END: &str = "<!-- /keys -->";
@@ -211,5 +212,54 @@ fn readme_and_help_say_colour() {
             ["color", "colors", "colored", "coloring"].contains(&word.as_str())
         });
         assert_eq!(other, None, "{place}");
+    }
+}
+
+#[test]
+fn help_has_man_pages_of_the_program_and_of_every_command() {
+    let print = |words: &[&str]| {
+        let program = Command::new(env!("CARGO_BIN_EXE_rasterscope"))
+            .args(words)
+            .output()
+            .unwrap();
+        assert!(program.status.success(), "{words:?}: {program:?}");
+        String::from_utf8(program.stdout).unwrap()
+    };
+    let whole = print(&["help", "man"]);
+    assert!(whole.contains(".TH rasterscope 1"), "{whole}");
+    for command in commands_of_the_program() {
+        assert!(
+            whole.contains(&format!("rasterscope\\-{command}(1)")),
+            "{command} is listed: {whole}"
+        );
+        let page = print(&["help", "man", &command]);
+        assert!(page.contains(&format!(".TH rasterscope-{command} 1")), "{page}");
+        for line in help_of(&[&command])
+            .lines()
+            .filter_map(|line| line.trim().strip_prefix("--"))
+        {
+            let option = line.split_whitespace().next().unwrap().replace('-', "\\-");
+            assert!(page.contains(&option), "{command}: {option} is in {page}");
+        }
+    }
+}
+
+#[test]
+fn help_tells_every_setting_and_every_pattern() {
+    let pages = pages();
+    let page = |name: &str| &pages.iter().find(|(page, _)| page == name).unwrap().1;
+    for setting in picture::all() {
+        let row = format!("| `--{}` | ", setting.option);
+        let line = page("options").lines().find(|line| line.starts_with(&row)).unwrap();
+        for name in setting.names() {
+            assert!(line.contains(&format!("`{name}`")), "{line}");
+        }
+    }
+    for pattern in SamplePattern::ALL {
+        let row = format!("| `{}` | {}", pattern.name(), pattern.description());
+        assert!(page("pixels").contains(&row), "{row}");
+    }
+    for (name, text) in &pages {
+        assert!(!text.contains("<!--"), "{name} has no gap");
     }
 }

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use crate::viewer::command::Command;
 use crate::viewer::command::arguments::Argument;
 use crate::viewer::command::spec::{Action, CommandSpec, Group};
-use crate::viewer::command::table::TABLE;
+use crate::viewer::command::table;
 use crate::viewer::keys::{Chord, KeyPress};
 use crate::viewer::settings::picture;
 use crate::viewer::settings::picture::{About, PictureSetting};
@@ -24,14 +24,14 @@ pub struct Gesture {
 pub fn all() -> &'static [CommandSpec] {
     static ALL: LazyLock<Vec<CommandSpec>> = LazyLock::new(|| {
         let of_settings: Vec<CommandSpec> = picture::all().iter().flat_map(of_setting).collect();
-        let of = |specs: &'static [CommandSpec], group| specs.iter().filter(move |spec| spec.group == group).copied();
         let mut all = Vec::new();
         for group in Group::ALL {
+            let own = table::of(group).iter().copied();
             let settings = of_settings.iter().filter(|spec| spec.group == group).copied();
             if group == Group::Sampling {
-                all.extend(settings.chain(of(TABLE, group)));
+                all.extend(settings.chain(own));
             } else {
-                all.extend(of(TABLE, group).chain(settings));
+                all.extend(own.chain(settings));
             }
         }
         all

@@ -133,3 +133,53 @@ impl CommandSpec {
         names.join(", ")
     }
 }
+
+/// A line that needs its argument, until it is given something to run.
+pub(super) const fn spec(id: &'static str, name: &'static str, help: &'static str, group: Group) -> CommandSpec {
+    CommandSpec {
+        id,
+        name,
+        help,
+        more: "",
+        group,
+        keys: &[],
+        action: Action::NeedsArgument,
+        argument: None,
+    }
+}
+
+impl CommandSpec {
+    /// Pressed by these keys.
+    pub(super) const fn keys(self, keys: &'static [Chord]) -> Self {
+        Self { keys, ..self }
+    }
+
+    /// What else the tool tip says.
+    pub(super) const fn more(self, more: &'static str) -> Self {
+        Self { more, ..self }
+    }
+
+    /// Runs this.
+    pub(super) const fn run(self, command: &'static Command) -> Self {
+        Self {
+            action: Action::Run(command),
+            ..self
+        }
+    }
+
+    /// Runs another command for each key.
+    pub(super) const fn per_key(self, commands: &'static [Command]) -> Self {
+        Self {
+            action: Action::PerKey(commands),
+            ..self
+        }
+    }
+
+    /// May be followed by this.
+    pub(super) const fn argument(self, argument: Argument) -> Self {
+        Self {
+            argument: Some(argument),
+            ..self
+        }
+    }
+}

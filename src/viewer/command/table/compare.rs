@@ -1,0 +1,145 @@
+//! Commands under "A against B".
+
+use crate::viewer::ab::other::Against;
+use crate::viewer::ab::other::Arrangement;
+use crate::viewer::chrome::Dialog;
+use crate::viewer::command::Command;
+use crate::viewer::command::arguments;
+use crate::viewer::command::parts::AbCommand;
+use crate::viewer::command::parts::WindowCommand;
+use crate::viewer::command::spec::CommandSpec;
+use crate::viewer::command::spec::Group;
+use crate::viewer::command::spec::spec;
+use crate::viewer::keys::Chord;
+use crate::viewer::keys::Key;
+use crate::viewer::keys::Modifiers;
+use crate::viewer::settings::Toggle;
+
+/// The lines under this heading, in the order of help and menus.
+pub(super) static COMPARE: &[CommandSpec] = &[
+    spec(
+        "swap",
+        "Swap A and B",
+        "Swaps A, the settings that keys change, with B",
+        Group::Compare,
+    )
+    .more("The first press keeps the settings of now as B")
+    .keys(&[Chord::char('r')])
+    .run(&Command::Ab(AbCommand::Swap)),
+    spec(
+        "wipe",
+        "Wipe",
+        "Shows A on the left of a line and B on its right",
+        Group::Compare,
+    )
+    .more("Drag the line to move it")
+    .keys(&[Chord::char('w')])
+    .run(&Command::Ab(AbCommand::ToggleArrangement(Arrangement::Wipe)))
+    .argument(arguments::WIPE),
+    spec(
+        "difference",
+        "Difference",
+        "Shows in colours how far A and B are apart",
+        Group::Compare,
+    )
+    .more("Every pixel has the number of its channel that differs most")
+    .keys(&[Chord::char('d')])
+    .run(&Command::Ab(AbCommand::ToggleArrangement(Arrangement::Difference)))
+    .argument(arguments::DIFFERENCE),
+    spec(
+        "normalize",
+        "Normalise difference",
+        "Gives the largest difference the last colour",
+        Group::Compare,
+    )
+    .more("Else colours stand for the same numbers in every picture")
+    .keys(&[Chord::new(Key::Char('d'), Modifiers::SHIFT)])
+    .run(&Command::Ab(AbCommand::Normalize(Toggle::Flip)))
+    .argument(arguments::NORMALIZE),
+    spec(
+        "next-difference",
+        "Next difference",
+        "Pins the pixel where A and B differ most; again, the next",
+        Group::Compare,
+    )
+    .more("One pixel of each block of 16 x 16 pixels counts, up to 64 of them")
+    .keys(&[Chord::char('n')])
+    .run(&Command::Ab(AbCommand::NextDifference)),
+    spec(
+        "gain",
+        "Difference gain",
+        "Multiplies the difference that is shown",
+        Group::Compare,
+    )
+    .more("A gain of 8 gives an eighth of full scale the last colour")
+    .argument(arguments::GAIN),
+    spec(
+        "stronger-difference",
+        "Stronger difference",
+        "Doubles the gain of the difference",
+        Group::Compare,
+    )
+    .more("Small differences come to light, large ones all take the last colour")
+    .run(&Command::Ab(AbCommand::StepGain(1))),
+    spec(
+        "weaker-difference",
+        "Weaker difference",
+        "Halves the gain of the difference",
+        Group::Compare,
+    )
+    .more("Large differences can be told apart again")
+    .run(&Command::Ab(AbCommand::StepGain(-1))),
+    spec(
+        "side",
+        "Side by side",
+        "Shows A in the left half of the window and B in the right",
+        Group::Compare,
+    )
+    .more("Panning and zooming move both")
+    .run(&Command::Ab(AbCommand::ToggleArrangement(Arrangement::SideBySide))),
+    spec("flip", "Flip", "Shows A and B in turn", Group::Compare)
+        .more("What differs then jumps to the eye")
+        .run(&Command::Ab(AbCommand::ToggleArrangement(Arrangement::Flip))),
+    spec(
+        "flip-by-hand",
+        "Flip by hand",
+        "Shows B in place of A; again, A",
+        Group::Compare,
+    )
+    .more("Look at one place while you press it")
+    .keys(&[Chord::char('b')])
+    .run(&Command::Ab(AbCommand::FlipByHand)),
+    spec(
+        "truth",
+        "Compare with the truth",
+        "Compares A with the same scene at 256 samples per pixel",
+        Group::Compare,
+    )
+    .more("Each of them reads textures at level zero; all else is A's, and so are the values that are averaged")
+    .run(&Command::Ab(AbCommand::Compare(Against::Truth(None))))
+    .argument(arguments::TRUTH),
+    spec(
+        "compare-picture",
+        "Compare with a picture",
+        "Asks for a PNG or JPEG to compare A with, such as another renderer's",
+        Group::Compare,
+    )
+    .more("A is then drawn with its size; a picture can also be dropped on the window")
+    .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::ComparePicture))),
+    spec(
+        "arrange",
+        "Arrange A and B",
+        "Sets how A and B share the window",
+        Group::Compare,
+    )
+    .more("Alone: A fills it, and B stays in the back")
+    .argument(arguments::ARRANGE),
+    spec(
+        "against",
+        "Compare with",
+        "Sets what A is compared with: a copy of its settings, the truth, a picture's file, or none",
+        Group::Compare,
+    )
+    .more("None closes the comparison")
+    .argument(arguments::AGAINST),
+];

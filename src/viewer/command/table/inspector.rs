@@ -1,0 +1,123 @@
+//! Commands under "Inspector".
+
+use crate::viewer::chrome::Dialog;
+use crate::viewer::command::Command;
+use crate::viewer::command::arguments;
+use crate::viewer::command::parts::InspectorCommand;
+use crate::viewer::command::parts::WindowCommand;
+use crate::viewer::command::spec::CommandSpec;
+use crate::viewer::command::spec::Group;
+use crate::viewer::command::spec::spec;
+use crate::viewer::keys::Chord;
+use crate::viewer::keys::Key;
+use crate::viewer::keys::Modifiers;
+use crate::viewer::settings::Toggle;
+
+/// Pixels that an arrow moves the pin by with Shift.
+const FAR: i64 = 10;
+
+/// The lines under this heading, in the order of help and menus.
+pub(super) static INSPECTOR: &[CommandSpec] = &[
+    spec(
+        "inspector",
+        "Pixel inspector",
+        "Opens or closes the pixel inspector",
+        Group::Inspector,
+    )
+    .keys(&[Chord::char('z')])
+    .run(&Command::Inspector(InspectorCommand::Show(Toggle::Flip)))
+    .argument(arguments::INSPECTOR),
+    spec(
+        "pin",
+        "Pin pixel",
+        "Pins the pixel under the pointer and tells why it has its colour; again, unpins it",
+        Group::Inspector,
+    )
+    .keys(&[Chord::named(Key::Enter)])
+    .run(&Command::Inspector(InspectorCommand::PinUnderPointer))
+    .argument(arguments::PIN),
+    spec(
+        "unpin",
+        "Unpin",
+        "Lets the inspector follow the pointer again",
+        Group::Inspector,
+    )
+    .run(&Command::Inspector(InspectorCommand::Unpin)),
+    spec("nudge", "Nudge pin", "Moves the pin by one pixel", Group::Inspector)
+        .keys(&[
+            Chord::named(Key::Left),
+            Chord::named(Key::Right),
+            Chord::named(Key::Up),
+            Chord::named(Key::Down),
+        ])
+        .per_key(&[
+            Command::Inspector(InspectorCommand::Nudge([-1, 0])),
+            Command::Inspector(InspectorCommand::Nudge([1, 0])),
+            Command::Inspector(InspectorCommand::Nudge([0, -1])),
+            Command::Inspector(InspectorCommand::Nudge([0, 1])),
+        ])
+        .argument(arguments::NUDGE),
+    spec(
+        "nudge-far",
+        "Nudge pin far",
+        "Moves the pin by ten pixels",
+        Group::Inspector,
+    )
+    .keys(&[shift(Key::Left), shift(Key::Right), shift(Key::Up), shift(Key::Down)])
+    .per_key(&[
+        Command::Inspector(InspectorCommand::Nudge([-FAR, 0])),
+        Command::Inspector(InspectorCommand::Nudge([FAR, 0])),
+        Command::Inspector(InspectorCommand::Nudge([0, -FAR])),
+        Command::Inspector(InspectorCommand::Nudge([0, FAR])),
+    ]),
+    spec(
+        "go-to-pixel",
+        "Go to pixel",
+        "Asks for a pixel and pins it",
+        Group::Inspector,
+    )
+    .keys(&[Chord::ctrl('g')])
+    .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::GoToPixel))),
+    spec(
+        "explanation",
+        "Explanation",
+        "Shows or hides why the pinned pixel has its colour; where none is pinned, pins one",
+        Group::Inspector,
+    )
+    .more("Samples, primitives, edges, weights and texels, from the sum back to the line of the document")
+    .keys(&[Chord::char('e')])
+    .run(&Command::Inspector(InspectorCommand::Explanation(Toggle::Flip)))
+    .argument(arguments::EXPLANATION),
+    spec(
+        "magnify-more",
+        "Magnify more",
+        "Shows fewer pixels larger in the inspector",
+        Group::Inspector,
+    )
+    .run(&Command::Inspector(InspectorCommand::StepMagnification(1))),
+    spec(
+        "magnify-less",
+        "Magnify less",
+        "Shows more pixels smaller in the inspector",
+        Group::Inspector,
+    )
+    .run(&Command::Inspector(InspectorCommand::StepMagnification(-1))),
+    spec(
+        "magnification",
+        "Magnification",
+        "Sets how large the inspector shows a pixel",
+        Group::Inspector,
+    )
+    .argument(arguments::MAGNIFICATION),
+    spec(
+        "region",
+        "Inspected region",
+        "Sets how many pixels the inspector shows across: 8 to 64",
+        Group::Inspector,
+    )
+    .argument(arguments::REGION),
+];
+
+const fn shift(key: Key) -> Chord {
+    Chord::new(key, Modifiers::SHIFT)
+}

@@ -1,0 +1,121 @@
+//! Commands under "Scenes".
+
+use crate::viewer::command::Command;
+use crate::viewer::command::arguments;
+use crate::viewer::command::parts::LessonCommand;
+use crate::viewer::command::parts::SceneCommand;
+use crate::viewer::command::spec::CommandSpec;
+use crate::viewer::command::spec::Group;
+use crate::viewer::command::spec::spec;
+use crate::viewer::keys::Chord;
+use crate::viewer::keys::Key;
+use crate::viewer::lesson::source::LessonSource;
+
+/// The lines under this heading, in the order of help and menus.
+pub(super) static SCENES: &[CommandSpec] = &[
+    spec("scene", "Scene", "Shows the scene with this number", Group::Scenes)
+        .keys(&DIGITS)
+        .per_key(&[
+            Command::Scenes(SceneCommand::Show(0)),
+            Command::Scenes(SceneCommand::Show(1)),
+            Command::Scenes(SceneCommand::Show(2)),
+            Command::Scenes(SceneCommand::Show(3)),
+            Command::Scenes(SceneCommand::Show(4)),
+            Command::Scenes(SceneCommand::Show(5)),
+            Command::Scenes(SceneCommand::Show(6)),
+            Command::Scenes(SceneCommand::Show(7)),
+            Command::Scenes(SceneCommand::Show(8)),
+        ])
+        .argument(arguments::SCENE),
+    spec(
+        "previous-scene",
+        "Previous scene",
+        "Shows the scene before this one; in a lesson the step before",
+        Group::Scenes,
+    )
+    .keys(&[Chord::named(Key::PageUp)])
+    .run(&Command::Scenes(SceneCommand::Previous)),
+    spec(
+        "next-scene",
+        "Next scene",
+        "Shows the scene after this one; in a lesson its next step",
+        Group::Scenes,
+    )
+    .keys(&[Chord::named(Key::PageDown)])
+    .run(&Command::Scenes(SceneCommand::Next)),
+    spec(
+        "open",
+        "Open",
+        "Opens a file, or every scene in a folder",
+        Group::Scenes,
+    )
+    .argument(arguments::OPEN),
+    spec(
+        "gallery",
+        "Built-in gallery",
+        "Opens the scenes that come with the program",
+        Group::Scenes,
+    )
+    .run(&Command::Scenes(SceneCommand::OpenGallery)),
+    spec(
+        "six-tasks",
+        "Lesson: six tasks",
+        "Opens the lesson on triangles, samples, groups, colours, texels and mip levels",
+        Group::Scenes,
+    )
+    .more("PageDown goes to its next step, Esc closes it")
+    .run(&Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(0)))),
+    spec(
+        "lesson-anisotropy",
+        "Lesson: anisotropy",
+        "Opens the lesson on footprints that are longer than wide",
+        Group::Scenes,
+    )
+    .more("PageDown goes to its next step, Esc closes it")
+    .run(&Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(1)))),
+    spec(
+        "lesson",
+        "Lesson",
+        "Opens a lesson: a TOML file of steps with text",
+        Group::Scenes,
+    )
+    .more("It can be dropped on the window, too")
+    .argument(arguments::LESSON),
+    spec(
+        "lesson-step",
+        "Step of the lesson",
+        "Goes to the step with this number",
+        Group::Scenes,
+    )
+    .argument(arguments::LESSON_STEP),
+    spec(
+        "close-lesson",
+        "Close the lesson",
+        "Brings back what was open before the lesson",
+        Group::Scenes,
+    )
+    .run(&Command::Lesson(LessonCommand::Close)),
+    spec("reload", "Reload", "Reads the scene again", Group::Scenes)
+        .keys(&[Chord::ctrl('r'), Chord::named(Key::F(5))])
+        .run(&Command::Scenes(SceneCommand::Reload)),
+    spec(
+        "other-reading",
+        "Read in the other dialect",
+        "Reads the scene, and those of its folder, as course instead of svg, or the other way",
+        Group::Scenes,
+    )
+    .run(&Command::Scenes(SceneCommand::OtherReading)),
+];
+
+/// `1` to `9`.
+static DIGITS: [Chord; 9] = [
+    Chord::char('1'),
+    Chord::char('2'),
+    Chord::char('3'),
+    Chord::char('4'),
+    Chord::char('5'),
+    Chord::char('6'),
+    Chord::char('7'),
+    Chord::char('8'),
+    Chord::char('9'),
+];

@@ -1,0 +1,67 @@
+//! Commands under "Window".
+
+use crate::viewer::chrome::Dialog;
+use crate::viewer::command::Command;
+use crate::viewer::command::arguments;
+use crate::viewer::command::parts::WindowCommand;
+use crate::viewer::command::spec::CommandSpec;
+use crate::viewer::command::spec::Group;
+use crate::viewer::command::spec::spec;
+use crate::viewer::keys::Chord;
+use crate::viewer::keys::Key;
+use crate::viewer::settings::Toggle;
+
+/// The lines under this heading, in the order of help and menus.
+pub(super) static WINDOW: &[CommandSpec] = &[
+    spec(
+        "overlay",
+        "Overlay text",
+        "Shows or hides the text over the picture",
+        Group::Window,
+    )
+    .keys(&[Chord::char('`')])
+    .run(&Command::Window(WindowCommand::OverlayText(Toggle::Flip)))
+    .argument(arguments::OVERLAY),
+    spec(
+        "hide",
+        "Only the picture",
+        "Hides everything but the picture",
+        Group::Window,
+    )
+    .keys(&[Chord::named(Key::Tab)])
+    .run(&Command::Window(WindowCommand::HideEverything(Toggle::Flip)))
+    .argument(arguments::HIDE),
+    spec("panel", "Side panel", "Shows or hides the side panel", Group::Window)
+        .run(&Command::Window(WindowCommand::Panel(Toggle::Flip)))
+        .argument(arguments::PANEL),
+    spec(
+        "theme",
+        "Theme",
+        "Switches between the dark and the light theme",
+        Group::Window,
+    )
+    .run(&Command::Window(WindowCommand::NextTheme))
+    .argument(arguments::THEME),
+    spec("help", "Help", "Shows all keys", Group::Window)
+        .keys(&[Chord::shifted('?', '/'), Chord::named(Key::F(1))])
+        .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::Help))),
+    spec(
+        "palette",
+        "Command palette",
+        "Finds a command by its name",
+        Group::Window,
+    )
+    .keys(&[Chord::ctrl_shift('p')])
+    .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::Palette))),
+    spec(
+        "escape",
+        "Close",
+        "Closes or unpins what is open; when nothing is, pressed twice ends the program",
+        Group::Window,
+    )
+    .keys(&[Chord::named(Key::Escape)])
+    .run(&Command::Window(WindowCommand::Escape)),
+    spec("quit", "Quit", "Ends the program at once", Group::Window)
+        .keys(&[Chord::ctrl('q')])
+        .run(&Command::Window(WindowCommand::Quit)),
+];

@@ -12,6 +12,7 @@ mod feeds;
 mod hints;
 mod model;
 mod numbers;
+mod part_words;
 mod pinholes;
 mod samples;
 mod seams;

@@ -1,0 +1,211 @@
+//! The parts of a report in words: what painted a sample, where its edges are, what it read of a texture.
+
+use super::model::{Edge, Fragment, Interpolated, Paint, Shape, Source, Verdict};
+use super::numbers::{cut, number, percent, significant};
+use crate::plain;
+
+/// Points of a texture that are listed at most.
+const MOST_TAPS: usize = 4;
+/// Texels that are listed at most, the heaviest first.
+const MOST_TEXELS: usize = 16;
+
+impl Paint {
+    /// Such as `triangle of polygon "left", line 12`.
+    pub fn name(&self) -> String {
+        let of = |kind: &str| match &self.source {
+            Some(source) if source.element == kind => format!("{}, line {}", source.name(), source.line),
+            Some(source) => format!("{kind} of {}, line {}", source.name(), source.line),
+            None => kind.to_owned(),
+        };
+        match &self.shape {
+            Shape::Triangle { .. } => of("triangle"),
+            Shape::Polygon { .. } => of("polygon"),
+            Shape::WholePixel => of("pixel"),
+            Shape::CanvasOutline => "outline of the canvas".to_owned(),
+            Shape::BeginLayer => of("layer"),
+            Shape::EndLayer { .. } => of("end of the layer"),
+        }
+    }
+
+    /// The samples that it painted.
+    pub fn samples(&self) -> Vec<usize> {
+        self.fragments.iter().map(|fragment| fragment.sample).collect()
+    }
+}
+
+impl Source {
+    /// Such as `polygon "left"`.
+    pub fn name(&self) -> String {
+        match &self.id {
+            Some(id) => format!("{} \"{id}\"", self.element),
+            None => self.element.clone(),
+        }
+    }
+
+    pub(super) fn lines(&self) -> Vec<String> {
+        let mut lines = vec![format!("{}:{}:{}", plain::line(&self.file), self.line, self.column)];
+        // An excerpt already.
+        let quoted = self.text.iter().map(|text| text.replace('\t', " "));
+        lines.extend(quoted.map(|text| format!("{} | {}", self.line, plain::line(&text))));
+        lines
+    }
+}
+
+impl Edge {
+    pub(super) fn words(&self) -> String {
+        let verdict = match self.verdict {
+            Verdict::Inside => "inside",
+            Verdict::Outside => "outside",
+            Verdict::TieTop => "on the line: a top edge owns it, so inside",
+            Verdict::TieLeft => "on the line: a left edge owns it, so inside",
+            Verdict::TieNeither => "on the line: neither top nor left, so the neighbour's",
+            Verdict::TieInclusive => "on the line: inside by the course's rules",
+            Verdict::TieUndecided => "on the line: no rule says whose it is, so nobody's",
+        };
+        if let Some(float) = self.float {
+            let float = if self.verdict.is_tie() {
+                "0".to_owned()
+            } else {
+                format!("{float:+.3e}")
+            };
+            return format!("{verdict} (edge function {float} in 32-bit floats{})", self.exactly());
+        }
+        if self.verdict.is_tie() {
+            return format!("{verdict} (edge function 0)");
+        }
+        let distance = significant(self.distance.abs());
+        format!("{distance} px {verdict} (edge function {:+})", self.value)
+    }
+
+    /// The exact edge function, where it says otherwise than 32-bit floats.
+    fn exactly(&self) -> String {
+        let agree = match self.value.signum() {
+            1 => self.verdict == Verdict::Inside,
+            0 => self.verdict.is_tie(),
+            _ => self.verdict == Verdict::Outside,
+        };
+        if agree {
+            String::new()
+        } else {
+            format!(", exactly {:+}", self.value)
+        }
+    }
+}
+
+impl Fragment {
+    pub(super) fn lines(&self) -> Vec<String> {
+        let mut lines = vec![format!("colour    {}", color(self.color))];
+        if self.color[3] >= 255.0 {
+            lines.push(format!("replaces  {}", color(self.before)));
+        } else {
+            lines.push(format!("over      {}", color(self.before)));
+            lines.push(format!("gives     {}", color(self.after)));
+        }
+        if !self.seen {
+            lines.push("and is hidden by what is painted later".to_owned());
+        }
+        lines
+    }
+}
+
+impl super::model::Texture {
+    pub(super) fn lines(&self) -> Vec<String> {
+        let vector = |[x, y]: [f64; 2]| format!("({}, {})", significant(x), significant(y));
+        let [width, height] = self.size;
+        let mut lines = vec![
+            format!(
+                "texture {} of {width} x {height} texels, read {}",
+                self.name, self.pixel_sampling
+            ),
+            format!(
+                "one {} right is {} texels, down {}",
+                self.step,
+                vector(self.right),
+                vector(self.down)
+            ),
+            format!(
+                "footprint  {} texels long, {} wide",
+                significant(self.major),
+                significant(self.minor)
+            ),
+        ];
+        if self.taps > 1 {
+            lines.push(format!("anisotropy  {} taps along the longer side", self.taps));
+        }
+        let computed = self
+            .level_of_detail
+            .map_or("none (no change)".to_owned(), |lod| format!("{lod:.3}"));
+        lines.push(format!(
+            "level of detail  {computed}, clamped {:.3}; level sampling {}",
+            self.clamped, self.level_sampling
+        ));
+        let levels: Vec<String> = self
+            .levels
+            .iter()
+            .map(|level| {
+                let [width, height] = level.size;
+                format!(
+                    "{} of level {} ({width} x {height})",
+                    percent(level.weight),
+                    level.number
+                )
+            })
+            .collect();
+        lines.push(format!("reads  {}", levels.join(" and ")));
+        if self.opacity < 1.0 {
+            lines.push(format!("opacity  {}", number(self.opacity)));
+        }
+        lines
+    }
+}
+
+impl Interpolated {
+    pub(super) fn lines(&self) -> Vec<String> {
+        match self {
+            Self::Flat => Vec::new(),
+            Self::Color { rgba: [r, g, b, a] } => {
+                vec![format!("mixed     red {r:.4}, green {g:.4}, blue {b:.4}, alpha {a:.4}")]
+            }
+            Self::Texture {
+                uv: [u, v],
+                texels,
+                taps,
+            } => {
+                let mut lines = vec![format!("(u, v)    ({u:.5}, {v:.5})")];
+                for tap in taps.iter().take(MOST_TAPS) {
+                    let [x, y] = tap.at.map(cut);
+                    lines.push(format!("point     ({x}, {y}) of level {}, in texels", tap.level));
+                }
+                if let Some(rest) = taps.len().checked_sub(MOST_TAPS).filter(|rest| *rest > 0) {
+                    lines.push(format!("          and {rest} more points"));
+                }
+                let mut heaviest = texels.clone();
+                heaviest.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+                for texel in heaviest.iter().take(MOST_TEXELS) {
+                    let [x, y] = texel.at;
+                    let hex = super::explanation::hex(texel.color);
+                    lines.push(format!(
+                        "{:>10}  of texel ({x}, {y}) of level {}: {hex}",
+                        percent(texel.weight),
+                        texel.level
+                    ));
+                }
+                if let Some(rest) = heaviest.get(MOST_TEXELS..).filter(|rest| !rest.is_empty()) {
+                    let weight = rest.iter().map(|texel| texel.weight).sum();
+                    lines.push(format!("{:>10}  of {} more texels", percent(weight), rest.len()));
+                }
+                lines
+            }
+        }
+    }
+}
+
+/// A premultiplied colour in levels.
+pub(super) fn color([r, g, b, a]: [f64; 4]) -> String {
+    let [r, g, b] = [r, g, b].map(number);
+    if a >= 255.0 {
+        format!("{r}, {g}, {b}")
+    } else {
+        format!("{r}, {g}, {b}, alpha {} (premultiplied)", number(a))
+    }
+}

@@ -13,9 +13,9 @@ const STEPS: [u32; 17] = [2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 28, 32, 40, 48, 
 /// As many steps as there can be.
 const MAX_STEPS: u32 = 20;
 /// Part of the shorter side of its area that an inset may take.
-const SHARE: f64 = 0.8;
+pub(super) const SHARE: f64 = 0.8;
 /// What it may take in the smallest window, in pixels.
-const LEAST: f64 = 48.0;
+pub(super) const LEAST: f64 = 48.0;
 /// Lines of a magnified pixel's label: red, green, blue.
 const LABEL_LINES: f32 = 3.0;
 /// Characters of a label's longest line.
@@ -47,8 +47,12 @@ pub struct Inspector {
     pub(super) revealed: bool,
     /// Whether a hand asked about the pinned pixel: the view rests while the explanation takes its room.
     pub(super) asked: bool,
+    /// Where in the window a hand asked about it.
+    pub(super) asked_at: Option<AskedAt>,
     /// The view before an explanation took its room, and the one that was set then.
     pub(super) kept_view: Option<[Camera; 2]>,
+    /// How often a pixel was pinned.
+    pub(super) pins: u64,
     /// Whether a pin opened the inspector, which then closes with it.
     pub(super) came_with_pin: bool,
     /// The pixel last under the pointer: shown while the pointer is elsewhere.
@@ -56,9 +60,18 @@ pub struct Inspector {
     /// Region times pitch that the user chose; the wheel keeps it.
     extent: u32,
     /// Where the inset was last.
-    corner: Corner,
+    pub(super) corner: Corner,
     /// Turns of the wheel that did not make a whole step yet.
     rest: f64,
+}
+
+/// Where in the window a hand asked about a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AskedAt {
+    /// The window pixel.
+    pub at: [i64; 2],
+    /// Whether it was B's half of two pictures side by side.
+    pub in_second: bool,
 }
 
 /// What is pinned: a place of a scene.
@@ -103,7 +116,9 @@ impl Default for Inspector {
             ring_room: 0,
             revealed: false,
             asked: false,
+            asked_at: None,
             kept_view: None,
+            pins: 0,
             came_with_pin: false,
             last: None,
             extent: region * (magnification + 1),
@@ -236,7 +251,7 @@ impl Inspector {
 }
 
 /// A pinned pixel with so much room around it.
-fn with_ring(pixel: &PixelRect, room: u32) -> PixelRect {
+pub(super) fn with_ring(pixel: &PixelRect, room: u32) -> PixelRect {
     PixelRect {
         x: pixel.x - i64::from(room),
         y: pixel.y - i64::from(room),

@@ -54,7 +54,7 @@ pub use commands::Gesture;
 pub use comparison::{Against, Arrangement, Measures, Other, OutsidePicture, Seen};
 pub use ending::ASKS_FOR;
 pub use frame::{Frame, Manner, Picture, Preview};
-pub use inspector::{Inspector, PixelLabel, PlacedInset};
+pub use inspector::{AskedAt, Inspector, PixelLabel, PlacedInset};
 pub use key::{Chord, Key, KeyPress, Modifiers};
 pub use lesson::{BUILT_IN, Block, Lesson, LessonError, LessonSource, LessonStep, Look, SlideError, Span, slides};
 pub use library::{SceneEntry, SceneSource, SceneState, is_folder_of_course, list_scenes};

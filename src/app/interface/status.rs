@@ -14,6 +14,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         panel_switch(ui, viewer, commands);
+        close_of_inspector(ui, viewer, commands);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             ui.shrink_clip_rect(ui.max_rect());
             match viewer.status() {
@@ -55,6 +56,19 @@ fn panel_switch(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         .clicked()
     {
         commands.push(Command::Panel(Toggle::Flip));
+    }
+    ui.add_space(4.0);
+}
+
+/// Closes an inspector that follows the pointer: its inset gives way to whoever wants to click there.
+fn close_of_inspector(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    if !viewer.inspector().open || viewer.pinned_pixel().is_some() {
+        return;
+    }
+    let button = ui.add(egui::Button::new("Magnifier  \u{d7}").small());
+    let button = button.on_hover_text(tip("inspector"));
+    if button.accessible_name("Close the inspector").clicked() {
+        commands.push(Command::Inspector(Toggle::Off));
     }
     ui.add_space(4.0);
 }

@@ -66,8 +66,20 @@ impl Viewer {
         Some(self.comparison.paint.as_ref()?.colors.gain())
     }
 
-    /// Commands about comparing; the others come back.
+    /// Commands about comparing; the others come back. What is explained stays in sight.
     pub(in super::super) fn change_comparison(&mut self, command: Command) -> Option<Command> {
+        let panes = self.explains().then(|| self.panes());
+        if let Some(command) = self.change_ab(command) {
+            return Some(command);
+        }
+        if panes.is_some_and(|before| before != self.panes()) {
+            self.keep_explained_pin_in_sight();
+        }
+        self.comparison.touch();
+        None
+    }
+
+    fn change_ab(&mut self, command: Command) -> Option<Command> {
         match command {
             Command::SwapAb => self.swap_ab(),
             Command::Compare(against) => self.compare(against),
@@ -104,7 +116,6 @@ impl Viewer {
             }
             command => return Some(command),
         }
-        self.comparison.touch();
         None
     }
 

@@ -3,8 +3,10 @@
 //! A and B show the same scene from the same place. A comparison that was closed costs nothing: B has no frame then, and
 //! its thread sleeps.
 
+mod asked;
 mod change;
 mod composite;
+mod magnifiers;
 mod measuring;
 mod outside;
 mod pair;

@@ -51,7 +51,7 @@ pub use frames::frame::{Frame, Picture, Preview, PreviewQuality};
 pub use frames::present::WindowPixels;
 pub use inspector::samples::{Hit, ProbedSample};
 pub use inspector::status::Status;
-pub use inspector::{Inspector, PixelLabel, PlacedInset};
+pub use inspector::{AskedAt, Inspector, PixelLabel, PlacedInset};
 pub use jobs::mailbox::Waker;
 pub use keys::{Chord, Key, KeyPress, Modifiers};
 pub use lesson::markdown::{Block, Look, Span};

@@ -1,9 +1,9 @@
 //! What lies over the picture while A and B share the window: the line of the wipe, and which picture is which.
 
 use egui::text::LayoutJob;
-use egui::{Align2, Color32, CursorIcon, FontId, Rangef, Rect, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, Color32, CursorIcon, FontId, Pos2, Rangef, Rect, Stroke, Ui, Vec2, pos2, vec2};
 
-use super::floating::points;
+use super::floating::{legends, points};
 use crate::viewer::{Arrangement, Viewer};
 
 /// Free space between a tag and what is beside it, in points.
@@ -19,29 +19,39 @@ const LETTER: f32 = 20.0;
 /// Radius of the line's handle, in points.
 const HANDLE: f32 = 9.0;
 
-/// Draws line, letters and tags inside `free`, the tags where nothing is `taken`. Returns where letters and tags are.
-pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<Rect> {
+/// What lies over the picture for A and B, in points.
+#[derive(Debug, Default)]
+pub(super) struct Marks {
+    /// Letters and tags.
+    pub(super) labels: Vec<Rect>,
+    /// What the parts of the line of the wipe take, as wide as its handle.
+    pub(super) line: Vec<Rect>,
+}
+
+/// Draws line, letters and tags inside `free`, the tags where nothing is `taken`.
+pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Marks {
     let Some([a, b]) = viewer.comparison_sides() else {
-        return Vec::new();
+        return Marks::default();
     };
     let [front, back] = if viewer.is_swapped() { [b, a] } else { [a, b] };
     let scale = ui.pixels_per_point();
     let insets = viewer.inset().into_iter().chain(viewer.other_inset());
     let insets: Vec<Rect> = insets.map(|placed| points(&placed.rect, scale)).collect();
+    #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
+    let line = viewer.wipe_line().map(|line| line as f32 / scale);
     let letters = letters(ui, viewer, free);
-    let taken = [&insets, taken, &letters].concat();
+    let mut drawn = Vec::new();
+    let taken = [&insets, taken, &letters, &legends(viewer, scale)].concat();
     let left = free.left() + MARGIN;
     let half = (free.width() / 2.0 - 2.0 * MARGIN).max(40.0);
     let places: Vec<(String, f32, Align2, f32)> = match viewer.arrangement() {
-        Arrangement::Alone if !viewer.is_swapped() => return Vec::new(),
+        Arrangement::Alone if !viewer.is_swapped() => return Marks::default(),
         Arrangement::Alone => vec![(front, left, Align2::LEFT_TOP, half)],
         Arrangement::Wipe => {
-            let Some(line) = viewer.wipe_line() else {
-                return Vec::new();
+            let Some(line) = line else {
+                return Marks::default();
             };
-            #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
-            let line = line as f32 / scale;
-            draw_line(ui, viewer, free, (line, &insets));
+            drawn = draw_line(ui, viewer, free, (line, &[insets.as_slice(), &letters].concat()));
             // Each on its own side: where there is little room its words give way, never the side.
             let beside = |room: f32| (room - 2.0 * MARGIN - 2.0 * PADDING.x).min(half);
             vec![
@@ -74,10 +84,14 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Vec<
     let tags = places
         .into_iter()
         .filter_map(|(text, x, align, wide)| tag(ui, free, &taken, (&text, x, align, wide)));
-    tags.chain(letters).collect()
+    Marks {
+        labels: tags.chain(letters).collect(),
+        line: drawn,
+    }
 }
 
-/// Which inset is whose: a letter outside, where no magnified pixel is. Returns where the letters are.
+/// Which inset is whose: a letter outside, where no magnified pixel is, and in the half of its picture. Returns where the
+/// letters are.
 fn letters(ui: &Ui, viewer: &Viewer, free: Rect) -> Vec<Rect> {
     let Some(other) = viewer.other_inset() else {
         return Vec::new();
@@ -85,12 +99,18 @@ fn letters(ui: &Ui, viewer: &Viewer, free: Rect) -> Vec<Rect> {
     let mut places = Vec::new();
     for (letter, placed) in viewer.inset().map(|own| ("A", own)).into_iter().chain([("B", other)]) {
         let inset = points(&placed.rect, ui.pixels_per_point());
-        let corner = if inset.left() - LETTER > free.left() {
-            inset.left_top() - vec2(LETTER, 0.0)
-        } else {
-            inset.right_top()
+        let middle = free.center().x;
+        let home = match viewer.arrangement() {
+            Arrangement::SideBySide if inset.center().x < middle => free.with_max_x(middle),
+            Arrangement::SideBySide => free.with_min_x(middle),
+            _ => free,
         };
-        let place = Rect::from_min_size(corner, Vec2::splat(LETTER));
+        let sides = [inset.left_top() - vec2(LETTER, 0.0), inset.right_top()];
+        let sides = sides.map(|corner| Rect::from_min_size(corner, Vec2::splat(LETTER)));
+        let place = sides
+            .into_iter()
+            .find(|place| home.contains_rect(*place))
+            .unwrap_or(sides[1]);
         ui.painter().rect_filled(place, 0.0, Color32::from_black_alpha(190));
         let font = FontId::proportional(13.0);
         ui.painter()
@@ -101,13 +121,13 @@ fn letters(ui: &Ui, viewer: &Viewer, free: Rect) -> Vec<Rect> {
 }
 
 /// The line with its handle; the pointer tells that it can be dragged. It passes behind the insets, where no hand can
-/// take it.
-fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, (x, insets): (f32, &[Rect])) {
+/// take it, and behind their letters. Returns what its parts take.
+fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, (x, insets): (f32, &[Rect])) -> Vec<Rect> {
     if viewer.pointer_over_line() {
         ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
     }
     if !free.x_range().contains(x) {
-        return;
+        return Vec::new();
     }
     let painter = ui.painter();
     let pieces = free_pieces(free, x, insets);
@@ -116,11 +136,18 @@ fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, (x, insets): (f32, &[Rect])) 
             painter.vline(x, *piece, Stroke::new(width, color));
         }
     }
-    let longest = pieces.into_iter().max_by(|a, b| a.span().total_cmp(&b.span()));
-    let Some(longest) = longest.filter(|piece| piece.span() >= 2.0 * HANDLE) else {
-        return;
-    };
-    let middle = pos2(x, longest.center());
+    let longest = pieces.iter().max_by(|a, b| a.span().total_cmp(&b.span()));
+    if let Some(longest) = longest.filter(|piece| piece.span() >= 2.0 * HANDLE) {
+        draw_handle(ui, pos2(x, longest.center()));
+    }
+    let taken = pieces
+        .into_iter()
+        .map(|piece| Rect::from_x_y_ranges(x - HANDLE..=x + HANDLE, piece));
+    taken.collect()
+}
+
+fn draw_handle(ui: &Ui, middle: Pos2) {
+    let painter = ui.painter();
     painter.circle(
         middle,
         HANDLE,
@@ -220,14 +247,14 @@ mod tests {
             let _ = viewer.apply(Command::Ab(AbCommand::SetWipe(part)));
             viewer.finish();
             let line = viewer.wipe_line().expect("a wipe");
-            let mut places = Vec::new();
+            let mut places = Marks::default();
             let input = egui::RawInput {
                 screen_rect: Some(area),
                 ..egui::RawInput::default()
             };
             let mut output = ctx.run_ui(input, |ui| places = show(ui, &viewer, area, &[]));
             output.textures_delta.clear();
-            let [a, b] = places[..] else {
+            let [a, b] = places.labels[..] else {
                 panic!("{places:?} with the line at {line}");
             };
             assert!(f64::from(a.right()) <= line && area.contains_rect(a), "{a:?} of {line}");
@@ -273,13 +300,14 @@ mod tests {
                 ] {
                     assert!(viewer.apply(command).is_empty(), "nothing to do");
                 }
-                let mut places = Vec::new();
+                let mut places = Marks::default();
                 let input = egui::RawInput {
                     screen_rect: Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(800.0, 600.0))),
                     ..egui::RawInput::default()
                 };
                 let mut output = ctx.run_ui(input, |ui| places = show(ui, &viewer, area, &[]));
                 output.textures_delta.clear();
+                let places = places.labels;
                 letters += places
                     .iter()
                     .filter(|place| place.size() == Vec2::splat(LETTER))

@@ -19,24 +19,58 @@ pub(super) fn has_report(viewer: &Viewer) -> bool {
         .is_some_and(|entry| entry.failure().is_some() || noted(entry))
 }
 
-/// Whether [`readings`] has something to say.
-pub(super) fn has_readings(viewer: &Viewer) -> bool {
-    viewer.reading_note().is_some()
+/// Height of [`readings`], in points.
+pub(super) const READINGS: f32 = 96.0;
+
+/// What is said about the readings of a scene, kept while the next scene is read.
+#[derive(Debug, Default)]
+pub(super) struct Readings {
+    note: Option<String>,
+    /// Whether a scene of the list has two readings, as far as one knows.
+    seen: bool,
 }
 
-/// Which of two readings of the scene was taken, and a button for the other.
-pub(super) fn readings(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    let Some(note) = viewer.reading_note() else {
-        return;
-    };
-    heading(ui, "Two readings");
-    ui.label(RichText::new(note).small());
-    if command_button(ui, "other-reading", "The other reading").clicked() {
-        commands.push(Command::Scenes(SceneCommand::OtherReading));
+impl Readings {
+    /// Takes in the current scene.
+    pub(super) fn follow(&mut self, viewer: &Viewer) {
+        if viewer.current().is_none_or(|entry| !entry.is_reading()) {
+            self.note = viewer.reading_note();
+        }
+        self.seen |= self.note.is_some();
+    }
+
+    /// Height that every scene of the list has for the note, so that nothing moves from one to the next.
+    pub(super) fn height(&self) -> f32 {
+        if self.seen { READINGS } else { 0.0 }
+    }
+
+    /// Which of two readings of the scene was taken, and a button for the other; as high for every scene.
+    pub(super) fn show(&self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+        ui.scope(|ui| {
+            ui.set_min_height(READINGS - ui.spacing().item_spacing.y);
+            self.contents(ui, viewer, commands);
+        });
+    }
+
+    fn contents(&self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+        let Some(note) = &self.note else {
+            if let Some(scene) = viewer.current().and_then(SceneEntry::scene) {
+                heading(ui, "One reading");
+                let note = format!("read as {}", scene.dialect.name());
+                ui.label(RichText::new(note).small().weak());
+            }
+            return;
+        };
+        heading(ui, "Two readings");
+        // Above the note, which takes one line or two.
+        if command_button(ui, "other-reading", "The other reading").clicked() {
+            commands.push(Command::Scenes(SceneCommand::OtherReading));
+        }
+        ui.label(RichText::new(note).small());
     }
 }
 
-/// The reader's report, where there is one; and why a scene could not be read.
+/// The reader's report, and why a scene could not be read.
 pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
     let Some(entry) = viewer.current() else {
         return;
@@ -46,9 +80,13 @@ pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
         ui.label(RichText::new(message).color(ui.visuals().error_fg_color));
         return;
     }
-    let Some(scene) = entry.scene().filter(|scene| !scene.report.is_empty()) else {
+    let Some(scene) = entry.scene() else {
         return;
     };
+    if scene.report.is_empty() {
+        heading(ui, "Reader: no notes");
+        return;
+    }
     let count = scene.report.lines().count();
     heading(
         ui,

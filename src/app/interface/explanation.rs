@@ -9,12 +9,12 @@ use egui::{
 
 use super::controls::{command_button, tip};
 use super::floating::{around, points};
+use super::look::CONTROL;
 use super::look::opaque;
-use super::look::{self, CONTROL};
 use super::{compare, scrubber, twin};
 use crate::inspect::{Difference, Explanation, Paint, TexelPlace};
 use crate::render::Visualisation;
-use crate::viewer::{Command, Toggle, Viewer};
+use crate::viewer::{Arrangement, Command, Toggle, Viewer};
 
 /// Width of the panel, in points, frame included.
 pub(super) const WIDTH: f32 = 348.0;
@@ -402,7 +402,11 @@ impl Hovered {
             .map(|contour| contour.iter().map(|at| point(*at)).collect())
             .collect();
         let inset = viewer.inset().map(|placed| points(&placed.rect, ui.pixels_per_point()));
-        for part in around(free, inset) {
+        let shown = match viewer.arrangement() {
+            Arrangement::SideBySide => free.with_max_x(free.center().x),
+            _ => free,
+        };
+        for part in around(shown, inset) {
             let painter = ui.painter().with_clip_rect(part);
             for (width, color) in OUTLINE {
                 for contour in &contours {
@@ -420,13 +424,7 @@ pub(super) fn fits(width: f32) -> bool {
     width >= WIDTH + LEAST_REST
 }
 
-/// Whether the panel goes on the left: unless the pinned pixel lies there. `None` where the window is too narrow.
-pub(super) fn side(viewer: &Viewer, free: Rect, pixels_per_point: f32) -> Option<bool> {
-    if !viewer.explains() || !fits(free.width()) {
-        return None;
-    }
-    let pixel = viewer.pinned_pixel()?;
-    let zoom = viewer.settings().pixel_zoom.factor() as f32;
-    let x = pixel[0] as f32 * zoom / pixels_per_point;
-    Some(x > free.left() + WIDTH + look::PANEL_WIDTH / 8.0)
+/// Whether there is a pixel to explain, and room for the panel in `width` points.
+pub(super) fn is_shown(viewer: &Viewer, width: f32) -> bool {
+    viewer.explains() && fits(width)
 }

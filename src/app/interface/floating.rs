@@ -4,7 +4,8 @@
 use crate::viewer::{InspectorCommand, WindowCommand};
 use std::collections::HashMap;
 
-use egui::{Align2, Area, Button, Color32, FontId, Frame, Id, Order, Rect, RichText, Sense, Ui, Vec2, pos2, vec2};
+use egui::{Align2, Area, Button, Color32, FontId, Frame, Id, Order, Pos2, Rect, RichText, Sense, Ui, Vec2};
+use egui::{pos2, vec2};
 
 use super::controls::tip;
 use super::look::CONTROL;
@@ -17,16 +18,22 @@ const DONE_SECONDS: f64 = 5.0;
 /// Seconds that a message about a fault stays.
 const ERROR_SECONDS: f64 = 15.0;
 
+/// How far a pointer moves that rests no more, in points.
+const REST: f32 = 5.0;
+
 /// Height of the progress bar, in points.
 const BAR_HEIGHT: f32 = 3.0;
 /// Free space around the text over the picture, in points.
 const TEXT_MARGIN: f32 = 10.0;
 
 /// The text over the picture: scene and settings. It gives way to the inspector's inset and to what is `taken`
-/// besides, and is left out where there is no room.
-pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) {
-    let Some(entry) = viewer.current() else {
-        return;
+/// besides, and is left out where there is no room. Returns where it stands.
+pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Option<Rect> {
+    let entry = viewer.current()?;
+    // Never across the line between two pictures.
+    let free = match viewer.arrangement() {
+        Arrangement::SideBySide => free.with_max_x(free.center().x),
+        _ => free,
     };
     let mut lines = vec![entry.label.clone()];
     lines.extend(overlay_words(viewer));
@@ -42,12 +49,12 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect])
     );
     let insets = viewer.inset().into_iter().chain(viewer.other_inset());
     let insets = insets.map(|placed| points(&placed.rect, ui.pixels_per_point()));
-    let taken: Vec<Rect> = taken.iter().copied().chain(insets).collect();
-    let Some(back) = free_corner(free, galley.size() + vec2(16.0, 10.0), &taken) else {
-        return;
-    };
+    let legends = legends(viewer, ui.pixels_per_point());
+    let taken: Vec<Rect> = taken.iter().copied().chain(insets).chain(legends).collect();
+    let back = free_corner(free, galley.size() + vec2(16.0, 10.0), &taken)?;
     ui.painter().rect_filled(back, 5.0, Color32::from_black_alpha(170));
     ui.painter().galley(back.min + vec2(8.0, 5.0), galley, Color32::WHITE);
+    Some(back)
 }
 
 /// The settings; none while A and B share the window, where tags tell them.
@@ -115,6 +122,12 @@ fn free_corner(area: Rect, size: Vec2, taken: &[Rect]) -> Option<Rect> {
     .find(|place| room.contains_rect(*place) && taken.iter().all(|other| !other.intersects(*place)))
 }
 
+/// Where the legends of the picture lie, in points.
+pub(super) fn legends(viewer: &Viewer, scale: f32) -> Vec<Rect> {
+    let places = viewer.legend_places();
+    places.iter().map(|place| points(place, scale)).collect()
+}
+
 /// Device pixels as points.
 pub(super) fn points(rect: &PixelRect, scale: f32) -> Rect {
     let part = |value: i64| i32::try_from(value).unwrap_or_default() as f32 / scale;
@@ -160,14 +173,39 @@ pub(super) fn pixel_labels(ui: &Ui, viewer: &Viewer) {
 }
 
 /// The button that closes the inspector, while the pointer is over a pinned inset: unpinned it gives way to the pointer.
-pub(super) fn close_of_inset(ui: &Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    let Some(placed) = viewer.inset().filter(|_| viewer.pinned_pixel().is_some()) else {
-        return;
-    };
-    let inset = points(&placed.rect, ui.pixels_per_point());
-    if !ui.input(|input| input.pointer.latest_pos().is_some_and(|at| inset.contains(at))) {
-        return;
+/// An inset that comes to lie under a resting pointer has none until the pointer moves: the second half of a double click
+/// on what was there before is not meant for it.
+#[derive(Debug, Default)]
+pub(super) struct CloseOfInset {
+    /// Inset and pointer in the last pass.
+    last: Option<(Rect, Pos2)>,
+    /// Where the pointer rests since the inset came.
+    rests_at: Option<Pos2>,
+}
+
+impl CloseOfInset {
+    /// Shows it.
+    pub(super) fn show(&mut self, ui: &Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+        let scale = ui.pixels_per_point();
+        let pinned = viewer.inset().filter(|_| viewer.pinned_pixel().is_some());
+        let inset = pinned.map_or(Rect::NOTHING, |placed| points(&placed.rect, scale));
+        let pointer = ui.input(|input| input.pointer.latest_pos());
+        let before = std::mem::replace(&mut self.last, pointer.map(|at| (inset, at)));
+        let Some(at) = pointer.filter(|at| inset.contains(*at)) else {
+            self.rests_at = None;
+            return;
+        };
+        if before.is_some_and(|(inset, pointer)| pointer == at && !inset.contains(at)) {
+            self.rests_at = Some(at);
+        }
+        self.rests_at = self.rests_at.filter(|rest| rest.distance(at) < REST);
+        if self.rests_at.is_none() {
+            close_of_inset(ui, inset, commands);
+        }
     }
+}
+
+fn close_of_inset(ui: &Ui, inset: Rect, commands: &mut Vec<Command>) {
     let button = Area::new(Id::unique("close inspector"))
         .order(Order::Middle)
         .fixed_pos(inset.right_top() + vec2(-3.0, 3.0))
@@ -222,7 +260,7 @@ impl MessageClock {
     }
 }
 
-fn toast(ui: &Ui, message: &Message, corner: egui::Pos2, width: f32) -> (Rect, bool) {
+fn toast(ui: &Ui, message: &Message, corner: Pos2, width: f32) -> (Rect, bool) {
     let visuals = ui.visuals();
     let color = match message.kind {
         MessageKind::Done | MessageKind::Question => visuals.strong_text_color(),

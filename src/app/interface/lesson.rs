@@ -30,7 +30,8 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             if command_button(ui, "next-scene", "Next").clicked() {
                 commands.push(Command::Scenes(SceneCommand::Next));
             }
-            if command_button(ui, "previous-scene", "Back").clicked() {
+            let back = ui.add_enabled_ui(at > 0, |ui| command_button(ui, "previous-scene", "Back"));
+            if back.inner.clicked() {
                 commands.push(Command::Scenes(SceneCommand::Previous));
             }
         });

@@ -12,6 +12,7 @@ mod controls;
 mod dialogs;
 mod document;
 mod explanation;
+mod explanation_side;
 mod fed;
 mod floating;
 mod hits;
@@ -32,11 +33,14 @@ use crate::viewer::WindowCommand;
 use egui::{Context, Frame, Margin, Panel, Pos2, Rect, ScrollArea, Ui};
 use glam::DVec2;
 
-use crate::viewer::{Command, PixelRect, Theme, ViewNumbers, Viewer};
+use crate::viewer::{Arrangement, Command, PixelRect, Theme, ViewNumbers, Viewer};
+use compare_marks::Marks;
 use dialogs::Dialogs;
 use explanation::{ExplanationPanel, Hovered};
-use floating::MessageClock;
+use explanation_side::Side;
+use floating::{CloseOfInset, MessageClock};
 use scenes::Thumbnails;
+use side_panel::PanelMemory;
 
 /// Width of the picture that two panels leave at least, in points.
 const LEAST_PICTURE: f32 = 160.0;
@@ -56,10 +60,19 @@ pub(super) struct Interface {
     dialogs: Dialogs,
     explanation: ExplanationPanel,
     clock: MessageClock,
+    close_of_inset: CloseOfInset,
+    /// What the side panel remembers.
+    panel: PanelMemory,
     /// Whether the panel of the comparison is on the right, while there is one.
     comparison_on_right: Option<bool>,
+    /// On which side the explanation is, while there is one.
+    explanation_side: Option<Side>,
     /// What the panels covered in the last pass, in points.
     covered: Vec<Rect>,
+    /// Where words stood over the picture in the last pass, in points.
+    labels: Vec<Rect>,
+    /// Where the parts of the line of a wipe were, in points.
+    line: Vec<Rect>,
 }
 
 /// What a pass asks for.
@@ -89,8 +102,13 @@ impl Interface {
             dialogs: Dialogs::default(),
             explanation: ExplanationPanel::default(),
             clock: MessageClock::default(),
+            close_of_inset: CloseOfInset::default(),
+            panel: PanelMemory::default(),
             comparison_on_right: None,
+            explanation_side: None,
             covered: Vec::new(),
+            labels: Vec::new(),
+            line: Vec::new(),
         }
     }
 
@@ -106,6 +124,18 @@ impl Interface {
             .layer_id_at(at)
             .is_some_and(|layer| layer.order != egui::Order::Background);
         above || self.covered.iter().any(|rect| rect.contains(at))
+    }
+
+    /// Where words stand over the picture, in points.
+    #[cfg(test)]
+    pub(super) fn labels(&self) -> &[Rect] {
+        &self.labels
+    }
+
+    /// Where the parts of the line of a wipe are, in points.
+    #[cfg(test)]
+    pub(super) fn line(&self) -> &[Rect] {
+        &self.line
     }
 
     /// Whether a line of text has the keyboard.
@@ -161,6 +191,8 @@ impl Interface {
     /// Lays out all panels.
     pub(super) fn show(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
         self.covered.clear();
+        self.labels.clear();
+        self.line.clear();
         let whole = ui.max_rect();
         let hidden = viewer.everything_hidden();
         let mut has_comparison = false;
@@ -178,7 +210,7 @@ impl Interface {
                 // Why a pixel has its colour tells the same of A and B, for that pixel: it goes first where there is not room
                 // for both.
                 let room = ui.available_rect_before_wrap();
-                let beside = if explanation::side(viewer, room, ui.pixels_per_point()).is_some() {
+                let beside = if explanation::is_shown(viewer, room.width()) {
                     explanation::WIDTH + USEFUL_PICTURE
                 } else {
                     LEAST_PICTURE
@@ -213,13 +245,14 @@ impl Interface {
         floating::pixel_labels(ui, viewer);
         fed::show(ui, viewer, free);
         hits::hits(ui, viewer);
-        floating::close_of_inset(ui, viewer, &mut asked.commands);
+        self.close_of_inset.show(ui, viewer, &mut asked.commands);
         let messages = self.clock.show(ui, viewer, free, &mut asked.commands);
         if !hidden {
-            let mut taken = compare_marks::show(ui, viewer, free, &messages);
-            taken.extend(&messages);
+            let Marks { labels, line } = compare_marks::show(ui, viewer, free, &messages);
+            let taken: Vec<Rect> = labels.iter().chain(&messages).chain(&line).copied().collect();
+            (self.labels, self.line) = (labels, line);
             if viewer.overlay_text() {
-                floating::overlay_text(ui, viewer, free, &taken);
+                self.labels.extend(floating::overlay_text(ui, viewer, free, &taken));
             }
         }
         self.covered.extend(messages);
@@ -242,6 +275,10 @@ impl Interface {
         let room = ui.available_rect_before_wrap();
         let scale = ui.pixels_per_point();
         let on_right = *self.comparison_on_right.get_or_insert_with(|| {
+            if viewer.arrangement() == Arrangement::SideBySide {
+                // Both halves lie beside it, wherever it is.
+                return false;
+            }
             let places = viewer.pinned_places();
             let pin = places.first().map(|place| floating::points(place, scale).center().x);
             pin.is_some_and(|x| {
@@ -270,10 +307,22 @@ impl Interface {
     /// Why the pinned pixel has its colour, beside the picture.
     fn explanation(&mut self, ui: &mut Ui, viewer: &Viewer, whole: Rect, asked: &mut Asked) -> Hovered {
         let free = ui.available_rect_before_wrap().intersect(whole);
-        let panel = match explanation::side(viewer, free, ui.pixels_per_point()) {
-            None => return Hovered::default(),
-            Some(true) => Panel::left("explanation"),
-            Some(false) => Panel::right("explanation on the right"),
+        if !explanation::is_shown(viewer, free.width()) {
+            self.explanation_side = None;
+            return Hovered::default();
+        }
+        let side = Side::choose(
+            self.explanation_side,
+            viewer,
+            (free, whole.width()),
+            ui.pixels_per_point(),
+        );
+        // The place of a pin is not known before its scene is.
+        self.explanation_side = Some(side).filter(|_| viewer.view_numbers().is_some());
+        let panel = if side.is_left {
+            Panel::left("explanation")
+        } else {
+            Panel::right("explanation on the right")
         };
         let memory = &mut self.explanation;
         let panel = panel

@@ -6,7 +6,7 @@ use super::floating::{around, points};
 use crate::viewer::Viewer;
 
 /// Radius of the ring around a pixel of no extent, in points.
-const RADIUS: f32 = 8.0;
+pub(super) const RADIUS: f32 = 8.0;
 /// What must stay free beside the pinned pixel, so that one sees where it lies, in points.
 pub(super) const ROOM: f32 = 24.0;
 /// The ring on any ground, the widest line first, in the colour that marks the pixel in the inspector.

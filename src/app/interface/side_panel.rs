@@ -7,9 +7,10 @@
 use egui::style::ScrollStyle;
 use egui::{Panel, ScrollArea, Ui};
 
+use super::document::Readings;
 use super::scenes::{self, Wishes};
 use super::{Asked, Interface, compare, document, look, panel_frame, sampling, view_numbers};
-use crate::viewer::Viewer;
+use crate::viewer::{SceneSource, Viewer};
 
 /// Height of everything above the scenes but the report where all of it is shown, in points.
 const SETTINGS: f32 = 714.0;
@@ -19,10 +20,39 @@ const TIMES: f32 = 80.0;
 const LEAST_LIST: f32 = 170.0;
 /// The same for the reader's report.
 const LEAST_REPORT: f32 = 96.0;
-/// Height of the note about the two readings of a scene, in points.
-const READINGS: f32 = 96.0;
 /// Longest report in a panel that scrolls as a whole, in points.
 const LONG_REPORT: f32 = 240.0;
+
+/// What the side panel remembers.
+#[derive(Debug, Default)]
+pub(super) struct PanelMemory {
+    /// How many scenes the list has, and the first: what follows belongs to these.
+    list: Option<(usize, SceneSource)>,
+    readings: Readings,
+    /// Height of the longest report so far, in points: every scene has that room, so that nothing moves from one to the
+    /// next.
+    report: f32,
+    /// The panel's height in the last pass, in points.
+    height: f32,
+}
+
+impl PanelMemory {
+    /// Takes in the current scene.
+    fn follow(&mut self, viewer: &Viewer) {
+        let list = viewer
+            .scenes()
+            .first()
+            .map(|first| (viewer.scenes().len(), &first.source));
+        if self.list.as_ref().map(|(count, first)| (*count, first)) != list {
+            *self = Self {
+                list: list.map(|(count, first)| (count, first.clone())),
+                height: self.height,
+                ..Self::default()
+            };
+        }
+        self.readings.follow(viewer);
+    }
+}
 
 impl Interface {
     pub(super) fn side_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
@@ -32,12 +62,20 @@ impl Interface {
             .frame(panel_frame(ui, look::scrolling_margin(4)))
             .show(ui, |ui| {
                 look::bars_beside(ui);
-                let Some(report_room) = self.report_room(ui.available_height(), viewer) else {
+                self.panel.follow(viewer);
+                let height = ui.available_height();
+                let before = std::mem::replace(&mut self.panel.height, height);
+                let Some(report_room) = self.report_room(height, viewer) else {
                     let area = ScrollArea::vertical().id_salt("panel").auto_shrink(false);
-                    area.show(ui, |ui| {
+                    area.show_viewport(ui, |ui, seen| {
                         self.settings(ui, viewer, asked);
                         // Scrolling to the scene would scroll the settings away.
                         self.scenes(ui, viewer, None, asked);
+                        // A scene with less to say leaves the panel scrolled as far as it is.
+                        let rest = seen.max.y - ui.min_rect().height();
+                        if rest > 0.0 && (before - height).abs() < 0.5 {
+                            ui.add_space(rest);
+                        }
                     });
                     return;
                 };
@@ -54,13 +92,12 @@ impl Interface {
     /// too low for that.
     fn report_room(&self, height: f32, viewer: &Viewer) -> Option<f32> {
         let settings = SETTINGS - if self.timed { 0.0 } else { TIMES };
-        let least = if document::has_report(viewer) {
+        let least = if document::has_report(viewer) || self.panel.report > 0.0 {
             LEAST_REPORT
         } else {
             0.0
         };
-        let readings = if document::has_readings(viewer) { READINGS } else { 0.0 };
-        let room = height - settings - readings - scenes::height(viewer).min(LEAST_LIST);
+        let room = height - settings - self.panel.readings.height() - scenes::height(viewer).min(LEAST_LIST);
         (room >= least).then_some(room)
     }
 
@@ -85,8 +122,14 @@ impl Interface {
                 ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
             }
             scenes::title(ui, viewer, &mut asked.commands);
-            if document::has_readings(viewer) || document::has_report(viewer) {
-                about_scene(ui, viewer, report_room.unwrap_or(LONG_REPORT), asked);
+            let memory = &mut self.panel;
+            if memory.readings.height() > 0.0 {
+                // Its button must not hide in what scrolls.
+                memory.readings.show(ui, viewer, &mut asked.commands);
+            }
+            if document::has_report(viewer) || memory.report > 0.0 {
+                let room = report_room.unwrap_or(LONG_REPORT);
+                memory.report = report(ui, viewer, (memory.report, room));
             }
         });
         let mut requests = Wishes {
@@ -105,21 +148,23 @@ impl Interface {
     }
 }
 
-/// The two readings of a scene and the reader's report.
-fn about_scene(ui: &mut Ui, viewer: &Viewer, report_room: f32, asked: &mut Asked) {
-    // Its button must not hide in what scrolls.
-    document::readings(ui, viewer, &mut asked.commands);
+/// The reader's report, in `least` points at least where there is `room`. Its height.
+fn report(ui: &mut Ui, viewer: &Viewer, (least, room): (f32, f32)) -> f32 {
     // A bar that is always to be seen tells that there is more.
     ui.spacing_mut().scroll = ScrollStyle {
         floating_width: 4.0,
         foreground_color: true,
         ..ScrollStyle::thin()
     };
-    ScrollArea::vertical()
-        .id_salt("report")
-        .auto_shrink([false, true])
-        .max_height(report_room)
-        .show(ui, |ui| document::report(ui, viewer));
+    let shown = ui.scope(|ui| {
+        ui.set_min_height(least.min(room));
+        ScrollArea::vertical()
+            .id_salt("report")
+            .auto_shrink([false, true])
+            .max_height(room)
+            .show(ui, |ui| document::report(ui, viewer));
+    });
+    shown.response.rect.height()
 }
 
 #[cfg(test)]
@@ -130,6 +175,7 @@ mod tests {
 
     use egui::{Pos2, RawInput, Rect, vec2};
 
+    use super::super::document::READINGS;
     use super::*;
     use crate::viewer::{Command, ViewerOptions};
 
@@ -191,9 +237,9 @@ mod tests {
             let top = ui.cursor().top();
             // The longest note takes two lines.
             crate::app::interface::controls::heading(ui, "Two readings");
+            let _ = ui.button("The other reading");
             let note = "read as course, as other scenes of its folder are; as svg it is another picture";
             ui.label(egui::RichText::new(note).small());
-            let _ = ui.button("The other reading");
             ui.cursor().top() - top
         });
         assert!(

@@ -1,5 +1,6 @@
 //! The status line: the pixel under the pointer, where it lies, its colour; and what the window shows.
 
+use crate::viewer::InspectorCommand;
 use crate::viewer::WindowCommand;
 use egui::{Align, Color32, CornerRadius, FontId, Layout, Sense, Stroke, StrokeKind, Ui, vec2};
 
@@ -16,6 +17,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         panel_switch(ui, viewer, commands);
+        close_of_inspector(ui, viewer, commands);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             ui.shrink_clip_rect(ui.max_rect());
             match viewer.status() {
@@ -57,6 +59,19 @@ fn panel_switch(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         .clicked()
     {
         commands.push(Command::Window(WindowCommand::Panel(Toggle::Flip)));
+    }
+    ui.add_space(4.0);
+}
+
+/// Closes an inspector that follows the pointer: its inset gives way to whoever wants to click there.
+fn close_of_inspector(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    if !viewer.inspector().open || viewer.pinned_pixel().is_some() {
+        return;
+    }
+    let button = ui.add(egui::Button::new("Magnifier  \u{d7}").small());
+    let button = button.on_hover_text(tip("inspector"));
+    if button.accessible_name("Close the inspector").clicked() {
+        commands.push(Command::Inspector(InspectorCommand::Show(Toggle::Off)));
     }
     ui.add_space(4.0);
 }

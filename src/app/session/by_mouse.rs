@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use glam::{DVec2, dvec2};
 
-use super::hands::{place_of, session};
+use super::hands::{click, place_of, session};
 use super::small_windows::{click_on, comparing, right_click, says};
 use super::*;
 use crate::viewer::script::Stage as _;
@@ -203,4 +203,64 @@ fn missing_room_for_an_explanation_is_told() {
     session.resize([1280, 800]);
     session.settle();
     assert!(session.viewer.explanation().is_some(), "explained where there is room");
+}
+
+#[test]
+fn scene_change_leaves_a_scrolled_panel_where_it_is() {
+    let folder = folder();
+    let paths = ["2.svg", "1.svg"].map(|name| folder.path().join(name)).to_vec();
+    for window in [[800, 600], [1280, 800], [1366, 768], [1600, 1300]] {
+        let mut session = session(paths.clone(), window);
+        session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+        session.pointer(Some(dvec2(f64::from(window[0]) - 100.0, 300.0)));
+        for _ in 0..40 {
+            session.wheel(-3.0);
+        }
+        session.settle();
+        let names = ["Next scene", "Scene 1.svg", "Scene 2.svg"];
+        let places = |session: &mut Session| names.map(|name| place_of(session, name));
+        let before = places(&mut session);
+        assert!(
+            before[0].y > 0.0 && before[0].y < f64::from(window[1]),
+            "{before:?} in {window:?}"
+        );
+        for name in ["Next scene", "Next scene", "Scene 1.svg", "Scene 2.svg"] {
+            let at = place_of(&mut session, name);
+            click(&mut session, at);
+            for what in ["at once", "at the next turn"] {
+                assert_eq!(places(&mut session), before, "{name}, {what}, in {window:?}");
+            }
+            session.settle();
+            assert_eq!(places(&mut session), before, "{name} in {window:?}");
+        }
+    }
+}
+
+#[test]
+fn other_reading_moves_nothing_and_draws_its_folder_anew() {
+    let folder = folder();
+    let boxed = std::fs::read_to_string(folder.path().join("2.svg")).expect("a file");
+    std::fs::write(folder.path().join("6.svg"), boxed).expect("a file");
+    let paths = ["2.svg", "6.svg"].map(|name| folder.path().join(name)).to_vec();
+    let mut session = session(paths, [1600, 1300]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.settle();
+    let pictures = |session: &Session| {
+        let scenes = session.viewer.scenes().iter();
+        scenes
+            .map(|entry| entry.thumbnail.clone().expect("in sight"))
+            .collect::<Vec<_>>()
+    };
+    let names = ["Read in the other dialect", "Scene 2.svg"];
+    let before = names.map(|name| place_of(&mut session, name));
+    let drawn = pictures(&session);
+    click_on(&mut session, names[0]);
+    assert_eq!(
+        names.map(|name| place_of(&mut session, name)),
+        before,
+        "after its first use"
+    );
+    for (old, new) in drawn.iter().zip(pictures(&session)) {
+        assert!(**old != *new, "drawn as it is read now");
+    }
 }

@@ -3,6 +3,8 @@
 
 #[cfg(test)]
 mod by_mouse;
+#[cfg(test)]
+mod comparing;
 mod damage;
 #[cfg(test)]
 mod hands;

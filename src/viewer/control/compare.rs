@@ -38,7 +38,17 @@ impl Viewer {
         Some(self.comparison.paint.as_ref()?.colors.gain())
     }
 
+    /// Carries out a command; what is explained stays in sight.
     pub(in crate::viewer) fn apply_ab(&mut self, command: AbCommand) {
+        let panes = self.explains().then(|| self.panes());
+        self.change_ab(command);
+        if panes.is_some_and(|before| before != self.panes()) {
+            self.keep_explained_pin_in_sight();
+        }
+        self.comparison.touch();
+    }
+
+    fn change_ab(&mut self, command: AbCommand) {
         match command {
             AbCommand::Swap => self.swap_ab(),
             AbCommand::Compare(against) => self.compare(against),
@@ -48,8 +58,8 @@ impl Viewer {
                 self.arrange(if shown { Arrangement::Alone } else { arrangement });
             }
             AbCommand::FlipByHand => self.flip_by_hand(),
-            AbCommand::SetWipe(part) if !part.is_finite() => return,
-            AbCommand::SetGain(gain) if !gain.is_finite() => return,
+            AbCommand::SetWipe(part) if !part.is_finite() => {}
+            AbCommand::SetGain(gain) if !gain.is_finite() => {}
             AbCommand::SetWipe(part) => {
                 self.comparison.wipe = part.clamp(0.0, 1.0);
                 self.arrange(Arrangement::Wipe);
@@ -76,7 +86,6 @@ impl Viewer {
                 self.arrange(Arrangement::Difference);
             }
         }
-        self.comparison.touch();
     }
 
     /// Closes what both share the window in; true if there was such.

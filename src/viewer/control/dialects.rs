@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::scene::{Dialect, DialectChoice};
-use crate::viewer::library::SceneEntry;
+use crate::viewer::library::{SceneEntry, SceneState};
 use crate::viewer::state::Viewer;
 
 impl Viewer {
@@ -64,11 +64,35 @@ impl Viewer {
             Dialect::Svg => (Dialect::Course, DialectChoice::Course),
         };
         let folder: Option<PathBuf> = entry.folder().map(Path::to_owned);
+        let readings = |viewer: &Self| -> Vec<DialectChoice> {
+            let scenes = 0..viewer.scenes.len();
+            scenes
+                .map(|index| viewer.reading_of(index, viewer.settings.dialect))
+                .collect()
+        };
+        let before = readings(self);
         match folder.filter(|_| self.settings.dialect == DialectChoice::Auto) {
             Some(folder) => {
                 self.chosen_readings.insert(folder, other);
             }
             None => self.settings.dialect = choice,
+        }
+        for (index, (before, now)) in before.into_iter().zip(readings(self)).enumerate() {
+            if index != self.current && before != now {
+                self.read_anew(index);
+            }
+        }
+    }
+
+    /// Lets go of a scene that is read in another way now, and asks for its thumbnail again; the old one stays until then.
+    fn read_anew(&mut self, index: usize) {
+        let Some(entry) = self.scenes.get_mut(index).filter(|entry| !entry.is_reading()) else {
+            return;
+        };
+        entry.state = SceneState::Unread;
+        entry.thumbnail_asked = false;
+        if entry.thumbnail.is_some() {
+            self.request_thumbnail(index);
         }
     }
 }

@@ -118,7 +118,8 @@ impl Viewer {
         vec![Effect::CopyText(explained.own.markdown(Detail::Telling))]
     }
 
-    /// The contours of a primitive of the frame on the screen, in window pixels; closed, but for a line of two points.
+    /// The contours of a primitive of the frame on the screen, in window pixels; closed, but for a line of two points. Of two
+    /// pictures side by side they lie over the first.
     pub fn outline_of(&self, primitive: u32) -> Vec<Vec<[f64; 2]>> {
         let Some(frame) = self.frame() else {
             return Vec::new();
@@ -128,10 +129,12 @@ impl Viewer {
             return Vec::new();
         };
         let zoom = f64::from(self.settings.pixel_zoom.factor());
+        let [left, top] = self.panes().first.corner;
+        let corner = glam::DVec2::new(left as f64, top as f64);
         let place = |points: &[glam::DVec2]| -> Vec<[f64; 2]> {
             let points = points.iter().take(MOST_POINTS);
             points
-                .map(|point| (picture.view.to_pixels(*point) * zoom).to_array())
+                .map(|point| ((picture.view.to_pixels(*point) + corner) * zoom).to_array())
                 .collect()
         };
         match &primitive.kind {
@@ -147,7 +150,7 @@ impl Viewer {
             }
             PrimitiveKind::Hairline { ends, .. } => vec![place(ends)],
             PrimitiveKind::Point { at, .. } => {
-                let [x, y] = picture.view.to_pixels(*at).floor().to_array();
+                let [x, y] = (picture.view.to_pixels(*at).floor() + corner).to_array();
                 let corner = |dx: f64, dy: f64| [(x + dx) * zoom, (y + dy) * zoom];
                 vec![vec![
                     corner(0.0, 0.0),

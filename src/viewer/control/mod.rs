@@ -4,6 +4,7 @@
 
 pub(in crate::viewer) mod ab_words;
 pub(in crate::viewer) mod apply;
+pub(in crate::viewer) mod asked;
 pub(in crate::viewer) mod compare;
 pub(in crate::viewer) mod contributions;
 pub(in crate::viewer) mod copy;
@@ -12,6 +13,7 @@ pub(in crate::viewer) mod explanation;
 pub(in crate::viewer) mod frames;
 pub(in crate::viewer) mod legends;
 pub(in crate::viewer) mod lesson;
+pub(in crate::viewer) mod magnifiers;
 pub(in crate::viewer) mod measuring;
 pub(in crate::viewer) mod open;
 pub(in crate::viewer) mod outside;

@@ -66,7 +66,7 @@ impl Viewer {
     }
 
     /// The free area in whole screen pixels; `None` where there is none.
-    fn free_screen(&self) -> Option<PixelRect> {
+    pub(in super::super) fn free_screen(&self) -> Option<PixelRect> {
         let window = PixelRect::of_size(self.screen.window);
         let free = self.screen.free_area.map_or(window, |free| free.intersection(&window));
         if free.width == 0 || free.height == 0 {

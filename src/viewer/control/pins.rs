@@ -7,6 +7,7 @@ use crate::viewer::ab::other::Arrangement;
 use crate::viewer::inspector::{Pin, RING_ROOM};
 use crate::viewer::state::Viewer;
 use crate::viewer::view::camera::Sight;
+use crate::viewer::view::panes::Panes;
 use crate::viewer::view::pointer::window_pixel;
 
 /// What is said when the pinned place leaves the window, and with it its ring and its explanation.
@@ -66,29 +67,34 @@ impl Viewer {
         if self.refuses_to_explain() {
             return;
         }
-        if self.pinned_pixel() == Some(pixel) && self.explains() {
+        let is_pinned = self.pinned_pixel() == Some(pixel) || self.slid_away();
+        if is_pinned && self.explains() {
             self.inspector.pin = None;
             self.inspector.open &= !std::mem::take(&mut self.inspector.came_with_pin);
         } else {
             self.screen.shown.explanation = true;
             self.inspector.asked = true;
+            let asked_at = self.place_asked_about();
             self.pin(pixel.map(i64::from));
+            self.inspector.asked_at = asked_at;
         }
     }
 
     /// Another part of the window is free. Where frames change their size with it, the pixel that a hand asked about stays
-    /// what it is, to the place of its samples; the view comes back when the explanation is closed.
+    /// what it is, to the place of its samples, and where it is, if its half still reaches there; the view comes back when
+    /// the explanation is closed.
     pub(in crate::viewer) fn set_free_area(&mut self, area: Option<PixelRect>) {
-        let before = self.sight();
+        let (before, panes) = (self.sight(), self.panes());
+        // Before: a smaller frame may leave its pixel outside.
+        let asks = self.inspector.asked && self.explains();
         self.screen.free_area = area;
         if self.arrangement() == Arrangement::Wipe {
             // Its line gives way to panels.
             self.comparison.touch();
         }
-        let asks = self.inspector.asked && self.explains();
         let sights = before.zip(self.sight());
         if let Some((before, sight)) = sights.filter(|(before, sight)| asks && before.frame != sight.frame) {
-            self.keep_view_of_pin(&before, &sight);
+            self.keep_view_of_pin((&before, &panes), &sight);
         }
         if let Some([first, set]) = self.inspector.kept_view.take_if(|_| !asks) {
             self.look(|camera, _| {
@@ -99,9 +105,9 @@ impl Viewer {
         }
     }
 
-    /// Sets the view in which the pinned pixel shows what it showed `before`, at the same pixel of the frame if there is
-    /// still one.
-    fn keep_view_of_pin(&mut self, before: &Sight, sight: &Sight) {
+    /// Sets the view in which the pinned pixel shows what it showed `before`, at the same place of the window if its pane has
+    /// that, else as near as may be.
+    fn keep_view_of_pin(&mut self, (before, panes): (&Sight, &Panes), sight: &Sight) {
         let Some(Pin {
             pixel,
             place: Some((place, _)),
@@ -113,9 +119,15 @@ impl Viewer {
         let Some(camera) = self.current().map(|entry| entry.camera) else {
             return;
         };
+        let in_second = self.inspector.asked_at.is_some_and(|asked| asked.in_second);
+        let corner = |panes: &Panes| panes.second.filter(|_| in_second).unwrap_or(panes.first).corner;
+        let (old, new) = (corner(panes), corner(&self.panes()));
         let stays = |axis: usize| {
-            let last = i64::from(sight.frame[axis]) - 1 - PIN_ROOM;
-            pixel[axis].min(last).max(0) as f64 + 0.5
+            let room = |beside: i64| beside.min(PIN_ROOM);
+            let behind = i64::from(before.frame[axis]) - 1 - pixel[axis];
+            let last = i64::from(sight.frame[axis]) - 1 - room(behind);
+            let wanted = pixel[axis] + old[axis] - new[axis];
+            wanted.max(room(pixel[axis])).min(last).max(0) as f64 + 0.5
         };
         let at = DVec2::new(stays(0), stays(1));
         let mut kept = camera;
@@ -160,6 +172,8 @@ impl Viewer {
                 place: None,
             });
             self.inspector.revealed = false;
+            self.inspector.asked_at = None;
+            self.inspector.pins += 1;
             self.inspector.came_with_pin |= !self.inspector.open;
             self.inspector.open = true;
             self.screen.hidden = false;
@@ -175,10 +189,14 @@ impl Viewer {
         }
     }
 
-    /// Where the inset goes now.
+    /// Where the inset goes now: nowhere while the pinned place is out of sight.
     pub(in crate::viewer) fn place_inset(&mut self) {
         let to_be_seen = self.inspector.open && !self.screen.hidden;
-        let center = self.inspected_pixel().filter(|_| to_be_seen);
+        let center = match self.inspector.pin {
+            Some(pin) => self.in_frame(pin.pixel),
+            None => self.inspected_pixel(),
+        };
+        let center = center.filter(|_| to_be_seen);
         let window = PixelRect::of_size(self.screen.window);
         let area = self.screen.free_area.map_or(window, |free| free.intersection(&window));
         (self.inset, self.other_inset) = (None, None);
@@ -188,7 +206,7 @@ impl Viewer {
         let is_ringed = self.screen.free_area.is_some() && self.pinned_pixel().is_some();
         self.inspector.ring_room = if is_ringed { RING_ROOM } else { 0 };
         if self.comparison.shows_both() {
-            let both = self.inspector.place_both(center, &shown, &area);
+            let both = self.place_magnifiers(center, &area);
             (self.inset, self.other_inset) = both.map_or((None, None), |[a, b]| (Some(a), Some(b)));
         } else {
             self.inset = self.inspector.place(center, &shown, &area);

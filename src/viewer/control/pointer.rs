@@ -21,7 +21,7 @@ impl Viewer {
     }
 
     /// The inset that lies over a window pixel, A's or B's.
-    fn inset_at(&self, at: [i64; 2]) -> Option<PlacedInset> {
+    pub(in crate::viewer) fn inset_at(&self, at: [i64; 2]) -> Option<PlacedInset> {
         let mut insets = self.inset.into_iter().chain(self.other_inset);
         insets.find(|placed| placed.rect.contains(at))
     }

@@ -28,7 +28,7 @@ fn draw_inset(
 }
 
 /// Screen pixels as window pixels.
-fn magnified(rect: &PixelRect, zoom: u32) -> PixelRect {
+pub(in crate::viewer) fn magnified(rect: &PixelRect, zoom: u32) -> PixelRect {
     PixelRect {
         x: rect.x * i64::from(zoom),
         y: rect.y * i64::from(zoom),

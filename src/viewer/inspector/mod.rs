@@ -5,6 +5,7 @@
 
 pub(in crate::viewer) mod contributions;
 pub(in crate::viewer) mod explanation;
+pub(in crate::viewer) mod halves;
 pub(in crate::viewer) mod samples;
 pub(in crate::viewer) mod status;
 
@@ -20,11 +21,9 @@ const STEPS: [u32; 17] = [2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 28, 32, 40, 48, 
 const MAX_STEPS: u32 = 20;
 
 /// Part of the shorter side of its area that an inset may take.
-const SHARE: f64 = 0.8;
-
+pub(in crate::viewer) const SHARE: f64 = 0.8;
 /// What it may take in the smallest window, in pixels.
-const LEAST: f64 = 48.0;
-
+pub(in crate::viewer) const LEAST: f64 = 48.0;
 /// Lines of a magnified pixel's label: red, green, blue.
 const LABEL_LINES: f32 = 3.0;
 
@@ -60,8 +59,12 @@ pub struct Inspector {
     pub(in crate::viewer) revealed: bool,
     /// Whether a hand asked about the pinned pixel: the view rests while the explanation takes its room.
     pub(in crate::viewer) asked: bool,
+    /// Where in the window a hand asked about it.
+    pub(in crate::viewer) asked_at: Option<AskedAt>,
     /// The view before an explanation took its room, and the one that was set then.
     pub(in crate::viewer) kept_view: Option<[Camera; 2]>,
+    /// How often a pixel was pinned.
+    pub(in crate::viewer) pins: u64,
     /// Whether a pin opened the inspector, which then closes with it.
     pub(in crate::viewer) came_with_pin: bool,
     /// The pixel last under the pointer: shown while the pointer is elsewhere.
@@ -69,9 +72,18 @@ pub struct Inspector {
     /// Region times pitch that the user chose; the wheel keeps it.
     extent: u32,
     /// Where the inset was last.
-    corner: Corner,
+    pub(in crate::viewer) corner: Corner,
     /// Turns of the wheel that did not make a whole step yet.
     rest: f64,
+}
+
+/// Where in the window a hand asked about a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AskedAt {
+    /// The window pixel.
+    pub at: [i64; 2],
+    /// Whether it was B's half of two pictures side by side.
+    pub in_second: bool,
 }
 
 /// What is pinned: a place of a scene.
@@ -116,7 +128,9 @@ impl Default for Inspector {
             ring_room: 0,
             revealed: false,
             asked: false,
+            asked_at: None,
             kept_view: None,
+            pins: 0,
             came_with_pin: false,
             last: None,
             extent: region * (magnification + 1),
@@ -254,7 +268,7 @@ impl Inspector {
 }
 
 /// A pinned pixel with so much room around it.
-fn with_ring(pixel: &PixelRect, room: u32) -> PixelRect {
+pub(in crate::viewer) fn with_ring(pixel: &PixelRect, room: u32) -> PixelRect {
     PixelRect {
         x: pixel.x - i64::from(room),
         y: pixel.y - i64::from(room),

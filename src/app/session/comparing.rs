@@ -1,0 +1,342 @@
+//! What a hand finds while A and B share the window: pictures, panels and magnifiers stay where they are under it.
+
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "inside the window"
+)]
+
+use crate::viewer::{AbCommand, InspectorCommand, SceneCommand, WindowCommand};
+use std::path::PathBuf;
+
+use glam::{DVec2, dvec2};
+
+use super::hands::{click, nodes, place_of, session};
+use super::small_windows::{click_on, comparing, right_click, says};
+use super::*;
+use crate::render::Visualisation;
+use crate::viewer::script::Stage as _;
+use crate::viewer::{Arrangement, Toggle};
+
+/// The windows that a hand goes through.
+const WINDOWS: [[u32; 2]; 4] = [[800, 600], [1280, 800], [1366, 768], [1920, 1080]];
+/// What closes the explanation.
+const CLOSE: &str = "Explanation";
+
+/// A comparison side by side.
+fn side_by_side(window: [u32; 2]) -> Session {
+    let mut session = comparing(window);
+    session.command(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
+    session.settle();
+    session
+}
+
+/// Columns of the part of the window that no panel covers, from left to right.
+fn columns(session: &Session) -> Vec<f64> {
+    const COUNT: usize = 9;
+    let free = session.free_area.expect("there is room");
+    let step = free.width as usize / COUNT;
+    let all = (free.x + 6..free.right() - 6).step_by(step);
+    all.map(|x| x as f64).collect()
+}
+
+#[test]
+fn second_click_on_the_same_spot_unpins_side_by_side() {
+    for window in WINDOWS {
+        let mut session = side_by_side(window);
+        let before = session.viewer.view_numbers();
+        for x in columns(&session) {
+            let at = [x, f64::from(window[1]) * 0.4];
+            right_click(&mut session, at);
+            assert!(session.viewer.explains(), "explained at {at:?} of {window:?}");
+            right_click(&mut session, at);
+            let pinned = session.viewer.pinned_pixel();
+            assert_eq!(pinned, None, "unpinned at {at:?} of {window:?}");
+            assert_eq!(session.viewer.view_numbers(), before, "{at:?} of {window:?}");
+        }
+    }
+}
+
+#[test]
+fn clicked_pixel_stays_under_the_pointer_side_by_side() {
+    for (window, all) in [
+        ([1280, 800], &[300.0, 400.0, 500.0, 600.0, 750.0, 900.0, 990.0][..]),
+        ([1366, 768], &[280.0, 400.0, 600.0, 700.0, 900.0, 1080.0]),
+        ([1920, 1080], &[300.0, 700.0, 900.0, 1000.0, 1200.0, 1400.0, 1640.0]),
+    ] {
+        for x in all {
+            let mut session = side_by_side(window);
+            let at = [*x, 300.0];
+            right_click(&mut session, at);
+            let (hovered, pinned) = (session.viewer.hovered_pixel(), session.viewer.pinned_pixel());
+            assert!(
+                pinned.is_some() && hovered == pinned,
+                "{pinned:?} pinned, {hovered:?} under the pointer at {at:?} of {window:?}"
+            );
+            let under = |place: &PixelRect| place.x == at[0] as i64 && place.y == at[1] as i64;
+            assert!(session.viewer.pinned_places().iter().any(under), "{at:?} of {window:?}");
+        }
+    }
+}
+
+#[test]
+fn another_view_of_both_moves_no_panel() {
+    let buttons = [CLOSE, "Show: wipe", "Show: side", "Show: diff", "Show: flip", "Show: A"];
+    for window in WINDOWS {
+        for first in [Arrangement::Wipe, Arrangement::SideBySide, Arrangement::Difference] {
+            for part in [0.1, 0.45, 0.9] {
+                let mut session = comparing(window);
+                session.command(Command::Ab(AbCommand::Arrange(first)));
+                session.settle();
+                let free = session.free_area.expect("there is room");
+                let x = (free.x as f64 + f64::from(free.width) * part).round();
+                right_click(&mut session, [x, 250.0]);
+                let places = |session: &mut Session| buttons.map(|name| place_of(session, name));
+                let before = places(&mut session);
+                for name in ["Show: side", "Show: diff", "Show: side", "Show: wipe", "Show: A"] {
+                    click_on(&mut session, name);
+                    let now = places(&mut session);
+                    assert_eq!(now, before, "{name} after {first:?} at {x} of {window:?}");
+                    let free = session.free_area.expect("there is room");
+                    let pins = session.viewer.pinned_places();
+                    let in_sight = |pin: &PixelRect| free.contains([pin.x, pin.y]);
+                    assert!(
+                        !pins.is_empty() && pins.iter().all(in_sight),
+                        "{pins:?} in {free:?} with {name} after {first:?} at {x} of {window:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn explanation_keeps_its_side_for_a_pin_that_leaves_a_half() {
+    for window in WINDOWS {
+        let mut session = comparing(window);
+        session.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
+        session.pointer(Some(dvec2(500.0, 250.0)));
+        for _ in 0..3 {
+            session.wheel(3.0);
+        }
+        let free = session.free_area.expect("there is room");
+        right_click(&mut session, [free.x as f64 + 12.0, 250.0]);
+        let before = place_of(&mut session, CLOSE);
+        for name in ["Show: side", "Show: diff", "Show: side"] {
+            click_on(&mut session, name);
+            assert!(says(&mut session, "user units"), "explained with {name} of {window:?}");
+            assert_eq!(place_of(&mut session, CLOSE), before, "{name} of {window:?}");
+        }
+    }
+}
+
+#[test]
+fn magnifiers_lie_beside_both_pictures() {
+    for window in WINDOWS {
+        for part in [0.25, 0.3, 0.7, 0.8] {
+            let mut session = side_by_side(window);
+            let free = session.free_area.expect("there is room");
+            let x = (free.x as f64 + f64::from(free.width) * part).round();
+            right_click(&mut session, [x, f64::from(window[1]) * 0.45]);
+            click_on(&mut session, CLOSE);
+            let insets = [session.viewer.inset(), session.viewer.other_inset()];
+            let insets = insets.map(|placed| placed.expect("there is room").rect);
+            let free = session.free_area.expect("there is room");
+            let half = free.width / 2;
+            let corner = |place: DVec2| place.to_array().map(|at| at.floor() as i64);
+            let canvas = session.viewer.canvas_in_frame().expect("a scene");
+            let [low, high] = canvas.map(corner);
+            for (index, inset) in insets.iter().enumerate() {
+                let left = free.x + i64::from(half + 2) * i64::try_from(index).expect("two");
+                let pane = PixelRect {
+                    x: left,
+                    width: half - 1,
+                    ..free
+                };
+                assert_eq!(inset.intersection(&pane), *inset, "in its half of {window:?}");
+                let picture = PixelRect {
+                    x: pane.x + low[0],
+                    y: pane.y + low[1],
+                    width: u32::try_from(high[0] - low[0]).expect("a width"),
+                    height: u32::try_from(high[1] - low[1]).expect("a height"),
+                };
+                let common = inset.intersection(&picture);
+                let covered = f64::from(common.width) * f64::from(common.height);
+                let whole = f64::from(picture.width) * f64::from(picture.height);
+                assert!(covered < whole * 0.05, "{inset:?} over {picture:?} in {window:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn outline_lies_over_the_first_of_both() {
+    let session = side_by_side([1280, 800]);
+    let free = session.free_area.expect("there is room");
+    let [low, _] = session.viewer.canvas_in_frame().expect("a scene");
+    // The ground of the scene: half of its canvas.
+    let outline = session.viewer.outline_of(0).concat();
+    let corner = outline.into_iter().map(DVec2::from).reduce(DVec2::min);
+    let expected = low + dvec2(free.x as f64, free.y as f64);
+    let off = corner.expect("a triangle") - expected;
+    assert!(off.length() < 1.5, "{corner:?}, not {expected}");
+}
+
+#[test]
+fn magnifier_is_closed_with_a_pin_out_of_sight() {
+    let mut session = comparing([1280, 800]);
+    session.command(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
+    session.pointer(Some(dvec2(640.0, 380.0)));
+    for _ in 0..3 {
+        session.wheel(3.0);
+    }
+    session.command(Command::Inspector(InspectorCommand::Pin([290, 300])));
+    session.command(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
+    session.settle();
+    assert!(session.viewer.inset().is_some(), "magnified while it is in sight");
+    session.command(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
+    session.settle();
+    assert_eq!(session.viewer.pinned_pixel(), None, "outside of both halves");
+    assert!(session.viewer.inset().is_none() && session.viewer.other_inset().is_none());
+    session.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
+    session.settle();
+    assert!(session.viewer.inset().is_some(), "it comes back with the pin");
+}
+
+#[test]
+fn double_click_on_close_leaves_the_pin() {
+    for window in WINDOWS {
+        for x in [290.0, 420.0] {
+            let mut session = session(Vec::new(), window);
+            right_click(&mut session, [x, 250.0]);
+            let at = place_of(&mut session, CLOSE);
+            for _ in 0..2 {
+                click(&mut session, at);
+                session.settle();
+            }
+            assert!(!session.viewer.explains(), "closed in {window:?}");
+            assert!(session.viewer.pinned_pixel().is_some(), "still pinned in {window:?}");
+        }
+    }
+}
+
+#[test]
+fn magnifier_that_follows_the_pointer_has_a_button_that_closes_it() {
+    for window in WINDOWS {
+        let mut session = session(Vec::new(), window);
+        session.command(Command::Inspector(InspectorCommand::Show(Toggle::On)));
+        session.pointer(Some(dvec2(300.0, 300.0)));
+        session.settle();
+        assert!(session.viewer.inset().is_some(), "open in {window:?}");
+        click_on(&mut session, "Close the inspector");
+        assert!(session.viewer.inset().is_none(), "closed in {window:?}");
+    }
+}
+
+#[test]
+fn text_over_the_picture_leaves_legends_free() {
+    for (window, arrangement) in [
+        ([800, 600], Arrangement::Alone),
+        ([800, 600], Arrangement::Flip),
+        ([1920, 1080], Arrangement::SideBySide),
+    ] {
+        let mut session = session(Vec::new(), window);
+        session.command(Command::set("visualise", Visualisation::Primitive.name()).expect("a value"));
+        if arrangement != Arrangement::Alone {
+            session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+            session.command(Command::Ab(AbCommand::Arrange(arrangement)));
+        }
+        right_click(&mut session, [500.0, 300.0]);
+        let legends = session.viewer.legend_places();
+        assert!(!legends.is_empty(), "a legend in {window:?}");
+        let labels = session.interface.labels();
+        let labels: Vec<PixelRect> = labels.iter().map(|label| device_rect(*label)).collect();
+        for label in &labels {
+            let apart = legends.iter().all(|legend| !legend.overlaps(label));
+            assert!(apart, "{label:?} over {legends:?} in {window:?} {arrangement:?}");
+            let free = session.free_area.expect("there is room");
+            let middle = free.x + i64::from(free.width / 2);
+            let is_whole = label.x > middle || label.right() < middle;
+            assert!(
+                is_whole || arrangement != Arrangement::SideBySide,
+                "{label:?} in both halves"
+            );
+        }
+    }
+}
+
+/// A rectangle in points where a point is a pixel.
+fn device_rect(rect: Rect) -> PixelRect {
+    PixelRect {
+        x: rect.left().floor() as i64,
+        y: rect.top().floor() as i64,
+        width: rect.width().ceil() as u32,
+        height: rect.height().ceil() as u32,
+    }
+}
+
+#[test]
+fn text_over_the_picture_leaves_the_line_of_a_wipe_free() {
+    for part in [0.0, 0.1, 0.2, 0.5] {
+        let mut session = comparing([1280, 800]);
+        session.command(Command::Ab(AbCommand::SetWipe(part)));
+        session.command(Command::Inspector(InspectorCommand::Pin([700, 300])));
+        session.settle();
+        nothing_across_the_line(&session);
+        // Beside the magnifiers, where their letters stand.
+        let inset = session.viewer.inset().expect("there is room").rect;
+        for x in [inset.x - 10, inset.right() + 10] {
+            session.command(Command::Ab(AbCommand::SetWipe(x as f64 / 1280.0)));
+            session.settle();
+            nothing_across_the_line(&session);
+        }
+    }
+}
+
+fn nothing_across_the_line(session: &Session) {
+    let line = session.interface.line();
+    assert!(!line.is_empty(), "there is a line");
+    for label in session.interface.labels() {
+        let apart = line.iter().all(|part| !part.intersects(label.shrink(1.0)));
+        assert!(apart, "{label:?} across {line:?}");
+    }
+}
+
+#[test]
+fn lesson_goes_back_only_where_there_is_a_step() {
+    let mut session = session(vec![PathBuf::from("lesson:six-tasks")], [1280, 800]);
+    let is_disabled = |session: &mut Session| {
+        let nodes = nodes(session);
+        let back = nodes.iter().find(|node| node.label() == Some("Previous scene"));
+        back.expect("Back").is_disabled()
+    };
+    assert!(is_disabled(&mut session), "on the first step");
+    session.command(Command::Scenes(SceneCommand::Next));
+    session.settle();
+    assert!(!is_disabled(&mut session), "on the second");
+}
+
+#[test]
+fn lesson_explains_a_pixel_on_an_edge_in_every_window() {
+    for window in [
+        [640, 480],
+        [800, 600],
+        [1024, 768],
+        [1280, 800],
+        [1366, 768],
+        [1600, 900],
+        [1920, 1080],
+        [2560, 1440],
+    ] {
+        let mut session = session(vec![PathBuf::from("lesson:six-tasks")], window);
+        for _ in 0..2 {
+            session.command(Command::Scenes(SceneCommand::Next));
+            session.settle();
+        }
+        let explanation = session.viewer.explanation().expect("the step explains");
+        let mut colors: Vec<[u8; 4]> = explanation.samples.iter().map(|sample| sample.bytes).collect();
+        colors.sort_unstable();
+        colors.dedup();
+        assert!(colors.len() > 1, "only {colors:?} in {window:?}");
+    }
+}

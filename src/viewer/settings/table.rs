@@ -153,7 +153,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         placeholder: "N",
         help: "The most taps along a footprint that is longer than wide: 1 (off) to 64",
         values: Values::Open {
-            form: "a whole number from 1 to 64",
+            form: "a whole number from 1, which is off, to 64",
             range: "1 ... 64",
             some: &["1", "4", "16"],
             offered: taps,

@@ -345,7 +345,7 @@ fn replay_copies() {
     assert!(line.ends_with(options), "{line}");
     let title = session.viewer.title();
     assert!(
-        title.contains("level sampling nearest, anisotropy 4, level 2, bias -1.5, level per sample - "),
+        title.contains("level sampling nearest, anisotropy 4, bias -1.5, level 2, level per sample - "),
         "{title}"
     );
     session.keys(&[".", ".", "."]);

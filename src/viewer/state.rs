@@ -1,40 +1,40 @@
 //! The viewer itself: what it keeps, how it starts, what can be asked of it.
 
-use std::collections::HashMap;
 use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use crate::geometry::View;
-use crate::inspect::{Feeds, TexelPlace};
+use crate::inspect::Feeds;
 use crate::plain;
-use crate::scene::Dialect;
 use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::measuring::{Measured, Measuring};
 use crate::viewer::ab::other::Against;
 use crate::viewer::ab::outside::ReadPicture;
-use crate::viewer::chrome::ending::Ending;
-use crate::viewer::chrome::messages::{Message, Messages};
-use crate::viewer::chrome::{Dialog, Screen, Shown};
+use crate::viewer::chrome::messages::Message;
+use crate::viewer::chrome::{Chrome, Dialog};
 use crate::viewer::export::naming::NameTemplate;
 use crate::viewer::export::record::{Grammar, Restored};
 use crate::viewer::export::saver::{Saved, Saver};
 use crate::viewer::export::sheet::desk::SheetDesk;
 use crate::viewer::export::sheet::preview;
 use crate::viewer::export::sheet::preview::{SheetPreview, SheetQuestion};
+use crate::viewer::export::state::Export;
 use crate::viewer::frames::drawing::{Drawing, DrawingId};
 use crate::viewer::frames::frame::Frame;
 use crate::viewer::frames::job::Drawn;
-use crate::viewer::frames::legends::{Legends, PlacedLegends};
-use crate::viewer::inspector::contributions::Feeding;
-use crate::viewer::inspector::explanation::{Asked, Explained, Explaining};
-use crate::viewer::inspector::samples::{ProbedSample, Probing, Target};
+use crate::viewer::frames::legends::PlacedLegends;
+use crate::viewer::frames::state::Frames;
+use crate::viewer::inspector::explanation::{Asked, Explained};
+use crate::viewer::inspector::samples::{ProbedSample, Target};
+use crate::viewer::inspector::state::Inspection;
 use crate::viewer::inspector::{Inspector, PlacedInset, contributions, explanation, samples};
 use crate::viewer::jobs::mailbox::{Mailbox, Waker};
 use crate::viewer::lesson::walk::Walk;
 use crate::viewer::library::SceneEntry;
 use crate::viewer::library::readers::{ReadScene, Readers, Thumbnail};
+use crate::viewer::library::state::Library;
 use crate::viewer::settings::{PixelZoom, Settings, Theme};
 use crate::viewer::view::camera::{Sight, ViewNumbers};
 use crate::viewer::view::panes::Panes;
@@ -73,41 +73,18 @@ pub struct ViewerOptions {
 /// The program without a window.
 #[derive(Debug)]
 pub struct Viewer {
-    pub(in crate::viewer) scenes: Vec<SceneEntry>,
-    /// The dialects that were chosen for the scenes of folders.
-    pub(in crate::viewer) chosen_readings: HashMap<PathBuf, Dialect>,
-    /// Below `scenes.len()`, unless there are none.
-    pub(in crate::viewer) current: usize,
-    /// Grows when the list is replaced: results for an older list are dropped.
-    pub(in crate::viewer) generation: u64,
+    pub(in crate::viewer) settings: Settings,
+    pub(in crate::viewer) chrome: Chrome,
+    pub(in crate::viewer) pointer: Pointer,
+    pub(in crate::viewer) library: Library,
+    pub(in crate::viewer) frames: Frames,
+    pub(in crate::viewer) ab: Comparison,
+    pub(in crate::viewer) inspector: Inspection,
+    pub(in crate::viewer) export: Export,
+    /// The sheet that is being put together.
+    pub(in crate::viewer) sheet: SheetDesk,
     /// The lesson that is open.
     pub(in crate::viewer) lesson: Option<Walk>,
-    /// Documents that were read so far.
-    pub(in crate::viewer) documents: u64,
-    /// The scenes shown last, latest last: the others are let go to save memory.
-    pub(in crate::viewer) recent: Vec<usize>,
-    pub(in crate::viewer) start_view: View,
-    pub(in crate::viewer) settings: Settings,
-    pub(in crate::viewer) screen: Screen,
-    pub(in crate::viewer) pointer: Pointer,
-    pub(in crate::viewer) inspector: Inspector,
-    pub(in crate::viewer) inset: Option<PlacedInset>,
-    /// B's, below A's, where both share the window.
-    pub(in crate::viewer) other_inset: Option<PlacedInset>,
-    pub(in crate::viewer) legends: Legends,
-    pub(in crate::viewer) messages: Messages,
-    pub(in crate::viewer) ending: Ending,
-    pub(in crate::viewer) drawing: Drawing,
-    /// Draws quick frames for whoever shows them on a surface that he lends.
-    pub(in crate::viewer) surface_pool: Option<rayon::ThreadPool>,
-    pub(in crate::viewer) comparison: Comparison,
-    pub(in crate::viewer) probing: Probing,
-    pub(in crate::viewer) explaining: Explaining,
-    pub(in crate::viewer) feeding: Feeding,
-    /// The texel of the explanation that the pointer is over.
-    pub(in crate::viewer) pointed_texel: Option<TexelPlace>,
-    pub(in crate::viewer) readers: Readers,
-    pub(in crate::viewer) saver: Saver,
     pub(in crate::viewer) results: Receiver<Finished>,
     pub(in crate::viewer) revision: u64,
     pub(in crate::viewer) picture_revision: u64,
@@ -115,11 +92,6 @@ pub struct Viewer {
     pub(in crate::viewer) last_drawn: Option<DrawnState>,
     /// What [`Viewer::take_damage`] told last.
     pub(in crate::viewer) last_shown: Option<DrawnState>,
-    pub(in crate::viewer) grammar: Option<Grammar>,
-    /// The sheet that is being put together.
-    pub(in crate::viewer) sheet: SheetDesk,
-    /// What was restored from a picture, until its scene was read.
-    pub(in crate::viewer) restored: Option<Restored>,
 }
 
 /// What decides the pixels of [`Viewer::draw_window`]; a frame and probed samples by their numbers.
@@ -189,66 +161,47 @@ impl Viewer {
     pub fn new(options: ViewerOptions) -> io::Result<Self> {
         let (sender, results): (Sender<Finished>, _) = channel();
         let mailbox = Mailbox::new(sender, Arc::clone(&options.waker));
+        let drawing = Drawing::start(
+            mailbox.of(|drawn| Finished::Drawn(DrawingId::First, drawn)),
+            DrawingId::First,
+        )?;
+        let readers = Readers::start(mailbox.of(Finished::Read), mailbox.of(Finished::Thumbnail))?;
+        let saver = Saver::start(
+            mailbox.of(Finished::Saved),
+            options.screenshot_dir,
+            options.screenshot_name,
+        )?;
         let mut viewer = Self {
-            scenes: Vec::new(),
-            chosen_readings: HashMap::new(),
-            current: 0,
-            generation: 0,
-            documents: 0,
-            lesson: None,
-            recent: Vec::new(),
-            start_view: options.view,
             settings: options.settings,
-            screen: Screen {
-                window: options.window,
-                free_area: None,
-                theme: options.theme,
-                dialog: None,
-                hidden: false,
-                shown: Shown {
-                    text: true,
-                    panel: true,
-                    explanation: true,
-                },
-            },
+            chrome: Chrome::new(options.window, options.theme),
             pointer: Pointer::default(),
-            inspector: Inspector::default(),
-            inset: None,
-            other_inset: None,
-            legends: Legends::default(),
-            messages: Messages::default(),
-            ending: Ending::default(),
-            drawing: Drawing::start(
-                mailbox.of(|drawn| Finished::Drawn(DrawingId::First, drawn)),
-                DrawingId::First,
-            )?,
-            surface_pool: None,
-            comparison: Comparison::new(
+            library: Library::new(options.view, readers),
+            frames: Frames::new(drawing),
+            ab: Comparison::new(
                 mailbox.of(|drawn| Finished::Drawn(DrawingId::Second, drawn)),
                 Measuring::new(mailbox.of(Finished::Measured), mailbox.of(Finished::PictureRead)),
             ),
-            probing: samples::start(mailbox.of(|(target, samples)| Finished::Probed(target, samples)))?,
-            explaining: explanation::start(mailbox.of(|(asked, found)| Finished::Explained(asked, Box::new(found))))?,
-            feeding: contributions::start(mailbox.of(|(target, feeds)| Finished::Fed(target, Box::new(feeds))))?,
-            pointed_texel: None,
-            readers: Readers::start(mailbox.of(Finished::Read), mailbox.of(Finished::Thumbnail))?,
-            saver: Saver::start(
-                mailbox.of(Finished::Saved),
-                options.screenshot_dir,
-                options.screenshot_name,
-            )?,
+            inspector: Inspection::new(
+                samples::start(mailbox.of(|(target, samples)| Finished::Probed(target, samples)))?,
+                explanation::start(mailbox.of(|(asked, found)| Finished::Explained(asked, Box::new(found))))?,
+                contributions::start(mailbox.of(|(target, feeds)| Finished::Fed(target, Box::new(feeds))))?,
+            ),
+            export: Export {
+                saver,
+                grammar: options.grammar,
+                restored: options.restored,
+            },
+            sheet: SheetDesk::new(preview::start(
+                mailbox.of(|(question, drawn)| Finished::SheetDrawn(question, Box::new(drawn))),
+            )?),
+            lesson: None,
             results,
             revision: 0,
             picture_revision: 0,
             last_drawn: None,
             last_shown: None,
-            grammar: options.grammar,
-            sheet: SheetDesk::new(preview::start(
-                mailbox.of(|(question, drawn)| Finished::SheetDrawn(question, Box::new(drawn))),
-            )?),
-            restored: options.restored,
         };
-        viewer.drawing.set_progressive(viewer.settings.progressive);
+        viewer.frames.drawing.set_progressive(viewer.settings.progressive);
         viewer.open(&options.paths);
         if let Some(against) = options.against {
             viewer.compare_from_the_start(against);
@@ -270,17 +223,17 @@ impl Viewer {
 
     /// All scenes, in the order of the list.
     pub fn scenes(&self) -> &[SceneEntry] {
-        &self.scenes
+        &self.library.scenes
     }
 
     /// The place of the current scene in the list.
     pub fn current_index(&self) -> usize {
-        self.current
+        self.library.current
     }
 
     /// The current scene; `None` only while the list is empty.
     pub fn current(&self) -> Option<&SceneEntry> {
-        self.scenes.get(self.current)
+        self.library.current()
     }
 
     /// Sampling, rules, dialect, pixel zoom.
@@ -290,7 +243,7 @@ impl Viewer {
 
     /// The frame on the screen. It may show an older state, or be a preview; see [`Viewer::is_settled`].
     pub fn frame(&self) -> Option<&Frame> {
-        self.drawing.frame()
+        self.frames.drawing.frame()
     }
 
     /// The numbers of the current view; `None` before the scene was read.
@@ -301,7 +254,7 @@ impl Viewer {
 
     /// The window in device pixels.
     pub fn window_size(&self) -> [u32; 2] {
-        self.screen.window
+        self.chrome.window
     }
 
     /// The size of A's frame, and of B's: that of the window divided by the pixel zoom, unless both lie side by side.
@@ -311,42 +264,42 @@ impl Viewer {
 
     /// The dialog that is open.
     pub fn dialog(&self) -> Option<Dialog> {
-        self.screen.dialog
+        self.chrome.dialog
     }
 
     /// Whether text lies over the picture.
     pub fn overlay_text(&self) -> bool {
-        self.screen.shown.text
+        self.chrome.shown.text
     }
 
     /// Whether the side panel is to be seen, unless everything is hidden.
     pub fn panel(&self) -> bool {
-        self.screen.shown.panel
+        self.chrome.shown.panel
     }
 
     /// Light or dark panels.
     pub fn theme(&self) -> Theme {
-        self.screen.theme
+        self.chrome.theme
     }
 
     /// What the user is to be told, oldest first. Whoever shows a message dismisses it after a while.
     pub fn messages(&self) -> &[Message] {
-        self.messages.all()
+        self.chrome.messages.all()
     }
 
     /// The pixel inspector.
     pub fn inspector(&self) -> &Inspector {
-        &self.inspector
+        &self.inspector.magnifier
     }
 
     /// The inspector's inset in the window, where it is open and has room.
     pub fn inset(&self) -> Option<PlacedInset> {
-        self.inset
+        self.inspector.inset
     }
 
     /// The inset of the same pixel of B, where A and B share the window.
     pub fn other_inset(&self) -> Option<PlacedInset> {
-        self.other_inset
+        self.inspector.other_inset
     }
 
     /// The window's title: scene, settings or what of them differs between A and B, program.

@@ -4,6 +4,8 @@ pub(in crate::viewer) mod ending;
 pub(in crate::viewer) mod messages;
 
 use crate::figure::PixelRect;
+use crate::viewer::chrome::ending::Ending;
+use crate::viewer::chrome::messages::Messages;
 use crate::viewer::settings::Theme;
 
 /// Something that covers the picture and takes the keyboard until it is closed. One at a time.
@@ -22,8 +24,8 @@ pub enum Dialog {
 }
 
 /// What is to be seen in the window besides the picture.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::viewer) struct Screen {
+#[derive(Debug)]
+pub(in crate::viewer) struct Chrome {
     pub(in crate::viewer) window: [u32; 2],
     pub(in crate::viewer) free_area: Option<PixelRect>,
     pub(in crate::viewer) theme: Theme,
@@ -31,6 +33,27 @@ pub(in crate::viewer) struct Screen {
     /// Only the picture is to be seen; what is shown besides comes back as it was.
     pub(in crate::viewer) hidden: bool,
     pub(in crate::viewer) shown: Shown,
+    pub(in crate::viewer) messages: Messages,
+    pub(in crate::viewer) ending: Ending,
+}
+
+impl Chrome {
+    pub(in crate::viewer) fn new(window: [u32; 2], theme: Theme) -> Self {
+        Self {
+            window,
+            free_area: None,
+            theme,
+            dialog: None,
+            hidden: false,
+            shown: Shown {
+                text: true,
+                panel: true,
+                explanation: true,
+            },
+            messages: Messages::default(),
+            ending: Ending::default(),
+        }
+    }
 }
 
 /// What of the overlay is shown.

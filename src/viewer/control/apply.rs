@@ -31,7 +31,7 @@ impl Viewer {
 
     /// Whether everything but the picture is hidden.
     pub fn everything_hidden(&self) -> bool {
-        self.screen.hidden
+        self.chrome.hidden
     }
 
     /// Whether a command that windows repeat tells nothing new.
@@ -39,9 +39,9 @@ impl Viewer {
         match command {
             Command::Pointer(PointerCommand::Moved { at }) => self.pointer.at == Some(*at),
             Command::Pointer(PointerCommand::Left) => self.pointer.at.is_none(),
-            Command::Window(WindowCommand::Resize(size)) => self.screen.window == *size,
-            Command::Window(WindowCommand::SetFreeArea(area)) => self.screen.free_area == *area,
-            Command::Inspector(InspectorCommand::PointAtTexel(texel)) => self.pointed_texel == *texel,
+            Command::Window(WindowCommand::Resize(size)) => self.chrome.window == *size,
+            Command::Window(WindowCommand::SetFreeArea(area)) => self.chrome.free_area == *area,
+            Command::Inspector(InspectorCommand::PointAtTexel(texel)) => self.inspector.pointed_texel == *texel,
             Command::Sheet(SheetCommand::SetRoom(room)) => !self.sheet_room_changes(*room),
             _ => false,
         }
@@ -54,7 +54,7 @@ impl Viewer {
             Command::View(command) => self.apply_view(command),
             Command::Set(change) => {
                 let remark = change.apply(&mut self.settings);
-                remark.into_iter().for_each(|remark| self.messages.error(remark));
+                remark.into_iter().for_each(|remark| self.chrome.messages.error(remark));
             }
             Command::Ab(command) => self.apply_ab(command),
             Command::Scenes(command) => self.apply_scenes(command),
@@ -72,11 +72,11 @@ impl Viewer {
             PointerCommand::Moved { at } => self.pointer_moved(at),
             PointerCommand::Left => self.pointer.at = None,
             PointerCommand::Pressed(button) => {
-                self.inspector.revealed = false;
+                self.inspector.magnifier.revealed = false;
                 self.pointer_pressed(button);
             }
             PointerCommand::Released(PointerButton::Primary) => {
-                (self.pointer.dragging, self.comparison.drags_line) = (false, false);
+                (self.pointer.dragging, self.ab.drags_line) = (false, false);
             }
             PointerCommand::Released(PointerButton::Secondary) => {}
             PointerCommand::Wheel { clicks } => self.wheel(clicks),
@@ -97,8 +97,8 @@ impl Viewer {
             ViewCommand::NextPixelZoom => self.set_pixel_zoom(next_of(&PixelZoom::ALL, self.settings.pixel_zoom, 1.0)),
             ViewCommand::Progressive(toggle) => {
                 self.settings.progressive = toggle.of(self.settings.progressive);
-                self.drawing.set_progressive(self.settings.progressive);
-                if let Some(drawing) = self.comparison.drawing_mut() {
+                self.frames.drawing.set_progressive(self.settings.progressive);
+                if let Some(drawing) = self.ab.drawing_mut() {
                     drawing.set_progressive(self.settings.progressive);
                 }
             }
@@ -109,9 +109,9 @@ impl Viewer {
         match command {
             SceneCommand::Next if self.step_lesson(true) => {}
             SceneCommand::Previous if self.step_lesson(false) => {}
-            SceneCommand::Next => self.step_scene(1),
-            SceneCommand::Previous => self.step_scene(self.scenes.len().saturating_sub(1)),
-            SceneCommand::Show(index) => self.show_scene(index),
+            SceneCommand::Next => self.library.step(1),
+            SceneCommand::Previous => self.library.step(self.library.scenes.len().saturating_sub(1)),
+            SceneCommand::Show(index) => self.library.show(index),
             SceneCommand::Open(paths) => self.open(&paths),
             SceneCommand::OpenGallery => self.replace_scenes(library::gallery_entries()),
             SceneCommand::Reload => self.read_current(),
@@ -132,14 +132,16 @@ impl Viewer {
     fn apply_inspector(&mut self, command: InspectorCommand) {
         match command {
             InspectorCommand::Show(toggle) => self.show_inspector(toggle),
-            InspectorCommand::SetRegion(region) => self.inspector.set_region(region),
-            InspectorCommand::SetMagnification(magnification) => self.inspector.set_magnification(magnification),
-            InspectorCommand::StepMagnification(steps) => self.inspector.step(steps),
+            InspectorCommand::SetRegion(region) => self.inspector.magnifier.set_region(region),
+            InspectorCommand::SetMagnification(magnification) => {
+                self.inspector.magnifier.set_magnification(magnification)
+            }
+            InspectorCommand::StepMagnification(steps) => self.inspector.magnifier.step(steps),
             InspectorCommand::PinUnderPointer => self.pin_under_pointer(),
             InspectorCommand::Pin(pixel) => self.pin(pixel),
             InspectorCommand::Nudge(by) => self.nudge(by),
-            InspectorCommand::Unpin => self.inspector.pin = None,
-            InspectorCommand::PointAtTexel(texel) => self.pointed_texel = texel,
+            InspectorCommand::Unpin => self.inspector.magnifier.pin = None,
+            InspectorCommand::PointAtTexel(texel) => self.inspector.pointed_texel = texel,
             InspectorCommand::Explanation(toggle) => self.show_explanation(toggle),
         }
     }
@@ -170,7 +172,7 @@ impl Viewer {
     }
 
     fn apply_window(&mut self, command: WindowCommand) -> Vec<Effect> {
-        let screen = &mut self.screen;
+        let screen = &mut self.chrome;
         match command {
             WindowCommand::Resize(size) => screen.window = size,
             WindowCommand::SetFreeArea(area) => {
@@ -186,7 +188,7 @@ impl Viewer {
             WindowCommand::CloseDialog => screen.dialog = None,
             WindowCommand::SetTheme(theme) => screen.theme = theme,
             WindowCommand::NextTheme => screen.theme = next_of(&Theme::ALL, screen.theme, 1.0),
-            WindowCommand::DismissMessage(id) => self.messages.dismiss(id),
+            WindowCommand::DismissMessage(id) => self.chrome.messages.dismiss(id),
             WindowCommand::Escape => return self.escape(),
             WindowCommand::Quit => return vec![Effect::Quit],
         }
@@ -195,35 +197,35 @@ impl Viewer {
 
     fn show_inspector(&mut self, toggle: Toggle) {
         // What is hidden is not open to the eye: the key shows it again.
-        self.inspector.open = toggle.of(self.inspector.open && !self.screen.hidden);
-        if self.inspector.open {
-            self.screen.hidden = false;
+        self.inspector.magnifier.open = toggle.of(self.inspector.magnifier.open && !self.chrome.hidden);
+        if self.inspector.magnifier.open {
+            self.chrome.hidden = false;
         } else {
-            self.inspector.pin = None;
-            self.inspector.came_with_pin = false;
+            self.inspector.magnifier.pin = None;
+            self.inspector.magnifier.came_with_pin = false;
         }
     }
 
     /// Closes or unpins what is open, the latest first; when nothing is, asks once and then ends the program.
     fn escape(&mut self) -> Vec<Effect> {
         if self.close_latest() {
-            self.ending.forget();
+            self.chrome.ending.forget();
             return Vec::new();
         }
-        if self.ending.escape(Instant::now()) {
+        if self.chrome.ending.escape(Instant::now()) {
             return vec![Effect::Quit];
         }
-        self.messages.question(ending::QUESTION.to_owned());
+        self.chrome.messages.question(ending::QUESTION.to_owned());
         Vec::new()
     }
 
     /// Closes or unpins one thing; false when nothing is open.
     fn close_latest(&mut self) -> bool {
-        self.screen.dialog.take().is_some()
-            || std::mem::take(&mut self.screen.hidden)
+        self.chrome.dialog.take().is_some()
+            || std::mem::take(&mut self.chrome.hidden)
             || self.escape_arrangement()
-            || self.inspector.pin.take().is_some()
-            || std::mem::take(&mut self.inspector.open)
+            || self.inspector.magnifier.pin.take().is_some()
+            || std::mem::take(&mut self.inspector.magnifier.open)
             || self.escape_comparison()
             || self.close_lesson()
     }

@@ -25,35 +25,39 @@ impl Viewer {
     /// Whether the pointer rests where it asked about the pinned pixel, which the room for the explanation took away from
     /// under it: another click there means the pinned one.
     pub(in crate::viewer) fn slid_away(&self) -> bool {
-        let Some((asked, at)) = self.inspector.asked_at.zip(self.pointer.at) else {
+        let Some((asked, at)) = self.inspector.magnifier.asked_at.zip(self.pointer.at) else {
             return false;
         };
         let camera = self.current().map(|entry| entry.camera);
-        let has_slid = self.inspector.kept_view.is_some_and(|[_, set]| Some(set) == camera);
+        let has_slid = self
+            .inspector
+            .magnifier
+            .kept_view
+            .is_some_and(|[_, set]| Some(set) == camera);
         has_slid && asked.at == window_pixel(at)
     }
 
     /// Where in the window a hand asked about the pinned pixel; `None` where it was pinned otherwise.
     pub fn asked_at(&self) -> Option<AskedAt> {
-        self.inspector.pin.and(self.inspector.asked_at)
+        self.inspector.magnifier.pin.and(self.inspector.magnifier.asked_at)
     }
 
     /// Grows with every pixel that is pinned.
     pub fn pins(&self) -> u64 {
-        self.inspector.pins
+        self.inspector.magnifier.pins
     }
 
     /// Another arrangement of A and B has other frames: takes back what the room for an explanation made of the view, and
     /// brings the explained pixel into sight where it would be outside or behind a panel.
     pub(in crate::viewer) fn keep_explained_pin_in_sight(&mut self) {
-        if let Some([first, set]) = self.inspector.kept_view.take() {
+        if let Some([first, set]) = self.inspector.magnifier.kept_view.take() {
             self.look(|camera, _| {
                 if *camera == set {
                     *camera = first;
                 }
             });
         }
-        let place = self.inspector.pin.and_then(|pin| pin.place);
+        let place = self.inspector.magnifier.pin.and_then(|pin| pin.place);
         let (Some((place, _)), Some(sight), None) = (place, self.sight(), self.fixed_size()) else {
             return;
         };
@@ -76,7 +80,7 @@ impl Viewer {
         }
         let mut moved = camera;
         moved.pan(at - now, &sight);
-        self.inspector.kept_view = Some([camera, moved]);
+        self.inspector.magnifier.kept_view = Some([camera, moved]);
         self.look(|camera, _| *camera = moved);
     }
 }

@@ -12,30 +12,30 @@ const GAINS: [f32; 2] = [1e-6, 1e6];
 impl Viewer {
     /// What A is compared with.
     pub fn other(&self) -> Option<&Other> {
-        self.comparison.other.as_ref()
+        self.ab.other.as_ref()
     }
 
     /// How A and B share the window.
     pub fn arrangement(&self) -> Arrangement {
-        match self.comparison.other {
-            Some(_) => self.comparison.arrangement,
+        match self.ab.other {
+            Some(_) => self.ab.arrangement,
             None => Arrangement::Alone,
         }
     }
 
     /// How differences are shown.
     pub fn difference_style(&self) -> DifferenceStyle {
-        self.comparison.style
+        self.ab.style
     }
 
     /// Whether B stands where A else does.
     pub fn is_swapped(&self) -> bool {
-        self.comparison.swapped
+        self.ab.swapped
     }
 
     /// What shown differences are multiplied with; `None` while they are not to be seen.
     pub fn difference_gain(&self) -> Option<f32> {
-        Some(self.comparison.paint.as_ref()?.colors.gain())
+        Some(self.ab.paint.as_ref()?.colors.gain())
     }
 
     /// Carries out a command; what is explained stays in sight.
@@ -45,7 +45,7 @@ impl Viewer {
         if panes.is_some_and(|before| before != self.panes()) {
             self.keep_explained_pin_in_sight();
         }
-        self.comparison.touch();
+        self.ab.touch();
     }
 
     fn change_ab(&mut self, command: AbCommand) {
@@ -61,27 +61,26 @@ impl Viewer {
             AbCommand::SetWipe(part) if !part.is_finite() => {}
             AbCommand::SetGain(gain) if !gain.is_finite() => {}
             AbCommand::SetWipe(part) => {
-                self.comparison.wipe = part.clamp(0.0, 1.0);
+                self.ab.wipe = part.clamp(0.0, 1.0);
                 self.arrange(Arrangement::Wipe);
             }
             AbCommand::SetMeasure(measure) => {
-                self.comparison.style.measure = measure;
+                self.ab.style.measure = measure;
                 self.arrange(Arrangement::Difference);
             }
             AbCommand::SetGain(gain) => {
-                self.comparison.gain = gain.clamp(GAINS[0], GAINS[1]);
-                self.comparison.style.gain = Gain::Factor(self.comparison.gain);
+                self.ab.gain = gain.clamp(GAINS[0], GAINS[1]);
+                self.ab.style.gain = Gain::Factor(self.ab.gain);
                 self.arrange(Arrangement::Difference);
             }
             AbCommand::StepGain(steps) => self.step_gain(steps),
             AbCommand::NextDifference => self.next_difference(),
             AbCommand::Normalize(toggle) => {
-                let before =
-                    self.comparison.style.gain == Gain::Normalize && self.arrangement() == Arrangement::Difference;
-                self.comparison.style.gain = if toggle.of(before) {
+                let before = self.ab.style.gain == Gain::Normalize && self.arrangement() == Arrangement::Difference;
+                self.ab.style.gain = if toggle.of(before) {
                     Gain::Normalize
                 } else {
-                    Gain::Factor(self.comparison.gain)
+                    Gain::Factor(self.ab.gain)
                 };
                 self.arrange(Arrangement::Difference);
             }
@@ -90,54 +89,54 @@ impl Viewer {
 
     /// Closes what both share the window in; true if there was such.
     pub(in crate::viewer) fn escape_arrangement(&mut self) -> bool {
-        let shared = self.comparison.shows_both();
+        let shared = self.ab.shows_both();
         if shared {
             self.arrange(Arrangement::Alone);
-            self.comparison.swapped = false;
-            self.comparison.touch();
+            self.ab.swapped = false;
+            self.ab.touch();
         }
         shared
     }
 
     /// Forgets B; true if there was one.
     pub(in crate::viewer) fn escape_comparison(&mut self) -> bool {
-        let open = self.comparison.other.is_some();
+        let open = self.ab.other.is_some();
         if open {
             self.compare(Against::Nothing);
-            self.comparison.touch();
+            self.ab.touch();
         }
         open
     }
 
     fn swap_ab(&mut self) {
-        match &mut self.comparison.other {
+        match &mut self.ab.other {
             Some(Other::Settings { render, dialect }) => {
                 std::mem::swap(&mut self.settings.render, render);
                 std::mem::swap(&mut self.settings.dialect, dialect);
                 if self.own_dialect_of_b().is_some()
-                    && let Some(entry) = self.scenes.get_mut(self.current)
+                    && let Some(entry) = self.library.scenes.get_mut(self.library.current)
                 {
                     std::mem::swap(&mut entry.state, &mut entry.other_state);
                 }
                 self.swap_frames();
             }
             Some(Other::Truth(_) | Other::Picture(_)) => {
-                self.comparison.swapped = !self.comparison.swapped;
-                self.comparison.swaps += 1;
+                self.ab.swapped = !self.ab.swapped;
+                self.ab.swaps += 1;
             }
             // A picture that is being read becomes B.
-            None if self.comparison.loading.is_some() => {}
+            None if self.ab.loading.is_some() => {}
             None => self.compare(Against::Settings),
         }
     }
 
     pub(in crate::viewer) fn compare(&mut self, against: Against) {
         // The newest request counts.
-        self.comparison.loading = None;
+        self.ab.loading = None;
         match against {
             Against::Settings => {
                 self.set_other(Some(Other::with(&self.settings)));
-                self.messages.done(
+                self.chrome.messages.done(
                     "B keeps these settings; now change A with its keys. R swaps both, W wipes, D shows the difference"
                         .to_owned(),
                 );
@@ -145,7 +144,7 @@ impl Viewer {
             Against::Changed(changes) => {
                 let mut other = self.settings;
                 let remarks = changes.iter().filter_map(|change| change.apply(&mut other));
-                remarks.for_each(|remark| self.messages.error(remark));
+                remarks.for_each(|remark| self.chrome.messages.error(remark));
                 self.set_other(Some(Other::with(&other)));
                 self.show_somehow();
             }
@@ -156,38 +155,38 @@ impl Viewer {
             Against::File(path) => self.load_picture(path),
             Against::Nothing => {
                 self.set_other(None);
-                self.comparison.arrangement = Arrangement::Alone;
+                self.ab.arrangement = Arrangement::Alone;
             }
         }
     }
 
     pub(in crate::viewer) fn set_other(&mut self, other: Option<Other>) {
-        self.comparison.other = other;
-        self.comparison.swapped = false;
-        self.comparison.held = None;
-        self.comparison.moved = Moved::default();
-        self.comparison.others += 1;
-        self.comparison.measuring.forget();
-        self.comparison.touch();
+        self.ab.other = other;
+        self.ab.swapped = false;
+        self.ab.held = None;
+        self.ab.moved = Moved::default();
+        self.ab.others += 1;
+        self.ab.measuring.forget();
+        self.ab.touch();
     }
 
     pub(in crate::viewer) fn arrange(&mut self, arrangement: Arrangement) {
-        let is_without = self.comparison.other.is_none() && self.comparison.loading.is_none();
+        let is_without = self.ab.other.is_none() && self.ab.loading.is_none();
         if arrangement != Arrangement::Alone && is_without {
             self.compare(Against::Settings);
         }
-        self.comparison.arrangement = arrangement;
-        self.comparison.flip = None;
-        self.comparison.held = None;
-        self.comparison.drags_line = false;
+        self.ab.arrangement = arrangement;
+        self.ab.flip = None;
+        self.ab.held = None;
+        self.ab.drags_line = false;
     }
 
     fn step_gain(&mut self, steps: i32) {
         // From what is to be seen: a normalised gain, too.
-        let gain = self.difference_gain().unwrap_or(self.comparison.gain);
+        let gain = self.difference_gain().unwrap_or(self.ab.gain);
         let gain = gain * 2.0_f32.powi(steps.clamp(-40, 40));
-        self.comparison.gain = gain.clamp(GAINS[0], GAINS[1]);
-        self.comparison.style.gain = Gain::Factor(self.comparison.gain);
+        self.ab.gain = gain.clamp(GAINS[0], GAINS[1]);
+        self.ab.style.gain = Gain::Factor(self.ab.gain);
         self.arrange(Arrangement::Difference);
     }
 }

@@ -8,32 +8,32 @@ use crate::viewer::state::Viewer;
 impl Viewer {
     /// The texel that is pointed at in the explanation.
     pub fn pointed_texel(&self) -> Option<TexelPlace> {
-        self.pointed_texel
+        self.inspector.pointed_texel
     }
 
     /// The pixels around the pinned one that read the texel pointed at; empty until they were found out.
     pub fn fed_pixels(&self) -> &[FedPixel] {
-        let feeds = self.feeding.answer().and_then(Option::as_ref);
+        let feeds = self.inspector.contributions.answer().and_then(Option::as_ref);
         feeds
-            .zip(self.pointed_texel)
+            .zip(self.inspector.pointed_texel)
             .map_or(&[], |(feeds, texel)| feeds.of(texel))
     }
 
     /// The pixels that were looked at for [`Viewer::fed_pixels`]; `None` until they were.
     pub fn fed_region(&self) -> Option<Region> {
-        Some(self.feeding.answer()?.as_ref()?.searched)
+        Some(self.inspector.contributions.answer()?.as_ref()?.searched)
     }
 
     /// Sees to it that what the texel pointed at feeds is found out.
     pub(in crate::viewer) fn want_feeds(&mut self) {
         if !self.explains() {
-            self.pointed_texel = None;
+            self.inspector.pointed_texel = None;
         }
-        let pixel = self.pinned_pixel().filter(|_| self.pointed_texel.is_some());
+        let pixel = self.pinned_pixel().filter(|_| self.inspector.pointed_texel.is_some());
         let target = pixel.zip(self.frame()).map(|(pixel, frame)| Target {
             picture: frame.picture.clone(),
             pixel,
         });
-        self.feeding.want(target, |_| None);
+        self.inspector.contributions.want(target, |_| None);
     }
 }

@@ -31,7 +31,7 @@ impl Viewer {
     }
 
     pub(in crate::viewer) fn copy_text(&mut self, text: String) -> Vec<Effect> {
-        self.messages.done(format!("copied: {text}"));
+        self.chrome.messages.done(format!("copied: {text}"));
         vec![Effect::CopyText(text)]
     }
 
@@ -59,9 +59,9 @@ impl Viewer {
     /// The inspector's inset as figures carry it: as large as the frame has room for. `None` while it is not to be seen, or
     /// where there is no room at all.
     fn inset_spec(&self) -> Option<InsetSpec> {
-        let pixel = self.inset.and(self.inspected_pixel())?;
+        let pixel = self.inspector.inset.and(self.inspected_pixel())?;
         let (entry, sight) = (self.current()?, self.sight()?);
-        let (region, magnification) = (self.inspector.region, self.inspector.magnification);
+        let (region, magnification) = (self.inspector.magnifier.region, self.inspector.magnifier.magnification);
         let spec = InsetSpec::around(InsetPlace::Pixel(pixel), region, magnification);
         spec.fitted(self.frame_size(), &entry.camera.transform(&sight))
     }

@@ -9,10 +9,12 @@ use crate::viewer::state::Viewer;
 impl Viewer {
     /// How the scene at `index` is read where the settings say `choice`.
     pub(in crate::viewer) fn reading_of(&self, index: usize, choice: DialectChoice) -> DialectChoice {
-        let Some(entry) = self.scenes.get(index).filter(|_| choice == DialectChoice::Auto) else {
+        let Some(entry) = self.library.scenes.get(index).filter(|_| choice == DialectChoice::Auto) else {
             return choice;
         };
-        let chosen = entry.folder().and_then(|folder| self.chosen_readings.get(folder));
+        let chosen = entry
+            .folder()
+            .and_then(|folder| self.library.chosen_readings.get(folder));
         match chosen {
             Some(Dialect::Course) => DialectChoice::Course,
             Some(Dialect::Svg) => DialectChoice::Svg,
@@ -23,7 +25,7 @@ impl Viewer {
 
     /// The choice of dialect that makes the current picture from its file alone.
     pub(in crate::viewer) fn dialect_of_picture(&self) -> DialectChoice {
-        let choice = self.reading_of(self.current, self.settings.dialect);
+        let choice = self.reading_of(self.library.current, self.settings.dialect);
         let asks_for_course = self.settings.render.rules == crate::rules::Rules::Course;
         let scene = self.current().and_then(SceneEntry::scene);
         match scene.map(|scene| scene.dialect) {
@@ -47,7 +49,7 @@ impl Viewer {
         let other = scene.other_reading?.name();
         let why = match self.settings.dialect {
             DialectChoice::Course | DialectChoice::Svg => ", as the setting says",
-            DialectChoice::Auto if self.chosen_readings.contains_key(folder) => ", as you chose for its folder",
+            DialectChoice::Auto if self.library.chosen_readings.contains_key(folder) => ", as you chose for its folder",
             DialectChoice::Auto if entry.is_of_course => ", as other scenes of its folder are",
             DialectChoice::Auto => "",
         };
@@ -65,7 +67,7 @@ impl Viewer {
         };
         let folder: Option<PathBuf> = entry.folder().map(Path::to_owned);
         let readings = |viewer: &Self| -> Vec<DialectChoice> {
-            let scenes = 0..viewer.scenes.len();
+            let scenes = 0..viewer.library.scenes.len();
             scenes
                 .map(|index| viewer.reading_of(index, viewer.settings.dialect))
                 .collect()
@@ -73,12 +75,12 @@ impl Viewer {
         let before = readings(self);
         match folder.filter(|_| self.settings.dialect == DialectChoice::Auto) {
             Some(folder) => {
-                self.chosen_readings.insert(folder, other);
+                self.library.chosen_readings.insert(folder, other);
             }
             None => self.settings.dialect = choice,
         }
         for (index, (before, now)) in before.into_iter().zip(readings(self)).enumerate() {
-            if index != self.current && before != now {
+            if index != self.library.current && before != now {
                 self.read_anew(index);
             }
         }
@@ -86,7 +88,7 @@ impl Viewer {
 
     /// Lets go of a scene that is read in another way now, and asks for its thumbnail again; the old one stays until then.
     fn read_anew(&mut self, index: usize) {
-        let Some(entry) = self.scenes.get_mut(index).filter(|entry| !entry.is_reading()) else {
+        let Some(entry) = self.library.scenes.get_mut(index).filter(|entry| !entry.is_reading()) else {
             return;
         };
         entry.state = SceneState::Unread;

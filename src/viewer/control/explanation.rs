@@ -18,18 +18,18 @@ impl Viewer {
     /// Why the pinned pixel has its colour in the last frame that was finished; `None` until it was found out, and while
     /// no pixel is pinned or the explanation is closed.
     pub fn explanation(&self) -> Option<&Explanation> {
-        Some(&self.explaining.answer()?.as_ref()?.own)
+        Some(&self.inspector.explanation.answer()?.as_ref()?.own)
     }
 
     /// The same of B, where B is drawn by us too.
     pub fn other_explanation(&self) -> Option<&Explanation> {
-        self.explaining.answer()?.as_ref()?.other.as_ref()
+        self.inspector.explanation.answer()?.as_ref()?.other.as_ref()
     }
 
     /// Whether there is to be an explanation in the window.
     pub fn explains(&self) -> bool {
-        let is_open = self.inspector.open && !self.screen.hidden && !self.has_no_picture();
-        is_open && self.screen.shown.explanation && self.pinned_pixel().is_some()
+        let is_open = self.inspector.magnifier.open && !self.chrome.hidden && !self.has_no_picture();
+        is_open && self.chrome.shown.explanation && self.pinned_pixel().is_some()
     }
 
     /// Shows or hides the explanation. The switch goes by what is to be seen: it never closes what nobody sees, and where no
@@ -39,13 +39,13 @@ impl Viewer {
         if toggle == Toggle::Flip && self.refuses_to_explain() {
             return;
         }
-        self.inspector.asked |= shown;
-        self.screen.shown.explanation = shown;
+        self.inspector.magnifier.asked |= shown;
+        self.chrome.shown.explanation = shown;
         if !shown || toggle != Toggle::Flip {
             return;
         }
         if self.pinned_pixel().is_some() {
-            (self.inspector.open, self.screen.hidden) = (true, false);
+            (self.inspector.magnifier.open, self.chrome.hidden) = (true, false);
         } else if let Some(pixel) = self.hovered_pixel().or_else(|| self.inspected_pixel()) {
             self.pin(pixel.map(i64::from));
         }
@@ -60,7 +60,7 @@ impl Viewer {
     pub(in crate::viewer) fn refuses_to_explain(&mut self) -> bool {
         let has_none = self.has_no_picture();
         if has_none {
-            self.messages.error(NO_PICTURE.to_owned());
+            self.chrome.messages.error(NO_PICTURE.to_owned());
         }
         has_none
     }
@@ -72,25 +72,26 @@ impl Viewer {
         } else {
             "make the window wider"
         };
-        self.messages
+        self.chrome
+            .messages
             .done(format!("no room here for the explanation of the pixel: {cure}"));
         self.revision += 1;
     }
 
     /// Whether everything that is asked about the pinned pixel was found out.
     pub(in crate::viewer) fn explains_all(&self) -> bool {
-        self.explaining.is_current() && self.feeding.is_current()
+        self.inspector.explanation.is_current() && self.inspector.contributions.is_current()
     }
 
     /// Sees to it that what is to be explained is found out.
     pub(in crate::viewer) fn want_explanation(&mut self) {
         // While the picture moves the last explanation stays: finding out others would only slow the picture down.
-        if self.explains() && !self.drawing.is_current() {
+        if self.explains() && !self.frames.drawing.is_current() {
             return;
         }
         let pixel = self.pinned_pixel().filter(|_| self.explains());
         let asked = pixel.and_then(|pixel| self.question(pixel));
-        self.explaining.want(asked, |_| None);
+        self.inspector.explanation.want(asked, |_| None);
     }
 
     /// A pixel of the frame on the screen, as a question.
@@ -107,14 +108,16 @@ impl Viewer {
 
     /// The explanation as Markdown; explained now if nobody did yet.
     pub(in crate::viewer) fn copy_explanation(&mut self) -> Vec<Effect> {
-        let pixel = self.inspected_pixel().filter(|_| self.inspector.open);
+        let pixel = self.inspected_pixel().filter(|_| self.inspector.magnifier.open);
         let asked = pixel.and_then(|pixel| self.question(pixel));
         let Some(explained) = asked.and_then(|asked| asked.explain()) else {
             let cure = "no pixel to explain: open the inspector with Z, or pin a pixel";
-            self.messages.error(cure.to_owned());
+            self.chrome.messages.error(cure.to_owned());
             return Vec::new();
         };
-        self.messages.done("copied the explanation as Markdown".to_owned());
+        self.chrome
+            .messages
+            .done("copied the explanation as Markdown".to_owned());
         vec![Effect::CopyText(explained.own.markdown(Detail::Telling))]
     }
 

@@ -32,24 +32,24 @@ impl Viewer {
 
     /// Since when the picture on the screen has been wanted.
     pub fn wanted_since(&self) -> Instant {
-        self.drawing.frame_since()
+        self.frames.drawing.frame_since()
     }
 
     /// Whether final tiles are being drawn over what is on the screen.
     pub fn is_refining(&self) -> bool {
-        self.drawing.refinement().is_some()
+        self.frames.drawing.refinement().is_some()
     }
 
     /// Which part of a refinement that takes long is done, `0.0..=1.0`.
     pub fn long_refinement(&self) -> Option<f64> {
-        let (since, done) = self.drawing.refinement()?;
+        let (since, done) = self.frames.drawing.refinement()?;
         (Instant::now().saturating_duration_since(since) >= LONG).then_some(done)
     }
 
     /// What the status line says about a frame that is not final, such as `preview, rate 1`.
     pub fn preview_text(&self) -> Option<String> {
         let preview = self.preview();
-        match (preview, self.drawing.refinement()) {
+        match (preview, self.frames.drawing.refinement()) {
             (Some(_), Some((_, done))) => Some(format!("refining {:.0} %", done * 100.0)),
             (Some(quality), None) => Some(format!("preview, {quality}")),
             (None, _) => None,
@@ -58,14 +58,14 @@ impl Viewer {
 
     /// Asks for the frame of the current state. A minimised window keeps the one it has.
     pub(in crate::viewer) fn want_frame(&mut self) {
-        self.comparison.forget_postponed();
-        let surface = self.surface_pool.is_some() && self.shows_plain_frame();
-        self.drawing.lend_surface(surface);
-        if let Some(other) = self.comparison.drawing_mut() {
+        self.ab.forget_postponed();
+        let surface = self.frames.surface_pool.is_some() && self.shows_plain_frame();
+        self.frames.drawing.lend_surface(surface);
+        if let Some(other) = self.ab.drawing_mut() {
             other.lend_surface(false);
         }
         let size = self.frame_size();
-        let Some(entry) = self.scenes.get(self.current) else {
+        let Some(entry) = self.library.scenes.get(self.library.current) else {
             return self.clear_frames();
         };
         if entry.failure().is_some() {
@@ -92,16 +92,19 @@ impl Viewer {
             return;
         }
         let from = self.attention();
-        let focus = self.inset.map(|placed| in_frame(&placed.inset.source(), size));
+        let focus = self
+            .inspector
+            .inset
+            .map(|placed| in_frame(&placed.inset.source(), size));
         let request = FrameRequest::new(picture, from, focus);
-        self.drawing.want(request.clone());
+        self.frames.drawing.want(request.clone());
         self.want_other(&request);
         self.release_pair();
     }
 
     fn clear_frames(&mut self) {
-        self.drawing.clear();
-        if let Some(drawing) = self.comparison.drawing_mut() {
+        self.frames.drawing.clear();
+        if let Some(drawing) = self.ab.drawing_mut() {
             drawing.clear();
         }
         self.release_pair();
@@ -110,7 +113,7 @@ impl Viewer {
     /// The frame pixel that is to be final first: the one that the inspector shows, or under the pointer, or in the
     /// middle.
     fn attention(&self) -> [u32; 2] {
-        let inspected = self.inset.and_then(|_| self.inspected_pixel());
+        let inspected = self.inspector.inset.and_then(|_| self.inspected_pixel());
         let middle = self.frame_size().map(|side| side / 2);
         inspected.or(self.hovered_pixel()).unwrap_or(middle)
     }

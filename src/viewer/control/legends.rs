@@ -12,7 +12,7 @@ use crate::viewer::state::Viewer;
 impl Viewer {
     /// Where legends lie in the window, in window pixels.
     pub fn legend_places(&self) -> Vec<PixelRect> {
-        self.legends.placed.iter().map(|(rect, _)| *rect).collect()
+        self.frames.legends.placed.iter().map(|(rect, _)| *rect).collect()
     }
 
     /// What the picture on the screen shows: A, then B where that is seen and shows something else.
@@ -23,7 +23,7 @@ impl Viewer {
             // The difference has colours of its own.
             return Vec::new();
         }
-        if self.comparison.shows_both() {
+        if self.ab.shows_both() {
             shown.extend(self.other_settings().map(|settings| settings.visualisation));
             shown.dedup();
         }
@@ -33,38 +33,41 @@ impl Viewer {
 
     /// Puts the legends where there is room now.
     pub(in crate::viewer) fn place_legends(&mut self) {
-        let shown = if self.screen.hidden {
+        let shown = if self.chrome.hidden {
             Vec::new()
         } else {
             self.visualisations()
         };
         let scene = self.frame().map(|frame| Arc::clone(&frame.picture.scene));
         let request = scene.filter(|_| !shown.is_empty()).map(|scene| {
-            let window = PixelRect::of_size(self.screen.window);
-            let insets = [self.inset, self.other_inset].into_iter().flatten();
-            let pixel = self.inset.and_then(|placed| self.in_frame(placed.inset.center));
+            let window = PixelRect::of_size(self.chrome.window);
+            let insets = [self.inspector.inset, self.inspector.other_inset].into_iter().flatten();
+            let pixel = self
+                .inspector
+                .inset
+                .and_then(|placed| self.in_frame(placed.inset.center));
             LegendRequest {
                 scene,
                 shown,
-                window: self.screen.window,
-                area: self.screen.free_area.map_or(window, |free| free.intersection(&window)),
+                window: self.chrome.window,
+                area: self.chrome.free_area.map_or(window, |free| free.intersection(&window)),
                 spared: insets
                     .map(|placed| placed.rect)
                     .chain(pixel.map(|pixel| self.shown_at(pixel)))
                     .collect(),
             }
         });
-        if request == self.legends.request {
+        if request == self.frames.legends.request {
             return;
         }
-        self.legends.placed = request.as_ref().map_or_else(Vec::new, LegendRequest::place);
-        self.legends.request = request;
-        self.legends.number += 1;
+        self.frames.legends.placed = request.as_ref().map_or_else(Vec::new, LegendRequest::place);
+        self.frames.legends.request = request;
+        self.frames.legends.number += 1;
     }
 
     /// Draws the legends as far as they lie in `parts`.
     pub(in crate::viewer) fn draw_legends(&self, parts: &[PixelRect], window: &mut WindowPixels<'_>) {
-        for (rect, picture) in &self.legends.placed {
+        for (rect, picture) in &self.frames.legends.placed {
             for part in parts {
                 paste(picture, [rect.x, rect.y], window, part);
             }

@@ -23,7 +23,7 @@ impl Viewer {
     pub(in crate::viewer) fn open_lesson(&mut self, source: &LessonSource) {
         match source.read() {
             Ok(lesson) => self.begin(lesson),
-            Err(error) => self.messages.error(error.to_string()),
+            Err(error) => self.chrome.messages.error(error.to_string()),
         }
     }
 
@@ -37,10 +37,10 @@ impl Viewer {
         let before = match self.lesson.take() {
             Some(walk) => walk.before,
             None => Before {
-                scenes: std::mem::take(&mut self.scenes),
-                current: self.current,
+                scenes: std::mem::take(&mut self.library.scenes),
+                current: self.library.current,
                 settings: self.settings,
-                explanation: self.screen.shown.explanation,
+                explanation: self.chrome.shown.explanation,
             },
         };
         let mut entries: Vec<SceneEntry> = Vec::new();
@@ -71,6 +71,7 @@ impl Viewer {
         match (forward, walk.at) {
             (true, at) if at < last => self.take_step(at + 1),
             (true, _) => self
+                .chrome
                 .messages
                 .done("that was the last step; Esc closes the lesson".to_owned()),
             (false, at) => self.take_step(at.saturating_sub(1)),
@@ -85,7 +86,7 @@ impl Viewer {
         };
         (walk.at, walk.view_pending, walk.fitted) = (at, true, None);
         let (scene, step) = (walk.scenes[at], walk.lesson.steps[at].clone());
-        self.current = scene.min(self.scenes.len().saturating_sub(1));
+        self.library.current = scene.min(self.library.scenes.len().saturating_sub(1));
         self.compare(Against::Nothing);
         self.settings.render = RenderSettings::default();
         self.settings.dialect = DialectChoice::default();
@@ -98,19 +99,19 @@ impl Viewer {
         } = step;
         for change in settings {
             let remark = change.apply(&mut self.settings);
-            remark.into_iter().for_each(|remark| self.messages.error(remark));
+            remark.into_iter().for_each(|remark| self.chrome.messages.error(remark));
         }
         if let Some((against, arrangement)) = against {
             self.compare(against);
             self.arrange(arrangement);
         }
-        self.screen.hidden = false;
-        self.screen.shown.explanation = explained;
-        self.inspector.open = pin.is_some();
-        (self.inspector.asked, self.inspector.kept_view) = (false, None);
-        self.inspector.pin = pin.map(|place| Pin {
+        self.chrome.hidden = false;
+        self.chrome.shown.explanation = explained;
+        self.inspector.magnifier.open = pin.is_some();
+        (self.inspector.magnifier.asked, self.inspector.magnifier.kept_view) = (false, None);
+        self.inspector.magnifier.pin = pin.map(|place| Pin {
             pixel: [0, 0],
-            place: Some((place, (self.current, self.generation))),
+            place: Some((place, (self.library.current, self.library.generation))),
         });
     }
 
@@ -124,7 +125,7 @@ impl Viewer {
         let follows = walk.fitted.is_some() && walk.fitted == camera;
         let numbers = walk.lesson.steps.get(walk.at).and_then(|step| step.view);
         // An explanation takes room: another scale would show other content at the pixel that was asked about.
-        let rests = self.inspector.asked && self.explains();
+        let rests = self.inspector.magnifier.asked && self.explains();
         if !walk.view_pending && (!follows || rests) {
             return;
         }
@@ -160,13 +161,13 @@ impl Viewer {
         }
         let cameras: Vec<Camera> = scenes.iter().map(|entry| entry.camera).collect();
         self.replace_scenes(scenes);
-        for (entry, camera) in self.scenes.iter_mut().zip(cameras) {
+        for (entry, camera) in self.library.scenes.iter_mut().zip(cameras) {
             entry.camera = camera;
         }
-        self.current = before.current.min(self.scenes.len().saturating_sub(1));
+        self.library.current = before.current.min(self.library.scenes.len().saturating_sub(1));
         self.settings = before.settings;
-        self.screen.shown.explanation = before.explanation;
-        (self.inspector.pin, self.inspector.open) = (None, false);
+        self.chrome.shown.explanation = before.explanation;
+        (self.inspector.magnifier.pin, self.inspector.magnifier.open) = (None, false);
         true
     }
 }

@@ -16,7 +16,7 @@ impl Viewer {
     ) -> Option<[PlacedInset; 2]> {
         let (shown, panes) = (self.shown_at(center), self.panes());
         let Some((second, canvas)) = panes.second.zip(self.canvas_in_frame()) else {
-            return self.inspector.place_both(center, &shown, area);
+            return self.inspector.magnifier.place_both(center, &shown, area);
         };
         let zoom = self.settings.pixel_zoom.factor();
         let [low, high] = canvas.map(|place| screen_place(place, panes.first.corner));
@@ -29,6 +29,7 @@ impl Viewer {
         };
         let [canvas, first, second] = [canvas, panes.first.area, second.area].map(|rect| magnified(&rect, zoom));
         self.inspector
+            .magnifier
             .place_in_halves(center, &shown, &canvas, [&first, &second])
     }
 

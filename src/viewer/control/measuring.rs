@@ -11,14 +11,14 @@ use crate::viewer::state::Viewer;
 impl Viewer {
     /// How far A and B are apart, and whether that is about the pictures of this moment; `None` until it was found out.
     pub fn measures(&self) -> Option<(&Measures, bool)> {
-        let (which, measures) = self.comparison.measuring.found.as_ref()?;
+        let (which, measures) = self.ab.measuring.found.as_ref()?;
         Some((measures, self.measurable() == Some(*which)))
     }
 
     /// Whether nothing is to be found out about A and B any more.
     pub(in crate::viewer) fn is_measured(&self) -> bool {
         let which = self.measurable();
-        which.is_none() || which == self.comparison.measuring.complete
+        which.is_none() || which == self.ab.measuring.complete
     }
 
     /// The place among those that differ most that is pinned, counted from 0.
@@ -30,23 +30,23 @@ impl Viewer {
 
     /// Both pictures, if they are final and belong together.
     fn measurable(&self) -> Option<Which> {
-        let settled = self.drawing.is_current() && self.comparison.is_current();
+        let settled = self.frames.drawing.is_current() && self.ab.is_current();
         self.pair_in_step().filter(|_| settled)?;
         let number = |drawing: &Drawing| (drawing.id(), drawing.number());
         Some(Which {
-            a: number(&self.drawing),
-            b: self.comparison.drawn_other().map(number),
-            other: self.comparison.others,
+            a: number(&self.frames.drawing),
+            b: self.ab.drawn_other().map(number),
+            other: self.ab.others,
         })
     }
 
     /// Finds out how far both are apart once they rest.
     pub(in crate::viewer) fn want_measures(&mut self) {
-        if self.comparison.other.is_none() {
-            return self.comparison.measuring.close();
+        if self.ab.other.is_none() {
+            return self.ab.measuring.close();
         }
         let which = self.measurable();
-        let measuring = &mut self.comparison.measuring;
+        let measuring = &mut self.ab.measuring;
         let Some(which) = which else {
             measuring.wanted = None;
             return measuring.cancel();
@@ -63,27 +63,28 @@ impl Viewer {
             return;
         }
         let Some(pictures) = self.shared_pair() else { return };
-        let is_outside = matches!(self.comparison.other, Some(Other::Picture(_)));
+        let is_outside = matches!(self.ab.other, Some(Other::Picture(_)));
         let job = Job {
             which,
             pictures,
             subject: self.frame().filter(|_| is_outside).map(|frame| frame.picture.clone()),
             cancel: Arc::default(),
         };
-        if let Err(error) = self.comparison.measuring.start(job) {
-            self.comparison.measuring.complete = Some(which);
-            self.messages
+        if let Err(error) = self.ab.measuring.start(job) {
+            self.ab.measuring.complete = Some(which);
+            self.chrome
+                .messages
                 .error(format!("cannot measure A against B: {error}; close other programs"));
         }
     }
 
     /// Takes in what the thread found out.
     pub(in crate::viewer) fn measured(&mut self, measured: Measured) {
-        let measuring = &mut self.comparison.measuring;
+        let measuring = &mut self.ab.measuring;
         if measured.stage != Stage::More {
             measuring.running = None;
         }
-        if self.comparison.other.is_none() || measured.stage == Stage::GivenUp {
+        if self.ab.other.is_none() || measured.stage == Stage::GivenUp {
             return;
         }
         if let Some(measures) = measured.measures {
@@ -97,28 +98,29 @@ impl Viewer {
 
     /// Goes to the pixel that differs most, or from there to the next; at once, or when it is known.
     pub(in crate::viewer) fn next_difference(&mut self) {
-        if self.comparison.other.is_none() {
+        if self.ab.other.is_none() {
             self.compare(Against::Settings);
             return;
         }
-        self.comparison.measuring.jumps = true;
+        self.ab.measuring.jumps = true;
         self.jump();
     }
 
     fn jump(&mut self) {
         let next = self.pinned_place().map_or(0, |place| place + 1);
-        let Some((measures, true)) = self.measures().filter(|_| self.comparison.measuring.jumps) else {
+        let Some((measures, true)) = self.measures().filter(|_| self.ab.measuring.jumps) else {
             return;
         };
         let place = measures.places.get(next).or(measures.places.first()).copied();
-        self.comparison.measuring.jumps = false;
+        self.ab.measuring.jumps = false;
         match place {
             Some(place) => {
                 self.pin(place.at.map(i64::from));
-                self.inspector.revealed = true;
+                self.inspector.magnifier.revealed = true;
                 self.reveal_pin();
             }
             None => self
+                .chrome
                 .messages
                 .done("A and B are equal in this view: no pixel differs".to_owned()),
         }

@@ -27,15 +27,15 @@ impl Viewer {
             return self.open_gallery_if_empty();
         }
         // A picture alone at the start is told that it is no scene.
-        let compares = !self.scenes.is_empty() || !documents.is_empty();
+        let compares = !self.library.scenes.is_empty() || !documents.is_empty();
         let (mut scenes, problems) = library::list_scenes(if compares { &documents } else { paths });
         if let Some(picture) = pictures.last().filter(|_| compares) {
             self.compare(Against::File((*picture).clone()));
         }
         for problem in problems {
-            self.messages.error(problem);
+            self.chrome.messages.error(problem);
         }
-        if self.scenes.is_empty() {
+        if self.library.scenes.is_empty() {
             if scenes.is_empty() {
                 scenes = library::gallery_entries();
             }
@@ -47,7 +47,7 @@ impl Viewer {
 
     /// A picture whose scene is gone leaves a list with something to look at too.
     fn open_gallery_if_empty(&mut self) {
-        if self.scenes.is_empty() {
+        if self.library.scenes.is_empty() {
             self.replace_scenes(library::gallery_entries());
         }
     }
@@ -57,22 +57,22 @@ impl Viewer {
         let place = |list: &[SceneEntry], source: &SceneSource| list.iter().position(|entry| entry.source == *source);
         let first = scenes.first().map(|entry| entry.source.clone());
         for mut scene in scenes {
-            if place(&self.scenes, &scene.source).is_some() {
+            if place(&self.library.scenes, &scene.source).is_some() {
                 continue;
             }
-            if self.scenes.len() >= library::MAX_SCENES {
-                self.messages.error(format!(
+            if self.library.scenes.len() >= library::MAX_SCENES {
+                self.chrome.messages.error(format!(
                     "{}: the list is full; start the program anew with it",
                     scene.label
                 ));
                 break;
             }
-            scene.camera = Camera::new(self.start_view);
-            self.scenes.push(scene);
+            scene.camera = Camera::new(self.library.start_view);
+            self.library.scenes.push(scene);
         }
-        if let Some(index) = first.and_then(|source| place(&self.scenes, &source)) {
-            let known = self.scenes[index].scene().is_some() || self.scenes[index].failure().is_some();
-            self.current = index;
+        if let Some(index) = first.and_then(|source| place(&self.library.scenes, &source)) {
+            let known = self.library.scenes[index].scene().is_some() || self.library.scenes[index].failure().is_some();
+            self.library.current = index;
             if known {
                 self.read_current();
             }
@@ -83,12 +83,12 @@ impl Viewer {
         // Its steps would show other scenes.
         self.lesson = None;
         for scene in &mut scenes {
-            scene.camera = Camera::new(self.start_view);
+            scene.camera = Camera::new(self.library.start_view);
         }
-        self.scenes = scenes;
-        self.generation += 1;
-        self.readers.drop_thumbnails();
-        self.recent.clear();
-        self.current = 0;
+        self.library.scenes = scenes;
+        self.library.generation += 1;
+        self.library.readers.drop_thumbnails();
+        self.library.recent.clear();
+        self.library.current = 0;
     }
 }

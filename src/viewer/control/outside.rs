@@ -10,13 +10,13 @@ use crate::viewer::state::Viewer;
 impl Viewer {
     /// The picture that is being read as B.
     pub fn loading_picture(&self) -> Option<&Path> {
-        self.comparison.loading.as_deref()
+        self.ab.loading.as_deref()
     }
 
     pub(in crate::viewer) fn load_picture(&mut self, path: PathBuf) {
-        match self.comparison.measuring.load(path.clone()) {
-            Ok(()) => self.comparison.loading = Some(path),
-            Err(error) => self.messages.error(format!(
+        match self.ab.measuring.load(path.clone()) {
+            Ok(()) => self.ab.loading = Some(path),
+            Err(error) => self.chrome.messages.error(format!(
                 "{}: cannot be read: {error}; close other programs",
                 path.display()
             )),
@@ -25,31 +25,34 @@ impl Viewer {
 
     /// Takes in a picture that was read; the newest request counts.
     pub(in crate::viewer) fn picture_read(&mut self, read: ReadPicture) {
-        if self.comparison.loading.as_ref() != Some(&read.path) {
+        if self.ab.loading.as_ref() != Some(&read.path) {
             return;
         }
-        self.comparison.loading = None;
+        self.ab.loading = None;
         match read.result {
             Ok(pixels) if pixels.pixels().is_empty() => {
                 let name = read.path.display();
-                self.messages
+                self.chrome
+                    .messages
                     .error(format!("{name}: has no pixels; give another picture"));
             }
             Ok(pixels) => {
-                self.messages.forget_problems_of(&read.path.display().to_string());
+                self.chrome
+                    .messages
+                    .forget_problems_of(&read.path.display().to_string());
                 let picture = Arc::new(OutsidePicture {
                     path: read.path,
                     pixels,
                 });
                 let [width, height] = [picture.pixels.width(), picture.pixels.height()];
-                self.messages.done(format!(
+                self.chrome.messages.done(format!(
                     "B is {}; A is drawn with its size, {width} x {height} pixels",
                     picture.name()
                 ));
                 self.set_other(Some(Other::Picture(picture)));
                 self.show_somehow();
             }
-            Err(problem) => self.messages.error(problem),
+            Err(problem) => self.chrome.messages.error(problem),
         }
     }
 
@@ -65,7 +68,7 @@ impl Viewer {
 
     /// What was asked for is to be seen at once: as a wipe, unless both share the window already.
     pub(in crate::viewer) fn show_somehow(&mut self) {
-        if self.comparison.arrangement == Arrangement::Alone {
+        if self.ab.arrangement == Arrangement::Alone {
             self.arrange(Arrangement::Wipe);
         }
     }

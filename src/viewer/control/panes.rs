@@ -17,14 +17,14 @@ const ZOOM_STEP: f64 = 1.25;
 impl Viewer {
     /// Where frames lie in the screen: the window's pixels divided by the pixel zoom.
     pub(in crate::viewer) fn panes(&self) -> Panes {
-        let screen = self.settings.pixel_zoom.frame_size(self.screen.window);
+        let screen = self.settings.pixel_zoom.frame_size(self.chrome.window);
         let whole = PixelRect::of_size(screen);
         let side_by_side = self.arrangement() == Arrangement::SideBySide;
         let halves = side_by_side.then(|| self.halves()).flatten();
         if let Some(frame) = self.fixed_size() {
             let pane = |area: PixelRect, middle: &PixelRect| Pane {
                 area,
-                corner: self.comparison.moved.corner(middle, frame),
+                corner: self.ab.moved.corner(middle, frame),
             };
             return match halves {
                 Some([left, right]) => Panes {
@@ -59,7 +59,7 @@ impl Viewer {
 
     /// The size of both frames, where a picture from outside gives it.
     pub(in crate::viewer) fn fixed_size(&self) -> Option<[u32; 2]> {
-        match self.comparison.other.as_ref()? {
+        match self.ab.other.as_ref()? {
             Other::Picture(picture) => Some([picture.pixels.width(), picture.pixels.height()]),
             Other::Settings { .. } | Other::Truth(_) => None,
         }
@@ -67,8 +67,8 @@ impl Viewer {
 
     /// The free area in whole screen pixels; `None` where there is none.
     pub(in super::super) fn free_screen(&self) -> Option<PixelRect> {
-        let window = PixelRect::of_size(self.screen.window);
-        let free = self.screen.free_area.map_or(window, |free| free.intersection(&window));
+        let window = PixelRect::of_size(self.chrome.window);
+        let free = self.chrome.free_area.map_or(window, |free| free.intersection(&window));
         if free.width == 0 || free.height == 0 {
             return None;
         }
@@ -95,15 +95,15 @@ impl Viewer {
     pub(in crate::viewer) fn move_fixed(&mut self, by: DVec2) -> bool {
         let Some(frame) = self.fixed_size() else { return false };
         let area = self.panes().first.area;
-        self.comparison.moved.add(by, &area, frame);
-        self.comparison.touch();
+        self.ab.moved.add(by, &area, frame);
+        self.ab.touch();
         true
     }
 
     /// Takes them back to the middle.
     pub(in crate::viewer) fn center_fixed(&mut self) {
-        self.comparison.moved = Moved::default();
-        self.comparison.touch();
+        self.ab.moved = Moved::default();
+        self.ab.touch();
     }
 
     /// Zooms pictures that have a size of their own by steps of the pixel zoom; `at` is a window pixel that stays. False
@@ -112,7 +112,7 @@ impl Viewer {
         if self.fixed_size().is_none() {
             return false;
         }
-        let moved = &mut self.comparison.moved;
+        let moved = &mut self.ab.moved;
         let steps = moved.rest + factor.ln() / ZOOM_STEP.ln();
         if !steps.is_finite() {
             return true;
@@ -137,7 +137,7 @@ impl Viewer {
 
     /// The same to a certain pixel zoom.
     pub(in crate::viewer) fn zoom_fixed_to(&mut self, at: Option<DVec2>, zoom: PixelZoom) {
-        let window = DVec2::from(self.screen.window.map(f64::from));
+        let window = DVec2::from(self.chrome.window.map(f64::from));
         // The centre of a window pixel, so that the frame pixel there stays whatever the corner is rounded to.
         let at = at.unwrap_or(window / 2.0).floor() + 0.5;
         let before = self.frame_position(at);

@@ -20,25 +20,27 @@ const PIN_ROOM: i64 = 24;
 impl Viewer {
     /// The pinned pixel; `None` too while the pinned place of the scene is outside the frame.
     pub fn pinned_pixel(&self) -> Option<[u32; 2]> {
-        self.in_frame(self.inspector.pin?.pixel)
+        self.in_frame(self.inspector.magnifier.pin?.pixel)
     }
 
     /// Keeps the pin at its place in the scene, whatever the view and the window do. Another scene has other places: there
     /// it stays at its pixel.
     pub(in crate::viewer) fn keep_pin_in_place(&mut self) {
-        let Some(mut pin) = self.inspector.pin else { return };
+        let Some(mut pin) = self.inspector.magnifier.pin else {
+            return;
+        };
         let Some(sight) = self.sight().filter(|sight| !sight.frame.contains(&0)) else {
             return;
         };
         let Some(entry) = self.current() else { return };
-        let scene = (self.current, self.generation);
+        let scene = (self.library.current, self.library.generation);
         let view = entry.camera.transform(&sight);
         match pin.place {
             Some((place, of)) if of == scene => {
                 let before = self.in_frame(pin.pixel);
                 pin.pixel = window_pixel(view.to_pixels(place));
                 if before.is_some() && self.in_frame(pin.pixel).is_none() {
-                    self.messages.done(PIN_OUTSIDE.to_owned());
+                    self.chrome.messages.done(PIN_OUTSIDE.to_owned());
                 }
             }
             _ => {
@@ -46,14 +48,18 @@ impl Viewer {
                 pin.place = Some((view.to_scene(centre), scene));
             }
         }
-        self.inspector.pin = Some(pin);
+        self.inspector.magnifier.pin = Some(pin);
     }
 
     /// The pixel in the middle of the inspector: the pinned one, else the one last under the pointer, else the one in
     /// the middle of the frame.
     pub fn inspected_pixel(&self) -> Option<[u32; 2]> {
         let middle = self.frame_size().map(|side| i64::from(side / 2));
-        let free = self.inspector.last.map_or(middle, |pixel| pixel.map(i64::from));
+        let free = self
+            .inspector
+            .magnifier
+            .last
+            .map_or(middle, |pixel| pixel.map(i64::from));
         self.pinned_pixel().or_else(|| self.nearest_in_frame(free))
     }
 
@@ -69,14 +75,14 @@ impl Viewer {
         }
         let is_pinned = self.pinned_pixel() == Some(pixel) || self.slid_away();
         if is_pinned && self.explains() {
-            self.inspector.pin = None;
-            self.inspector.open &= !std::mem::take(&mut self.inspector.came_with_pin);
+            self.inspector.magnifier.pin = None;
+            self.inspector.magnifier.open &= !std::mem::take(&mut self.inspector.magnifier.came_with_pin);
         } else {
-            self.screen.shown.explanation = true;
-            self.inspector.asked = true;
+            self.chrome.shown.explanation = true;
+            self.inspector.magnifier.asked = true;
             let asked_at = self.place_asked_about();
             self.pin(pixel.map(i64::from));
-            self.inspector.asked_at = asked_at;
+            self.inspector.magnifier.asked_at = asked_at;
         }
     }
 
@@ -86,17 +92,17 @@ impl Viewer {
     pub(in crate::viewer) fn set_free_area(&mut self, area: Option<PixelRect>) {
         let (before, panes) = (self.sight(), self.panes());
         // Before: a smaller frame may leave its pixel outside.
-        let asks = self.inspector.asked && self.explains();
-        self.screen.free_area = area;
+        let asks = self.inspector.magnifier.asked && self.explains();
+        self.chrome.free_area = area;
         if self.arrangement() == Arrangement::Wipe {
             // Its line gives way to panels.
-            self.comparison.touch();
+            self.ab.touch();
         }
         let sights = before.zip(self.sight());
         if let Some((before, sight)) = sights.filter(|(before, sight)| asks && before.frame != sight.frame) {
             self.keep_view_of_pin((&before, &panes), &sight);
         }
-        if let Some([first, set]) = self.inspector.kept_view.take_if(|_| !asks) {
+        if let Some([first, set]) = self.inspector.magnifier.kept_view.take_if(|_| !asks) {
             self.look(|camera, _| {
                 if *camera == set {
                     *camera = first;
@@ -112,14 +118,14 @@ impl Viewer {
             pixel,
             place: Some((place, _)),
             ..
-        }) = self.inspector.pin
+        }) = self.inspector.magnifier.pin
         else {
             return;
         };
         let Some(camera) = self.current().map(|entry| entry.camera) else {
             return;
         };
-        let in_second = self.inspector.asked_at.is_some_and(|asked| asked.in_second);
+        let in_second = self.inspector.magnifier.asked_at.is_some_and(|asked| asked.in_second);
         let corner = |panes: &Panes| panes.second.filter(|_| in_second).unwrap_or(panes.first).corner;
         let (old, new) = (corner(panes), corner(&self.panes()));
         let stays = |axis: usize| {
@@ -134,21 +140,21 @@ impl Viewer {
         kept.set(camera.numbers(before), sight);
         let now = kept.transform(sight).to_pixels(place);
         kept.pan(at - now, sight);
-        let first = match self.inspector.kept_view {
+        let first = match self.inspector.magnifier.kept_view {
             Some([first, set]) if set == camera => first,
             _ => camera,
         };
-        self.inspector.kept_view = Some([first, kept]);
+        self.inspector.magnifier.kept_view = Some([first, kept]);
         self.look(|camera, _| *camera = kept);
     }
 
     /// Moves the picture so that a pixel that was jumped to lies in the middle of what is free, where a panel covers it.
     pub(in crate::viewer) fn reveal_pin(&mut self) {
-        let Some(pixel) = self.pinned_pixel().filter(|_| self.inspector.revealed) else {
+        let Some(pixel) = self.pinned_pixel().filter(|_| self.inspector.magnifier.revealed) else {
             return;
         };
-        let window = PixelRect::of_size(self.screen.window);
-        let free = self.screen.free_area.map_or(window, |free| free.intersection(&window));
+        let window = PixelRect::of_size(self.chrome.window);
+        let free = self.chrome.free_area.map_or(window, |free| free.intersection(&window));
         let shown = self.shown_at(pixel);
         if free.width == 0 || free.height == 0 || free.contains([shown.x, shown.y]) {
             return;
@@ -167,21 +173,21 @@ impl Viewer {
     /// Pins the pixel, or the nearest in the frame, and shows the inspector.
     pub(in crate::viewer) fn pin(&mut self, pixel: [i64; 2]) {
         if let Some(pixel) = self.nearest_in_frame(pixel) {
-            self.inspector.pin = Some(Pin {
+            self.inspector.magnifier.pin = Some(Pin {
                 pixel: pixel.map(i64::from),
                 place: None,
             });
-            self.inspector.revealed = false;
-            self.inspector.asked_at = None;
-            self.inspector.pins += 1;
-            self.inspector.came_with_pin |= !self.inspector.open;
-            self.inspector.open = true;
-            self.screen.hidden = false;
+            self.inspector.magnifier.revealed = false;
+            self.inspector.magnifier.asked_at = None;
+            self.inspector.magnifier.pins += 1;
+            self.inspector.magnifier.came_with_pin |= !self.inspector.magnifier.open;
+            self.inspector.magnifier.open = true;
+            self.chrome.hidden = false;
         }
     }
 
     pub(in crate::viewer) fn nudge(&mut self, by: [i64; 2]) {
-        if self.inspector.pin.is_none() && !self.inspector.open {
+        if self.inspector.magnifier.pin.is_none() && !self.inspector.magnifier.open {
             return;
         }
         if let Some([x, y]) = self.inspected_pixel() {
@@ -191,25 +197,25 @@ impl Viewer {
 
     /// Where the inset goes now: nowhere while the pinned place is out of sight.
     pub(in crate::viewer) fn place_inset(&mut self) {
-        let to_be_seen = self.inspector.open && !self.screen.hidden;
-        let center = match self.inspector.pin {
+        let to_be_seen = self.inspector.magnifier.open && !self.chrome.hidden;
+        let center = match self.inspector.magnifier.pin {
             Some(pin) => self.in_frame(pin.pixel),
             None => self.inspected_pixel(),
         };
         let center = center.filter(|_| to_be_seen);
-        let window = PixelRect::of_size(self.screen.window);
-        let area = self.screen.free_area.map_or(window, |free| free.intersection(&window));
-        (self.inset, self.other_inset) = (None, None);
+        let window = PixelRect::of_size(self.chrome.window);
+        let area = self.chrome.free_area.map_or(window, |free| free.intersection(&window));
+        (self.inspector.inset, self.inspector.other_inset) = (None, None);
         let Some(center) = center else { return };
         let shown = self.shown_at(center);
         // The panels that draw the ring tell what area is free; pictures without them have none.
-        let is_ringed = self.screen.free_area.is_some() && self.pinned_pixel().is_some();
-        self.inspector.ring_room = if is_ringed { RING_ROOM } else { 0 };
-        if self.comparison.shows_both() {
+        let is_ringed = self.chrome.free_area.is_some() && self.pinned_pixel().is_some();
+        self.inspector.magnifier.ring_room = if is_ringed { RING_ROOM } else { 0 };
+        if self.ab.shows_both() {
             let both = self.place_magnifiers(center, &area);
-            (self.inset, self.other_inset) = both.map_or((None, None), |[a, b]| (Some(a), Some(b)));
+            (self.inspector.inset, self.inspector.other_inset) = both.map_or((None, None), |[a, b]| (Some(a), Some(b)));
         } else {
-            self.inset = self.inspector.place(center, &shown, &area);
+            self.inspector.inset = self.inspector.magnifier.place(center, &shown, &area);
         }
     }
 }

@@ -22,7 +22,7 @@ impl Viewer {
 
     /// The inset that lies over a window pixel, A's or B's.
     pub(in crate::viewer) fn inset_at(&self, at: [i64; 2]) -> Option<PlacedInset> {
-        let mut insets = self.inset.into_iter().chain(self.other_inset);
+        let mut insets = self.inspector.inset.into_iter().chain(self.inspector.other_inset);
         insets.find(|placed| placed.rect.contains(at))
     }
 
@@ -46,7 +46,7 @@ impl Viewer {
             return;
         }
         let from = self.pointer.at.replace(to);
-        if self.comparison.drags_line {
+        if self.ab.drags_line {
             self.drag_line(to.x);
         } else if let Some(from) = from.filter(|_| self.pointer.dragging) {
             self.pan(to - from);
@@ -57,12 +57,12 @@ impl Viewer {
     /// Remembers the pixel under the pointer for the inspector. Unpinned, the inset gives way to the pointer, so what
     /// lies below the inset counts.
     pub(in crate::viewer) fn follow_pointer(&mut self) {
-        if self.inspector.pin.is_some() && self.pointer_over_inset() {
+        if self.inspector.magnifier.pin.is_some() && self.pointer_over_inset() {
             return;
         }
         let Some(at) = self.pointer.at else { return };
         let pixel = self.frame_pixel(window_pixel(at));
-        self.inspector.last = self.in_frame(pixel).or(self.inspector.last);
+        self.inspector.magnifier.last = self.in_frame(pixel).or(self.inspector.magnifier.last);
     }
 
     /// The frame pixel at a window pixel; it may lie outside the frame.

@@ -20,7 +20,7 @@ impl Viewer {
         if let Some((entry, scene)) = self.current().and_then(|entry| Some((entry, entry.scene()?))) {
             entry.source.protect(&scene.files, &mut guard);
         }
-        if let Some(Other::Picture(picture)) = &self.comparison.other {
+        if let Some(Other::Picture(picture)) = &self.ab.other {
             guard.protect(&picture.path);
         }
         guard
@@ -28,11 +28,15 @@ impl Viewer {
 
     /// Shows what a picture's record tells: scene, view, settings. False where it has none.
     pub(in crate::viewer) fn restore(&mut self, shot: &Path) -> bool {
-        let restored = match self.grammar.map(|grammar| Restored::of_file(shot, grammar.picture)) {
+        let restored = match self
+            .export
+            .grammar
+            .map(|grammar| Restored::of_file(shot, grammar.picture))
+        {
             None | Some(Ok(None)) => return false,
             Some(Ok(Some(restored))) => restored,
             Some(Err(problem)) => {
-                self.messages.error(problem);
+                self.chrome.messages.error(problem);
                 return true;
             }
         };
@@ -40,11 +44,12 @@ impl Viewer {
         let (scenes, problems) = library::list_scenes(&[address]);
         if let Some(problem) = problems.into_iter().next() {
             let name = shot.display();
-            self.messages
+            self.chrome
+                .messages
                 .error(format!("{name}: the scene of this picture is not there: {problem}"));
             return true;
         }
-        if self.scenes.is_empty() {
+        if self.library.scenes.is_empty() {
             self.replace_scenes(scenes);
         } else {
             self.add_scenes(scenes);
@@ -52,11 +57,11 @@ impl Viewer {
         self.settings.render = restored.spec.render;
         self.settings.render.outline = true;
         self.settings.dialect = restored.spec.dialect;
-        if let Some(entry) = self.scenes.get_mut(self.current) {
+        if let Some(entry) = self.library.scenes.get_mut(self.library.current) {
             entry.camera = Camera::new(restored.spec.view);
         }
-        self.messages.done(format!("as in {}", shot.display()));
-        self.restored = Some(restored);
+        self.chrome.messages.done(format!("as in {}", shot.display()));
+        self.export.restored = Some(restored);
         true
     }
 
@@ -67,17 +72,19 @@ impl Viewer {
         };
         let Some(scene) = entry.scene().cloned() else { return };
         let source = entry.source.clone();
-        let Some(restored) = self.restored.take_if(|restored| restored.spec.scene == source) else {
+        let Some(restored) = self.export.restored.take_if(|restored| restored.spec.scene == source) else {
             return;
         };
         if let Some(inset) = restored.spec.insets.first() {
             self.pin_as_in(inset, &restored.spec, scene.canvas);
         }
         if let Some(differs) = &restored.record.differs {
-            self.messages.done(format!("{}: {differs}", restored.shot.display()));
+            self.chrome
+                .messages
+                .done(format!("{}: {differs}", restored.shot.display()));
         }
         if let Some(change) = restored.changes(&scene.files) {
-            self.messages.error(change);
+            self.chrome.messages.error(change);
         }
     }
 
@@ -90,12 +97,12 @@ impl Viewer {
                 spec.view.transform(canvas, spec.size).to_scene(centre)
             }
         };
-        self.inspector.set_magnification(inset.magnification);
-        self.inspector.set_region(inset.region);
-        self.inspector.open = true;
-        self.inspector.pin = Some(Pin {
+        self.inspector.magnifier.set_magnification(inset.magnification);
+        self.inspector.magnifier.set_region(inset.region);
+        self.inspector.magnifier.open = true;
+        self.inspector.magnifier.pin = Some(Pin {
             pixel: [0, 0],
-            place: Some((place, (self.current, self.generation))),
+            place: Some((place, (self.library.current, self.library.generation))),
         });
     }
 }

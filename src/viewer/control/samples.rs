@@ -11,7 +11,7 @@ impl Viewer {
     /// The samples of the pixel in the middle of the open inspector, in the order of the sample pattern; empty until
     /// they were found out.
     pub fn pixel_samples(&self) -> &[ProbedSample] {
-        self.probing.answer().map_or(&[], Vec::as_slice)
+        self.inspector.samples.answer().map_or(&[], Vec::as_slice)
     }
 
     /// What the samples of the inspected pixel hit, and how many each, in the order of the samples.
@@ -33,13 +33,13 @@ impl Viewer {
 
     /// Sees to it that the samples of the pixel in the middle of the inset are found out, for the frame on the screen.
     pub(in crate::viewer) fn want_samples(&mut self) {
-        let center = self.inset.map(|placed| placed.inset.center);
+        let center = self.inspector.inset.map(|placed| placed.inset.center);
         let pixel = center.and_then(|center| self.in_frame(center));
         let target = pixel.zip(self.frame()).map(|(pixel, frame)| Target {
             picture: frame.picture.clone(),
             pixel,
         });
-        self.probing.want(target, |target| {
+        self.inspector.samples.want(target, |target| {
             (target.picture.scene.primitives.len() <= FEW).then(|| target.probe())
         });
     }

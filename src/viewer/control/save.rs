@@ -15,26 +15,28 @@ impl Viewer {
     /// Saves the picture of the whole window, as [`crate::viewer::command::Effect::PictureOfWindow`] asks for it.
     pub fn save_window_picture(&mut self, window: Framebuffer) {
         if window.pixels().is_empty() {
-            self.messages
+            self.chrome
+                .messages
                 .error("nothing to save: the window has no pixels; make it larger".to_owned());
         } else {
             let recipe = self.recipe_of_window();
-            self.saver
+            self.export
+                .saver
                 .push(Work::Picture(Shot::Ready(window), recipe.map(Box::new)));
         }
         self.update();
     }
 
     pub(in crate::viewer) fn ask_for_screenshot(&mut self) {
-        self.saver.waiting = self.saver.waiting.saturating_add(1);
-        self.saver.since = self.drawing.newest_request();
+        self.export.saver.waiting = self.export.saver.waiting.saturating_add(1);
+        self.export.saver.since = self.frames.drawing.newest_request();
         // No preview, and no rest: the picture of this moment, even if the view goes on moving.
         self.set_hurry(true);
     }
 
     /// The picture that screenshots wait for is another one now.
     pub(in crate::viewer) fn wait_for_newest_frame(&mut self) {
-        self.saver.since = self.drawing.newest_request();
+        self.export.saver.since = self.frames.drawing.newest_request();
     }
 
     /// Saves the screenshots that wait, as soon as there is a final frame of the state when they were asked for, or of
@@ -43,40 +45,43 @@ impl Viewer {
         let reading = self
             .current()
             .is_some_and(crate::viewer::library::SceneEntry::is_reading);
-        if self.saver.waiting == 0 || reading || !self.probing.is_current() {
+        if self.export.saver.waiting == 0 || reading || !self.inspector.samples.is_current() {
             return;
         }
-        let Some(frame) = self.drawing.final_frame(self.saver.since).cloned() else {
-            if !self.drawing.is_current() {
+        let Some(frame) = self.frames.drawing.final_frame(self.export.saver.since).cloned() else {
+            if !self.frames.drawing.is_current() {
                 return;
             }
-            self.saver.waiting = 0;
+            self.export.saver.waiting = 0;
             self.set_hurry(false);
-            self.messages
+            self.chrome
+                .messages
                 .error("nothing to save: there is no picture; open a scene first".to_owned());
             return;
         };
-        if self.comparison.shows_both() && !self.comparison.is_current() {
+        if self.ab.shows_both() && !self.ab.is_current() {
             return;
         }
-        let recipe = self.recipe_of_frame(&frame, self.comparison.shows_both());
-        for _ in 0..std::mem::take(&mut self.saver.waiting) {
+        let recipe = self.recipe_of_frame(&frame, self.ab.shows_both());
+        for _ in 0..std::mem::take(&mut self.export.saver.waiting) {
             let shot = self.shot_of(&frame, recipe.as_ref());
-            self.saver.push(Work::Picture(shot, recipe.clone().map(Box::new)));
+            self.export
+                .saver
+                .push(Work::Picture(shot, recipe.clone().map(Box::new)));
         }
         self.set_hurry(false);
     }
 
     /// What a screenshot of this frame shows.
     fn shot_of(&self, frame: &Arc<Frame>, recipe: Option<&Recipe>) -> Shot {
-        if !self.comparison.shows_both() {
+        if !self.ab.shows_both() {
             return Shot::Frame {
                 frame: Arc::clone(frame),
                 insets: recipe.map_or(Vec::new(), |recipe| recipe.spec.insets.clone()),
                 legends: self.legends_of_picture(),
             };
         }
-        if self.inset.is_some() {
+        if self.inspector.inset.is_some() {
             // The inset is in window pixels.
             return Shot::Ready(self.window_picture());
         }
@@ -87,7 +92,7 @@ impl Viewer {
 
     /// Copies the inspected pixel in words, or the picture while no pixel is inspected.
     pub(in crate::viewer) fn copy(&mut self) -> Vec<Effect> {
-        if self.inspector.open {
+        if self.inspector.magnifier.open {
             self.copy_pixel()
         } else {
             self.copy_picture()
@@ -96,23 +101,28 @@ impl Viewer {
 
     /// The picture as a screenshot of this moment shows it.
     pub(in crate::viewer) fn copy_picture(&mut self) -> Vec<Effect> {
-        let frame = self.drawing.final_frame(self.drawing.newest_request()).cloned();
-        let both_current = !self.comparison.shows_both() || self.comparison.is_current();
+        let frame = self
+            .frames
+            .drawing
+            .final_frame(self.frames.drawing.newest_request())
+            .cloned();
+        let both_current = !self.ab.shows_both() || self.ab.is_current();
         let Some(frame) = frame.filter(|_| both_current) else {
             let problem = "nothing copied: there is no finished picture yet; copy again when it is drawn";
-            self.messages.error(problem.to_owned());
+            self.chrome.messages.error(problem.to_owned());
             return Vec::new();
         };
-        let recipe = self.recipe_of_frame(&frame, self.comparison.shows_both());
+        let recipe = self.recipe_of_frame(&frame, self.ab.shows_both());
         match self.shot_of(&frame, recipe.as_ref()).picture() {
             Ok(picture) => {
                 let (width, height) = (picture.width(), picture.height());
-                self.messages
+                self.chrome
+                    .messages
                     .done(format!("copied the picture, {width} x {height} pixels"));
                 vec![Effect::CopyPicture(picture)]
             }
             Err(problem) => {
-                self.messages.error(problem);
+                self.chrome.messages.error(problem);
                 Vec::new()
             }
         }
@@ -163,13 +173,14 @@ impl Viewer {
     }
 
     pub(in crate::viewer) fn picture_saved(&mut self, Saved(saved): Saved) {
-        self.saver.running = self.saver.running.saturating_sub(1);
+        self.export.saver.running = self.export.saver.running.saturating_sub(1);
         match saved {
             Ok((path, [width, height])) => {
-                self.messages
+                self.chrome
+                    .messages
                     .done(format!("saved {}, {width} x {height} pixels", path.display()));
             }
-            Err(problem) => self.messages.error(problem),
+            Err(problem) => self.chrome.messages.error(problem),
         }
     }
 }

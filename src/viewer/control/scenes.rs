@@ -10,12 +10,14 @@ const KEPT: usize = 3;
 impl Viewer {
     /// Sees to it that the current scene is read in the dialect that is set, and in B's.
     pub(in crate::viewer) fn want_scene(&mut self) {
-        let Some(entry) = self.scenes.get(self.current) else {
+        let Some(entry) = self.library.scenes.get(self.library.current) else {
             return;
         };
         match entry.state.dialect() {
             None => self.read_current(),
-            Some(dialect) if dialect != self.reading_of(self.current, self.settings.dialect) => self.read_for(Side::A),
+            Some(dialect) if dialect != self.reading_of(self.library.current, self.settings.dialect) => {
+                self.read_for(Side::A)
+            }
             Some(_) => {}
         }
         self.let_go_of_old_scenes();
@@ -25,8 +27,8 @@ impl Viewer {
     /// The same for B where it has a dialect of its own; else B shares A's scene.
     fn want_other_scene(&mut self) {
         let own = self.own_dialect_of_b();
-        let wanted = own.map(|dialect| self.reading_of(self.current, dialect));
-        let Some(entry) = self.scenes.get_mut(self.current) else {
+        let wanted = own.map(|dialect| self.reading_of(self.library.current, dialect));
+        let Some(entry) = self.library.scenes.get_mut(self.library.current) else {
             return;
         };
         match wanted {
@@ -38,9 +40,9 @@ impl Viewer {
 
     /// Reads the current scene again.
     pub(in crate::viewer) fn read_current(&mut self) {
-        self.documents += 1;
-        let documents = self.documents;
-        let Some(entry) = self.scenes.get_mut(self.current) else {
+        self.library.documents += 1;
+        let documents = self.library.documents;
+        let Some(entry) = self.library.scenes.get_mut(self.library.current) else {
             return;
         };
         entry.document = documents;
@@ -52,13 +54,13 @@ impl Viewer {
 
     /// Reads the current scene for one side, in its dialect.
     fn read_for(&mut self, side: Side) {
-        let (generation, index) = (self.generation, self.current);
+        let (generation, index) = (self.library.generation, self.library.current);
         let dialect = match side {
             Side::A => self.settings.dialect,
             Side::B => self.own_dialect_of_b().unwrap_or(self.settings.dialect),
         };
         let dialect = self.reading_of(index, dialect);
-        let Some(entry) = self.scenes.get_mut(index) else {
+        let Some(entry) = self.library.scenes.get_mut(index) else {
             return;
         };
         let state = side.state(entry);
@@ -73,11 +75,12 @@ impl Viewer {
             scene: None,
         };
         if side == Side::B {
-            self.readers.scenes.push(order);
+            self.library.readers.scenes.push(order);
             return;
         }
-        for order in self.readers.scenes.replace(order) {
+        for order in self.library.readers.scenes.replace(order) {
             let forgotten = self
+                .library
                 .scenes
                 .get_mut(order.index)
                 .filter(|_| order.generation == generation);
@@ -93,12 +96,12 @@ impl Viewer {
 
     /// Takes in a scene that was read. One that is no longer shown is kept, if it was read as the settings say.
     pub(in crate::viewer) fn scene_read(&mut self, read: ReadScene) {
-        let is_current = read.index == self.current;
-        let Some(entry) = self.scenes.get_mut(read.index) else {
+        let is_current = read.index == self.library.current;
+        let Some(entry) = self.library.scenes.get_mut(read.index) else {
             return;
         };
         let dialect = read.dialect;
-        let is_newest = read.generation == self.generation && read.document == entry.document;
+        let is_newest = read.generation == self.library.generation && read.document == entry.document;
         let Some(side) = Side::reading(entry, dialect).filter(|_| is_newest) else {
             return;
         };
@@ -115,12 +118,12 @@ impl Viewer {
         }
         *side.state(entry) = match read.result {
             Ok(scene) => {
-                self.messages.forget_problems_of(&entry.source.address());
+                self.chrome.messages.forget_problems_of(&entry.source.address());
                 SceneState::Ready { scene, dialect }
             }
             Err(message) => {
                 if is_current {
-                    self.messages.error(message.clone());
+                    self.chrome.messages.error(message.clone());
                 }
                 SceneState::Failed { message, dialect }
             }
@@ -132,20 +135,20 @@ impl Viewer {
 
     /// Keeps the current scene and the ones shown last; the others are read again when they are asked for.
     fn let_go_of_old_scenes(&mut self) {
-        let current = self.current;
-        if self.recent.last() == Some(&current) {
+        let current = self.library.current;
+        if self.library.recent.last() == Some(&current) {
             return;
         }
-        for index in &self.recent {
-            if let Some(entry) = self.scenes.get_mut(*index) {
+        for index in &self.library.recent {
+            if let Some(entry) = self.library.scenes.get_mut(*index) {
                 entry.other_state = SceneState::Unread;
             }
         }
-        self.recent.retain(|index| *index != current);
-        self.recent.push(current);
-        while self.recent.len() > KEPT + 1 {
-            let oldest = self.recent.remove(0);
-            if let Some(entry) = self.scenes.get_mut(oldest) {
+        self.library.recent.retain(|index| *index != current);
+        self.library.recent.push(current);
+        while self.library.recent.len() > KEPT + 1 {
+            let oldest = self.library.recent.remove(0);
+            if let Some(entry) = self.library.scenes.get_mut(oldest) {
                 entry.state = SceneState::Unread;
             }
         }
@@ -154,14 +157,19 @@ impl Viewer {
     /// Asks for the thumbnail of a scene in the list: it is read and drawn when nothing else is to be done, and stands
     /// in [`crate::viewer::library::SceneEntry::thumbnail`] then. To be called for the scenes that a panel shows.
     pub fn request_thumbnail(&mut self, index: usize) {
-        let generation = self.generation;
+        let generation = self.library.generation;
         let dialect = self.reading_of(index, self.settings.dialect);
-        let Some(entry) = self.scenes.get_mut(index).filter(|entry| !entry.thumbnail_asked) else {
+        let Some(entry) = self
+            .library
+            .scenes
+            .get_mut(index)
+            .filter(|entry| !entry.thumbnail_asked)
+        else {
             return;
         };
         entry.thumbnail_asked = true;
-        self.readers.pending_thumbnails += 1;
-        self.readers.thumbnails.push(Order {
+        self.library.readers.pending_thumbnails += 1;
+        self.library.readers.thumbnails.push(Order {
             generation,
             index,
             document: entry.document,
@@ -172,22 +180,10 @@ impl Viewer {
     }
 
     pub(in crate::viewer) fn thumbnail_drawn(&mut self, thumbnail: Thumbnail) {
-        self.readers.pending_thumbnails = self.readers.pending_thumbnails.saturating_sub(1);
-        let in_list = thumbnail.generation == self.generation;
-        if let Some(entry) = self.scenes.get_mut(thumbnail.index).filter(|_| in_list) {
+        self.library.readers.pending_thumbnails = self.library.readers.pending_thumbnails.saturating_sub(1);
+        let in_list = thumbnail.generation == self.library.generation;
+        if let Some(entry) = self.library.scenes.get_mut(thumbnail.index).filter(|_| in_list) {
             entry.thumbnail = thumbnail.picture;
-        }
-    }
-
-    pub(in crate::viewer) fn step_scene(&mut self, by: usize) {
-        if !self.scenes.is_empty() {
-            self.show_scene((self.current + by) % self.scenes.len());
-        }
-    }
-
-    pub(in crate::viewer) fn show_scene(&mut self, index: usize) {
-        if index < self.scenes.len() {
-            self.current = index;
         }
     }
 }

@@ -31,7 +31,7 @@ impl Viewer {
 
     /// Whether there is a pinned pixel that the panels of a sheet can magnify.
     pub fn sheet_has_inset(&self) -> bool {
-        self.inspector.open && self.pinned_pixel().is_some()
+        self.inspector.magnifier.open && self.pinned_pixel().is_some()
     }
 
     /// The `rasterscope sheet` command that makes the sheet, quoted for a POSIX shell; `None` without a scene or without pixels.
@@ -71,7 +71,7 @@ impl Viewer {
 
     /// The inspector's inset in a panel, as large as the panel has room for.
     fn sheet_inset(&self, panel: &PictureSpec) -> Option<InsetSpec> {
-        let pixel = self.pinned_pixel().filter(|_| self.inspector.open)?;
+        let pixel = self.pinned_pixel().filter(|_| self.inspector.magnifier.open)?;
         let (entry, sight) = (self.current()?, self.sight()?);
         let place = if panel.size == self.frame_size() {
             InsetPlace::Pixel(pixel)
@@ -80,7 +80,7 @@ impl Viewer {
             let view = entry.camera.transform(&sight);
             InsetPlace::User(rounded(view.to_scene(centre), entry.camera.numbers(&sight).scale))
         };
-        let (region, magnification) = (self.inspector.region, self.inspector.magnification);
+        let (region, magnification) = (self.inspector.magnifier.region, self.inspector.magnifier.magnification);
         let inset = InsetSpec::around(place, region, magnification);
         inset.fitted(panel.size, &panel.view.transform(sight.canvas, panel.size))
     }
@@ -97,7 +97,7 @@ impl Viewer {
 
     /// Sees to it that the preview follows, while it is to be seen.
     pub(in crate::viewer) fn want_sheet(&mut self) {
-        let open = self.screen.dialog == Some(Dialog::Sheet) && !self.sheet.room.contains(&0);
+        let open = self.chrome.dialog == Some(Dialog::Sheet) && !self.sheet.room.contains(&0);
         let question = open.then(|| self.sheet_question()).flatten();
         self.sheet.previews.want(question, |_| None);
     }
@@ -105,7 +105,7 @@ impl Viewer {
     fn sheet_question(&self) -> Option<SheetQuestion> {
         Some(SheetQuestion {
             words: self.sheet_arguments("sheet.png")?,
-            read: self.grammar?.sheet,
+            read: self.export.grammar?.sheet,
             known: self.known_scene()?,
             room: self.sheet.room,
         })
@@ -140,12 +140,13 @@ impl Viewer {
         let jobs = std::mem::take(&mut self.sheet.waiting);
         let job = self.sheet_question().zip(self.picture_spec());
         let Some((question, spec)) = job else {
-            self.messages
+            self.chrome
+                .messages
                 .error("no sheet to save: there is no picture; open a scene first".to_owned());
             return;
         };
         for _ in 0..jobs {
-            self.saver.push_sheet(SheetJob::new(&question, spec.clone()));
+            self.export.saver.push_sheet(SheetJob::new(&question, spec.clone()));
         }
     }
 }

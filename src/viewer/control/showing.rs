@@ -25,7 +25,7 @@ impl Viewer {
         let flips = self.arrangement() == Arrangement::Flip;
         let now = Instant::now();
         let next = now.checked_add(FLIP);
-        let comparison = &mut self.comparison;
+        let comparison = &mut self.ab;
         match comparison.flip {
             _ if !flips => comparison.flip = None,
             None => comparison.flip = Some((next, false)),
@@ -43,25 +43,25 @@ impl Viewer {
         if self.arrangement() != Arrangement::Flip {
             self.arrange(Arrangement::Flip);
         }
-        self.comparison.flip = Some((None, !shows_back));
+        self.ab.flip = Some((None, !shows_back));
     }
 
     /// Whether the one in the back is to be seen of both that flip.
     fn flip_shows_back(&self) -> bool {
-        matches!(self.comparison.flip, Some((_, true)))
+        matches!(self.ab.flip, Some((_, true)))
     }
 
     /// Whether it is B of which all is to be seen, in place of A.
     pub fn shows_b(&self) -> bool {
-        self.comparison.swapped != self.flip_shows_back()
+        self.ab.swapped != self.flip_shows_back()
     }
 
     /// When something about comparing is to be done: flipping, measuring, looking at B again.
     pub(in crate::viewer) fn comparison_due(&self) -> Option<Instant> {
-        let flip = self.comparison.flip.and_then(|(due, _)| due);
-        let drawing = self.comparison.drawing.as_ref().and_then(Drawing::due);
-        let other = self.comparison.postponed.filter(|_| self.comparison.other.is_some());
-        [flip, drawing, other, self.comparison.measuring.due()]
+        let flip = self.ab.flip.and_then(|(due, _)| due);
+        let drawing = self.ab.drawing.as_ref().and_then(Drawing::due);
+        let other = self.ab.postponed.filter(|_| self.ab.other.is_some());
+        [flip, drawing, other, self.ab.measuring.due()]
             .into_iter()
             .flatten()
             .min()
@@ -69,25 +69,25 @@ impl Viewer {
 
     /// Normalised colours follow the frames once both are final: until then they stay as they are.
     fn mix_paint(&mut self) {
-        let style = self.comparison.style;
+        let style = self.ab.style;
         if self.arrangement() != Arrangement::Difference {
-            self.comparison.paint = None;
+            self.ab.paint = None;
             return;
         }
         let normalized = style.gain == Gain::Normalize;
-        let swaps = self.comparison.swaps;
-        let frames = normalized.then(|| [self.drawing.number(), self.comparison.state()[1], swaps]);
-        let known = self.comparison.paint.as_ref();
+        let swaps = self.ab.swaps;
+        let frames = normalized.then(|| [self.frames.drawing.number(), self.ab.state()[1], swaps]);
+        let known = self.ab.paint.as_ref();
         let is_right = known.is_some_and(|paint| paint.style == style && paint.frames == frames);
-        let settled = self.drawing.is_current() && self.comparison.is_current();
+        let settled = self.frames.drawing.is_current() && self.ab.is_current();
         if is_right || (normalized && !settled && known.is_some_and(|paint| paint.style == style)) {
             return;
         }
         let Some([a, b]) = self.pair() else { return };
         let Ok(pair) = Pair::new(a, b) else { return };
         let colors = pair.paint(style);
-        self.comparison.paint = Some(Paint { colors, style, frames });
-        self.comparison.touch();
+        self.ab.paint = Some(Paint { colors, style, frames });
+        self.ab.touch();
     }
 
     /// What the window shows below the panels.
@@ -96,7 +96,7 @@ impl Viewer {
             return Composite::default();
         };
         let panes = self.panes();
-        let comparison = &self.comparison;
+        let comparison = &self.ab;
         let Some([front, back]) = self.pair().filter(|_| comparison.shows_both()) else {
             return Composite::new(vec![(panes.first, Content::One(&frame.pixels))]);
         };

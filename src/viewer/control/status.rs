@@ -39,13 +39,14 @@ impl Viewer {
     /// they do not fit, and none on the pixel in the middle where its samples are drawn there.
     pub fn pixel_labels(&self, character: [f32; 2]) -> Vec<PixelLabel> {
         let has_marks = !self.pixel_samples().is_empty();
-        let own = self.inset.zip(self.frame());
+        let own = self.inspector.inset.zip(self.frame());
         let labels = own.map(|(placed, frame)| {
             let has_marks = has_marks && !placed.inset.has_detail();
             self.labels_of(&placed, &|x, y| frame.final_rgba(x, y), (character, has_marks))
         });
         let other = |x, y| self.other_final_rgba(x, y);
         let others = self
+            .inspector
             .other_inset
             .map(|placed| self.labels_of(&placed, &other, (character, false)));
         labels.into_iter().chain(others).flatten().collect()

@@ -7,15 +7,15 @@ use crate::viewer::state::{DrawnState, Finished, Viewer};
 impl Viewer {
     pub(in crate::viewer) fn drawn_state(&self) -> DrawnState {
         DrawnState {
-            frame: self.drawing.number(),
-            comparison: self.comparison.state(),
+            frame: self.frames.drawing.number(),
+            comparison: self.ab.state(),
             panes: self.panes(),
-            samples: self.probing.number(),
-            inset: self.inset,
-            other_inset: self.other_inset,
-            legends: self.legends.places(),
+            samples: self.inspector.samples.number(),
+            inset: self.inspector.inset,
+            other_inset: self.inspector.other_inset,
+            legends: self.frames.legends.places(),
             pixel_zoom: self.settings.pixel_zoom,
-            window: self.screen.window,
+            window: self.chrome.window,
         }
     }
 
@@ -38,7 +38,7 @@ impl Viewer {
 
     /// Whether the frame of the current state is there and everything that was asked for is saved.
     pub fn is_settled(&self) -> bool {
-        self.is_final() && self.saver.is_idle()
+        self.is_final() && self.export.saver.is_idle()
     }
 
     /// Whether the final frame of the current state is there, and what the inspector and a comparison say about it.
@@ -46,10 +46,10 @@ impl Viewer {
         let reading = self
             .current()
             .is_some_and(|entry| entry.is_reading() || entry.is_read_for_b());
-        let drawn = self.drawing.is_current() && self.comparison.is_current();
+        let drawn = self.frames.drawing.is_current() && self.ab.is_current();
         !reading
             && drawn
-            && self.probing.is_current()
+            && self.inspector.samples.is_current()
             && self.explains_all()
             && self.is_measured()
             && self.sheet.is_current()
@@ -58,7 +58,10 @@ impl Viewer {
     /// When to call [`Viewer::poll`] even if nothing wakes the event loop: then the hand rests, and the preview on the
     /// screen is to be refined, or nobody came for [`Viewer::draw_frame`]. `None` while there is nothing to wait for.
     pub fn due(&self) -> Option<Instant> {
-        [self.drawing.due(), self.comparison_due()].into_iter().flatten().min()
+        [self.frames.drawing.due(), self.comparison_due()]
+            .into_iter()
+            .flatten()
+            .min()
     }
 
     /// Waits until [`Viewer::is_settled`]: for scripts, tests and pictures without a window.
@@ -68,7 +71,7 @@ impl Viewer {
 
     /// As [`Viewer::finish`], and waits for the thumbnails that were asked for.
     pub fn finish_thumbnails(&mut self) {
-        self.finish_until(|viewer| viewer.is_settled() && !viewer.readers.has_thumbnails_pending());
+        self.finish_until(|viewer| viewer.is_settled() && !viewer.library.readers.has_thumbnails_pending());
     }
 
     fn finish_until(&mut self, done: fn(&Self) -> bool) {
@@ -80,13 +83,13 @@ impl Viewer {
             self.take_in(finished);
             self.update();
         }
-        self.set_hurry(self.saver.is_waiting());
+        self.set_hurry(self.export.saver.is_waiting());
     }
 
     /// Starts what is due.
     fn look_at_drawings(&mut self) {
-        self.drawing.look();
-        if let Some(drawing) = self.comparison.drawing_mut() {
+        self.frames.drawing.look();
+        if let Some(drawing) = self.ab.drawing_mut() {
             drawing.look();
         }
     }
@@ -101,16 +104,16 @@ impl Viewer {
                 self.release_pair();
                 if failed {
                     let name = self.current().map_or(String::new(), |entry| entry.label.clone());
-                    self.messages.error(format!(
+                    self.chrome.messages.error(format!(
                         "{name}: drawing this view failed inside the program; please report it with the file"
                     ));
                 }
             }
             Finished::Measured(measured) => self.measured(measured),
             Finished::PictureRead(read) => self.picture_read(read),
-            Finished::Probed(target, samples) => self.probing.finished(target, samples),
-            Finished::Explained(asked, explanation) => self.explaining.finished(asked, *explanation),
-            Finished::Fed(target, feeds) => self.feeding.finished(target, *feeds),
+            Finished::Probed(target, samples) => self.inspector.samples.finished(target, samples),
+            Finished::Explained(asked, explanation) => self.inspector.explanation.finished(asked, *explanation),
+            Finished::Fed(target, feeds) => self.inspector.contributions.finished(target, *feeds),
             Finished::Thumbnail(thumbnail) => self.thumbnail_drawn(thumbnail),
             Finished::Saved(saved) => self.picture_saved(saved),
             Finished::SheetDrawn(question, drawn) => self.sheet.previews.finished(question, *drawn),

@@ -21,7 +21,7 @@ impl Viewer {
 
     pub(in crate::viewer) fn wheel(&mut self, clicks: f64) {
         if self.pointer_over_inset() {
-            self.inspector.wheel(clicks);
+            self.inspector.magnifier.wheel(clicks);
         } else if clicks.is_finite() {
             let factor = WHEEL_FACTOR.powf(clicks.clamp(-MAX_CLICKS, MAX_CLICKS));
             self.zoom(self.pointer.at, factor);
@@ -30,7 +30,7 @@ impl Viewer {
 
     /// Changes the current scene's camera; nothing happens before the scene was read.
     pub(in crate::viewer) fn look(&mut self, change: impl FnOnce(&mut Camera, &Sight)) {
-        if let Some((sight, entry)) = self.sight().zip(self.scenes.get_mut(self.current)) {
+        if let Some((sight, entry)) = self.sight().zip(self.library.scenes.get_mut(self.library.current)) {
             change(&mut entry.camera, &sight);
         }
     }
@@ -38,8 +38,8 @@ impl Viewer {
     /// Into the part of the window that no panel covers.
     pub(in crate::viewer) fn fit_view(&mut self) {
         let zoom = f64::from(self.settings.pixel_zoom.factor());
-        let window = PixelRect::of_size(self.screen.window);
-        let free = self.screen.free_area.map_or(window, |free| free.intersection(&window));
+        let window = PixelRect::of_size(self.chrome.window);
+        let free = self.chrome.free_area.map_or(window, |free| free.intersection(&window));
         let panes = self.panes();
         let (corner, size) = if panes.second.is_some() || self.fixed_size().is_some() {
             (DVec2::ZERO, DVec2::from(panes.frame.map(f64::from)))
@@ -51,7 +51,7 @@ impl Viewer {
     }
 
     pub(in crate::viewer) fn reset_view(&mut self) {
-        if let Some(entry) = self.scenes.get_mut(self.current) {
+        if let Some(entry) = self.library.scenes.get_mut(self.library.current) {
             entry.camera = Camera::default();
         }
         self.center_fixed();
@@ -82,7 +82,7 @@ impl Viewer {
         let factor = f64::from(self.settings.pixel_zoom.factor()) / f64::from(zoom.factor());
         self.settings.pixel_zoom = zoom;
         let frame = self.frame_size();
-        for entry in &mut self.scenes {
+        for entry in &mut self.library.scenes {
             if let Some(canvas) = entry.scene().map(|scene| scene.canvas) {
                 entry.camera.rescale(factor, &Sight { canvas, frame });
             }

@@ -40,7 +40,7 @@ pub(in crate::viewer) fn magnified(rect: &PixelRect, zoom: u32) -> PixelRect {
 impl Viewer {
     /// The window's pixels below the panels: the frame as the pixel zoom shows it, and the inspector's inset.
     pub fn window_picture(&self) -> Framebuffer {
-        let [width, height] = self.screen.window.map(|side| side.min(Framebuffer::MAX_SIDE));
+        let [width, height] = self.chrome.window.map(|side| side.min(Framebuffer::MAX_SIDE));
         let mut window = Framebuffer::new(width, height);
         self.draw_window(&mut window);
         window
@@ -63,11 +63,11 @@ impl Viewer {
 
     /// The part of [`Viewer::draw_parts`] that comes over the frame: the inspector's inset and legends.
     pub fn draw_over(&self, parts: &[PixelRect], window: &mut WindowPixels<'_>) {
-        if let Some((placed, frame)) = self.inset.zip(self.frame()) {
+        if let Some((placed, frame)) = self.inspector.inset.zip(self.frame()) {
             let rgba = |x, y| frame.final_rgba(x, y);
             draw_inset((placed, &rgba), &self.sample_marks(), parts, window);
         }
-        if let Some(placed) = self.other_inset {
+        if let Some(placed) = self.inspector.other_inset {
             let rgba = |x, y| self.other_final_rgba(x, y);
             draw_inset((placed, &rgba), &[], parts, window);
         }
@@ -81,27 +81,27 @@ impl Viewer {
         let threads = rayon::current_num_threads();
         let name = |_| "surface".to_owned();
         let pool = ThreadPoolBuilder::new().num_threads(threads).thread_name(name).build();
-        self.surface_pool = pool.ok();
+        self.frames.surface_pool = pool.ok();
         self.update();
     }
 
     /// Whether a frame is quick to draw and waits for [`Viewer::draw_frame`].
     pub fn waits_for_surface(&self) -> bool {
-        self.drawing.waits_for_surface()
+        self.frames.drawing.waits_for_surface()
     }
 
     /// Draws the frame that waits for it, if there is one, so that it is resolved in the window and need not be copied
     /// there. True if `window` holds all of it now, without what [`Viewer::draw_over`] draws; then [`Viewer::take_damage`]
     /// tells what changes from then on. Otherwise the window's pixels are of no use where a frame waited.
     pub fn draw_frame(&mut self, window: &mut WindowPixels<'_>) -> bool {
-        let Some(pool) = self.surface_pool.as_ref().filter(|_| self.waits_for_surface()) else {
+        let Some(pool) = self.frames.surface_pool.as_ref().filter(|_| self.waits_for_surface()) else {
             return false;
         };
-        let drawn = self.drawing.draw_onto(window.size, window.pixels, pool);
+        let drawn = self.frames.drawing.draw_onto(window.size, window.pixels, pool);
         let holds_frame = matches!(drawn, Some(Drawn::Frame { .. }));
         match drawn {
-            Some(drawn) => self.take_in(Finished::Drawn(self.drawing.id(), drawn)),
-            None => self.drawing.lend_surface(false),
+            Some(drawn) => self.take_in(Finished::Drawn(self.frames.drawing.id(), drawn)),
+            None => self.frames.drawing.lend_surface(false),
         }
         self.last_shown = None;
         self.update();
@@ -115,9 +115,9 @@ impl Viewer {
     pub(in crate::viewer) fn shows_plain_frame(&self) -> bool {
         let panes = self.panes();
         self.settings.pixel_zoom == PixelZoom::ONE
-            && !self.comparison.shows_both()
+            && !self.ab.shows_both()
             && panes.first.corner == [0, 0]
-            && panes.frame == self.screen.window
+            && panes.frame == self.chrome.window
             && !panes.frame.contains(&0)
             && self.settings.render.background.a >= 1.0
     }
@@ -125,8 +125,8 @@ impl Viewer {
     /// The parts of the window in which [`Viewer::draw_window`] may draw other pixels than when this was asked last;
     /// `None` stands for all of it.
     pub fn take_damage(&mut self) -> Option<Vec<PixelRect>> {
-        let (now, changes) = (self.drawn_state(), self.drawing.take_changes());
-        let others = self.comparison.take_changes();
+        let (now, changes) = (self.drawn_state(), self.frames.drawing.take_changes());
+        let others = self.ab.take_changes();
         let before = self.last_shown.replace(now)?;
         let same_place = before.pixel_zoom == now.pixel_zoom && before.window == now.window;
         let same_comparison = before.comparison[0] == now.comparison[0] && before.panes == now.panes;
@@ -136,7 +136,7 @@ impl Viewer {
         let Changes::Regions(mut regions) = changes else {
             return None;
         };
-        if self.comparison.shows_both() {
+        if self.ab.shows_both() {
             match others {
                 Changes::All => return None,
                 Changes::Regions(others) => regions.extend(others),

@@ -13,15 +13,15 @@ const LINE_ROOM: f64 = 48.0;
 impl Viewer {
     /// Takes hold of the line of the wipe where the pointer is on it.
     pub(in crate::viewer) fn take_line(&mut self) -> bool {
-        self.comparison.drags_line = self.pointer_over_line();
-        self.comparison.drags_line
+        self.ab.drags_line = self.pointer_over_line();
+        self.ab.drags_line
     }
 
     /// Whether the pointer is on the line of the wipe, or drags it.
     pub fn pointer_over_line(&self) -> bool {
         let near = |(line, at): (f64, glam::DVec2)| (at.x - line).abs() <= GRIP;
         let over = self.wipe_line().zip(self.pointer.at).is_some_and(near);
-        self.comparison.drags_line || (over && !self.pointer_over_inset())
+        self.ab.drags_line || (over && !self.pointer_over_inset())
     }
 
     /// The line follows the pointer at `x`, in window pixels from the left.
@@ -31,8 +31,8 @@ impl Viewer {
         let panes = self.panes();
         let corner = panes.first.corner[0] as f64;
         let part = (x / zoom - corner) / f64::from(panes.frame[0].max(1));
-        self.comparison.wipe = part.clamp(0.0, 1.0);
-        self.comparison.touch();
+        self.ab.wipe = part.clamp(0.0, 1.0);
+        self.ab.touch();
     }
 
     /// The first column of the right part, where no panel covers the line.
@@ -45,7 +45,7 @@ impl Viewer {
         let width = f64::from(frame.width());
         let zoom = f64::from(self.settings.pixel_zoom.factor());
         let corner = self.panes().first.corner[0] as f64;
-        let wanted = (self.comparison.wipe.clamp(0.0, 1.0) * width).round();
+        let wanted = (self.ab.wipe.clamp(0.0, 1.0) * width).round();
         let free = self.in_sight_of_line((wanted + corner) * zoom) / zoom - corner;
         free.round().clamp(0.0, width) as u32
     }
@@ -53,9 +53,9 @@ impl Viewer {
     /// The nearest place for the line of the wipe that no panel covers, in window pixels from the left: its grip and its
     /// letters are to be seen beside panels. Without panels any place will do.
     pub(in crate::viewer) fn in_sight_of_line(&self, x: f64) -> f64 {
-        let Some(free) = self.screen.free_area else { return x };
+        let Some(free) = self.chrome.free_area else { return x };
         let low = if free.x > 0 { free.x as f64 + LINE_ROOM } else { x };
-        let window = i64::from(self.screen.window[0]);
+        let window = i64::from(self.chrome.window[0]);
         let high = if free.right() < window {
             free.right() as f64 - LINE_ROOM
         } else {

@@ -5,3 +5,4 @@ pub(in crate::viewer) mod record;
 pub(in crate::viewer) mod saver;
 pub(in crate::viewer) mod sheet;
 pub(in crate::viewer) mod spec;
+pub(in crate::viewer) mod state;

@@ -9,4 +9,5 @@ pub(in crate::viewer) mod legends;
 pub(in crate::viewer) mod present;
 pub(in crate::viewer) mod preview;
 pub(in crate::viewer) mod request;
+pub(in crate::viewer) mod state;
 pub(in crate::viewer) mod surface;

@@ -3,6 +3,7 @@
 pub(in crate::viewer) mod dialects;
 pub mod gallery;
 pub(in crate::viewer) mod readers;
+pub(in crate::viewer) mod state;
 
 use std::cmp::Ordering;
 use std::fs;

@@ -1,14 +1,14 @@
 //! Why a pixel has its colour: samples, fragments, edges, weights, footprint, texels.
 //!
 //! Replays for one pixel the very functions that draw frames; it has no arithmetic of its own. [`Explanation`] is the
-//! report, in numbers, with what would help where [`Explanation::advised`] made it; [`Explanation::text`] says it in words, [`Explanation::markdown`] for a write-up. [`Feeds`] goes the
+//! report, in numbers, with what would help where [`Explanation::advised`] made it; [`Explanation::text`] says it in words, [`Explanation::markdown`] for a write-up. [`Contributions`] goes the
 //! other way: from a texel to the pixels around that read it.
 
 mod accumulation;
+mod contributions;
 mod depth;
 mod differences;
 mod explanation;
-mod feeds;
 mod hints;
 mod model;
 mod numbers;
@@ -22,9 +22,9 @@ mod truth;
 mod words;
 
 pub use accumulation::Convergence;
+pub use contributions::{ContributedPixel, Contributions, TexelPlace};
 pub use differences::Difference;
 pub use explanation::Question;
-pub use feeds::{FedPixel, Feeds, TexelPlace};
 pub use model::{
     Cure, Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve, Rounding, Sample, Setting,
     Shape, Source, Tap, Texel, Texture, Truth, VERSION, Verdict, View,

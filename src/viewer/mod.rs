@@ -63,7 +63,7 @@ pub use settings::picture::{self, PictureSetting, SettingChange};
 pub use settings::{PixelZoom, Settings, Theme, Toggle};
 pub use slides::{SlideError, slides};
 pub use state::{Viewer, ViewerOptions};
-pub use view::camera::{Camera, Sight, ViewNumbers};
+pub use view::camera::{Camera, ViewContext, ViewNumbers};
 pub use view::pointer::PointerButton;
 
 pub use crate::figure::PixelRect;

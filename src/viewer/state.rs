@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use crate::geometry::View;
-use crate::inspect::Feeds;
+use crate::inspect::Contributions;
 use crate::plain;
 use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::measuring::{Measured, Measuring};
@@ -36,7 +36,7 @@ use crate::viewer::library::SceneEntry;
 use crate::viewer::library::readers::{ReadScene, Readers, Thumbnail};
 use crate::viewer::library::state::Library;
 use crate::viewer::settings::{PixelZoom, Settings, Theme};
-use crate::viewer::view::camera::{Sight, ViewNumbers};
+use crate::viewer::view::camera::{ViewContext, ViewNumbers};
 use crate::viewer::view::panes::Panes;
 use crate::viewer::view::pointer::Pointer;
 
@@ -117,7 +117,7 @@ pub(in crate::viewer) enum Finished {
     PictureRead(ReadPicture),
     Probed(Target, Vec<ProbedSample>),
     Explained(Asked, Box<Option<Explained>>),
-    Fed(Target, Box<Option<Feeds>>),
+    Contributed(Target, Box<Option<Contributions>>),
     Thumbnail(Thumbnail),
     Saved(Saved),
     SheetDrawn(SheetQuestion, Box<Result<SheetPreview, String>>),
@@ -184,7 +184,7 @@ impl Viewer {
             inspector: Inspection::new(
                 samples::start(mailbox.of(|(target, samples)| Finished::Probed(target, samples)))?,
                 explanation::start(mailbox.of(|(asked, found)| Finished::Explained(asked, Box::new(found))))?,
-                contributions::start(mailbox.of(|(target, feeds)| Finished::Fed(target, Box::new(feeds))))?,
+                contributions::start(mailbox.of(|(target, found)| Finished::Contributed(target, Box::new(found))))?,
             ),
             export: Export {
                 saver,
@@ -249,7 +249,7 @@ impl Viewer {
     /// The numbers of the current view; `None` before the scene was read.
     pub fn view_numbers(&self) -> Option<ViewNumbers> {
         let entry = self.current()?;
-        Some(entry.camera.numbers(&self.sight()?))
+        Some(entry.camera.numbers(&self.view_context()?))
     }
 
     /// The window in device pixels.
@@ -311,9 +311,9 @@ impl Viewer {
     }
 
     /// What the current camera looks at; `None` before the scene was read.
-    pub(in crate::viewer) fn sight(&self) -> Option<Sight> {
+    pub(in crate::viewer) fn view_context(&self) -> Option<ViewContext> {
         let scene = self.current()?.scene()?;
-        Some(Sight {
+        Some(ViewContext {
             canvas: scene.canvas,
             frame: self.frame_size(),
         })

@@ -11,7 +11,7 @@ use super::controls::{command_button, tip};
 use super::floating::{around, points};
 use super::look::CONTROL;
 use super::look::opaque;
-use super::{compare, scrubber, twin};
+use super::{compare, scrubber, texture_view};
 use crate::inspect::{Difference, Explanation, Paint, TexelPlace};
 use crate::render::Visualisation;
 use crate::viewer::{Arrangement, Command, Toggle, Viewer};
@@ -200,7 +200,7 @@ impl ExplanationPanel {
             .show(ui, |ui| {
                 lines(ui, &explanation.paint_lines(number));
                 if let Some(sample) = sample {
-                    if let Some(texel) = twin::show(ui, viewer, paint, sample) {
+                    if let Some(texel) = texture_view::show(ui, viewer, paint, sample) {
                         hovered.texel = Some(texel);
                     }
                     lines(ui, &[format!("At {}:", explanation.sample_title(sample))]);

@@ -8,12 +8,12 @@
 mod compare;
 mod compare_marks;
 mod compare_numbers;
+mod contributions;
 mod controls;
 mod dialogs;
 mod document;
 mod explanation;
 mod explanation_side;
-mod fed;
 mod floating;
 mod hits;
 mod lesson;
@@ -26,7 +26,7 @@ mod scrubber;
 mod sheet;
 mod side_panel;
 mod status;
-mod twin;
+mod texture_view;
 mod view_numbers;
 
 use crate::viewer::WindowCommand;
@@ -243,7 +243,7 @@ impl Interface {
             pin::show(ui, viewer, free);
         }
         floating::pixel_labels(ui, viewer);
-        fed::show(ui, viewer, free);
+        contributions::show(ui, viewer, free);
         hits::hits(ui, viewer);
         self.close_of_inset.show(ui, viewer, &mut asked.commands);
         let messages = self.clock.show(ui, viewer, free, &mut asked.commands);

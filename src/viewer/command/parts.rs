@@ -156,7 +156,7 @@ pub enum InspectorCommand {
     Unpin,
     /// Shows or hides why the pinned pixel has its colour.
     Explanation(Toggle),
-    /// The pointer is over this texel of the explanation, or over none: the pixels that it feeds are lit.
+    /// The pointer is over this texel of the explanation, or over none: the pixels that it contributes to are lit.
     PointAtTexel(Option<TexelPlace>),
 }
 

@@ -88,11 +88,11 @@ impl Viewer {
         match command {
             ViewCommand::PanBy { by } => self.pan(by),
             ViewCommand::ZoomAt { at, factor } => self.zoom(at, factor),
-            ViewCommand::RotateBy { degrees } => self.look(|camera, sight| camera.rotate(degrees, sight)),
+            ViewCommand::RotateBy { degrees } => self.look(|camera, context| camera.rotate(degrees, context)),
             ViewCommand::Reset => self.reset_view(),
             ViewCommand::Fit => self.fit_view(),
             ViewCommand::ActualSize => self.look(Camera::actual_size),
-            ViewCommand::Set(numbers) => self.look(|camera, sight| camera.set(numbers, sight)),
+            ViewCommand::Set(numbers) => self.look(|camera, context| camera.set(numbers, context)),
             ViewCommand::SetPixelZoom(zoom) => self.set_pixel_zoom(zoom),
             ViewCommand::NextPixelZoom => self.set_pixel_zoom(next_of(&PixelZoom::ALL, self.settings.pixel_zoom, 1.0)),
             ViewCommand::Progressive(toggle) => {

@@ -58,7 +58,7 @@ impl Viewer {
             });
         }
         let place = self.inspector.magnifier.pin.and_then(|pin| pin.place);
-        let (Some((place, _)), Some(sight), None) = (place, self.sight(), self.fixed_size()) else {
+        let (Some((place, _)), Some(context), None) = (place, self.view_context(), self.fixed_size()) else {
             return;
         };
         let Some((camera, free)) = self.current().map(|entry| entry.camera).zip(self.free_screen()) else {
@@ -66,7 +66,7 @@ impl Viewer {
         };
         let pane = self.panes().first;
         let free = pane.area.intersection(&free);
-        let now = camera.transform(&sight).to_pixels(place).floor();
+        let now = camera.transform(&context).to_pixels(place).floor();
         let inside = |axis: usize, from: i64, to: i64| {
             let (low, high) = (
                 from - pane.corner[axis] + PANEL_ROOM,
@@ -79,7 +79,7 @@ impl Viewer {
             return;
         }
         let mut moved = camera;
-        moved.pan(at - now, &sight);
+        moved.pan(at - now, &context);
         self.inspector.magnifier.kept_view = Some([camera, moved]);
         self.look(|camera, _| *camera = moved);
     }

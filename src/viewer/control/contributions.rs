@@ -1,6 +1,6 @@
 //! Which pixels the texel under the pointer contributes to.
 
-use crate::inspect::{FedPixel, TexelPlace};
+use crate::inspect::{ContributedPixel, TexelPlace};
 use crate::raster::Region;
 use crate::viewer::inspector::samples::Target;
 use crate::viewer::state::Viewer;
@@ -12,20 +12,20 @@ impl Viewer {
     }
 
     /// The pixels around the pinned one that read the texel pointed at; empty until they were found out.
-    pub fn fed_pixels(&self) -> &[FedPixel] {
-        let feeds = self.inspector.contributions.answer().and_then(Option::as_ref);
-        feeds
+    pub fn contributed_pixels(&self) -> &[ContributedPixel] {
+        let found = self.inspector.contributions.answer().and_then(Option::as_ref);
+        found
             .zip(self.inspector.pointed_texel)
-            .map_or(&[], |(feeds, texel)| feeds.of(texel))
+            .map_or(&[], |(found, texel)| found.of(texel))
     }
 
-    /// The pixels that were looked at for [`Viewer::fed_pixels`]; `None` until they were.
-    pub fn fed_region(&self) -> Option<Region> {
+    /// The pixels that were looked at for [`Viewer::contributed_pixels`]; `None` until they were.
+    pub fn contributions_region(&self) -> Option<Region> {
         Some(self.inspector.contributions.answer()?.as_ref()?.searched)
     }
 
-    /// Sees to it that what the texel pointed at feeds is found out.
-    pub(in crate::viewer) fn want_feeds(&mut self) {
+    /// Sees to it that what the texel pointed at contributes to is found out.
+    pub(in crate::viewer) fn want_contributions(&mut self) {
         if !self.explains() {
             self.inspector.pointed_texel = None;
         }

@@ -60,9 +60,9 @@ impl Viewer {
     /// where there is no room at all.
     fn inset_spec(&self) -> Option<InsetSpec> {
         let pixel = self.inspector.inset.and(self.inspected_pixel())?;
-        let (entry, sight) = (self.current()?, self.sight()?);
+        let (entry, context) = (self.current()?, self.view_context()?);
         let (region, magnification) = (self.inspector.magnifier.region, self.inspector.magnifier.magnification);
         let spec = InsetSpec::around(InsetPlace::Pixel(pixel), region, magnification);
-        spec.fitted(self.frame_size(), &entry.camera.transform(&sight))
+        spec.fitted(self.frame_size(), &entry.camera.transform(&context))
     }
 }

@@ -71,7 +71,7 @@ impl Viewer {
         if entry.failure().is_some() {
             return self.clear_frames();
         }
-        let Some((scene, sight)) = entry.scene().cloned().zip(self.sight()) else {
+        let Some((scene, context)) = entry.scene().cloned().zip(self.view_context()) else {
             // Being read for the first time: the old picture stays until the new one is there.
             return;
         };
@@ -81,7 +81,7 @@ impl Viewer {
         let picture = crate::viewer::frames::frame::Picture {
             scene,
             document: entry.document,
-            view: entry.camera.transform(&sight),
+            view: entry.camera.transform(&context),
             settings: RenderSettings {
                 outline: self.settings.render.outline && entry.camera.view() != View::Canvas,
                 ..self.settings.render

@@ -118,7 +118,7 @@ impl Viewer {
     /// Sets the view that a step asks for, as soon as its scene was read; without one all of the canvas is shown in the part of
     /// the window that is free, until a hand moves it.
     pub(in crate::viewer) fn follow_lesson(&mut self) {
-        let (Some(walk), Some(sight)) = (&self.lesson, self.sight()) else {
+        let (Some(walk), Some(context)) = (&self.lesson, self.view_context()) else {
             return;
         };
         let camera = self.current().map(|entry| entry.camera);
@@ -130,7 +130,7 @@ impl Viewer {
             return;
         }
         let fitted = if let Some(numbers) = numbers {
-            self.look(|camera, _| camera.set(numbers, &sight));
+            self.look(|camera, _| camera.set(numbers, &context));
             None
         } else {
             self.look(|camera, _| *camera = Camera::new(View::Default));

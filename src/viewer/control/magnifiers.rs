@@ -35,9 +35,9 @@ impl Viewer {
 
     /// The corners of the box around the canvas, in frame pixels; `None` before the scene was read.
     pub(crate) fn canvas_in_frame(&self) -> Option<[DVec2; 2]> {
-        let sight = self.sight()?;
-        let view = self.current()?.camera.transform(&sight);
-        let DVec2 { x, y } = sight.canvas;
+        let context = self.view_context()?;
+        let view = self.current()?.camera.transform(&context);
+        let DVec2 { x, y } = context.canvas;
         let corners = [dvec2(0.0, 0.0), dvec2(x, 0.0), dvec2(0.0, y), dvec2(x, y)].map(|at| view.to_pixels(at));
         let low = corners.into_iter().reduce(DVec2::min)?;
         let high = corners.into_iter().reduce(DVec2::max)?;

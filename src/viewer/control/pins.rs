@@ -6,7 +6,7 @@ use crate::viewer::PixelRect;
 use crate::viewer::ab::other::Arrangement;
 use crate::viewer::inspector::{Pin, RING_ROOM};
 use crate::viewer::state::Viewer;
-use crate::viewer::view::camera::Sight;
+use crate::viewer::view::camera::ViewContext;
 use crate::viewer::view::panes::Panes;
 use crate::viewer::view::pointer::window_pixel;
 
@@ -29,12 +29,12 @@ impl Viewer {
         let Some(mut pin) = self.inspector.magnifier.pin else {
             return;
         };
-        let Some(sight) = self.sight().filter(|sight| !sight.frame.contains(&0)) else {
+        let Some(context) = self.view_context().filter(|context| !context.frame.contains(&0)) else {
             return;
         };
         let Some(entry) = self.current() else { return };
         let scene = (self.library.current, self.library.generation);
-        let view = entry.camera.transform(&sight);
+        let view = entry.camera.transform(&context);
         match pin.place {
             Some((place, of)) if of == scene => {
                 let before = self.in_frame(pin.pixel);
@@ -90,7 +90,7 @@ impl Viewer {
     /// what it is, to the place of its samples, and where it is, if its half still reaches there; the view comes back when
     /// the explanation is closed.
     pub(in crate::viewer) fn set_free_area(&mut self, area: Option<PixelRect>) {
-        let (before, panes) = (self.sight(), self.panes());
+        let (before, panes) = (self.view_context(), self.panes());
         // Before: a smaller frame may leave its pixel outside.
         let asks = self.inspector.magnifier.asked && self.explains();
         self.chrome.free_area = area;
@@ -98,9 +98,9 @@ impl Viewer {
             // Its line gives way to panels.
             self.ab.touch();
         }
-        let sights = before.zip(self.sight());
-        if let Some((before, sight)) = sights.filter(|(before, sight)| asks && before.frame != sight.frame) {
-            self.keep_view_of_pin((&before, &panes), &sight);
+        let contexts = before.zip(self.view_context());
+        if let Some((before, context)) = contexts.filter(|(before, context)| asks && before.frame != context.frame) {
+            self.keep_view_of_pin((&before, &panes), &context);
         }
         if let Some([first, set]) = self.inspector.magnifier.kept_view.take_if(|_| !asks) {
             self.look(|camera, _| {
@@ -113,7 +113,7 @@ impl Viewer {
 
     /// Sets the view in which the pinned pixel shows what it showed `before`, at the same place of the window if its pane has
     /// that, else as near as may be.
-    fn keep_view_of_pin(&mut self, (before, panes): (&Sight, &Panes), sight: &Sight) {
+    fn keep_view_of_pin(&mut self, (before, panes): (&ViewContext, &Panes), context: &ViewContext) {
         let Some(Pin {
             pixel,
             place: Some((place, _)),
@@ -131,15 +131,15 @@ impl Viewer {
         let stays = |axis: usize| {
             let room = |beside: i64| beside.min(PIN_ROOM);
             let behind = i64::from(before.frame[axis]) - 1 - pixel[axis];
-            let last = i64::from(sight.frame[axis]) - 1 - room(behind);
+            let last = i64::from(context.frame[axis]) - 1 - room(behind);
             let wanted = pixel[axis] + old[axis] - new[axis];
             wanted.max(room(pixel[axis])).min(last).max(0) as f64 + 0.5
         };
         let at = DVec2::new(stays(0), stays(1));
         let mut kept = camera;
-        kept.set(camera.numbers(before), sight);
-        let now = kept.transform(sight).to_pixels(place);
-        kept.pan(at - now, sight);
+        kept.set(camera.numbers(before), context);
+        let now = kept.transform(context).to_pixels(place);
+        kept.pan(at - now, context);
         let first = match self.inspector.magnifier.kept_view {
             Some([first, set]) if set == camera => first,
             _ => camera,

@@ -72,17 +72,17 @@ impl Viewer {
     /// The inspector's inset in a panel, as large as the panel has room for.
     fn sheet_inset(&self, panel: &PictureSpec) -> Option<InsetSpec> {
         let pixel = self.pinned_pixel().filter(|_| self.inspector.magnifier.open)?;
-        let (entry, sight) = (self.current()?, self.sight()?);
+        let (entry, context) = (self.current()?, self.view_context()?);
         let place = if panel.size == self.frame_size() {
             InsetPlace::Pixel(pixel)
         } else {
             let centre = DVec2::from(pixel.map(f64::from)) + 0.5;
-            let view = entry.camera.transform(&sight);
-            InsetPlace::User(rounded(view.to_scene(centre), entry.camera.numbers(&sight).scale))
+            let view = entry.camera.transform(&context);
+            InsetPlace::User(rounded(view.to_scene(centre), entry.camera.numbers(&context).scale))
         };
         let (region, magnification) = (self.inspector.magnifier.region, self.inspector.magnifier.magnification);
         let inset = InsetSpec::around(place, region, magnification);
-        inset.fitted(panel.size, &panel.view.transform(sight.canvas, panel.size))
+        inset.fitted(panel.size, &panel.view.transform(context.canvas, panel.size))
     }
 
     /// The current scene, once it was read.

@@ -15,14 +15,14 @@ impl Viewer {
 
     /// A frame pixel in numbers; `None` before the scene was read.
     pub fn status_of(&self, pixel: [u32; 2]) -> Option<Status> {
-        let sight = self.sight()?;
+        let context = self.view_context()?;
         let camera = &self.current()?.camera;
         let centre = DVec2::from(pixel.map(f64::from)) + 0.5;
         Some(Status {
             pixel,
-            user: camera.transform(&sight).to_scene(centre),
+            user: camera.transform(&context).to_scene(centre),
             rgba: self.frame().and_then(|frame| frame.final_rgba(pixel[0], pixel[1])),
-            scale: camera.numbers(&sight).scale,
+            scale: camera.numbers(&context).scale,
         })
     }
 

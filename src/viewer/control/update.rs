@@ -113,7 +113,7 @@ impl Viewer {
             Finished::PictureRead(read) => self.picture_read(read),
             Finished::Probed(target, samples) => self.inspector.samples.finished(target, samples),
             Finished::Explained(asked, explanation) => self.inspector.explanation.finished(asked, *explanation),
-            Finished::Fed(target, feeds) => self.inspector.contributions.finished(target, *feeds),
+            Finished::Contributed(target, found) => self.inspector.contributions.finished(target, *found),
             Finished::Thumbnail(thumbnail) => self.thumbnail_drawn(thumbnail),
             Finished::Saved(saved) => self.picture_saved(saved),
             Finished::SheetDrawn(question, drawn) => self.sheet.previews.finished(question, *drawn),
@@ -132,7 +132,7 @@ impl Viewer {
         self.update_comparison();
         self.want_samples();
         self.want_explanation();
-        self.want_feeds();
+        self.want_contributions();
         self.place_legends();
         let drawn = self.drawn_state();
         if self.last_drawn != Some(drawn) {

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::viewer::PixelRect;
 use crate::viewer::settings::PixelZoom;
 use crate::viewer::state::Viewer;
-use crate::viewer::view::camera::{Camera, Sight};
+use crate::viewer::view::camera::{Camera, ViewContext};
 
 /// What one click of the wheel zooms by.
 const WHEEL_FACTOR: f64 = 1.25;
@@ -29,9 +29,12 @@ impl Viewer {
     }
 
     /// Changes the current scene's camera; nothing happens before the scene was read.
-    pub(in crate::viewer) fn look(&mut self, change: impl FnOnce(&mut Camera, &Sight)) {
-        if let Some((sight, entry)) = self.sight().zip(self.library.scenes.get_mut(self.library.current)) {
-            change(&mut entry.camera, &sight);
+    pub(in crate::viewer) fn look(&mut self, change: impl FnOnce(&mut Camera, &ViewContext)) {
+        if let Some((context, entry)) = self
+            .view_context()
+            .zip(self.library.scenes.get_mut(self.library.current))
+        {
+            change(&mut entry.camera, &context);
         }
     }
 
@@ -47,7 +50,7 @@ impl Viewer {
             let corner = DVec2::new(free.x as f64, free.y as f64) / zoom;
             (corner, DVec2::new(f64::from(free.width), f64::from(free.height)) / zoom)
         };
-        self.look(|camera, sight| camera.fit([corner, size], sight));
+        self.look(|camera, context| camera.fit([corner, size], context));
     }
 
     pub(in crate::viewer) fn reset_view(&mut self) {
@@ -61,7 +64,7 @@ impl Viewer {
     pub(in crate::viewer) fn pan(&mut self, by: DVec2) {
         let zoom = f64::from(self.settings.pixel_zoom.factor());
         if by.is_finite() && !self.move_fixed(by / zoom) {
-            self.look(|camera, sight| camera.pan(by / zoom, sight));
+            self.look(|camera, context| camera.pan(by / zoom, context));
         }
     }
 
@@ -71,7 +74,7 @@ impl Viewer {
             return;
         }
         let at = at.map_or(self.middle(), |at| self.frame_position(at.floor() + 0.5));
-        self.look(|camera, sight| camera.zoom(at, factor, sight));
+        self.look(|camera, context| camera.zoom(at, factor, context));
     }
 
     /// Frame pixels become larger or smaller: the views are adapted so that the window shows the same part.
@@ -84,7 +87,7 @@ impl Viewer {
         let frame = self.frame_size();
         for entry in &mut self.library.scenes {
             if let Some(canvas) = entry.scene().map(|scene| scene.canvas) {
-                entry.camera.rescale(factor, &Sight { canvas, frame });
+                entry.camera.rescale(factor, &ViewContext { canvas, frame });
             }
         }
         self.follow_pointer();

@@ -1,7 +1,7 @@
 //! What is inspected: the magnifier and its pin, and what was found out about the pixel.
 
 use crate::inspect::TexelPlace;
-use crate::viewer::inspector::contributions::Feeding;
+use crate::viewer::inspector::contributions::Contributing;
 use crate::viewer::inspector::explanation::Explaining;
 use crate::viewer::inspector::samples::Probing;
 use crate::viewer::inspector::{Inspector, PlacedInset};
@@ -16,13 +16,13 @@ pub(in crate::viewer) struct Inspection {
     pub(in crate::viewer) other_inset: Option<PlacedInset>,
     pub(in crate::viewer) samples: Probing,
     pub(in crate::viewer) explanation: Explaining,
-    pub(in crate::viewer) contributions: Feeding,
+    pub(in crate::viewer) contributions: Contributing,
     /// The texel of the explanation that the pointer is over.
     pub(in crate::viewer) pointed_texel: Option<TexelPlace>,
 }
 
 impl Inspection {
-    pub(in crate::viewer) fn new(samples: Probing, explanation: Explaining, contributions: Feeding) -> Self {
+    pub(in crate::viewer) fn new(samples: Probing, explanation: Explaining, contributions: Contributing) -> Self {
         Self {
             magnifier: Inspector::default(),
             inset: None,

@@ -22,7 +22,7 @@ pub struct Camera {
 
 /// What a camera looks at and through.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sight {
+pub struct ViewContext {
     /// The canvas in user units.
     pub canvas: DVec2,
     /// The frame in pixels.
@@ -40,7 +40,7 @@ pub struct ViewNumbers {
     pub rotation: f64,
 }
 
-impl Sight {
+impl ViewContext {
     /// The frame as a vector; a frame without pixels counts as one pixel, so that no view divides by zero.
     fn size(&self) -> DVec2 {
         let [width, height] = self.frame.map(|side| f64::from(side.max(1)));
@@ -86,12 +86,13 @@ impl Camera {
     }
 
     /// The map from user space to frame pixels.
-    pub fn transform(&self, sight: &Sight) -> ViewTransform {
-        self.view.transform(sight.canvas, sight.frame.map(|side| side.max(1)))
+    pub fn transform(&self, context: &ViewContext) -> ViewTransform {
+        self.view
+            .transform(context.canvas, context.frame.map(|side| side.max(1)))
     }
 
     /// The view's numbers.
-    pub fn numbers(&self, sight: &Sight) -> ViewNumbers {
+    pub fn numbers(&self, context: &ViewContext) -> ViewNumbers {
         match self.view {
             View::At {
                 center,
@@ -103,25 +104,25 @@ impl Camera {
                 rotation,
             },
             View::Default => ViewNumbers {
-                center: sight.canvas / 2.0,
-                scale: View::default_scale(sight.canvas, sight.frame.map(|side| side.max(1))),
+                center: context.canvas / 2.0,
+                scale: View::default_scale(context.canvas, context.frame.map(|side| side.max(1))),
                 rotation: 0.0,
             },
             View::Canvas => ViewNumbers {
-                center: sight.canvas / 2.0,
-                scale: (sight.size() / sight.canvas).min_element(),
+                center: context.canvas / 2.0,
+                scale: (context.size() / context.canvas).min_element(),
                 rotation: 0.0,
             },
         }
     }
 
     /// The view with these numbers, brought into the range where pixels can be told apart.
-    pub fn set(&mut self, numbers: ViewNumbers, sight: &Sight) {
+    pub fn set(&mut self, numbers: ViewNumbers, context: &ViewContext) {
         let finite = numbers.center.is_finite() && numbers.scale > 0.0 && numbers.rotation.is_finite();
         if !finite {
             return;
         }
-        let extent = sight.canvas.max_element();
+        let extent = context.canvas.max_element();
         let lowest = SMALLEST_CANVAS / extent;
         let highest = REACH / extent;
         let scale = numbers.scale.clamp(lowest, highest);
@@ -134,25 +135,25 @@ impl Camera {
     }
 
     /// Moves the picture by frame pixels.
-    pub fn pan(&mut self, by: DVec2, sight: &Sight) {
-        let numbers = self.numbers(sight);
+    pub fn pan(&mut self, by: DVec2, context: &ViewContext) {
+        let numbers = self.numbers(context);
         let moved = unturned(by, numbers.rotation) / numbers.scale;
         let center = numbers.center - moved;
-        self.set(ViewNumbers { center, ..numbers }, sight);
+        self.set(ViewNumbers { center, ..numbers }, context);
     }
 
     /// Scales by `factor`; the user-space point at the frame position `at` stays there.
-    pub fn zoom(&mut self, at: DVec2, factor: f64, sight: &Sight) {
+    pub fn zoom(&mut self, at: DVec2, factor: f64, context: &ViewContext) {
         if !(factor > 0.0 && factor.is_finite() && at.is_finite()) {
             return;
         }
-        let before = self.numbers(sight);
-        let arm = unturned(at - sight.size() / 2.0, before.rotation);
+        let before = self.numbers(context);
+        let arm = unturned(at - context.size() / 2.0, before.rotation);
         let fixed = before.center + arm / before.scale;
         // The limit depends on how far out the view lies: ask for the scale first, then place the centre.
-        let reach = REACH / fixed.abs().max_element().max(sight.canvas.max_element());
+        let reach = REACH / fixed.abs().max_element().max(context.canvas.max_element());
         let scale = (before.scale * factor).min(reach.max(before.scale));
-        let lowest = SMALLEST_CANVAS / sight.canvas.max_element();
+        let lowest = SMALLEST_CANVAS / context.canvas.max_element();
         let scale = scale.max(lowest.min(before.scale));
         let center = fixed - arm / scale;
         self.set(
@@ -161,47 +162,47 @@ impl Camera {
                 scale,
                 ..before
             },
-            sight,
+            context,
         );
     }
 
     /// Turns clockwise about the middle of the frame.
-    pub fn rotate(&mut self, degrees: f64, sight: &Sight) {
-        let numbers = self.numbers(sight);
+    pub fn rotate(&mut self, degrees: f64, context: &ViewContext) {
+        let numbers = self.numbers(context);
         let rotation = numbers.rotation + degrees;
-        self.set(ViewNumbers { rotation, ..numbers }, sight);
+        self.set(ViewNumbers { rotation, ..numbers }, context);
     }
 
     /// The largest view that shows the whole canvas in a part of the frame, given by its corner and size in frame
     /// pixels; the rotation stays.
-    pub fn fit(&mut self, [corner, size]: [DVec2; 2], sight: &Sight) {
-        let numbers = self.numbers(sight);
+    pub fn fit(&mut self, [corner, size]: [DVec2; 2], context: &ViewContext) {
+        let numbers = self.numbers(context);
         let (sin, cos) = numbers.rotation.to_radians().sin_cos();
         let (sin, cos) = (sin.abs(), cos.abs());
-        let canvas = sight.canvas;
+        let canvas = context.canvas;
         let turned = dvec2(canvas.x * cos + canvas.y * sin, canvas.x * sin + canvas.y * cos);
         let scale = (size.max(DVec2::ONE) / turned).min_element();
-        let aside = unturned(corner + size / 2.0 - sight.size() / 2.0, numbers.rotation) / scale;
+        let aside = unturned(corner + size / 2.0 - context.size() / 2.0, numbers.rotation) / scale;
         let fitted = ViewNumbers {
             center: canvas / 2.0 - aside,
             scale,
             ..numbers
         };
-        self.set(fitted, sight);
+        self.set(fitted, context);
     }
 
     /// One user unit is one frame pixel; the middle of the frame stays.
-    pub fn actual_size(&mut self, sight: &Sight) {
-        let numbers = self.numbers(sight);
-        self.set(ViewNumbers { scale: 1.0, ..numbers }, sight);
+    pub fn actual_size(&mut self, context: &ViewContext) {
+        let numbers = self.numbers(context);
+        self.set(ViewNumbers { scale: 1.0, ..numbers }, context);
     }
 
     /// The same part of the scene when frame pixels become `factor` times as many along each side.
-    pub fn rescale(&mut self, factor: f64, sight: &Sight) {
+    pub fn rescale(&mut self, factor: f64, context: &ViewContext) {
         if !self.is_default() {
-            let numbers = self.numbers(sight);
+            let numbers = self.numbers(context);
             let scale = numbers.scale * factor;
-            self.set(ViewNumbers { scale, ..numbers }, sight);
+            self.set(ViewNumbers { scale, ..numbers }, context);
         }
     }
 }
@@ -221,7 +222,7 @@ fn half_turn(degrees: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const SIGHT: Sight = Sight {
+    const SIGHT: ViewContext = ViewContext {
         canvas: DVec2::new(200.0, 100.0),
         frame: [640, 480],
     };

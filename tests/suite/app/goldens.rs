@@ -182,7 +182,7 @@ fn overlay_explains_a_texture() {
     assert_eq!(found.err(), None, "as it was looked at");
 }
 
-/// The texel under the pointer is framed, and so are the pixels that it feeds.
+/// The texel under the pointer is framed, and so are the pixels that it contributes to.
 #[test]
 fn overlay_lights_what_a_texel_feeds() {
     let folder = tempfile::tempdir().unwrap();

@@ -4,7 +4,7 @@ use rasterscope::viewer::{InspectorCommand, ViewCommand};
 use std::collections::HashMap;
 
 use rasterscope::geometry::View as SceneView;
-use rasterscope::inspect::{Explanation, Feeds, Interpolated, Question, TexelPlace, View};
+use rasterscope::inspect::{Contributions, Explanation, Interpolated, Question, TexelPlace, View};
 use rasterscope::raster::{Region, SampleRate};
 use rasterscope::render::{RenderSettings, Subject};
 use rasterscope::rules::Rules;
@@ -96,7 +96,7 @@ fn feeds_are_what_the_explanations_of_all_pixels_read() {
                 view: &view,
                 settings: &settings,
             };
-            let feeds = Feeds::around(&subject, size, [9, 7]).unwrap();
+            let feeds = Contributions::around(&subject, size, [9, 7]).unwrap();
             assert_eq!(
                 feeds.searched,
                 Region::of_size(size),
@@ -146,7 +146,7 @@ fn feeds_end_where_the_work_becomes_too_much() {
             view: &view,
             settings: &settings,
         };
-        Feeds::around(&subject, size, pixel).map(|feeds| feeds.searched)
+        Contributions::around(&subject, size, pixel).map(|feeds| feeds.searched)
     };
     let cheap = searched(1, 1, [200, 200]).unwrap();
     assert!(cheap.width == cheap.height && cheap.width > 60, "far: {cheap:?}");
@@ -186,9 +186,18 @@ fn feeds_are_found_for_the_texel_that_is_pointed_at() {
             }
         });
     assert!(texel.is_some(), "the pixel shows a texture");
-    assert_eq!(session.viewer.fed_region(), None, "nothing is looked for unasked");
+    assert_eq!(
+        session.viewer.contributions_region(),
+        None,
+        "nothing is looked for unasked"
+    );
     session.run(Command::Inspector(InspectorCommand::PointAtTexel(texel)));
-    let lit: Vec<[u32; 2]> = session.viewer.fed_pixels().iter().map(|fed| fed.pixel).collect();
+    let lit: Vec<[u32; 2]> = session
+        .viewer
+        .contributed_pixels()
+        .iter()
+        .map(|fed| fed.pixel)
+        .collect();
     assert!(
         lit.contains(&[20, 12]) && lit.len() > 1,
         "the pinned pixel and others: {lit:?}"
@@ -196,11 +205,16 @@ fn feeds_are_found_for_the_texel_that_is_pointed_at() {
     session.run(Command::View(ViewCommand::PanBy {
         by: glam::dvec2(3.0, 0.0),
     }));
-    let moved: Vec<[u32; 2]> = session.viewer.fed_pixels().iter().map(|fed| fed.pixel).collect();
+    let moved: Vec<[u32; 2]> = session
+        .viewer
+        .contributed_pixels()
+        .iter()
+        .map(|fed| fed.pixel)
+        .collect();
     assert!(moved.contains(&[23, 12]), "they follow the picture: {moved:?}");
     session.run(Command::Inspector(InspectorCommand::Unpin));
     assert!(
-        session.viewer.fed_pixels().is_empty(),
+        session.viewer.contributed_pixels().is_empty(),
         "without an explanation nothing is lit"
     );
     assert_eq!(session.viewer.pointed_texel(), None, "nor pointed at");

@@ -1,4 +1,4 @@
-//! The pixels that the texel under the pointer feeds: lit in the magnifier and in the picture.
+//! The pixels that the texel under the pointer contributes to: lit in the magnifier and in the picture.
 
 use egui::{Color32, Mesh, Painter, Rect, Stroke, StrokeKind, Ui};
 
@@ -19,7 +19,7 @@ const AROUND: f32 = 4.0;
 
 /// Lights them, in the picture where no panel covers it.
 pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect) {
-    let fed = viewer.fed_pixels();
+    let fed = viewer.contributed_pixels();
     let most = fed.iter().fold(0.0_f64, |most, fed| most.max(fed.weight));
     let scale = ui.pixels_per_point();
     let inset = viewer.inset();

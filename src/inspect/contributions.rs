@@ -1,4 +1,4 @@
-//! Which pixels a texel feeds: the way of explanations backwards, for the pixels around one.
+//! Which pixels a texel contributes to: the way of explanations backwards, for the pixels around one.
 //!
 //! Every pixel is drawn again as [`super::Explanation`] does it, and what its visible fragments read of textures is
 //! gathered by texel. Pixels are taken ring by ring, so that there is always an answer about those nearby, and as far
@@ -36,7 +36,7 @@ pub struct TexelPlace {
 
 /// A pixel that reads a texel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FedPixel {
+pub struct ContributedPixel {
     /// The pixel, `[x, y]`.
     pub pixel: [u32; 2],
     /// The mean over its samples of the texel's part of what their visible fragments read; above `1.0` only where several
@@ -46,10 +46,10 @@ pub struct FedPixel {
 
 /// The texels that the pixels of a square read.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Feeds {
+pub struct Contributions {
     /// The pixels that were looked at.
     pub searched: Region,
-    by_texel: HashMap<TexelPlace, Vec<FedPixel>>,
+    by_texel: HashMap<TexelPlace, Vec<ContributedPixel>>,
 }
 
 /// What one pixel reads, and how much work it was.
@@ -59,45 +59,45 @@ struct Reads {
     work: usize,
 }
 
-impl Feeds {
+impl Contributions {
     /// What the pixels around `pixel` read, in a frame of `size` pixels; `None` where the pixel lies outside.
     pub fn around(subject: &Subject<'_>, size: [u32; 2], pixel: [u32; 2]) -> Option<Self> {
         let whole = square(size, pixel, MOST_RINGS)?;
         let neighbourhood = Neighbourhood::new(*subject, size, whole);
-        let mut feeds = Self {
+        let mut found = Self {
             searched: Region::default(),
             by_texel: HashMap::new(),
         };
         let mut work = 0;
         for ring in 0..=MOST_RINGS {
             let square = square(size, pixel, ring)?;
-            if square == feeds.searched || (ring > LEAST_RINGS && work >= MOST_WORK) {
+            if square == found.searched || (ring > LEAST_RINGS && work >= MOST_WORK) {
                 break;
             }
-            let before = feeds.searched;
+            let before = found.searched;
             let pixels = (square.y..square.bottom()).flat_map(|y| (square.x..square.right()).map(move |x| [x, y]));
             let fresh: Vec<[u32; 2]> = pixels.filter(|pixel| !contains(before, *pixel)).collect();
             let read: Vec<Reads> = fresh.par_iter().map(|pixel| reads(&neighbourhood, *pixel)).collect();
             for (pixel, reads) in fresh.into_iter().zip(read) {
                 work += reads.work;
                 for (place, weight) in reads.texels {
-                    feeds
+                    found
                         .by_texel
                         .entry(place)
                         .or_default()
-                        .push(FedPixel { pixel, weight });
+                        .push(ContributedPixel { pixel, weight });
                 }
             }
-            feeds.searched = square;
+            found.searched = square;
         }
-        for fed in feeds.by_texel.values_mut() {
-            fed.sort_by_key(|fed| [fed.pixel[1], fed.pixel[0]]);
+        for contributed in found.by_texel.values_mut() {
+            contributed.sort_by_key(|contributed| [contributed.pixel[1], contributed.pixel[0]]);
         }
-        Some(feeds)
+        Some(found)
     }
 
     /// The pixels that read a texel, row by row.
-    pub fn of(&self, texel: TexelPlace) -> &[FedPixel] {
+    pub fn of(&self, texel: TexelPlace) -> &[ContributedPixel] {
         self.by_texel.get(&texel).map_or(&[], Vec::as_slice)
     }
 

@@ -1,8 +1,8 @@
-//! The texture's twin of a fragment: the mip level that it reads, with the footprint of its pixel and its taps.
+//! The texture view of a fragment: the mip level that it reads, with the footprint of its pixel and its taps.
 
 use egui::{Color32, Pos2, Rect, RichText, Sense, Shape, Stroke, StrokeKind, Ui, vec2};
 
-use super::fed::LIT;
+use super::contributions::LIT;
 use super::look::opaque;
 use crate::inspect::{Interpolated, Level, Paint, Tap, TexelPlace, View};
 use crate::raster::Region;
@@ -66,9 +66,9 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
             .sum();
         let [r, g, b, a] = image.texel(at[0].cast_signed(), at[1].cast_signed());
         window.mark(ui, at);
-        let fed = feeds(viewer, place).unwrap_or_default();
+        let contributed = contributed_words(viewer, place).unwrap_or_default();
         response.on_hover_text(format!(
-            "texel ({}, {}) of level {}: {r} {g} {b} {a}, {:.2} % of this sample{fed}",
+            "texel ({}, {}) of level {}: {r} {g} {b} {a}, {:.2} % of this sample{contributed}",
             at[0],
             at[1],
             level.number,
@@ -86,12 +86,14 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
     place
 }
 
-/// How many pixels a texel feeds, once that was found out.
-fn feeds(viewer: &Viewer, texel: Option<TexelPlace>) -> Option<String> {
-    let Region { width, height, .. } = viewer.fed_region().filter(|_| texel == viewer.pointed_texel())?;
-    let count = viewer.fed_pixels().len();
+/// How many pixels a texel contributes to, once that was found out.
+fn contributed_words(viewer: &Viewer, texel: Option<TexelPlace>) -> Option<String> {
+    let Region { width, height, .. } = viewer
+        .contributions_region()
+        .filter(|_| texel == viewer.pointed_texel())?;
+    let count = viewer.contributed_pixels().len();
     Some(format!(
-        "\nfeeds {count} of the {width} x {height} pixels around the pinned one, lit in the picture"
+        "\ncontributes to {count} of the {width} x {height} pixels around the pinned one, lit in the picture"
     ))
 }
 

@@ -273,7 +273,10 @@ impl<'a> VisibilityPainter<'a> {
             None => each_shared(
                 &shown,
                 line,
-                |pair| self.resolver.pixel_of_halves(self.pair_sum(pair, count(pair.mask))),
+                |pair| {
+                    self.resolver
+                        .pixel_of_halves(self.pair_sum(pair, pair.mask.count_ones()))
+                },
                 |x| self.resolve_split(x, y),
             ),
         }
@@ -288,7 +291,8 @@ impl<'a> VisibilityPainter<'a> {
             *pixel = match *surface {
                 TWO_SURFACES => {
                     let pair = pairs.get(x);
-                    self.resolver.pixel_of_halves(self.pair_sum(pair, count(pair.mask)))
+                    self.resolver
+                        .pixel_of_halves(self.pair_sum(pair, pair.mask.count_ones()))
                 }
                 surface if usize::from(surface) < MAX_SURFACES => self.surfaces.get(surface).pixel,
                 _ => self.resolve_split(x, y),
@@ -334,7 +338,7 @@ impl<'a> VisibilityPainter<'a> {
                             .all(|surface| surfaces.get(*surface).shaded.is_none())
                         {
                             let [first, second] = [pair.first, pair.second].map(|surface| surfaces.get(surface).spread);
-                            let sum = first.mixed(self.resolver.count(), second, count(pair.mask));
+                            let sum = first.mixed(self.resolver.count(), second, pair.mask.count_ones());
                             line[usize::from(x)] = self.resolver.pixel_of_halves(sum);
                         } else {
                             let parts = [(pair.first, 0, tile.all() & !pair.mask), (pair.second, 0, pair.mask)];
@@ -526,30 +530,6 @@ impl Shading {
         self.sums.resize(self.places.len(), [0; 4]);
     }
 }
-
-/// How many samples of a pixel a mask holds.
-#[inline]
-fn count(mask: u64) -> u32 {
-    match u16::try_from(mask) {
-        // Faster than counting bits, for which not every machine has an instruction.
-        Ok(mask) => {
-            let [low, high] = mask.to_le_bytes();
-            ONES[usize::from(low)] + ONES[usize::from(high)]
-        }
-        Err(_) => mask.count_ones(),
-    }
-}
-
-/// How many bits of each byte are set.
-const ONES: [u32; 256] = {
-    let mut ones = [0; 256];
-    let mut byte = 1;
-    while byte < ones.len() {
-        ones[byte] = (byte as u64).count_ones();
-        byte += 1;
-    }
-    ones
-};
 
 /// The sum of a split pixel's samples where all of them are flat.
 #[inline]

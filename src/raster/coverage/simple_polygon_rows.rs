@@ -10,9 +10,6 @@ use crate::raster::coverage::polygon::OutlineEdge;
 use crate::raster::span::Span;
 use crate::simd;
 
-/// From so many rows on that an edge crosses, it is walked four rows at a time.
-const LONG: usize = 8;
-
 /// Looks at outlines, reusing its memory.
 #[derive(Debug, Default)]
 pub(in crate::raster) struct SimplePolygonRows {
@@ -118,22 +115,6 @@ impl SimplePolygonRows {
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn widen(mut edge: EdgeWalker, least: &mut [i32], greatest: &mut [i32]) {
-    let (mut least, mut greatest) = (least, greatest);
-    if least.len() >= LONG {
-        let mut rows = edge.four_rows();
-        let (least_fours, least_rest) = least.as_chunks_mut::<4>();
-        let (greatest_fours, greatest_rest) = greatest.as_chunks_mut::<4>();
-        for (least, greatest) in least_fours.iter_mut().zip(greatest_fours) {
-            let columns = rows.at_or_after();
-            for i in 0..4 {
-                least[i] = least[i].min(columns[i]);
-                greatest[i] = greatest[i].max(columns[i]);
-            }
-            rows.step();
-        }
-        edge.go_to(&rows);
-        (least, greatest) = (least_rest, greatest_rest);
-    }
     for (least, greatest) in least.iter_mut().zip(greatest) {
         let column = edge.at_or_after();
         *least = column.min(*least);

@@ -139,17 +139,6 @@ impl RowScanner {
             let to = *to as usize;
             let crossings = &mut self.crossings[from..to];
             from = to;
-            if let [a, b] = crossings {
-                // Of two that cross a row, one runs up and one down; or else both wind around what is between.
-                let span = Span {
-                    start: (*a).min(*b) >> 1,
-                    end: (*a).max(*b) >> 1,
-                };
-                if (*a ^ *b) & 1 != 0 {
-                    store.spans.push(if span.is_empty() { Span::EMPTY } else { span });
-                    continue;
-                }
-            }
             crossings.sort_unstable();
             enclosed(crossings, rule, end, &mut store.spans);
             match store.spans.len() - before {

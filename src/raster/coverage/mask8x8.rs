@@ -31,14 +31,6 @@ struct SmallEdge {
     down: i32,
 }
 
-/// The coverage of a triangle whose box holds at most [`SMALL`] columns and rows of samples; `None` for a larger one.
-pub(crate) fn coverage_mask(corners: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Option<CoverageMask> {
-    let samples = SampleBox::new(corners, grid, rules);
-    samples
-        .is_small()
-        .then(|| CoverageMask::new(corners, samples, grid, rules))
-}
-
 impl CoverageMask {
     /// What a triangle covers whose box is `samples`, which must be small.
     #[inline]
@@ -192,6 +184,14 @@ fn quad(edges: &[SmallEdge; 3], i: i32, j: i32) -> u32 {
 #[cfg(test)]
 mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
+
+    /// The coverage of a triangle whose box holds at most [`SMALL`] columns and rows of samples; `None` for a larger one.
+    fn coverage_mask(corners: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Option<CoverageMask> {
+        let samples = SampleBox::new(corners, grid, rules);
+        samples
+            .is_small()
+            .then(|| CoverageMask::new(corners, samples, grid, rules))
+    }
 
     use super::*;
     use crate::geometry::subpixel::GUARD;

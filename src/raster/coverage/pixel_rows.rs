@@ -1,7 +1,7 @@
 //! The coverage of a rectangle of pixels, one row of pixels at a time.
 
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-use crate::raster::coverage::mask8x8::{CoverageMask, coverage_mask};
+use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon_rows::RowSpans;
 use crate::raster::coverage::triangle::SortedTriangle;
 use crate::raster::sampling::rate::SampleRate;
@@ -32,9 +32,6 @@ pub(crate) fn each_pixel_row(
     rect: PixelRect,
     paint: impl FnMut(&PixelRow<'_>),
 ) {
-    if let Some(coverage) = coverage_mask(corners, grid, rules) {
-        return each_pixel_row_of_few(coverage, grid.side(), rect, paint);
-    }
     let Some(sorted) = SortedTriangle::new(corners, rules) else {
         return;
     };

@@ -128,28 +128,10 @@ fn each_row(
     rect: PixelRect,
     rows: Span,
     mut next_spans: impl FnMut(i32, Span, &mut [Span]),
-    paint: impl FnMut(&PixelRow<'_>),
+    mut paint: impl FnMut(&PixelRow<'_>),
 ) {
     let columns = scaled(rect.x, side);
     let rows = rows.intersection(scaled(rect.y, side));
-    let next_spans = |first, spans: &mut [Span]| next_spans(first, columns, spans);
-    match side {
-        1 => gather_rows(1, rows, next_spans, paint),
-        4 => gather_rows(4, rows, next_spans, paint),
-        _ => gather_rows(side, rows, next_spans, paint),
-    }
-}
-
-/// Calls `paint` with each row of pixels of which a sample row lies in `rows`. Inlined, so that the compiler knows the
-/// commonest `side`.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "divisions by a known side are shifts")]
-fn gather_rows(
-    side: i32,
-    rows: Span,
-    mut next_spans: impl FnMut(i32, &mut [Span]),
-    mut paint: impl FnMut(&PixelRow<'_>),
-) {
     let mut lines = [Span::default(); MAX_SIDE];
     let in_pixel = side.cast_unsigned() as usize;
     // Sample rows of as many pixels as there is room for.
@@ -162,7 +144,7 @@ fn gather_rows(
         let end = rows.end.min(top + batch);
         let inside = |line: i32| (line - top).cast_unsigned() as usize;
         lines[..inside(line)].fill(Span::default());
-        next_spans(line, &mut lines[inside(line)..inside(end)]);
+        next_spans(line, columns, &mut lines[inside(line)..inside(end)]);
         let last = inside(end).next_multiple_of(in_pixel);
         lines[inside(end)..last].fill(Span::default());
         for (spans, y) in lines[..last].chunks_exact(in_pixel).zip(first..) {
@@ -177,8 +159,7 @@ fn gather_rows(
 
 impl<'a> PixelRow<'a> {
     /// The row `y` of pixels with these spans, one for each sample row.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "divisions by a known side are shifts")]
+    #[inline]
     fn new(y: i32, spans: &'a [Span]) -> Self {
         let nothing = Span::default();
         if let [only] = *spans {

@@ -249,15 +249,6 @@ impl VisibilityBuffer {
         self.share(pixel, SPLIT);
     }
 
-    /// The bits of the samples that `spans` cover in the pixel in column `x` of the frame.
-    #[inline]
-    fn mask(&self, x: i32, spans: &[Span]) -> u64 {
-        match self.side {
-            4 => mask(4, x, spans, Sides::Both),
-            side => mask(side, x, spans, Sides::Both),
-        }
-    }
-
     /// Lets samples of a pixel that is a pair show `surface`; false, and nothing done, where it would show three.
     #[inline]
     fn paint_pair(&mut self, pixel: PixelIndex, covered: u64, surface: SurfaceId) -> bool {
@@ -316,7 +307,11 @@ impl VisibilityBuffer {
             self.change_whole(y, full, &mut change);
         }
         for x in row.partial() {
-            let covered = if self.all != 0 { self.mask(x, row.spans()) } else { 0 };
+            let covered = if self.all != 0 {
+                mask(self.side, x, row.spans(), Sides::Both)
+            } else {
+                0
+            };
             self.change_samples(((y, offset(left, x)), x), (covered, row.spans()), &mut change);
         }
     }
@@ -702,8 +697,7 @@ fn run_length(line: &[SurfaceId], surface: SurfaceId) -> usize {
 }
 
 /// The bits of the samples that `spans` cover in a pixel with `side` samples a row; `x` is its column in the frame.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "faster where `side` is known")]
+#[inline]
 fn mask(side: usize, x: i32, spans: &[Span], sides: Sides) -> u64 {
     let width = i32::try_from(side).unwrap_or(1);
     let left = x * width;

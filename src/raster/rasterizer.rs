@@ -19,7 +19,7 @@ use crate::raster::paint::per_sample::PerSamplePainter;
 use crate::raster::paint::visibility::painter::VisibilityPainter;
 use crate::raster::sampling::positions::{SamplePositions, lattice};
 use crate::raster::shading::shader::{ShadeContext, Shader};
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::span::Span;
 use crate::raster::stats::{Counters, SharedTally, Tally};
 use crate::raster::tile_layout::TileLayout;
 use crate::raster::{Framebuffer, SamplePattern, SampleRate};
@@ -401,31 +401,13 @@ impl<'a> DisplayList<'a> {
         let stride = self.context.size[0] as usize;
         let columns = self.context.tiles.columns;
         let first = ((row.number - pass.first_row) * columns) as usize;
-        // Neighbours of one colour are filled together: memory takes long rows faster.
-        let mut even: Option<(PixelRect, u32)> = None;
         for (column, tile) in (0..columns).zip(first..) {
             if pass.cancelled.load(Ordering::Relaxed) {
                 return;
             }
             let rect = self.context.tiles.pixels(column, row.number, self.context.size);
-            let pixel = self.even_pixel(pass, painters, tile);
-            match &mut even {
-                Some((so_far, known)) if pixel == Some(*known) => so_far.x.end = rect.x.end,
-                _ => {
-                    if let Some((so_far, known)) = even.take() {
-                        PixelBlock::in_rows(so_far, row.pixels, stride).fill(known);
-                    }
-                    if let Some(pixel) = pixel {
-                        even = Some((rect, pixel));
-                    } else {
-                        let mut block = PixelBlock::in_rows(rect, row.pixels, stride);
-                        self.paint_tile(pass, painters, tile, &mut block);
-                    }
-                }
-            }
-        }
-        if let Some((so_far, known)) = even {
-            PixelBlock::in_rows(so_far, row.pixels, stride).fill(known);
+            let mut block = PixelBlock::in_rows(rect, row.pixels, stride);
+            self.numbered_tile(pass, painters, tile, &mut block);
         }
         row.keep();
         pass.tally.take(&mut painters.tally);

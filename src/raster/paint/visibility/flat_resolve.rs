@@ -103,10 +103,7 @@ impl FlatResolve {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     pub(crate) fn row<S: Simd>(&self, simd: S, shown: &[SurfaceId; ROW], pixels: &mut [u32]) {
-        let first = shown[0];
-        if shown.iter().filter(|surface| **surface != first).count() == 0 {
-            pixels.fill(self.pixel(first));
-        } else if self.count <= TABLE && has_tables(simd) {
+        if self.count <= TABLE && has_tables(simd) {
             self.looked_up::<S, false>(simd, shown, pixels);
         } else if self.count <= TABLES * TABLE && has_tables(simd) {
             self.looked_up::<S, true>(simd, shown, pixels);

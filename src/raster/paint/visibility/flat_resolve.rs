@@ -1,13 +1,12 @@
 //! What is needed of surfaces again and again when pixels that show nothing but flat colours are resolved, side by side.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, i8x16, i16x8, i32x4, u8x16, u16x8, u32x4, u64x2};
+use fearless_simd::{Simd, i16x8, i32x4, u32x4, u64x2};
 
 use crate::color::Resolver;
 use crate::raster::paint::visibility::packed::lanes;
 use crate::raster::paint::visibility::surface_color::SurfaceColor;
 use crate::raster::surface_id::{ROW, SurfaceId};
-use crate::simd;
 
 /// How many surfaces have a place here: a power of two.
 const FIRST: usize = 1024;
@@ -17,14 +16,6 @@ const MIDDLE: u16 = 1 << 15;
 
 /// Most samples of a pixel whose mean a [`Mixer`] takes.
 const MOST: u32 = 64;
-
-/// Entries of a table that vector instructions look up, the first surface of the second table, and how many tables there are.
-const TABLE: usize = 16;
-const SECOND: i8 = 16;
-const TABLES: usize = 2;
-
-/// The channels of a pixel.
-const CHANNELS: usize = 4;
 
 /// The colours of the first surfaces of a tile, side by side, so that pixels of nothing but flat colours are resolved at
 /// once.
@@ -36,8 +27,6 @@ pub(crate) struct FlatResolve {
     /// Whether all are opaque.
     opaque: bool,
     pixels: Box<[u32; FIRST]>,
-    /// The bytes of the very first pixels, channel by channel.
-    tables: [[[u8; TABLE]; CHANNELS]; TABLES],
     /// Blue, green, red and alpha of colours from the lowest bits on, each less [`MIDDLE`].
     colors: Box<[u64; FIRST]>,
 }
@@ -61,7 +50,6 @@ impl FlatResolve {
             count: 0,
             opaque: true,
             pixels: Box::new([0; FIRST]),
-            tables: [[[0; TABLE]; CHANNELS]; TABLES],
             colors: Box::new([0; FIRST]),
         }
     }
@@ -84,11 +72,6 @@ impl FlatResolve {
         self.count = number + 1;
         self.opaque &= surface.flat.is_opaque();
         self.pixels[number % FIRST] = surface.pixel;
-        if let Some(tables) = self.tables.get_mut(number / TABLE) {
-            for (table, byte) in tables.iter_mut().zip(surface.pixel.to_le_bytes()) {
-                table[number % TABLE] = byte;
-            }
-        }
         let [r, g, b, a] = surface.flat.0.map(|channel| u64::from(channel ^ MIDDLE));
         self.colors[number % FIRST] = b | g << 16 | r << 32 | a << 48;
     }
@@ -100,59 +83,11 @@ impl FlatResolve {
     }
 
     /// The pixels of a row that show nothing but the flat colours of surfaces; any for numbers that are none.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    pub(crate) fn row<S: Simd>(&self, simd: S, shown: &[SurfaceId; ROW], pixels: &mut [u32]) {
-        if self.count <= TABLE && has_tables(simd) {
-            self.looked_up::<S, false>(simd, shown, pixels);
-        } else if self.count <= TABLES * TABLE && has_tables(simd) {
-            self.looked_up::<S, true>(simd, shown, pixels);
-        } else {
-            self.one_by_one(shown, pixels);
-        }
-    }
-
-    /// [`FlatResolve::row`] pixel by pixel.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn one_by_one(&self, shown: &[SurfaceId], pixels: &mut [u32]) {
+    #[inline]
+    pub(crate) fn row(&self, shown: &[SurfaceId; ROW], pixels: &mut [u32]) {
         for (pixel, surface) in pixels.iter_mut().zip(shown) {
             *pixel = self.pixel(*surface);
         }
-    }
-
-    /// [`FlatResolve::row`] where there are no more surfaces than entries of one table, or of two.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn looked_up<S: Simd, const TWO: bool>(&self, simd: S, shown: &[SurfaceId; ROW], pixels: &mut [u32]) {
-        let tables = self
-            .tables
-            .map(|tables| tables.map(|table| u8x16::simd_from(simd, table)));
-        let (blocks, _) = shown.as_chunks::<TABLE>();
-        let (whole, rest) = pixels.as_chunks_mut::<TABLE>();
-        for (pixels, surfaces) in whole.iter_mut().zip(blocks) {
-            let half = |surfaces: &[SurfaceId]| u16x8::from_slice(simd, surfaces).bitcast::<i16x8<S>>();
-            // What is too great for a byte is no surface.
-            let bytes: i8x16<S> = half(&surfaces[..8]).saturating_narrow(half(&surfaces[8..]));
-            let surfaces: u8x16<S> = bytes.bitcast();
-            let [b, g, r, a] = std::array::from_fn(|channel| {
-                let found = tables[0][channel].swizzle_dyn_within_blocks(surfaces);
-                if !TWO {
-                    return found;
-                }
-                let beyond = bytes - i8x16::splat(simd, SECOND);
-                let second = tables[1][channel].swizzle_dyn_within_blocks(beyond.bitcast::<u8x16<S>>());
-                bytes.simd_lt(i8x16::splat(simd, SECOND)).select(found, second)
-            });
-            let (low, high) = ((b.zip_low(g), r.zip_low(a)), (b.zip_high(g), r.zip_high(a)));
-            for (four, (bg, ra)) in pixels.chunks_exact_mut(8).zip([low, high]) {
-                let (bg, ra): (u16x8<S>, u16x8<S>) = (bg.bitcast(), ra.bitcast());
-                bg.zip_low(ra).bitcast::<u32x4<S>>().store_slice(&mut four[..4]);
-                bg.zip_high(ra).bitcast::<u32x4<S>>().store_slice(&mut four[4..]);
-            }
-        }
-        let beyond = shown.len().min(whole.len() * TABLE);
-        self.one_by_one(&shown[beyond..], rest);
     }
 
     /// What mixes two of these; `None` where one of them is not opaque, or means are no shifts.
@@ -168,17 +103,6 @@ impl FlatResolve {
             offset: i32x4::splat(simd, offset.cast_signed()),
             shift,
         })
-    }
-}
-
-/// Whether tables are looked up by an instruction.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "known when compiled")]
-fn has_tables<S: Simd>(token: S) -> bool {
-    match token.level() {
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        simd::Level::Sse2(_) => false,
-        level => !level.is_fallback(),
     }
 }
 
@@ -238,6 +162,7 @@ mod tests {
     use crate::raster::paint::visibility::surfaces::SurfaceTable;
     use crate::raster::surface_id::TWO_SURFACES;
     use crate::rules::Rules;
+    use crate::simd;
 
     fn color(u: &mut Unstructured<'_>, opaque: bool) -> Result<Premultiplied16> {
         let mut channel = || u.int_in_range(0..=Premultiplied16::ONE);
@@ -295,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_of_pixels_are_looked_up_one_by_one_or_together() {
+    fn rows_show_the_pixels_of_their_surfaces() {
         arbtest::arbtest(|u| {
             let resolver = Resolver::new(16, Rules::Standard);
             let mut surfaces = SurfaceTable::new(Rules::Standard, resolver);
@@ -315,14 +240,12 @@ mod tests {
             }
             let known = surfaces.flat_resolve().expect("few surfaces");
             let mut pixels = vec![0; u.int_in_range(1..=ROW)?];
-            for (name, level) in simd::tested() {
-                dispatch!(level, simd => known.row(simd, &shown, &mut pixels));
-                for (x, (pixel, surface)) in pixels.iter().zip(shown).enumerate() {
-                    assert!(
-                        surface >= TWO_SURFACES || *pixel == surfaces.get(surface).pixel,
-                        "{name}: pixel {x} of {shown:?}"
-                    );
-                }
+            known.row(&shown, &mut pixels);
+            for (x, (pixel, surface)) in pixels.iter().zip(shown).enumerate() {
+                assert!(
+                    surface >= TWO_SURFACES || *pixel == surfaces.get(surface).pixel,
+                    "pixel {x} of {shown:?}"
+                );
             }
             Ok(())
         })

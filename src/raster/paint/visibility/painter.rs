@@ -256,7 +256,7 @@ impl<'a> VisibilityPainter<'a> {
             return self.resolve_row_of_many(y, line);
         };
         let shown = self.layers[0].shown(y);
-        known.row(simd, shown.whole, line);
+        known.row(shown.whole, line);
         // Where pixels are shared, what they got there is written over.
         match known.mixer(simd) {
             Some(mixer) => each_shared(

@@ -106,8 +106,8 @@ impl Question<'_> {
         let (mut views, mut texture) = (Vec::new(), None);
         let shape = match (op.kind, piece.map(|piece| piece.shape)) {
             (PaintedKind::BeginLayer, _) => Shape::BeginLayer,
-            (PaintedKind::EndLayer(opacity), _) => Shape::EndLayer {
-                opacity: f64::from(opacity) / f64::from(Premultiplied16::ONE),
+            (PaintedKind::EndLayer(compositing), _) => Shape::EndLayer {
+                opacity: compositing.opacity(),
             },
             (
                 PaintedKind::Primitive,

@@ -11,9 +11,10 @@
 //! |---|---|
 //! | `sampling` | how many samples a pixel has, and where they lie |
 //! | `span`, `tile_layout`, `surface_id`, `attributes` | what the floors above share: runs of samples, tiles, surface numbers, planes |
+//! | `shading` | the colour of a paint at a sample |
+//! | `layers` | how a layer is composited with what is below it |
 //! | `coverage` | which samples a shape covers |
 //! | `list` | screen-space primitives as chunks; what is hidden is dropped |
-//! | `shading` | the colour of a paint at a sample |
 //! | `binning` | which commands each tile draws |
 //! | `frame` | where pixels go |
 //! | `paint` | a tile's commands in painter's order, and its resolve |
@@ -25,6 +26,7 @@ mod binning;
 mod coverage;
 mod explain;
 mod frame;
+mod layers;
 mod list;
 mod paint;
 #[cfg(test)]
@@ -38,15 +40,18 @@ mod stats;
 mod surface_id;
 mod tile_layout;
 
-pub use explain::pieces::{Attributes, Piece, PieceShape, SampleOfTriangle, TextureUse};
+pub use explain::pieces::{Piece, PieceShape, SampleOfTriangle};
 pub use explain::replay::{PixelReplay, ReplayedSample};
 pub use frame::framebuffer::Framebuffer;
 pub use frame::region::Region;
+pub use layers::Compositing;
 pub use list::builder::ChunkBuilder;
-pub use list::chunk::{Chunk, Fill, ListContext};
+pub use list::chunk::{Chunk, ListContext};
 pub use list::hidden::Hidden;
 pub use paint::recorder::{PaintedKind, PaintedOp, PaintedSample};
 pub use rasterizer::{DisplayList, RasterSettings, RasterTimes};
 pub use sampling::pattern::SamplePattern;
 pub use sampling::rate::SampleRate;
+pub use shading::Paint;
+pub use shading::interpolated::{Attributes, TextureUse};
 pub use stats::Counters;

@@ -13,12 +13,12 @@ use crate::raster::coverage::free_positions::FreePositions;
 use crate::raster::coverage::shape_rows::ShapeRows;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::frame::row::FrameRow;
-use crate::raster::list::chunk::{Chunk, ListContext, Paint, measure_layers};
+use crate::raster::list::chunk::{Chunk, ListContext, measure_layers};
 use crate::raster::paint::direct::DirectPainter;
 use crate::raster::paint::per_sample::PerSamplePainter;
 use crate::raster::paint::visibility::painter::VisibilityPainter;
 use crate::raster::sampling::positions::{SamplePositions, lattice};
-use crate::raster::shading::shader::{ShadeContext, Shader};
+use crate::raster::shading::context::ShadeContext;
 use crate::raster::span::Span;
 use crate::raster::stats::{Counters, SharedTally, Tally};
 use crate::raster::tile_layout::TileLayout;
@@ -157,13 +157,9 @@ impl Kinds {
             .par_iter()
             .with_min_len(8)
             .map(|chunk| {
-                let mut shaded = chunk
-                    .paints
-                    .iter()
-                    .filter(|paint| !matches!(paint, Paint::Solid(_)))
-                    .peekable();
+                let mut shaded = chunk.paints.iter().filter(|paint| paint.constant.is_none()).peekable();
                 let any = shaded.peek().is_some();
-                (any, shaded.all(|paint| Shader::is_opaque(paint, textures)))
+                (any, shaded.all(|paint| paint.is_opaque(textures)))
             })
             .reduce(|| (false, true), |a, b| (a.0 || b.0, a.1 && b.1));
         Self {
@@ -175,7 +171,7 @@ impl Kinds {
 }
 
 impl<'a> DisplayList<'a> {
-    /// Chunks in painter's order, built with `context`; [`crate::raster::Fill::Texture`] points into `textures`.
+    /// Chunks in painter's order, built with `context`; [`crate::raster::Paint::texture`] points into `textures`.
     pub fn new(
         context: ListContext,
         settings: RasterSettings,

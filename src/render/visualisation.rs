@@ -8,10 +8,10 @@ use std::sync::LazyLock;
 
 use glam::DVec2;
 
-use super::{Screen, add, fill};
+use super::{Screen, add, paint};
 use crate::color::{Colormap, Premultiplied16, Rgba};
 use crate::geometry::Polygon;
-use crate::raster::{ChunkBuilder, Fill, RasterSettings};
+use crate::raster::{self, ChunkBuilder, RasterSettings};
 use crate::rules::Rules;
 use crate::scene::{Paint, PrimitiveKind, Scene};
 use crate::texture::{
@@ -279,7 +279,7 @@ impl<'a> Visualiser<'a> {
             Visualisation::Barycentric => match kind {
                 PrimitiveKind::Triangle { points, .. } => {
                     let points = points.map(|point| screen.place(point));
-                    builder.triangle(points, &Fill::Vertex(CORNERS.map(rgba)));
+                    builder.triangle(points, &raster::Paint::vertex(CORNERS.map(rgba)));
                 }
                 _ => repaint(builder, screen, kind, rgba(NONE)),
             },
@@ -293,7 +293,7 @@ impl<'a> Visualiser<'a> {
     fn add_textured(&self, builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, kind: &PrimitiveKind) {
         let PrimitiveKind::Triangle {
             points,
-            paint: paint @ Paint::Texture { texture, uv, .. },
+            paint: own @ Paint::Texture { texture, uv, .. },
         } = kind
         else {
             return repaint(builder, screen, kind, rgba(NONE));
@@ -303,8 +303,7 @@ impl<'a> Visualiser<'a> {
         let pyramid = &self.scene.textures[texture.0 as usize].pyramid;
         match self.kind {
             Visualisation::Uv => {
-                let (texture, opacity) = (0, 1.0);
-                builder.triangle(points, &Fill::Texture { texture, uv, opacity });
+                builder.triangle(points, &raster::Paint::texture(0, uv, 1.0));
             }
             Visualisation::LevelOfDetail => builder.measured_triangle(points, uv, &|footprint| {
                 rgba(level_of_detail_color(single(self.reading(footprint, pyramid).lod)))
@@ -313,7 +312,7 @@ impl<'a> Visualiser<'a> {
                 rgba(anisotropy_color(single(ratio(footprint, pyramid))))
             }),
             _ => {
-                builder.triangle(points, &fill(paint));
+                builder.triangle(points, &paint(own));
                 builder.measured_triangle(points, uv, &|footprint| {
                     let levels = self.reading(footprint, pyramid).levels;
                     let (finer, coarser) = (level_color(levels.level), level_color(levels.level + 1));
@@ -343,7 +342,7 @@ impl<'a> Visualiser<'a> {
         let (low, high) = (corner(0.0, 0.0), corner(width, height));
         // A transparent ground lets nothing shine through that a veil could pale: it is white then, as paper.
         let ground = if background.a > 0.0 { background } else { Rgba::WHITE };
-        let veil = Fill::Solid(Rgba { a: PALE, ..ground });
+        let veil = raster::Paint::solid(Rgba { a: PALE, ..ground });
         builder.triangle([low, corner(width, 0.0), high], &veil);
         builder.triangle([low, high, corner(0.0, height)], &veil);
     }
@@ -408,7 +407,7 @@ fn closed(builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, points: &[DVec2],
 fn repaint(builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, kind: &PrimitiveKind, color: Rgba) {
     match kind {
         PrimitiveKind::Triangle { points, .. } => {
-            builder.triangle(points.map(|point| screen.place(point)), &Fill::Solid(color));
+            builder.triangle(points.map(|point| screen.place(point)), &raster::Paint::solid(color));
         }
         PrimitiveKind::Polygon { polygon, .. } => {
             let polygon = polygon.clone();

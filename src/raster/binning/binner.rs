@@ -10,8 +10,7 @@ use crate::raster::binning::tile_command::TileCommand;
 use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
-use crate::raster::list::chunk::{Chunk, DrawCommand, ListContext, Paint};
-use crate::raster::shading::shader::Shader;
+use crate::raster::list::chunk::{Chunk, DrawCommand, ListContext};
 use crate::raster::span::{PixelRect, Reach, SampleBox, Span};
 use crate::texture::Texture;
 
@@ -108,17 +107,13 @@ impl<'a> Binner<'a> {
                 DrawCommand::Triangle(index) => {
                     let triangle = &self.chunk.triangles[index as usize];
                     let paint = &self.chunk.paints[triangle.paint as usize];
-                    let opaque = Shader::is_opaque(paint, textures);
+                    let opaque = paint.is_opaque(textures);
                     if let Some(float) = self.chunk.floats.get(index as usize) {
                         let entry = TileCommand::triangle(i, index, None, opaque);
                         self.float(float, entry, depth == 0, &mut visit);
                         continue;
                     }
-                    let flat = match paint {
-                        Paint::Solid(color) => Some(*color),
-                        Paint::Vertex(_) | Paint::Texture { .. } => None,
-                    };
-                    let entry = TileCommand::triangle(i, index, flat, opaque);
+                    let entry = TileCommand::triangle(i, index, paint.constant, opaque);
                     self.triangle(triangle.corners, entry, depth == 0, &mut visit);
                 }
                 DrawCommand::Outline(index) => {

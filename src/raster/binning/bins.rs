@@ -210,7 +210,7 @@ mod tests {
     use crate::raster::binning::tile_command::Work;
     use crate::raster::coverage::triangle::SortedTriangle;
     use crate::raster::list::builder::ChunkBuilder;
-    use crate::raster::list::chunk::Fill;
+    use crate::raster::shading::Paint;
     use crate::raster::span::PixelRect;
     use crate::raster::tile_layout::TileLayout;
     use crate::raster::{RasterSettings, SamplePattern, SampleRate};
@@ -237,7 +237,7 @@ mod tests {
     fn binned(context: &ListContext, triangles: &[[DVec2; 3]]) -> (Chunk, Arc<Bins>) {
         let mut builder = ChunkBuilder::new(context, triangles.len());
         for triangle in triangles {
-            builder.triangle(*triangle, &Fill::Solid(Rgba::BLACK));
+            builder.triangle(*triangle, &Paint::solid(Rgba::BLACK));
         }
         let chunk = builder.finish();
         let chunks = [chunk];

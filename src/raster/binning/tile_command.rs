@@ -1,9 +1,12 @@
 //! One op in one tile, as the painters of tiles read it: everything about a small primitive, in painter's order.
 
 use crate::color::Premultiplied16;
+use crate::geometry::subpixel::GridPoint;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::shape_rows::Shape;
-use crate::raster::list::chunk::{Chunk, DrawCommand, Paint, ScreenTriangle};
+use crate::raster::layers::Compositing;
+use crate::raster::list::chunk::{Chunk, DrawCommand};
+use crate::raster::shading::Paint;
 
 /// One op in one tile. A stamp is held whole, the colour of a flat shape too, so that painting these does not jump
 /// around in memory.
@@ -27,11 +30,11 @@ pub(crate) enum Work<'c> {
     Pixels(CoverageMask, Premultiplied16),
     /// A triangle or polygon of one colour.
     Flat(Shape<'c>, Premultiplied16),
-    /// A triangle of any other paint, and what it covers.
-    Shaded(Shape<'c>, &'c ScreenTriangle, &'c Paint),
+    /// A triangle of any other paint: what it covers, its corners and the paint between them.
+    Shaded(Shape<'c>, &'c [GridPoint; 3], &'c Paint),
     BeginLayer,
-    /// With the opacity to paint the layer with.
-    EndLayer(u16),
+    /// With how the layer is composited.
+    EndLayer(Compositing),
 }
 
 impl TileCommand {
@@ -176,19 +179,21 @@ impl TileCommand {
             DrawCommand::Triangle(index) => {
                 let triangle = &chunk.triangles[index as usize];
                 let paint = &chunk.paints[triangle.paint as usize];
-                match (chunk.floats.get(index as usize), paint) {
-                    (None, _) => Work::Shaded(Shape::Triangle(&triangle.corners), triangle, paint),
-                    (Some(float), Paint::Solid(color)) => Work::Flat(Shape::Float(float), *color),
-                    (Some(float), _) => Work::Shaded(Shape::Float(float), triangle, paint),
+                let float = chunk.floats.get(index as usize);
+                let shape = float.map_or(Shape::Triangle(&triangle.corners), Shape::Float);
+                match paint.constant {
+                    Some(color) => Work::Flat(shape, color),
+                    None => Work::Shaded(shape, &triangle.corners, &paint.paint),
                 }
             }
-            DrawCommand::EndLayer(index) => Work::EndLayer(chunk.layers[index as usize].opacity),
+            DrawCommand::BeginLayer(index) | DrawCommand::EndLayer(index) => {
+                let compositing = chunk.layers[index as usize].compositing;
+                compositing.map_or(Work::BeginLayer, Work::EndLayer)
+            }
             // Stamps, outlines and hairlines have returned above.
-            DrawCommand::BeginLayer(_)
-            | DrawCommand::Outline(_)
-            | DrawCommand::Samples(_)
-            | DrawCommand::Pixels(_)
-            | DrawCommand::Hairline(_) => Work::BeginLayer,
+            DrawCommand::Outline(_) | DrawCommand::Samples(_) | DrawCommand::Pixels(_) | DrawCommand::Hairline(_) => {
+                Work::BeginLayer
+            }
         }
     }
 }

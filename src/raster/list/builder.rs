@@ -2,20 +2,21 @@
 
 use glam::DVec2;
 
-use crate::color::{Premultiplied16, Rgba, unit_to_16};
+use crate::color::{Premultiplied16, Rgba};
 use crate::geometry::Polygon;
-use crate::geometry::clip::{ClipVertex, ClippedTriangle, in_guard};
+use crate::geometry::clip::{ClippedTriangle, in_guard};
 use crate::geometry::edge::doubled_area;
 use crate::geometry::subpixel::{GridPoint, floor_to_i32};
-use crate::raster::attributes::{Planes, uv_map};
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::mask8x8_simd::{LANES, TriangleBatch};
 use crate::raster::coverage::polygon::OutlineBuilder;
 use crate::raster::coverage::polygon_rows::{RowScanner, SpanStore};
-use crate::raster::list::chunk::{Chunk, DrawCommand, Fill, LayerMark, ListContext, Paint, ScreenTriangle, Stamp};
+use crate::raster::layers::Compositing;
+use crate::raster::list::chunk::{Chunk, ChunkPaint, DrawCommand, LayerMark, ListContext, ScreenTriangle, Stamp};
 use crate::raster::list::hairline::Hairline;
 use crate::raster::list::hidden::{Hidden, MOST_CORNERS, covers, drop_hidden, is_large, joined};
+use crate::raster::shading::{Paint, TexturePaint};
 use crate::raster::span::{PixelRect, SampleBox};
 use crate::rules::Rules;
 use crate::texture::Footprint;
@@ -120,16 +121,16 @@ impl<'a> ChunkBuilder<'a> {
 
     /// Adds a triangle in screen space; any finite coordinates.
     #[inline]
-    pub fn triangle(&mut self, points: [DVec2; 3], fill: &Fill) {
-        if let Fill::Solid(color) = *fill
-            && self.stamps
+    pub fn triangle(&mut self, points: [DVec2; 3], paint: &Paint) {
+        if self.stamps
             && self.waiting.hopeless == 0
+            && let Some(color) = paint.constant()
         {
             self.wait(points, color);
         } else {
             self.add_waiting();
             self.waiting.hopeless = self.waiting.hopeless.saturating_sub(1);
-            self.alone(points, fill);
+            self.alone(points, paint);
         }
     }
 
@@ -169,7 +170,7 @@ impl<'a> ChunkBuilder<'a> {
                     self.stamp(coverage, color, DrawCommand::Samples);
                     self.chunk.triangle_count += 1;
                 }
-                None => self.alone(self.waiting.triangles.get(lane), &Fill::Solid(color)),
+                None => self.alone(self.waiting.triangles.get(lane), &Paint::solid(color)),
             }
         }
         self.source = source;
@@ -177,11 +178,11 @@ impl<'a> ChunkBuilder<'a> {
 
     /// Adds a single triangle.
     #[inline]
-    fn alone(&mut self, points: [DVec2; 3], fill: &Fill) {
+    fn alone(&mut self, points: [DVec2; 3], paint: &Paint) {
         if points.iter().all(|point| in_guard(*point)) {
-            self.snapped(points, fill);
+            self.snapped(points, paint);
         } else {
-            self.clipped(points, fill);
+            self.clipped(points, paint);
         }
     }
 
@@ -189,31 +190,32 @@ impl<'a> ChunkBuilder<'a> {
     /// would be read there.
     pub fn measured_triangle(&mut self, points: [DVec2; 3], uv: [[f32; 2]; 3], color: &dyn Fn(&Footprint) -> Rgba) {
         self.add_waiting();
-        let (texture, opacity) = (0, 1.0);
-        let fill = Fill::Texture { texture, uv, opacity };
+        let texture = TexturePaint::new(0, uv, 1.0);
         if points.iter().all(|point| in_guard(*point)) {
-            self.measured(points, &fill, color);
+            self.measured(points, &texture, color);
         } else if self.may_show(points) {
-            each_piece(points, &fill, |points, fill| self.measured(points, fill, color));
+            for corners in ClippedTriangle::new(points).triangles() {
+                self.measured(corners.map(|corner| corner.point), &texture.on_part(&corners), color);
+            }
         }
     }
 
-    fn measured(&mut self, points: [DVec2; 3], fill: &Fill, color: &dyn Fn(&Footprint) -> Rgba) {
-        if let Fill::Texture { uv, .. } = *fill {
-            let grid = self.context.grid;
-            let corners = points.map(|point| grid.snap(point));
-            if doubled_area(corners) != 0 {
-                let footprint = uv_map(grid, &Planes::new(grid, &corners, uv)).footprint();
-                self.snapped(points, &Fill::Solid(color(&footprint)));
-            }
+    fn measured(&mut self, points: [DVec2; 3], texture: &TexturePaint, color: &dyn Fn(&Footprint) -> Rgba) {
+        let grid = self.context.grid;
+        let corners = points.map(|point| grid.snap(point));
+        if doubled_area(corners) != 0 {
+            let footprint = texture.footprint(grid, &corners);
+            self.snapped(points, &Paint::solid(color(&footprint)));
         }
     }
 
     /// Adds a triangle that reaches beyond the guard band.
     #[cold]
-    fn clipped(&mut self, points: [DVec2; 3], fill: &Fill) {
+    fn clipped(&mut self, points: [DVec2; 3], paint: &Paint) {
         if self.may_show(points) {
-            each_piece(points, fill, |points, fill| self.snapped(points, fill));
+            for corners in ClippedTriangle::new(points).triangles() {
+                self.snapped(corners.map(|corner| corner.point), &paint.clipped(&corners));
+            }
         }
     }
 
@@ -329,19 +331,19 @@ impl<'a> ChunkBuilder<'a> {
 
     /// Starts a transparent layer.
     pub fn begin_layer(&mut self) {
-        self.layer(0, DrawCommand::BeginLayer);
+        self.layer(None, DrawCommand::BeginLayer);
     }
 
-    /// Paints the layer over what is below it.
-    pub fn end_layer(&mut self, opacity: f32) {
-        self.layer(unit_to_16(opacity.clamp(0.0, 1.0)), DrawCommand::EndLayer);
+    /// Composites the layer with what is below it.
+    pub fn end_layer(&mut self, compositing: Compositing) {
+        self.layer(Some(compositing), DrawCommand::EndLayer);
     }
 
-    fn layer(&mut self, opacity: u16, op: fn(u32) -> DrawCommand) {
+    fn layer(&mut self, compositing: Option<Compositing>, op: fn(u32) -> DrawCommand) {
         self.add_waiting();
         let index = index(self.chunk.layers.len());
         let area = PixelRect::NOTHING;
-        self.chunk.layers.push(LayerMark { area, opacity });
+        self.chunk.layers.push(LayerMark { area, compositing });
         self.push(op(index));
     }
 
@@ -363,10 +365,10 @@ impl<'a> ChunkBuilder<'a> {
 
     /// Adds a triangle inside the guard band, unless it covers no sample of the frame.
     #[inline]
-    fn snapped(&mut self, points: [DVec2; 3], fill: &Fill) {
+    fn snapped(&mut self, points: [DVec2; 3], paint: &Paint) {
         let (grid, rules) = (self.context.grid, self.context.rules);
         if rules == Rules::Float {
-            return self.float(points, fill);
+            return self.float(points, paint);
         }
         let corners = points.map(|point| grid.snap(point));
         let samples = SampleBox::new(corners, grid, rules);
@@ -382,8 +384,8 @@ impl<'a> ChunkBuilder<'a> {
             if coverage.mask == 0 {
                 return;
             }
-            if let Fill::Solid(color) = *fill
-                && self.stamps
+            if self.stamps
+                && let Some(color) = paint.constant()
             {
                 self.stamp(coverage, color, DrawCommand::Samples);
                 self.chunk.triangle_count += 1;
@@ -392,12 +394,12 @@ impl<'a> ChunkBuilder<'a> {
         } else if doubled_area(corners) == 0 {
             return;
         }
-        let paint = self.paint(fill);
+        let paint = self.paint(paint);
         let index = index(self.chunk.triangles.len());
         self.chunk.triangles.push(ScreenTriangle { corners, paint });
         self.push(DrawCommand::Triangle(index));
         self.chunk.triangle_count += 1;
-        if let Paint::Solid(color) = self.chunk.paints[paint as usize]
+        if let Some(color) = self.chunk.paints[paint as usize].constant
             && color.is_opaque()
             && self.hidden == Hidden::Dropped
         {
@@ -408,13 +410,13 @@ impl<'a> ChunkBuilder<'a> {
     /// Adds a triangle inside the guard band by the rules of first drafts. Colours and coordinates are interpolated as
     /// everywhere, between its corners on the grid.
     #[cold]
-    fn float(&mut self, points: [DVec2; 3], fill: &Fill) {
+    fn float(&mut self, points: [DVec2; 3], paint: &Paint) {
         let grid = self.context.grid;
         let corners = points.map(|point| grid.snap(point));
         let Some(float) = FloatShape::new(points, grid, self.frame).filter(|_| doubled_area(corners) != 0) else {
             return;
         };
-        let paint = self.paint(fill);
+        let paint = self.paint(paint);
         let index = index(self.chunk.triangles.len());
         self.chunk.triangles.push(ScreenTriangle { corners, paint });
         self.chunk.floats.push(float);
@@ -445,16 +447,17 @@ impl<'a> ChunkBuilder<'a> {
         self.color.1
     }
 
-    /// The index of a paint; runs of the same solid colour share one.
-    fn paint(&mut self, fill: &Fill) -> u32 {
-        let paint = match *fill {
-            Fill::Solid(color) => Paint::Solid(self.color(color)),
-            Fill::Vertex(_) | Fill::Texture { .. } if self.counts => Paint::Solid(Premultiplied16::FRAGMENT),
-            Fill::Vertex(colors) => Paint::Vertex(colors.map(|color| [color.r, color.g, color.b, color.a])),
-            Fill::Texture { texture, uv, opacity } => Paint::Texture { texture, uv, opacity },
+    /// The index of a paint; runs of the same one share it.
+    fn paint(&mut self, paint: &Paint) -> u32 {
+        let constant = match paint.constant() {
+            Some(color) => Some(self.color(color)),
+            None => self.counts.then_some(Premultiplied16::FRAGMENT),
         };
-        if self.chunk.paints.last() != Some(&paint) {
-            self.chunk.translucent |= paint.is_translucent();
+        let paint = ChunkPaint {
+            paint: *paint,
+            constant,
+        };
+        if !self.chunk.paints.last().is_some_and(|last| last.is_like(&paint)) {
             self.chunk.paints.push(paint);
         }
         index(self.chunk.paints.len() - 1)
@@ -465,43 +468,6 @@ impl<'a> ChunkBuilder<'a> {
 /// adds at most five triangles.
 fn index(value: usize) -> u32 {
     u32::try_from(value).unwrap_or(u32::MAX)
-}
-
-/// The parts of a triangle that lie inside the guard band, each with its part of the fill.
-fn each_piece(points: [DVec2; 3], fill: &Fill, mut add: impl FnMut([DVec2; 3], &Fill)) {
-    for corners in ClippedTriangle::new(points).triangles() {
-        add(corners.map(|corner| corner.point), &fill.at(&corners));
-    }
-}
-
-impl Fill {
-    /// The same fill on a part of the triangle.
-    fn at(&self, corners: &[ClipVertex; 3]) -> Self {
-        match *self {
-            Self::Solid(_) => *self,
-            Self::Vertex(colors) => Self::Vertex(corners.map(|corner| {
-                let mix = |channel: fn(&Rgba) -> f32| blend(corner.weights, colors.each_ref().map(channel));
-                Rgba {
-                    r: mix(|c| c.r),
-                    g: mix(|c| c.g),
-                    b: mix(|c| c.b),
-                    a: mix(|c| c.a),
-                }
-            })),
-            Self::Texture { texture, uv, opacity } => {
-                let uv = corners.map(|corner| [0, 1].map(|i| blend(corner.weights, uv.map(|uv| uv[i]))));
-                Self::Texture { texture, uv, opacity }
-            }
-        }
-    }
-}
-
-/// A barycentric mix in 64 bits.
-#[expect(clippy::cast_possible_truncation, reason = "attributes are 32-bit floats")]
-fn blend(weights: [f64; 3], values: [f32; 3]) -> f32 {
-    // Relative to the first corner, so that equal values stay equal.
-    let first = f64::from(values[0]);
-    (first + weights[1] * (f64::from(values[1]) - first) + weights[2] * (f64::from(values[2]) - first)) as f32
 }
 
 #[cfg(test)]
@@ -534,10 +500,10 @@ mod tests {
     /// Adds anything, mostly tiny triangles.
     fn add(u: &mut Unstructured<'_>, builders: &mut [ChunkBuilder<'_>; 2]) -> Result<()> {
         let color = *u.choose(&[Rgba::BLACK, Rgba::WHITE, Rgba { a: 0.5, ..Rgba::BLACK }])?;
-        let fill = if u.ratio(1, 8)? {
-            Fill::Vertex([color, Rgba::BLACK, color])
+        let paint = if u.ratio(1, 8)? {
+            Paint::vertex([color, Rgba::BLACK, color])
         } else {
-            Fill::Solid(color)
+            Paint::solid(color)
         };
         let reach = *u.choose(&[2.0, 2.0, 2.0, 2.0, 9.0, 1e5])?;
         let mut at = |from: f64, to: f64| Ok(from + (to - from) * f64::from(u.int_in_range(0..=64_u32)?) / 64.0);
@@ -551,8 +517,8 @@ mod tests {
                 0 => builder.point(points[0], color),
                 1 => builder.hairline([points[0], points[1]], color),
                 2 if layers => builder.begin_layer(),
-                2 => builder.end_layer(0.5),
-                _ => builder.triangle(points, &fill),
+                2 => builder.end_layer(Compositing::with_opacity(0.5)),
+                _ => builder.triangle(points, &paint),
             }
         }
         Ok(())

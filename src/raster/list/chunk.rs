@@ -6,46 +6,27 @@
 //! nearly everything, is reduced to the bits of these samples and its colour at once and never looked at as a triangle
 //! again.
 
-use crate::color::{Premultiplied16, Rgba};
+use crate::color::Premultiplied16;
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
 use crate::raster::coverage::shape_rows::OutlineOf;
+use crate::raster::layers::Compositing;
 use crate::raster::list::hairline::Hairline;
+use crate::raster::shading::Paint;
 use crate::raster::span::{PixelRect, SampleBox, Span, scaled};
 use crate::raster::tile_layout::TileLayout;
 use crate::raster::{SamplePattern, SampleRate};
 use crate::rules::Rules;
+use crate::texture::Texture;
 
-/// What fills a triangle, in the terms of this room.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fill {
-    /// One colour.
-    Solid(Rgba),
-    /// Colours at the corners.
-    Vertex([Rgba; 3]),
-    /// Texture coordinates at the corners.
-    Texture {
-        /// Index into the textures of the drawing.
-        texture: u32,
-        /// `(u, v)` at the corners.
-        uv: [[f32; 2]; 3],
-        /// Multiplies the texture's own, `0.0..=1.0`.
-        opacity: f32,
-    },
-}
-
-/// A fill with its colour as samples store it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Paint {
-    Solid(Premultiplied16),
-    Vertex([[f32; 4]; 3]),
-    Texture {
-        texture: u32,
-        uv: [[f32; 2]; 3],
-        opacity: f32,
-    },
+/// A paint of a chunk's triangles.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ChunkPaint {
+    pub(crate) paint: Paint,
+    /// The one colour that every fragment has, as samples store it; none where fragments are to be shaded.
+    pub(crate) constant: Option<Premultiplied16>,
 }
 
 /// A triangle on the sub-pixel grid.
@@ -68,8 +49,8 @@ pub(crate) struct Stamp {
 pub(crate) struct LayerMark {
     /// The pixels that anything in the layer touches.
     pub(crate) area: PixelRect,
-    /// At the end of the layer, the opacity it is painted with.
-    pub(crate) opacity: u16,
+    /// At the end of the layer, how it is composited.
+    pub(crate) compositing: Option<Compositing>,
 }
 
 /// One step of the painter: an index into the chunk's array of the kind.
@@ -97,7 +78,7 @@ pub struct Chunk {
     pub(crate) triangles: Vec<ScreenTriangle>,
     /// By the rules of first drafts, what each triangle covers; else empty.
     pub(crate) floats: Vec<FloatShape>,
-    pub(crate) paints: Vec<Paint>,
+    pub(crate) paints: Vec<ChunkPaint>,
     pub(crate) outlines: Vec<Outline>,
     /// The colour of each outline.
     pub(crate) outline_colors: Vec<Premultiplied16>,
@@ -270,13 +251,18 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
     }
 }
 
-impl Paint {
-    /// Whether its colours, leaving textures aside, let what is below them shine through.
-    pub(crate) fn is_translucent(&self) -> bool {
-        match *self {
-            Self::Solid(color) => !color.is_opaque(),
-            Self::Vertex(colors) => colors.iter().any(|color| color[3] < 1.0),
-            Self::Texture { opacity, .. } => opacity < 1.0,
+impl ChunkPaint {
+    /// Whether every fragment hides what is below it.
+    pub(crate) fn is_opaque(&self, textures: &[&Texture]) -> bool {
+        self.constant
+            .map_or_else(|| self.paint.is_opaque(textures), Premultiplied16::is_opaque)
+    }
+
+    /// Whether both give all fragments the same colours. Most triangles have the colour of the one before.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        match (self.constant, other.constant) {
+            (None, None) => self.paint == other.paint,
+            (own, other) => own == other,
         }
     }
 }

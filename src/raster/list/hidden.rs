@@ -102,8 +102,8 @@ mod tests {
     use crate::color::{ResolveSpace, Rgba};
     use crate::geometry::{FillRule, Polygon};
     use crate::raster::list::builder::ChunkBuilder;
-    use crate::raster::list::chunk::Fill;
     use crate::raster::random::{fill, noise};
+    use crate::raster::shading::Paint;
     use crate::raster::{DisplayList, Framebuffer, RasterSettings, SamplePattern, SampleRate};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
@@ -125,8 +125,8 @@ mod tests {
             let polygon = Polygon::new([points.to_vec()], FillRule::NonZero);
             builder.polygon(&polygon, |point| point, color);
         } else {
-            builder.triangle([a, b, c], &Fill::Solid(color));
-            builder.triangle([c, d, a], &Fill::Solid(color));
+            builder.triangle([a, b, c], &Paint::solid(color));
+            builder.triangle([c, d, a], &Paint::solid(color));
         }
         Ok(())
     }

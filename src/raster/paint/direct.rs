@@ -1,10 +1,12 @@
 //! Tiles of opaque primitives at one sample per pixel: painted straight into the frame.
 
+use crate::geometry::subpixel::GridPoint;
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::coverage::shape_rows::{Shape, ShapeRows};
 use crate::raster::frame::block::PixelBlock;
-use crate::raster::list::chunk::{Chunk, Paint, ScreenTriangle};
-use crate::raster::shading::shader::{Pixels, ShadeContext, Shader};
+use crate::raster::list::chunk::Chunk;
+use crate::raster::shading::context::{Pixels, ShadeContext};
+use crate::raster::shading::{Paint, Shader};
 use crate::raster::span::{PixelRect, Span};
 
 /// Paints opaque primitives at one sample per pixel.
@@ -50,7 +52,7 @@ impl<'a> DirectPainter<'a> {
                         block.span(y, xs).fill(pixel);
                     });
                 }
-                Work::Shaded(shape, triangle, paint) => {
+                Work::Shaded(shape, corners, paint) => {
                     let mut places = std::mem::take(&mut self.places);
                     places.clear();
                     let PixelRect { x: left, y: top } = block.rect;
@@ -61,7 +63,7 @@ impl<'a> DirectPainter<'a> {
                             (inside(left.start, xs.start)..inside(left.start, xs.end)).map(|column| [column, row]),
                         );
                     });
-                    self.shaded(triangle, paint, &places, block);
+                    self.shaded(corners, paint, &places, block);
                     self.places = places;
                 }
                 // Whoever chose this painter has found no layers.
@@ -71,7 +73,7 @@ impl<'a> DirectPainter<'a> {
     }
 
     /// Shades pixels, counted from the tile's first.
-    fn shaded(&mut self, triangle: &ScreenTriangle, paint: &Paint, places: &[[u16; 2]], block: &mut PixelBlock<'_>) {
+    fn shaded(&mut self, corners: &[GridPoint; 3], paint: &Paint, places: &[[u16; 2]], block: &mut PixelBlock<'_>) {
         if places.is_empty() {
             return;
         }
@@ -83,7 +85,7 @@ impl<'a> DirectPainter<'a> {
             grid: self.context.samples_from([x.start, y.start]),
             places,
         };
-        Shader::new(&self.context, triangle, paint).pixels(pixels, values);
+        Shader::new(&self.context, corners, paint).pixels(pixels, values);
         for (place, value) in places.iter().zip(values) {
             block.put(*place, *value);
         }

@@ -2,6 +2,7 @@
 
 use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::Work;
+use crate::raster::layers::Compositing;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::span::Span;
 
@@ -33,8 +34,8 @@ pub enum PaintedKind {
     Primitive,
     /// The beginning of a layer, which paints nothing.
     BeginLayer,
-    /// The end of a layer, which paints the layer's samples with this opacity, of [`Premultiplied16::ONE`].
-    EndLayer(u16),
+    /// The end of a layer, which composites the layer's samples with those below.
+    EndLayer(Compositing),
 }
 
 /// One fragment: what an op did to one sample.
@@ -71,7 +72,7 @@ impl PaintedKind {
         match work {
             Work::Samples(..) | Work::Pixels(..) | Work::Flat(..) | Work::Shaded(..) => Self::Primitive,
             Work::BeginLayer => Self::BeginLayer,
-            Work::EndLayer(opacity) => Self::EndLayer(*opacity),
+            Work::EndLayer(compositing) => Self::EndLayer(*compositing),
         }
     }
 }

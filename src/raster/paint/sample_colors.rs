@@ -8,6 +8,7 @@
 
 use crate::color::{Premultiplied16, ResolveSpace};
 use crate::raster::SampleRate;
+use crate::raster::layers::Compositing;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::span::{PixelRect, Span};
 use crate::rules::Rules;
@@ -253,22 +254,22 @@ impl SampleColors {
     }
 
     /// Paints another tile of the same rectangle over this one.
-    pub(crate) fn composite(&mut self, layer: &Self, opacity: u16) {
+    pub(crate) fn composite(&mut self, layer: &Self, compositing: Compositing) {
         for pixel in 0..self.whole.len() {
             if layer.split[pixel] {
                 self.ensure_split(pixel);
                 let range = pixel * self.per_pixel..(pixel + 1) * self.per_pixel;
                 for (below, above) in self.samples[range.clone()].iter_mut().zip(&layer.samples[range]) {
-                    *below = above.faded(opacity).over(*below, self.rules);
+                    *below = compositing.composited(*above, *below, self.rules);
                 }
             } else if layer.whole[pixel] != Premultiplied16::TRANSPARENT {
-                let above = layer.whole[pixel].faded(opacity);
+                let fragment = compositing.fragment(layer.whole[pixel]);
                 if self.split[pixel] {
                     for below in &mut self.samples[pixel * self.per_pixel..][..self.per_pixel] {
-                        *below = above.over(*below, self.rules);
+                        *below = compositing.over(fragment, *below, self.rules);
                     }
                 } else {
-                    self.whole[pixel] = above.over(self.whole[pixel], self.rules);
+                    self.whole[pixel] = compositing.over(fragment, self.whole[pixel], self.rules);
                 }
             }
         }

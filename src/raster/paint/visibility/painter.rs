@@ -4,6 +4,7 @@
 //! its sum over the samples is taken before anything is rounded. Translucent flat colours are mixed once for all
 //! samples that show the same.
 
+use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
 use fearless_simd::{Simd, dispatch};
@@ -15,6 +16,8 @@ use crate::raster::coverage::pixel_rows::each_pixel_row_of_few;
 use crate::raster::coverage::pixel_rows_4x4;
 use crate::raster::coverage::shape_rows::{Shape, ShapeRows};
 use crate::raster::frame::block::PixelBlock;
+use crate::raster::layers::Compositing;
+use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
 use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityBuffer};
 use crate::raster::paint::visibility::packed::{lanes, splat};
@@ -22,7 +25,8 @@ use crate::raster::paint::visibility::shading_queue::{Fragment, Part, ShadingQue
 use crate::raster::paint::visibility::surface_color::{Shaded, Spread};
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
-use crate::raster::shading::shader::{Pixels, ShadeContext, Shader};
+use crate::raster::shading::Shader;
+use crate::raster::shading::context::{Pixels, ShadeContext};
 use crate::raster::span::PixelRect;
 use crate::raster::surface_id::{MAX_SURFACES, ROW, SurfaceId, TWO_SURFACES};
 use crate::simd;
@@ -33,10 +37,7 @@ use crate::texture::SampleGrid;
 pub(crate) struct VisibilityPainter<'a> {
     context: ShadeContext<'a>,
     resolver: Resolver,
-    /// The base and above it the open layers.
-    layers: Vec<VisibilityBuffer>,
-    /// How many of `layers` are in use.
-    depth: usize,
+    layers: LayerStack<VisibilityBuffer>,
     surfaces: SurfaceTable<'a>,
     unresolved: ShadingQueue,
     shading: Shading,
@@ -62,8 +63,7 @@ impl<'a> VisibilityPainter<'a> {
         Self {
             context,
             resolver: Resolver::new(side * side, context.sampling.rules),
-            layers: vec![VisibilityBuffer::new(context.grid.side())],
-            depth: 1,
+            layers: LayerStack::new(VisibilityBuffer::new(context.grid.side())),
             surfaces: SurfaceTable::new(
                 context.sampling.rules,
                 Resolver::new(side * side, context.sampling.rules),
@@ -78,8 +78,7 @@ impl<'a> VisibilityPainter<'a> {
     pub(crate) fn begin(&mut self, rect: PixelRect, background: Premultiplied16) {
         self.surfaces.clear();
         let surface = self.surfaces.flat(background);
-        self.layers[0].reset(rect, surface);
-        self.depth = 1;
+        self.layers.restart().reset(rect, surface);
     }
 
     /// Paints the ops of one chunk that touch the tile.
@@ -94,12 +93,12 @@ impl<'a> VisibilityPainter<'a> {
                     self.opaque((shape, *entry), surface, bands);
                 }
                 Work::Flat(shape, color) => self.translucent((shape, *entry), color, bands),
-                Work::Shaded(shape, triangle, paint) => {
-                    let surface = self.surfaces.shaded(triangle, paint);
+                Work::Shaded(shape, corners, paint) => {
+                    let surface = self.surfaces.shaded(corners, paint);
                     self.opaque((shape, *entry), surface, bands);
                 }
                 Work::BeginLayer => self.begin_layer(),
-                Work::EndLayer(opacity) => self.end_layer(opacity),
+                Work::EndLayer(compositing) => self.end_layer(compositing),
             }
         }
     }
@@ -107,7 +106,7 @@ impl<'a> VisibilityPainter<'a> {
     /// Shades what is seen and resolves the finished tile; how long shading took, if that is to be `timed`.
     pub(crate) fn resolve(&mut self, block: &mut PixelBlock<'_>, timed: bool) -> Duration {
         self.unresolved.clear();
-        let PixelRect { x, y } = self.layers[0].rect;
+        let PixelRect { x, y } = self.layers.base().rect;
         if !self.surfaces.any_shaded {
             dispatch!(simd::level(), simd => resolve_flat(simd, self, block));
             return Duration::ZERO;
@@ -137,7 +136,7 @@ impl<'a> VisibilityPainter<'a> {
             return None;
         }
         self.unresolved.clear();
-        let PixelRect { x, y } = self.layers[0].rect;
+        let PixelRect { x, y } = self.layers.base().rect;
         self.resolve_row(y.start, 0, &mut [0]);
         self.unresolved.sort(self.surfaces.len());
         let mut whole = None;
@@ -147,7 +146,7 @@ impl<'a> VisibilityPainter<'a> {
 
     #[inline]
     fn opaque(&mut self, (shape, entry): (Shape<'_>, TileCommand), surface: SurfaceId, bands: &mut ShapeRows) {
-        let tile = &mut self.layers[self.depth - 1];
+        let tile = self.layers.top();
         if entry.covers_tile() {
             tile.cover(surface);
         } else if self.context.grid.side() == pixel_rows_4x4::SIDE {
@@ -158,7 +157,7 @@ impl<'a> VisibilityPainter<'a> {
     }
 
     fn translucent(&mut self, (shape, entry): (Shape<'_>, TileCommand), color: Premultiplied16, bands: &mut ShapeRows) {
-        let (tile, surfaces) = (&mut self.layers[self.depth - 1], &mut self.surfaces);
+        let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
         surfaces.next_paint();
         if entry.covers_tile() {
             tile.change_all(|surface| surfaces.under(surface, color));
@@ -174,7 +173,7 @@ impl<'a> VisibilityPainter<'a> {
     /// A few samples of one colour, counted from the tile's first.
     fn samples(&mut self, coverage: CoverageMask, color: Premultiplied16) {
         let side = self.context.grid.side();
-        let (tile, surfaces) = (&mut self.layers[self.depth - 1], &mut self.surfaces);
+        let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
         let rect = tile.rect;
         let coverage = coverage.moved(rect.x.start * side, rect.y.start * side);
         if color.is_opaque() {
@@ -190,7 +189,7 @@ impl<'a> VisibilityPainter<'a> {
 
     /// A few pixels of one colour, counted from the tile's first.
     fn pixels(&mut self, coverage: CoverageMask, color: Premultiplied16) {
-        let (tile, surfaces) = (&mut self.layers[self.depth - 1], &mut self.surfaces);
+        let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
         let coverage = coverage.moved(tile.rect.x.start, tile.rect.y.start);
         if color.is_opaque() {
             let surface = surfaces.flat(color);
@@ -202,31 +201,26 @@ impl<'a> VisibilityPainter<'a> {
     }
 
     fn begin_layer(&mut self) {
-        let rect = self.layers[0].rect;
-        if self.layers.len() == self.depth {
-            self.layers.push(VisibilityBuffer::new(self.context.grid.side()));
-        }
+        let rect = self.layers.base().rect;
         let surface = self.surfaces.flat(Premultiplied16::TRANSPARENT);
-        self.layers[self.depth].reset(rect, surface);
-        self.depth += 1;
+        let layer = self.layers.push(|| VisibilityBuffer::new(self.context.grid.side()));
+        layer.reset(rect, surface);
     }
 
-    fn end_layer(&mut self, opacity: u16) {
-        if self.depth < 2 {
+    fn end_layer(&mut self, compositing: Compositing) {
+        let Some((below, layer)) = self.layers.pop() else {
             return;
-        }
-        self.depth -= 1;
+        };
         let surfaces = &mut self.surfaces;
-        let (below, above) = self.layers.split_at_mut(self.depth);
-        let mut known = std::collections::HashMap::new();
-        below[self.depth - 1].composite(&above[0], |below, above| {
-            let color = surfaces.get(above).flat;
-            if color == Premultiplied16::TRANSPARENT {
+        let mut composited = HashMap::new();
+        below.composite(layer, |below, above| {
+            let sample = surfaces.get(above).flat;
+            if sample == Premultiplied16::TRANSPARENT {
                 return below;
             }
-            *known
+            *composited
                 .entry((below, above))
-                .or_insert_with(|| surfaces.mix(below, color.faded(opacity)))
+                .or_insert_with(|| surfaces.composited(below, sample, compositing))
         });
     }
 
@@ -238,7 +232,7 @@ impl<'a> VisibilityPainter<'a> {
             return;
         }
         let mut used = vec![false; MAX_SURFACES];
-        let layers = &mut self.layers[..self.depth];
+        let layers = self.layers.in_use();
         for layer in &*layers {
             layer.each_slot(|surface| used[usize::from(surface)] = true);
         }
@@ -255,7 +249,7 @@ impl<'a> VisibilityPainter<'a> {
         let Some(known) = self.surfaces.flat_resolve() else {
             return self.resolve_row_of_many(y, line);
         };
-        let shown = self.layers[0].shown(y);
+        let shown = self.layers.base().shown(y);
         known.row(shown.whole, line);
         // Where pixels are shared, what they got there is written over.
         match known.mixer(simd) {
@@ -265,7 +259,7 @@ impl<'a> VisibilityPainter<'a> {
                 #[inline(always)]
                 |pair| mixer.pixel(pair.first, pair.second, pair.mask.count_ones()),
                 #[inline(always)]
-                |x| match self.layers[0].full_words(x, y) {
+                |x| match self.layers.base().full_words(x, y) {
                     Some(words) => mixer.pixel_of_words(words),
                     None => self.resolve_split(x, y),
                 },
@@ -285,7 +279,7 @@ impl<'a> VisibilityPainter<'a> {
     /// As [`VisibilityPainter::resolve_flat_row`] where there are many surfaces.
     #[cold]
     fn resolve_row_of_many(&self, y: i32, line: &mut [u32]) {
-        let tile = &self.layers[0];
+        let tile = self.layers.base();
         let pairs = tile.pairs(y);
         for ((x, surface), pixel) in tile.row(y).iter().enumerate().zip(line) {
             *pixel = match *surface {
@@ -304,7 +298,7 @@ impl<'a> VisibilityPainter<'a> {
     #[inline(never)]
     fn resolve_split(&self, x: usize, y: i32) -> u32 {
         self.resolver
-            .pixel_of_halves(flat_sum(&self.layers[0], &self.surfaces, x, y))
+            .pixel_of_halves(flat_sum(self.layers.base(), &self.surfaces, x, y))
     }
 
     /// The sum of the samples of a pixel that shows two flat colours, `of_second` times the second one.
@@ -316,7 +310,7 @@ impl<'a> VisibilityPainter<'a> {
 
     /// Resolves what is flat, and notes what is to be shaded.
     fn resolve_row(&mut self, y: i32, row: u16, line: &mut [u32]) {
-        let (tile, surfaces) = (&self.layers[0], &self.surfaces);
+        let (tile, surfaces) = (self.layers.base(), &self.surfaces);
         let unresolved = &mut self.unresolved;
         for (run, range) in tile.runs(y) {
             let columns = (0_u16..).take(range.end).skip(range.start);
@@ -372,10 +366,10 @@ impl<'a> VisibilityPainter<'a> {
         let grid = context.samples_from(origin);
         for fragments in sorted.by_slot() {
             let shown = surfaces.get(fragments[0].surface);
-            let Some(Shaded { triangle, paint, kept }) = shown.shaded else {
+            let Some(Shaded { corners, paint, kept }) = shown.shaded else {
                 continue;
             };
-            let shader = Shader::new(context, triangle, paint);
+            let shader = Shader::new(context, corners, paint);
             let whole = shading.shade_whole(fragments, grid, &shader);
             self.samples_shaded += whole * u64::from(grid.side * grid.side);
             for (place, sum) in shading.places.iter().zip(&shading.sums) {
@@ -521,7 +515,7 @@ impl Shading {
         self.make_sums();
         if !self.places.is_empty() {
             let places = &self.places;
-            shader.masked_sums(Pixels { grid, places }, (&self.masks, first), &mut self.sums);
+            shader.masked_sums(Pixels { grid, places }.masked(&self.masks, first), &mut self.sums);
         }
     }
 

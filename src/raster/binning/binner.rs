@@ -11,7 +11,7 @@ use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::list::chunk::{Chunk, DrawCommand, ListContext};
-use crate::raster::span::{PixelRect, Reach, SampleBox, Span};
+use crate::raster::span::{PixelRect, Reach, SampleBox, Span, to_index};
 use crate::texture::Texture;
 
 /// Walks over the ops of a chunk.
@@ -138,7 +138,7 @@ impl<'a> Binner<'a> {
     /// The number of a tile.
     #[inline]
     fn tile(&self, column: i32, row: i32) -> usize {
-        place(row - self.rows.start) * self.context.tiles.columns as usize + place(column)
+        to_index(row - self.rows.start) * self.context.tiles.columns as usize + to_index(column)
     }
 
     /// A stamp in each tile that holds any of its bits.
@@ -263,7 +263,7 @@ impl<'a> Binner<'a> {
             let covered = if inside == in_tile {
                 self.covered(band.covered)
             } else {
-                Span::default()
+                Span::EMPTY
             };
             for column in touched.start..touched.end {
                 let covers = covered.start <= column && column < covered.end;
@@ -332,7 +332,7 @@ impl<'a> Binner<'a> {
     )]
     fn covered(&self, [first, last]: [f64; 2]) -> Span {
         if first > last {
-            return Span::default();
+            return Span::EMPTY;
         }
         let grid = self.context.grid;
         let width = f64::from(self.samples.width << grid.bits());
@@ -369,10 +369,4 @@ fn in_tile(stamp: CoverageMask, entry: TileCommand, [x, y]: [i32; 2]) -> TileCom
     let shift = 8 * (row - stamp.row) + column - stamp.column;
     let near = |distance: i32| u16::try_from(distance).unwrap_or(0);
     entry.with_bits([near(column - x), near(row - y)], stamp.mask >> shift)
-}
-
-/// A tile coordinate, which is never negative.
-#[inline]
-pub(crate) fn place(coordinate: i32) -> usize {
-    coordinate.max(0).cast_unsigned() as usize
 }

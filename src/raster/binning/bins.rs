@@ -8,10 +8,10 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::raster::binning::binner::{Binner, place};
+use crate::raster::binning::binner::Binner;
 use crate::raster::binning::tile_command::TileCommand;
 use crate::raster::list::chunk::{Chunk, ListContext};
-use crate::raster::span::Span;
+use crate::raster::span::{Span, to_index};
 use crate::texture::Texture;
 
 /// Most entries that are held at once; more are made and painted in several passes over groups of tile rows.
@@ -90,7 +90,7 @@ impl Plan {
     pub(crate) fn groups(&self) -> Vec<Span> {
         let (mut groups, mut start, mut in_group) = (Vec::new(), 0, 0_u64);
         for row in 0..self.rows {
-            let tiles = place(row) * self.columns..(place(row) + 1) * self.columns;
+            let tiles = to_index(row) * self.columns..(to_index(row) + 1) * self.columns;
             let of_chunk = |plan: &ChunkPlan| -> u64 { plan.counts[tiles.clone()].iter().map(|n| u64::from(*n)).sum() };
             let in_row: u64 = self.chunks.iter().map(of_chunk).sum();
             in_group += in_row;
@@ -112,7 +112,7 @@ impl Plan {
         textures: &[&Texture],
         rows: Span,
     ) -> Vec<Arc<Bins>> {
-        let tiles = place(rows.start) * self.columns..place(rows.end) * self.columns;
+        let tiles = to_index(rows.start) * self.columns..to_index(rows.end) * self.columns;
         let are_all = rows.start == 0 && rows.end == self.rows;
         let ready = |plan: &ChunkPlan| plan.bins.clone().filter(|_| are_all);
         // Nobody is woken up for nothing.
@@ -193,7 +193,7 @@ pub(crate) fn entries_of_tile(
         end: row + 1,
     };
     Binner::new(chunk, context, rows).each(textures, |tile, entry| {
-        if tile == place(column) {
+        if tile == to_index(column) {
             entries.push(entry);
         }
     });
@@ -263,7 +263,7 @@ mod tests {
                 },
             );
             for column in 0..columns {
-                let tile = place(row) * columns + column;
+                let tile = to_index(row) * columns + column;
                 assert_eq!(
                     of_row.of_tile(column),
                     kept.of_tile(tile),
@@ -341,7 +341,7 @@ mod tests {
                         assert!(entry.is_opaque(), "black is opaque");
                         assert_eq!(entry.covers_tile(), entry.hides_tile(), "what covers, hides");
                         if entry.covers_tile() {
-                            assert_eq!(found.len(), place(all), "tile {column}, {row} is open: {chunk:?}");
+                            assert_eq!(found.len(), to_index(all), "tile {column}, {row} is open: {chunk:?}");
                         }
                         covering += u32::from(entry.covers_tile());
                         crossing += u32::from(!entry.covers_tile());

@@ -9,7 +9,7 @@ use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::coverage::edge_bounds::{Line, MARGIN};
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
 use crate::raster::coverage::windings::RowWindings;
-use crate::raster::span::{Reach, Span};
+use crate::raster::span::{Reach, Span, to_index};
 
 /// Looks at rows of tiles, reusing its memory.
 #[derive(Debug, Default)]
@@ -55,10 +55,10 @@ impl OutlineTiles {
                 continue;
             }
             let right = (to + 1).clamp(tiles.start, tiles.end);
-            self.columns[place(from - tiles.start)].lying += 1;
-            self.columns[place(right - tiles.start)].lying -= 1;
+            self.columns[to_index(from - tiles.start)].lying += 1;
+            self.columns[to_index(right - tiles.start)].lying -= 1;
             if inside == band {
-                self.columns[place(right - tiles.start)].winding += edge.winding;
+                self.columns[to_index(right - tiles.start)].winding += edge.winding;
             } else {
                 self.partial.push((right, inside, edge.winding));
             }
@@ -108,9 +108,4 @@ fn tile(column: f64, width: f64, tiles: Span) -> i32 {
     let tile = (column / width).clamp(f64::from(tiles.start) - 1.0, f64::from(tiles.end));
     // Rounded down: `floor` is not a single instruction on every machine.
     (tile + 1.0) as i32 - 1
-}
-
-#[inline]
-fn place(distance: i32) -> usize {
-    distance.max(0).cast_unsigned() as usize
 }

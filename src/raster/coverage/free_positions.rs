@@ -4,7 +4,7 @@
 //! grid of samples: so everything that leads to a tile, and the rule for ties, is the grid's. What remains to be found
 //! here is which of its lattice points a pixel's samples are. Where no edge crosses a pixel, its corners decide at once.
 
-use crate::geometry::edge::{doubled_area, edge_value};
+use crate::geometry::edge::{SampleEdge, doubled_area};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::SampleRate;
 use crate::raster::coverage::covered::Covered;
@@ -31,7 +31,7 @@ pub(crate) struct FreePositions {
     outlines: FreePositionsPolygon,
 }
 
-/// An edge function divided by the distance of two lattice points: below zero at those outside.
+/// A [`SampleEdge`], whose samples are all points of the lattice.
 #[derive(Clone, Copy, Debug, Default)]
 struct LatticeEdge {
     /// At the frame's first point.
@@ -137,14 +137,16 @@ impl FreePositions {
         if columns.is_empty() || rows.is_empty() || samples.columns.is_empty() || samples.rows.is_empty() {
             return;
         }
-        let edges = LatticeEdge::of_triangle(corners, area, self.grid, self.rules);
+        let first = self.grid.sample_coordinate(0);
+        let first = GridPoint { x: first, y: first };
+        let edges = SampleEdge::of_triangle((corners, area), first, (self.grid, self.rules)).map(LatticeEdge::new);
         self.gains.clear();
         // Where there are few columns, looking at each pixel costs less than finding out which to look at.
         let lines = (columns.end - columns.start > 2).then(|| TileRows::new(corners));
         for y in rows.start..rows.end {
             let (touched, inside) = match &lines {
                 Some(lines) => self.row_of(lines, (columns, samples.rows), y),
-                None => (columns, Span::default()),
+                None => (columns, Span::EMPTY),
             };
             if inside.is_empty() {
                 self.pixels(&edges, touched, y, &mut visit);
@@ -184,7 +186,7 @@ impl FreePositions {
             end: floor(band.touched[1]).saturating_add(1).min(columns.end),
         };
         if inside != all || band.covered[0] > band.covered[1] {
-            return (touched, Span::default());
+            return (touched, Span::EMPTY);
         }
         let covered = Span {
             start: (band.covered[0] * per_unit).clamp(least, most).ceil() as i32,
@@ -244,21 +246,12 @@ impl FreePositions {
 }
 
 impl LatticeEdge {
-    /// The edges of a triangle with an area, clockwise.
-    fn of_triangle([a, b, c]: [GridPoint; 3], area: i64, grid: SubpixelGrid, rules: Rules) -> [Self; 3] {
-        let [b, c] = if area < 0 { [c, b] } else { [b, c] };
-        [(a, b), (b, c), (c, a)].map(|(from, to)| {
-            let first = grid.sample_coordinate(0);
-            let (dx, dy) = (to.x - from.x, to.y - from.y);
-            // Clockwise on the screen: a left edge runs up, a top edge runs right.
-            let owns_ties = rules == Rules::Course || dy < 0 || (dy == 0 && dx > 0);
-            let exact = edge_value(from, to, GridPoint { x: first, y: first }) - i64::from(!owns_ties);
-            Self {
-                value: exact >> grid.bits(),
-                right: i64::from(-dy),
-                down: i64::from(dx),
-            }
-        })
+    fn new(edge: SampleEdge) -> Self {
+        Self {
+            value: edge.value,
+            right: edge.right.into(),
+            down: edge.down.into(),
+        }
     }
 
     /// The same, standing at a pixel's first point.

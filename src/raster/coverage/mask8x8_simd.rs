@@ -80,7 +80,7 @@ struct Axis<S: Simd> {
     fits: mask64x8<S>,
 }
 
-/// An edge function divided by the distance of two samples; as of `SmallEdge`.
+/// A [`SampleEdge`](crate::geometry::edge::SampleEdge) of each triangle, with the same tie rule.
 #[derive(Clone, Copy)]
 struct Edge<S: Simd> {
     value: i32x8<S>,

@@ -81,7 +81,7 @@ pub(crate) fn each_pixel_row_of_spans(
                 *span = spans
                     .of_row(line)
                     .first()
-                    .map_or(Span::default(), |span| span.intersection(columns));
+                    .map_or(Span::EMPTY, |span| span.intersection(columns));
             }
         };
         return each_row(side, rect, spans.rows, next, paint);
@@ -111,7 +111,7 @@ pub(crate) fn each_pixel_row_of_spans(
                 for (span, left) in of_rows.iter_mut().zip(left) {
                     *span = left
                         .split_off_first()
-                        .map_or(Span::default(), |span| span.intersection(columns));
+                        .map_or(Span::EMPTY, |span| span.intersection(columns));
                 }
             };
             each_row(side, rect, lines, next, &mut paint);
@@ -132,7 +132,7 @@ fn each_row(
 ) {
     let columns = scaled(rect.x, side);
     let rows = rows.intersection(scaled(rect.y, side));
-    let mut lines = [Span::default(); MAX_SIDE];
+    let mut lines = [Span::EMPTY; MAX_SIDE];
     let in_pixel = side.cast_unsigned() as usize;
     // Sample rows of as many pixels as there is room for.
     let batch = i32::try_from(MAX_SIDE / in_pixel * in_pixel).unwrap_or(side);
@@ -143,10 +143,10 @@ fn each_row(
         let top = first * side;
         let end = rows.end.min(top + batch);
         let inside = |line: i32| (line - top).cast_unsigned() as usize;
-        lines[..inside(line)].fill(Span::default());
+        lines[..inside(line)].fill(Span::EMPTY);
         next_spans(line, columns, &mut lines[inside(line)..inside(end)]);
         let last = inside(end).next_multiple_of(in_pixel);
-        lines[inside(end)..last].fill(Span::default());
+        lines[inside(end)..last].fill(Span::EMPTY);
         for (spans, y) in lines[..last].chunks_exact(in_pixel).zip(first..) {
             let row = PixelRow::new(y, spans);
             if !row.touched.is_empty() {
@@ -161,7 +161,7 @@ impl<'a> PixelRow<'a> {
     /// The row `y` of pixels with these spans, one for each sample row.
     #[inline]
     fn new(y: i32, spans: &'a [Span]) -> Self {
-        let nothing = Span::default();
+        let nothing = Span::EMPTY;
         if let [only] = *spans {
             let touched = if only.is_empty() { nothing } else { only };
             return Self {
@@ -180,11 +180,11 @@ impl<'a> PixelRow<'a> {
         }
         if any_empty {
             // A sample row without samples leaves no pixel full.
-            inner = Span::default();
+            inner = Span::EMPTY;
             outer = spans
                 .iter()
                 .filter(|span| !span.is_empty())
-                .fold(Span::NOTHING, |outer, span| outer.union(*span));
+                .fold(Span::EMPTY, |outer, span| outer.union(*span));
         }
         let mut row = Self {
             y,

@@ -342,7 +342,7 @@ impl<'a> ChunkBuilder<'a> {
     fn layer(&mut self, compositing: Option<Compositing>, op: fn(u32) -> DrawCommand) {
         self.add_waiting();
         let index = index(self.chunk.layers.len());
-        let area = PixelRect::NOTHING;
+        let area = PixelRect::EMPTY;
         self.chunk.layers.push(LayerMark { area, compositing });
         self.push(op(index));
     }

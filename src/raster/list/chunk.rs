@@ -228,7 +228,7 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
         chunks[at].layers_open = u32::try_from(open.len()).unwrap_or(u32::MAX);
         for op in 0..chunks[at].ops.len() {
             match chunks[at].ops[op] {
-                DrawCommand::BeginLayer(begin) => open.push((at, begin as usize, PixelRect::NOTHING)),
+                DrawCommand::BeginLayer(begin) => open.push((at, begin as usize, PixelRect::EMPTY)),
                 DrawCommand::EndLayer(end) => {
                     let Some((begin_chunk, begin, area)) = open.pop() else {
                         continue;

@@ -36,7 +36,7 @@ impl SampleColors {
     /// A tile of no pixels; `side` is how many samples of a pixel lie in a row, where they do.
     pub(crate) fn new(rate: SampleRate, side: i32, (rules, space): (Rules, ResolveSpace)) -> Self {
         Self {
-            rect: PixelRect::NOTHING,
+            rect: PixelRect::EMPTY,
             width: 0,
             side: usize::try_from(side).unwrap_or(1),
             per_pixel: rate.samples() as usize,
@@ -51,11 +51,10 @@ impl SampleColors {
 
     /// Makes it the tile of `rect` with every sample in `color`.
     pub(crate) fn reset(&mut self, rect: PixelRect, color: Premultiplied16) {
-        let length = |span: Span| usize::try_from(span.end - span.start).unwrap_or(0);
         self.rect = rect;
         self.opaque = color.is_opaque();
-        self.width = length(rect.x);
-        let pixels = self.width * length(rect.y);
+        self.width = rect.x.length();
+        let pixels = self.width * rect.y.length();
         self.whole.clear();
         self.whole.resize(pixels, color);
         self.split.clear();

@@ -82,7 +82,7 @@ impl VisibilityBuffer {
     pub(crate) fn new(side: i32) -> Self {
         let side = usize::try_from(side).unwrap_or(1);
         Self {
-            rect: PixelRect::NOTHING,
+            rect: PixelRect::EMPTY,
             width: 0,
             side,
             words: side.div_ceil(PER_WORD),
@@ -104,11 +104,10 @@ impl VisibilityBuffer {
 
     /// Makes it the tile of `rect` in which every sample shows `surface`.
     pub(crate) fn reset(&mut self, rect: PixelRect, surface: SurfaceId) {
-        let length = |span: Span| usize::try_from(span.end - span.start).unwrap_or(0);
         self.rect = rect;
-        self.width = length(rect.x);
+        self.width = rect.x.length();
         debug_assert!(self.width <= ROW, "a tile is {} pixels wide", self.width);
-        let rows = length(rect.y);
+        let rows = rect.y.length();
         self.whole.clear();
         self.whole.resize(rows, [surface; ROW]);
         self.shared.clear();

@@ -26,33 +26,20 @@ impl VisibilityBuffer {
         // Those covered in part may be shared from now on, and full ones are not.
         let shared = &mut self.shared[row.y];
         *shared |= bits(&row.touched);
-        if row.full.is_empty() {
-            return each_window(
-                simd,
-                row,
-                (row.touched.clone(), Ends::Both),
-                #[inline(always)]
-                |window| self.paint_quad(simd, row.y, window, surface),
-            );
+        let any_full = !row.full.is_empty();
+        if any_full {
+            *shared &= !bits(&row.full);
         }
-        *shared &= !bits(&row.full);
-        let (before, after) = row.beside_full();
-        each_window(
+        each_partial_window(
             simd,
             row,
-            (before, Ends::Left),
-            #[inline(always)]
-            |window| self.paint_quad(simd, row.y, window, surface),
-        );
-        each_window(
-            simd,
-            row,
-            (after, Ends::Right),
             #[inline(always)]
             |window| self.paint_quad(simd, row.y, window, surface),
         );
         // Last: surfaces that were just written as vectors are read slowly.
-        fill(&mut self.whole[row.y], row.full.clone(), surface);
+        if any_full {
+            fill(&mut self.whole[row.y], row.full.clone(), surface);
+        }
     }
 
     /// Lets the samples that a row of pixels covers show what `change` makes of what they show.
@@ -68,27 +55,9 @@ impl VisibilityBuffer {
         mut change: impl FnMut(SurfaceId) -> SurfaceId,
     ) {
         self.shared[row.y] |= bits(&row.touched);
-        if row.full.is_empty() {
-            return each_window(
-                simd,
-                row,
-                (row.touched.clone(), Ends::Both),
-                #[inline(always)]
-                |window| self.change_quad(simd, row, window, &mut change),
-            );
-        }
-        let (before, after) = row.beside_full();
-        each_window(
+        each_partial_window(
             simd,
             row,
-            (before, Ends::Left),
-            #[inline(always)]
-            |window| self.change_quad(simd, row, window, &mut change),
-        );
-        each_window(
-            simd,
-            row,
-            (after, Ends::Right),
             #[inline(always)]
             |window| self.change_quad(simd, row, window, &mut change),
         );
@@ -162,6 +131,18 @@ impl VisibilityBuffer {
             }
         }
     }
+}
+
+/// Calls `visit` with windows that hold each of the pixels once that a row covers in part.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+fn each_partial_window<S: Simd>(simd: S, row: &TileRow<'_>, mut visit: impl FnMut(Window)) {
+    if row.full.is_empty() {
+        return each_window(simd, row, (row.touched.clone(), Ends::Both), visit);
+    }
+    let (before, after) = row.beside_full();
+    each_window(simd, row, (before, Ends::Left), &mut visit);
+    each_window(simd, row, (after, Ends::Right), visit);
 }
 
 /// A bit for each of some pixels of a row, at least one.

@@ -225,6 +225,7 @@ impl VisibilityBuffer {
     }
 
     /// As [`VisibilityBuffer::paint_samples`] where a pixel that is a pair or split has 4 x 4 samples and shows three surfaces.
+    /// To split such a pixel first and to paint it then, as others, costs a flat scene 4 % more.
     #[inline]
     fn paint_words(&mut self, pixel: PixelIndex, covered: u64, surface: SurfaceId) {
         self.make_room();

@@ -384,8 +384,7 @@ mod tests {
     use fearless_simd::dispatch;
 
     use super::*;
-    use crate::raster::paint::visibility::buffer_4x4::fill;
-    use crate::raster::surface_id::{ROW, SurfaceId};
+    use crate::raster::surface_id::ROW;
     use crate::simd;
 
     /// Columns around those of a tile of some pixels, more than fit a window.
@@ -471,19 +470,5 @@ mod tests {
             Ok(())
         })
         .budget_ms(600);
-    }
-
-    #[test]
-    fn slots_are_filled_from_start_to_end() {
-        for start in 0..=ROW {
-            for end in start..=ROW {
-                let mut surfaces: [SurfaceId; ROW] =
-                    std::array::from_fn(|i| SurfaceId::try_from(100 + i).expect("a surface"));
-                let mut expected = surfaces;
-                expected[start..end].fill(9);
-                fill(&mut surfaces, start..end, 9);
-                assert_eq!(surfaces, expected, "{start} to {end}");
-            }
-        }
     }
 }

@@ -163,7 +163,7 @@ fn in_part<S: Simd>(simd: S, masks: Group<S>) -> GroupMask<S> {
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
 #[expect(clippy::cast_possible_truncation, reason = "places in a row of 64")]
-pub(crate) fn fill(surfaces: &mut [SurfaceId; ROW], range: Range<usize>, surface: SurfaceId) {
+fn fill(surfaces: &mut [SurfaceId; ROW], range: Range<usize>, surface: SurfaceId) {
     // All of them anew: how many there are nobody can foresee, and vectors hold so few.
     let (start, length) = (range.start as SurfaceId, range.len() as SurfaceId);
     for (at, shown) in (0..).zip(surfaces) {
@@ -312,5 +312,19 @@ mod tests {
         })
         .budget_ms(1500);
         assert!(split > 20, "some pixels were split: {split}");
+    }
+
+    #[test]
+    fn surfaces_are_filled_from_start_to_end() {
+        for start in 0..=ROW {
+            for end in start..=ROW {
+                let mut surfaces: [SurfaceId; ROW] =
+                    std::array::from_fn(|i| SurfaceId::try_from(100 + i).expect("a surface"));
+                let mut expected = surfaces;
+                expected[start..end].fill(9);
+                fill(&mut surfaces, start..end, 9);
+                assert_eq!(surfaces, expected, "{start} to {end}");
+            }
+        }
     }
 }

@@ -10,7 +10,8 @@ use crate::raster::binning::tile_command::TileCommand;
 use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
-use crate::raster::list::chunk::{Chunk, DrawCommand, ListContext};
+use crate::raster::list::chunk::{Chunk, DrawCommand};
+use crate::raster::list::context::ListContext;
 use crate::raster::span::{PixelRect, Reach, SampleBox, Span, to_index};
 use crate::texture::Texture;
 

@@ -10,7 +10,8 @@ use rayon::prelude::*;
 
 use crate::raster::binning::binner::Binner;
 use crate::raster::binning::tile_command::TileCommand;
-use crate::raster::list::chunk::{Chunk, ListContext};
+use crate::raster::list::chunk::Chunk;
+use crate::raster::list::context::ListContext;
 use crate::raster::span::{Span, to_index};
 use crate::texture::Texture;
 

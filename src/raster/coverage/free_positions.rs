@@ -291,7 +291,7 @@ mod tests {
     use super::*;
     use crate::color::{Premultiplied16, ResolveSpace, Rgba};
     use crate::raster::list::builder::ChunkBuilder;
-    use crate::raster::list::chunk::ListContext;
+    use crate::raster::list::context::ListContext;
     use crate::raster::paint::per_sample::PerSamplePainter;
     use crate::raster::paint::recorder::PaintedOp;
     use crate::raster::random::{fill, noise};

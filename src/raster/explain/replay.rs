@@ -10,14 +10,18 @@ use crate::color::Premultiplied16;
 use crate::raster::DisplayList;
 use crate::raster::binning::bins::{Bins, entries_of_tile};
 use crate::raster::binning::tile_command::TileCommand;
+use crate::raster::binning::visible::first_visible;
+use crate::raster::display_list::Pass;
 use crate::raster::frame::block::PixelBlock;
-use crate::raster::list::chunk::{Chunk, ListContext};
+use crate::raster::list::chunk::Chunk;
+use crate::raster::list::context::ListContext;
+use crate::raster::paint::method::Method;
 use crate::raster::paint::recorder::{PaintedKind, PaintedOp};
-use crate::raster::rasterizer::{Method, Painters, Pass, first_visible};
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::span::{PixelRect, Span};
 use crate::raster::stats::SharedTally;
 use crate::raster::tile_layout::TileLayout;
+use crate::raster::tiles::Painters;
 
 /// How a pixel came about.
 #[derive(Clone, Debug, PartialEq)]
@@ -138,11 +142,6 @@ impl DisplayList<'_> {
         };
         self.numbered_tile(pass, painters, 0, &mut PixelBlock::new(rect, &mut pixel, 1));
         pixel[0]
-    }
-
-    /// How many ops the list has.
-    pub fn ops(&self) -> usize {
-        self.chunks.iter().map(|chunk| chunk.ops.len()).sum()
     }
 
     /// The ops that touch a pixel of the frame.

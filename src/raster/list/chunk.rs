@@ -7,18 +7,16 @@
 //! again.
 
 use crate::color::Premultiplied16;
-use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::geometry::subpixel::GridPoint;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
 use crate::raster::coverage::shape_rows::OutlineOf;
 use crate::raster::layers::Compositing;
+use crate::raster::list::context::ListContext;
 use crate::raster::list::hairline::Hairline;
 use crate::raster::shading::Paint;
-use crate::raster::span::{PixelRect, SampleBox, Span, scaled};
-use crate::raster::tile_layout::TileLayout;
-use crate::raster::{SamplePattern, SampleRate};
-use crate::rules::Rules;
+use crate::raster::span::{PixelRect, SampleBox, scaled};
 use crate::texture::Texture;
 
 /// A paint of a chunk's triangles.
@@ -93,56 +91,6 @@ pub struct Chunk {
     pub(crate) layers_open: u32,
     /// Whether a colour lets what is below it shine through; textures are not looked at.
     pub(crate) translucent: bool,
-}
-
-/// What a chunk needs to know about the drawing.
-#[derive(Clone, Copy, Debug)]
-pub struct ListContext {
-    /// Where vertices and samples may lie.
-    pub(crate) grid: SubpixelGrid,
-    /// Where samples do, and how many there are: a rate that the pattern takes.
-    pub(crate) pattern: SamplePattern,
-    pub(crate) rate: SampleRate,
-    pub(crate) rules: Rules,
-    /// Pixels in a row, rows.
-    pub(crate) size: [u32; 2],
-    pub(crate) tiles: TileLayout,
-}
-
-impl ListContext {
-    /// Whether samples are all those of the grid.
-    pub(crate) fn is_grid(&self) -> bool {
-        self.pattern == SamplePattern::Grid
-    }
-
-    /// The samples of the frame.
-    pub(crate) fn samples(&self) -> SampleBox {
-        let all = |pixels: u32| Span {
-            start: 0,
-            end: pixels.cast_signed() * self.grid.side(),
-        };
-        SampleBox {
-            columns: all(self.size[0]),
-            rows: all(self.size[1]),
-        }
-    }
-
-    /// The pixels that hold any sample of a box, clipped to the frame; `None` when there are none.
-    pub(crate) fn pixels_of(&self, samples: SampleBox) -> Option<PixelRect> {
-        let side = self.grid.side();
-        let frame = self.samples();
-        let pixels = |span: Span, frame: Span| {
-            let inside = span.intersection(frame);
-            (!inside.is_empty()).then(|| Span {
-                start: inside.start / side,
-                end: (inside.end - 1) / side + 1,
-            })
-        };
-        Some(PixelRect {
-            x: pixels(samples.columns, frame.columns)?,
-            y: pixels(samples.rows, frame.rows)?,
-        })
-    }
 }
 
 impl Chunk {

@@ -7,7 +7,8 @@
 
 use crate::geometry::edge::{EdgeTest, doubled_area};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-use crate::raster::list::chunk::{Chunk, DrawCommand, ListContext};
+use crate::raster::list::chunk::{Chunk, DrawCommand};
+use crate::raster::list::context::ListContext;
 use crate::raster::span::SampleBox;
 use crate::rules::Rules;
 

@@ -99,12 +99,10 @@ impl DisplayList<'_> {
             pixel,
             places: self.places().of_pixel(pixel, &mut Vec::new()).to_vec(),
         };
-        let unclipped = corner_weights();
         let shape = |op: &DrawCommand| match *op {
             DrawCommand::Triangle(index) => {
                 let whole = weights.triangles.get(index as usize);
-                // Where there is none, nothing was clipped away.
-                let weights = whole.map_or(&unclipped, |triangle| &weights.paints[triangle.paint as usize].paint);
+                let weights = whole.map(|triangle| &weights.paints[triangle.paint as usize].paint);
                 let triangle = &chunk.triangles[index as usize];
                 let float = chunk.floats.get(index as usize);
                 let paint = &chunk.paints[triangle.paint as usize].paint;
@@ -129,6 +127,15 @@ fn corner_weights() -> Paint {
         a: 1.0,
     };
     Paint::vertex([corner(0), corner(1), corner(2)])
+}
+
+/// The weights at a sample: what the first of some paints with colours at the corners interpolates there.
+fn weights_at(shaders: &[Shader<'_>], sample: ShadedSample) -> [f64; 3] {
+    let of = |shader: &Shader<'_>| match shader.interpolated(sample) {
+        Attributes::Color([a, b, c, _]) => Some([a, b, c]),
+        Attributes::None | Attributes::Texture { .. } => None,
+    };
+    shaders.iter().find_map(of).unwrap_or_default()
 }
 
 /// The samples of one pixel.
@@ -158,11 +165,17 @@ impl SeenFrom<'_> {
         &self,
         (triangle, float): (&ScreenTriangle, Option<&FloatShape>),
         paint: &Paint,
-        weights: &Paint,
+        weights: Option<&Paint>,
     ) -> PieceShape {
         let grid = self.grid();
         let corners = triangle.corners;
-        let [weights, shader] = [weights, paint].map(|paint| Shader::new(&self.context, &corners, paint));
+        let shader = Shader::new(&self.context, &corners, paint);
+        // Without such colours nothing was clipped away.
+        let weights: Vec<Shader<'_>> = weights
+            .into_iter()
+            .chain([&corner_weights()])
+            .map(|paint| Shader::new(&self.context, &corners, paint))
+            .collect();
         let samples = self.samples().map(|sample| {
             let [column, row] = sample.in_frame();
             let point = GridPoint {
@@ -173,10 +186,7 @@ impl SeenFrom<'_> {
                 units_per_pixel: grid.units_per_pixel(),
                 edges: EdgeTest::of_triangle(corners, point),
                 floats: float.map(|float| float.edges(grid, [column, row])),
-                weights: match weights.interpolated(sample) {
-                    Attributes::Color([a, b, c, _]) => [a, b, c],
-                    Attributes::None | Attributes::Texture { .. } => [f64::NAN; 3],
-                },
+                weights: weights_at(&weights, sample),
                 attributes: shader.interpolated(sample),
             }
         });

@@ -227,7 +227,7 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
         }
         builder.finish()
     });
-    if visualiser.has_edges() {
+    if visualiser.has_overlay() {
         let mut veil = ChunkBuilder::new(&context, 2);
         Visualiser::add_veil(&mut veil, size, raster.background);
         list.push(veil.finish());
@@ -235,7 +235,7 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
             let mut builder = ChunkBuilder::new(&context, primitives.len());
             for primitive in (index..).take(primitives.len()) {
                 builder.set_source(number(primitive));
-                visualiser.add_edges(&mut builder, &screen, primitive);
+                visualiser.add_overlay(&mut builder, &screen, primitive);
             }
             builder.finish()
         }));

@@ -105,9 +105,14 @@ mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
 
     use super::*;
+    use crate::color::{ResolveSpace, Rgba};
     use crate::raster::list::builder::ChunkBuilder;
+    use crate::raster::list::context::ListContext;
     use crate::raster::random::{fill, noise};
-    use crate::texture::{LevelSampling, PixelSampling};
+    use crate::raster::tile_layout::TileLayout;
+    use crate::raster::{RasterSettings, SamplePattern, SampleRate};
+    use crate::rules::Rules;
+    use crate::texture::{LevelSampling, PixelSampling, SamplingSettings};
 
     const SIZE: [u32; 2] = [70, 50];
 

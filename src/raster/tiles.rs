@@ -53,7 +53,7 @@ impl DisplayList<'_> {
     /// How a tile is painted, of which the commands from `first` on are to be seen.
     pub(in crate::raster) fn method(&self, pass: &Pass<'_>, tile: usize, first: (usize, usize)) -> Method {
         let commands = visible(&pass.bins, tile, first).map(|(chunk, commands)| (&self.chunks[chunk], commands));
-        self.kinds.method(&self.context, self.settings.space, commands)
+        self.kinds.method(&self.context, self.settings.space, &commands)
     }
 
     /// The colour of a tile in which nothing else is to be seen, of the ops from `first` on.

@@ -371,3 +371,114 @@ fn in_tile(stamp: CoverageMask, entry: TileCommand, [x, y]: [i32; 2]) -> TileCom
     let near = |distance: i32| u16::try_from(distance).unwrap_or(0);
     entry.with_bits([near(column - x), near(row - y)], stamp.mask >> shift)
 }
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+
+    use super::*;
+    use crate::color::{ResolveSpace, Rgba};
+    use crate::raster::binning::tile_command::Work;
+    use crate::raster::coverage::shape_rows::ShapeRows;
+    use crate::raster::list::builder::ChunkBuilder;
+    use crate::raster::random::{fill, noise};
+    use crate::raster::tile_layout::TileLayout;
+    use crate::raster::{RasterSettings, SamplePattern, SampleRate};
+    use crate::rules::Rules;
+    use crate::texture::SamplingSettings;
+
+    const SIZE: [u32; 2] = [70, 50];
+
+    /// A chunk of random primitives, and tiles of several sizes.
+    fn chunk(u: &mut Unstructured<'_>) -> Result<(Chunk, ListContext)> {
+        let side: u32 = u.int_in_range(1..=5)?;
+        let settings = RasterSettings {
+            rate: SampleRate::new(side * side).expect("a square number"),
+            pattern: SamplePattern::Grid,
+            sampling: SamplingSettings {
+                rules: *u.choose(&Rules::ALL)?,
+                ..SamplingSettings::default()
+            },
+            space: ResolveSpace::Stored,
+            background: Rgba::WHITE,
+            palette: None,
+        };
+        let tiles = TileLayout::new((u.int_in_range(2..=6)?, u.int_in_range(2..=5)?), SIZE);
+        let context = ListContext::with_tiles(SIZE, &settings, tiles);
+        let mut builder = ChunkBuilder::new(&context, 12);
+        fill(&mut builder, u)?;
+        Ok((builder.finish(), context))
+    }
+
+    /// The part of a span that lies in another.
+    fn shared(a: Span, b: Span) -> usize {
+        a.intersection(b).length()
+    }
+
+    /// How many samples a command covers in a rectangle of pixels.
+    fn covered(command: TileCommand, chunk: &Chunk, (context, rect): (&ListContext, PixelRect)) -> usize {
+        let side = context.grid.side();
+        let columns = crate::raster::span::scaled(rect.x, side);
+        let mut rows = ShapeRows::new(
+            (context.grid, context.rules),
+            context.samples().columns.end,
+            chunk.outlines.len(),
+        );
+        let mut count = 0;
+        if let Work::Flat(shape, _) | Work::Shaded(shape, ..) = command.work(chunk) {
+            rows.each_pixel_row(shape, rect, |row| {
+                count += row.spans().iter().map(|span| shared(*span, columns)).sum::<usize>();
+            });
+        }
+        count
+    }
+
+    #[test]
+    fn tiles_get_the_commands_that_cover_samples_in_them() {
+        let texture = noise();
+        let (mut covering, mut stamped) = (0, 0);
+        arbtest::arbtest(|u| {
+            let (chunk, context) = chunk(u)?;
+            let rows = Span {
+                start: 0,
+                end: context.tiles.rows.cast_signed(),
+            };
+            let mut tiles = vec![Vec::new(); (context.tiles.columns * context.tiles.rows) as usize];
+            Binner::new(&chunk, &context, rows).each(&[&texture], |tile, command| tiles[tile].push(command));
+            let all: Vec<TileCommand> = tiles.concat();
+            let mut bits = vec![0; chunk.ops.len()];
+            for (tile, commands) in (0..).zip(&tiles) {
+                assert!(commands.is_sorted_by_key(|command| command.op()), "in painter's order");
+                let rect = context
+                    .tiles
+                    .pixels(tile % context.tiles.columns, tile / context.tiles.columns, SIZE);
+                let side = to_index(context.grid.side());
+                let whole = rect.x.length() * rect.y.length() * side * side;
+                for shape in &all {
+                    let own = commands.iter().find(|command| command.op() == shape.op());
+                    let count = covered(*shape, &chunk, (&context, rect));
+                    assert!(count == 0 || own.is_some(), "tile {tile} knows op {}", shape.op());
+                    if own.is_some_and(|command| command.covers_tile()) {
+                        assert_eq!(count, whole, "op {} covers tile {tile}", shape.op());
+                        covering += 1;
+                    }
+                }
+                for command in commands {
+                    if let Work::Samples(mask, _) | Work::Pixels(mask, _) = command.work(&chunk) {
+                        bits[command.op()] += mask.mask.count_ones();
+                    }
+                }
+            }
+            for (op, bits) in chunk.ops.iter().zip(bits) {
+                if let DrawCommand::Samples(index) | DrawCommand::Pixels(index) = op {
+                    let stamp = chunk.stamps[*index as usize].coverage;
+                    assert_eq!(bits, stamp.mask.count_ones(), "each bit of {stamp:?} is in one tile");
+                    stamped += 1;
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(800);
+        assert!(covering > 20 && stamped > 20, "{covering} covering, {stamped} stamps");
+    }
+}

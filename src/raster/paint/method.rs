@@ -60,7 +60,7 @@ impl Kinds {
         self,
         context: &ListContext,
         space: ResolveSpace,
-        commands: impl Iterator<Item = (&'c Chunk, &'c [TileCommand])> + Clone,
+        commands: &(impl Iterator<Item = (&'c Chunk, &'c [TileCommand])> + Clone),
     ) -> Method {
         let all = |is_so: fn(&TileCommand, &Chunk) -> bool| {
             let mut commands = commands.clone();

@@ -30,7 +30,7 @@ use crate::texture::{SamplingSettings, Texture};
 macro_rules! visualisations {
     ($($(#[$doc:meta])* $kind:ident = $name:literal => $show:expr,)+) => {
         /// What the pixels of a picture show.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
         pub enum Visualisation {
             $($(#[$doc])* $kind,)+
         }
@@ -58,6 +58,7 @@ macro_rules! visualisations {
 // The table of visualisations: a line for each.
 visualisations! {
     /// The picture itself.
+    #[default]
     Color = "colour" => picture::Picture,
     /// The part of the pixel's samples that any primitive covers, however transparent it is.
     Coverage = "coverage" => coverage::Coverage,
@@ -77,12 +78,6 @@ visualisations! {
     MipLevels = "mip" => mip_levels::MipLevels,
     /// How many times as long as wide a pixel's footprint is, as anisotropic filtering measures it.
     Anisotropy = "anisotropy" => anisotropy::Lengths,
-}
-
-impl Default for Visualisation {
-    fn default() -> Self {
-        Self::Color
-    }
 }
 
 impl Visualisation {

@@ -228,3 +228,81 @@ fn translucent_four<S: Simd>(
         },
     );
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::AtomicBool;
+
+    use super::*;
+    use crate::color::{ResolveSpace, Rgba};
+    use crate::raster::frame::block::PixelBlock;
+    use crate::raster::list::builder::ChunkBuilder;
+    use crate::raster::list::context::ListContext;
+    use crate::raster::random::{fill, noise};
+    use crate::raster::span::Span;
+    use crate::raster::{DisplayList, RasterSettings, SamplePattern, SampleRate};
+    use crate::rules::Rules;
+    use crate::texture::SamplingSettings;
+
+    const SIZE: [u32; 2] = [70, 50];
+
+    #[test]
+    fn flat_tiles_are_those_of_the_painter_that_blends_each_sample() {
+        let texture = noise();
+        let mut flat = 0;
+        arbtest::arbtest(|u| {
+            let settings = RasterSettings {
+                rate: SampleRate::new(*u.choose(&[1, 4, 9, 16, 25, 64, 100])?).expect("a square number"),
+                pattern: SamplePattern::Grid,
+                sampling: SamplingSettings {
+                    rules: *u.choose(&Rules::ALL)?,
+                    ..SamplingSettings::default()
+                },
+                space: ResolveSpace::Stored,
+                background: *u.choose(&[Rgba::WHITE, Rgba::TRANSPARENT])?,
+                palette: None,
+            };
+            let context = ListContext::new(SIZE, &settings);
+            let mut builder = ChunkBuilder::new(&context, 12);
+            fill(&mut builder, u)?;
+            let list = DisplayList::new(context, settings, vec![builder.finish()], vec![&texture]);
+            let cancelled = AtomicBool::new(false);
+            let tiles = context.tiles;
+            let rows = Span {
+                start: 0,
+                end: tiles.rows.cast_signed(),
+            };
+            let pass = list.pass(&list.plan(), rows, &cancelled);
+            let mut painters = list.painters();
+            for tile in 0..tiles.columns * tiles.rows {
+                let commands = pass.bins[0].of_tile(tile as usize);
+                let chunk = &list.chunks[0];
+                if commands
+                    .iter()
+                    .any(|command| matches!(command.work(chunk), Work::Shaded(..)))
+                {
+                    continue;
+                }
+                flat += 1;
+                let rect = tiles.pixels(tile % tiles.columns, tile / tiles.columns, SIZE);
+                let (width, height) = (rect.x.length(), rect.y.length());
+                let mut found = vec![0x1234_5678; width * height];
+                painters.deferred.begin(rect, list.background());
+                painters.deferred.paint(chunk, commands, &mut painters.bands);
+                painters
+                    .deferred
+                    .resolve(&mut PixelBlock::new(rect, &mut found, width), false);
+                painters.blended.begin(rect, list.background());
+                painters.blended.paint(chunk, commands, &mut painters.bands);
+                for (row, y) in found.chunks_exact(width).zip(rect.y.start..) {
+                    let mut expected = vec![0; width];
+                    painters.blended.resolve(y, &mut expected);
+                    assert_eq!(row, expected, "row {y} of tile {tile}, {settings:?}");
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(1500);
+        assert!(flat > 20, "{flat} flat tiles");
+    }
+}

@@ -277,7 +277,7 @@ fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> 
 
 fn resolve(replay: &PixelReplay, (rules, space): (Rules, ResolveSpace)) -> Resolve {
     let samples = replay.samples.len();
-    let weight = 1.0 / samples as f64;
+    let weight = replay.samples.first().map_or(1.0, |sample| sample.weight);
     let sums = match space {
         ResolveSpace::Stored => replay
             .sums

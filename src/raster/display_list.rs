@@ -10,6 +10,7 @@ use crate::raster::coverage::shape_rows::ShapeRows;
 use crate::raster::list::chunk::{Chunk, measure_layers};
 use crate::raster::list::context::ListContext;
 use crate::raster::paint::method::Kinds;
+use crate::raster::resolve::ResolveFilter;
 use crate::raster::sampling::positions::SamplePositions;
 use crate::raster::settings::RasterSettings;
 use crate::raster::shading::context::ShadeContext;
@@ -93,6 +94,7 @@ impl<'a> DisplayList<'a> {
         ShadeContext {
             grid: self.context.grid,
             rate: self.context.rate,
+            filter: ResolveFilter::default(),
             space: self.settings.space,
             sampling: self.settings.sampling,
             textures: &self.textures,

@@ -11,6 +11,7 @@
 //! |---|---|
 //! | `sampling` | how many samples a pixel has, and where they lie |
 //! | `settings`, `stats`, `span`, `tile_layout`, `surface_id`, `attributes` | what the floors above share: runs of samples, tiles, surface numbers, planes |
+//! | `resolve` | what each sample weighs in its pixel |
 //! | `shading` | the colour of a paint at a sample |
 //! | `layers` | how a layer is composited with what is below it |
 //! | `coverage` | which samples a shape covers |
@@ -36,6 +37,7 @@ mod paint;
 mod random;
 mod rasterizer;
 mod refine;
+mod resolve;
 mod sampling;
 mod settings;
 mod shading;

@@ -26,6 +26,7 @@ const HOUSES: &[House] = &[House {
         "tile_layout",
         "settings",
         "attributes",
+        "resolve",
         "shading",
         "layers",
         "coverage",

@@ -44,6 +44,8 @@ pub struct PixelReplay {
 pub struct ReplayedSample {
     /// Its place in the pixel, `(0, 0)` the top left corner, `(1, 1)` the bottom right.
     pub position: [f64; 2],
+    /// What it weighs in the pixel: all samples together 1.
+    pub weight: f64,
     /// Its colour.
     pub color: Premultiplied16,
     /// How many fragments it got, those included that are hidden or forgotten.
@@ -95,14 +97,17 @@ impl DisplayList<'_> {
         let deferred = self.method(&pass, 0, first_visible(&pass.bins, 0)) == Method::Deferred;
         let shaded = deferred.then(|| painters.deferred.shaded_sums()).flatten();
         let positions = self.positions(at);
+        let weights = self.shade_context().filter.weights(&positions);
         Some(PixelReplay {
             sums: shaded.unwrap_or_else(|| sums(samples.iter().map(|(color, _)| color))),
             summed_exactly: shaded.is_some(),
             samples: positions
                 .into_iter()
+                .zip(weights)
                 .zip(samples)
-                .map(|(position, (color, fragments))| ReplayedSample {
+                .map(|((position, weight), (color, fragments))| ReplayedSample {
                     position,
+                    weight,
                     color,
                     fragments,
                 })

@@ -341,6 +341,6 @@ impl<'a> PerSamplePainter<'a> {
 
 /// A buffer of no pixels.
 fn buffer(context: &ShadeContext<'_>) -> SampleColors {
-    let settings = (context.sampling.rules, context.space);
+    let settings = (context.sampling.rules, context.filter, context.space);
     SampleColors::new(context.rate, context.grid.side(), settings)
 }

@@ -9,6 +9,7 @@
 use crate::color::{Premultiplied16, ResolveSpace};
 use crate::raster::SampleRate;
 use crate::raster::layers::Compositing;
+use crate::raster::resolve::ResolveFilter;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::span::{PixelRect, Span};
 use crate::rules::Rules;
@@ -22,6 +23,7 @@ pub(crate) struct SampleColors {
     side: usize,
     per_pixel: usize,
     rules: Rules,
+    filter: ResolveFilter,
     space: ResolveSpace,
     /// One colour per pixel, in force where the pixel is not split.
     whole: Vec<Premultiplied16>,
@@ -34,13 +36,18 @@ pub(crate) struct SampleColors {
 
 impl SampleColors {
     /// A tile of no pixels; `side` is how many samples of a pixel lie in a row, where they do.
-    pub(crate) fn new(rate: SampleRate, side: i32, (rules, space): (Rules, ResolveSpace)) -> Self {
+    pub(crate) fn new(
+        rate: SampleRate,
+        side: i32,
+        (rules, filter, space): (Rules, ResolveFilter, ResolveSpace),
+    ) -> Self {
         Self {
             rect: PixelRect::EMPTY,
             width: 0,
             side: usize::try_from(side).unwrap_or(1),
             per_pixel: rate.samples() as usize,
             rules,
+            filter,
             space,
             whole: Vec::new(),
             split: Vec::new(),
@@ -302,7 +309,7 @@ impl SampleColors {
         for (i, pixel) in pixels.iter_mut().enumerate() {
             if self.split[first + i] {
                 let samples = &self.samples[(first + i) * self.per_pixel..][..self.per_pixel];
-                *pixel = self.space.resolve(samples, self.rules);
+                *pixel = self.filter.pixel(samples, (self.space, self.rules));
             }
         }
     }

@@ -3,6 +3,7 @@
 use crate::color::ResolveSpace;
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::SampleRate;
+use crate::raster::resolve::ResolveFilter;
 use crate::texture::{SampleGrid, SamplingSettings, Texture};
 
 /// What shading needs to know besides the triangle.
@@ -11,7 +12,8 @@ pub(crate) struct ShadeContext<'a> {
     pub(crate) grid: SubpixelGrid,
     /// Samples per pixel.
     pub(crate) rate: SampleRate,
-    /// In which values they are averaged.
+    /// What each of them weighs in its pixel, and in which values they are averaged.
+    pub(crate) filter: ResolveFilter,
     pub(crate) space: ResolveSpace,
     pub(crate) sampling: SamplingSettings,
     pub(crate) textures: &'a [&'a Texture],

@@ -183,6 +183,7 @@ mod tests {
     use crate::color::ResolveSpace;
     use crate::geometry::subpixel::SubpixelGrid;
     use crate::raster::SampleRate;
+    use crate::raster::resolve::ResolveFilter;
     use crate::texture::SamplingSettings;
 
     /// A paint of which nothing but the colours of samples is known: column in red, row in green.
@@ -233,6 +234,7 @@ mod tests {
         let context = ShadeContext {
             grid: SubpixelGrid::new(2),
             rate: SampleRate::ONE,
+            filter: ResolveFilter::default(),
             space: ResolveSpace::Stored,
             sampling: SamplingSettings::default(),
             textures: &[],

@@ -43,14 +43,12 @@ impl<'a> VisibilityPainter<'a> {
     /// A painter for one drawing.
     pub(crate) fn new(context: ShadeContext<'a>) -> Self {
         let side = context.grid.side().cast_unsigned();
+        let resolver = context.filter.resolver(side * side, context.sampling.rules);
         Self {
             context,
-            resolver: Resolver::new(side * side, context.sampling.rules),
+            resolver,
             layers: LayerStack::new(VisibilityBuffer::new(context.grid.side())),
-            surfaces: SurfaceTable::new(
-                context.sampling.rules,
-                Resolver::new(side * side, context.sampling.rules),
-            ),
+            surfaces: SurfaceTable::new(context.sampling.rules, resolver),
             unresolved: ShadingQueue::default(),
             fragments: FragmentSums::default(),
             samples_shaded: 0,

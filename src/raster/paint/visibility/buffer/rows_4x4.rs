@@ -141,8 +141,21 @@ fn each_partial_window<S: Simd>(simd: S, row: &TileRow<'_>, mut visit: impl FnMu
         return each_window(simd, row, (row.touched.clone(), Ends::Both), visit);
     }
     let (before, after) = row.beside_full();
-    each_window(simd, row, (before, Ends::Left), &mut visit);
-    each_window(simd, row, (after, Ends::Right), visit);
+    // Closures of their own: a reference to `visit` would not be inlined into vectors.
+    each_window(
+        simd,
+        row,
+        (before, Ends::Left),
+        #[inline(always)]
+        |window| visit(window),
+    );
+    each_window(
+        simd,
+        row,
+        (after, Ends::Right),
+        #[inline(always)]
+        |window| visit(window),
+    );
 }
 
 /// A bit for each of some pixels of a row, at least one.

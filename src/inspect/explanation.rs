@@ -12,7 +12,9 @@ use super::samples::{SampleHit, shape_of, straight};
 use crate::color::{Premultiplied16, ResolveSpace};
 use crate::geometry::FillRule;
 use crate::geometry::edge::{EdgeKind, EdgeTest};
-use crate::raster::{Attributes, PaintedKind, PaintedOp, Piece, PieceShape, PixelReplay, SampleOfTriangle, TextureUse};
+use crate::raster::{
+    Attributes, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay, SampleOfTriangle, TextureUse,
+};
 use crate::render::{self, Explainer, OpenSample, RenderSettings, Subject};
 use crate::rules::Rules;
 use crate::scene::Quotes;
@@ -97,7 +99,7 @@ impl Question<'_> {
     /// `op` comes with its place in the document.
     fn paint(
         &self,
-        (op, source): (&PaintedOp, Option<Source>),
+        (op, source): (&PaintedCommand, Option<Source>),
         piece: Option<Piece>,
         seen: &[bool],
         explainer: &Explainer<'_>,

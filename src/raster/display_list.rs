@@ -66,9 +66,9 @@ impl<'a> DisplayList<'a> {
         self.chunks.iter().map(|chunk| chunk.triangle_count).sum()
     }
 
-    /// How many ops the list has.
-    pub fn ops(&self) -> usize {
-        self.chunks.iter().map(|chunk| chunk.ops.len()).sum()
+    /// How many commands the list has.
+    pub fn commands(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.commands.len()).sum()
     }
 
     pub(in crate::raster) fn background(&self) -> Premultiplied16 {
@@ -118,7 +118,7 @@ impl<'a> DisplayList<'a> {
         self.chunks.iter().map(|chunk| chunk.outlines.len()).sum()
     }
 
-    pub(in crate::raster) fn bands(&self) -> ShapeRows {
+    pub(in crate::raster) fn shape_rows(&self) -> ShapeRows {
         let columns = self.context.samples().columns.end;
         ShapeRows::new((self.context.grid, self.context.rules), columns, self.outlines())
     }

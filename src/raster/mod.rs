@@ -57,7 +57,7 @@ pub use list::builder::ChunkBuilder;
 pub use list::chunk::Chunk;
 pub use list::context::ListContext;
 pub use list::hidden::Hidden;
-pub use paint::recorder::{PaintedKind, PaintedOp, PaintedSample};
+pub use paint::recorder::{PaintedCommand, PaintedKind, PaintedSample};
 
 pub use sampling::pattern::SamplePattern;
 pub use sampling::rate::SampleRate;

@@ -26,7 +26,7 @@ pub(in crate::raster) struct Painters<'a> {
     direct: DirectPainter<'a>,
     pub(in crate::raster) deferred: VisibilityPainter<'a>,
     pub(in crate::raster) blended: PerSamplePainter<'a>,
-    pub(in crate::raster) bands: ShapeRows,
+    pub(in crate::raster) shape_rows: ShapeRows,
     pub(in crate::raster) tally: Tally,
 }
 
@@ -45,7 +45,7 @@ impl DisplayList<'_> {
             direct: DirectPainter::new(self.shade_context()),
             deferred: VisibilityPainter::new(self.shade_context()),
             blended: PerSamplePainter::new(self.shade_context(), self.free_positions(columns)),
-            bands: self.bands(),
+            shape_rows: self.shape_rows(),
             tally: Tally::default(),
         }
     }
@@ -56,7 +56,7 @@ impl DisplayList<'_> {
         self.kinds.method(&self.context, self.settings.space, &commands)
     }
 
-    /// The colour of a tile in which nothing else is to be seen, of the ops from `first` on.
+    /// The colour of a tile in which nothing else is to be seen, of the commands from `first` on.
     fn only_color(&self, pass: &Pass<'_>, tile: usize, first: (usize, usize)) -> Option<Premultiplied16> {
         let mut entries = visible(&pass.bins, tile, first)
             .flat_map(|(chunk, entries)| entries.iter().map(move |entry| (chunk, entry)));
@@ -153,7 +153,7 @@ impl DisplayList<'_> {
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
                     painters
                         .direct
-                        .paint((&self.chunks[chunk], entries), &mut painters.bands, block);
+                        .paint((&self.chunks[chunk], entries), &mut painters.shape_rows, block);
                 }
                 painters.tally.counters.samples_shaded += std::mem::take(&mut painters.direct.samples_shaded);
             }
@@ -162,7 +162,7 @@ impl DisplayList<'_> {
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
                     painters
                         .deferred
-                        .paint(&self.chunks[chunk], entries, &mut painters.bands);
+                        .paint(&self.chunks[chunk], entries, &mut painters.shape_rows);
                 }
                 resolving = start.map(|_| Instant::now());
                 // Shading comes in between, and is none of it.
@@ -175,7 +175,7 @@ impl DisplayList<'_> {
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
                     painters
                         .blended
-                        .paint(&self.chunks[chunk], entries, &mut painters.bands);
+                        .paint(&self.chunks[chunk], entries, &mut painters.shape_rows);
                 }
                 resolving = start.map(|_| Instant::now());
                 for y in block.rect.y.start..block.rect.y.end {

@@ -1,4 +1,4 @@
-//! Meets the ops of a chunk in the tiles that they touch, in painter's order.
+//! Meets the commands of a chunk in the tiles that they touch, in painter's order.
 //!
 //! A stamp goes to the tiles of its bits, cut to each. A triangle or outline is followed row of tiles by row of tiles: a
 //! tile that it covers is marked, so that painting it needs no coverage at all. An opaque one that covers a tile hides
@@ -15,7 +15,7 @@ use crate::raster::list::context::ListContext;
 use crate::raster::span::{PixelRect, Reach, SampleBox, Span, to_index};
 use crate::texture::Texture;
 
-/// Walks over the ops of a chunk.
+/// Walks over the commands of a chunk.
 pub(crate) struct Binner<'a> {
     chunk: &'a Chunk,
     context: &'a ListContext,
@@ -86,8 +86,8 @@ impl<'a> Binner<'a> {
     pub(crate) fn each(&self, textures: &[&Texture], mut visit: impl FnMut(usize, TileCommand)) {
         let mut depth = self.chunk.layers_open;
         let mut tiles = OutlineTiles::default();
-        for (i, op) in self.chunk.ops.iter().enumerate() {
-            match *op {
+        for (i, command) in self.chunk.commands.iter().enumerate() {
+            match *command {
                 DrawCommand::Samples(index) => {
                     let stamp = &self.chunk.stamps[index as usize];
                     let entry = TileCommand::samples(i, stamp.color);
@@ -122,7 +122,7 @@ impl<'a> Binner<'a> {
                     self.outline(&mut tiles, (index, entry), depth == 0, &mut visit);
                 }
                 DrawCommand::BeginLayer(index) | DrawCommand::EndLayer(index) => {
-                    depth = match op {
+                    depth = match command {
                         DrawCommand::BeginLayer(_) => depth + 1,
                         _ => depth.saturating_sub(1),
                     };
@@ -187,17 +187,17 @@ impl<'a> Binner<'a> {
             end: sides.column(columns.end - 1) + 1,
         };
         let (top, bottom) = (sides.row(rows.start), sides.row(rows.end - 1));
-        let bands = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
+        let shape_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
         let (width, height) = (sides.width.cast_signed(), sides.height.cast_signed());
         let few = (in_row.end - in_row.start) * (bottom - top + 1) <= 2;
         if few && (self.covers_no_tile(columns, width, 0) || self.covers_no_tile(rows, height, 1)) {
-            for row in bands {
+            for row in shape_rows {
                 (in_row.start..in_row.end).for_each(|column| visit(self.tile(column, row), entry));
             }
             return;
         }
         let unit_width = f64::from(width << grid.bits());
-        for row in bands {
+        for row in shape_rows {
             let band = Span {
                 start: row * height,
                 end: ((row + 1) * height).min(self.frame.rows.end),
@@ -278,7 +278,7 @@ impl<'a> Binner<'a> {
         }
     }
 
-    /// A triangle by the rules of first drafts in each tile it touches. Kept out of the loop over ops, which is hot.
+    /// A triangle by the rules of first drafts in each tile it touches. Kept out of the loop over commands, which is hot.
     #[cold]
     #[inline(never)]
     fn float(&self, float: &FloatShape, entry: TileCommand, base: bool, visit: &mut impl FnMut(usize, TileCommand)) {
@@ -350,7 +350,7 @@ impl<'a> Binner<'a> {
         Span { start, end }
     }
 
-    /// An op in every tile of a rectangle of pixels.
+    /// An command in every tile of a rectangle of pixels.
     fn rect(&self, area: PixelRect, entry: TileCommand, visit: &mut impl FnMut(usize, TileCommand)) {
         if area.x.is_empty() || area.y.is_empty() {
             return;
@@ -375,6 +375,7 @@ fn in_tile(stamp: CoverageMask, entry: TileCommand, [x, y]: [i32; 2]) -> TileCom
 #[cfg(test)]
 mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
+    use glam::DVec2;
 
     use super::*;
     use crate::color::{ResolveSpace, Rgba};
@@ -382,6 +383,7 @@ mod tests {
     use crate::raster::coverage::shape_rows::ShapeRows;
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::random::{fill, noise};
+    use crate::raster::shading::Paint;
     use crate::raster::tile_layout::TileLayout;
     use crate::raster::{RasterSettings, SamplePattern, SampleRate};
     use crate::rules::Rules;
@@ -407,6 +409,13 @@ mod tests {
         let context = ListContext::with_tiles(SIZE, &settings, tiles);
         let mut builder = ChunkBuilder::new(&context, 12);
         fill(&mut builder, u)?;
+        for _ in 0..u.int_in_range(0..=5)? {
+            let mut at = |side: u32| Ok(f64::from(u.int_in_range(0..=8 * side)?) / 8.0);
+            let corner = DVec2::new(at(SIZE[0])?, at(SIZE[1])?);
+            builder.point(corner, Rgba::BLACK);
+            let tiny = [corner, corner + DVec2::new(1.0, 0.2), corner + DVec2::new(0.3, 1.1)];
+            builder.triangle(tiny, &Paint::solid(Rgba::BLACK));
+        }
         Ok((builder.finish(), context))
     }
 
@@ -446,31 +455,38 @@ mod tests {
             let mut tiles = vec![Vec::new(); (context.tiles.columns * context.tiles.rows) as usize];
             Binner::new(&chunk, &context, rows).each(&[&texture], |tile, command| tiles[tile].push(command));
             let all: Vec<TileCommand> = tiles.concat();
-            let mut bits = vec![0; chunk.ops.len()];
+            let mut bits = vec![0; chunk.commands.len()];
             for (tile, commands) in (0..).zip(&tiles) {
-                assert!(commands.is_sorted_by_key(|command| command.op()), "in painter's order");
+                assert!(
+                    commands.is_sorted_by_key(|command| command.command()),
+                    "in painter's order"
+                );
                 let rect = context
                     .tiles
                     .pixels(tile % context.tiles.columns, tile / context.tiles.columns, SIZE);
                 let side = to_index(context.grid.side());
                 let whole = rect.x.length() * rect.y.length() * side * side;
                 for shape in &all {
-                    let own = commands.iter().find(|command| command.op() == shape.op());
+                    let own = commands.iter().find(|command| command.command() == shape.command());
                     let count = covered(*shape, &chunk, (&context, rect));
-                    assert!(count == 0 || own.is_some(), "tile {tile} knows op {}", shape.op());
+                    assert!(
+                        count == 0 || own.is_some(),
+                        "tile {tile} knows command {}",
+                        shape.command()
+                    );
                     if own.is_some_and(|command| command.covers_tile()) {
-                        assert_eq!(count, whole, "op {} covers tile {tile}", shape.op());
+                        assert_eq!(count, whole, "command {} covers tile {tile}", shape.command());
                         covering += 1;
                     }
                 }
                 for command in commands {
                     if let Work::Samples(mask, _) | Work::Pixels(mask, _) = command.work(&chunk) {
-                        bits[command.op()] += mask.mask.count_ones();
+                        bits[command.command()] += mask.mask.count_ones();
                     }
                 }
             }
-            for (op, bits) in chunk.ops.iter().zip(bits) {
-                if let DrawCommand::Samples(index) | DrawCommand::Pixels(index) = op {
+            for (command, bits) in chunk.commands.iter().zip(bits) {
+                if let DrawCommand::Samples(index) | DrawCommand::Pixels(index) = command {
                     let stamp = chunk.stamps[*index as usize].coverage;
                     assert_eq!(bits, stamp.mask.count_ones(), "each bit of {stamp:?} is in one tile");
                     stamped += 1;

@@ -1,7 +1,7 @@
-//! Which ops touch which tile, in painter's order.
+//! Which commands touch which tile, in painter's order.
 //!
-//! Two walks over the ops of a chunk: the first counts the entries of each tile, the second writes them where they
-//! belong; where the first meets few entries, it keeps them, and there is no second. Nothing is allocated per op or per
+//! Two walks over the commands of a chunk: the first counts the entries of each tile, the second writes them where they
+//! belong; where the first meets few entries, it keeps them, and there is no second. Nothing is allocated per command or per
 //! tile.
 
 use std::sync::Arc;
@@ -18,10 +18,10 @@ use crate::texture::Texture;
 /// Most entries that are held at once; more are made and painted in several passes over groups of tile rows.
 const MAX_ENTRIES: u64 = 1 << 22;
 
-/// Most entries of a chunk that are kept when they are counted, half a megabyte; and of how many ops at most: where
+/// Most entries of a chunk that are kept when they are counted, half a megabyte; and of how many commands at most: where
 /// there are more, most are tiny, and sooner met again than written and read.
 const MAX_KEPT: usize = 1 << 14;
-const MAX_KEPT_OPS: usize = 1 << 12;
+const MAX_KEPT_COMMANDS: usize = 1 << 12;
 
 /// Room for entries to begin with.
 const FEW: usize = 1 << 10;
@@ -62,7 +62,7 @@ impl Plan {
         };
         let of_chunk = |chunk: &Chunk| {
             let mut counts = vec![0; tiles.columns as usize * tiles.rows as usize];
-            let mut few = chunk.ops.len() <= MAX_KEPT_OPS;
+            let mut few = chunk.commands.len() <= MAX_KEPT_COMMANDS;
             let mut kept = Vec::with_capacity(if few { FEW } else { 0 });
             Binner::new(chunk, context, all).each(textures, |tile, entry| {
                 counts[tile] += 1;
@@ -105,7 +105,7 @@ impl Plan {
         groups
     }
 
-    /// Sorts the ops of every chunk into the tiles of `rows`, a range of tile rows.
+    /// Sorts the commands of every chunk into the tiles of `rows`, a range of tile rows.
     pub(crate) fn bins(
         &self,
         chunks: &[Chunk],

@@ -293,7 +293,7 @@ mod tests {
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::list::context::ListContext;
     use crate::raster::paint::per_sample::PerSamplePainter;
-    use crate::raster::paint::recorder::PaintedOp;
+    use crate::raster::paint::recorder::PaintedCommand;
     use crate::raster::random::{fill, noise};
     use crate::raster::{DisplayList, Framebuffer, RasterSettings, SamplePattern};
     use crate::texture::{PixelSampling, SamplingSettings, Texture};
@@ -327,9 +327,13 @@ mod tests {
         ))
     }
 
-    /// What each op paints in a pixel, and what its samples hold then; `scattered` says that samples are looked at one by
+    /// What each command paints in a pixel, and what its samples hold then; `scattered` says that samples are looked at one by
     /// one, also those of the grid.
-    fn painted(list: &DisplayList<'_>, [x, y]: [u32; 2], scattered: bool) -> (Vec<PaintedOp>, Vec<Premultiplied16>) {
+    fn painted(
+        list: &DisplayList<'_>,
+        [x, y]: [u32; 2],
+        scattered: bool,
+    ) -> (Vec<PaintedCommand>, Vec<Premultiplied16>) {
         let pixel = [x, y].map(u32::cast_signed);
         let column = Span {
             start: pixel[0],
@@ -343,7 +347,7 @@ mod tests {
             .collect();
         let free_positions = scattered.then(|| list.scatter_in(column));
         let mut painter = PerSamplePainter::new(list.shade_context(), free_positions);
-        let (painted, samples) = painter.replay(&chunks, (pixel, list.background()), &mut list.bands());
+        let (painted, samples) = painter.replay(&chunks, (pixel, list.background()), &mut list.shape_rows());
         (painted, samples.into_iter().map(|(color, _)| color).collect())
     }
 

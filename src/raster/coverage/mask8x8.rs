@@ -49,9 +49,9 @@ impl CoverageMask {
         let edges = SampleEdge::of_triangle((corners, area), first, (grid, rules)).map(SmallEdge::new);
         let wide = samples.columns.end - column > 4;
         for j in 0..samples.rows.end - row {
-            let mut bits = quad(&edges, 0, j);
+            let mut bits = group_of_four(&edges, 0, j);
             if wide {
-                bits |= quad(&edges, 4, j) << 4;
+                bits |= group_of_four(&edges, 4, j) << 4;
             }
             coverage.mask |= u64::from(bits) << (SMALL * j);
         }
@@ -157,7 +157,7 @@ impl SmallEdge {
 
 /// The bits of four samples side by side, from column `i` of row `j` on.
 #[inline]
-fn quad(edges: &[SmallEdge; 3], i: i32, j: i32) -> u32 {
+fn group_of_four(edges: &[SmallEdge; 3], i: i32, j: i32) -> u32 {
     let start = edges.map(|edge| edge.value + edge.right * i + edge.down * j);
     let mut inside = 0;
     for i in 0..4 {

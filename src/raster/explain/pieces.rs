@@ -11,7 +11,7 @@ use crate::raster::DisplayList;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::polygon::Outline;
 use crate::raster::list::chunk::{Chunk, DrawCommand, ScreenTriangle};
-use crate::raster::paint::recorder::PaintedOp;
+use crate::raster::paint::recorder::PaintedCommand;
 use crate::raster::sampling::positions::Position;
 use crate::raster::shading::context::{ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
@@ -19,16 +19,16 @@ use crate::raster::shading::{Paint, Shader};
 use crate::raster::span::Span;
 use crate::rules::Rules;
 
-/// One op of a list, seen from the samples of a pixel.
+/// One command of a list, seen from the samples of a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// Its index in its chunk.
-    pub(crate) op: usize,
+    pub(crate) command: usize,
     /// What it is.
     pub shape: PieceShape,
 }
 
-/// What an op is.
+/// What an command is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PieceShape {
     /// A triangle, or what clipping left of one.
@@ -78,14 +78,14 @@ impl SampleOfTriangle {
 }
 
 impl Piece {
-    /// Whether an op of the same chunk is this one.
-    pub fn is_of(&self, op: &PaintedOp) -> bool {
-        self.op == op.op
+    /// Whether an command of the same chunk is this one.
+    pub fn is_of(&self, command: &PaintedCommand) -> bool {
+        self.command == command.command
     }
 }
 
 impl DisplayList<'_> {
-    /// The ops of the list's only chunk as the samples of pixel `(x, y)` see them.
+    /// The commands of the list's only chunk as the samples of pixel `(x, y)` see them.
     ///
     /// `weights` is the same chunk but for its paints, which have red, green and blue at a triangle's corners: so weights
     /// take the way of every attribute, through clipping too.
@@ -99,7 +99,7 @@ impl DisplayList<'_> {
             pixel,
             places: self.places().of_pixel(pixel, &mut Vec::new()).to_vec(),
         };
-        let shape = |op: &DrawCommand| match *op {
+        let shape = |command: &DrawCommand| match *command {
             DrawCommand::Triangle(index) => {
                 let whole = weights.triangles.get(index as usize);
                 let weights = whole.map(|triangle| &weights.paints[triangle.paint as usize].paint);
@@ -112,8 +112,9 @@ impl DisplayList<'_> {
             DrawCommand::Hairline(_) | DrawCommand::Pixels(_) | DrawCommand::Samples(_) => Some(PieceShape::Pixels),
             DrawCommand::BeginLayer(_) | DrawCommand::EndLayer(_) => None,
         };
-        let ops = chunk.ops.iter().enumerate();
-        ops.filter_map(|(op, kind)| shape(kind).map(|shape| Piece { op, shape }))
+        let commands = chunk.commands.iter().enumerate();
+        commands
+            .filter_map(|(command, kind)| shape(kind).map(|shape| Piece { command, shape }))
             .collect()
     }
 }

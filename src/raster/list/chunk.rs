@@ -69,8 +69,8 @@ pub(crate) enum DrawCommand {
 /// A part of the display list.
 #[derive(Debug, Default)]
 pub struct Chunk {
-    pub(crate) ops: Vec<DrawCommand>,
-    /// For each op the number its caller gave it.
+    pub(crate) commands: Vec<DrawCommand>,
+    /// For each command the number its caller gave it.
     pub(crate) sources: Vec<u32>,
     pub(crate) stamps: Vec<Stamp>,
     pub(crate) triangles: Vec<ScreenTriangle>,
@@ -85,7 +85,7 @@ pub struct Chunk {
     pub(crate) first_outline: usize,
     pub(crate) hairlines: Vec<Hairline>,
     pub(crate) layers: Vec<LayerMark>,
-    /// How many triangles and polygons became ops.
+    /// How many triangles and polygons became commands.
     pub(crate) triangle_count: u64,
     /// Layers that earlier chunks have left open.
     pub(crate) layers_open: u32,
@@ -104,24 +104,24 @@ impl Chunk {
         }
     }
 
-    /// Whether any op begins or ends a layer.
+    /// Whether any command begins or ends a layer.
     pub(crate) fn has_layers(&self) -> bool {
         !self.layers.is_empty()
     }
 
-    /// The pixels that an op may touch, clipped to the frame; `None` when there are none.
-    pub(crate) fn area(&self, op: DrawCommand, context: &ListContext) -> Option<PixelRect> {
-        context.pixels_of(self.sample_box(op, context)?)
+    /// The pixels that an command may touch, clipped to the frame; `None` when there are none.
+    pub(crate) fn area(&self, command: DrawCommand, context: &ListContext) -> Option<PixelRect> {
+        context.pixels_of(self.sample_box(command, context)?)
     }
 
-    /// The box of the samples that an op may touch, clipped to the frame; `None` when there are none.
-    pub(crate) fn sample_box(&self, op: DrawCommand, context: &ListContext) -> Option<SampleBox> {
+    /// The box of the samples that an command may touch, clipped to the frame; `None` when there are none.
+    pub(crate) fn sample_box(&self, command: DrawCommand, context: &ListContext) -> Option<SampleBox> {
         let side = context.grid.side();
         let of_pixels = |columns, rows| SampleBox {
             columns: scaled(columns, side),
             rows: scaled(rows, side),
         };
-        let samples = match op {
+        let samples = match command {
             DrawCommand::Triangle(index) => {
                 let corners = self.triangles[index as usize].corners;
                 let float = self.floats.get(index as usize).map(|float| float.samples);
@@ -174,8 +174,8 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
     let mut open: Vec<(usize, usize, PixelRect)> = Vec::new();
     for at in 0..chunks.len() {
         chunks[at].layers_open = u32::try_from(open.len()).unwrap_or(u32::MAX);
-        for op in 0..chunks[at].ops.len() {
-            match chunks[at].ops[op] {
+        for command in 0..chunks[at].commands.len() {
+            match chunks[at].commands[command] {
                 DrawCommand::BeginLayer(begin) => open.push((at, begin as usize, PixelRect::EMPTY)),
                 DrawCommand::EndLayer(end) => {
                     let Some((begin_chunk, begin, area)) = open.pop() else {

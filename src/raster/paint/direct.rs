@@ -31,11 +31,11 @@ impl<'a> DirectPainter<'a> {
         }
     }
 
-    /// Paints the ops of one chunk that touch the tile; all must be opaque.
+    /// Paints the commands of one chunk that touch the tile; all must be opaque.
     pub(crate) fn paint(
         &mut self,
         (chunk, entries): (&Chunk, &[TileCommand]),
-        bands: &mut ShapeRows,
+        shape_rows: &mut ShapeRows,
         block: &mut PixelBlock<'_>,
     ) {
         let rules = self.context.sampling.rules;
@@ -48,7 +48,7 @@ impl<'a> DirectPainter<'a> {
                 }
                 Work::Flat(shape, color) => {
                     let pixel = color.to_pixel(rules);
-                    covered((shape, *entry), bands, block, |y, xs, block| {
+                    covered((shape, *entry), shape_rows, block, |y, xs, block| {
                         block.span(y, xs).fill(pixel);
                     });
                 }
@@ -57,7 +57,7 @@ impl<'a> DirectPainter<'a> {
                     places.clear();
                     let PixelRect { x: left, y: top } = block.rect;
                     let inside = |from: i32, to: i32| u16::try_from(to - from).unwrap_or(u16::MAX);
-                    covered((shape, *entry), bands, block, |y, xs, _| {
+                    covered((shape, *entry), shape_rows, block, |y, xs, _| {
                         let row = inside(top.start, y);
                         places.extend(
                             (inside(left.start, xs.start)..inside(left.start, xs.end)).map(|column| [column, row]),
@@ -96,7 +96,7 @@ impl<'a> DirectPainter<'a> {
 #[inline]
 fn covered(
     (shape, entry): (Shape<'_>, TileCommand),
-    bands: &mut ShapeRows,
+    shape_rows: &mut ShapeRows,
     block: &mut PixelBlock<'_>,
     mut paint: impl FnMut(i32, Span, &mut PixelBlock<'_>),
 ) {
@@ -107,5 +107,5 @@ fn covered(
         }
         return;
     }
-    bands.each_pixel_row(shape, rect, |row| paint(row.y, row.full, block));
+    shape_rows.each_pixel_row(shape, rect, |row| paint(row.y, row.full, block));
 }

@@ -1,4 +1,4 @@
-//! Painting one tile: every op of the display list that touches it, in painter's order.
+//! Painting one tile: every command of the display list that touches it, in painter's order.
 
 use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::{TileCommand, Work};
@@ -9,7 +9,7 @@ use crate::raster::coverage::pixel_rows::{PixelRow, each_pixel_row_of_few};
 use crate::raster::coverage::shape_rows::{Shape, ShapeRows};
 use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
-use crate::raster::paint::recorder::{PaintedKind, PaintedOp, Recorder};
+use crate::raster::paint::recorder::{PaintedCommand, PaintedKind, Recorder};
 use crate::raster::paint::sample_colors::SampleColors;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::Position;
@@ -54,8 +54,8 @@ impl<'a> PerSamplePainter<'a> {
         self.layers.restart().reset(rect, background);
     }
 
-    /// Paints the ops of one chunk that touch the tile.
-    pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[TileCommand], bands: &mut ShapeRows) {
+    /// Paints the commands of one chunk that touch the tile.
+    pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[TileCommand], shape_rows: &mut ShapeRows) {
         for entry in entries {
             if self.recorder.is_some() {
                 self.record(chunk, *entry);
@@ -68,9 +68,11 @@ impl<'a> PerSamplePainter<'a> {
                         .moved(x.start, y.start)
                         .each_run(|row, xs| self.fill(xs, row, color));
                 }
-                Work::Flat(shape, color) => self.covered((shape, *entry), bands, |_| Shader::flat(color)),
+                Work::Flat(shape, color) => self.covered((shape, *entry), shape_rows, |_| Shader::flat(color)),
                 Work::Shaded(shape, corners, paint) => {
-                    self.covered((shape, *entry), bands, |context| Shader::new(context, corners, paint));
+                    self.covered((shape, *entry), shape_rows, |context| {
+                        Shader::new(context, corners, paint)
+                    });
                 }
                 Work::BeginLayer => {
                     let rect = self.layers.base().rect;
@@ -91,13 +93,13 @@ impl<'a> PerSamplePainter<'a> {
         self.layers.base().resolve(y, pixels);
     }
 
-    /// Paints a tile of a single pixel and says what each op did there, and what its samples hold then.
+    /// Paints a tile of a single pixel and says what each command did there, and what its samples hold then.
     pub(crate) fn replay(
         &mut self,
         chunks: &[(&Chunk, &[TileCommand])],
         (pixel, background): ([i32; 2], Premultiplied16),
-        bands: &mut ShapeRows,
-    ) -> (Vec<PaintedOp>, Vec<(Premultiplied16, usize)>) {
+        shape_rows: &mut ShapeRows,
+    ) -> (Vec<PaintedCommand>, Vec<(Premultiplied16, usize)>) {
         let one = |start: i32| Span { start, end: start + 1 };
         self.recorder = Some(Recorder::new(self.samples_per_pixel()));
         let rect = PixelRect {
@@ -106,7 +108,7 @@ impl<'a> PerSamplePainter<'a> {
         };
         self.begin(rect, background);
         for (chunk, entries) in chunks {
-            self.paint(chunk, entries, bands);
+            self.paint(chunk, entries, shape_rows);
         }
         let samples = self.pixel_samples(self.layers.base());
         let recorded = self.recorder.take().map(|recorder| recorder.finish(&samples));
@@ -125,7 +127,7 @@ impl<'a> PerSamplePainter<'a> {
         (0..self.samples_per_pixel()).map(sample).collect()
     }
 
-    /// Tells the recorder which op comes next.
+    /// Tells the recorder which command comes next.
     fn record(&mut self, chunk: &Chunk, entry: TileCommand) {
         let (top, below) = self.layers.topmost();
         let now = self.pixel_samples(top);
@@ -140,7 +142,7 @@ impl<'a> PerSamplePainter<'a> {
         };
         if let Some(recorder) = &mut self.recorder {
             recorder.next(
-                (chunk.sources[entry.op()], entry.op()),
+                (chunk.sources[entry.command()], entry.command()),
                 PaintedKind::of(&work),
                 &now,
                 on,
@@ -177,7 +179,7 @@ impl<'a> PerSamplePainter<'a> {
     fn covered(
         &mut self,
         (shape, entry): (Shape<'_>, TileCommand),
-        bands: &mut ShapeRows,
+        shape_rows: &mut ShapeRows,
         shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>,
     ) {
         if entry.covers_tile() {
@@ -188,7 +190,7 @@ impl<'a> PerSamplePainter<'a> {
         }
         let rect = self.layers.base().rect;
         let mut prepared = None;
-        bands.each_pixel_row(shape, rect, |row| {
+        shape_rows.each_pixel_row(shape, rect, |row| {
             let shader = prepared.get_or_insert_with(|| shader(&self.context));
             self.pixel_row(shader, row);
         });

@@ -61,7 +61,7 @@ impl<'a> ChunkBuilder<'a> {
             context,
             frame: context.samples(),
             chunk: Chunk {
-                ops: Vec::with_capacity(primitives),
+                commands: Vec::with_capacity(primitives),
                 sources: Vec::with_capacity(primitives),
                 ..Chunk::default()
             },
@@ -200,31 +200,31 @@ impl<'a> ChunkBuilder<'a> {
         self.layer(Some(compositing), DrawCommand::EndLayer);
     }
 
-    fn layer(&mut self, compositing: Option<Compositing>, op: fn(u32) -> DrawCommand) {
+    fn layer(&mut self, compositing: Option<Compositing>, command: fn(u32) -> DrawCommand) {
         self.add_waiting();
         let index = index(self.chunk.layers.len());
         let area = PixelRect::EMPTY;
         self.chunk.layers.push(LayerMark { area, compositing });
-        self.push(op(index));
+        self.push(command(index));
     }
 
     #[inline]
-    fn push(&mut self, op: DrawCommand) {
-        self.chunk.ops.push(op);
+    fn push(&mut self, command: DrawCommand) {
+        self.chunk.commands.push(command);
         self.chunk.sources.push(self.source);
     }
 
     #[inline]
-    fn stamp(&mut self, coverage: CoverageMask, color: Rgba, op: fn(u32) -> DrawCommand) {
+    fn stamp(&mut self, coverage: CoverageMask, color: Rgba, command: fn(u32) -> DrawCommand) {
         let color = self.color(color);
         let stamps = &mut self.chunk.stamps;
         if stamps.is_empty() {
             // What begins with one small primitive mostly goes on like that.
-            stamps.reserve(self.chunk.ops.capacity());
+            stamps.reserve(self.chunk.commands.capacity());
         }
         let index = index(stamps.len());
         stamps.push(Stamp { coverage, color });
-        self.push(op(index));
+        self.push(command(index));
     }
 
     /// A colour as it is stored; the same one twice costs nothing.

@@ -205,7 +205,7 @@ impl ChunkBuilder<'_> {
         if inside != samples && covers(&corners, inside, grid, rules) {
             drop_hidden(&mut self.chunk, self.context, inside, 1);
         }
-        let [.., DrawCommand::Triangle(before), DrawCommand::Triangle(_)] = *self.chunk.ops else {
+        let [.., DrawCommand::Triangle(before), DrawCommand::Triangle(_)] = *self.chunk.commands else {
             return;
         };
         let before = self.chunk.triangles[before as usize];

@@ -117,7 +117,7 @@ impl<S: Simd> Mixer<'_, S> {
     /// The pixel whose samples show these surfaces, four in a word.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    pub(crate) fn pixel_of_words(&self, words: &[u64]) -> u32 {
+    pub(crate) fn pixel_of_packed(&self, words: &[u64]) -> u32 {
         let zero = i32x4::splat(self.simd, 0);
         let sums = words.iter().fold(zero, |sums, word| {
             let [a, b, c, d] = lanes(*word);
@@ -210,7 +210,7 @@ mod tests {
                 assert_eq!(found, expected, "{name}: {of_second} of {count}");
                 if expected.is_some() && count >= 4 && two {
                     let expected = resolver.pixel(of_words.channels());
-                    let found = dispatch!(level, simd => known.mixer(simd).map(|mixer| mixer.pixel_of_words(&words)));
+                    let found = dispatch!(level, simd => known.mixer(simd).map(|mixer| mixer.pixel_of_packed(&words)));
                     assert_eq!(found, Some(expected), "{name}: {words:x?}");
                 }
             }

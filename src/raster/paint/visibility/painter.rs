@@ -62,8 +62,8 @@ impl<'a> VisibilityPainter<'a> {
         self.layers.restart().reset(rect, surface);
     }
 
-    /// Paints the ops of one chunk that touch the tile.
-    pub(crate) fn paint(&mut self, chunk: &'a Chunk, entries: &[TileCommand], bands: &mut ShapeRows) {
+    /// Paints the commands of one chunk that touch the tile.
+    pub(crate) fn paint(&mut self, chunk: &'a Chunk, entries: &[TileCommand], shape_rows: &mut ShapeRows) {
         for entry in entries {
             self.make_room();
             match entry.work(chunk) {
@@ -71,12 +71,12 @@ impl<'a> VisibilityPainter<'a> {
                 Work::Pixels(coverage, color) => self.pixels(coverage, color),
                 Work::Flat(shape, color) if entry.is_opaque() => {
                     let surface = self.surfaces.flat(color);
-                    self.opaque((shape, *entry), surface, bands);
+                    self.opaque((shape, *entry), surface, shape_rows);
                 }
-                Work::Flat(shape, color) => self.translucent((shape, *entry), color, bands),
+                Work::Flat(shape, color) => self.translucent((shape, *entry), color, shape_rows),
                 Work::Shaded(shape, corners, paint) => {
                     let surface = self.surfaces.shaded(corners, paint);
-                    self.opaque((shape, *entry), surface, bands);
+                    self.opaque((shape, *entry), surface, shape_rows);
                 }
                 Work::BeginLayer => self.begin_layer(),
                 Work::EndLayer(compositing) => self.end_layer(compositing),
@@ -85,26 +85,31 @@ impl<'a> VisibilityPainter<'a> {
     }
 
     #[inline]
-    fn opaque(&mut self, (shape, entry): (Shape<'_>, TileCommand), surface: SurfaceId, bands: &mut ShapeRows) {
+    fn opaque(&mut self, (shape, entry): (Shape<'_>, TileCommand), surface: SurfaceId, shape_rows: &mut ShapeRows) {
         let tile = self.layers.top();
         if entry.covers_tile() {
             tile.cover(surface);
         } else if self.context.grid.side() == pixel_rows_4x4::SIDE {
-            dispatch!(simd::level(), simd => opaque_four(simd, (shape, bands), tile, surface));
+            dispatch!(simd::level(), simd => opaque_four(simd, (shape, shape_rows), tile, surface));
         } else {
-            bands.each_pixel_row(shape, tile.rect, |row| tile.paint(row, surface));
+            shape_rows.each_pixel_row(shape, tile.rect, |row| tile.paint(row, surface));
         }
     }
 
-    fn translucent(&mut self, (shape, entry): (Shape<'_>, TileCommand), color: Premultiplied16, bands: &mut ShapeRows) {
+    fn translucent(
+        &mut self,
+        (shape, entry): (Shape<'_>, TileCommand),
+        color: Premultiplied16,
+        shape_rows: &mut ShapeRows,
+    ) {
         let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
         surfaces.next_paint();
         if entry.covers_tile() {
             tile.change_all(|surface| surfaces.under(surface, color));
         } else if self.context.grid.side() == pixel_rows_4x4::SIDE {
-            dispatch!(simd::level(), simd => translucent_four(simd, (shape, bands), tile, (surfaces, color)));
+            dispatch!(simd::level(), simd => translucent_four(simd, (shape, shape_rows), tile, (surfaces, color)));
         } else {
-            bands.each_pixel_row(shape, tile.rect, |row| {
+            shape_rows.each_pixel_row(shape, tile.rect, |row| {
                 tile.change(row, |surface| surfaces.under(surface, color));
             });
         }
@@ -174,7 +179,7 @@ impl<'a> VisibilityPainter<'a> {
         let mut used = vec![false; MAX_SURFACES];
         let layers = self.layers.in_use();
         for layer in &*layers {
-            layer.each_slot(|surface| used[usize::from(surface)] = true);
+            layer.each_surface(|surface| used[usize::from(surface)] = true);
         }
         let numbers = self.surfaces.keep(&used);
         for layer in layers {
@@ -188,14 +193,14 @@ impl<'a> VisibilityPainter<'a> {
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn opaque_four<S: Simd>(
     simd: S,
-    (shape, bands): (Shape<'_>, &mut ShapeRows),
+    (shape, shape_rows): (Shape<'_>, &mut ShapeRows),
     tile: &mut VisibilityBuffer,
     surface: SurfaceId,
 ) {
     simd.vectorize(
         #[inline(always)]
         || {
-            bands.each_row_of_four(
+            shape_rows.each_row_of_four(
                 simd,
                 (shape, tile.rect),
                 #[inline(always)]
@@ -210,14 +215,14 @@ fn opaque_four<S: Simd>(
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn translucent_four<S: Simd>(
     simd: S,
-    (shape, bands): (Shape<'_>, &mut ShapeRows),
+    (shape, shape_rows): (Shape<'_>, &mut ShapeRows),
     tile: &mut VisibilityBuffer,
     (surfaces, color): (&mut SurfaceTable<'_>, Premultiplied16),
 ) {
     simd.vectorize(
         #[inline(always)]
         || {
-            bands.each_row_of_four(
+            shape_rows.each_row_of_four(
                 simd,
                 (shape, tile.rect),
                 #[inline(always)]
@@ -286,12 +291,12 @@ mod tests {
                 let (width, height) = (rect.x.length(), rect.y.length());
                 let mut found = vec![0x1234_5678; width * height];
                 painters.deferred.begin(rect, list.background());
-                painters.deferred.paint(chunk, commands, &mut painters.bands);
+                painters.deferred.paint(chunk, commands, &mut painters.shape_rows);
                 painters
                     .deferred
                     .resolve(&mut PixelBlock::new(rect, &mut found, width), false);
                 painters.blended.begin(rect, list.background());
-                painters.blended.paint(chunk, commands, &mut painters.bands);
+                painters.blended.paint(chunk, commands, &mut painters.shape_rows);
                 for (row, y) in found.chunks_exact(width).zip(rect.y.start..) {
                     let mut expected = vec![0; width];
                     painters.blended.resolve(y, &mut expected);

@@ -75,19 +75,19 @@ impl VisibilityPainter<'_> {
                 &shown,
                 line,
                 #[inline(always)]
-                |pair| mixer.pixel(pair.first, pair.second, pair.mask.count_ones()),
+                |two| mixer.pixel(two.first, two.second, two.mask.count_ones()),
                 #[inline(always)]
-                |x| match self.layers.base().full_words(x, y) {
-                    Some(words) => mixer.pixel_of_words(words),
+                |x| match self.layers.base().full_packed(x, y) {
+                    Some(words) => mixer.pixel_of_packed(words),
                     None => self.resolve_split(x, y),
                 },
             ),
             None => each_shared(
                 &shown,
                 line,
-                |pair| {
+                |two| {
                     self.resolver
-                        .pixel_of_halves(self.pair_sum(pair, pair.mask.count_ones()))
+                        .pixel_of_halves(self.two_surface_sum(two, two.mask.count_ones()))
                 },
                 |x| self.resolve_split(x, y),
             ),
@@ -98,13 +98,13 @@ impl VisibilityPainter<'_> {
     #[cold]
     fn resolve_row_of_many(&self, y: i32, line: &mut [u32]) {
         let tile = self.layers.base();
-        let pairs = tile.pairs(y);
+        let row_of_two = tile.two_surfaces(y);
         for ((x, surface), pixel) in tile.row(y).iter().enumerate().zip(line) {
             *pixel = match *surface {
                 TWO_SURFACES => {
-                    let pair = pairs.get(x);
+                    let two = row_of_two.get(x);
                     self.resolver
-                        .pixel_of_halves(self.pair_sum(pair, pair.mask.count_ones()))
+                        .pixel_of_halves(self.two_surface_sum(two, two.mask.count_ones()))
                 }
                 surface if usize::from(surface) < MAX_SURFACES => self.surfaces.get(surface).pixel,
                 _ => self.resolve_split(x, y),
@@ -121,8 +121,8 @@ impl VisibilityPainter<'_> {
 
     /// The sum of the samples of a pixel that shows two flat colours, `of_second` times the second one.
     #[inline]
-    fn pair_sum(&self, pair: TwoSurfaces, of_second: u32) -> [u64; 2] {
-        let [first, second] = [pair.first, pair.second].map(|surface| self.surfaces.get(surface).spread);
+    fn two_surface_sum(&self, two: TwoSurfaces, of_second: u32) -> [u64; 2] {
+        let [first, second] = [two.first, two.second].map(|surface| self.surfaces.get(surface).spread);
         first.mixed(self.resolver.count(), second, of_second)
     }
 
@@ -142,18 +142,18 @@ impl VisibilityPainter<'_> {
                     }
                 }
                 Run::TwoSurfacePixels => {
-                    let pairs = tile.pairs(y);
+                    let row_of_two = tile.two_surfaces(y);
                     for x in columns {
-                        let pair = pairs.get(usize::from(x));
-                        if [pair.first, pair.second]
+                        let two = row_of_two.get(usize::from(x));
+                        if [two.first, two.second]
                             .iter()
                             .all(|surface| surfaces.get(*surface).shaded.is_none())
                         {
-                            let [first, second] = [pair.first, pair.second].map(|surface| surfaces.get(surface).spread);
-                            let sum = first.mixed(self.resolver.count(), second, pair.mask.count_ones());
+                            let [first, second] = [two.first, two.second].map(|surface| surfaces.get(surface).spread);
+                            let sum = first.mixed(self.resolver.count(), second, two.mask.count_ones());
                             line[usize::from(x)] = self.resolver.pixel_of_halves(sum);
                         } else {
-                            let parts = [(pair.first, 0, tile.all() & !pair.mask), (pair.second, 0, pair.mask)];
+                            let parts = [(two.first, 0, tile.all() & !two.mask), (two.second, 0, two.mask)];
                             unresolved.parts([x, row], parts.into_iter(), |surface| {
                                 let shown = surfaces.get(surface);
                                 shown.shaded.is_none().then(|| shown.sum(1))
@@ -183,7 +183,7 @@ impl VisibilityPainter<'_> {
             places, sums, sorted, ..
         } = &mut self.unresolved;
         let grid = context.samples_from(origin);
-        for fragments in sorted.by_slot() {
+        for fragments in sorted.by_surface() {
             let shown = surfaces.get(fragments[0].surface);
             let Some(Shaded { corners, paint, kept }) = shown.shaded else {
                 continue;
@@ -213,7 +213,7 @@ impl VisibilityPainter<'_> {
     }
 }
 
-/// Resolves the pixels of a row that are pairs or split, by what each is and by its column.
+/// Resolves the pixels of a row that show two surfaces or are split, by what each is and by its column.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn each_shared(
@@ -231,7 +231,7 @@ fn each_shared(
         };
         let surface = shown.whole[x % ROW];
         if surface == TWO_SURFACES {
-            *pixel = of_two(shown.pairs.get(x));
+            *pixel = of_two(shown.two_surfaces.get(x));
         } else if usize::from(surface) > MAX_SURFACES {
             *pixel = of_split(x);
         }
@@ -257,7 +257,7 @@ fn resolve_flat<S: Simd>(simd: S, painter: &VisibilityPainter<'_>, block: &mut P
 #[inline]
 fn flat_sum(tile: &VisibilityBuffer, surfaces: &SurfaceTable<'_>, x: usize, y: i32) -> [u64; 2] {
     let mut sum = Spread::default();
-    tile.each_sample_word(x, y, |word, used| {
+    tile.each_packed(x, y, |word, used| {
         let shown = lanes(word);
         if word == splat(shown[0]) {
             sum.add(surfaces.get(shown[0]).spread, used);

@@ -30,7 +30,7 @@ impl VisibilityBuffer {
     }
 
     /// Lets the samples that `spans` cover in a pixel, by its place and its column in the frame, show what `change` makes
-    /// of what they show; `covered` are their bits, if it may be a pair.
+    /// of what they show; `covered` are their bits, if it may show two surfaces.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
     pub(super) fn change_samples(
@@ -40,7 +40,7 @@ impl VisibilityBuffer {
         change: &mut impl FnMut(SurfaceId) -> SurfaceId,
     ) {
         let shown = self.whole[pixel.0][pixel.1];
-        if shown != SPLIT && self.all != 0 && (covered == 0 || self.change_pair(pixel, covered, change)) {
+        if shown != SPLIT && self.all != 0 && (covered == 0 || self.change_two(pixel, covered, change)) {
             return;
         }
         self.split(pixel);
@@ -53,15 +53,10 @@ impl VisibilityBuffer {
 
     /// Lets samples of a pixel that is not split show what `change` makes of what they show; false, and nothing done,
     /// where the pixel would show three surfaces or more.
-    fn change_pair(
-        &mut self,
-        pixel: PixelIndex,
-        covered: u64,
-        change: &mut impl FnMut(SurfaceId) -> SurfaceId,
-    ) -> bool {
+    fn change_two(&mut self, pixel: PixelIndex, covered: u64, change: &mut impl FnMut(SurfaceId) -> SurfaceId) -> bool {
         let shown = self.whole[pixel.0][pixel.1];
-        let pair = if shown == TWO_SURFACES {
-            let TwoSurfaces { mask, first, second } = self.pairs.get(pixel);
+        let two = if shown == TWO_SURFACES {
+            let TwoSurfaces { mask, first, second } = self.two_surfaces.get(pixel);
             let (of_first, of_second) = (self.all & !mask, mask);
             // Each is covered as a whole or not at all.
             if [of_first, of_second]
@@ -83,7 +78,7 @@ impl VisibilityBuffer {
                 second: change(shown),
             }
         };
-        self.set_pair(pixel, pair);
+        self.set_two(pixel, two);
         true
     }
 
@@ -109,16 +104,16 @@ impl VisibilityBuffer {
             match shown {
                 SPLIT => {
                     let per_pixel = self.side * self.words;
-                    let first = self.first_word((y, start));
+                    let first = self.first_packed((y, start));
                     for word in &mut self.samples[first..first + (end - start) * per_pixel] {
                         *word = changed(*word, u64::MAX, change);
                     }
                 }
                 TWO_SURFACES => {
                     for x in start..end {
-                        let TwoSurfaces { mask, first, second } = self.pairs.get((y, x));
+                        let TwoSurfaces { mask, first, second } = self.two_surfaces.get((y, x));
                         let (first, second) = (change(first), change(second));
-                        self.pairs.set((y, x), TwoSurfaces { mask, first, second });
+                        self.two_surfaces.set((y, x), TwoSurfaces { mask, first, second });
                     }
                 }
                 _ => row[start..end].fill(change(shown)),
@@ -131,23 +126,23 @@ impl VisibilityBuffer {
     pub(crate) fn composite(&mut self, layer: &Self, mut mix: impl FnMut(SurfaceId, SurfaceId) -> SurfaceId) {
         let per_pixel = self.side * self.words;
         for pixel in self.places() {
-            if let (Some(below), Some(above)) = (self.pair(pixel), layer.pair(pixel))
+            if let (Some(below), Some(above)) = (self.one_or_two(pixel), layer.one_or_two(pixel))
                 && (below.mask == 0 || above.mask == 0 || below.mask == above.mask)
             {
-                let pair = TwoSurfaces {
+                let two = TwoSurfaces {
                     mask: below.mask | above.mask,
                     first: mix(below.first, above.first),
                     second: mix(below.second, above.second),
                 };
-                self.set_pair(pixel, pair);
+                self.set_two(pixel, two);
                 continue;
             }
             self.split(pixel);
-            let first = self.first_word(pixel);
+            let first = self.first_packed(pixel);
             for i in 0..per_pixel {
-                let above = match layer.pair(pixel) {
+                let above = match layer.one_or_two(pixel) {
                     None => layer.samples[first + i],
-                    Some(pair) => layer.word(pair, i),
+                    Some(two) => layer.word(two, i),
                 };
                 let (below, above) = (lanes(self.samples[first + i]), lanes(above));
                 let mixed = [0, 1, 2, 3].map(|i| mix(below[i], above[i]));
@@ -156,16 +151,16 @@ impl VisibilityBuffer {
         }
     }
 
-    /// Four samples of a pixel that shows a pair, as word `i` of the split pixel.
+    /// Four samples of a pixel of at most two surfaces, as word `i` of the split pixel.
     #[inline]
-    fn word(&self, pair: TwoSurfaces, i: usize) -> u64 {
-        if pair.mask == 0 {
-            return splat(pair.first);
+    fn word(&self, two: TwoSurfaces, i: usize) -> u64 {
+        if two.mask == 0 {
+            return splat(two.first);
         }
         let (row, column) = (i / self.words, i % self.words * PER_WORD);
         of_two(
-            [splat(pair.first), splat(pair.second)],
-            pair.mask >> (row * self.side + column),
+            [splat(two.first), splat(two.second)],
+            two.mask >> (row * self.side + column),
         )
     }
 
@@ -174,12 +169,12 @@ impl VisibilityBuffer {
         for pixel in self.places() {
             match self.whole[pixel.0][pixel.1] {
                 TWO_SURFACES => {
-                    let TwoSurfaces { mask, first, second } = self.pairs.get(pixel);
+                    let TwoSurfaces { mask, first, second } = self.two_surfaces.get(pixel);
                     let (first, second) = (renumber(first), renumber(second));
-                    self.pairs.set(pixel, TwoSurfaces { mask, first, second });
+                    self.two_surfaces.set(pixel, TwoSurfaces { mask, first, second });
                 }
                 SPLIT => {
-                    let first = self.first_word(pixel);
+                    let first = self.first_packed(pixel);
                     for word in &mut self.samples[first..][..self.side * self.words] {
                         *word = joined(lanes(*word).map(&renumber));
                     }
@@ -190,17 +185,17 @@ impl VisibilityBuffer {
     }
 
     /// Calls `seen` with every surface in use, often several times.
-    pub(crate) fn each_slot(&self, mut seen: impl FnMut(SurfaceId)) {
+    pub(crate) fn each_surface(&self, mut seen: impl FnMut(SurfaceId)) {
         for pixel in self.places() {
             match self.whole[pixel.0][pixel.1] {
                 SPLIT => {
-                    for word in &self.samples[self.first_word(pixel)..][..self.side * self.words] {
+                    for word in &self.samples[self.first_packed(pixel)..][..self.side * self.words] {
                         lanes(*word).into_iter().for_each(&mut seen);
                     }
                 }
                 TWO_SURFACES => {
-                    let pair = self.pairs.get(pixel);
-                    [pair.first, pair.second].into_iter().for_each(&mut seen);
+                    let two = self.two_surfaces.get(pixel);
+                    [two.first, two.second].into_iter().for_each(&mut seen);
                 }
                 whole => seen(whole),
             }

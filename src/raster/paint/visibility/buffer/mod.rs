@@ -2,7 +2,7 @@
 //!
 //! # Compressed samples
 //!
-//! A pixel whose samples all show the same primitive stores that once. The first edge that crosses it makes it a pair:
+//! A pixel whose samples all show the same primitive stores that once. The first edge that crosses it makes it show two:
 //! two primitives, and one bit per sample that says which of them it shows. Only what a third one shares is split into a
 //! number per sample. A primitive that covers a pixel wholly makes it one again. So flat areas cost one store per pixel
 //! at every sample rate, most edges a few bits, and nothing is shaded before it is known to be seen.
@@ -24,7 +24,7 @@ use crate::raster::surface_id::{ROW, SPLIT, SurfaceId, TWO_SURFACES};
 /// Pixels of a block.
 const BLOCK: usize = 8;
 
-/// Most samples along the side of a pixel that may be a pair.
+/// Most samples along the side of a pixel that may show two surfaces.
 const MAX_TWO_SURFACE_SIDE: usize = 8;
 
 /// The surfaces of a rectangle of pixels.
@@ -38,14 +38,14 @@ pub(crate) struct VisibilityBuffer {
     words: usize,
     /// How many samples each of these words holds.
     used: Vec<u32>,
-    /// The bits of all samples of a pixel; none where there are too many for pairs.
+    /// The bits of all samples of a pixel; none where there are too many for two surfaces.
     all: u64,
     /// Row by row one surface per pixel, or [`TWO_SURFACES`], or [`SPLIT`]; beyond the tile's right side something.
     whole: Vec<[SurfaceId; ROW]>,
-    /// For each row a bit for each pixel that was a pair or split once; it need not be any more.
+    /// For each row a bit for each pixel that showed two surfaces or was split once; it need not be any more.
     shared: Vec<u64>,
-    /// What pairs show.
-    pairs: TwoSurfacePixels,
+    /// What pixels of two surfaces show.
+    two_surfaces: TwoSurfacePixels,
     /// The surfaces of split pixels, pixel by pixel. Allocated with the first split.
     samples: Vec<u64>,
 }
@@ -55,10 +55,10 @@ pub(crate) struct VisibilityBuffer {
 pub(crate) struct Shown<'a> {
     /// What each shows; beyond the tile's right side something.
     pub(crate) whole: &'a [SurfaceId; ROW],
-    /// The pixels that may be pairs or split, a bit for each.
+    /// The pixels that may show two surfaces or be split, a bit for each.
     pub(crate) shared: u64,
-    /// What those show that are pairs; of no account for others.
-    pub(crate) pairs: TwoSurfaceRow<'a>,
+    /// What those show that show two surfaces; of no account for others.
+    pub(crate) two_surfaces: TwoSurfaceRow<'a>,
 }
 
 /// A pixel of a tile: its row and its column, counted from the tile's first pixel.
@@ -95,7 +95,7 @@ impl VisibilityBuffer {
             },
             whole: Vec::new(),
             shared: Vec::new(),
-            pairs: TwoSurfacePixels::new(side),
+            two_surfaces: TwoSurfacePixels::new(side),
             samples: Vec::new(),
         }
     }
@@ -111,7 +111,7 @@ impl VisibilityBuffer {
         self.shared.clear();
         self.shared.resize(rows, 0);
         if self.all != 0 {
-            self.pairs.make_room(rows);
+            self.two_surfaces.make_room(rows);
         }
     }
 
@@ -126,14 +126,14 @@ impl VisibilityBuffer {
     /// Lets a pixel show two surfaces, or the one that is left of them.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
-    fn set_pair(&mut self, pixel: PixelIndex, pair: TwoSurfaces) {
-        if pair.mask == 0 {
-            self.whole[pixel.0][pixel.1] = pair.first;
-        } else if pair.mask == self.all {
-            self.whole[pixel.0][pixel.1] = pair.second;
+    fn set_two(&mut self, pixel: PixelIndex, two: TwoSurfaces) {
+        if two.mask == 0 {
+            self.whole[pixel.0][pixel.1] = two.first;
+        } else if two.mask == self.all {
+            self.whole[pixel.0][pixel.1] = two.second;
         } else {
             self.share(pixel, TWO_SURFACES);
-            self.pairs.set(pixel, pair);
+            self.two_surfaces.set(pixel, two);
         }
     }
 
@@ -152,10 +152,10 @@ impl VisibilityBuffer {
 
     /// What a pixel shows that is not split; a single surface twice, with no bit set.
     #[inline]
-    fn pair(&self, pixel: PixelIndex) -> Option<TwoSurfaces> {
+    fn one_or_two(&self, pixel: PixelIndex) -> Option<TwoSurfaces> {
         match self.whole[pixel.0][pixel.1] {
             SPLIT => None,
-            TWO_SURFACES => Some(self.pairs.get(pixel)),
+            TWO_SURFACES => Some(self.two_surfaces.get(pixel)),
             surface => Some(TwoSurfaces {
                 mask: 0,
                 first: surface,
@@ -167,25 +167,25 @@ impl VisibilityBuffer {
     /// Gives a pixel one surface per sample, if it is not split yet.
     #[inline]
     fn split(&mut self, pixel: PixelIndex) {
-        let Some(pair) = self.pair(pixel) else {
+        let Some(two) = self.one_or_two(pixel) else {
             return;
         };
         self.make_room();
         self.share(pixel, SPLIT);
-        let first = self.first_word(pixel);
+        let first = self.first_packed(pixel);
         let (side, words) = (self.side, self.words);
-        let surfaces = [splat(pair.first), splat(pair.second)];
+        let surfaces = [splat(two.first), splat(two.second)];
         let samples = &mut self.samples[first..][..side * words];
         if words == 1 {
             // Without a division for the rows, which costs as much as all the rest.
             for (word, shift) in samples.iter_mut().zip((0..).step_by(side)) {
-                *word = of_two(surfaces, pair.mask >> (shift % 64));
+                *word = of_two(surfaces, two.mask >> (shift % 64));
             }
             return;
         }
         for (y, row) in samples.chunks_exact_mut(words).enumerate() {
             for (word, shift) in row.iter_mut().zip((y * side..).step_by(PER_WORD)) {
-                *word = of_two(surfaces, pair.mask >> (shift % 64));
+                *word = of_two(surfaces, two.mask >> (shift % 64));
             }
         }
     }
@@ -193,7 +193,7 @@ impl VisibilityBuffer {
     /// Makes sure that there is room for the samples of all pixels.
     #[inline]
     fn make_room(&mut self) {
-        let count = self.first_word((self.whole.len(), 0));
+        let count = self.first_packed((self.whole.len(), 0));
         if self.samples.len() < count {
             self.samples.resize(count, 0);
         }
@@ -201,7 +201,7 @@ impl VisibilityBuffer {
 
     /// Where the samples of a split pixel begin.
     #[inline]
-    fn first_word(&self, (y, x): PixelIndex) -> usize {
+    fn first_packed(&self, (y, x): PixelIndex) -> usize {
         (y * self.width + x) * self.side * self.words
     }
 
@@ -238,17 +238,17 @@ impl VisibilityBuffer {
         Shown {
             whole: &self.whole[y],
             shared: self.shared[y],
-            pairs: self.pairs.row(y),
+            two_surfaces: self.two_surfaces.row(y),
         }
     }
 
-    /// What the pixels of row `y` show that are pairs; of no account for others.
+    /// What the pixels of row `y` show that show two surfaces; of no account for others.
     #[inline]
-    pub(crate) fn pairs(&self, y: i32) -> TwoSurfaceRow<'_> {
-        self.pairs.row(offset(self.rect.y.start, y))
+    pub(crate) fn two_surfaces(&self, y: i32) -> TwoSurfaceRow<'_> {
+        self.two_surfaces.row(offset(self.rect.y.start, y))
     }
 
-    /// The bits of all samples of a pixel that may be a pair.
+    /// The bits of all samples of a pixel that may show two surfaces.
     pub(crate) fn all(&self) -> u64 {
         self.all
     }
@@ -263,7 +263,7 @@ impl VisibilityBuffer {
 
     /// Calls `visit` with the samples of a split pixel, four in a word, each with how many of them count.
     #[inline]
-    pub(crate) fn each_sample_word(&self, x: usize, y: i32, mut visit: impl FnMut(u64, u32)) {
+    pub(crate) fn each_packed(&self, x: usize, y: i32, mut visit: impl FnMut(u64, u32)) {
         let words = self.words(x, y);
         if self.words == 1 {
             for word in words {
@@ -280,13 +280,13 @@ impl VisibilityBuffer {
 
     /// The samples of a split pixel, four in each word; `None` where some words hold fewer.
     #[inline]
-    pub(crate) fn full_words(&self, x: usize, y: i32) -> Option<&[u64]> {
+    pub(crate) fn full_packed(&self, x: usize, y: i32) -> Option<&[u64]> {
         self.side.is_multiple_of(PER_WORD).then(|| self.words(x, y))
     }
 
     #[inline]
     fn words(&self, x: usize, y: i32) -> &[u64] {
-        let first = self.first_word((offset(self.rect.y.start, y), x));
+        let first = self.first_packed((offset(self.rect.y.start, y), x));
         &self.samples[first..][..self.side * self.words]
     }
 }
@@ -340,7 +340,7 @@ mod tests {
                             Run::Whole(surface) => vec![surface; count],
                             Run::Split => tile.samples(x, y).collect(),
                             Run::TwoSurfacePixels => {
-                                let two = tile.pairs(y).get(x);
+                                let two = tile.two_surfaces(y).get(x);
                                 let second = |i: usize| two.mask >> i & 1 == 1;
                                 let shown = |i| if second(i) { two.second } else { two.first };
                                 (0..count).map(shown).collect()
@@ -449,7 +449,7 @@ mod tests {
             }
             let used = |surface| plain.0.iter().flatten().any(|shown| *shown == surface);
             let mut seen = vec![false; 4096];
-            tile.each_slot(|surface| seen[usize::from(surface)] = true);
+            tile.each_surface(|surface| seen[usize::from(surface)] = true);
             let missed = (0..4096).find(|surface| used(*surface) && !seen[usize::from(*surface)]);
             assert_eq!(missed, None, "every surface in use is seen");
             for y in RECT.y.start..RECT.y.end {

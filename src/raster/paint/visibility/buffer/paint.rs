@@ -84,28 +84,28 @@ impl VisibilityBuffer {
             return self.paint_shared(pixel, covered, surface);
         }
         self.share(pixel, TWO_SURFACES);
-        let pair = TwoSurfaces {
+        let two = TwoSurfaces {
             mask: covered,
             first: shown,
             second: surface,
         };
-        self.pairs.set(pixel, pair);
+        self.two_surfaces.set(pixel, two);
     }
 
     /// As [`VisibilityBuffer::paint_samples`] where samples differ already.
     #[inline(never)]
     fn paint_shared(&mut self, pixel: PixelIndex, covered: u64, surface: SurfaceId) {
         let shown = self.whole[pixel.0][pixel.1];
-        if shown == TWO_SURFACES && self.paint_pair(pixel, covered, surface) {
+        if shown == TWO_SURFACES && self.paint_two(pixel, covered, surface) {
             return;
         }
         if self.side == PER_WORD {
-            return self.paint_words(pixel, covered, surface);
+            return self.paint_packed(pixel, covered, surface);
         }
         self.split(pixel);
         let painted = splat(surface);
         let (side, words) = (self.side, self.words);
-        let first = self.first_word(pixel);
+        let first = self.first_packed(pixel);
         let samples = &mut self.samples[first..][..side * words];
         if words == 1 {
             for (word, shift) in samples.iter_mut().zip((0..).step_by(side)) {
@@ -122,17 +122,17 @@ impl VisibilityBuffer {
         }
     }
 
-    /// As [`VisibilityBuffer::paint_samples`] where a pixel that is a pair or split has 4 x 4 samples and shows three surfaces.
+    /// As [`VisibilityBuffer::paint_samples`] where a pixel that shows two surfaces or is split has 4 x 4 samples and shows three surfaces.
     /// To split such a pixel first and to paint it then, as others, costs a flat scene 4 % more.
     #[inline]
-    fn paint_words(&mut self, pixel: PixelIndex, covered: u64, surface: SurfaceId) {
+    fn paint_packed(&mut self, pixel: PixelIndex, covered: u64, surface: SurfaceId) {
         self.make_room();
-        let first = self.first_word(pixel);
-        let pair = self.pair(pixel);
+        let first = self.first_packed(pixel);
+        let two = self.one_or_two(pixel);
         let Some(words) = self.samples.get_mut(first..).and_then(<[u64]>::first_chunk_mut) else {
             return;
         };
-        let before: [u64; PER_WORD] = match pair {
+        let before: [u64; PER_WORD] = match two {
             None => *words,
             Some(TwoSurfaces { mask, first, second }) => {
                 let surfaces = [splat(first), splat(second)];
@@ -147,11 +147,11 @@ impl VisibilityBuffer {
         self.share(pixel, SPLIT);
     }
 
-    /// Lets samples of a pixel that is a pair show `surface`; false, and nothing done, where it would show three.
+    /// Lets samples of a pixel of two surfaces show `surface`; false, and nothing done, where it would show three.
     #[inline]
-    fn paint_pair(&mut self, pixel: PixelIndex, covered: u64, surface: SurfaceId) -> bool {
-        let TwoSurfaces { mask, first, second } = self.pairs.get(pixel);
-        let pair = if second == surface {
+    fn paint_two(&mut self, pixel: PixelIndex, covered: u64, surface: SurfaceId) -> bool {
+        let TwoSurfaces { mask, first, second } = self.two_surfaces.get(pixel);
+        let two = if second == surface {
             TwoSurfaces {
                 mask: mask | covered,
                 first,
@@ -178,7 +178,7 @@ impl VisibilityBuffer {
         } else {
             return false;
         };
-        self.set_pair(pixel, pair);
+        self.set_two(pixel, two);
         true
     }
 
@@ -194,14 +194,14 @@ impl VisibilityBuffer {
     ) {
         let left = x * i32::try_from(self.side).unwrap_or(1);
         if self.words == 1 {
-            let first = self.first_word(pixel);
+            let first = self.first_packed(pixel);
             let samples = &mut self.samples[first..][..self.side];
             for (word, span) in samples.iter_mut().zip(spans) {
                 paint(word, covered(*span, left));
             }
             return;
         }
-        let first = self.first_word(pixel);
+        let first = self.first_packed(pixel);
         let samples = &mut self.samples[first..][..self.side * self.words];
         for (words, span) in samples.chunks_exact_mut(self.words).zip(spans) {
             for (word, left) in words.iter_mut().zip((left..).step_by(PER_WORD)) {

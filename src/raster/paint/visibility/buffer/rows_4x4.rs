@@ -34,7 +34,7 @@ impl VisibilityBuffer {
             simd,
             row,
             #[inline(always)]
-            |window| self.paint_quad(simd, row.y, window, surface),
+            |window| self.paint_group(simd, row.y, window, surface),
         );
         // Last: surfaces that were just written as vectors are read slowly.
         if any_full {
@@ -59,7 +59,7 @@ impl VisibilityBuffer {
             simd,
             row,
             #[inline(always)]
-            |window| self.change_quad(simd, row, window, &mut change),
+            |window| self.change_group(simd, row, window, &mut change),
         );
         self.change_whole(row.y, row.full.clone(), &mut change);
     }
@@ -67,23 +67,23 @@ impl VisibilityBuffer {
     /// Lets the samples of a window show `surface`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn paint_quad<S: Simd>(&mut self, simd: S, y: usize, Window { x, live, masks }: Window, surface: SurfaceId) {
+    fn paint_group<S: Simd>(&mut self, simd: S, y: usize, Window { x, live, masks }: Window, surface: SurfaceId) {
         let whole = &mut self.whole[y];
         let word = word_at(whole, x);
         if word & live & PERHAPS_SHARED != 0 {
-            return self.paint_shared_quad((y, x), masks, surface);
+            return self.paint_shared_group((y, x), masks, surface);
         }
         let number = |number| Group::splat(simd, number);
         let (shown, covered) = (group(simd, word), group(simd, masks));
         let painted = in_part(simd, covered) & !shown.simd_eq(number(surface));
         put(whole, x, painted.select(number(TWO_SURFACES), shown));
-        self.pairs
-            .set_quad(simd, ((y, x), painted), (covered, shown, number(surface)));
+        self.two_surfaces
+            .set_group(simd, ((y, x), painted), (covered, shown, number(surface)));
     }
 
-    /// As [`VisibilityBuffer::paint_quad`] pixel by pixel.
+    /// As [`VisibilityBuffer::paint_group`] pixel by pixel.
     #[inline(never)]
-    fn paint_shared_quad(&mut self, (y, x): (usize, usize), masks: u64, surface: SurfaceId) {
+    fn paint_shared_group(&mut self, (y, x): (usize, usize), masks: u64, surface: SurfaceId) {
         for (x, covered) in (x..).zip(lanes(masks)) {
             if covered != 0 {
                 self.paint_samples((y, x), u64::from(covered), surface);
@@ -94,7 +94,7 @@ impl VisibilityBuffer {
     /// Lets the samples of a window show what `change` makes of what they show.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn change_quad<S: Simd>(
+    fn change_group<S: Simd>(
         &mut self,
         simd: S,
         row: &TileRow<'_>,
@@ -105,7 +105,7 @@ impl VisibilityBuffer {
         let word = word_at(whole, x);
         let [first, ..] = lanes(word >> (live.trailing_zeros() % 64));
         if first >= TWO_SURFACES || (word ^ splat(first)) & live != 0 {
-            return self.change_shared_quad(row, (x, masks), change);
+            return self.change_shared_group(row, (x, masks), change);
         }
         if masks == 0 {
             return;
@@ -114,12 +114,12 @@ impl VisibilityBuffer {
         let (shown, covered) = (group(simd, word), group(simd, masks));
         let changed = in_part(simd, covered);
         put(whole, x, changed.select(number(TWO_SURFACES), shown));
-        self.pairs
-            .set_quad(simd, ((row.y, x), changed), (covered, shown, number(change(first))));
+        self.two_surfaces
+            .set_group(simd, ((row.y, x), changed), (covered, shown, number(change(first))));
     }
 
-    /// As [`VisibilityBuffer::change_quad`] pixel by pixel.
-    fn change_shared_quad(
+    /// As [`VisibilityBuffer::change_group`] pixel by pixel.
+    fn change_shared_group(
         &mut self,
         row: &TileRow<'_>,
         (x, masks): (usize, u64),
@@ -136,12 +136,15 @@ impl VisibilityBuffer {
 /// Calls `visit` with windows that hold each of the pixels once that a row covers in part.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+#[expect(
+    clippy::redundant_closure,
+    reason = "a reference to `visit` would not be inlined into vectors"
+)]
 fn each_partial_window<S: Simd>(simd: S, row: &TileRow<'_>, mut visit: impl FnMut(Window)) {
     if row.full.is_empty() {
         return each_window(simd, row, (row.touched.clone(), Ends::Both), visit);
     }
     let (before, after) = row.beside_full();
-    // Closures of their own: a reference to `visit` would not be inlined into vectors.
     each_window(
         simd,
         row,
@@ -209,13 +212,9 @@ mod tests {
                     all.push(match run {
                         Run::Whole(surface) => vec![surface; 16],
                         Run::TwoSurfacePixels => {
-                            let pair = tile.pairs(y).get(x);
+                            let two = tile.two_surfaces(y).get(x);
                             let surface = |i: u64| {
-                                if pair.mask >> i & 1 == 1 {
-                                    pair.second
-                                } else {
-                                    pair.first
-                                }
+                                if two.mask >> i & 1 == 1 { two.second } else { two.first }
                             };
                             (0..16).map(surface).collect()
                         }
@@ -278,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn quads_paint_what_is_painted_pixel_by_pixel_on_every_level() {
+    fn groups_paint_what_is_painted_pixel_by_pixel_on_every_level() {
         let mut split = 0;
         arbtest::arbtest(|u| {
             let mut extent = |most: i32| {

@@ -187,23 +187,23 @@ impl<'a> Binner<'a> {
             end: sides.column(columns.end - 1) + 1,
         };
         let (top, bottom) = (sides.row(rows.start), sides.row(rows.end - 1));
-        let shape_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
+        let tile_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
         let (width, height) = (sides.width.cast_signed(), sides.height.cast_signed());
         let few = (in_row.end - in_row.start) * (bottom - top + 1) <= 2;
         if few && (self.covers_no_tile(columns, width, 0) || self.covers_no_tile(rows, height, 1)) {
-            for row in shape_rows {
+            for row in tile_rows {
                 (in_row.start..in_row.end).for_each(|column| visit(self.tile(column, row), entry));
             }
             return;
         }
         let unit_width = f64::from(width << grid.bits());
-        for row in shape_rows {
-            let band = Span {
+        for row in tile_rows {
+            let all_rows = Span {
                 start: row * height,
                 end: ((row + 1) * height).min(self.frame.rows.end),
             };
             let outline = (outline, self.chunk.outline_edges.as_slice());
-            tiles.each(outline, grid, (band, in_row, unit_width), |column, reach| {
+            tiles.each(outline, grid, (all_rows, in_row, unit_width), |column, reach| {
                 let entry = match reach {
                     Reach::Part => entry,
                     Reach::All => entry.covering(base && entry.is_opaque()),
@@ -238,31 +238,31 @@ impl<'a> Binner<'a> {
             sides.column(samples.columns.end - 1),
         );
         let (top, bottom) = (sides.row(samples.rows.start), sides.row(samples.rows.end - 1));
-        let band_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
+        let tile_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
         let height = sides.height.cast_signed();
         if (right - left + 1) * (bottom - top + 1) <= 2
             && (self.covers_no_tile(samples.columns, sides.width.cast_signed(), 0)
                 || self.covers_no_tile(samples.rows, height, 1))
         {
-            for row in band_rows {
+            for row in tile_rows {
                 (left..=right).for_each(|column| visit(self.tile(column, row), entry));
             }
             return;
         }
         let edges = TileRows::new(corners);
-        for row in band_rows {
+        for row in tile_rows {
             let in_tile = Span {
                 start: row * height,
                 end: ((row + 1) * height).min(self.frame.rows.end),
             };
             let inside = in_tile.intersection(samples.rows);
-            let band = edges.band(
+            let bounds = edges.between(
                 grid.sample_coordinate(inside.start),
                 grid.sample_coordinate(inside.end - 1),
             );
-            let touched = self.touched(band.touched, left, right);
+            let touched = self.touched(bounds.touched, left, right);
             let covered = if inside == in_tile {
-                self.covered(band.covered)
+                self.covered(bounds.covered)
             } else {
                 Span::EMPTY
             };

@@ -176,21 +176,21 @@ impl FreePositions {
         };
         let inside = all.intersection(rows);
         let at = |row| self.grid.sample_coordinate(row);
-        let band = lines.band(at(inside.start), at(inside.end - 1));
+        let bounds = lines.between(at(inside.start), at(inside.end - 1));
         let (least, most) = (f64::from(columns.start), f64::from(columns.end));
         let per_unit = 1.0 / self.grid.units_per_pixel();
         // No column of a frame is negative.
         let floor = |units: f64| (units * per_unit).clamp(least, most) as i32;
         let touched = Span {
-            start: floor(band.touched[0]),
-            end: floor(band.touched[1]).saturating_add(1).min(columns.end),
+            start: floor(bounds.touched[0]),
+            end: floor(bounds.touched[1]).saturating_add(1).min(columns.end),
         };
-        if inside != all || band.covered[0] > band.covered[1] {
+        if inside != all || bounds.covered[0] > bounds.covered[1] {
             return (touched, Span::EMPTY);
         }
         let covered = Span {
-            start: (band.covered[0] * per_unit).clamp(least, most).ceil() as i32,
-            end: floor(band.covered[1]),
+            start: (bounds.covered[0] * per_unit).clamp(least, most).ceil() as i32,
+            end: floor(bounds.covered[1]),
         };
         (touched, covered)
     }

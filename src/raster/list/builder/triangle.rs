@@ -60,7 +60,7 @@ impl ChunkBuilder<'_> {
             .waiting
             .triangles
             .coverage(self.frame, self.context.grid, self.context.rules);
-        if coverage.known() * 2 < LANES {
+        if coverage.decided() * 2 < LANES {
             self.waiting.hopeless = LARGE_RUN;
         }
         for lane in 0..count {

@@ -198,7 +198,7 @@ mod tests {
             for surface in words.iter().flat_map(|word| lanes(*word)) {
                 of_words.add_one(surfaces.get(numbers[usize::from(surface) % 2]).spread);
             }
-            let known = surfaces.flat_resolve().expect("two surfaces");
+            let flat = surfaces.flat_resolve().expect("two surfaces");
             // Equal colours share a surface.
             let two = numbers[0] != numbers[1];
             for (name, level) in simd::tested() {
@@ -206,11 +206,11 @@ mod tests {
                     .then(|| resolver.pixel(sum.channels()));
                 let [first, second] = numbers;
                 let found =
-                    dispatch!(level, simd => known.mixer(simd).map(|mixer| mixer.pixel(first, second, of_second)));
+                    dispatch!(level, simd => flat.mixer(simd).map(|mixer| mixer.pixel(first, second, of_second)));
                 assert_eq!(found, expected, "{name}: {of_second} of {count}");
                 if expected.is_some() && count >= 4 && two {
                     let expected = resolver.pixel(of_words.channels());
-                    let found = dispatch!(level, simd => known.mixer(simd).map(|mixer| mixer.pixel_of_packed(&words)));
+                    let found = dispatch!(level, simd => flat.mixer(simd).map(|mixer| mixer.pixel_of_packed(&words)));
                     assert_eq!(found, Some(expected), "{name}: {words:x?}");
                 }
             }
@@ -238,9 +238,9 @@ mod tests {
                     *surface = *u.choose(&[TWO_SURFACES, SurfaceId::MAX])?;
                 }
             }
-            let known = surfaces.flat_resolve().expect("few surfaces");
+            let flat = surfaces.flat_resolve().expect("few surfaces");
             let mut pixels = vec![0; u.int_in_range(1..=ROW)?];
-            known.row(&shown, &mut pixels);
+            flat.row(&shown, &mut pixels);
             for (x, (pixel, surface)) in pixels.iter().zip(shown).enumerate() {
                 assert!(
                     surface >= TWO_SURFACES || *pixel == surfaces.get(surface).pixel,

@@ -64,13 +64,13 @@ impl VisibilityPainter<'_> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     fn resolve_flat_row<S: Simd>(&self, simd: S, y: i32, line: &mut [u32]) {
-        let Some(known) = self.surfaces.flat_resolve() else {
+        let Some(flat) = self.surfaces.flat_resolve() else {
             return self.resolve_row_of_many(y, line);
         };
         let shown = self.layers.base().shown(y);
-        known.row(shown.whole, line);
+        flat.row(shown.whole, line);
         // Where pixels are shared, what they got there is written over.
-        match known.mixer(simd) {
+        match flat.mixer(simd) {
             Some(mixer) => each_shared(
                 &shown,
                 line,

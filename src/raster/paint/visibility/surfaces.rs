@@ -108,9 +108,9 @@ impl<'a> SurfaceTable<'a> {
         if self.painted.len() < self.all.len() {
             self.painted.resize(self.all.len(), (0, 0));
         }
-        let (paint, known) = self.painted[usize::from(surface)];
+        let (paint, became) = self.painted[usize::from(surface)];
         if paint == self.paint {
-            return known;
+            return became;
         }
         let mixed = self.mix(surface, color);
         self.painted[usize::from(surface)] = (self.paint, mixed);

@@ -81,7 +81,7 @@ impl DisplayList<'_> {
         let threads = rayon::current_num_threads().min(count);
         let rows = Mutex::new(rows);
         let next = || rows.lock().unwrap_or_else(PoisonError::into_inner).next();
-        // Painters are dear: one set for each thread that comes in time.
+        // Painters cost memory and time: a thread makes its own once it gets a row.
         let work = || {
             if let Some(row) = next() {
                 let mut painters = self.painters();

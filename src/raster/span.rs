@@ -37,7 +37,7 @@ pub(crate) struct SampleBox {
 /// How much of a rectangle of samples a shape covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reach {
-    /// Some samples, perhaps.
+    /// It may cover some of the samples.
     Part,
     /// All samples.
     All,

@@ -116,7 +116,7 @@ impl Plan {
         let tiles = to_index(rows.start) * self.columns..to_index(rows.end) * self.columns;
         let are_all = rows.start == 0 && rows.end == self.rows;
         let ready = |plan: &ChunkPlan| plan.bins.clone().filter(|_| are_all);
-        // Nobody is woken up for nothing.
+        // No other thread is woken up where all bins are ready.
         if let Some(bins) = self.chunks.iter().map(ready).collect() {
             return bins;
         }

@@ -13,7 +13,7 @@ pub(in crate::raster) struct OutlineCache<T> {
 }
 
 impl<T: Copy + Default> OutlineCache<T> {
-    /// Nothing of so many outlines.
+    /// An empty cache for a number of outlines.
     pub(in crate::raster) fn new(outlines: usize) -> Self {
         Self {
             rows: Span::EMPTY,

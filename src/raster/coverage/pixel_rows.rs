@@ -218,7 +218,7 @@ impl<'a> PixelRow<'a> {
         row
     }
 
-    /// Covered sample columns for each sample row of the row of pixels; perhaps beyond the rectangle, too.
+    /// Covered sample columns for each sample row of the row of pixels; spans may reach beyond the rectangle.
     #[inline]
     pub(crate) fn spans(&self) -> &'a [Span] {
         self.spans

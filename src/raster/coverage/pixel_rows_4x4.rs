@@ -53,7 +53,7 @@ const EMPTY: Four = [Span::EMPTY; ROWS];
 pub(crate) struct TileRow<'a> {
     /// The row, counted from the tile's first.
     pub(crate) y: usize,
-    /// Covered sample columns of the frame, perhaps beyond the tile, too.
+    /// Covered sample columns of the frame; spans may reach beyond the tile.
     pub(crate) spans: &'a Four,
     /// The tile's first column of pixels.
     left: i32,
@@ -230,7 +230,7 @@ impl<'a> FourRows<'a> {
     }
 }
 
-/// Those of some spans that reach into `columns`, and perhaps a few others.
+/// Those of some spans that reach into `columns`; there may be a few others among them.
 #[inline]
 fn reaching(spans: &[Span], columns: Span) -> &[Span] {
     const FEW: usize = 3;

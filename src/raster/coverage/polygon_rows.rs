@@ -16,7 +16,7 @@ const MAX_CROSSINGS: usize = 1 << 22;
 pub(crate) struct RowSpans<'a> {
     /// The rows.
     pub(crate) rows: Span,
-    /// Where the spans of each row begin, and one more; of no account where they are single.
+    /// Where the spans of each row begin, and one more; unused where they are single.
     starts: &'a [u32],
     spans: &'a [Span],
     /// Whether each row has one, empty or not.
@@ -101,7 +101,7 @@ impl RowScanner {
         let rows = rows.intersection(outline.samples.rows);
         let (span, first) = (store.spans.len(), store.starts.len());
         let mut single = true;
-        // All rows at once, unless so many edges might cross them that nobody would want to hold it.
+        // All rows at once, unless so many edges might cross them that their crossings take too much memory.
         let step = i32::try_from(MAX_CROSSINGS / outline.edges.len().max(1));
         let step = step.unwrap_or(i32::MAX).max(1);
         let mut start = rows.start;

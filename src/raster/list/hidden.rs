@@ -1,4 +1,4 @@
-//! What nobody will see is dropped before it is drawn: commands below an opaque shape that covers all of their samples.
+//! Hidden primitives are dropped before they are drawn: commands below an opaque shape that covers all of their samples.
 //!
 //! A document may paint its canvas anew a hundred thousand times, and each time would be sorted into every tile. Where a
 //! tile lies inside such a shape, its painter starts with the last one anyway; along the shape's border, and along the
@@ -18,12 +18,12 @@ const LOOK_BACK: usize = 32;
 /// Most corners of a shape that is looked at: four that turn one way are convex, more might wind around twice.
 pub(crate) const MOST_CORNERS: usize = 4;
 
-/// What becomes of primitives that nobody will see.
+/// What becomes of hidden primitives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hidden {
     /// They are dropped where that is found out cheaply.
     Dropped,
-    /// Somebody asks what was painted.
+    /// They are kept, to tell what was painted.
     Kept,
 }
 

@@ -66,7 +66,7 @@ impl<'a> DirectPainter<'a> {
                     self.shaded(corners, paint, &places, block);
                     self.places = places;
                 }
-                // Whoever chose this painter has found no layers.
+                // This painter is chosen where there are no layers.
                 Work::BeginLayer | Work::EndLayer(_) => {}
             }
         }

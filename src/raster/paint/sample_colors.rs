@@ -25,12 +25,12 @@ pub(crate) struct SampleColors {
     rules: Rules,
     filter: ResolveFilter,
     space: ResolveSpace,
-    /// One colour per pixel, in force where the pixel is not split.
+    /// One colour per pixel; valid where the pixel is not split.
     whole: Vec<Premultiplied16>,
     split: Vec<bool>,
     /// Whether every sample is opaque: so it stays once the tile starts on an opaque background.
     opaque: bool,
-    /// All samples of a pixel side by side, in force where the pixel is split. Allocated with the first split.
+    /// All samples of a pixel side by side, valid where the pixel is split. Allocated with the first split.
     samples: Vec<Premultiplied16>,
 }
 

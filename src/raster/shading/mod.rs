@@ -7,8 +7,8 @@
 //! | [`texture`] | read from a texture through the footprint of a pixel or a sample |
 //!
 //! A paint is a [`PaintKind`] as a display list holds it, and a [`Shade`] once it is prepared for one triangle. To add one,
-//! write both in a file of its own and add a line to the table below. Whoever paints holds a [`Paint`] or a [`Shader`] and
-//! asks it questions; which kind it is, nobody outside this folder knows.
+//! write both in a file of its own and add a line to the table below. Painters hold a [`Paint`] or a [`Shader`] and ask
+//! it questions; only this folder knows which kind it is.
 
 pub(in crate::raster) mod context;
 pub(in crate::raster) mod interpolated;

@@ -158,7 +158,7 @@ impl<'a> ChunkBuilder<'a> {
         }
         let grid = self.context.grid;
         let snapped: Option<Vec<GridPoint>> = points.map(|point| in_guard(point).then(|| grid.snap(point))).collect();
-        // Outlines are exact by anybody's rules.
+        // Outlines are exact whatever the rules.
         if snapped.is_some_and(|corners| covers(&corners, samples, grid, Rules::Standard)) {
             drop_hidden(&mut self.chunk, self.context, samples, 1);
         }

@@ -41,7 +41,7 @@ pub(crate) struct SortedFragments {
     starts: Vec<u32>,
 }
 
-/// Samples that one mask speaks of.
+/// Samples that a mask has bits for.
 const MASK_BITS: usize = 64;
 
 impl ShadingQueue {

@@ -96,7 +96,7 @@ impl<'a> SurfaceTable<'a> {
         self.newest()
     }
 
-    /// From here on [`SurfaceTable::under`] speaks of another paint.
+    /// Starts another translucent paint: see [`SurfaceTable::under`].
     pub(crate) fn next_paint(&mut self) {
         self.paint += 1;
     }

@@ -34,13 +34,13 @@ pub(crate) struct VisibilityBuffer {
     width: usize,
     /// Samples along one side of a pixel.
     side: usize,
-    /// Words that one sample row of a pixel takes: four samples each, the last one perhaps with some to spare.
+    /// Words that a sample row of a pixel takes: four samples each, and the last one up to four.
     words: usize,
     /// How many samples each of these words holds.
     used: Vec<u32>,
     /// The bits of all samples of a pixel; none where there are too many for two surfaces.
     all: u64,
-    /// Row by row one surface per pixel, or [`TWO_SURFACES`], or [`SPLIT`]; beyond the tile's right side something.
+    /// Row by row one surface per pixel, or [`TWO_SURFACES`], or [`SPLIT`]; undefined beyond the tile's right side.
     whole: Vec<[SurfaceId; ROW]>,
     /// For each row a bit for each pixel that showed two surfaces or was split once; it need not be any more.
     shared: Vec<u64>,
@@ -53,11 +53,11 @@ pub(crate) struct VisibilityBuffer {
 /// A row of a tile's pixels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shown<'a> {
-    /// What each shows; beyond the tile's right side something.
+    /// What each shows; undefined beyond the tile's right side.
     pub(crate) whole: &'a [SurfaceId; ROW],
     /// The pixels that may show two surfaces or be split, a bit for each.
     pub(crate) shared: u64,
-    /// What those show that show two surfaces; of no account for others.
+    /// The two surfaces of pixels that show two; undefined for others.
     pub(crate) two_surfaces: TwoSurfaceRow<'a>,
 }
 
@@ -242,7 +242,7 @@ impl VisibilityBuffer {
         }
     }
 
-    /// What the pixels of row `y` show that show two surfaces; of no account for others.
+    /// The two surfaces of those pixels of row `y` that show two; undefined for others.
     #[inline]
     pub(crate) fn two_surfaces(&self, y: i32) -> TwoSurfaceRow<'_> {
         self.two_surfaces.row(offset(self.rect.y.start, y))

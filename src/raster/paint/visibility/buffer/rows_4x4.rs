@@ -12,7 +12,7 @@ use crate::raster::paint::visibility::packed::{lanes, splat};
 use crate::raster::paint::visibility::two_surfaces::{Group, GroupMask, group, put, word_at};
 use crate::raster::surface_id::{ROW, SurfaceId, TWO_SURFACES};
 
-/// Bits of which one is set for each shared pixel of four, and perhaps for others.
+/// The highest bit of each of four surfaces: set for every shared pixel, and for surfaces of high numbers.
 const PERHAPS_SHARED: u64 = 0x8000_8000_8000_8000;
 
 impl VisibilityBuffer {
@@ -180,7 +180,7 @@ fn in_part<S: Simd>(simd: S, masks: Group<S>) -> GroupMask<S> {
 #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
 #[expect(clippy::cast_possible_truncation, reason = "places in a row of 64")]
 fn fill(surfaces: &mut [SurfaceId; ROW], range: Range<usize>, surface: SurfaceId) {
-    // All of them anew: how many there are nobody can foresee, and vectors hold so few.
+    // The whole row: a loop of unknown length would cost more than the vectors that a row takes.
     let (start, length) = (range.start as SurfaceId, range.len() as SurfaceId);
     for (at, shown) in (0..).zip(surfaces) {
         let inside = SurfaceId::wrapping_sub(at, start) < length;

@@ -16,8 +16,8 @@ use rayon::prelude::*;
 use crate::color::{ResolveSpace, Rgba};
 use crate::geometry::ViewTransform;
 use crate::raster::{
-    Chunk, ChunkBuilder, Counters, DisplayList, Fill, Framebuffer, Hidden, ListContext, RasterSettings, RasterTimes,
-    SamplePattern, SampleRate,
+    self, Chunk, ChunkBuilder, Compositing, Counters, DisplayList, Framebuffer, Hidden, ListContext, RasterSettings,
+    RasterTimes, SamplePattern, SampleRate,
 };
 use crate::rules::Rules;
 use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};
@@ -227,7 +227,7 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
         }
         builder.finish()
     });
-    if visualiser.has_edges() {
+    if visualiser.has_overlay() {
         let mut veil = ChunkBuilder::new(&context, 2);
         Visualiser::add_veil(&mut veil, size, raster.background);
         list.push(veil.finish());
@@ -235,7 +235,7 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
             let mut builder = ChunkBuilder::new(&context, primitives.len());
             for primitive in (index..).take(primitives.len()) {
                 builder.set_source(number(primitive));
-                visualiser.add_edges(&mut builder, &screen, primitive);
+                visualiser.add_overlay(&mut builder, &screen, primitive);
             }
             builder.finish()
         }));
@@ -356,13 +356,15 @@ fn number(index: usize) -> u32 {
 
 fn add(builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, kind: &PrimitiveKind) {
     match kind {
-        PrimitiveKind::Triangle { points, paint } => builder.triangle(points.map(|p| screen.place(p)), &fill(paint)),
+        PrimitiveKind::Triangle { points, paint: own } => {
+            builder.triangle(points.map(|p| screen.place(p)), &paint(own));
+        }
         PrimitiveKind::Polygon { polygon, color } => {
             match polygon.triangles().filter(|_| screen.rules.cut_polygons()) {
                 // The course knows triangles only, whose edges it counts twice; first drafts leave them to nobody.
                 Some(triangles) => {
                     for points in triangles {
-                        builder.triangle(points.map(|p| screen.place(p)), &Fill::Solid(*color));
+                        builder.triangle(points.map(|p| screen.place(p)), &raster::Paint::solid(*color));
                     }
                 }
                 None => builder.polygon(polygon, |p| screen.place(p), *color),
@@ -371,19 +373,18 @@ fn add(builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, kind: &PrimitiveKind
         PrimitiveKind::Hairline { ends, color } => builder.hairline(ends.map(|p| screen.place(p)), *color),
         PrimitiveKind::Point { at, color } => builder.point(screen.place(*at), *color),
         PrimitiveKind::BeginLayer => builder.begin_layer(),
-        PrimitiveKind::EndLayer { opacity } => builder.end_layer(*opacity),
+        PrimitiveKind::EndLayer { opacity } => builder.end_layer(Compositing::with_opacity(*opacity)),
     }
 }
 
-fn fill(paint: &Paint) -> Fill {
+/// A scene's paint as the rasterizer has it.
+fn paint(paint: &Paint) -> raster::Paint {
     match *paint {
-        Paint::Solid(color) => Fill::Solid(color),
-        Paint::Vertex(colors) => Fill::Vertex(colors),
-        Paint::Texture { texture, uv, opacity } => Fill::Texture {
-            texture: texture.0,
-            uv: uv.map(|uv| uv.to_array()),
-            opacity,
-        },
+        Paint::Solid(color) => raster::Paint::solid(color),
+        Paint::Vertex(colors) => raster::Paint::vertex(colors),
+        Paint::Texture { texture, uv, opacity } => {
+            raster::Paint::texture(texture.0, uv.map(|uv| uv.to_array()), opacity)
+        }
     }
 }
 

@@ -178,6 +178,61 @@ pub enum EdgeKind {
     Other,
 }
 
+impl EdgeKind {
+    /// Of an edge of a shape whose edges run clockwise on the screen: there a top edge runs right and a left edge runs up.
+    #[inline]
+    pub fn clockwise(from: GridPoint, to: GridPoint) -> Self {
+        if to.y < from.y {
+            Self::Left
+        } else if to.y == from.y && to.x > from.x {
+            Self::Top
+        } else {
+            Self::Other
+        }
+    }
+
+    /// Whether the samples on its line belong to the triangle. By the course's rules every edge owns its line.
+    #[inline]
+    pub fn owns_line(self, rules: Rules) -> bool {
+        rules == Rules::Course || self != Self::Other
+    }
+}
+
+/// The edge function of a triangle's edge, in steps from sample to sample: below zero at the samples outside.
+///
+/// At samples the edge function is `e + column * right + row * down`, whose steps are multiples of the distance of two
+/// samples, `1 << bits`. Whether such a sum is below zero does not change when everything is divided by that distance and
+/// `e` rounded down. An edge that does not own its line first loses one unit.
+#[derive(Clone, Copy, Debug)]
+pub struct SampleEdge {
+    /// At the first sample.
+    pub value: i64,
+    /// What it gains one sample to the right.
+    pub right: i32,
+    /// What it gains one sample down.
+    pub down: i32,
+}
+
+impl SampleEdge {
+    /// The edges of a triangle whose [`doubled_area`] is `area`, at the sample `first`.
+    #[inline]
+    pub fn of_triangle(
+        ([a, b, c], area): ([GridPoint; 3], i64),
+        first: GridPoint,
+        (grid, rules): (SubpixelGrid, Rules),
+    ) -> [Self; 3] {
+        let [b, c] = if area < 0 { [c, b] } else { [b, c] };
+        [(a, b), (b, c), (c, a)].map(|(from, to)| {
+            let owns_line = EdgeKind::clockwise(from, to).owns_line(rules);
+            Self {
+                value: (edge_value(from, to, first) - i64::from(!owns_line)) >> grid.bits(),
+                right: from.y - to.y,
+                down: to.x - from.x,
+            }
+        })
+    }
+}
+
 /// One edge of a triangle tested at one point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EdgeTest {
@@ -201,24 +256,16 @@ impl EdgeTest {
 
     /// An edge of a shape whose edges run clockwise on the screen.
     pub fn clockwise(from: GridPoint, to: GridPoint, point: GridPoint) -> Self {
-        // There a top edge runs right and a left edge runs up.
-        let kind = if to.y < from.y {
-            EdgeKind::Left
-        } else if to.y == from.y && to.x > from.x {
-            EdgeKind::Top
-        } else {
-            EdgeKind::Other
-        };
         Self {
             value: edge_value(from, to, point),
-            kind,
+            kind: EdgeKind::clockwise(from, to),
         }
     }
 
     /// Whether the point lies on the triangle's side of the edge, or on its line and belongs to the triangle. By the
     /// course's rules every edge owns its line.
     pub fn is_inside(self, rules: Rules) -> bool {
-        self.value > 0 || self.value == 0 && (rules == Rules::Course || self.kind != EdgeKind::Other)
+        self.value > 0 || self.value == 0 && self.kind.owns_line(rules)
     }
 }
 

@@ -134,7 +134,6 @@ fn reads(neighbourhood: &Neighbourhood<'_>, pixel: [u32; 2]) -> Reads {
     };
     let seen = seen_fragments(&replay);
     let pieces = neighbourhood.explainer(pixel).pieces(&replay.painted);
-    let share = 1.0 / replay.samples.len().max(1) as f64;
     for ((op, seen), piece) in replay.painted.iter().zip(&seen).zip(pieces) {
         let Some(PieceShape::Triangle {
             samples,
@@ -148,7 +147,7 @@ fn reads(neighbourhood: &Neighbourhood<'_>, pixel: [u32; 2]) -> Reads {
             if let Some(Attributes::Texture { reads: found, .. }) =
                 samples.get(fragment.sample).map(|sample| &sample.attributes)
             {
-                reads.add(usage.texture, found, share);
+                reads.add(usage.texture, found, replay.samples[fragment.sample].weight);
             }
         }
     }

@@ -12,7 +12,9 @@ use super::samples::{SampleHit, shape_of, straight};
 use crate::color::{Premultiplied16, ResolveSpace};
 use crate::geometry::FillRule;
 use crate::geometry::edge::{EdgeKind, EdgeTest};
-use crate::raster::{Attributes, PaintedKind, PaintedOp, Piece, PieceShape, PixelReplay, SampleOfTriangle, TextureUse};
+use crate::raster::{
+    Attributes, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay, SampleOfTriangle, TextureUse,
+};
 use crate::render::{self, Explainer, OpenSample, RenderSettings, Subject};
 use crate::rules::Rules;
 use crate::scene::Quotes;
@@ -97,7 +99,7 @@ impl Question<'_> {
     /// `op` comes with its place in the document.
     fn paint(
         &self,
-        (op, source): (&PaintedOp, Option<Source>),
+        (op, source): (&PaintedCommand, Option<Source>),
         piece: Option<Piece>,
         seen: &[bool],
         explainer: &Explainer<'_>,
@@ -106,8 +108,8 @@ impl Question<'_> {
         let (mut views, mut texture) = (Vec::new(), None);
         let shape = match (op.kind, piece.map(|piece| piece.shape)) {
             (PaintedKind::BeginLayer, _) => Shape::BeginLayer,
-            (PaintedKind::EndLayer(opacity), _) => Shape::EndLayer {
-                opacity: f64::from(opacity) / f64::from(Premultiplied16::ONE),
+            (PaintedKind::EndLayer(compositing), _) => Shape::EndLayer {
+                opacity: compositing.opacity(),
             },
             (
                 PaintedKind::Primitive,
@@ -277,7 +279,7 @@ fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> 
 
 fn resolve(replay: &PixelReplay, (rules, space): (Rules, ResolveSpace)) -> Resolve {
     let samples = replay.samples.len();
-    let weight = 1.0 / samples as f64;
+    let weight = replay.samples.first().map_or(1.0, |sample| sample.weight);
     let sums = match space {
         ResolveSpace::Stored => replay
             .sums

@@ -4,7 +4,6 @@
 //! on its own position only, never on the tile or the list it is shaded with, and moving a triangle by whole pixels
 //! moves its colours with it, to the last bit.
 
-use crate::texture::UvMap;
 use glam::DVec2;
 
 use crate::geometry::edge::doubled_area;
@@ -69,28 +68,4 @@ impl<const K: usize> Planes<K> {
         }
         values
     }
-}
-
-/// The planes of `(u, v)` in pixels.
-pub(in crate::raster) fn uv_map(grid: SubpixelGrid, uv: &Planes<2>) -> UvMap {
-    let side = f64::from(grid.side());
-    UvMap {
-        pivot: DVec2::from_array(uv.pivot) / side,
-        uv: DVec2::from_array(uv.at_pivot),
-        dx: DVec2::from_array(uv.dx) * side,
-        dy: DVec2::from_array(uv.dy) * side,
-    }
-}
-
-/// `(u, v)` at a sample as the course's 32-bit arithmetic has it: in 64 bits at an anchor every eight pixels of a row, in
-/// 32 bits from there on. Where a sample lies on the border of two texels, the last bit decides.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the course reads textures at 32-bit floats"
-)]
-pub(in crate::raster) fn course_uv(uv: &Planes<2>, side: i32, [column, row]: [i32; 2]) -> [f32; 2] {
-    let anchor = column.div_euclid(8 * side) * 8 * side;
-    let at_anchor = uv.at(f64::from(anchor), f64::from(row) + 0.5);
-    let pixels = ((column - anchor) as f32 + 0.5) * (1.0 / side as f32);
-    [0, 1].map(|i| at_anchor[i] as f32 + pixels * (uv.dx[i] * f64::from(side)) as f32)
 }

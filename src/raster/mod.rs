@@ -10,43 +10,58 @@
 //! | floor | what is decided there |
 //! |---|---|
 //! | `sampling` | how many samples a pixel has, and where they lie |
-//! | `span`, `tile_layout`, `surface_id`, `attributes` | what the floors above share: runs of samples, tiles, surface numbers, planes |
+//! | `settings`, `stats`, `span`, `tile_layout`, `surface_id`, `attributes` | what the floors above share: runs of samples, tiles, surface numbers, planes |
+//! | `resolve` | what each sample weighs in its pixel |
+//! | `shading` | the colour of a paint at a sample |
+//! | `layers` | how a layer is composited with what is below it |
 //! | `coverage` | which samples a shape covers |
 //! | `list` | screen-space primitives as chunks; what is hidden is dropped |
-//! | `shading` | the colour of a paint at a sample |
 //! | `binning` | which commands each tile draws |
 //! | `frame` | where pixels go |
 //! | `paint` | a tile's commands in painter's order, and its resolve |
-//! | `rasterizer` | a whole list: tiles on all threads |
+//! | `display_list` | all that a frame needs |
+//! | `tiles` | one tile: by which painter |
+//! | `rasterizer` | all tiles, on all threads |
 //! | `refine`, `explain` | the rectangles of a frame that are drawn first; what was drawn at a pixel |
 
 mod attributes;
 mod binning;
 mod coverage;
+mod display_list;
 mod explain;
 mod frame;
+mod layers;
 mod list;
 mod paint;
 #[cfg(test)]
 mod random;
 mod rasterizer;
 mod refine;
+mod resolve;
 mod sampling;
+mod settings;
 mod shading;
 mod span;
 mod stats;
 mod surface_id;
 mod tile_layout;
+mod tiles;
 
-pub use explain::pieces::{Attributes, Piece, PieceShape, SampleOfTriangle, TextureUse};
+pub use display_list::DisplayList;
+pub use explain::pieces::{Piece, PieceShape, SampleOfTriangle};
 pub use explain::replay::{PixelReplay, ReplayedSample};
 pub use frame::framebuffer::Framebuffer;
 pub use frame::region::Region;
+pub use layers::Compositing;
 pub use list::builder::ChunkBuilder;
-pub use list::chunk::{Chunk, Fill, ListContext};
+pub use list::chunk::Chunk;
+pub use list::context::ListContext;
 pub use list::hidden::Hidden;
-pub use paint::recorder::{PaintedKind, PaintedOp, PaintedSample};
-pub use rasterizer::{DisplayList, RasterSettings, RasterTimes};
+pub use paint::recorder::{PaintedCommand, PaintedKind, PaintedSample};
+
 pub use sampling::pattern::SamplePattern;
 pub use sampling::rate::SampleRate;
-pub use stats::Counters;
+pub use settings::RasterSettings;
+pub use shading::Paint;
+pub use shading::interpolated::{Attributes, TextureUse};
+pub use stats::{Counters, RasterTimes};

@@ -5,8 +5,9 @@ use glam::DVec2;
 
 use crate::color::Rgba;
 use crate::geometry::{FillRule, Polygon};
+use crate::raster::layers::Compositing;
 use crate::raster::list::builder::ChunkBuilder;
-use crate::raster::list::chunk::Fill;
+use crate::raster::shading::Paint;
 use crate::texture::{MipLevel, MipPyramid, Texture};
 
 /// Adds some random primitives of every kind; textured ones read texture 0.
@@ -45,24 +46,17 @@ pub(in crate::raster) fn fill(builder: &mut ChunkBuilder<'_>, u: &mut Unstructur
                 builder.polygon(&Polygon::new(contours, rule), |point| point, color(u)?);
             }
             0 => builder.hairline([points[0], points[1]], color(u)?),
-            1 => builder.triangle(points, &Fill::Vertex([color(u)?, color(u)?, color(u)?])),
+            1 => builder.triangle(points, &Paint::vertex([color(u)?, color(u)?, color(u)?])),
             2 => {
                 let uv = [[0.0, 0.1], [unit(u)?, 1.0], [unit(u)?, unit(u)?]];
-                builder.triangle(
-                    points,
-                    &Fill::Texture {
-                        texture: 0,
-                        uv,
-                        opacity: unit(u)?,
-                    },
-                );
+                builder.triangle(points, &Paint::texture(0, uv, unit(u)?));
             }
             3 => {
                 builder.begin_layer();
-                builder.triangle(points, &Fill::Solid(color(u)?));
-                builder.end_layer(unit(u)?);
+                builder.triangle(points, &Paint::solid(color(u)?));
+                builder.end_layer(Compositing::with_opacity(unit(u)?));
             }
-            _ => builder.triangle(points, &Fill::Solid(color(u)?)),
+            _ => builder.triangle(points, &Paint::solid(color(u)?)),
         }
     }
     Ok(())

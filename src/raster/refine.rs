@@ -3,17 +3,18 @@
 //! Tiles are painted by the same code as whole frames, each into a buffer of its own, so any set of tiles in any order
 //! holds the bytes of the whole frame.
 
-use crate::raster::frame::region::Region;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
+use crate::raster::display_list::{DisplayList, Pass};
 use crate::raster::frame::block::PixelBlock;
-use crate::raster::rasterizer::{DisplayList, Pass, RasterTimes};
+use crate::raster::frame::region::Region;
 use crate::raster::span::Span;
+use crate::raster::stats::RasterTimes;
 
 /// A tile on its way: where it stands, and its pixels.
 #[derive(Clone, Copy, Debug)]
-struct Wish {
+struct WantedTile {
     tile: [u32; 2],
     region: Region,
 }
@@ -33,26 +34,26 @@ impl DisplayList<'_> {
         if self.context.size.contains(&0) {
             return Some(times);
         }
-        let wishes = self.wishes(wanted, from);
+        let tiles_in_order = self.tiles_in_order(wanted, from);
         let start = Instant::now();
         let plan = self.plan();
         times.bin += start.elapsed();
-        let mut passes: Vec<(Span, Vec<Wish>)> = plan
+        let mut passes: Vec<(Span, Vec<WantedTile>)> = plan
             .groups()
             .into_iter()
             .map(|rows| {
-                let inside = |wish: &&Wish| (rows.start..rows.end).contains(&wish.tile[1].cast_signed());
-                (rows, wishes.iter().filter(inside).copied().collect())
+                let inside = |tile: &&WantedTile| (rows.start..rows.end).contains(&tile.tile[1].cast_signed());
+                (rows, tiles_in_order.iter().filter(inside).copied().collect())
             })
-            .filter(|(_, wishes): &(_, Vec<Wish>)| !wishes.is_empty())
+            .filter(|(_, tiles_in_order): &(_, Vec<WantedTile>)| !tiles_in_order.is_empty())
             .collect();
-        passes.sort_by_key(|(_, wishes)| wishes.first().map(|wish| distance(wish.region, from)));
-        for (rows, wishes) in passes {
+        passes.sort_by_key(|(_, tiles_in_order)| tiles_in_order.first().map(|tile| distance(tile.region, from)));
+        for (rows, tiles_in_order) in passes {
             let start = Instant::now();
             let pass = self.pass(&plan, rows, cancelled);
             times.bin += start.elapsed();
             let start = Instant::now();
-            self.paint_in_order(&pass, &wishes, publish);
+            self.paint_in_order(&pass, &tiles_in_order, publish);
             times.painted(start.elapsed(), &pass.tally.total());
             if cancelled.load(Ordering::Relaxed) {
                 return None;
@@ -62,41 +63,46 @@ impl DisplayList<'_> {
     }
 
     /// The tiles that share a pixel with `wanted`, in the order of their distance from a pixel.
-    fn wishes(&self, wanted: &[Region], from: [u32; 2]) -> Vec<Wish> {
+    fn tiles_in_order(&self, wanted: &[Region], from: [u32; 2]) -> Vec<WantedTile> {
         let tiles = self.context.tiles;
         let all = (0..tiles.rows).flat_map(|row| (0..tiles.columns).map(move |column| [column, row]));
-        let mut wishes: Vec<Wish> = all
-            .map(|tile| Wish {
+        let mut tiles_in_order: Vec<WantedTile> = all
+            .map(|tile| WantedTile {
                 tile,
                 region: Region::of_tile(tiles.pixels(tile[0], tile[1], self.context.size)),
             })
-            .filter(|wish| wanted.iter().any(|region| !region.intersection(wish.region).is_empty()))
+            .filter(|tile| wanted.iter().any(|region| !region.intersection(tile.region).is_empty()))
             .collect();
-        wishes.sort_by_key(|wish| distance(wish.region, from));
-        wishes
+        tiles_in_order.sort_by_key(|tile| distance(tile.region, from));
+        tiles_in_order
     }
 
     /// Each thread takes the next tile that no other has: a parallel iterator would start in the middle too.
-    fn paint_in_order(&self, pass: &Pass<'_>, wishes: &[Wish], publish: &(impl Fn(Region, &[u32]) + Sync)) {
+    fn paint_in_order(
+        &self,
+        pass: &Pass<'_>,
+        tiles_in_order: &[WantedTile],
+        publish: &(impl Fn(Region, &[u32]) + Sync),
+    ) {
         let next = AtomicUsize::new(0);
         let work = || {
             let mut painters = self.painters();
             let mut pixels = Vec::new();
-            while let Some(wish) = wishes.get(next.fetch_add(1, Ordering::Relaxed))
+            while let Some(tile) = tiles_in_order.get(next.fetch_add(1, Ordering::Relaxed))
                 && !pass.cancelled.load(Ordering::Relaxed)
             {
-                let Region { width, height, .. } = wish.region;
+                let Region { width, height, .. } = tile.region;
                 pixels.resize(width as usize * height as usize, 0);
-                let [column, row] = wish.tile;
+                let [column, row] = tile.tile;
                 let rect = self.context.tiles.pixels(column, row, self.context.size);
                 let mut block = PixelBlock::new(rect, &mut pixels, width as usize);
-                self.tile(pass, &mut painters, wish.tile, &mut block);
-                publish(wish.region, &pixels);
+                self.tile(pass, &mut painters, tile.tile, &mut block);
+                publish(tile.region, &pixels);
             }
             pass.tally.take(&mut painters.tally);
         };
         rayon::scope(|scope| {
-            for _ in 0..rayon::current_num_threads().min(wishes.len()) {
+            for _ in 0..rayon::current_num_threads().min(tiles_in_order.len()) {
                 scope.spawn(|_| work());
             }
         });

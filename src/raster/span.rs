@@ -12,7 +12,7 @@ use crate::rules::Rules;
 pub(crate) const SMALL: i32 = 8;
 
 /// A half-open range of sample columns, or of sample rows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Span {
     /// The first.
     pub(crate) start: i32,
@@ -37,7 +37,7 @@ pub(crate) struct SampleBox {
 /// How much of a rectangle of samples a shape covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reach {
-    /// Some samples, perhaps.
+    /// It may cover some of the samples.
     Part,
     /// All samples.
     All,
@@ -49,8 +49,8 @@ impl Span {
         self.start >= self.end
     }
 
-    /// No samples: the union with it is the other span, the intersection is empty.
-    /// Far enough from the ends of the numbers that columns of a frame may be added.
+    /// Nothing: the union with it is the other span, the intersection is empty. Far enough from the ends of the numbers
+    /// that columns of a frame may be added.
     pub(crate) const EMPTY: Self = Self {
         start: i32::MAX / 2,
         end: i32::MIN / 2,
@@ -62,11 +62,11 @@ impl Span {
         end: i32::MAX,
     };
 
-    /// The seed of a union.
-    pub(crate) const NOTHING: Self = Self {
-        start: i32::MAX,
-        end: i32::MIN,
-    };
+    /// How many columns or rows it has.
+    #[inline]
+    pub(crate) fn length(self) -> usize {
+        to_index(self.end.saturating_sub(self.start))
+    }
 
     /// The smallest span that holds both.
     pub(crate) fn union(self, other: Self) -> Self {
@@ -85,11 +85,17 @@ impl Span {
     }
 }
 
+impl Default for Span {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
 impl PixelRect {
-    /// No pixels: the seed of a union.
-    pub(crate) const NOTHING: Self = Self {
-        x: Span::NOTHING,
-        y: Span::NOTHING,
+    /// No pixels: the union with it is the other rectangle.
+    pub(crate) const EMPTY: Self = Self {
+        x: Span::EMPTY,
+        y: Span::EMPTY,
     };
 
     /// The smallest rectangle that holds both.
@@ -129,6 +135,12 @@ impl SampleBox {
     pub(crate) fn is_small(self) -> bool {
         self.columns.end - self.columns.start <= SMALL && self.rows.end - self.rows.start <= SMALL
     }
+}
+
+/// A distance inside a frame as an index; none is negative.
+#[inline]
+pub(crate) fn to_index(distance: i32) -> usize {
+    distance.max(0).cast_unsigned() as usize
 }
 
 /// A span of pixels as a span of samples.

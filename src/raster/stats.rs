@@ -15,6 +15,19 @@ pub struct Counters {
     pub samples_shaded: u64,
 }
 
+/// Where the time went.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RasterTimes {
+    /// Ops to tiles.
+    pub bin: Duration,
+    /// Coverage and shading.
+    pub raster: Duration,
+    /// Samples to pixels; estimated from the time that a part of the tiles took.
+    pub resolve: Duration,
+    /// What was done.
+    pub counters: Counters,
+}
+
 /// What one thread did so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::raster) struct Tally {
@@ -57,5 +70,17 @@ impl SharedTally {
 
     pub(in crate::raster) fn total(&self) -> Tally {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl RasterTimes {
+    /// Adds the painting of some tiles that took `time`.
+    pub(in crate::raster) fn painted(&mut self, time: Duration, tally: &Tally) {
+        let resolve = time.mul_f64(tally.resolving_share());
+        self.resolve += resolve;
+        self.raster += time.saturating_sub(resolve);
+        self.counters.blocks_whole += tally.counters.blocks_whole;
+        self.counters.blocks_split += tally.counters.blocks_split;
+        self.counters.samples_shaded += tally.counters.samples_shaded;
     }
 }

@@ -9,7 +9,7 @@ use super::{Screen, Subject, add, number, picture_list, raster_settings};
 use crate::color::Rgba;
 use crate::geometry::{area_in_pixel, width_in_window};
 use crate::raster::{
-    ChunkBuilder, DisplayList, Hidden, ListContext, PaintedKind, PaintedOp, Piece, PieceShape, PixelReplay,
+    ChunkBuilder, DisplayList, Hidden, ListContext, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay,
     RasterSettings, Region, SampleOfTriangle,
 };
 use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};
@@ -111,12 +111,12 @@ impl<'a> Neighbourhood<'a> {
 
     /// How much there is to look at for each pixel.
     pub fn ops(&self) -> usize {
-        self.list.ops()
+        self.list.commands()
     }
 }
 
 /// Keeps the ops that paint samples, and the beginning of each layer whose end does.
-fn drop_what_paints_nothing(painted: &mut Vec<PaintedOp>) {
+fn drop_what_paints_nothing(painted: &mut Vec<PaintedCommand>) {
     let mut kept = vec![true; painted.len()];
     let mut open: Vec<(usize, bool)> = Vec::new();
     for (i, op) in painted.iter().enumerate() {
@@ -168,10 +168,10 @@ impl<'a> Explainer<'a> {
 
     /// For each op that was painted the shape that did, as the samples see it; `None` for layers and the outline of the
     /// canvas.
-    pub fn pieces(&self, painted: &[PaintedOp]) -> Vec<Option<Piece>> {
+    pub fn pieces(&self, painted: &[PaintedCommand]) -> Vec<Option<Piece>> {
         let mut pieces = Vec::new().into_iter();
         let mut source = None;
-        let piece = |op: &PaintedOp| {
+        let piece = |op: &PaintedCommand| {
             if op.kind != PaintedKind::Primitive {
                 source = None;
                 return None;
@@ -290,7 +290,7 @@ impl<'a> Explainer<'a> {
 
     /// Primitives that cover parts of the pixel and none of its samples: by their indices, with the part of the pixel that
     /// they cover in truth. At most `most` of them.
-    pub fn missed(&self, painted: &[PaintedOp], most: usize) -> Vec<(u32, f64)> {
+    pub fn missed(&self, painted: &[PaintedCommand], most: usize) -> Vec<(u32, f64)> {
         /// Less than this is rounding.
         const LEAST: f64 = 1e-9;
         let primitives = self.subject.scene.primitives.par_iter().enumerate();

@@ -1,4 +1,4 @@
-//! Meets the ops of a chunk in the tiles that they touch, in painter's order.
+//! Meets the commands of a chunk in the tiles that they touch, in painter's order.
 //!
 //! A stamp goes to the tiles of its bits, cut to each. A triangle or outline is followed row of tiles by row of tiles: a
 //! tile that it covers is marked, so that painting it needs no coverage at all. An opaque one that covers a tile hides
@@ -10,12 +10,12 @@ use crate::raster::binning::tile_command::TileCommand;
 use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
-use crate::raster::list::chunk::{Chunk, DrawCommand, ListContext, Paint};
-use crate::raster::shading::shader::Shader;
-use crate::raster::span::{PixelRect, Reach, SampleBox, Span};
+use crate::raster::list::chunk::{Chunk, DrawCommand};
+use crate::raster::list::context::ListContext;
+use crate::raster::span::{PixelRect, Reach, SampleBox, Span, to_index};
 use crate::texture::Texture;
 
-/// Walks over the ops of a chunk.
+/// Walks over the commands of a chunk.
 pub(crate) struct Binner<'a> {
     chunk: &'a Chunk,
     context: &'a ListContext,
@@ -86,8 +86,8 @@ impl<'a> Binner<'a> {
     pub(crate) fn each(&self, textures: &[&Texture], mut visit: impl FnMut(usize, TileCommand)) {
         let mut depth = self.chunk.layers_open;
         let mut tiles = OutlineTiles::default();
-        for (i, op) in self.chunk.ops.iter().enumerate() {
-            match *op {
+        for (i, command) in self.chunk.commands.iter().enumerate() {
+            match *command {
                 DrawCommand::Samples(index) => {
                     let stamp = &self.chunk.stamps[index as usize];
                     let entry = TileCommand::samples(i, stamp.color);
@@ -108,17 +108,13 @@ impl<'a> Binner<'a> {
                 DrawCommand::Triangle(index) => {
                     let triangle = &self.chunk.triangles[index as usize];
                     let paint = &self.chunk.paints[triangle.paint as usize];
-                    let opaque = Shader::is_opaque(paint, textures);
+                    let opaque = paint.is_opaque(textures);
                     if let Some(float) = self.chunk.floats.get(index as usize) {
                         let entry = TileCommand::triangle(i, index, None, opaque);
                         self.float(float, entry, depth == 0, &mut visit);
                         continue;
                     }
-                    let flat = match paint {
-                        Paint::Solid(color) => Some(*color),
-                        Paint::Vertex(_) | Paint::Texture { .. } => None,
-                    };
-                    let entry = TileCommand::triangle(i, index, flat, opaque);
+                    let entry = TileCommand::triangle(i, index, paint.constant, opaque);
                     self.triangle(triangle.corners, entry, depth == 0, &mut visit);
                 }
                 DrawCommand::Outline(index) => {
@@ -126,7 +122,7 @@ impl<'a> Binner<'a> {
                     self.outline(&mut tiles, (index, entry), depth == 0, &mut visit);
                 }
                 DrawCommand::BeginLayer(index) | DrawCommand::EndLayer(index) => {
-                    depth = match op {
+                    depth = match command {
                         DrawCommand::BeginLayer(_) => depth + 1,
                         _ => depth.saturating_sub(1),
                     };
@@ -143,7 +139,7 @@ impl<'a> Binner<'a> {
     /// The number of a tile.
     #[inline]
     fn tile(&self, column: i32, row: i32) -> usize {
-        place(row - self.rows.start) * self.context.tiles.columns as usize + place(column)
+        to_index(row - self.rows.start) * self.context.tiles.columns as usize + to_index(column)
     }
 
     /// A stamp in each tile that holds any of its bits.
@@ -191,23 +187,23 @@ impl<'a> Binner<'a> {
             end: sides.column(columns.end - 1) + 1,
         };
         let (top, bottom) = (sides.row(rows.start), sides.row(rows.end - 1));
-        let bands = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
+        let tile_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
         let (width, height) = (sides.width.cast_signed(), sides.height.cast_signed());
         let few = (in_row.end - in_row.start) * (bottom - top + 1) <= 2;
         if few && (self.covers_no_tile(columns, width, 0) || self.covers_no_tile(rows, height, 1)) {
-            for row in bands {
+            for row in tile_rows {
                 (in_row.start..in_row.end).for_each(|column| visit(self.tile(column, row), entry));
             }
             return;
         }
         let unit_width = f64::from(width << grid.bits());
-        for row in bands {
-            let band = Span {
+        for row in tile_rows {
+            let all_rows = Span {
                 start: row * height,
                 end: ((row + 1) * height).min(self.frame.rows.end),
             };
             let outline = (outline, self.chunk.outline_edges.as_slice());
-            tiles.each(outline, grid, (band, in_row, unit_width), |column, reach| {
+            tiles.each(outline, grid, (all_rows, in_row, unit_width), |column, reach| {
                 let entry = match reach {
                     Reach::Part => entry,
                     Reach::All => entry.covering(base && entry.is_opaque()),
@@ -242,33 +238,33 @@ impl<'a> Binner<'a> {
             sides.column(samples.columns.end - 1),
         );
         let (top, bottom) = (sides.row(samples.rows.start), sides.row(samples.rows.end - 1));
-        let band_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
+        let tile_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
         let height = sides.height.cast_signed();
         if (right - left + 1) * (bottom - top + 1) <= 2
             && (self.covers_no_tile(samples.columns, sides.width.cast_signed(), 0)
                 || self.covers_no_tile(samples.rows, height, 1))
         {
-            for row in band_rows {
+            for row in tile_rows {
                 (left..=right).for_each(|column| visit(self.tile(column, row), entry));
             }
             return;
         }
         let edges = TileRows::new(corners);
-        for row in band_rows {
+        for row in tile_rows {
             let in_tile = Span {
                 start: row * height,
                 end: ((row + 1) * height).min(self.frame.rows.end),
             };
             let inside = in_tile.intersection(samples.rows);
-            let band = edges.band(
+            let bounds = edges.between(
                 grid.sample_coordinate(inside.start),
                 grid.sample_coordinate(inside.end - 1),
             );
-            let touched = self.touched(band.touched, left, right);
+            let touched = self.touched(bounds.touched, left, right);
             let covered = if inside == in_tile {
-                self.covered(band.covered)
+                self.covered(bounds.covered)
             } else {
-                Span::default()
+                Span::EMPTY
             };
             for column in touched.start..touched.end {
                 let covers = covered.start <= column && column < covered.end;
@@ -282,7 +278,7 @@ impl<'a> Binner<'a> {
         }
     }
 
-    /// A triangle by the rules of first drafts in each tile it touches. Kept out of the loop over ops, which is hot.
+    /// A triangle by the rules of first drafts in each tile it touches. Kept out of the loop over commands, which is hot.
     #[cold]
     #[inline(never)]
     fn float(&self, float: &FloatShape, entry: TileCommand, base: bool, visit: &mut impl FnMut(usize, TileCommand)) {
@@ -337,7 +333,7 @@ impl<'a> Binner<'a> {
     )]
     fn covered(&self, [first, last]: [f64; 2]) -> Span {
         if first > last {
-            return Span::default();
+            return Span::EMPTY;
         }
         let grid = self.context.grid;
         let width = f64::from(self.samples.width << grid.bits());
@@ -354,7 +350,7 @@ impl<'a> Binner<'a> {
         Span { start, end }
     }
 
-    /// An op in every tile of a rectangle of pixels.
+    /// An command in every tile of a rectangle of pixels.
     fn rect(&self, area: PixelRect, entry: TileCommand, visit: &mut impl FnMut(usize, TileCommand)) {
         if area.x.is_empty() || area.y.is_empty() {
             return;
@@ -376,8 +372,129 @@ fn in_tile(stamp: CoverageMask, entry: TileCommand, [x, y]: [i32; 2]) -> TileCom
     entry.with_bits([near(column - x), near(row - y)], stamp.mask >> shift)
 }
 
-/// A tile coordinate, which is never negative.
-#[inline]
-pub(crate) fn place(coordinate: i32) -> usize {
-    coordinate.max(0).cast_unsigned() as usize
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+    use glam::DVec2;
+
+    use super::*;
+    use crate::color::{ResolveSpace, Rgba};
+    use crate::raster::binning::tile_command::Work;
+    use crate::raster::coverage::shape_rows::ShapeRows;
+    use crate::raster::list::builder::ChunkBuilder;
+    use crate::raster::random::{fill, noise};
+    use crate::raster::shading::Paint;
+    use crate::raster::tile_layout::TileLayout;
+    use crate::raster::{RasterSettings, SamplePattern, SampleRate};
+    use crate::rules::Rules;
+    use crate::texture::SamplingSettings;
+
+    const SIZE: [u32; 2] = [70, 50];
+
+    /// A chunk of random primitives, and tiles of several sizes.
+    fn chunk(u: &mut Unstructured<'_>) -> Result<(Chunk, ListContext)> {
+        let side: u32 = u.int_in_range(1..=5)?;
+        let settings = RasterSettings {
+            rate: SampleRate::new(side * side).expect("a square number"),
+            pattern: SamplePattern::Grid,
+            sampling: SamplingSettings {
+                rules: *u.choose(&Rules::ALL)?,
+                ..SamplingSettings::default()
+            },
+            space: ResolveSpace::Stored,
+            background: Rgba::WHITE,
+            palette: None,
+        };
+        let tiles = TileLayout::new((u.int_in_range(2..=6)?, u.int_in_range(2..=5)?), SIZE);
+        let context = ListContext::with_tiles(SIZE, &settings, tiles);
+        let mut builder = ChunkBuilder::new(&context, 12);
+        fill(&mut builder, u)?;
+        for _ in 0..u.int_in_range(0..=5)? {
+            let mut at = |side: u32| Ok(f64::from(u.int_in_range(0..=8 * side)?) / 8.0);
+            let corner = DVec2::new(at(SIZE[0])?, at(SIZE[1])?);
+            builder.point(corner, Rgba::BLACK);
+            let tiny = [corner, corner + DVec2::new(1.0, 0.2), corner + DVec2::new(0.3, 1.1)];
+            builder.triangle(tiny, &Paint::solid(Rgba::BLACK));
+        }
+        Ok((builder.finish(), context))
+    }
+
+    /// The part of a span that lies in another.
+    fn shared(a: Span, b: Span) -> usize {
+        a.intersection(b).length()
+    }
+
+    /// How many samples a command covers in a rectangle of pixels.
+    fn covered(command: TileCommand, chunk: &Chunk, (context, rect): (&ListContext, PixelRect)) -> usize {
+        let side = context.grid.side();
+        let columns = crate::raster::span::scaled(rect.x, side);
+        let mut rows = ShapeRows::new(
+            (context.grid, context.rules),
+            context.samples().columns.end,
+            chunk.outlines.len(),
+        );
+        let mut count = 0;
+        if let Work::Flat(shape, _) | Work::Shaded(shape, ..) = command.work(chunk) {
+            rows.each_pixel_row(shape, rect, |row| {
+                count += row.spans().iter().map(|span| shared(*span, columns)).sum::<usize>();
+            });
+        }
+        count
+    }
+
+    #[test]
+    fn tiles_get_the_commands_that_cover_samples_in_them() {
+        let texture = noise();
+        let (mut covering, mut stamped) = (0, 0);
+        arbtest::arbtest(|u| {
+            let (chunk, context) = chunk(u)?;
+            let rows = Span {
+                start: 0,
+                end: context.tiles.rows.cast_signed(),
+            };
+            let mut tiles = vec![Vec::new(); (context.tiles.columns * context.tiles.rows) as usize];
+            Binner::new(&chunk, &context, rows).each(&[&texture], |tile, command| tiles[tile].push(command));
+            let all: Vec<TileCommand> = tiles.concat();
+            let mut bits = vec![0; chunk.commands.len()];
+            for (tile, commands) in (0..).zip(&tiles) {
+                assert!(
+                    commands.is_sorted_by_key(|command| command.command()),
+                    "in painter's order"
+                );
+                let rect = context
+                    .tiles
+                    .pixels(tile % context.tiles.columns, tile / context.tiles.columns, SIZE);
+                let side = to_index(context.grid.side());
+                let whole = rect.x.length() * rect.y.length() * side * side;
+                for shape in &all {
+                    let own = commands.iter().find(|command| command.command() == shape.command());
+                    let count = covered(*shape, &chunk, (&context, rect));
+                    assert!(
+                        count == 0 || own.is_some(),
+                        "tile {tile} knows command {}",
+                        shape.command()
+                    );
+                    if own.is_some_and(|command| command.covers_tile()) {
+                        assert_eq!(count, whole, "command {} covers tile {tile}", shape.command());
+                        covering += 1;
+                    }
+                }
+                for command in commands {
+                    if let Work::Samples(mask, _) | Work::Pixels(mask, _) = command.work(&chunk) {
+                        bits[command.command()] += mask.mask.count_ones();
+                    }
+                }
+            }
+            for (command, bits) in chunk.commands.iter().zip(bits) {
+                if let DrawCommand::Samples(index) | DrawCommand::Pixels(index) = command {
+                    let stamp = chunk.stamps[*index as usize].coverage;
+                    assert_eq!(bits, stamp.mask.count_ones(), "each bit of {stamp:?} is in one tile");
+                    stamped += 1;
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(800);
+        assert!(covering > 20 && stamped > 20, "{covering} covering, {stamped} stamps");
+    }
 }

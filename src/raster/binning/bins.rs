@@ -1,26 +1,27 @@
-//! Which ops touch which tile, in painter's order.
+//! Which commands touch which tile, in painter's order.
 //!
-//! Two walks over the ops of a chunk: the first counts the entries of each tile, the second writes them where they
-//! belong; where the first meets few entries, it keeps them, and there is no second. Nothing is allocated per op or per
+//! Two walks over the commands of a chunk: the first counts the entries of each tile, the second writes them where they
+//! belong; where the first meets few entries, it keeps them, and there is no second. Nothing is allocated per command or per
 //! tile.
 
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::raster::binning::binner::{Binner, place};
+use crate::raster::binning::binner::Binner;
 use crate::raster::binning::tile_command::TileCommand;
-use crate::raster::list::chunk::{Chunk, ListContext};
-use crate::raster::span::Span;
+use crate::raster::list::chunk::Chunk;
+use crate::raster::list::context::ListContext;
+use crate::raster::span::{Span, to_index};
 use crate::texture::Texture;
 
 /// Most entries that are held at once; more are made and painted in several passes over groups of tile rows.
 const MAX_ENTRIES: u64 = 1 << 22;
 
-/// Most entries of a chunk that are kept when they are counted, half a megabyte; and of how many ops at most: where
+/// Most entries of a chunk that are kept when they are counted, half a megabyte; and of how many commands at most: where
 /// there are more, most are tiny, and sooner met again than written and read.
 const MAX_KEPT: usize = 1 << 14;
-const MAX_KEPT_OPS: usize = 1 << 12;
+const MAX_KEPT_COMMANDS: usize = 1 << 12;
 
 /// Room for entries to begin with.
 const FEW: usize = 1 << 10;
@@ -61,7 +62,7 @@ impl Plan {
         };
         let of_chunk = |chunk: &Chunk| {
             let mut counts = vec![0; tiles.columns as usize * tiles.rows as usize];
-            let mut few = chunk.ops.len() <= MAX_KEPT_OPS;
+            let mut few = chunk.commands.len() <= MAX_KEPT_COMMANDS;
             let mut kept = Vec::with_capacity(if few { FEW } else { 0 });
             Binner::new(chunk, context, all).each(textures, |tile, entry| {
                 counts[tile] += 1;
@@ -90,7 +91,7 @@ impl Plan {
     pub(crate) fn groups(&self) -> Vec<Span> {
         let (mut groups, mut start, mut in_group) = (Vec::new(), 0, 0_u64);
         for row in 0..self.rows {
-            let tiles = place(row) * self.columns..(place(row) + 1) * self.columns;
+            let tiles = to_index(row) * self.columns..(to_index(row) + 1) * self.columns;
             let of_chunk = |plan: &ChunkPlan| -> u64 { plan.counts[tiles.clone()].iter().map(|n| u64::from(*n)).sum() };
             let in_row: u64 = self.chunks.iter().map(of_chunk).sum();
             in_group += in_row;
@@ -104,7 +105,7 @@ impl Plan {
         groups
     }
 
-    /// Sorts the ops of every chunk into the tiles of `rows`, a range of tile rows.
+    /// Sorts the commands of every chunk into the tiles of `rows`, a range of tile rows.
     pub(crate) fn bins(
         &self,
         chunks: &[Chunk],
@@ -112,10 +113,10 @@ impl Plan {
         textures: &[&Texture],
         rows: Span,
     ) -> Vec<Arc<Bins>> {
-        let tiles = place(rows.start) * self.columns..place(rows.end) * self.columns;
+        let tiles = to_index(rows.start) * self.columns..to_index(rows.end) * self.columns;
         let are_all = rows.start == 0 && rows.end == self.rows;
         let ready = |plan: &ChunkPlan| plan.bins.clone().filter(|_| are_all);
-        // Nobody is woken up for nothing.
+        // No other thread is woken up where all bins are ready.
         if let Some(bins) = self.chunks.iter().map(ready).collect() {
             return bins;
         }
@@ -193,7 +194,7 @@ pub(crate) fn entries_of_tile(
         end: row + 1,
     };
     Binner::new(chunk, context, rows).each(textures, |tile, entry| {
-        if tile == place(column) {
+        if tile == to_index(column) {
             entries.push(entry);
         }
     });
@@ -210,7 +211,7 @@ mod tests {
     use crate::raster::binning::tile_command::Work;
     use crate::raster::coverage::triangle::SortedTriangle;
     use crate::raster::list::builder::ChunkBuilder;
-    use crate::raster::list::chunk::Fill;
+    use crate::raster::shading::Paint;
     use crate::raster::span::PixelRect;
     use crate::raster::tile_layout::TileLayout;
     use crate::raster::{RasterSettings, SamplePattern, SampleRate};
@@ -237,7 +238,7 @@ mod tests {
     fn binned(context: &ListContext, triangles: &[[DVec2; 3]]) -> (Chunk, Arc<Bins>) {
         let mut builder = ChunkBuilder::new(context, triangles.len());
         for triangle in triangles {
-            builder.triangle(*triangle, &Fill::Solid(Rgba::BLACK));
+            builder.triangle(*triangle, &Paint::solid(Rgba::BLACK));
         }
         let chunk = builder.finish();
         let chunks = [chunk];
@@ -263,7 +264,7 @@ mod tests {
                 },
             );
             for column in 0..columns {
-                let tile = place(row) * columns + column;
+                let tile = to_index(row) * columns + column;
                 assert_eq!(
                     of_row.of_tile(column),
                     kept.of_tile(tile),
@@ -341,7 +342,7 @@ mod tests {
                         assert!(entry.is_opaque(), "black is opaque");
                         assert_eq!(entry.covers_tile(), entry.hides_tile(), "what covers, hides");
                         if entry.covers_tile() {
-                            assert_eq!(found.len(), place(all), "tile {column}, {row} is open: {chunk:?}");
+                            assert_eq!(found.len(), to_index(all), "tile {column}, {row} is open: {chunk:?}");
                         }
                         covering += u32::from(entry.covers_tile());
                         crossing += u32::from(!entry.covers_tile());

@@ -5,3 +5,4 @@ pub(in crate::raster) mod binner;
 pub(in crate::raster) mod bins;
 pub(in crate::raster) mod polygon_tiles;
 pub(in crate::raster) mod tile_command;
+pub(in crate::raster) mod visible;

@@ -9,7 +9,7 @@ use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::coverage::edge_bounds::{Line, MARGIN};
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
 use crate::raster::coverage::windings::RowWindings;
-use crate::raster::span::{Reach, Span};
+use crate::raster::span::{Reach, Span, to_index};
 
 /// Looks at rows of tiles, reusing its memory.
 #[derive(Debug, Default)]
@@ -31,13 +31,13 @@ struct Column {
 }
 
 impl OutlineTiles {
-    /// Calls `visit` with each tile column from `tiles.start` on that the outline may touch in the sample rows `band`;
+    /// Calls `visit` with each tile column from `tiles.start` on that the outline may touch in the sample rows `all_rows`;
     /// `width` is that of a tile in units of the grid.
     pub(crate) fn each(
         &mut self,
         outline: (&Outline, &[OutlineEdge]),
         grid: SubpixelGrid,
-        (band, tiles, width): (Span, Span, f64),
+        (all_rows, tiles, width): (Span, Span, f64),
         visit: impl FnMut(i32, Reach),
     ) {
         let (outline, all) = outline;
@@ -45,7 +45,7 @@ impl OutlineTiles {
         let count = (tiles.end - tiles.start).max(0).cast_unsigned() as usize;
         self.columns.resize(count + 1, Column::default());
         self.partial.clear();
-        for (edge, inside) in outline.edges_in(all, band) {
+        for (edge, inside) in outline.edges_in(all, all_rows) {
             let line = Line::new(edge.top, edge.bottom);
             let at = |row| line.at(f64::from(grid.sample_coordinate(row)));
             let (first, last) = (at(inside.start), at(inside.end - 1));
@@ -55,28 +55,28 @@ impl OutlineTiles {
                 continue;
             }
             let right = (to + 1).clamp(tiles.start, tiles.end);
-            self.columns[place(from - tiles.start)].lying += 1;
-            self.columns[place(right - tiles.start)].lying -= 1;
-            if inside == band {
-                self.columns[place(right - tiles.start)].winding += edge.winding;
+            self.columns[to_index(from - tiles.start)].lying += 1;
+            self.columns[to_index(right - tiles.start)].lying -= 1;
+            if inside == all_rows {
+                self.columns[to_index(right - tiles.start)].winding += edge.winding;
             } else {
                 self.partial.push((right, inside, edge.winding));
             }
         }
-        self.sweep(outline.rule, band, tiles, visit);
+        self.sweep(outline.rule, all_rows, tiles, visit);
     }
 
-    fn sweep(&mut self, rule: FillRule, band: Span, tiles: Span, mut visit: impl FnMut(i32, Reach)) {
+    fn sweep(&mut self, rule: FillRule, all_rows: Span, tiles: Span, mut visit: impl FnMut(i32, Reach)) {
         let (mut lying, mut winding) = (0, 0);
         let mut partial = self.partial.as_slice();
         if !partial.is_empty() {
             self.partial.sort_unstable_by_key(|(column, ..)| *column);
             partial = self.partial.as_slice();
         }
-        self.rows.begin(band.end - band.start);
-        let in_band = |rows: Span| Span {
-            start: rows.start - band.start,
-            end: rows.end - band.start,
+        self.rows.begin(all_rows.end - all_rows.start);
+        let from_first = |rows: Span| Span {
+            start: rows.start - all_rows.start,
+            end: rows.end - all_rows.start,
         };
         for (column, tile) in self.columns.iter().zip(tiles.start..tiles.end) {
             lying += column.lying;
@@ -84,7 +84,7 @@ impl OutlineTiles {
             while let Some(((at, inside, around), rest)) = partial.split_first()
                 && *at <= tile
             {
-                self.rows.add(in_band(*inside), *around);
+                self.rows.add(from_first(*inside), *around);
                 partial = rest;
             }
             // What the partial edges add where they add the same to all rows.
@@ -97,7 +97,7 @@ impl OutlineTiles {
         }
         let passed = self.partial.len() - partial.len();
         self.rows
-            .forget(self.partial[..passed].iter().map(|(_, rows, _)| in_band(*rows)));
+            .forget(self.partial[..passed].iter().map(|(_, rows, _)| from_first(*rows)));
     }
 }
 
@@ -108,9 +108,4 @@ fn tile(column: f64, width: f64, tiles: Span) -> i32 {
     let tile = (column / width).clamp(f64::from(tiles.start) - 1.0, f64::from(tiles.end));
     // Rounded down: `floor` is not a single instruction on every machine.
     (tile + 1.0) as i32 - 1
-}
-
-#[inline]
-fn place(distance: i32) -> usize {
-    distance.max(0).cast_unsigned() as usize
 }

@@ -1,15 +1,18 @@
-//! One op in one tile, as the painters of tiles read it: everything about a small primitive, in painter's order.
+//! One command in one tile, as the painters of tiles read it: everything about a small primitive, in painter's order.
 
 use crate::color::Premultiplied16;
+use crate::geometry::subpixel::GridPoint;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::shape_rows::Shape;
-use crate::raster::list::chunk::{Chunk, DrawCommand, Paint, ScreenTriangle};
+use crate::raster::layers::Compositing;
+use crate::raster::list::chunk::{Chunk, DrawCommand};
+use crate::raster::shading::Paint;
 
-/// One op in one tile. A stamp is held whole, the colour of a flat shape too, so that painting these does not jump
+/// One command in one tile. A stamp is held whole, the colour of a flat shape too, so that painting these does not jump
 /// around in memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct TileCommand {
-    /// Flags, and below them the index of the op in its chunk.
+    /// Flags, and below them the index of the command in its chunk.
     head: u32,
     /// Column and row of a stamp's lowest bit, counted from the tile's first: samples or pixels.
     at: [u16; 2],
@@ -27,11 +30,11 @@ pub(crate) enum Work<'c> {
     Pixels(CoverageMask, Premultiplied16),
     /// A triangle or polygon of one colour.
     Flat(Shape<'c>, Premultiplied16),
-    /// A triangle of any other paint, and what it covers.
-    Shaded(Shape<'c>, &'c ScreenTriangle, &'c Paint),
+    /// A triangle of any other paint: what it covers, its corners and the paint between them.
+    Shaded(Shape<'c>, &'c [GridPoint; 3], &'c Paint),
     BeginLayer,
-    /// With the opacity to paint the layer with.
-    EndLayer(u16),
+    /// With how the layer is composited.
+    EndLayer(Compositing),
 }
 
 impl TileCommand {
@@ -42,15 +45,15 @@ impl TileCommand {
     const SAMPLES: u32 = 1 << 27;
     const PIXELS: u32 = 1 << 26;
     const OUTLINE: u32 = 1 << 25;
-    /// The largest index of an op; a chunk is made from at most 65 536 primitives, which become five ops each at most.
-    const MAX_OP: u32 = Self::OUTLINE - 1;
+    /// The largest index of an command; a chunk is made from at most 65 536 primitives, which become five commands each at most.
+    const MAX_COMMAND: u32 = Self::OUTLINE - 1;
 
     /// A triangle that touches the tile, number `triangle` of its chunk; `flat` is its colour, if it has just one and is
     /// covered exactly.
-    pub(crate) fn triangle(op: usize, triangle: u32, flat: Option<Premultiplied16>, opaque: bool) -> Self {
+    pub(crate) fn triangle(command: usize, triangle: u32, flat: Option<Premultiplied16>, opaque: bool) -> Self {
         let flags = if flat.is_some() { Self::FLAT } else { 0 } | if opaque { Self::OPAQUE } else { 0 };
         Self {
-            head: Self::number(op) | flags,
+            head: Self::number(command) | flags,
             at: [0; 2],
             bits: u64::from(triangle),
             color: flat.unwrap_or_default(),
@@ -58,10 +61,10 @@ impl TileCommand {
     }
 
     /// A polygon that touches the tile, outline number `outline` of its chunk.
-    pub(crate) fn outline(op: usize, outline: u32, color: Premultiplied16) -> Self {
+    pub(crate) fn outline(command: usize, outline: u32, color: Premultiplied16) -> Self {
         let opaque = if color.is_opaque() { Self::OPAQUE } else { 0 };
         Self {
-            head: Self::number(op) | Self::OUTLINE | opaque,
+            head: Self::number(command) | Self::OUTLINE | opaque,
             at: [0; 2],
             bits: u64::from(outline),
             color,
@@ -70,21 +73,21 @@ impl TileCommand {
 
     /// A stamp of samples, yet without its bits.
     #[inline]
-    pub(crate) fn samples(op: usize, color: Premultiplied16) -> Self {
-        Self::stamp(op, color, Self::SAMPLES)
+    pub(crate) fn samples(command: usize, color: Premultiplied16) -> Self {
+        Self::stamp(command, color, Self::SAMPLES)
     }
 
     /// A stamp of pixels, yet without its bits.
     #[inline]
-    pub(crate) fn pixels(op: usize, color: Premultiplied16) -> Self {
-        Self::stamp(op, color, Self::PIXELS)
+    pub(crate) fn pixels(command: usize, color: Premultiplied16) -> Self {
+        Self::stamp(command, color, Self::PIXELS)
     }
 
     #[inline]
-    fn stamp(op: usize, color: Premultiplied16, kind: u32) -> Self {
+    fn stamp(command: usize, color: Premultiplied16, kind: u32) -> Self {
         let opaque = if color.is_opaque() { Self::OPAQUE } else { 0 };
         Self {
-            head: Self::number(op) | kind | opaque,
+            head: Self::number(command) | kind | opaque,
             at: [0; 2],
             bits: 0,
             color,
@@ -92,17 +95,20 @@ impl TileCommand {
     }
 
     /// The beginning or end of a layer.
-    pub(crate) fn layer(op: usize) -> Self {
+    pub(crate) fn layer(command: usize) -> Self {
         Self {
-            head: Self::number(op),
+            head: Self::number(command),
             ..Self::default()
         }
     }
 
     #[inline]
-    fn number(op: usize) -> u32 {
-        debug_assert!(op <= Self::MAX_OP as usize, "op {op} fits below the flags");
-        u32::try_from(op).unwrap_or(0) & Self::MAX_OP
+    fn number(command: usize) -> u32 {
+        debug_assert!(
+            command <= Self::MAX_COMMAND as usize,
+            "command {command} fits below the flags"
+        );
+        u32::try_from(command).unwrap_or(0) & Self::MAX_COMMAND
     }
 
     /// The same stamp with its bits, of which the lowest lies at column `x` and row `y` of the tile.
@@ -126,19 +132,19 @@ impl TileCommand {
         }
     }
 
-    /// Index of the op in its chunk.
+    /// Index of the command in its chunk.
     #[inline]
-    pub(crate) fn op(self) -> usize {
-        (self.head & Self::MAX_OP) as usize
+    pub(crate) fn command(self) -> usize {
+        (self.head & Self::MAX_COMMAND) as usize
     }
 
-    /// Whether the op is a triangle or polygon that covers every sample of the tile.
+    /// Whether the command is a triangle or polygon that covers every sample of the tile.
     #[inline]
     pub(crate) fn covers_tile(self) -> bool {
         self.head & Self::COVERS != 0
     }
 
-    /// Whether nothing painted in the tile before this op can be seen.
+    /// Whether nothing painted in the tile before this command can be seen.
     #[inline]
     pub(crate) fn hides_tile(self) -> bool {
         self.head & Self::HIDES != 0
@@ -172,23 +178,25 @@ impl TileCommand {
             let index = u32::try_from(self.bits).unwrap_or(u32::MAX);
             return Work::Flat(Shape::Outline(chunk.outline(index)), self.color);
         }
-        match chunk.ops[self.op()] {
+        match chunk.commands[self.command()] {
             DrawCommand::Triangle(index) => {
                 let triangle = &chunk.triangles[index as usize];
                 let paint = &chunk.paints[triangle.paint as usize];
-                match (chunk.floats.get(index as usize), paint) {
-                    (None, _) => Work::Shaded(Shape::Triangle(&triangle.corners), triangle, paint),
-                    (Some(float), Paint::Solid(color)) => Work::Flat(Shape::Float(float), *color),
-                    (Some(float), _) => Work::Shaded(Shape::Float(float), triangle, paint),
+                let float = chunk.floats.get(index as usize);
+                let shape = float.map_or(Shape::Triangle(&triangle.corners), Shape::Float);
+                match paint.constant {
+                    Some(color) => Work::Flat(shape, color),
+                    None => Work::Shaded(shape, &triangle.corners, &paint.paint),
                 }
             }
-            DrawCommand::EndLayer(index) => Work::EndLayer(chunk.layers[index as usize].opacity),
+            DrawCommand::BeginLayer(index) | DrawCommand::EndLayer(index) => {
+                let compositing = chunk.layers[index as usize].compositing;
+                compositing.map_or(Work::BeginLayer, Work::EndLayer)
+            }
             // Stamps, outlines and hairlines have returned above.
-            DrawCommand::BeginLayer(_)
-            | DrawCommand::Outline(_)
-            | DrawCommand::Samples(_)
-            | DrawCommand::Pixels(_)
-            | DrawCommand::Hairline(_) => Work::BeginLayer,
+            DrawCommand::Outline(_) | DrawCommand::Samples(_) | DrawCommand::Pixels(_) | DrawCommand::Hairline(_) => {
+                Work::BeginLayer
+            }
         }
     }
 }

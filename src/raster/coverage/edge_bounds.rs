@@ -1,6 +1,6 @@
 //! A triangle row of tiles by row of tiles: the tiles it touches and the tiles it covers, without looking at any other.
 //!
-//! In a band of sample rows each edge moves between the columns where it crosses the first row and the last. What lies
+//! In a few sample rows each edge moves between the columns where it crosses the first row and the last. What lies
 //! left of every left edge's least column holds no covered sample; what lies right of their greatest is inside them.
 //! The columns are computed in 64-bit floats, which are off by less than a millionth of the grid's unit inside the
 //! frame, and widened or narrowed by a whole unit: the first answer may name a tile too many, the second one too few,
@@ -20,9 +20,9 @@ pub(crate) struct TileRows {
     right: [Line; 2],
 }
 
-/// The columns of a band of rows, in units of the sub-pixel grid.
+/// The columns of some rows, in units of the sub-pixel grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Band {
+pub(crate) struct ColumnBounds {
     /// No covered sample lies before the first or after the second.
     pub(crate) touched: [f64; 2],
     /// In every row, all from the first to the second lies inside; nothing where the first is the greater one.
@@ -87,14 +87,14 @@ impl TileRows {
 
     /// The columns in the rows from coordinate `first` to `last`, which must lie between the triangle's top and bottom.
     #[inline]
-    pub(crate) fn band(&self, first: i32, last: i32) -> Band {
+    pub(crate) fn between(&self, first: i32, last: i32) -> ColumnBounds {
         let (first, last) = (f64::from(first), f64::from(last));
         let ends = |line: Line| {
             let (a, b) = (line.at(first), line.at(last));
             (a.min(b), a.max(b))
         };
         let (left, right) = (self.left.map(ends), self.right.map(ends));
-        Band {
+        ColumnBounds {
             touched: [left[0].0.max(left[1].0) - MARGIN, right[0].1.min(right[1].1) + MARGIN],
             covered: [left[0].1.max(left[1].1) + MARGIN, right[0].0.min(right[1].0) - MARGIN],
         }

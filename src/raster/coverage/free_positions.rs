@@ -4,7 +4,7 @@
 //! grid of samples: so everything that leads to a tile, and the rule for ties, is the grid's. What remains to be found
 //! here is which of its lattice points a pixel's samples are. Where no edge crosses a pixel, its corners decide at once.
 
-use crate::geometry::edge::{doubled_area, edge_value};
+use crate::geometry::edge::{SampleEdge, doubled_area};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::SampleRate;
 use crate::raster::coverage::covered::Covered;
@@ -31,7 +31,7 @@ pub(crate) struct FreePositions {
     outlines: FreePositionsPolygon,
 }
 
-/// An edge function divided by the distance of two lattice points: below zero at those outside.
+/// A [`SampleEdge`], whose samples are all points of the lattice.
 #[derive(Clone, Copy, Debug, Default)]
 struct LatticeEdge {
     /// At the frame's first point.
@@ -137,14 +137,16 @@ impl FreePositions {
         if columns.is_empty() || rows.is_empty() || samples.columns.is_empty() || samples.rows.is_empty() {
             return;
         }
-        let edges = LatticeEdge::of_triangle(corners, area, self.grid, self.rules);
+        let first = self.grid.sample_coordinate(0);
+        let first = GridPoint { x: first, y: first };
+        let edges = SampleEdge::of_triangle((corners, area), first, (self.grid, self.rules)).map(LatticeEdge::new);
         self.gains.clear();
         // Where there are few columns, looking at each pixel costs less than finding out which to look at.
         let lines = (columns.end - columns.start > 2).then(|| TileRows::new(corners));
         for y in rows.start..rows.end {
             let (touched, inside) = match &lines {
                 Some(lines) => self.row_of(lines, (columns, samples.rows), y),
-                None => (columns, Span::default()),
+                None => (columns, Span::EMPTY),
             };
             if inside.is_empty() {
                 self.pixels(&edges, touched, y, &mut visit);
@@ -174,21 +176,21 @@ impl FreePositions {
         };
         let inside = all.intersection(rows);
         let at = |row| self.grid.sample_coordinate(row);
-        let band = lines.band(at(inside.start), at(inside.end - 1));
+        let bounds = lines.between(at(inside.start), at(inside.end - 1));
         let (least, most) = (f64::from(columns.start), f64::from(columns.end));
         let per_unit = 1.0 / self.grid.units_per_pixel();
         // No column of a frame is negative.
         let floor = |units: f64| (units * per_unit).clamp(least, most) as i32;
         let touched = Span {
-            start: floor(band.touched[0]),
-            end: floor(band.touched[1]).saturating_add(1).min(columns.end),
+            start: floor(bounds.touched[0]),
+            end: floor(bounds.touched[1]).saturating_add(1).min(columns.end),
         };
-        if inside != all || band.covered[0] > band.covered[1] {
-            return (touched, Span::default());
+        if inside != all || bounds.covered[0] > bounds.covered[1] {
+            return (touched, Span::EMPTY);
         }
         let covered = Span {
-            start: (band.covered[0] * per_unit).clamp(least, most).ceil() as i32,
-            end: floor(band.covered[1]),
+            start: (bounds.covered[0] * per_unit).clamp(least, most).ceil() as i32,
+            end: floor(bounds.covered[1]),
         };
         (touched, covered)
     }
@@ -244,21 +246,12 @@ impl FreePositions {
 }
 
 impl LatticeEdge {
-    /// The edges of a triangle with an area, clockwise.
-    fn of_triangle([a, b, c]: [GridPoint; 3], area: i64, grid: SubpixelGrid, rules: Rules) -> [Self; 3] {
-        let [b, c] = if area < 0 { [c, b] } else { [b, c] };
-        [(a, b), (b, c), (c, a)].map(|(from, to)| {
-            let first = grid.sample_coordinate(0);
-            let (dx, dy) = (to.x - from.x, to.y - from.y);
-            // Clockwise on the screen: a left edge runs up, a top edge runs right.
-            let owns_ties = rules == Rules::Course || dy < 0 || (dy == 0 && dx > 0);
-            let exact = edge_value(from, to, GridPoint { x: first, y: first }) - i64::from(!owns_ties);
-            Self {
-                value: exact >> grid.bits(),
-                right: i64::from(-dy),
-                down: i64::from(dx),
-            }
-        })
+    fn new(edge: SampleEdge) -> Self {
+        Self {
+            value: edge.value,
+            right: edge.right.into(),
+            down: edge.down.into(),
+        }
     }
 
     /// The same, standing at a pixel's first point.
@@ -298,9 +291,9 @@ mod tests {
     use super::*;
     use crate::color::{Premultiplied16, ResolveSpace, Rgba};
     use crate::raster::list::builder::ChunkBuilder;
-    use crate::raster::list::chunk::ListContext;
+    use crate::raster::list::context::ListContext;
     use crate::raster::paint::per_sample::PerSamplePainter;
-    use crate::raster::paint::recorder::PaintedOp;
+    use crate::raster::paint::recorder::PaintedCommand;
     use crate::raster::random::{fill, noise};
     use crate::raster::{DisplayList, Framebuffer, RasterSettings, SamplePattern};
     use crate::texture::{PixelSampling, SamplingSettings, Texture};
@@ -334,9 +327,13 @@ mod tests {
         ))
     }
 
-    /// What each op paints in a pixel, and what its samples hold then; `scattered` says that samples are looked at one by
+    /// What each command paints in a pixel, and what its samples hold then; `scattered` says that samples are looked at one by
     /// one, also those of the grid.
-    fn painted(list: &DisplayList<'_>, [x, y]: [u32; 2], scattered: bool) -> (Vec<PaintedOp>, Vec<Premultiplied16>) {
+    fn painted(
+        list: &DisplayList<'_>,
+        [x, y]: [u32; 2],
+        scattered: bool,
+    ) -> (Vec<PaintedCommand>, Vec<Premultiplied16>) {
         let pixel = [x, y].map(u32::cast_signed);
         let column = Span {
             start: pixel[0],
@@ -350,7 +347,7 @@ mod tests {
             .collect();
         let free_positions = scattered.then(|| list.scatter_in(column));
         let mut painter = PerSamplePainter::new(list.shade_context(), free_positions);
-        let (painted, samples) = painter.replay(&chunks, (pixel, list.background()), &mut list.bands());
+        let (painted, samples) = painter.replay(&chunks, (pixel, list.background()), &mut list.shape_rows());
         (painted, samples.into_iter().map(|(color, _)| color).collect())
     }
 

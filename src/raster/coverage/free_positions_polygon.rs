@@ -13,6 +13,7 @@ use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::SampleRate;
 use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::edge_bounds::{Line, MARGIN};
+use crate::raster::coverage::outline_cache::OutlineCache;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
 use crate::raster::coverage::shape_rows::{MAX_SPANS, OutlineOf};
 use crate::raster::coverage::windings::RowWindings;
@@ -23,13 +24,9 @@ use crate::raster::span::{PixelRect, Span};
 /// Remembers what outlines enclose in the tile row at work.
 #[derive(Debug)]
 pub(in crate::raster) struct FreePositionsPolygon {
-    /// The pixel columns at work, and the rows.
+    /// The pixel columns at work.
     columns: Span,
-    band: Span,
-    /// For each outline of the drawing when it was last found, and what.
-    known: Vec<(u32, Stored)>,
-    /// Counts how often everything was forgotten.
-    age: u32,
+    found: OutlineCache<Stored>,
     /// Where the runs of each row begin, and one more.
     starts: Vec<usize>,
     runs: Vec<Run>,
@@ -83,9 +80,7 @@ impl FreePositionsPolygon {
     pub(in crate::raster) fn new(outlines: usize, columns: Span, count: usize) -> Self {
         Self {
             columns,
-            band: Span::default(),
-            known: vec![(0, Stored::default()); outlines],
-            age: 0,
+            found: OutlineCache::new(outlines),
             starts: Vec::new(),
             runs: Vec::new(),
             masks: Vec::new(),
@@ -96,49 +91,52 @@ impl FreePositionsPolygon {
         }
     }
 
-    /// Makes sure that an outline is known in the rows of pixels `band`.
-    pub(in crate::raster) fn find(
-        &mut self,
-        of: OutlineOf<'_>,
-        (grid, places): (SubpixelGrid, &SamplePositions),
-        band: Span,
-    ) {
-        if self.band != band || self.age == 0 || self.runs.len() > MAX_SPANS / 4 {
-            self.band = band;
-            self.age += 1;
+    /// Makes sure that an outline is known in some rows of pixels.
+    pub(in crate::raster) fn find(&mut self, of: OutlineOf<'_>, places: (SubpixelGrid, &SamplePositions), rows: Span) {
+        let Self { found, runs, .. } = self;
+        if found.go_to(rows, runs.len() > MAX_SPANS / 4) {
             self.starts.clear();
             self.runs.clear();
             self.masks.clear();
         }
-        let (age, stored) = &mut self.known[of.number];
-        if *age == self.age {
-            return;
+        // Where it is found the first time, its runs come last.
+        let (first, mut is_new) = (self.starts.len(), false);
+        let area = self.area(&of, places.0, rows);
+        self.found.get_or(of.number, || {
+            is_new = true;
+            Stored { rows: area.y, first }
+        });
+        if is_new {
+            self.scan(of, places, area);
         }
+    }
+
+    /// The pixels that an outline may touch in some rows of pixels.
+    fn area(&self, of: &OutlineOf<'_>, grid: SubpixelGrid, rows: Span) -> PixelRect {
         let side = grid.side();
         let pixels = |span: Span| Span {
             start: span.start.div_euclid(side),
             end: (span.end - 1).div_euclid(side) + 1,
         };
-        let area = PixelRect {
+        PixelRect {
             x: pixels(of.outline.samples.columns).intersection(self.columns),
-            y: pixels(of.outline.samples.rows).intersection(band),
-        };
-        *age = self.age;
-        *stored = Stored {
-            rows: area.y,
-            first: self.starts.len(),
-        };
+            y: pixels(of.outline.samples.rows).intersection(rows),
+        }
+    }
+
+    /// Adds the runs of an outline, row by row.
+    fn scan(&mut self, of: OutlineOf<'_>, places: (SubpixelGrid, &SamplePositions), area: PixelRect) {
         for y in area.y.start..area.y.end {
             self.starts.push(self.runs.len());
-            self.sweep.gather((of.outline, of.edges), grid, area.x, y);
-            self.row(of.outline.rule, (grid, places), area.x, y);
+            self.sweep.gather((of.outline, of.edges), places.0, area.x, y);
+            self.row(of.outline.rule, places, area.x, y);
         }
         self.starts.push(self.runs.len());
     }
 
     /// Calls `visit` with what outline `number`, which must be known, encloses of the pixels `xs` in row `y`.
     pub(in crate::raster) fn each(&self, number: usize, y: i32, xs: Span, mut visit: impl FnMut(Covered)) {
-        let (_, Stored { rows, first }) = self.known[number];
+        let Stored { rows, first } = self.found.get(number);
         if y < rows.start || y >= rows.end {
             return;
         }

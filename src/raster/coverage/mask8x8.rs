@@ -1,11 +1,9 @@
 //! The coverage of a triangle smaller than a few samples, as a bit for each: no walkers, no division, no loop over rows.
 //!
-//! The edge function of an edge is `e + column * right + row * down`, whose steps are multiples of the distance of two
-//! samples, `1 << bits`. Whether such a sum is below zero does not change when everything is divided by that distance
-//! and `e` rounded down. So three additions of small numbers decide a sample, exactly, with Pineda's edge functions
-//! ("A parallel algorithm for polygon rasterization", 1988); an edge that does not own its samples first loses one unit.
+//! Three additions of small numbers decide a sample, exactly: see [`SampleEdge`] (Pineda, "A parallel algorithm for
+//! polygon rasterization", 1988).
 
-use crate::geometry::edge::edge_value;
+use crate::geometry::edge::{SampleEdge, doubled_area};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::span::{SMALL, SampleBox, Span};
 use crate::rules::Rules;
@@ -21,7 +19,7 @@ pub(crate) struct CoverageMask {
     pub(crate) mask: u64,
 }
 
-/// An edge function divided by the distance of two samples: below zero at the samples outside.
+/// A [`SampleEdge`] whose values fit 32 bits.
 #[derive(Clone, Copy, Default)]
 struct SmallEdge {
     /// At the first sample.
@@ -31,24 +29,16 @@ struct SmallEdge {
     down: i32,
 }
 
-/// The coverage of a triangle whose box holds at most [`SMALL`] columns and rows of samples; `None` for a larger one.
-pub(crate) fn coverage_mask(corners: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Option<CoverageMask> {
-    let samples = SampleBox::new(corners, grid, rules);
-    samples
-        .is_small()
-        .then(|| CoverageMask::new(corners, samples, grid, rules))
-}
-
 impl CoverageMask {
     /// What a triangle covers whose box is `samples`, which must be small.
     #[inline]
-    pub(crate) fn new([a, b, c]: [GridPoint; 3], samples: SampleBox, grid: SubpixelGrid, rules: Rules) -> Self {
+    pub(crate) fn new(corners: [GridPoint; 3], samples: SampleBox, grid: SubpixelGrid, rules: Rules) -> Self {
         let (column, row) = (samples.columns.start, samples.rows.start);
         let mut coverage = Self { column, row, mask: 0 };
         if samples.columns.is_empty() || samples.rows.is_empty() {
             return coverage;
         }
-        let area = edge_value(a, b, c);
+        let area = doubled_area(corners);
         if area == 0 {
             return coverage;
         }
@@ -56,17 +46,12 @@ impl CoverageMask {
             x: grid.sample_coordinate(column),
             y: grid.sample_coordinate(row),
         };
-        let [b, c] = if area < 0 { [c, b] } else { [b, c] };
-        let edges = [
-            SmallEdge::new(a, b, first, grid, rules),
-            SmallEdge::new(b, c, first, grid, rules),
-            SmallEdge::new(c, a, first, grid, rules),
-        ];
+        let edges = SampleEdge::of_triangle((corners, area), first, (grid, rules)).map(SmallEdge::new);
         let wide = samples.columns.end - column > 4;
         for j in 0..samples.rows.end - row {
-            let mut bits = quad(&edges, 0, j);
+            let mut bits = group_of_four(&edges, 0, j);
             if wide {
-                bits |= quad(&edges, 4, j) << 4;
+                bits |= group_of_four(&edges, 4, j) << 4;
             }
             coverage.mask |= u64::from(bits) << (SMALL * j);
         }
@@ -156,28 +141,23 @@ impl CoverageMask {
 }
 
 impl SmallEdge {
-    /// The edge `from -> to` of a clockwise triangle, standing at the sample `first`.
     #[inline]
     #[expect(
         clippy::cast_possible_truncation,
         reason = "within nine samples of each other, all corners and samples keep the quotient below 2^22"
     )]
-    fn new(from: GridPoint, to: GridPoint, first: GridPoint, grid: SubpixelGrid, rules: Rules) -> Self {
-        let (dx, dy) = (to.x - from.x, to.y - from.y);
-        // Clockwise on the screen: a left edge runs up, a top edge runs right.
-        let owns_ties = rules == Rules::Course || dy < 0 || (dy == 0 && dx > 0);
-        let exact = edge_value(from, to, first) - i64::from(!owns_ties);
+    fn new(edge: SampleEdge) -> Self {
         Self {
-            value: (exact >> grid.bits()) as i32,
-            right: -dy,
-            down: dx,
+            value: edge.value as i32,
+            right: edge.right,
+            down: edge.down,
         }
     }
 }
 
 /// The bits of four samples side by side, from column `i` of row `j` on.
 #[inline]
-fn quad(edges: &[SmallEdge; 3], i: i32, j: i32) -> u32 {
+fn group_of_four(edges: &[SmallEdge; 3], i: i32, j: i32) -> u32 {
     let start = edges.map(|edge| edge.value + edge.right * i + edge.down * j);
     let mut inside = 0;
     for i in 0..4 {
@@ -192,6 +172,14 @@ fn quad(edges: &[SmallEdge; 3], i: i32, j: i32) -> u32 {
 #[cfg(test)]
 mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
+
+    /// The coverage of a triangle whose box holds at most [`SMALL`] columns and rows of samples; `None` for a larger one.
+    fn coverage_mask(corners: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Option<CoverageMask> {
+        let samples = SampleBox::new(corners, grid, rules);
+        samples
+            .is_small()
+            .then(|| CoverageMask::new(corners, samples, grid, rules))
+    }
 
     use super::*;
     use crate::geometry::subpixel::GUARD;

@@ -42,8 +42,8 @@ pub(crate) struct BatchCoverage {
     rows: [i32; LANES],
     /// The lower half of the masks: rows beyond the fourth are empty.
     masks: [u32; LANES],
-    /// Of which triangles anything is known, and which have no area: a bit each.
-    known: u64,
+    /// Which triangles are small enough to be decided, and which have no area: a bit each.
+    decided: u64,
     flat: u64,
 }
 
@@ -80,7 +80,7 @@ struct Axis<S: Simd> {
     fits: mask64x8<S>,
 }
 
-/// An edge function divided by the distance of two samples; as of `SmallEdge`.
+/// A [`SampleEdge`](crate::geometry::edge::SampleEdge) of each triangle, with the same tie rule.
 #[derive(Clone, Copy)]
 struct Edge<S: Simd> {
     value: i32x8<S>,
@@ -111,9 +111,9 @@ impl TriangleBatch {
 }
 
 impl BatchCoverage {
-    /// Of how many triangles anything is known.
-    pub(crate) fn known(&self) -> usize {
-        self.known.count_ones() as usize
+    /// How many triangles are decided.
+    pub(crate) fn decided(&self) -> usize {
+        self.decided.count_ones() as usize
     }
 
     /// What the triangle of a lane covers; `None` where it may be larger than what a batch is for, or leave the frame.
@@ -124,7 +124,7 @@ impl BatchCoverage {
         } else {
             0
         };
-        (self.known >> lane & 1 != 0).then(|| CoverageMask {
+        (self.decided >> lane & 1 != 0).then(|| CoverageMask {
             column: self.columns[lane],
             row: self.rows[lane],
             mask: u64::from(mask),
@@ -254,7 +254,7 @@ fn coverage<S: Simd>(simd: S, batch: &TriangleBatch, lattice: &Lattice) -> Batch
         columns: whole(simd, x.start).into(),
         rows: whole(simd, y.start).into(),
         masks: masks(simd, edges).into(),
-        known: (x.fits & y.fits).to_bitmask(),
+        decided: (x.fits & y.fits).to_bitmask(),
         flat: area.simd_eq(zero).to_bitmask(),
     }
 }

@@ -21,6 +21,7 @@ pub(in crate::raster) mod free_positions;
 pub(in crate::raster) mod free_positions_polygon;
 pub(in crate::raster) mod mask8x8;
 pub(in crate::raster) mod mask8x8_simd;
+pub(in crate::raster) mod outline_cache;
 pub(in crate::raster) mod pixel_rows;
 pub(in crate::raster) mod pixel_rows_4x4;
 pub(in crate::raster) mod polygon;

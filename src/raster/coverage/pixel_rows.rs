@@ -1,7 +1,7 @@
 //! The coverage of a rectangle of pixels, one row of pixels at a time.
 
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-use crate::raster::coverage::mask8x8::{CoverageMask, coverage_mask};
+use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon_rows::RowSpans;
 use crate::raster::coverage::triangle::SortedTriangle;
 use crate::raster::sampling::rate::SampleRate;
@@ -32,9 +32,6 @@ pub(crate) fn each_pixel_row(
     rect: PixelRect,
     paint: impl FnMut(&PixelRow<'_>),
 ) {
-    if let Some(coverage) = coverage_mask(corners, grid, rules) {
-        return each_pixel_row_of_few(coverage, grid.side(), rect, paint);
-    }
     let Some(sorted) = SortedTriangle::new(corners, rules) else {
         return;
     };
@@ -84,7 +81,7 @@ pub(crate) fn each_pixel_row_of_spans(
                 *span = spans
                     .of_row(line)
                     .first()
-                    .map_or(Span::default(), |span| span.intersection(columns));
+                    .map_or(Span::EMPTY, |span| span.intersection(columns));
             }
         };
         return each_row(side, rect, spans.rows, next, paint);
@@ -114,7 +111,7 @@ pub(crate) fn each_pixel_row_of_spans(
                 for (span, left) in of_rows.iter_mut().zip(left) {
                     *span = left
                         .split_off_first()
-                        .map_or(Span::default(), |span| span.intersection(columns));
+                        .map_or(Span::EMPTY, |span| span.intersection(columns));
                 }
             };
             each_row(side, rect, lines, next, &mut paint);
@@ -131,29 +128,11 @@ fn each_row(
     rect: PixelRect,
     rows: Span,
     mut next_spans: impl FnMut(i32, Span, &mut [Span]),
-    paint: impl FnMut(&PixelRow<'_>),
+    mut paint: impl FnMut(&PixelRow<'_>),
 ) {
     let columns = scaled(rect.x, side);
     let rows = rows.intersection(scaled(rect.y, side));
-    let next_spans = |first, spans: &mut [Span]| next_spans(first, columns, spans);
-    match side {
-        1 => gather_rows(1, rows, next_spans, paint),
-        4 => gather_rows(4, rows, next_spans, paint),
-        _ => gather_rows(side, rows, next_spans, paint),
-    }
-}
-
-/// Calls `paint` with each row of pixels of which a sample row lies in `rows`. Inlined, so that the compiler knows the
-/// commonest `side`.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "divisions by a known side are shifts")]
-fn gather_rows(
-    side: i32,
-    rows: Span,
-    mut next_spans: impl FnMut(i32, &mut [Span]),
-    mut paint: impl FnMut(&PixelRow<'_>),
-) {
-    let mut lines = [Span::default(); MAX_SIDE];
+    let mut lines = [Span::EMPTY; MAX_SIDE];
     let in_pixel = side.cast_unsigned() as usize;
     // Sample rows of as many pixels as there is room for.
     let batch = i32::try_from(MAX_SIDE / in_pixel * in_pixel).unwrap_or(side);
@@ -164,10 +143,10 @@ fn gather_rows(
         let top = first * side;
         let end = rows.end.min(top + batch);
         let inside = |line: i32| (line - top).cast_unsigned() as usize;
-        lines[..inside(line)].fill(Span::default());
-        next_spans(line, &mut lines[inside(line)..inside(end)]);
+        lines[..inside(line)].fill(Span::EMPTY);
+        next_spans(line, columns, &mut lines[inside(line)..inside(end)]);
         let last = inside(end).next_multiple_of(in_pixel);
-        lines[inside(end)..last].fill(Span::default());
+        lines[inside(end)..last].fill(Span::EMPTY);
         for (spans, y) in lines[..last].chunks_exact(in_pixel).zip(first..) {
             let row = PixelRow::new(y, spans);
             if !row.touched.is_empty() {
@@ -180,10 +159,9 @@ fn gather_rows(
 
 impl<'a> PixelRow<'a> {
     /// The row `y` of pixels with these spans, one for each sample row.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "divisions by a known side are shifts")]
+    #[inline]
     fn new(y: i32, spans: &'a [Span]) -> Self {
-        let nothing = Span::default();
+        let nothing = Span::EMPTY;
         if let [only] = *spans {
             let touched = if only.is_empty() { nothing } else { only };
             return Self {
@@ -202,11 +180,11 @@ impl<'a> PixelRow<'a> {
         }
         if any_empty {
             // A sample row without samples leaves no pixel full.
-            inner = Span::default();
+            inner = Span::EMPTY;
             outer = spans
                 .iter()
                 .filter(|span| !span.is_empty())
-                .fold(Span::NOTHING, |outer, span| outer.union(*span));
+                .fold(Span::EMPTY, |outer, span| outer.union(*span));
         }
         let mut row = Self {
             y,
@@ -240,7 +218,7 @@ impl<'a> PixelRow<'a> {
         row
     }
 
-    /// Covered sample columns for each sample row of the row of pixels; perhaps beyond the rectangle, too.
+    /// Covered sample columns for each sample row of the row of pixels; spans may reach beyond the rectangle.
     #[inline]
     pub(crate) fn spans(&self) -> &'a [Span] {
         self.spans

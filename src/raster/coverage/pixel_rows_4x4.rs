@@ -11,7 +11,7 @@ use fearless_simd::{Simd, i8x16, i8x64, i32x4, mask32x4, u32x4, u64x2};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::coverage::polygon_rows::RowSpans;
 use crate::raster::coverage::triangle::SortedTriangle;
-use crate::raster::span::{PixelRect, Span, scaled};
+use crate::raster::span::{PixelRect, Span, scaled, to_index};
 use crate::raster::surface_id::{GROUP, LAST_GROUP};
 use crate::rules::Rules;
 
@@ -53,7 +53,7 @@ const EMPTY: Four = [Span::EMPTY; ROWS];
 pub(crate) struct TileRow<'a> {
     /// The row, counted from the tile's first.
     pub(crate) y: usize,
-    /// Covered sample columns of the frame, perhaps beyond the tile, too.
+    /// Covered sample columns of the frame; spans may reach beyond the tile.
     pub(crate) spans: &'a Four,
     /// The tile's first column of pixels.
     left: i32,
@@ -113,7 +113,7 @@ pub(crate) fn each_row_of_triangle<S: Simd>(
         walker.next_spans(&mut lines[inside(line)..end]);
         let used = end.next_multiple_of(2 * ROWS).min(count);
         lines[end..used].fill(Span::EMPTY);
-        let y = place(first - rect.y.start);
+        let y = to_index(first - rect.y.start);
         each(simd, (&fours[..used / ROWS], rect.x), |i| y + i, &mut paint);
         line = first * SIDE + BATCH_LINES;
     }
@@ -189,11 +189,11 @@ impl<'a> FourRows<'a> {
             if line >= self.rows.end {
                 break;
             }
-            self.y = place((line >> 2) - self.top);
+            self.y = to_index((line >> 2) - self.top);
             // As many rows of pixels as have one span in each of their sample rows.
             let room = if self.spans.single { BATCH - count } else { 1 };
             let whole = if line % SIDE == 0 {
-                (place(self.rows.end - line) / ROWS).min(room)
+                (to_index(self.rows.end - line) / ROWS).min(room)
             } else {
                 0
             };
@@ -219,7 +219,7 @@ impl<'a> FourRows<'a> {
         self.left = [&[]; ROWS];
         for line in line..end {
             // Those spans that reach into the tile.
-            self.left[place(line & 3)] = reaching(self.spans.of_row(line), self.columns);
+            self.left[to_index(line & 3)] = reaching(self.spans.of_row(line), self.columns);
         }
         let [a, b, c, d] = self.left.map(<[Span]>::len);
         (self.next, self.most) = (0, a.max(b).max(c.max(d)));
@@ -230,7 +230,7 @@ impl<'a> FourRows<'a> {
     }
 }
 
-/// Those of some spans that reach into `columns`, and perhaps a few others.
+/// Those of some spans that reach into `columns`; there may be a few others among them.
 #[inline]
 fn reaching(spans: &[Span], columns: Span) -> &[Span] {
     const FEW: usize = 3;
@@ -378,20 +378,13 @@ fn before<S: Simd>(simd: S, columns: i32x4<S>, x: usize) -> u64 {
     samples.simd_lt(i8x64::block_splat(rows)).to_bitmask()
 }
 
-/// A distance that is never negative.
-#[inline]
-fn place(distance: i32) -> usize {
-    distance.max(0).cast_unsigned() as usize
-}
-
 #[cfg(test)]
 mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
     use fearless_simd::dispatch;
 
     use super::*;
-    use crate::raster::paint::visibility::buffer_4x4::fill;
-    use crate::raster::surface_id::{ROW, SurfaceId};
+    use crate::raster::surface_id::ROW;
     use crate::simd;
 
     /// Columns around those of a tile of some pixels, more than fit a window.
@@ -459,7 +452,7 @@ mod tests {
                 std::array::from_fn(|x| {
                     let x = columns.start + i32::try_from(x).expect("in the row");
                     let bit = |i: i32| {
-                        let Span { start, end } = spans[place(i / SIDE)];
+                        let Span { start, end } = spans[to_index(i / SIDE)];
                         let inside = (start..end).contains(&(x * SIDE + i % SIDE));
                         u64::from(inside && x < columns.end) << i
                     };
@@ -470,26 +463,12 @@ mod tests {
                 let mut found = dispatch!(level, simd => masks(simd, &fours, columns));
                 // Windows may look beyond the tile's right side, where nobody looks.
                 for row in &mut found {
-                    row[place(columns.end - columns.start)..].fill(0);
+                    row[to_index(columns.end - columns.start)..].fill(0);
                 }
                 assert_eq!(found, expected, "{name}: {columns:?} of {fours:?}");
             }
             Ok(())
         })
         .budget_ms(600);
-    }
-
-    #[test]
-    fn slots_are_filled_from_start_to_end() {
-        for start in 0..=ROW {
-            for end in start..=ROW {
-                let mut surfaces: [SurfaceId; ROW] =
-                    std::array::from_fn(|i| SurfaceId::try_from(100 + i).expect("a surface"));
-                let mut expected = surfaces;
-                expected[start..end].fill(9);
-                fill(&mut surfaces, start..end, 9);
-                assert_eq!(surfaces, expected, "{start} to {end}");
-            }
-        }
     }
 }

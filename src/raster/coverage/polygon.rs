@@ -191,7 +191,7 @@ impl Outline {
         })
     }
 
-    /// Removes the edges of an outline that nobody needs, the newest one of the chunk.
+    /// Removes the edges of the chunk's newest outline, once they are no longer needed.
     pub(crate) fn drop_edges(self, all: &mut Vec<OutlineEdge>) {
         all.truncate(self.edges.start);
     }

@@ -6,7 +6,7 @@ use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
 use crate::raster::coverage::simple_polygon_rows::{Crossings, SimplePolygonRows};
-use crate::raster::span::{SMALL, SampleBox, Span};
+use crate::raster::span::{SMALL, SampleBox, Span, to_index};
 
 /// Most crossings of edges and rows that are held at once, where a row has no more: 16 MB.
 const MAX_CROSSINGS: usize = 1 << 22;
@@ -16,7 +16,7 @@ const MAX_CROSSINGS: usize = 1 << 22;
 pub(crate) struct RowSpans<'a> {
     /// The rows.
     pub(crate) rows: Span,
-    /// Where the spans of each row begin, and one more; of no account where they are single.
+    /// Where the spans of each row begin, and one more; unused where they are single.
     starts: &'a [u32],
     spans: &'a [Span],
     /// Whether each row has one, empty or not.
@@ -101,7 +101,7 @@ impl RowScanner {
         let rows = rows.intersection(outline.samples.rows);
         let (span, first) = (store.spans.len(), store.starts.len());
         let mut single = true;
-        // All rows at once, unless so many edges might cross them that nobody would want to hold it.
+        // All rows at once, unless so many edges might cross them that their crossings take too much memory.
         let step = i32::try_from(MAX_CROSSINGS / outline.edges.len().max(1));
         let step = step.unwrap_or(i32::MAX).max(1);
         let mut start = rows.start;
@@ -139,17 +139,6 @@ impl RowScanner {
             let to = *to as usize;
             let crossings = &mut self.crossings[from..to];
             from = to;
-            if let [a, b] = crossings {
-                // Of two that cross a row, one runs up and one down; or else both wind around what is between.
-                let span = Span {
-                    start: (*a).min(*b) >> 1,
-                    end: (*a).max(*b) >> 1,
-                };
-                if (*a ^ *b) & 1 != 0 {
-                    store.spans.push(if span.is_empty() { Span::EMPTY } else { span });
-                    continue;
-                }
-            }
             crossings.sort_unstable();
             enclosed(crossings, rule, end, &mut store.spans);
             match store.spans.len() - before {
@@ -180,7 +169,7 @@ impl RowScanner {
         for (edge, inside) in edges {
             let mut walker = EdgeWalker::new(grid, edge.top, edge.bottom, inside.start);
             let down = i32::from(edge.winding > 0);
-            let (first, last) = (place(inside.start - rows.start), place(inside.end - rows.start));
+            let (first, last) = (to_index(inside.start - rows.start), to_index(inside.end - rows.start));
             for next in &mut self.next[first..last] {
                 self.crossings[*next as usize] = walker.at_or_after().clamp(0, end) << 1 | down;
                 *next += 1;
@@ -256,7 +245,7 @@ impl SpanStore {
     /// What was stored.
     #[inline]
     pub(crate) fn get(&self, stored: Stored) -> RowSpans<'_> {
-        let count = place(stored.rows.end - stored.rows.start);
+        let count = stored.rows.length();
         let (starts, spans): (&[u32], &[Span]) = if stored.single {
             (&[], &self.spans[stored.span..stored.span + count])
         } else {
@@ -275,7 +264,7 @@ impl<'a> RowSpans<'a> {
     /// The spans of some of the rows, row by row.
     #[inline]
     pub(crate) fn of_rows(&self, start: i32, end: i32) -> &'a [Span] {
-        let [start, end] = [start, end].map(|row| place(row - self.rows.start));
+        let [start, end] = [start, end].map(|row| to_index(row - self.rows.start));
         if self.single {
             return &self.spans[start..end];
         }
@@ -287,12 +276,6 @@ impl<'a> RowSpans<'a> {
     pub(crate) fn of_row(&self, row: i32) -> &'a [Span] {
         self.of_rows(row, row + 1)
     }
-}
-
-/// A distance that is never negative.
-#[inline]
-fn place(distance: i32) -> usize {
-    distance.max(0).cast_unsigned() as usize
 }
 
 /// Far fewer than `2^32`: stores are cleared long before.

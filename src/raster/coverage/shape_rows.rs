@@ -4,6 +4,7 @@ use fearless_simd::Simd;
 
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::coverage::float_shape::FloatShape;
+use crate::raster::coverage::outline_cache::OutlineCache;
 use crate::raster::coverage::pixel_rows::{PixelRow, each_pixel_row, each_pixel_row_of_spans};
 use crate::raster::coverage::pixel_rows_4x4::{self, TileRow};
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
@@ -42,12 +43,7 @@ pub(crate) struct ShapeRows {
     settings: (SubpixelGrid, Rules),
     /// Columns of samples in the frame.
     columns: i32,
-    /// The rows of pixels at work.
-    band: Span,
-    /// For each outline of the drawing when it was last found, and what.
-    known: Vec<(u32, Stored)>,
-    /// Counts how often everything was forgotten.
-    age: u32,
+    found: OutlineCache<Stored>,
     scanner: RowScanner,
     store: SpanStore,
     /// Memory for the spans of a single triangle.
@@ -60,9 +56,7 @@ impl ShapeRows {
         Self {
             settings,
             columns,
-            band: Span::default(),
-            known: vec![(0, Stored::default()); outlines],
-            age: 0,
+            found: OutlineCache::new(outlines),
             scanner: RowScanner::default(),
             store: SpanStore::default(),
             single: SpanStore::default(),
@@ -116,21 +110,15 @@ impl ShapeRows {
         self.single.get(stored)
     }
 
-    fn of_outline(&mut self, of: OutlineOf<'_>, band: Span) -> RowSpans<'_> {
-        if self.band != band || self.age == 0 || self.store.len() > MAX_SPANS {
-            self.band = band;
-            self.age += 1;
+    fn of_outline(&mut self, of: OutlineOf<'_>, rows: Span) -> RowSpans<'_> {
+        if self.found.go_to(rows, self.store.len() > MAX_SPANS) {
             self.store.clear();
         }
-        let (age, stored) = &mut self.known[of.number];
-        if *age != self.age {
+        let stored = self.found.get_or(of.number, || {
             let grid = self.settings.0;
-            let rows = scaled(band, grid.side());
-            *age = self.age;
-            *stored = self
-                .scanner
-                .scan(of.outline, (of.edges, grid), (rows, self.columns), &mut self.store);
-        }
-        self.store.get(*stored)
+            let rows = (scaled(rows, grid.side()), self.columns);
+            self.scanner.scan(of.outline, (of.edges, grid), rows, &mut self.store)
+        });
+        self.store.get(stored)
     }
 }

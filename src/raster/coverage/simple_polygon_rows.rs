@@ -7,11 +7,8 @@ use fearless_simd::{Simd, dispatch};
 use crate::geometry::edge::EdgeWalker;
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::coverage::polygon::OutlineEdge;
-use crate::raster::span::Span;
+use crate::raster::span::{Span, to_index};
 use crate::simd;
-
-/// From so many rows on that an edge crosses, it is walked four rows at a time.
-const LONG: usize = 8;
 
 /// Looks at outlines, reusing its memory.
 #[derive(Debug, Default)]
@@ -32,11 +29,11 @@ impl Crossings {
     /// Counts edges, which come with those of `rows` that they cross.
     pub(in crate::raster) fn count<'c>(&mut self, edges: impl Iterator<Item = (&'c OutlineEdge, Span)>, rows: Span) {
         self.changes.clear();
-        self.changes.resize(place(rows.end - rows.start) + 1, 0);
+        self.changes.resize(to_index(rows.end - rows.start) + 1, 0);
         for (edge, inside) in edges {
             let change = 1 + (i64::from(edge.winding) << 32);
-            self.changes[place(inside.start - rows.start)] += change;
-            self.changes[place(inside.end - rows.start)] -= change;
+            self.changes[to_index(inside.start - rows.start)] += change;
+            self.changes[to_index(inside.end - rows.start)] -= change;
         }
     }
 
@@ -76,7 +73,7 @@ impl SimplePolygonRows {
         (rows, end): (Span, i32),
         spans: &mut Vec<Span>,
     ) {
-        let count = place(rows.end - rows.start);
+        let count = to_index(rows.end - rows.start);
         self.least.clear();
         self.least.resize(count, Span::EMPTY.start);
         self.greatest.clear();
@@ -106,7 +103,7 @@ impl SimplePolygonRows {
             || {
                 for (edge, inside) in edges {
                     let walker = EdgeWalker::new(grid, edge.top, edge.bottom, inside.start);
-                    let range = place(inside.start - top)..place(inside.end - top);
+                    let range = to_index(inside.start - top)..to_index(inside.end - top);
                     widen(walker, &mut self.least[range.clone()], &mut self.greatest[range]);
                 }
             },
@@ -118,32 +115,10 @@ impl SimplePolygonRows {
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn widen(mut edge: EdgeWalker, least: &mut [i32], greatest: &mut [i32]) {
-    let (mut least, mut greatest) = (least, greatest);
-    if least.len() >= LONG {
-        let mut rows = edge.four_rows();
-        let (least_fours, least_rest) = least.as_chunks_mut::<4>();
-        let (greatest_fours, greatest_rest) = greatest.as_chunks_mut::<4>();
-        for (least, greatest) in least_fours.iter_mut().zip(greatest_fours) {
-            let columns = rows.at_or_after();
-            for i in 0..4 {
-                least[i] = least[i].min(columns[i]);
-                greatest[i] = greatest[i].max(columns[i]);
-            }
-            rows.step();
-        }
-        edge.go_to(&rows);
-        (least, greatest) = (least_rest, greatest_rest);
-    }
     for (least, greatest) in least.iter_mut().zip(greatest) {
         let column = edge.at_or_after();
         *least = column.min(*least);
         *greatest = column.max(*greatest);
         edge.step();
     }
-}
-
-/// A distance that is never negative.
-#[inline]
-fn place(distance: i32) -> usize {
-    distance.max(0).cast_unsigned() as usize
 }

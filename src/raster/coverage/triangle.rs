@@ -229,11 +229,11 @@ mod tests {
             let corners = [point()?, point()?, point()?];
             for rules in Rules::ALL {
                 let triangle = SortedTriangle::new(corners, rules);
-                let rows = triangle.map_or(Span::default(), |triangle| triangle.rows(grid));
+                let rows = triangle.map_or(Span::EMPTY, |triangle| triangle.rows(grid));
                 let all = Span { start: -2, end: 12 };
                 for start in [rows.start, (rows.start + 2).min(rows.end)] {
                     let mut walker = triangle.filter(|_| !rows.is_empty()).map(|t| t.walk_from(grid, start));
-                    let mut at_once = vec![Span::default(); (rows.end - start).max(0).unsigned_abs() as usize];
+                    let mut at_once = vec![Span::EMPTY; (rows.end - start).max(0).unsigned_abs() as usize];
                     if let Some(mut walker) = walker.clone() {
                         let third = at_once.len() / 3;
                         let (first, second) = at_once.split_at_mut(third);

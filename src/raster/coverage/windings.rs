@@ -1,6 +1,6 @@
 //! How often edges wind around each of some rows, where they change it for runs of rows only.
 
-use crate::raster::span::Span;
+use crate::raster::span::{Span, to_index};
 
 /// Windings of rows, kept as what changes from each row to the next: so an edge changes two numbers, however many rows
 /// it crosses, and whether all rows are wound around alike is known at once.
@@ -17,7 +17,7 @@ impl RowWindings {
     /// Nothing winds around so many rows.
     #[inline]
     pub(in crate::raster) fn begin(&mut self, rows: i32) {
-        self.steps.resize(place(rows) + 1, 0);
+        self.steps.resize(to_index(rows) + 1, 0);
         self.uneven = 0;
     }
 
@@ -25,7 +25,7 @@ impl RowWindings {
     #[inline]
     pub(in crate::raster) fn add(&mut self, rows: Span, winding: i32) {
         let last = self.steps.len() - 1;
-        for (row, change) in [(place(rows.start), winding), (place(rows.end), -winding)] {
+        for (row, change) in [(to_index(rows.start), winding), (to_index(rows.end), -winding)] {
             let step = &mut self.steps[row];
             let before = u32::from(*step != 0);
             *step += change;
@@ -55,16 +55,10 @@ impl RowWindings {
     #[inline]
     pub(in crate::raster) fn forget(&mut self, rows: impl Iterator<Item = Span>) {
         for rows in rows {
-            self.steps[place(rows.start)] = 0;
-            self.steps[place(rows.end)] = 0;
+            self.steps[to_index(rows.start)] = 0;
+            self.steps[to_index(rows.end)] = 0;
         }
     }
-}
-
-/// A row, never negative.
-#[inline]
-fn place(row: i32) -> usize {
-    row.max(0).cast_unsigned() as usize
 }
 
 #[cfg(test)]

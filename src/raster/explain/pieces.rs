@@ -3,31 +3,32 @@
 
 use glam::DVec2;
 
+use crate::color::Rgba;
 use crate::geometry::FillRule;
 use crate::geometry::edge::{EdgeTest, EdgeWalker};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::DisplayList;
-use crate::raster::attributes::{Planes, course_uv, uv_map};
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::polygon::Outline;
-use crate::raster::list::chunk::{Chunk, DrawCommand, Paint, ScreenTriangle};
-use crate::raster::paint::recorder::PaintedOp;
+use crate::raster::list::chunk::{Chunk, DrawCommand, ScreenTriangle};
+use crate::raster::paint::recorder::PaintedCommand;
 use crate::raster::sampling::positions::Position;
-use crate::raster::shading::shader::ShadeContext;
+use crate::raster::shading::context::{ShadeContext, ShadedSample};
+use crate::raster::shading::interpolated::{Attributes, TextureUse};
+use crate::raster::shading::{Paint, Shader};
 use crate::raster::span::Span;
 use crate::rules::Rules;
-use crate::texture::{Filter, Reading, Sampler, TextureReads};
 
-/// One op of a list, seen from the samples of a pixel.
+/// One command of a list, seen from the samples of a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// Its index in its chunk.
-    pub(crate) op: usize,
+    pub(crate) command: usize,
     /// What it is.
     pub shape: PieceShape,
 }
 
-/// What an op is.
+/// What an command is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PieceShape {
     /// A triangle, or what clipping left of one.
@@ -65,33 +66,6 @@ pub struct SampleOfTriangle {
     pub attributes: Attributes,
 }
 
-/// What is interpolated at a sample.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Attributes {
-    /// Nothing: one colour.
-    None,
-    /// Straight red, green, blue, alpha, `0.0..=1.0`.
-    Color([f64; 4]),
-    /// Texture coordinates.
-    Texture {
-        /// `(u, v)`.
-        uv: [f64; 2],
-        /// The texels read there.
-        reads: TextureReads,
-    },
-}
-
-/// How a triangle reads its texture.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TextureUse {
-    /// Index into the textures of the drawing.
-    pub texture: u32,
-    /// The same for all its samples, because its map is affine.
-    pub reading: Reading,
-    /// Multiplies the texels, `0.0..=1.0`.
-    pub opacity: f32,
-}
-
 impl SampleOfTriangle {
     /// Whether the sample is the triangle's by exact edges, and not by those in 32-bit floats.
     pub fn is_left_open(&self) -> bool {
@@ -104,14 +78,14 @@ impl SampleOfTriangle {
 }
 
 impl Piece {
-    /// Whether an op of the same chunk is this one.
-    pub fn is_of(&self, op: &PaintedOp) -> bool {
-        self.op == op.op
+    /// Whether an command of the same chunk is this one.
+    pub fn is_of(&self, command: &PaintedCommand) -> bool {
+        self.command == command.command
     }
 }
 
 impl DisplayList<'_> {
-    /// The ops of the list's only chunk as the samples of pixel `(x, y)` see them.
+    /// The commands of the list's only chunk as the samples of pixel `(x, y)` see them.
     ///
     /// `weights` is the same chunk but for its paints, which have red, green and blue at a triangle's corners: so weights
     /// take the way of every attribute, through clipping too.
@@ -125,22 +99,44 @@ impl DisplayList<'_> {
             pixel,
             places: self.places().of_pixel(pixel, &mut Vec::new()).to_vec(),
         };
-        let shape = |op: &DrawCommand| match *op {
+        let shape = |command: &DrawCommand| match *command {
             DrawCommand::Triangle(index) => {
                 let whole = weights.triangles.get(index as usize);
-                let weights = whole.map(|triangle| &weights.paints[triangle.paint as usize]);
+                let weights = whole.map(|triangle| &weights.paints[triangle.paint as usize].paint);
                 let triangle = &chunk.triangles[index as usize];
                 let float = chunk.floats.get(index as usize);
-                Some(seen.triangle((triangle, float), &chunk.paints[triangle.paint as usize], weights))
+                let paint = &chunk.paints[triangle.paint as usize].paint;
+                Some(seen.triangle((triangle, float), paint, weights))
             }
             DrawCommand::Outline(index) => Some(seen.outline(chunk, &chunk.outlines[index as usize])),
             DrawCommand::Hairline(_) | DrawCommand::Pixels(_) | DrawCommand::Samples(_) => Some(PieceShape::Pixels),
             DrawCommand::BeginLayer(_) | DrawCommand::EndLayer(_) => None,
         };
-        let ops = chunk.ops.iter().enumerate();
-        ops.filter_map(|(op, kind)| shape(kind).map(|shape| Piece { op, shape }))
+        let commands = chunk.commands.iter().enumerate();
+        commands
+            .filter_map(|(command, kind)| shape(kind).map(|shape| Piece { command, shape }))
             .collect()
     }
+}
+
+/// Red, green and blue at a triangle's corners.
+fn corner_weights() -> Paint {
+    let corner = |i: usize| Rgba {
+        r: f32::from(i == 0),
+        g: f32::from(i == 1),
+        b: f32::from(i == 2),
+        a: 1.0,
+    };
+    Paint::vertex([corner(0), corner(1), corner(2)])
+}
+
+/// The weights at a sample: what the first of some paints with colours at the corners interpolates there.
+fn weights_at(shaders: &[Shader<'_>], sample: ShadedSample) -> [f64; 3] {
+    let of = |shader: &Shader<'_>| match shader.interpolated(sample) {
+        Attributes::Color([a, b, c, _]) => Some([a, b, c]),
+        Attributes::None | Attributes::Texture { .. } => None,
+    };
+    shaders.iter().find_map(of).unwrap_or_default()
 }
 
 /// The samples of one pixel.
@@ -156,11 +152,14 @@ impl SeenFrom<'_> {
         self.context.grid
     }
 
-    /// Column and row of each sample in the frame.
-    fn samples(&self) -> impl Iterator<Item = [i32; 2]> {
-        let first = self.pixel.map(|at| at * self.grid().side());
-        let place = move |place: &Position| [first[0] + i32::from(place[0]), first[1] + i32::from(place[1])];
-        self.places.iter().map(place)
+    /// The pixel's samples, in the order of the pattern.
+    fn samples(&self) -> impl Iterator<Item = ShadedSample> {
+        let grid = self.context.samples_from(self.pixel);
+        let sample = move |place: &Position| ShadedSample {
+            grid,
+            place: place.map(u16::from),
+        };
+        self.places.iter().map(sample)
     }
 
     fn triangle(
@@ -171,39 +170,39 @@ impl SeenFrom<'_> {
     ) -> PieceShape {
         let grid = self.grid();
         let corners = triangle.corners;
-        let weights = match weights {
-            Some(Paint::Vertex(colors)) => *colors,
-            // Nothing was clipped away.
-            _ => [[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]],
-        };
-        let weights = Planes::new(grid, &corners, weights);
-        let attributes = AttributeSource::new(&self.context, triangle, paint);
-        let samples = self.samples().map(|[column, row]| {
+        let shader = Shader::new(&self.context, &corners, paint);
+        // Without such colours nothing was clipped away.
+        let weights: Vec<Shader<'_>> = weights
+            .into_iter()
+            .chain([&corner_weights()])
+            .map(|paint| Shader::new(&self.context, &corners, paint))
+            .collect();
+        let samples = self.samples().map(|sample| {
+            let [column, row] = sample.in_frame();
             let point = GridPoint {
                 x: grid.sample_coordinate(column),
                 y: grid.sample_coordinate(row),
             };
-            let at = [f64::from(column) + 0.5, f64::from(row) + 0.5];
-            let [a, b, c, _] = weights.at(at[0], at[1]);
             SampleOfTriangle {
                 units_per_pixel: grid.units_per_pixel(),
                 edges: EdgeTest::of_triangle(corners, point),
                 floats: float.map(|float| float.edges(grid, [column, row])),
-                weights: [a, b, c],
-                attributes: attributes.at(&self.context, self.pixel, [column, row]),
+                weights: weights_at(&weights, sample),
+                attributes: shader.interpolated(sample),
             }
         });
         PieceShape::Triangle {
             samples: samples.collect(),
             corners: corners
                 .map(|corner| DVec2::new(f64::from(corner.x), f64::from(corner.y)) / grid.units_per_pixel()),
-            texture: attributes.texture(),
+            texture: shader.texture_use(&self.context),
         }
     }
 
     fn outline(&self, chunk: &Chunk, outline: &Outline) -> PieceShape {
         let grid = self.grid();
-        let winding = |[column, row]: [i32; 2]| {
+        let winding = |sample: ShadedSample| {
+            let [column, row] = sample.in_frame();
             let rows = Span {
                 start: row,
                 end: row + 1,
@@ -218,83 +217,6 @@ impl SeenFrom<'_> {
         PieceShape::Outline {
             rule: outline.rule,
             windings: self.samples().map(winding).collect(),
-        }
-    }
-}
-
-/// Where the attributes of a triangle come from.
-enum AttributeSource<'a> {
-    None,
-    Color(Planes<4>),
-    Texture(Box<TextureSource<'a>>),
-}
-
-/// Texture coordinates and how they are read.
-struct TextureSource<'a> {
-    uv: Planes<2>,
-    usage: TextureUse,
-    filter: Filter<'a>,
-    /// By the course's rules.
-    sampler: Option<Sampler<'a>>,
-}
-
-impl<'a> AttributeSource<'a> {
-    fn new(context: &ShadeContext<'a>, triangle: &ScreenTriangle, paint: &Paint) -> Self {
-        match *paint {
-            Paint::Solid(_) => Self::None,
-            Paint::Vertex(colors) => Self::Color(Planes::new(context.grid, &triangle.corners, colors)),
-            Paint::Texture { texture, uv, opacity } => {
-                let pyramid = &context.textures[texture as usize].pyramid;
-                let uv = Planes::new(context.grid, &triangle.corners, uv);
-                let map = uv_map(context.grid, &uv);
-                let sampling = &context.sampling;
-                Self::Texture(Box::new(TextureSource {
-                    uv,
-                    usage: TextureUse {
-                        texture,
-                        reading: Reading::new(&map.footprint(), pyramid, sampling),
-                        opacity,
-                    },
-                    filter: Filter::new(pyramid, &map, sampling),
-                    sampler: (sampling.rules == Rules::Course)
-                        .then(|| Sampler::new(pyramid, &map.footprint(), sampling)),
-                }))
-            }
-        }
-    }
-
-    fn texture(&self) -> Option<TextureUse> {
-        match self {
-            Self::Texture(source) => Some(source.usage),
-            Self::None | Self::Color(_) => None,
-        }
-    }
-
-    /// At the sample in `column` and `row` of the frame, which lies in `pixel`.
-    fn at(&self, context: &ShadeContext<'_>, pixel: [i32; 2], [column, row]: [i32; 2]) -> Attributes {
-        let at = [f64::from(column) + 0.5, f64::from(row) + 0.5];
-        let side = context.grid.side();
-        match self {
-            Self::None => Attributes::None,
-            Self::Color(planes) => Attributes::Color(planes.at(at[0], at[1])),
-            Self::Texture(source) => {
-                let TextureSource {
-                    uv, filter, sampler, ..
-                } = &**source;
-                if let Some(sampler) = sampler {
-                    let [u, v] = course_uv(uv, side, [column, row]);
-                    return Attributes::Texture {
-                        uv: [u.into(), v.into()],
-                        reads: sampler.course_reads(u, v),
-                    };
-                }
-                let inside = |at: i32, pixel: i32| u16::try_from(at - pixel * side).unwrap_or(0);
-                let point = [inside(column, pixel[0]), inside(row, pixel[1])];
-                Attributes::Texture {
-                    uv: uv.at(at[0], at[1]),
-                    reads: filter.reads(context.samples_from(pixel), point),
-                }
-            }
         }
     }
 }

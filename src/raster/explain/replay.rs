@@ -1,7 +1,7 @@
 //! One pixel painted again, with everything noted that was done to it.
 //!
-//! The painters are those of frames. What the pixel becomes is painted as its tile is, and what each op does to each
-//! sample by the painter that blends op by op: hidden fragments appear too, which frames leave out.
+//! The painters are those of frames. What the pixel becomes is painted as its tile is, and what each command does to each
+//! sample by the painter that blends command by command: hidden fragments appear too, which frames leave out.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -10,22 +10,26 @@ use crate::color::Premultiplied16;
 use crate::raster::DisplayList;
 use crate::raster::binning::bins::{Bins, entries_of_tile};
 use crate::raster::binning::tile_command::TileCommand;
+use crate::raster::binning::visible::first_visible;
+use crate::raster::display_list::Pass;
 use crate::raster::frame::block::PixelBlock;
-use crate::raster::list::chunk::{Chunk, ListContext};
-use crate::raster::paint::recorder::{PaintedKind, PaintedOp};
-use crate::raster::rasterizer::{Method, Painters, Pass, first_visible};
+use crate::raster::list::chunk::Chunk;
+use crate::raster::list::context::ListContext;
+use crate::raster::paint::method::Method;
+use crate::raster::paint::recorder::{PaintedCommand, PaintedKind};
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::span::{PixelRect, Span};
 use crate::raster::stats::SharedTally;
 use crate::raster::tile_layout::TileLayout;
+use crate::raster::tiles::Painters;
 
 /// How a pixel came about.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelReplay {
     /// Its samples when everything is painted, in the order of the pattern.
     pub samples: Vec<ReplayedSample>,
-    /// What painted it, in painter's order; ops that touch none of its samples may be among it.
-    pub painted: Vec<PaintedOp>,
+    /// What painted it, in painter's order; commands that touch none of its samples may be among it.
+    pub painted: Vec<PaintedCommand>,
     /// The sums of the samples' channels that are resolved.
     pub sums: [u32; 4],
     /// Whether the sums were taken before shaded samples were rounded to 16 bits, and so may differ from those of
@@ -40,6 +44,8 @@ pub struct PixelReplay {
 pub struct ReplayedSample {
     /// Its place in the pixel, `(0, 0)` the top left corner, `(1, 1)` the bottom right.
     pub position: [f64; 2],
+    /// What it weighs in the pixel: all samples together 1.
+    pub weight: f64,
     /// Its colour.
     pub color: Premultiplied16,
     /// How many fragments it got, those included that are hidden or forgotten.
@@ -50,9 +56,13 @@ impl PixelReplay {
     /// What painted each sample last; `None` for the background.
     pub fn sources(&self) -> Vec<Option<u32>> {
         let mut sources = vec![None; self.samples.len()];
-        for op in &self.painted {
-            for fragment in op.fragments.iter().filter(|_| op.kind == PaintedKind::Primitive) {
-                sources[fragment.sample] = Some(op.source);
+        for command in &self.painted {
+            for fragment in command
+                .fragments
+                .iter()
+                .filter(|_| command.kind == PaintedKind::Primitive)
+            {
+                sources[fragment.sample] = Some(command.source);
             }
         }
         sources
@@ -79,7 +89,7 @@ impl DisplayList<'_> {
         });
         let (painted, samples) = painters
             .blended
-            .replay(&chunks, (at, self.background()), &mut painters.bands);
+            .replay(&chunks, (at, self.background()), &mut painters.shape_rows);
         let cancelled = AtomicBool::new(false);
         let pass = Pass {
             bins,
@@ -91,14 +101,17 @@ impl DisplayList<'_> {
         let deferred = self.method(&pass, 0, first_visible(&pass.bins, 0)) == Method::Deferred;
         let shaded = deferred.then(|| painters.deferred.shaded_sums()).flatten();
         let positions = self.positions(at);
+        let weights = self.shade_context().filter.weights(&positions);
         Some(PixelReplay {
             sums: shaded.unwrap_or_else(|| sums(samples.iter().map(|(color, _)| color))),
             summed_exactly: shaded.is_some(),
             samples: positions
                 .into_iter()
+                .zip(weights)
                 .zip(samples)
-                .map(|(position, (color, fragments))| ReplayedSample {
+                .map(|((position, weight), (color, fragments))| ReplayedSample {
                     position,
+                    weight,
                     color,
                     fragments,
                 })
@@ -140,12 +153,7 @@ impl DisplayList<'_> {
         pixel[0]
     }
 
-    /// How many ops the list has.
-    pub fn ops(&self) -> usize {
-        self.chunks.iter().map(|chunk| chunk.ops.len()).sum()
-    }
-
-    /// The ops that touch a pixel of the frame.
+    /// The commands that touch a pixel of the frame.
     pub(in crate::raster) fn bins_of_pixel(&self, pixel: [i32; 2]) -> Vec<Arc<Bins>> {
         let context = ListContext {
             tiles: TileLayout::new((0, 0), self.context.size),

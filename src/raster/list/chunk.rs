@@ -6,46 +6,25 @@
 //! nearly everything, is reduced to the bits of these samples and its colour at once and never looked at as a triangle
 //! again.
 
-use crate::color::{Premultiplied16, Rgba};
-use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::color::Premultiplied16;
+use crate::geometry::subpixel::GridPoint;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
 use crate::raster::coverage::shape_rows::OutlineOf;
+use crate::raster::layers::Compositing;
+use crate::raster::list::context::ListContext;
 use crate::raster::list::hairline::Hairline;
-use crate::raster::span::{PixelRect, SampleBox, Span, scaled};
-use crate::raster::tile_layout::TileLayout;
-use crate::raster::{SamplePattern, SampleRate};
-use crate::rules::Rules;
+use crate::raster::shading::Paint;
+use crate::raster::span::{PixelRect, SampleBox, scaled};
+use crate::texture::Texture;
 
-/// What fills a triangle, in the terms of this room.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fill {
-    /// One colour.
-    Solid(Rgba),
-    /// Colours at the corners.
-    Vertex([Rgba; 3]),
-    /// Texture coordinates at the corners.
-    Texture {
-        /// Index into the textures of the drawing.
-        texture: u32,
-        /// `(u, v)` at the corners.
-        uv: [[f32; 2]; 3],
-        /// Multiplies the texture's own, `0.0..=1.0`.
-        opacity: f32,
-    },
-}
-
-/// A fill with its colour as samples store it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Paint {
-    Solid(Premultiplied16),
-    Vertex([[f32; 4]; 3]),
-    Texture {
-        texture: u32,
-        uv: [[f32; 2]; 3],
-        opacity: f32,
-    },
+/// A paint of a chunk's triangles.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ChunkPaint {
+    pub(crate) paint: Paint,
+    /// The one colour that every fragment has, as samples store it; none where fragments are to be shaded.
+    pub(crate) constant: Option<Premultiplied16>,
 }
 
 /// A triangle on the sub-pixel grid.
@@ -68,8 +47,8 @@ pub(crate) struct Stamp {
 pub(crate) struct LayerMark {
     /// The pixels that anything in the layer touches.
     pub(crate) area: PixelRect,
-    /// At the end of the layer, the opacity it is painted with.
-    pub(crate) opacity: u16,
+    /// At the end of the layer, how it is composited.
+    pub(crate) compositing: Option<Compositing>,
 }
 
 /// One step of the painter: an index into the chunk's array of the kind.
@@ -90,14 +69,14 @@ pub(crate) enum DrawCommand {
 /// A part of the display list.
 #[derive(Debug, Default)]
 pub struct Chunk {
-    pub(crate) ops: Vec<DrawCommand>,
-    /// For each op the number its caller gave it.
+    pub(crate) commands: Vec<DrawCommand>,
+    /// For each command the number its caller gave it.
     pub(crate) sources: Vec<u32>,
     pub(crate) stamps: Vec<Stamp>,
     pub(crate) triangles: Vec<ScreenTriangle>,
     /// By the rules of first drafts, what each triangle covers; else empty.
     pub(crate) floats: Vec<FloatShape>,
-    pub(crate) paints: Vec<Paint>,
+    pub(crate) paints: Vec<ChunkPaint>,
     pub(crate) outlines: Vec<Outline>,
     /// The colour of each outline.
     pub(crate) outline_colors: Vec<Premultiplied16>,
@@ -106,62 +85,12 @@ pub struct Chunk {
     pub(crate) first_outline: usize,
     pub(crate) hairlines: Vec<Hairline>,
     pub(crate) layers: Vec<LayerMark>,
-    /// How many triangles and polygons became ops.
+    /// How many triangles and polygons became commands.
     pub(crate) triangle_count: u64,
     /// Layers that earlier chunks have left open.
     pub(crate) layers_open: u32,
     /// Whether a colour lets what is below it shine through; textures are not looked at.
     pub(crate) translucent: bool,
-}
-
-/// What a chunk needs to know about the drawing.
-#[derive(Clone, Copy, Debug)]
-pub struct ListContext {
-    /// Where vertices and samples may lie.
-    pub(crate) grid: SubpixelGrid,
-    /// Where samples do, and how many there are: a rate that the pattern takes.
-    pub(crate) pattern: SamplePattern,
-    pub(crate) rate: SampleRate,
-    pub(crate) rules: Rules,
-    /// Pixels in a row, rows.
-    pub(crate) size: [u32; 2],
-    pub(crate) tiles: TileLayout,
-}
-
-impl ListContext {
-    /// Whether samples are all those of the grid.
-    pub(crate) fn is_grid(&self) -> bool {
-        self.pattern == SamplePattern::Grid
-    }
-
-    /// The samples of the frame.
-    pub(crate) fn samples(&self) -> SampleBox {
-        let all = |pixels: u32| Span {
-            start: 0,
-            end: pixels.cast_signed() * self.grid.side(),
-        };
-        SampleBox {
-            columns: all(self.size[0]),
-            rows: all(self.size[1]),
-        }
-    }
-
-    /// The pixels that hold any sample of a box, clipped to the frame; `None` when there are none.
-    pub(crate) fn pixels_of(&self, samples: SampleBox) -> Option<PixelRect> {
-        let side = self.grid.side();
-        let frame = self.samples();
-        let pixels = |span: Span, frame: Span| {
-            let inside = span.intersection(frame);
-            (!inside.is_empty()).then(|| Span {
-                start: inside.start / side,
-                end: (inside.end - 1) / side + 1,
-            })
-        };
-        Some(PixelRect {
-            x: pixels(samples.columns, frame.columns)?,
-            y: pixels(samples.rows, frame.rows)?,
-        })
-    }
 }
 
 impl Chunk {
@@ -175,24 +104,24 @@ impl Chunk {
         }
     }
 
-    /// Whether any op begins or ends a layer.
+    /// Whether any command begins or ends a layer.
     pub(crate) fn has_layers(&self) -> bool {
         !self.layers.is_empty()
     }
 
-    /// The pixels that an op may touch, clipped to the frame; `None` when there are none.
-    pub(crate) fn area(&self, op: DrawCommand, context: &ListContext) -> Option<PixelRect> {
-        context.pixels_of(self.sample_box(op, context)?)
+    /// The pixels that an command may touch, clipped to the frame; `None` when there are none.
+    pub(crate) fn area(&self, command: DrawCommand, context: &ListContext) -> Option<PixelRect> {
+        context.pixels_of(self.sample_box(command, context)?)
     }
 
-    /// The box of the samples that an op may touch, clipped to the frame; `None` when there are none.
-    pub(crate) fn sample_box(&self, op: DrawCommand, context: &ListContext) -> Option<SampleBox> {
+    /// The box of the samples that an command may touch, clipped to the frame; `None` when there are none.
+    pub(crate) fn sample_box(&self, command: DrawCommand, context: &ListContext) -> Option<SampleBox> {
         let side = context.grid.side();
         let of_pixels = |columns, rows| SampleBox {
             columns: scaled(columns, side),
             rows: scaled(rows, side),
         };
-        let samples = match op {
+        let samples = match command {
             DrawCommand::Triangle(index) => {
                 let corners = self.triangles[index as usize].corners;
                 let float = self.floats.get(index as usize).map(|float| float.samples);
@@ -245,9 +174,9 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
     let mut open: Vec<(usize, usize, PixelRect)> = Vec::new();
     for at in 0..chunks.len() {
         chunks[at].layers_open = u32::try_from(open.len()).unwrap_or(u32::MAX);
-        for op in 0..chunks[at].ops.len() {
-            match chunks[at].ops[op] {
-                DrawCommand::BeginLayer(begin) => open.push((at, begin as usize, PixelRect::NOTHING)),
+        for command in 0..chunks[at].commands.len() {
+            match chunks[at].commands[command] {
+                DrawCommand::BeginLayer(begin) => open.push((at, begin as usize, PixelRect::EMPTY)),
                 DrawCommand::EndLayer(end) => {
                     let Some((begin_chunk, begin, area)) = open.pop() else {
                         continue;
@@ -270,13 +199,18 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
     }
 }
 
-impl Paint {
-    /// Whether its colours, leaving textures aside, let what is below them shine through.
-    pub(crate) fn is_translucent(&self) -> bool {
-        match *self {
-            Self::Solid(color) => !color.is_opaque(),
-            Self::Vertex(colors) => colors.iter().any(|color| color[3] < 1.0),
-            Self::Texture { opacity, .. } => opacity < 1.0,
+impl ChunkPaint {
+    /// Whether every fragment hides what is below it.
+    pub(crate) fn is_opaque(&self, textures: &[&Texture]) -> bool {
+        self.constant
+            .map_or_else(|| self.paint.is_opaque(textures), Premultiplied16::is_opaque)
+    }
+
+    /// Whether both give all fragments the same colours. Most triangles have the colour of the one before.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        match (self.constant, other.constant) {
+            (None, None) => self.paint == other.paint,
+            (own, other) => own == other,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What nobody will see is dropped before it is drawn: ops below an opaque shape that covers all of their samples.
+//! Hidden primitives are dropped before they are drawn: commands below an opaque shape that covers all of their samples.
 //!
 //! A document may paint its canvas anew a hundred thousand times, and each time would be sorted into every tile. Where a
 //! tile lies inside such a shape, its painter starts with the last one anyway; along the shape's border, and along the
@@ -7,43 +7,44 @@
 
 use crate::geometry::edge::{EdgeTest, doubled_area};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-use crate::raster::list::chunk::{Chunk, DrawCommand, ListContext};
+use crate::raster::list::chunk::{Chunk, DrawCommand};
+use crate::raster::list::context::ListContext;
 use crate::raster::span::SampleBox;
 use crate::rules::Rules;
 
-/// How many ops before a shape are looked at.
+/// How many commands before a shape are looked at.
 const LOOK_BACK: usize = 32;
 
 /// Most corners of a shape that is looked at: four that turn one way are convex, more might wind around twice.
 pub(crate) const MOST_CORNERS: usize = 4;
 
-/// What becomes of primitives that nobody will see.
+/// What becomes of hidden primitives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hidden {
     /// They are dropped where that is found out cheaply.
     Dropped,
-    /// Somebody asks what was painted.
+    /// They are kept, to tell what was painted.
     Kept,
 }
 
-/// Drops ops of a chunk that are wholly hidden by samples `cover`, all of which the last `above` ops hide.
+/// Drops commands of a chunk that are wholly hidden by samples `cover`, all of which the last `above` commands hide.
 pub(crate) fn drop_hidden(chunk: &mut Chunk, context: &ListContext, cover: SampleBox, above: usize) {
-    let end = chunk.ops.len().saturating_sub(above);
+    let end = chunk.commands.len().saturating_sub(above);
     let first = end.saturating_sub(LOOK_BACK);
     // What was painted before a layer, or in it, is not below what comes after.
-    let is_mark = |op: &DrawCommand| matches!(op, DrawCommand::BeginLayer(_) | DrawCommand::EndLayer(_));
-    let mark = chunk.ops[first..end].iter().rposition(is_mark);
+    let is_mark = |command: &DrawCommand| matches!(command, DrawCommand::BeginLayer(_) | DrawCommand::EndLayer(_));
+    let mark = chunk.commands[first..end].iter().rposition(is_mark);
     let first = mark.map_or(first, |mark| first + mark + 1);
     let mut kept = first;
     for i in first..end {
-        let op = chunk.ops[i];
-        let samples = chunk.sample_box(op, context);
+        let command = chunk.commands[i];
+        let samples = chunk.sample_box(command, context);
         if samples.is_some_and(|samples| !holds(cover, samples)) {
-            (chunk.ops[kept], chunk.sources[kept]) = (op, chunk.sources[i]);
+            (chunk.commands[kept], chunk.sources[kept]) = (command, chunk.sources[i]);
             kept += 1;
         }
     }
-    chunk.ops.drain(kept..end);
+    chunk.commands.drain(kept..end);
     chunk.sources.drain(kept..end);
 }
 
@@ -102,8 +103,8 @@ mod tests {
     use crate::color::{ResolveSpace, Rgba};
     use crate::geometry::{FillRule, Polygon};
     use crate::raster::list::builder::ChunkBuilder;
-    use crate::raster::list::chunk::Fill;
     use crate::raster::random::{fill, noise};
+    use crate::raster::shading::Paint;
     use crate::raster::{DisplayList, Framebuffer, RasterSettings, SamplePattern, SampleRate};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
@@ -125,8 +126,8 @@ mod tests {
             let polygon = Polygon::new([points.to_vec()], FillRule::NonZero);
             builder.polygon(&polygon, |point| point, color);
         } else {
-            builder.triangle([a, b, c], &Fill::Solid(color));
-            builder.triangle([c, d, a], &Fill::Solid(color));
+            builder.triangle([a, b, c], &Paint::solid(color));
+            builder.triangle([c, d, a], &Paint::solid(color));
         }
         Ok(())
     }
@@ -162,9 +163,9 @@ mod tests {
                     cover(&mut builder, &mut u)?;
                 }
                 let chunk = builder.finish();
-                assert_eq!(chunk.ops.len(), chunk.sources.len(), "each op has its source");
+                assert_eq!(chunk.commands.len(), chunk.sources.len(), "each command has its source");
                 let list = DisplayList::new(context, settings, vec![chunk], vec![&texture]);
-                *(if keep { &mut all } else { &mut kept }) += list.ops();
+                *(if keep { &mut all } else { &mut kept }) += list.commands();
                 let mut frame = Framebuffer::new(SIZE[0], SIZE[1]);
                 list.rasterize(&mut frame, &AtomicBool::new(false))
                     .expect("not cancelled");
@@ -176,6 +177,6 @@ mod tests {
             Ok(())
         })
         .budget_ms(1500);
-        assert!(kept < all, "{kept} of {all} ops are kept");
+        assert!(kept < all, "{kept} of {all} commands are kept");
     }
 }

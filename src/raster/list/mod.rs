@@ -3,5 +3,6 @@
 
 pub(in crate::raster) mod builder;
 pub(in crate::raster) mod chunk;
+pub(in crate::raster) mod context;
 pub(in crate::raster) mod hairline;
 pub(in crate::raster) mod hidden;

@@ -1,10 +1,12 @@
 //! Tiles of opaque primitives at one sample per pixel: painted straight into the frame.
 
+use crate::geometry::subpixel::GridPoint;
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::coverage::shape_rows::{Shape, ShapeRows};
 use crate::raster::frame::block::PixelBlock;
-use crate::raster::list::chunk::{Chunk, Paint, ScreenTriangle};
-use crate::raster::shading::shader::{Pixels, ShadeContext, Shader};
+use crate::raster::list::chunk::Chunk;
+use crate::raster::shading::context::{Pixels, ShadeContext};
+use crate::raster::shading::{Paint, Shader};
 use crate::raster::span::{PixelRect, Span};
 
 /// Paints opaque primitives at one sample per pixel.
@@ -29,11 +31,11 @@ impl<'a> DirectPainter<'a> {
         }
     }
 
-    /// Paints the ops of one chunk that touch the tile; all must be opaque.
+    /// Paints the commands of one chunk that touch the tile; all must be opaque.
     pub(crate) fn paint(
         &mut self,
         (chunk, entries): (&Chunk, &[TileCommand]),
-        bands: &mut ShapeRows,
+        shape_rows: &mut ShapeRows,
         block: &mut PixelBlock<'_>,
     ) {
         let rules = self.context.sampling.rules;
@@ -46,32 +48,32 @@ impl<'a> DirectPainter<'a> {
                 }
                 Work::Flat(shape, color) => {
                     let pixel = color.to_pixel(rules);
-                    covered((shape, *entry), bands, block, |y, xs, block| {
+                    covered((shape, *entry), shape_rows, block, |y, xs, block| {
                         block.span(y, xs).fill(pixel);
                     });
                 }
-                Work::Shaded(shape, triangle, paint) => {
+                Work::Shaded(shape, corners, paint) => {
                     let mut places = std::mem::take(&mut self.places);
                     places.clear();
                     let PixelRect { x: left, y: top } = block.rect;
                     let inside = |from: i32, to: i32| u16::try_from(to - from).unwrap_or(u16::MAX);
-                    covered((shape, *entry), bands, block, |y, xs, _| {
+                    covered((shape, *entry), shape_rows, block, |y, xs, _| {
                         let row = inside(top.start, y);
                         places.extend(
                             (inside(left.start, xs.start)..inside(left.start, xs.end)).map(|column| [column, row]),
                         );
                     });
-                    self.shaded(triangle, paint, &places, block);
+                    self.shaded(corners, paint, &places, block);
                     self.places = places;
                 }
-                // Whoever chose this painter has found no layers.
+                // This painter is chosen where there are no layers.
                 Work::BeginLayer | Work::EndLayer(_) => {}
             }
         }
     }
 
     /// Shades pixels, counted from the tile's first.
-    fn shaded(&mut self, triangle: &ScreenTriangle, paint: &Paint, places: &[[u16; 2]], block: &mut PixelBlock<'_>) {
+    fn shaded(&mut self, corners: &[GridPoint; 3], paint: &Paint, places: &[[u16; 2]], block: &mut PixelBlock<'_>) {
         if places.is_empty() {
             return;
         }
@@ -83,7 +85,7 @@ impl<'a> DirectPainter<'a> {
             grid: self.context.samples_from([x.start, y.start]),
             places,
         };
-        Shader::new(&self.context, triangle, paint).pixels(pixels, values);
+        Shader::new(&self.context, corners, paint).pixels(pixels, values);
         for (place, value) in places.iter().zip(values) {
             block.put(*place, *value);
         }
@@ -94,7 +96,7 @@ impl<'a> DirectPainter<'a> {
 #[inline]
 fn covered(
     (shape, entry): (Shape<'_>, TileCommand),
-    bands: &mut ShapeRows,
+    shape_rows: &mut ShapeRows,
     block: &mut PixelBlock<'_>,
     mut paint: impl FnMut(i32, Span, &mut PixelBlock<'_>),
 ) {
@@ -105,5 +107,5 @@ fn covered(
         }
         return;
     }
-    bands.each_pixel_row(shape, rect, |row| paint(row.y, row.full, block));
+    shape_rows.each_pixel_row(shape, rect, |row| paint(row.y, row.full, block));
 }

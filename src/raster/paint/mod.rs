@@ -10,6 +10,7 @@
 //! are explained.
 
 pub(in crate::raster) mod direct;
+pub(in crate::raster) mod method;
 pub(in crate::raster) mod per_sample;
 pub(in crate::raster) mod recorder;
 pub(in crate::raster) mod sample_colors;

@@ -1,4 +1,4 @@
-//! Painting one tile: every op of the display list that touches it, in painter's order.
+//! Painting one tile: every command of the display list that touches it, in painter's order.
 
 use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::{TileCommand, Work};
@@ -7,22 +7,21 @@ use crate::raster::coverage::free_positions::FreePositions;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::pixel_rows::{PixelRow, each_pixel_row_of_few};
 use crate::raster::coverage::shape_rows::{Shape, ShapeRows};
+use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
-use crate::raster::paint::recorder::{PaintedKind, PaintedOp, Recorder};
+use crate::raster::paint::recorder::{PaintedCommand, PaintedKind, Recorder};
 use crate::raster::paint::sample_colors::SampleColors;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::Position;
-use crate::raster::shading::shader::{ShadeContext, Shader, ShaderKind};
+use crate::raster::shading::Shader;
+use crate::raster::shading::context::ShadeContext;
 use crate::raster::span::{PixelRect, Span, scaled};
 
 /// Paints tiles, one after the other, reusing its memory.
 #[derive(Debug)]
 pub(crate) struct PerSamplePainter<'a> {
     context: ShadeContext<'a>,
-    /// The base and above it the open layers.
-    layers: Vec<SampleColors>,
-    /// How many of `layers` are in use.
-    depth: usize,
+    layers: LayerStack<SampleColors>,
     /// The samples at work and their colours.
     points: Vec<[u16; 2]>,
     colors: Vec<Premultiplied16>,
@@ -40,8 +39,7 @@ impl<'a> PerSamplePainter<'a> {
     pub(crate) fn new(context: ShadeContext<'a>, free_positions: Option<FreePositions>) -> Self {
         Self {
             context,
-            layers: Vec::new(),
-            depth: 0,
+            layers: LayerStack::new(buffer(&context)),
             points: Vec::new(),
             colors: Vec::new(),
             free_positions: free_positions.map(Box::new),
@@ -53,12 +51,11 @@ impl<'a> PerSamplePainter<'a> {
 
     /// Starts a tile.
     pub(crate) fn begin(&mut self, rect: PixelRect, background: Premultiplied16) {
-        self.depth = 0;
-        self.push_layer(rect, background);
+        self.layers.restart().reset(rect, background);
     }
 
-    /// Paints the ops of one chunk that touch the tile.
-    pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[TileCommand], bands: &mut ShapeRows) {
+    /// Paints the commands of one chunk that touch the tile.
+    pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[TileCommand], shape_rows: &mut ShapeRows) {
         for entry in entries {
             if self.recorder.is_some() {
                 self.record(chunk, *entry);
@@ -66,33 +63,43 @@ impl<'a> PerSamplePainter<'a> {
             match entry.work(chunk) {
                 Work::Samples(coverage, color) => self.samples(coverage, color),
                 Work::Pixels(pixels, color) => {
-                    let PixelRect { x, y } = self.layers[0].rect;
+                    let PixelRect { x, y } = self.layers.base().rect;
                     pixels
                         .moved(x.start, y.start)
                         .each_run(|row, xs| self.fill(xs, row, color));
                 }
-                Work::Flat(shape, color) => self.covered((shape, *entry), bands, |_| Shader::flat(color)),
-                Work::Shaded(shape, triangle, paint) => {
-                    self.covered((shape, *entry), bands, |context| Shader::new(context, triangle, paint));
+                Work::Flat(shape, color) => self.covered((shape, *entry), shape_rows, |_| Shader::flat(color)),
+                Work::Shaded(shape, corners, paint) => {
+                    self.covered((shape, *entry), shape_rows, |context| {
+                        Shader::new(context, corners, paint)
+                    });
                 }
-                Work::BeginLayer => self.push_layer(self.layers[0].rect, Premultiplied16::TRANSPARENT),
-                Work::EndLayer(opacity) => self.pop_layer(opacity),
+                Work::BeginLayer => {
+                    let rect = self.layers.base().rect;
+                    let layer = self.layers.push(|| buffer(&self.context));
+                    layer.reset(rect, Premultiplied16::TRANSPARENT);
+                }
+                Work::EndLayer(compositing) => {
+                    if let Some((below, layer)) = self.layers.pop() {
+                        below.composite(layer, compositing);
+                    }
+                }
             }
         }
     }
 
     /// Resolves one row of the finished tile.
     pub(crate) fn resolve(&self, y: i32, pixels: &mut [u32]) {
-        self.layers[0].resolve(y, pixels);
+        self.layers.base().resolve(y, pixels);
     }
 
-    /// Paints a tile of a single pixel and says what each op did there, and what its samples hold then.
+    /// Paints a tile of a single pixel and says what each command did there, and what its samples hold then.
     pub(crate) fn replay(
         &mut self,
         chunks: &[(&Chunk, &[TileCommand])],
         (pixel, background): ([i32; 2], Premultiplied16),
-        bands: &mut ShapeRows,
-    ) -> (Vec<PaintedOp>, Vec<(Premultiplied16, usize)>) {
+        shape_rows: &mut ShapeRows,
+    ) -> (Vec<PaintedCommand>, Vec<(Premultiplied16, usize)>) {
         let one = |start: i32| Span { start, end: start + 1 };
         self.recorder = Some(Recorder::new(self.samples_per_pixel()));
         let rect = PixelRect {
@@ -101,9 +108,9 @@ impl<'a> PerSamplePainter<'a> {
         };
         self.begin(rect, background);
         for (chunk, entries) in chunks {
-            self.paint(chunk, entries, bands);
+            self.paint(chunk, entries, shape_rows);
         }
-        let samples = self.pixel_samples(0);
+        let samples = self.pixel_samples(self.layers.base());
         let recorded = self.recorder.take().map(|recorder| recorder.finish(&samples));
         let (painted, depths) = recorded.unwrap_or_default();
         (painted, samples.into_iter().zip(depths).collect())
@@ -113,28 +120,29 @@ impl<'a> PerSamplePainter<'a> {
         self.context.rate.samples() as usize
     }
 
-    /// The samples of a layer's first pixel.
-    fn pixel_samples(&self, layer: usize) -> Vec<Premultiplied16> {
-        let PixelRect { x, y } = self.layers[0].rect;
-        let sample = |i| self.layers[layer].sample(x.start, y.start, i);
+    /// The samples of a buffer's first pixel.
+    fn pixel_samples(&self, buffer: &SampleColors) -> Vec<Premultiplied16> {
+        let PixelRect { x, y } = buffer.rect;
+        let sample = |i| buffer.sample(x.start, y.start, i);
         (0..self.samples_per_pixel()).map(sample).collect()
     }
 
-    /// Tells the recorder which op comes next.
+    /// Tells the recorder which command comes next.
     fn record(&mut self, chunk: &Chunk, entry: TileCommand) {
-        let now = self.pixel_samples(self.depth - 1);
+        let (top, below) = self.layers.topmost();
+        let now = self.pixel_samples(top);
         let work = entry.work(chunk);
         // The end of a layer paints on what lies below it.
-        let (on, layer) = match work {
-            Work::EndLayer(opacity) if self.depth > 1 => {
-                let layer = now.iter().map(|color| color.faded(opacity)).collect();
-                (self.pixel_samples(self.depth - 2), Some(layer))
+        let (on, layer) = match (&work, below) {
+            (Work::EndLayer(compositing), Some(below)) => {
+                let layer = now.iter().map(|color| compositing.fragment(*color)).collect();
+                (self.pixel_samples(below), Some(layer))
             }
             _ => (now.clone(), None),
         };
         if let Some(recorder) = &mut self.recorder {
             recorder.next(
-                (chunk.sources[entry.op()], entry.op()),
+                (chunk.sources[entry.command()], entry.command()),
                 PaintedKind::of(&work),
                 &now,
                 on,
@@ -145,40 +153,19 @@ impl<'a> PerSamplePainter<'a> {
         }
     }
 
-    fn push_layer(&mut self, rect: PixelRect, color: Premultiplied16) {
-        if self.layers.len() == self.depth {
-            self.layers.push(SampleColors::new(
-                self.context.rate,
-                self.context.grid.side(),
-                (self.context.sampling.rules, self.context.space),
-            ));
-        }
-        self.layers[self.depth].reset(rect, color);
-        self.depth += 1;
-    }
-
-    fn pop_layer(&mut self, opacity: u16) {
-        if self.depth < 2 {
-            return;
-        }
-        self.depth -= 1;
-        let (below, above) = self.layers.split_at_mut(self.depth);
-        below[self.depth - 1].composite(&above[0], opacity);
-    }
-
     /// What covers all of the tile.
     fn whole_tile(&mut self, shader: &Shader<'_>) {
-        let PixelRect { x, y } = self.layers[0].rect;
+        let PixelRect { x, y } = self.layers.base().rect;
         let side = self.context.grid.side();
         let columns = scaled(x, side);
         for row in y.start..y.end {
-            if let ShaderKind::Solid(color) = shader.kind {
+            if let Some(color) = shader.constant() {
                 self.fill(x, row, color);
             } else if self.free_positions.is_some() {
                 self.gather(row, Covered::Whole(x));
             } else {
                 if shader.opaque {
-                    self.layers[self.depth - 1].split_unfilled(x, row);
+                    self.layers.top().split_unfilled(x, row);
                 }
                 for line in row * side..(row + 1) * side {
                     self.shaded(shader, columns, line);
@@ -192,7 +179,7 @@ impl<'a> PerSamplePainter<'a> {
     fn covered(
         &mut self,
         (shape, entry): (Shape<'_>, TileCommand),
-        bands: &mut ShapeRows,
+        shape_rows: &mut ShapeRows,
         shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>,
     ) {
         if entry.covers_tile() {
@@ -201,9 +188,9 @@ impl<'a> PerSamplePainter<'a> {
         if self.free_positions.is_some() {
             return self.scattered(shape, shader);
         }
-        let rect = self.layers[0].rect;
+        let rect = self.layers.base().rect;
         let mut prepared = None;
-        bands.each_pixel_row(shape, rect, |row| {
+        shape_rows.each_pixel_row(shape, rect, |row| {
             let shader = prepared.get_or_insert_with(|| shader(&self.context));
             self.pixel_row(shader, row);
         });
@@ -215,14 +202,14 @@ impl<'a> PerSamplePainter<'a> {
             return;
         };
         let mut prepared = None;
-        free_positions.each(shape, self.layers[0].rect, |y, covered| {
+        free_positions.each(shape, self.layers.base().rect, |y, covered| {
             let shader = prepared.get_or_insert_with(|| shader(&self.context));
-            match (&shader.kind, covered) {
-                (ShaderKind::Solid(color), Covered::Whole(xs)) => self.fill(xs, y, *color),
-                (ShaderKind::Solid(color), Covered::Part(x, mask)) => {
-                    self.layers[self.depth - 1].fill_mask(x, y, mask, *color);
+            match (shader.constant(), covered) {
+                (Some(color), Covered::Whole(xs)) => self.fill(xs, y, color),
+                (Some(color), Covered::Part(x, mask)) => {
+                    self.layers.top().fill_mask(x, y, mask, color);
                     if let Some(recorder) = &mut self.recorder {
-                        recorder.paint_mask(mask, |_| *color);
+                        recorder.paint_mask(mask, |_| color);
                     }
                 }
                 _ => self.gather(y, covered),
@@ -250,7 +237,7 @@ impl<'a> PerSamplePainter<'a> {
         let Some(free_positions) = &mut self.free_positions else {
             return;
         };
-        let PixelRect { x, y } = self.layers[0].rect;
+        let PixelRect { x, y } = self.layers.base().rect;
         let side = self.context.grid.side();
         let all = SampleMask::all(self.context.rate.samples() as usize);
         self.points.clear();
@@ -280,7 +267,7 @@ impl<'a> PerSamplePainter<'a> {
         for ([x, y], mask) in &self.parts {
             let colors = &self.colors[first..first + mask.count()];
             first += colors.len();
-            self.layers[self.depth - 1].write_mask((*x, *y), *mask, colors, shader.opaque);
+            self.layers.top().write_mask((*x, *y), *mask, colors, shader.opaque);
             if let Some(recorder) = &mut self.recorder {
                 recorder.paint_mask(*mask, |i| colors[i]);
             }
@@ -291,7 +278,7 @@ impl<'a> PerSamplePainter<'a> {
     /// Samples of one colour, counted from the tile's first.
     fn samples(&mut self, coverage: CoverageMask, color: Premultiplied16) {
         let side = self.context.grid.side();
-        let rect = self.layers[0].rect;
+        let rect = self.layers.base().rect;
         let coverage = coverage.moved(rect.x.start * side, rect.y.start * side);
         let shader = Shader::flat(color);
         each_pixel_row_of_few(coverage, side, rect, |row| self.pixel_row(&shader, row));
@@ -300,19 +287,19 @@ impl<'a> PerSamplePainter<'a> {
     /// Paints one row of pixels: solid colours pixel by pixel, shaded ones by sample rows.
     fn pixel_row(&mut self, shader: &Shader<'_>, pixels: &PixelRow<'_>) {
         let (side, row) = (self.context.grid.side(), pixels.y);
-        if let ShaderKind::Solid(color) = &shader.kind {
-            self.fill(pixels.full, row, *color);
+        if let Some(color) = shader.constant() {
+            self.fill(pixels.full, row, color);
             for x in pixels.partial() {
-                self.layers[self.depth - 1].fill_part(x, row, pixels.spans(), *color);
+                self.layers.top().fill_part(x, row, pixels.spans(), color);
             }
             if let Some(recorder) = &mut self.recorder {
                 for (span, line) in pixels.spans().iter().zip(row * side..) {
-                    recorder.paint(*span, line, side, |_| *color);
+                    recorder.paint(*span, line, side, |_| color);
                 }
             }
         } else {
             if shader.opaque {
-                self.layers[self.depth - 1].split_unfilled(pixels.full, row);
+                self.layers.top().split_unfilled(pixels.full, row);
             }
             for (span, line) in pixels.spans().iter().zip(row * side..) {
                 self.shaded(shader, *span, line);
@@ -321,7 +308,7 @@ impl<'a> PerSamplePainter<'a> {
     }
 
     fn fill(&mut self, xs: Span, y: i32, color: Premultiplied16) {
-        self.layers[self.depth - 1].fill(xs, y, color);
+        self.layers.top().fill(xs, y, color);
         if let Some(recorder) = &mut self.recorder
             && !xs.is_empty()
         {
@@ -339,7 +326,7 @@ impl<'a> PerSamplePainter<'a> {
         }
         self.samples_shaded += count as u64;
         let colors = &mut self.colors[..count];
-        let PixelRect { x, y } = self.layers[0].rect;
+        let PixelRect { x, y } = self.layers.base().rect;
         let side = self.context.grid.side();
         let inside = |from: i32, to: i32| u16::try_from(to - from * side).unwrap_or(u16::MAX);
         let row = inside(y.start, line);
@@ -347,9 +334,15 @@ impl<'a> PerSamplePainter<'a> {
         self.points
             .extend((inside(x.start, columns.start)..inside(x.start, columns.end)).map(|column| [column, row]));
         shader.points(self.context.samples_from([x.start, y.start]), &self.points, colors);
-        self.layers[self.depth - 1].write_samples(columns, line, colors, shader.opaque);
+        self.layers.top().write_samples(columns, line, colors, shader.opaque);
         if let Some(recorder) = &mut self.recorder {
             recorder.paint(columns, line, side, |i| colors[i]);
         }
     }
+}
+
+/// A buffer of no pixels.
+fn buffer(context: &ShadeContext<'_>) -> SampleColors {
+    let settings = (context.sampling.rules, context.filter, context.space);
+    SampleColors::new(context.rate, context.grid.side(), settings)
 }

@@ -1,21 +1,22 @@
-//! Notes what is painted on the samples of a single pixel, op by op.
+//! Notes what is painted on the samples of a single pixel, command by command.
 
 use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::Work;
+use crate::raster::layers::Compositing;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::span::Span;
 
-/// Fragments that are kept at most; beyond that those of the ops painted first are forgotten.
+/// Fragments that are kept at most; beyond that those of the commands painted first are forgotten.
 const MOST_FRAGMENTS: usize = 1 << 19;
 
-/// What one op did to a pixel.
+/// What one command did to a pixel.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PaintedOp {
+pub struct PaintedCommand {
     /// The number that the caller of the list gave to the primitive.
     pub source: u32,
-    /// Index of the op in its chunk.
-    pub(crate) op: usize,
-    /// What kind of op it is.
+    /// Index of the command in its chunk.
+    pub(crate) command: usize,
+    /// What kind of command it is.
     pub kind: PaintedKind,
     /// How many layers were open when it painted.
     pub layers: usize,
@@ -26,18 +27,18 @@ pub struct PaintedOp {
     pub count: usize,
 }
 
-/// Kinds of ops.
+/// Kinds of commands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PaintedKind {
     /// A primitive.
     Primitive,
     /// The beginning of a layer, which paints nothing.
     BeginLayer,
-    /// The end of a layer, which paints the layer's samples with this opacity, of [`Premultiplied16::ONE`].
-    EndLayer(u16),
+    /// The end of a layer, which composites the layer's samples with those below.
+    EndLayer(Compositing),
 }
 
-/// One fragment: what an op did to one sample.
+/// One fragment: what an command did to one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PaintedSample {
     /// Number of the sample in the pattern.
@@ -53,15 +54,15 @@ pub struct PaintedSample {
 /// Follows the samples of a single-pixel tile.
 #[derive(Debug)]
 pub(in crate::raster) struct Recorder {
-    painted: Vec<PaintedOp>,
-    /// What the samples that the op at work paints on held before it.
+    painted: Vec<PaintedCommand>,
+    /// What the samples that the command at work paints on held before it.
     before: Vec<Premultiplied16>,
     /// What it paints there.
     colors: Vec<Option<Premultiplied16>>,
-    /// How many fragments each sample got, and which op painted it last.
+    /// How many fragments each sample got, and which command painted it last.
     depths: Vec<usize>,
     last: Vec<usize>,
-    /// How many fragments are kept, and how many ops from the first were forgotten.
+    /// How many fragments are kept, and how many commands from the first were forgotten.
     kept: usize,
     forgotten: usize,
 }
@@ -71,7 +72,7 @@ impl PaintedKind {
         match work {
             Work::Samples(..) | Work::Pixels(..) | Work::Flat(..) | Work::Shaded(..) => Self::Primitive,
             Work::BeginLayer => Self::BeginLayer,
-            Work::EndLayer(opacity) => Self::EndLayer(*opacity),
+            Work::EndLayer(compositing) => Self::EndLayer(*compositing),
         }
     }
 }
@@ -90,20 +91,20 @@ impl Recorder {
         }
     }
 
-    /// An op begins, by its source and its index, that paints on samples which hold `on`; `now` is what those of the
+    /// An command begins, by its source and its index, that paints on samples which hold `on`; `now` is what those of the
     /// topmost layer hold.
     pub(in crate::raster) fn next(
         &mut self,
-        (source, op): (u32, usize),
+        (source, command): (u32, usize),
         kind: PaintedKind,
         now: &[Premultiplied16],
         on: Vec<Premultiplied16>,
     ) {
         let layers = self.close(now);
         self.before = on;
-        self.painted.push(PaintedOp {
+        self.painted.push(PaintedCommand {
             source,
-            op,
+            command,
             kind,
             layers,
             fragments: Vec::new(),
@@ -111,16 +112,16 @@ impl Recorder {
         });
     }
 
-    /// Ends the op at work, after which its layer holds `after`; how many layers are open then.
+    /// Ends the command at work, after which its layer holds `after`; how many layers are open then.
     fn close(&mut self, after: &[Premultiplied16]) -> usize {
         let number = self.painted.len().saturating_sub(1);
-        let Some(op) = self.painted.last_mut() else {
+        let Some(command) = self.painted.last_mut() else {
             return 0;
         };
         let before = self.before.iter().zip(after);
         for (sample, (color, (before, after))) in self.colors.iter_mut().zip(before).enumerate() {
             if let Some(color) = color.take() {
-                op.fragments.push(PaintedSample {
+                command.fragments.push(PaintedSample {
                     sample,
                     color,
                     before: *before,
@@ -130,13 +131,13 @@ impl Recorder {
                 self.last[sample] = number;
             }
         }
-        op.count = op.fragments.len();
-        let layers = match op.kind {
-            PaintedKind::Primitive => op.layers,
-            PaintedKind::BeginLayer => op.layers + 1,
-            PaintedKind::EndLayer(_) => op.layers.saturating_sub(1),
+        command.count = command.fragments.len();
+        let layers = match command.kind {
+            PaintedKind::Primitive => command.layers,
+            PaintedKind::BeginLayer => command.layers + 1,
+            PaintedKind::EndLayer(_) => command.layers.saturating_sub(1),
         };
-        self.kept += op.count;
+        self.kept += command.count;
         self.forget();
         layers
     }
@@ -144,28 +145,28 @@ impl Recorder {
     /// Forgets fragments from the bottom of the stack while there are too many; what painted a sample last stays.
     fn forget(&mut self) {
         while self.kept > MOST_FRAGMENTS {
-            let Some(op) = self.painted.get_mut(self.forgotten) else {
+            let Some(command) = self.painted.get_mut(self.forgotten) else {
                 return;
             };
             if !self.last.contains(&self.forgotten) {
-                self.kept -= op.fragments.len();
-                op.fragments = Vec::new();
+                self.kept -= command.fragments.len();
+                command.fragments = Vec::new();
             }
             self.forgotten += 1;
         }
     }
 
-    /// The op paints all samples with one colour.
+    /// The command paints all samples with one colour.
     pub(in crate::raster) fn fill(&mut self, color: Premultiplied16) {
         self.colors.fill(Some(color));
     }
 
-    /// The op paints all samples, each with its colour.
+    /// The command paints all samples, each with its colour.
     pub(in crate::raster) fn paint_all(&mut self, colors: Vec<Premultiplied16>) {
         self.colors = colors.into_iter().map(Some).collect();
     }
 
-    /// The op paints the sample columns `columns` of sample row `line`, of which a pixel has `side` each; `color` is asked
+    /// The command paints the sample columns `columns` of sample row `line`, of which a pixel has `side` each; `color` is asked
     /// for those counted from the first column.
     pub(in crate::raster) fn paint(
         &mut self,
@@ -180,7 +181,7 @@ impl Recorder {
         }
     }
 
-    /// The op paints some samples; `color` is asked for those counted from the first of them.
+    /// The command paints some samples; `color` is asked for those counted from the first of them.
     pub(in crate::raster) fn paint_mask(&mut self, mask: SampleMask, color: impl Fn(usize) -> Premultiplied16) {
         let mut i = 0;
         mask.each(|sample| {
@@ -190,7 +191,7 @@ impl Recorder {
     }
 
     /// What was painted, now that the samples hold `after`; and how many fragments each sample got.
-    pub(in crate::raster) fn finish(mut self, after: &[Premultiplied16]) -> (Vec<PaintedOp>, Vec<usize>) {
+    pub(in crate::raster) fn finish(mut self, after: &[Premultiplied16]) -> (Vec<PaintedCommand>, Vec<usize>) {
         self.close(after);
         (self.painted, self.depths)
     }

@@ -8,6 +8,8 @@
 
 use crate::color::{Premultiplied16, ResolveSpace};
 use crate::raster::SampleRate;
+use crate::raster::layers::Compositing;
+use crate::raster::resolve::ResolveFilter;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::span::{PixelRect, Span};
 use crate::rules::Rules;
@@ -21,25 +23,31 @@ pub(crate) struct SampleColors {
     side: usize,
     per_pixel: usize,
     rules: Rules,
+    filter: ResolveFilter,
     space: ResolveSpace,
-    /// One colour per pixel, in force where the pixel is not split.
+    /// One colour per pixel; valid where the pixel is not split.
     whole: Vec<Premultiplied16>,
     split: Vec<bool>,
     /// Whether every sample is opaque: so it stays once the tile starts on an opaque background.
     opaque: bool,
-    /// All samples of a pixel side by side, in force where the pixel is split. Allocated with the first split.
+    /// All samples of a pixel side by side, valid where the pixel is split. Allocated with the first split.
     samples: Vec<Premultiplied16>,
 }
 
 impl SampleColors {
     /// A tile of no pixels; `side` is how many samples of a pixel lie in a row, where they do.
-    pub(crate) fn new(rate: SampleRate, side: i32, (rules, space): (Rules, ResolveSpace)) -> Self {
+    pub(crate) fn new(
+        rate: SampleRate,
+        side: i32,
+        (rules, filter, space): (Rules, ResolveFilter, ResolveSpace),
+    ) -> Self {
         Self {
-            rect: PixelRect::NOTHING,
+            rect: PixelRect::EMPTY,
             width: 0,
             side: usize::try_from(side).unwrap_or(1),
             per_pixel: rate.samples() as usize,
             rules,
+            filter,
             space,
             whole: Vec::new(),
             split: Vec::new(),
@@ -50,11 +58,10 @@ impl SampleColors {
 
     /// Makes it the tile of `rect` with every sample in `color`.
     pub(crate) fn reset(&mut self, rect: PixelRect, color: Premultiplied16) {
-        let length = |span: Span| usize::try_from(span.end - span.start).unwrap_or(0);
         self.rect = rect;
         self.opaque = color.is_opaque();
-        self.width = length(rect.x);
-        let pixels = self.width * length(rect.y);
+        self.width = rect.x.length();
+        let pixels = self.width * rect.y.length();
         self.whole.clear();
         self.whole.resize(pixels, color);
         self.split.clear();
@@ -253,22 +260,22 @@ impl SampleColors {
     }
 
     /// Paints another tile of the same rectangle over this one.
-    pub(crate) fn composite(&mut self, layer: &Self, opacity: u16) {
+    pub(crate) fn composite(&mut self, layer: &Self, compositing: Compositing) {
         for pixel in 0..self.whole.len() {
             if layer.split[pixel] {
                 self.ensure_split(pixel);
                 let range = pixel * self.per_pixel..(pixel + 1) * self.per_pixel;
                 for (below, above) in self.samples[range.clone()].iter_mut().zip(&layer.samples[range]) {
-                    *below = above.faded(opacity).over(*below, self.rules);
+                    *below = compositing.composited(*above, *below, self.rules);
                 }
             } else if layer.whole[pixel] != Premultiplied16::TRANSPARENT {
-                let above = layer.whole[pixel].faded(opacity);
+                let fragment = compositing.fragment(layer.whole[pixel]);
                 if self.split[pixel] {
                     for below in &mut self.samples[pixel * self.per_pixel..][..self.per_pixel] {
-                        *below = above.over(*below, self.rules);
+                        *below = compositing.over(fragment, *below, self.rules);
                     }
                 } else {
-                    self.whole[pixel] = above.over(self.whole[pixel], self.rules);
+                    self.whole[pixel] = compositing.over(fragment, self.whole[pixel], self.rules);
                 }
             }
         }
@@ -302,7 +309,7 @@ impl SampleColors {
         for (i, pixel) in pixels.iter_mut().enumerate() {
             if self.split[first + i] {
                 let samples = &self.samples[(first + i) * self.per_pixel..][..self.per_pixel];
-                *pixel = self.space.resolve(samples, self.rules);
+                *pixel = self.filter.pixel(samples, (self.space, self.rules));
             }
         }
     }

@@ -1,4 +1,250 @@
-//! The colour of a paint at a sample: solid, interpolated between vertices, or read from a texture.
+//! Paints: what gives a colour at a sample, for whole lists of samples at once.
+//!
+//! | paint | colour |
+//! |---|---|
+//! | [`solid`] | one everywhere |
+//! | [`vertex`] | interpolated between a triangle's corners |
+//! | [`texture`] | read from a texture through the footprint of a pixel or a sample |
+//!
+//! A paint is a [`PaintKind`] as a display list holds it, and a [`Shade`] once it is prepared for one triangle. To add one,
+//! write both in a file of its own and add a line to the table below. Painters hold a [`Paint`] or a [`Shader`] and ask
+//! it questions; only this folder knows which kind it is.
 
-pub(in crate::raster) mod shader;
-pub(in crate::raster) mod vertex;
+pub(in crate::raster) mod context;
+pub(in crate::raster) mod interpolated;
+mod kind;
+mod solid;
+mod texture;
+mod vertex;
+
+use crate::color::{Premultiplied16, Rgba};
+use crate::geometry::clip::ClipVertex;
+use crate::geometry::subpixel::GridPoint;
+use crate::raster::shading::context::{MaskedPixels, Pixels, ShadeContext, ShadedSample};
+use crate::raster::shading::interpolated::{Attributes, TextureUse};
+use crate::raster::shading::kind::{PaintKind, Shade};
+use crate::raster::shading::solid::{SolidPaint, SolidShader};
+use crate::raster::shading::vertex::VertexPaint;
+use crate::rules::Rules;
+use crate::texture::{SampleGrid, Texture};
+
+pub(in crate::raster) use texture::TexturePaint;
+
+/// Makes the enums of all paints and of all shaders, and what hands a question to the one that is there.
+macro_rules! paints {
+    ($($(#[$doc:meta])* $make:ident($($part:ident: $of:ty),*) => $kind:ident($paint:ty),)+) => {
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        enum AnyPaint {
+            $($kind($paint),)+
+        }
+
+        #[derive(Debug)]
+        enum AnyShader<'a> {
+            $($kind(<$paint as PaintKind>::Shader<'a>),)+
+        }
+
+        impl AnyPaint {
+            fn clipped(&self, corners: &[ClipVertex; 3]) -> Self {
+                match self {
+                    $(Self::$kind(paint) => Self::$kind(paint.clipped(corners)),)+
+                }
+            }
+
+            fn shader<'a>(&self, context: &ShadeContext<'a>, corners: &[GridPoint; 3]) -> AnyShader<'a> {
+                match self {
+                    $(Self::$kind(paint) => AnyShader::$kind(paint.shader(context, corners)),)+
+                }
+            }
+        }
+
+        impl Paint {
+            $(
+                $(#[$doc])*
+                pub fn $make($($part: $of),*) -> Self {
+                    Self(AnyPaint::$kind(<$paint>::new($($part),*)))
+                }
+            )+
+        }
+
+        /// `ask!(this, AnyPaint, paint => paint.question())`, whichever kind it is.
+        macro_rules! ask {
+            ($any:expr, $table:ident, $one:ident => $answer:expr) => {
+                match $any {
+                    $($table::$kind($one) => $answer,)+
+                }
+            };
+        }
+    };
+}
+
+// The table of paints: a line for each kind.
+paints! {
+    /// One colour.
+    solid(color: Rgba) => Solid(SolidPaint),
+    /// Colours at the corners, and between them what is interpolated.
+    vertex(colors: [Rgba; 3]) => Vertex(VertexPaint),
+    /// The texture with an index in the drawing, read between the coordinates `(u, v)` at the corners; its own opacity is
+    /// multiplied by another one, `0.0..=1.0`.
+    texture(texture: u32, uv: [[f32; 2]; 3], opacity: f32) => Texture(TexturePaint),
+}
+
+/// What fills a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Paint(AnyPaint);
+
+/// A paint prepared for one triangle.
+#[derive(Debug)]
+pub(crate) struct Shader<'a> {
+    any: AnyShader<'a>,
+    /// Whether every fragment hides what is below it.
+    pub(crate) opaque: bool,
+    rules: Rules,
+}
+
+impl Paint {
+    /// The one colour that it has everywhere, if there is one.
+    #[inline]
+    pub(crate) fn constant(&self) -> Option<Rgba> {
+        ask!(&self.0, AnyPaint, paint => paint.constant())
+    }
+
+    /// Whether every fragment hides what is below it.
+    pub(crate) fn is_opaque(&self, textures: &[&Texture]) -> bool {
+        ask!(&self.0, AnyPaint, paint => paint.is_opaque(textures))
+    }
+
+    /// The same paint on a part of its triangle.
+    pub(crate) fn clipped(&self, corners: &[ClipVertex; 3]) -> Self {
+        Self(self.0.clipped(corners))
+    }
+}
+
+impl<'a> Shader<'a> {
+    /// Prepares a paint for the triangle with these corners.
+    pub(crate) fn new(context: &ShadeContext<'a>, corners: &[GridPoint; 3], paint: &Paint) -> Self {
+        let any = paint.0.shader(context, corners);
+        let constant = ask!(&any, AnyShader, shader => shader.constant());
+        Self {
+            opaque: constant.map_or_else(|| paint.is_opaque(context.textures), Premultiplied16::is_opaque),
+            any,
+            rules: context.sampling.rules,
+        }
+    }
+
+    /// One colour, everywhere.
+    pub(crate) fn flat(color: Premultiplied16) -> Self {
+        Self {
+            any: AnyShader::Solid(SolidShader(color)),
+            opaque: color.is_opaque(),
+            rules: Rules::Standard,
+        }
+    }
+
+    /// The one colour that every sample gets, if there is one.
+    #[inline]
+    pub(crate) fn constant(&self) -> Option<Premultiplied16> {
+        ask!(&self.any, AnyShader, shader => shader.constant())
+    }
+
+    /// The colours of samples, counted from the first sample of the grid's origin.
+    pub(crate) fn points(&self, grid: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
+        ask!(&self.any, AnyShader, shader => shader.points(grid, points, colors));
+    }
+
+    /// The values of pixels that show nothing but this triangle, at one sample each; it must be opaque.
+    pub(crate) fn pixels(&self, pixels: Pixels<'_>, values: &mut [u32]) {
+        ask!(&self.any, AnyShader, shader => shader.pixels(pixels, self.rules, values));
+    }
+
+    /// For each of the pixels the sum of all its samples. The triangle must be opaque and the rules the standard ones.
+    pub(crate) fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {
+        ask!(&self.any, AnyShader, shader => shader.pixel_sums(pixels, sums));
+    }
+
+    /// For each of the pixels the sum of some of its samples, under the same conditions.
+    pub(crate) fn masked_sums(&self, pixels: MaskedPixels<'_>, sums: &mut [[u32; 4]]) {
+        ask!(&self.any, AnyShader, shader => shader.masked_sums(pixels, sums));
+    }
+
+    /// What is interpolated at a sample, inside the triangle or not.
+    pub(crate) fn interpolated(&self, sample: ShadedSample) -> Attributes {
+        ask!(&self.any, AnyShader, shader => shader.interpolated(sample))
+    }
+
+    /// How a texture is read, if one is.
+    pub(crate) fn texture_use(&self, context: &ShadeContext<'_>) -> Option<TextureUse> {
+        ask!(&self.any, AnyShader, shader => shader.texture_use(context))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::ResolveSpace;
+    use crate::geometry::subpixel::SubpixelGrid;
+    use crate::raster::SampleRate;
+    use crate::raster::resolve::ResolveFilter;
+    use crate::texture::SamplingSettings;
+
+    /// A paint of which nothing but the colours of samples is known: column in red, row in green.
+    #[derive(Clone, Copy, Debug)]
+    struct Gradient;
+
+    impl Shade for Gradient {
+        fn points(&self, _: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
+            for ([x, y], color) in points.iter().zip(colors) {
+                *color = Premultiplied16([*x, *y, 0, Premultiplied16::ONE]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_new_paint_needs_only_the_colours_of_samples() {
+        let side = 12;
+        let grid = SampleGrid { side, origin: [0, 0] };
+        let places = [[0, 0], [2, 1]];
+        let pixels = Pixels { grid, places: &places };
+        let mut sums = [[0; 4]; 2];
+        Gradient.pixel_sums(pixels, &mut sums);
+        // The mean column of a pixel is that of its middle, less half a sample.
+        let mean = |pixel: u32| pixel * side * 2 + side - 1;
+        let of = |[x, y]: [u16; 2]| [mean(x.into()) * 72, mean(y.into()) * 72, 0, 144 * 65_280];
+        assert_eq!(sums, places.map(of), "all samples, more than a mask has bits");
+        let mut last = [[0; 4]];
+        let masks = [1 << 15];
+        let second = Pixels {
+            places: &places[1..],
+            ..pixels
+        };
+        Gradient.masked_sums(second.masked(&masks, 128), &mut last);
+        assert_eq!(last, [[24 + 11, 12 + 11, 0, 65_280]], "the last sample of a pixel");
+        let mut values = [0];
+        let grid = SampleGrid { side: 1, ..grid };
+        let pixels = Pixels {
+            grid,
+            places: &[[0x300, 0x200]],
+        };
+        Gradient.pixels(pixels, Rules::Standard, &mut values);
+        assert_eq!(values, [0xFF03_0200], "one sample");
+        assert_eq!(Gradient.constant(), None, "it varies");
+    }
+
+    #[test]
+    fn a_constant_paint_is_known_as_one() {
+        let context = ShadeContext {
+            grid: SubpixelGrid::new(2),
+            rate: SampleRate::ONE,
+            filter: ResolveFilter::default(),
+            space: ResolveSpace::Stored,
+            sampling: SamplingSettings::default(),
+            textures: &[],
+        };
+        let corners = [[0, 0], [999, 0], [0, 999]].map(|[x, y]| GridPoint { x, y });
+        let [solid, vertex] = [Paint::solid(Rgba::WHITE), Paint::vertex([Rgba::WHITE; 3])];
+        assert_eq!((solid.constant(), vertex.constant()), (Some(Rgba::WHITE), None));
+        let shader = Shader::new(&context, &corners, &solid);
+        assert_eq!(shader.constant(), Some(Premultiplied16([65_280; 4])));
+        assert!(shader.opaque && vertex.is_opaque(&[]), "white is opaque");
+        assert!(!Paint::vertex([Rgba::WHITE, Rgba::WHITE, Rgba::TRANSPARENT]).is_opaque(&[]));
+    }
+}

@@ -1,4 +1,4 @@
-//! Colours interpolated over a triangle, for whole lists of samples or pixels.
+//! A paint whose colours are interpolated between the corners of a triangle.
 
 #![expect(
     clippy::inline_always,
@@ -7,11 +7,16 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use crate::color::Premultiplied16;
+use crate::color::{Premultiplied16, Rgba};
+use crate::geometry::clip::ClipVertex;
+use crate::geometry::subpixel::GridPoint;
 use crate::raster::attributes::Planes;
+use crate::raster::shading::context::{MaskedPixels, Pixels, ShadeContext, ShadedSample};
+use crate::raster::shading::interpolated::Attributes;
+use crate::raster::shading::kind::{PaintKind, Shade, at_corner, pixels_by_points};
 use crate::rules::Rules;
 use crate::simd;
-use crate::texture::SampleGrid;
+use crate::texture::{SampleGrid, Texture};
 
 /// Samples that are shaded together.
 const LANES: usize = 8;
@@ -19,20 +24,53 @@ const LANES: usize = 8;
 /// The largest value of a channel.
 const ONE: f64 = Premultiplied16::ONE as f64;
 
-/// Colours at the corners, interpolated.
+/// Straight red, green, blue and alpha at a triangle's corners, `0.0..=1.0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct VertexPaint([[f32; 4]; 3]);
+
+/// The colours of one triangle.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct VertexColors {
+pub(super) struct VertexShader {
     /// Straight red, green, blue, alpha in `0.0..=1.0`.
     straight: Planes<4>,
     /// Red, green and blue in units of [`Premultiplied16`].
     opaque: Planes<3>,
     /// Whether all corners are opaque.
     is_opaque: bool,
+    rules: Rules,
 }
 
-impl VertexColors {
+impl VertexPaint {
+    pub(super) fn new(colors: [Rgba; 3]) -> Self {
+        Self(colors.map(|color| [color.r, color.g, color.b, color.a]))
+    }
+
+    fn are_opaque(&self) -> bool {
+        self.0.iter().all(|color| color[3] >= 1.0)
+    }
+}
+
+impl PaintKind for VertexPaint {
+    type Shader<'a> = VertexShader;
+
+    fn is_opaque(&self, _: &[&Texture]) -> bool {
+        self.are_opaque()
+    }
+
+    fn clipped(&self, corners: &[ClipVertex; 3]) -> Self {
+        let color = |corner: &ClipVertex| [0, 1, 2, 3].map(|i| at_corner(corner, self.0.map(|color| color[i])));
+        Self(corners.each_ref().map(color))
+    }
+
+    fn shader(&self, context: &ShadeContext<'_>, corners: &[GridPoint; 3]) -> VertexShader {
+        let planes = Planes::new(context.grid, corners, self.0);
+        VertexShader::new(planes, self.are_opaque(), context.sampling.rules)
+    }
+}
+
+impl VertexShader {
     /// From planes through straight colours.
-    pub(crate) fn new(straight: Planes<4>, is_opaque: bool) -> Self {
+    fn new(straight: Planes<4>, is_opaque: bool, rules: Rules) -> Self {
         let first = |[r, g, b, _]: [f64; 4]| [r, g, b];
         let opaque = Planes {
             pivot: straight.pivot,
@@ -44,41 +82,54 @@ impl VertexColors {
             straight,
             opaque: opaque.scaled(ONE),
             is_opaque,
+            rules,
         }
     }
 
-    /// The colours at samples, counted from the first sample of the grid's origin; opaque or not, by any rules.
-    pub(crate) fn points(&self, grid: SampleGrid, rules: Rules, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
-        if self.is_opaque && rules != Rules::Course {
+    /// [`Shade::pixels`] of opaque corners under the standard rules.
+    fn opaque_pixels(&self, simd: Level, Pixels { grid, places }: Pixels<'_>, values: &mut [u32]) {
+        dispatch!(simd, simd => pixel_kernel(simd, &self.opaque, grid, places, values));
+    }
+
+    /// [`Shade::pixel_sums`]; under the same conditions.
+    fn opaque_sums(&self, simd: Level, Pixels { grid, places }: Pixels<'_>, sums: &mut [[u32; 4]]) {
+        dispatch!(simd, simd => sum_kernel(simd, &self.opaque, grid, places, sums));
+    }
+}
+
+impl Shade for VertexShader {
+    fn points(&self, grid: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
+        if self.is_opaque && self.rules != Rules::Course {
             return dispatch!(simd::level(), simd => point_kernel(simd, &self.opaque, grid, points, colors));
         }
         let first = first_sample(grid);
         for ([x, y], color) in points.iter().zip(colors) {
             let (x, y) = (first[0] + f64::from(*x), first[1] + f64::from(*y));
-            *color = straight_color(self.straight.at(x, y), rules);
+            *color = straight_color(self.straight.at(x, y), self.rules);
         }
     }
 
-    /// The values of pixels with one sample each. All corners must be opaque and the rules the standard ones.
-    pub(crate) fn pixels(&self, simd: Level, grid: SampleGrid, pixels: &[[u16; 2]], values: &mut [u32]) {
-        dispatch!(simd, simd => pixel_kernel(simd, &self.opaque, grid, pixels, values));
+    fn pixels(&self, pixels: Pixels<'_>, rules: Rules, values: &mut [u32]) {
+        if rules == Rules::Course {
+            pixels_by_points(self, pixels, rules, values);
+        } else {
+            self.opaque_pixels(simd::level(), pixels, values);
+        }
     }
 
-    /// The sums over all samples of pixels; under the same conditions.
-    pub(crate) fn sums(&self, simd: Level, grid: SampleGrid, pixels: &[[u16; 2]], sums: &mut [[u32; 4]]) {
-        dispatch!(simd, simd => sum_kernel(simd, &self.opaque, grid, pixels, sums));
+    fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {
+        self.opaque_sums(simd::level(), pixels, sums);
     }
 
-    /// The sums over some samples of pixels: a mask each of the 64 samples from `first` on.
-    pub(crate) fn masked_sums(
-        &self,
-        grid: SampleGrid,
-        (pixels, masks, first): (&[[u16; 2]], &[u64], u32),
-        sums: &mut [[u32; 4]],
-    ) {
+    fn masked_sums(&self, pixels: MaskedPixels<'_>, sums: &mut [[u32; 4]]) {
+        let MaskedPixels {
+            pixels: Pixels { grid, places },
+            masks,
+            first,
+        } = pixels;
         let origin = first_sample(grid);
         let side = f64::from(grid.side);
-        for (([x, y], mask), sum) in pixels.iter().zip(masks).zip(sums) {
+        for (([x, y], mask), sum) in places.iter().zip(masks).zip(sums) {
             let count = mask.count_ones();
             let (mut right, mut down, mut rest) = (0, 0, *mask);
             while rest != 0 {
@@ -92,6 +143,11 @@ impl VertexColors {
             let y = origin[1] + f64::from(*y) * side + mean(down);
             *sum = rounded_sum(self.opaque.at(x, y), f64::from(count));
         }
+    }
+
+    fn interpolated(&self, sample: ShadedSample) -> Attributes {
+        let [x, y] = sample.position();
+        Attributes::Color(self.straight.at(x, y))
     }
 }
 
@@ -226,13 +282,13 @@ mod tests {
     use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 
     /// The colours of all samples of a pixel, one by one.
-    fn samples(colors: &VertexColors, grid: SampleGrid, [x, y]: [u16; 2]) -> Vec<Premultiplied16> {
+    fn samples(colors: &VertexShader, grid: SampleGrid, [x, y]: [u16; 2]) -> Vec<Premultiplied16> {
         let side = u16::try_from(grid.side).expect("at most 16");
         let points: Vec<[u16; 2]> = (0..side * side)
             .map(|i| [x * side + i % side, y * side + i / side])
             .collect();
         let mut found = vec![Premultiplied16::TRANSPARENT; points.len()];
-        colors.points(grid, Rules::Standard, &points, &mut found);
+        colors.points(grid, &points, &mut found);
         found
     }
 
@@ -255,15 +311,16 @@ mod tests {
                 [unit()?, unit()?, unit()?, 1.0],
                 [unit()?, unit()?, unit()?, 1.0],
             ];
-            let colors = VertexColors::new(Planes::new(subpixels, &corners, values), true);
+            let colors = VertexShader::new(Planes::new(subpixels, &corners, values), true, Rules::Standard);
             let grid = SampleGrid { side, origin: [3, -2] };
             let pixels: Vec<[u16; 2]> = (0..11).map(|i| [i * 3, i % 4]).collect();
+            let pixels_of = |places| Pixels { grid, places };
             let count = side * side;
             let mut of_scalar = Vec::new();
             for (name, level) in simd::tested() {
                 let (mut sums, mut values) = (vec![[0; 4]; 11], vec![0; 11]);
-                colors.sums(level, grid, &pixels, &mut sums);
-                colors.pixels(level, grid, &pixels, &mut values);
+                colors.opaque_sums(level, pixels_of(&pixels), &mut sums);
+                colors.opaque_pixels(level, pixels_of(&pixels), &mut values);
                 if of_scalar.is_empty() {
                     of_scalar = vec![(sums.clone(), values.clone())];
                 }
@@ -285,7 +342,8 @@ mod tests {
                 }
                 let masks = [u64::MAX >> 64_u32.saturating_sub(count)];
                 let mut masked = [[0; 4]];
-                colors.masked_sums(grid, (&[*pixel], &masks, 0), &mut masked);
+                let pixels = pixels_of(std::slice::from_ref(pixel));
+                colors.masked_sums(pixels.masked(&masks, 0), &mut masked);
                 for k in 0..4 {
                     let exact: u32 = samples.iter().map(|sample| u32::from(sample.0[k])).sum();
                     // Where the plane leaves the range of colours the mean is clamped, not the samples.

@@ -1,13 +1,12 @@
 //! What is needed of surfaces again and again when pixels that show nothing but flat colours are resolved, side by side.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, i8x16, i16x8, i32x4, u8x16, u16x8, u32x4, u64x2};
+use fearless_simd::{Simd, i16x8, i32x4, u32x4, u64x2};
 
 use crate::color::Resolver;
 use crate::raster::paint::visibility::packed::lanes;
 use crate::raster::paint::visibility::surface_color::SurfaceColor;
 use crate::raster::surface_id::{ROW, SurfaceId};
-use crate::simd;
 
 /// How many surfaces have a place here: a power of two.
 const FIRST: usize = 1024;
@@ -17,14 +16,6 @@ const MIDDLE: u16 = 1 << 15;
 
 /// Most samples of a pixel whose mean a [`Mixer`] takes.
 const MOST: u32 = 64;
-
-/// Entries of a table that vector instructions look up, the first surface of the second table, and how many tables there are.
-const TABLE: usize = 16;
-const SECOND: i8 = 16;
-const TABLES: usize = 2;
-
-/// The channels of a pixel.
-const CHANNELS: usize = 4;
 
 /// The colours of the first surfaces of a tile, side by side, so that pixels of nothing but flat colours are resolved at
 /// once.
@@ -36,8 +27,6 @@ pub(crate) struct FlatResolve {
     /// Whether all are opaque.
     opaque: bool,
     pixels: Box<[u32; FIRST]>,
-    /// The bytes of the very first pixels, channel by channel.
-    tables: [[[u8; TABLE]; CHANNELS]; TABLES],
     /// Blue, green, red and alpha of colours from the lowest bits on, each less [`MIDDLE`].
     colors: Box<[u64; FIRST]>,
 }
@@ -61,7 +50,6 @@ impl FlatResolve {
             count: 0,
             opaque: true,
             pixels: Box::new([0; FIRST]),
-            tables: [[[0; TABLE]; CHANNELS]; TABLES],
             colors: Box::new([0; FIRST]),
         }
     }
@@ -84,11 +72,6 @@ impl FlatResolve {
         self.count = number + 1;
         self.opaque &= surface.flat.is_opaque();
         self.pixels[number % FIRST] = surface.pixel;
-        if let Some(tables) = self.tables.get_mut(number / TABLE) {
-            for (table, byte) in tables.iter_mut().zip(surface.pixel.to_le_bytes()) {
-                table[number % TABLE] = byte;
-            }
-        }
         let [r, g, b, a] = surface.flat.0.map(|channel| u64::from(channel ^ MIDDLE));
         self.colors[number % FIRST] = b | g << 16 | r << 32 | a << 48;
     }
@@ -100,62 +83,11 @@ impl FlatResolve {
     }
 
     /// The pixels of a row that show nothing but the flat colours of surfaces; any for numbers that are none.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    pub(crate) fn row<S: Simd>(&self, simd: S, shown: &[SurfaceId; ROW], pixels: &mut [u32]) {
-        let first = shown[0];
-        if shown.iter().filter(|surface| **surface != first).count() == 0 {
-            pixels.fill(self.pixel(first));
-        } else if self.count <= TABLE && has_tables(simd) {
-            self.looked_up::<S, false>(simd, shown, pixels);
-        } else if self.count <= TABLES * TABLE && has_tables(simd) {
-            self.looked_up::<S, true>(simd, shown, pixels);
-        } else {
-            self.one_by_one(shown, pixels);
-        }
-    }
-
-    /// [`FlatResolve::row`] pixel by pixel.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn one_by_one(&self, shown: &[SurfaceId], pixels: &mut [u32]) {
+    #[inline]
+    pub(crate) fn row(&self, shown: &[SurfaceId; ROW], pixels: &mut [u32]) {
         for (pixel, surface) in pixels.iter_mut().zip(shown) {
             *pixel = self.pixel(*surface);
         }
-    }
-
-    /// [`FlatResolve::row`] where there are no more surfaces than entries of one table, or of two.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn looked_up<S: Simd, const TWO: bool>(&self, simd: S, shown: &[SurfaceId; ROW], pixels: &mut [u32]) {
-        let tables = self
-            .tables
-            .map(|tables| tables.map(|table| u8x16::simd_from(simd, table)));
-        let (blocks, _) = shown.as_chunks::<TABLE>();
-        let (whole, rest) = pixels.as_chunks_mut::<TABLE>();
-        for (pixels, surfaces) in whole.iter_mut().zip(blocks) {
-            let half = |surfaces: &[SurfaceId]| u16x8::from_slice(simd, surfaces).bitcast::<i16x8<S>>();
-            // What is too great for a byte is no surface.
-            let bytes: i8x16<S> = half(&surfaces[..8]).saturating_narrow(half(&surfaces[8..]));
-            let surfaces: u8x16<S> = bytes.bitcast();
-            let [b, g, r, a] = std::array::from_fn(|channel| {
-                let found = tables[0][channel].swizzle_dyn_within_blocks(surfaces);
-                if !TWO {
-                    return found;
-                }
-                let beyond = bytes - i8x16::splat(simd, SECOND);
-                let second = tables[1][channel].swizzle_dyn_within_blocks(beyond.bitcast::<u8x16<S>>());
-                bytes.simd_lt(i8x16::splat(simd, SECOND)).select(found, second)
-            });
-            let (low, high) = ((b.zip_low(g), r.zip_low(a)), (b.zip_high(g), r.zip_high(a)));
-            for (four, (bg, ra)) in pixels.chunks_exact_mut(8).zip([low, high]) {
-                let (bg, ra): (u16x8<S>, u16x8<S>) = (bg.bitcast(), ra.bitcast());
-                bg.zip_low(ra).bitcast::<u32x4<S>>().store_slice(&mut four[..4]);
-                bg.zip_high(ra).bitcast::<u32x4<S>>().store_slice(&mut four[4..]);
-            }
-        }
-        let beyond = shown.len().min(whole.len() * TABLE);
-        self.one_by_one(&shown[beyond..], rest);
     }
 
     /// What mixes two of these; `None` where one of them is not opaque, or means are no shifts.
@@ -174,17 +106,6 @@ impl FlatResolve {
     }
 }
 
-/// Whether tables are looked up by an instruction.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "known when compiled")]
-fn has_tables<S: Simd>(token: S) -> bool {
-    match token.level() {
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        simd::Level::Sse2(_) => false,
-        level => !level.is_fallback(),
-    }
-}
-
 impl<S: Simd> Mixer<'_, S> {
     /// The pixel of which all samples show `first` but `of_second`, which show `second`.
     #[inline(always)]
@@ -196,7 +117,7 @@ impl<S: Simd> Mixer<'_, S> {
     /// The pixel whose samples show these surfaces, four in a word.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    pub(crate) fn pixel_of_words(&self, words: &[u64]) -> u32 {
+    pub(crate) fn pixel_of_packed(&self, words: &[u64]) -> u32 {
         let zero = i32x4::splat(self.simd, 0);
         let sums = words.iter().fold(zero, |sums, word| {
             let [a, b, c, d] = lanes(*word);
@@ -241,6 +162,7 @@ mod tests {
     use crate::raster::paint::visibility::surfaces::SurfaceTable;
     use crate::raster::surface_id::TWO_SURFACES;
     use crate::rules::Rules;
+    use crate::simd;
 
     fn color(u: &mut Unstructured<'_>, opaque: bool) -> Result<Premultiplied16> {
         let mut channel = || u.int_in_range(0..=Premultiplied16::ONE);
@@ -276,7 +198,7 @@ mod tests {
             for surface in words.iter().flat_map(|word| lanes(*word)) {
                 of_words.add_one(surfaces.get(numbers[usize::from(surface) % 2]).spread);
             }
-            let known = surfaces.flat_resolve().expect("two surfaces");
+            let flat = surfaces.flat_resolve().expect("two surfaces");
             // Equal colours share a surface.
             let two = numbers[0] != numbers[1];
             for (name, level) in simd::tested() {
@@ -284,11 +206,11 @@ mod tests {
                     .then(|| resolver.pixel(sum.channels()));
                 let [first, second] = numbers;
                 let found =
-                    dispatch!(level, simd => known.mixer(simd).map(|mixer| mixer.pixel(first, second, of_second)));
+                    dispatch!(level, simd => flat.mixer(simd).map(|mixer| mixer.pixel(first, second, of_second)));
                 assert_eq!(found, expected, "{name}: {of_second} of {count}");
                 if expected.is_some() && count >= 4 && two {
                     let expected = resolver.pixel(of_words.channels());
-                    let found = dispatch!(level, simd => known.mixer(simd).map(|mixer| mixer.pixel_of_words(&words)));
+                    let found = dispatch!(level, simd => flat.mixer(simd).map(|mixer| mixer.pixel_of_packed(&words)));
                     assert_eq!(found, Some(expected), "{name}: {words:x?}");
                 }
             }
@@ -298,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_of_pixels_are_looked_up_one_by_one_or_together() {
+    fn rows_show_the_pixels_of_their_surfaces() {
         arbtest::arbtest(|u| {
             let resolver = Resolver::new(16, Rules::Standard);
             let mut surfaces = SurfaceTable::new(Rules::Standard, resolver);
@@ -316,16 +238,14 @@ mod tests {
                     *surface = *u.choose(&[TWO_SURFACES, SurfaceId::MAX])?;
                 }
             }
-            let known = surfaces.flat_resolve().expect("few surfaces");
+            let flat = surfaces.flat_resolve().expect("few surfaces");
             let mut pixels = vec![0; u.int_in_range(1..=ROW)?];
-            for (name, level) in simd::tested() {
-                dispatch!(level, simd => known.row(simd, &shown, &mut pixels));
-                for (x, (pixel, surface)) in pixels.iter().zip(shown).enumerate() {
-                    assert!(
-                        surface >= TWO_SURFACES || *pixel == surfaces.get(surface).pixel,
-                        "{name}: pixel {x} of {shown:?}"
-                    );
-                }
+            flat.row(&shown, &mut pixels);
+            for (x, (pixel, surface)) in pixels.iter().zip(shown).enumerate() {
+                assert!(
+                    surface >= TWO_SURFACES || *pixel == surfaces.get(surface).pixel,
+                    "pixel {x} of {shown:?}"
+                );
             }
             Ok(())
         })

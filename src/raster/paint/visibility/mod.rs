@@ -4,10 +4,11 @@
 //! GPUs do with an FMASK; [`flat_resolve`] averages surfaces of one colour without shading.
 
 pub(in crate::raster) mod buffer;
-pub(in crate::raster) mod buffer_4x4;
 pub(in crate::raster) mod flat_resolve;
+mod fragments;
 pub(in crate::raster) mod packed;
 pub(in crate::raster) mod painter;
+mod resolve;
 pub(in crate::raster) mod shading_queue;
 pub(in crate::raster) mod surface_color;
 pub(in crate::raster) mod surfaces;

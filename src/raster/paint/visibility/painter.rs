@@ -2,9 +2,9 @@
 //!
 //! Nothing hidden is ever shaded, and a primitive's part of a pixel is shaded as one, whatever the number of samples:
 //! its sum over the samples is taken before anything is rounded. Translucent flat colours are mixed once for all
-//! samples that show the same.
+//! samples that show the same. The second step is in `resolve`.
 
-use std::time::{Duration, Instant};
+use std::collections::HashMap;
 
 use fearless_simd::{Simd, dispatch};
 
@@ -14,62 +14,43 @@ use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::pixel_rows::each_pixel_row_of_few;
 use crate::raster::coverage::pixel_rows_4x4;
 use crate::raster::coverage::shape_rows::{Shape, ShapeRows};
-use crate::raster::frame::block::PixelBlock;
+use crate::raster::layers::Compositing;
+use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
-use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityBuffer};
-use crate::raster::paint::visibility::packed::{lanes, splat};
-use crate::raster::paint::visibility::shading_queue::{Fragment, Part, ShadingQueue};
-use crate::raster::paint::visibility::surface_color::{Shaded, Spread};
+use crate::raster::paint::visibility::buffer::VisibilityBuffer;
+use crate::raster::paint::visibility::fragments::FragmentSums;
+use crate::raster::paint::visibility::shading_queue::ShadingQueue;
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
-use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
-use crate::raster::shading::shader::{Pixels, ShadeContext, Shader};
+use crate::raster::shading::context::ShadeContext;
 use crate::raster::span::PixelRect;
-use crate::raster::surface_id::{MAX_SURFACES, ROW, SurfaceId, TWO_SURFACES};
+use crate::raster::surface_id::{MAX_SURFACES, SurfaceId};
 use crate::simd;
-use crate::texture::SampleGrid;
 
 /// Paints tiles in which only opaque primitives are shaded, one after the other, reusing its memory.
 #[derive(Debug)]
 pub(crate) struct VisibilityPainter<'a> {
-    context: ShadeContext<'a>,
-    resolver: Resolver,
-    /// The base and above it the open layers.
-    layers: Vec<VisibilityBuffer>,
-    /// How many of `layers` are in use.
-    depth: usize,
-    surfaces: SurfaceTable<'a>,
-    unresolved: ShadingQueue,
-    shading: Shading,
+    pub(super) context: ShadeContext<'a>,
+    pub(super) resolver: Resolver,
+    pub(super) layers: LayerStack<VisibilityBuffer>,
+    pub(super) surfaces: SurfaceTable<'a>,
+    pub(super) unresolved: ShadingQueue,
+    pub(super) fragments: FragmentSums,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
-}
-
-/// Memory for the fragments of one primitive.
-#[derive(Debug, Default)]
-struct Shading {
-    /// Pixels of the tile, and which of their samples; the latter empty where it is all.
-    places: Vec<[u16; 2]>,
-    masks: Vec<u64>,
-    /// Where their sums go.
-    targets: Vec<u32>,
-    sums: Vec<[u32; 4]>,
 }
 
 impl<'a> VisibilityPainter<'a> {
     /// A painter for one drawing.
     pub(crate) fn new(context: ShadeContext<'a>) -> Self {
         let side = context.grid.side().cast_unsigned();
+        let resolver = context.filter.resolver(side * side, context.sampling.rules);
         Self {
             context,
-            resolver: Resolver::new(side * side, context.sampling.rules),
-            layers: vec![VisibilityBuffer::new(context.grid.side())],
-            depth: 1,
-            surfaces: SurfaceTable::new(
-                context.sampling.rules,
-                Resolver::new(side * side, context.sampling.rules),
-            ),
+            resolver,
+            layers: LayerStack::new(VisibilityBuffer::new(context.grid.side())),
+            surfaces: SurfaceTable::new(context.sampling.rules, resolver),
             unresolved: ShadingQueue::default(),
-            shading: Shading::default(),
+            fragments: FragmentSums::default(),
             samples_shaded: 0,
         }
     }
@@ -78,12 +59,11 @@ impl<'a> VisibilityPainter<'a> {
     pub(crate) fn begin(&mut self, rect: PixelRect, background: Premultiplied16) {
         self.surfaces.clear();
         let surface = self.surfaces.flat(background);
-        self.layers[0].reset(rect, surface);
-        self.depth = 1;
+        self.layers.restart().reset(rect, surface);
     }
 
-    /// Paints the ops of one chunk that touch the tile.
-    pub(crate) fn paint(&mut self, chunk: &'a Chunk, entries: &[TileCommand], bands: &mut ShapeRows) {
+    /// Paints the commands of one chunk that touch the tile.
+    pub(crate) fn paint(&mut self, chunk: &'a Chunk, entries: &[TileCommand], shape_rows: &mut ShapeRows) {
         for entry in entries {
             self.make_room();
             match entry.work(chunk) {
@@ -91,81 +71,45 @@ impl<'a> VisibilityPainter<'a> {
                 Work::Pixels(coverage, color) => self.pixels(coverage, color),
                 Work::Flat(shape, color) if entry.is_opaque() => {
                     let surface = self.surfaces.flat(color);
-                    self.opaque((shape, *entry), surface, bands);
+                    self.opaque((shape, *entry), surface, shape_rows);
                 }
-                Work::Flat(shape, color) => self.translucent((shape, *entry), color, bands),
-                Work::Shaded(shape, triangle, paint) => {
-                    let surface = self.surfaces.shaded(triangle, paint);
-                    self.opaque((shape, *entry), surface, bands);
+                Work::Flat(shape, color) => self.translucent((shape, *entry), color, shape_rows),
+                Work::Shaded(shape, corners, paint) => {
+                    let surface = self.surfaces.shaded(corners, paint);
+                    self.opaque((shape, *entry), surface, shape_rows);
                 }
                 Work::BeginLayer => self.begin_layer(),
-                Work::EndLayer(opacity) => self.end_layer(opacity),
+                Work::EndLayer(compositing) => self.end_layer(compositing),
             }
         }
     }
 
-    /// Shades what is seen and resolves the finished tile; how long shading took, if that is to be `timed`.
-    pub(crate) fn resolve(&mut self, block: &mut PixelBlock<'_>, timed: bool) -> Duration {
-        self.unresolved.clear();
-        let PixelRect { x, y } = self.layers[0].rect;
-        if !self.surfaces.any_shaded {
-            dispatch!(simd::level(), simd => resolve_flat(simd, self, block));
-            return Duration::ZERO;
-        }
-        for (y, row) in (y.start..y.end).zip(0..) {
-            self.resolve_row(y, row, block.line(y));
-        }
-        if self.unresolved.is_empty() {
-            return Duration::ZERO;
-        }
-        let start = timed.then(Instant::now);
-        self.unresolved.sort(self.surfaces.len());
-        let resolver = self.resolver;
-        self.shade([x.start, y.start], &mut |place, sums| {
-            block.put(place, resolver.pixel(sums));
-        });
-        let shading = start.map(|start| start.elapsed()).unwrap_or_default();
-        for (place, sums) in self.unresolved.places.iter().zip(&self.unresolved.sums) {
-            block.put(*place, self.resolver.pixel(*sums));
-        }
-        shading
-    }
-
-    /// After a tile of a single pixel was resolved: the sums of its samples' channels, if any of them was shaded.
-    pub(crate) fn shaded_sums(&mut self) -> Option<[u32; 4]> {
-        if self.unresolved.is_empty() {
-            return None;
-        }
-        self.unresolved.clear();
-        let PixelRect { x, y } = self.layers[0].rect;
-        self.resolve_row(y.start, 0, &mut [0]);
-        self.unresolved.sort(self.surfaces.len());
-        let mut whole = None;
-        self.shade([x.start, y.start], &mut |_, sums| whole = Some(sums));
-        whole.or_else(|| self.unresolved.sums.first().copied())
-    }
-
     #[inline]
-    fn opaque(&mut self, (shape, entry): (Shape<'_>, TileCommand), surface: SurfaceId, bands: &mut ShapeRows) {
-        let tile = &mut self.layers[self.depth - 1];
+    fn opaque(&mut self, (shape, entry): (Shape<'_>, TileCommand), surface: SurfaceId, shape_rows: &mut ShapeRows) {
+        let tile = self.layers.top();
         if entry.covers_tile() {
             tile.cover(surface);
         } else if self.context.grid.side() == pixel_rows_4x4::SIDE {
-            dispatch!(simd::level(), simd => opaque_four(simd, (shape, bands), tile, surface));
+            dispatch!(simd::level(), simd => opaque_four(simd, (shape, shape_rows), tile, surface));
         } else {
-            bands.each_pixel_row(shape, tile.rect, |row| tile.paint(row, surface));
+            shape_rows.each_pixel_row(shape, tile.rect, |row| tile.paint(row, surface));
         }
     }
 
-    fn translucent(&mut self, (shape, entry): (Shape<'_>, TileCommand), color: Premultiplied16, bands: &mut ShapeRows) {
-        let (tile, surfaces) = (&mut self.layers[self.depth - 1], &mut self.surfaces);
+    fn translucent(
+        &mut self,
+        (shape, entry): (Shape<'_>, TileCommand),
+        color: Premultiplied16,
+        shape_rows: &mut ShapeRows,
+    ) {
+        let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
         surfaces.next_paint();
         if entry.covers_tile() {
             tile.change_all(|surface| surfaces.under(surface, color));
         } else if self.context.grid.side() == pixel_rows_4x4::SIDE {
-            dispatch!(simd::level(), simd => translucent_four(simd, (shape, bands), tile, (surfaces, color)));
+            dispatch!(simd::level(), simd => translucent_four(simd, (shape, shape_rows), tile, (surfaces, color)));
         } else {
-            bands.each_pixel_row(shape, tile.rect, |row| {
+            shape_rows.each_pixel_row(shape, tile.rect, |row| {
                 tile.change(row, |surface| surfaces.under(surface, color));
             });
         }
@@ -174,7 +118,7 @@ impl<'a> VisibilityPainter<'a> {
     /// A few samples of one colour, counted from the tile's first.
     fn samples(&mut self, coverage: CoverageMask, color: Premultiplied16) {
         let side = self.context.grid.side();
-        let (tile, surfaces) = (&mut self.layers[self.depth - 1], &mut self.surfaces);
+        let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
         let rect = tile.rect;
         let coverage = coverage.moved(rect.x.start * side, rect.y.start * side);
         if color.is_opaque() {
@@ -190,7 +134,7 @@ impl<'a> VisibilityPainter<'a> {
 
     /// A few pixels of one colour, counted from the tile's first.
     fn pixels(&mut self, coverage: CoverageMask, color: Premultiplied16) {
-        let (tile, surfaces) = (&mut self.layers[self.depth - 1], &mut self.surfaces);
+        let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
         let coverage = coverage.moved(tile.rect.x.start, tile.rect.y.start);
         if color.is_opaque() {
             let surface = surfaces.flat(color);
@@ -202,31 +146,26 @@ impl<'a> VisibilityPainter<'a> {
     }
 
     fn begin_layer(&mut self) {
-        let rect = self.layers[0].rect;
-        if self.layers.len() == self.depth {
-            self.layers.push(VisibilityBuffer::new(self.context.grid.side()));
-        }
+        let rect = self.layers.base().rect;
         let surface = self.surfaces.flat(Premultiplied16::TRANSPARENT);
-        self.layers[self.depth].reset(rect, surface);
-        self.depth += 1;
+        let layer = self.layers.push(|| VisibilityBuffer::new(self.context.grid.side()));
+        layer.reset(rect, surface);
     }
 
-    fn end_layer(&mut self, opacity: u16) {
-        if self.depth < 2 {
+    fn end_layer(&mut self, compositing: Compositing) {
+        let Some((below, layer)) = self.layers.pop() else {
             return;
-        }
-        self.depth -= 1;
+        };
         let surfaces = &mut self.surfaces;
-        let (below, above) = self.layers.split_at_mut(self.depth);
-        let mut known = std::collections::HashMap::new();
-        below[self.depth - 1].composite(&above[0], |below, above| {
-            let color = surfaces.get(above).flat;
-            if color == Premultiplied16::TRANSPARENT {
+        let mut composited = HashMap::new();
+        below.composite(layer, |below, above| {
+            let sample = surfaces.get(above).flat;
+            if sample == Premultiplied16::TRANSPARENT {
                 return below;
             }
-            *known
+            *composited
                 .entry((below, above))
-                .or_insert_with(|| surfaces.mix(below, color.faded(opacity)))
+                .or_insert_with(|| surfaces.composited(below, sample, compositing))
         });
     }
 
@@ -238,160 +177,13 @@ impl<'a> VisibilityPainter<'a> {
             return;
         }
         let mut used = vec![false; MAX_SURFACES];
-        let layers = &mut self.layers[..self.depth];
+        let layers = self.layers.in_use();
         for layer in &*layers {
-            layer.each_slot(|surface| used[usize::from(surface)] = true);
+            layer.each_surface(|surface| used[usize::from(surface)] = true);
         }
         let numbers = self.surfaces.keep(&used);
         for layer in layers {
             layer.renumber(|surface| numbers[usize::from(surface)]);
-        }
-    }
-
-    /// Resolves a row in which nothing is to be shaded.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn resolve_flat_row<S: Simd>(&self, simd: S, y: i32, line: &mut [u32]) {
-        let Some(known) = self.surfaces.flat_resolve() else {
-            return self.resolve_row_of_many(y, line);
-        };
-        let shown = self.layers[0].shown(y);
-        known.row(simd, shown.whole, line);
-        // Where pixels are shared, what they got there is written over.
-        match known.mixer(simd) {
-            Some(mixer) => each_shared(
-                &shown,
-                line,
-                #[inline(always)]
-                |pair| mixer.pixel(pair.first, pair.second, pair.mask.count_ones()),
-                #[inline(always)]
-                |x| match self.layers[0].full_words(x, y) {
-                    Some(words) => mixer.pixel_of_words(words),
-                    None => self.resolve_split(x, y),
-                },
-            ),
-            None => each_shared(
-                &shown,
-                line,
-                |pair| self.resolver.pixel_of_halves(self.pair_sum(pair, count(pair.mask))),
-                |x| self.resolve_split(x, y),
-            ),
-        }
-    }
-
-    /// As [`VisibilityPainter::resolve_flat_row`] where there are many surfaces.
-    #[cold]
-    fn resolve_row_of_many(&self, y: i32, line: &mut [u32]) {
-        let tile = &self.layers[0];
-        let pairs = tile.pairs(y);
-        for ((x, surface), pixel) in tile.row(y).iter().enumerate().zip(line) {
-            *pixel = match *surface {
-                TWO_SURFACES => {
-                    let pair = pairs.get(x);
-                    self.resolver.pixel_of_halves(self.pair_sum(pair, count(pair.mask)))
-                }
-                surface if usize::from(surface) < MAX_SURFACES => self.surfaces.get(surface).pixel,
-                _ => self.resolve_split(x, y),
-            };
-        }
-    }
-
-    /// The pixel in column `x` of the tile and row `y`, which is split and all flat.
-    #[inline(never)]
-    fn resolve_split(&self, x: usize, y: i32) -> u32 {
-        self.resolver
-            .pixel_of_halves(flat_sum(&self.layers[0], &self.surfaces, x, y))
-    }
-
-    /// The sum of the samples of a pixel that shows two flat colours, `of_second` times the second one.
-    #[inline]
-    fn pair_sum(&self, pair: TwoSurfaces, of_second: u32) -> [u64; 2] {
-        let [first, second] = [pair.first, pair.second].map(|surface| self.surfaces.get(surface).spread);
-        first.mixed(self.resolver.count(), second, of_second)
-    }
-
-    /// Resolves what is flat, and notes what is to be shaded.
-    fn resolve_row(&mut self, y: i32, row: u16, line: &mut [u32]) {
-        let (tile, surfaces) = (&self.layers[0], &self.surfaces);
-        let unresolved = &mut self.unresolved;
-        for (run, range) in tile.runs(y) {
-            let columns = (0_u16..).take(range.end).skip(range.start);
-            match run {
-                Run::Whole(surface) => {
-                    let shown = surfaces.get(surface);
-                    if shown.shaded.is_none() {
-                        line[range].fill(shown.pixel);
-                    } else {
-                        columns.for_each(|x| unresolved.whole(surface, [x, row]));
-                    }
-                }
-                Run::TwoSurfacePixels => {
-                    let pairs = tile.pairs(y);
-                    for x in columns {
-                        let pair = pairs.get(usize::from(x));
-                        if [pair.first, pair.second]
-                            .iter()
-                            .all(|surface| surfaces.get(*surface).shaded.is_none())
-                        {
-                            let [first, second] = [pair.first, pair.second].map(|surface| surfaces.get(surface).spread);
-                            let sum = first.mixed(self.resolver.count(), second, count(pair.mask));
-                            line[usize::from(x)] = self.resolver.pixel_of_halves(sum);
-                        } else {
-                            let parts = [(pair.first, 0, tile.all() & !pair.mask), (pair.second, 0, pair.mask)];
-                            unresolved.parts([x, row], parts.into_iter(), |surface| {
-                                let shown = surfaces.get(surface);
-                                shown.shaded.is_none().then(|| shown.sum(1))
-                            });
-                        }
-                    }
-                }
-                Run::Split => {
-                    for x in columns {
-                        unresolved.split([x, row], tile.samples(usize::from(x), y), |surface| {
-                            let shown = surfaces.get(surface);
-                            shown.shaded.is_none().then(|| shown.sum(1))
-                        });
-                    }
-                }
-            }
-        }
-    }
-
-    /// Shades all fragments: the sums of whole pixels go to `put`, others have the colours added to theirs. `origin` is
-    /// the tile's first pixel.
-    #[inline]
-    fn shade(&mut self, origin: [i32; 2], put: &mut impl FnMut([u16; 2], [u32; 4])) {
-        let (context, resolver, surfaces, shading) = (&self.context, self.resolver, &self.surfaces, &mut self.shading);
-        let ShadingQueue {
-            places, sums, sorted, ..
-        } = &mut self.unresolved;
-        let grid = context.samples_from(origin);
-        for fragments in sorted.by_slot() {
-            let shown = surfaces.get(fragments[0].surface);
-            let Some(Shaded { triangle, paint, kept }) = shown.shaded else {
-                continue;
-            };
-            let shader = Shader::new(context, triangle, paint);
-            let whole = shading.shade_whole(fragments, grid, &shader);
-            self.samples_shaded += whole * u64::from(grid.side * grid.side);
-            for (place, sum) in shading.places.iter().zip(&shading.sums) {
-                put(*place, shown.over_shaded(*sum, kept, resolver.count()));
-            }
-            for first in (0..resolver.count()).step_by(64) {
-                shading.gather(fragments, places, first);
-                self.samples_shaded += shading
-                    .masks
-                    .iter()
-                    .map(|mask| u64::from(mask.count_ones()))
-                    .sum::<u64>();
-                shading.shade_parts((grid, first), &shader);
-                for ((target, found), mask) in shading.targets.iter().zip(&shading.sums).zip(&shading.masks) {
-                    let found = shown.over_shaded(*found, kept, mask.count_ones());
-                    for (sum, channel) in sums[*target as usize].iter_mut().zip(found) {
-                        *sum += channel;
-                    }
-                }
-            }
         }
     }
 }
@@ -401,14 +193,14 @@ impl<'a> VisibilityPainter<'a> {
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn opaque_four<S: Simd>(
     simd: S,
-    (shape, bands): (Shape<'_>, &mut ShapeRows),
+    (shape, shape_rows): (Shape<'_>, &mut ShapeRows),
     tile: &mut VisibilityBuffer,
     surface: SurfaceId,
 ) {
     simd.vectorize(
         #[inline(always)]
         || {
-            bands.each_row_of_four(
+            shape_rows.each_row_of_four(
                 simd,
                 (shape, tile.rect),
                 #[inline(always)]
@@ -423,14 +215,14 @@ fn opaque_four<S: Simd>(
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn translucent_four<S: Simd>(
     simd: S,
-    (shape, bands): (Shape<'_>, &mut ShapeRows),
+    (shape, shape_rows): (Shape<'_>, &mut ShapeRows),
     tile: &mut VisibilityBuffer,
     (surfaces, color): (&mut SurfaceTable<'_>, Premultiplied16),
 ) {
     simd.vectorize(
         #[inline(always)]
         || {
-            bands.each_row_of_four(
+            shape_rows.each_row_of_four(
                 simd,
                 (shape, tile.rect),
                 #[inline(always)]
@@ -440,130 +232,80 @@ fn translucent_four<S: Simd>(
     );
 }
 
-/// Resolves the pixels of a row that are pairs or split, by what each is and by its column.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn each_shared(
-    shown: &Shown<'_>,
-    pixels: &mut [u32],
-    of_two: impl Fn(TwoSurfaces) -> u32,
-    of_split: impl Fn(usize) -> u32,
-) {
-    let mut rest = shown.shared;
-    while rest != 0 {
-        let x = rest.trailing_zeros() as usize;
-        rest &= rest - 1;
-        let Some(pixel) = pixels.get_mut(x) else {
-            return;
-        };
-        let surface = shown.whole[x % ROW];
-        if surface == TWO_SURFACES {
-            *pixel = of_two(shown.pairs.get(x));
-        } else if usize::from(surface) > MAX_SURFACES {
-            *pixel = of_split(x);
-        }
-    }
-}
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::AtomicBool;
 
-/// Resolves a tile in which nothing is to be shaded.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn resolve_flat<S: Simd>(simd: S, painter: &VisibilityPainter<'_>, block: &mut PixelBlock<'_>) {
-    simd.vectorize(
-        #[inline(always)]
-        || {
-            let rows = block.rect.y;
-            for y in rows.start..rows.end {
-                painter.resolve_flat_row(simd, y, block.line(y));
+    use super::*;
+    use crate::color::{ResolveSpace, Rgba};
+    use crate::raster::frame::block::PixelBlock;
+    use crate::raster::list::builder::ChunkBuilder;
+    use crate::raster::list::context::ListContext;
+    use crate::raster::random::{fill, noise};
+    use crate::raster::span::Span;
+    use crate::raster::{DisplayList, RasterSettings, SamplePattern, SampleRate};
+    use crate::rules::Rules;
+    use crate::texture::SamplingSettings;
+
+    const SIZE: [u32; 2] = [70, 50];
+
+    #[test]
+    fn flat_tiles_are_those_of_the_painter_that_blends_each_sample() {
+        let texture = noise();
+        let mut flat = 0;
+        arbtest::arbtest(|u| {
+            let settings = RasterSettings {
+                rate: SampleRate::new(*u.choose(&[1, 4, 9, 16, 25, 64, 100])?).expect("a square number"),
+                pattern: SamplePattern::Grid,
+                sampling: SamplingSettings {
+                    rules: *u.choose(&Rules::ALL)?,
+                    ..SamplingSettings::default()
+                },
+                space: ResolveSpace::Stored,
+                background: *u.choose(&[Rgba::WHITE, Rgba::TRANSPARENT])?,
+                palette: None,
+            };
+            let context = ListContext::new(SIZE, &settings);
+            let mut builder = ChunkBuilder::new(&context, 12);
+            fill(&mut builder, u)?;
+            let list = DisplayList::new(context, settings, vec![builder.finish()], vec![&texture]);
+            let cancelled = AtomicBool::new(false);
+            let tiles = context.tiles;
+            let rows = Span {
+                start: 0,
+                end: tiles.rows.cast_signed(),
+            };
+            let pass = list.pass(&list.plan(), rows, &cancelled);
+            let mut painters = list.painters();
+            for tile in 0..tiles.columns * tiles.rows {
+                let commands = pass.bins[0].of_tile(tile as usize);
+                let chunk = &list.chunks[0];
+                if commands
+                    .iter()
+                    .any(|command| matches!(command.work(chunk), Work::Shaded(..)))
+                {
+                    continue;
+                }
+                flat += 1;
+                let rect = tiles.pixels(tile % tiles.columns, tile / tiles.columns, SIZE);
+                let (width, height) = (rect.x.length(), rect.y.length());
+                let mut found = vec![0x1234_5678; width * height];
+                painters.deferred.begin(rect, list.background());
+                painters.deferred.paint(chunk, commands, &mut painters.shape_rows);
+                painters
+                    .deferred
+                    .resolve(&mut PixelBlock::new(rect, &mut found, width), false);
+                painters.blended.begin(rect, list.background());
+                painters.blended.paint(chunk, commands, &mut painters.shape_rows);
+                for (row, y) in found.chunks_exact(width).zip(rect.y.start..) {
+                    let mut expected = vec![0; width];
+                    painters.blended.resolve(y, &mut expected);
+                    assert_eq!(row, expected, "row {y} of tile {tile}, {settings:?}");
+                }
             }
-        },
-    );
-}
-
-impl Shading {
-    /// Shades the fragments that are whole pixels; how many there are.
-    fn shade_whole(&mut self, fragments: &[Fragment], grid: SampleGrid, shader: &Shader<'_>) -> u64 {
-        self.places.clear();
-        for fragment in fragments {
-            if let Part::Whole { place } = fragment.part {
-                self.places.push(place);
-            }
-        }
-        self.make_sums();
-        if !self.places.is_empty() {
-            let places = &self.places;
-            shader.pixel_sums(Pixels { grid, places }, &mut self.sums);
-        }
-        self.places.len() as u64
+            Ok(())
+        })
+        .budget_ms(1500);
+        assert!(flat > 20, "{flat} flat tiles");
     }
-
-    /// Gathers the fragments that are parts of pixels; of the 64 samples from `first` on.
-    fn gather(&mut self, fragments: &[Fragment], places: &[[u16; 2]], first: u32) {
-        self.places.clear();
-        self.masks.clear();
-        self.targets.clear();
-        for fragment in fragments {
-            if let Part::Masked { pixel, first: at, mask } = fragment.part
-                && u32::from(at) == first
-            {
-                self.places.push(places[pixel as usize]);
-                self.masks.push(mask);
-                self.targets.push(pixel);
-            }
-        }
-    }
-
-    fn shade_parts(&mut self, (grid, first): (SampleGrid, u32), shader: &Shader<'_>) {
-        self.make_sums();
-        if !self.places.is_empty() {
-            let places = &self.places;
-            shader.masked_sums(Pixels { grid, places }, (&self.masks, first), &mut self.sums);
-        }
-    }
-
-    fn make_sums(&mut self) {
-        self.sums.clear();
-        self.sums.resize(self.places.len(), [0; 4]);
-    }
-}
-
-/// How many samples of a pixel a mask holds.
-#[inline]
-fn count(mask: u64) -> u32 {
-    match u16::try_from(mask) {
-        // Faster than counting bits, for which not every machine has an instruction.
-        Ok(mask) => {
-            let [low, high] = mask.to_le_bytes();
-            ONES[usize::from(low)] + ONES[usize::from(high)]
-        }
-        Err(_) => mask.count_ones(),
-    }
-}
-
-/// How many bits of each byte are set.
-const ONES: [u32; 256] = {
-    let mut ones = [0; 256];
-    let mut byte = 1;
-    while byte < ones.len() {
-        ones[byte] = (byte as u64).count_ones();
-        byte += 1;
-    }
-    ones
-};
-
-/// The sum of a split pixel's samples where all of them are flat.
-#[inline]
-fn flat_sum(tile: &VisibilityBuffer, surfaces: &SurfaceTable<'_>, x: usize, y: i32) -> [u64; 2] {
-    let mut sum = Spread::default();
-    tile.each_sample_word(x, y, |word, used| {
-        let shown = lanes(word);
-        if word == splat(shown[0]) {
-            sum.add(surfaces.get(shown[0]).spread, used);
-        } else {
-            for surface in &shown[..used as usize] {
-                sum.add_one(surfaces.get(*surface).spread);
-            }
-        }
-    });
-    sum.halves()
 }

@@ -41,7 +41,7 @@ pub(crate) struct SortedFragments {
     starts: Vec<u32>,
 }
 
-/// Samples that one mask speaks of.
+/// Samples that a mask has bits for.
 const MASK_BITS: usize = 64;
 
 impl ShadingQueue {
@@ -144,7 +144,7 @@ impl SortedFragments {
     }
 
     /// The fragments of each surface that has any, in the order in which they were added.
-    pub(crate) fn by_slot(&self) -> impl Iterator<Item = &[Fragment]> + '_ {
+    pub(crate) fn by_surface(&self) -> impl Iterator<Item = &[Fragment]> + '_ {
         self.starts
             .windows(2)
             .map(|range| &self.fragments[range[0] as usize..range[1] as usize])
@@ -157,13 +157,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sort_keeps_the_order_inside_a_slot() {
+    fn sort_keeps_the_order_inside_a_surface() {
         let mut unresolved = ShadingQueue::default();
         for (surface, x) in [3, 1, 3, 0, 1, 3].into_iter().zip(0..) {
             unresolved.whole(surface, [x, 0]);
         }
         unresolved.sort(5);
-        let found: Vec<Vec<Fragment>> = unresolved.sorted.by_slot().map(<[Fragment]>::to_vec).collect();
+        let found: Vec<Vec<Fragment>> = unresolved.sorted.by_surface().map(<[Fragment]>::to_vec).collect();
         let whole = |surface, x| Fragment {
             surface,
             part: Part::Whole { place: [x, 0] },

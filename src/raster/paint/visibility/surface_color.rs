@@ -1,7 +1,9 @@
 //! What the samples of one surface show, and sums of such colours.
 
 use crate::color::Premultiplied16;
-use crate::raster::list::chunk::{Paint, ScreenTriangle};
+use crate::geometry::subpixel::GridPoint;
+use crate::raster::shading::Paint;
+use crate::rules::Rules;
 
 /// What the samples of one surface show.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +25,7 @@ pub(crate) struct Spread([u64; 2]);
 /// A primitive that is to be shaded.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shaded<'a> {
-    pub(crate) triangle: &'a ScreenTriangle,
+    pub(crate) corners: &'a [GridPoint; 3],
     pub(crate) paint: &'a Paint,
     /// How much of its colour shines through, of [`Premultiplied16::ONE`].
     pub(crate) kept: u16,
@@ -78,6 +80,17 @@ impl Spread {
 }
 
 impl SurfaceColor<'_> {
+    /// A flat colour.
+    #[inline]
+    pub(crate) fn flat(color: Premultiplied16, rules: Rules) -> Self {
+        Self {
+            flat: color,
+            spread: Spread::new(color),
+            pixel: color.to_pixel(rules),
+            shaded: None,
+        }
+    }
+
     /// `count` times the flat colour.
     #[inline]
     pub(crate) fn sum(&self, count: u32) -> [u32; 4] {
@@ -85,9 +98,7 @@ impl SurfaceColor<'_> {
         sum.add(self.spread, count);
         sum.channels()
     }
-}
 
-impl SurfaceColor<'_> {
     /// What `count` samples show of which the primitive below has the sum `shaded`.
     #[inline]
     pub(in crate::raster) fn over_shaded(&self, shaded: [u32; 4], kept: u16, count: u32) -> [u32; 4] {

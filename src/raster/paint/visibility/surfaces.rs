@@ -3,9 +3,11 @@
 //! Painting a translucent colour over a surface makes a new surface: once for all samples that show the old one.
 
 use crate::color::{Premultiplied16, Resolver};
-use crate::raster::list::chunk::{Paint, ScreenTriangle};
+use crate::geometry::subpixel::GridPoint;
+use crate::raster::layers::Compositing;
 use crate::raster::paint::visibility::flat_resolve::FlatResolve;
 use crate::raster::paint::visibility::surface_color::{Shaded, Spread, SurfaceColor};
+use crate::raster::shading::Paint;
 use crate::raster::surface_id::{MAX_SURFACES, SurfaceId};
 use crate::rules::Rules;
 
@@ -72,26 +74,21 @@ impl<'a> SurfaceTable<'a> {
     pub(crate) fn flat(&mut self, color: Premultiplied16) -> SurfaceId {
         let newest = self.all.last();
         if newest.is_none_or(|newest| newest.flat != color || newest.shaded.is_some()) {
-            self.push(SurfaceColor {
-                flat: color,
-                spread: Spread::new(color),
-                pixel: color.to_pixel(self.rules),
-                shaded: None,
-            });
+            self.push(SurfaceColor::flat(color, self.rules));
         }
         self.newest()
     }
 
     /// A surface for an opaque primitive that is to be shaded.
     #[inline]
-    pub(crate) fn shaded(&mut self, triangle: &'a ScreenTriangle, paint: &'a Paint) -> SurfaceId {
+    pub(crate) fn shaded(&mut self, corners: &'a [GridPoint; 3], paint: &'a Paint) -> SurfaceId {
         self.any_shaded = true;
         self.push(SurfaceColor {
             flat: Premultiplied16::TRANSPARENT,
             spread: Spread::default(),
             pixel: 0,
             shaded: Some(Shaded {
-                triangle,
+                corners,
                 paint,
                 kept: Premultiplied16::ONE,
             }),
@@ -99,7 +96,7 @@ impl<'a> SurfaceTable<'a> {
         self.newest()
     }
 
-    /// From here on [`SurfaceTable::under`] speaks of another paint.
+    /// Starts another translucent paint: see [`SurfaceTable::under`].
     pub(crate) fn next_paint(&mut self) {
         self.paint += 1;
     }
@@ -111,9 +108,9 @@ impl<'a> SurfaceTable<'a> {
         if self.painted.len() < self.all.len() {
             self.painted.resize(self.all.len(), (0, 0));
         }
-        let (paint, known) = self.painted[usize::from(surface)];
+        let (paint, became) = self.painted[usize::from(surface)];
         if paint == self.paint {
-            return known;
+            return became;
         }
         let mixed = self.mix(surface, color);
         self.painted[usize::from(surface)] = (self.paint, mixed);
@@ -134,6 +131,23 @@ impl<'a> SurfaceTable<'a> {
             }
         }
         self.push(mixed);
+        self.newest()
+    }
+
+    /// A new surface for a layer's sample, composited with what `below` shows. Tiles in which anything is to be shaded have no
+    /// layers.
+    pub(crate) fn composited(
+        &mut self,
+        below: SurfaceId,
+        sample: Premultiplied16,
+        compositing: Compositing,
+    ) -> SurfaceId {
+        let below = self.get(below);
+        debug_assert!(below.shaded.is_none(), "layers hold flat colours");
+        self.push(SurfaceColor::flat(
+            compositing.composited(sample, below.flat, self.rules),
+            self.rules,
+        ));
         self.newest()
     }
 

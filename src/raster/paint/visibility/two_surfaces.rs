@@ -26,7 +26,7 @@ pub(crate) struct TwoSurfaces {
     pub(crate) second: SurfaceId,
 }
 
-/// One pair for each pixel of a tile, of account or not.
+/// Two surfaces for each pixel of a tile, of account or not.
 #[derive(Debug)]
 pub(crate) struct TwoSurfacePixels {
     rows: Vec<Row>,
@@ -35,7 +35,7 @@ pub(crate) struct TwoSurfacePixels {
     wide: Vec<[u64; ROW]>,
 }
 
-/// The pairs of a row.
+/// The two surfaces of each pixel of a row.
 #[derive(Clone, Debug)]
 struct Row {
     masks: [u16; ROW],
@@ -43,7 +43,7 @@ struct Row {
     seconds: [SurfaceId; ROW],
 }
 
-/// The pairs of a row, or none.
+/// The two surfaces of each pixel of a row, or none.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TwoSurfaceRow<'a> {
     row: &'a Row,
@@ -89,21 +89,21 @@ impl TwoSurfacePixels {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
     #[expect(clippy::cast_possible_truncation, reason = "narrow masks have sixteen bits")]
-    pub(crate) fn set(&mut self, (y, x): (usize, usize), pair: TwoSurfaces) {
+    pub(crate) fn set(&mut self, (y, x): (usize, usize), two: TwoSurfaces) {
         let (row, x) = (&mut self.rows[y], x % ROW);
         if self.is_wide {
-            self.wide[y][x] = pair.mask;
+            self.wide[y][x] = two.mask;
         } else {
-            row.masks[x] = pair.mask as u16;
+            row.masks[x] = two.mask as u16;
         }
-        row.firsts[x] = pair.first;
-        row.seconds[x] = pair.second;
+        row.firsts[x] = two.first;
+        row.seconds[x] = two.second;
     }
 
     /// Sets those of the pixels from column `x` on in row `y` that `which` names; masks must be narrow.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    pub(crate) fn set_quad<S: Simd>(
+    pub(crate) fn set_group<S: Simd>(
         &mut self,
         simd: S,
         ((y, x), which): ((usize, usize), GroupMask<S>),

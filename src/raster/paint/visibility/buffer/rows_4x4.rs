@@ -12,7 +12,7 @@ use crate::raster::paint::visibility::packed::{lanes, splat};
 use crate::raster::paint::visibility::two_surfaces::{Group, GroupMask, group, put, word_at};
 use crate::raster::surface_id::{ROW, SurfaceId, TWO_SURFACES};
 
-/// Bits of which one is set for each shared pixel of four, and perhaps for others.
+/// The highest bit of each of four surfaces: set for every shared pixel, and for surfaces of high numbers.
 const PERHAPS_SHARED: u64 = 0x8000_8000_8000_8000;
 
 impl VisibilityBuffer {
@@ -26,33 +26,20 @@ impl VisibilityBuffer {
         // Those covered in part may be shared from now on, and full ones are not.
         let shared = &mut self.shared[row.y];
         *shared |= bits(&row.touched);
-        if row.full.is_empty() {
-            return each_window(
-                simd,
-                row,
-                (row.touched.clone(), Ends::Both),
-                #[inline(always)]
-                |window| self.paint_quad(simd, row.y, window, surface),
-            );
+        let any_full = !row.full.is_empty();
+        if any_full {
+            *shared &= !bits(&row.full);
         }
-        *shared &= !bits(&row.full);
-        let (before, after) = row.beside_full();
-        each_window(
+        each_partial_window(
             simd,
             row,
-            (before, Ends::Left),
             #[inline(always)]
-            |window| self.paint_quad(simd, row.y, window, surface),
-        );
-        each_window(
-            simd,
-            row,
-            (after, Ends::Right),
-            #[inline(always)]
-            |window| self.paint_quad(simd, row.y, window, surface),
+            |window| self.paint_group(simd, row.y, window, surface),
         );
         // Last: surfaces that were just written as vectors are read slowly.
-        fill(&mut self.whole[row.y], row.full.clone(), surface);
+        if any_full {
+            fill(&mut self.whole[row.y], row.full.clone(), surface);
+        }
     }
 
     /// Lets the samples that a row of pixels covers show what `change` makes of what they show.
@@ -68,29 +55,11 @@ impl VisibilityBuffer {
         mut change: impl FnMut(SurfaceId) -> SurfaceId,
     ) {
         self.shared[row.y] |= bits(&row.touched);
-        if row.full.is_empty() {
-            return each_window(
-                simd,
-                row,
-                (row.touched.clone(), Ends::Both),
-                #[inline(always)]
-                |window| self.change_quad(simd, row, window, &mut change),
-            );
-        }
-        let (before, after) = row.beside_full();
-        each_window(
+        each_partial_window(
             simd,
             row,
-            (before, Ends::Left),
             #[inline(always)]
-            |window| self.change_quad(simd, row, window, &mut change),
-        );
-        each_window(
-            simd,
-            row,
-            (after, Ends::Right),
-            #[inline(always)]
-            |window| self.change_quad(simd, row, window, &mut change),
+            |window| self.change_group(simd, row, window, &mut change),
         );
         self.change_whole(row.y, row.full.clone(), &mut change);
     }
@@ -98,23 +67,23 @@ impl VisibilityBuffer {
     /// Lets the samples of a window show `surface`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn paint_quad<S: Simd>(&mut self, simd: S, y: usize, Window { x, live, masks }: Window, surface: SurfaceId) {
+    fn paint_group<S: Simd>(&mut self, simd: S, y: usize, Window { x, live, masks }: Window, surface: SurfaceId) {
         let whole = &mut self.whole[y];
         let word = word_at(whole, x);
         if word & live & PERHAPS_SHARED != 0 {
-            return self.paint_shared_quad((y, x), masks, surface);
+            return self.paint_shared_group((y, x), masks, surface);
         }
         let number = |number| Group::splat(simd, number);
         let (shown, covered) = (group(simd, word), group(simd, masks));
         let painted = in_part(simd, covered) & !shown.simd_eq(number(surface));
         put(whole, x, painted.select(number(TWO_SURFACES), shown));
-        self.pairs
-            .set_quad(simd, ((y, x), painted), (covered, shown, number(surface)));
+        self.two_surfaces
+            .set_group(simd, ((y, x), painted), (covered, shown, number(surface)));
     }
 
-    /// As [`VisibilityBuffer::paint_quad`] pixel by pixel.
+    /// As [`VisibilityBuffer::paint_group`] pixel by pixel.
     #[inline(never)]
-    fn paint_shared_quad(&mut self, (y, x): (usize, usize), masks: u64, surface: SurfaceId) {
+    fn paint_shared_group(&mut self, (y, x): (usize, usize), masks: u64, surface: SurfaceId) {
         for (x, covered) in (x..).zip(lanes(masks)) {
             if covered != 0 {
                 self.paint_samples((y, x), u64::from(covered), surface);
@@ -125,7 +94,7 @@ impl VisibilityBuffer {
     /// Lets the samples of a window show what `change` makes of what they show.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn change_quad<S: Simd>(
+    fn change_group<S: Simd>(
         &mut self,
         simd: S,
         row: &TileRow<'_>,
@@ -136,7 +105,7 @@ impl VisibilityBuffer {
         let word = word_at(whole, x);
         let [first, ..] = lanes(word >> (live.trailing_zeros() % 64));
         if first >= TWO_SURFACES || (word ^ splat(first)) & live != 0 {
-            return self.change_shared_quad(row, (x, masks), change);
+            return self.change_shared_group(row, (x, masks), change);
         }
         if masks == 0 {
             return;
@@ -145,12 +114,12 @@ impl VisibilityBuffer {
         let (shown, covered) = (group(simd, word), group(simd, masks));
         let changed = in_part(simd, covered);
         put(whole, x, changed.select(number(TWO_SURFACES), shown));
-        self.pairs
-            .set_quad(simd, ((row.y, x), changed), (covered, shown, number(change(first))));
+        self.two_surfaces
+            .set_group(simd, ((row.y, x), changed), (covered, shown, number(change(first))));
     }
 
-    /// As [`VisibilityBuffer::change_quad`] pixel by pixel.
-    fn change_shared_quad(
+    /// As [`VisibilityBuffer::change_group`] pixel by pixel.
+    fn change_shared_group(
         &mut self,
         row: &TileRow<'_>,
         (x, masks): (usize, u64),
@@ -162,6 +131,34 @@ impl VisibilityBuffer {
             }
         }
     }
+}
+
+/// Calls `visit` with windows that hold each of the pixels once that a row covers in part.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
+#[expect(
+    clippy::redundant_closure,
+    reason = "a reference to `visit` would not be inlined into vectors"
+)]
+fn each_partial_window<S: Simd>(simd: S, row: &TileRow<'_>, mut visit: impl FnMut(Window)) {
+    if row.full.is_empty() {
+        return each_window(simd, row, (row.touched.clone(), Ends::Both), visit);
+    }
+    let (before, after) = row.beside_full();
+    each_window(
+        simd,
+        row,
+        (before, Ends::Left),
+        #[inline(always)]
+        |window| visit(window),
+    );
+    each_window(
+        simd,
+        row,
+        (after, Ends::Right),
+        #[inline(always)]
+        |window| visit(window),
+    );
 }
 
 /// A bit for each of some pixels of a row, at least one.
@@ -182,8 +179,8 @@ fn in_part<S: Simd>(simd: S, masks: Group<S>) -> GroupMask<S> {
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
 #[expect(clippy::cast_possible_truncation, reason = "places in a row of 64")]
-pub(crate) fn fill(surfaces: &mut [SurfaceId; ROW], range: Range<usize>, surface: SurfaceId) {
-    // All of them anew: how many there are nobody can foresee, and vectors hold so few.
+fn fill(surfaces: &mut [SurfaceId; ROW], range: Range<usize>, surface: SurfaceId) {
+    // The whole row: a loop of unknown length would cost more than the vectors that a row takes.
     let (start, length) = (range.start as SurfaceId, range.len() as SurfaceId);
     for (at, shown) in (0..).zip(surfaces) {
         let inside = SurfaceId::wrapping_sub(at, start) < length;
@@ -215,13 +212,9 @@ mod tests {
                     all.push(match run {
                         Run::Whole(surface) => vec![surface; 16],
                         Run::TwoSurfacePixels => {
-                            let pair = tile.pairs(y).get(x);
+                            let two = tile.two_surfaces(y).get(x);
                             let surface = |i: u64| {
-                                if pair.mask >> i & 1 == 1 {
-                                    pair.second
-                                } else {
-                                    pair.first
-                                }
+                                if two.mask >> i & 1 == 1 { two.second } else { two.first }
                             };
                             (0..16).map(surface).collect()
                         }
@@ -284,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn quads_paint_what_is_painted_pixel_by_pixel_on_every_level() {
+    fn groups_paint_what_is_painted_pixel_by_pixel_on_every_level() {
         let mut split = 0;
         arbtest::arbtest(|u| {
             let mut extent = |most: i32| {
@@ -331,5 +324,19 @@ mod tests {
         })
         .budget_ms(1500);
         assert!(split > 20, "some pixels were split: {split}");
+    }
+
+    #[test]
+    fn surfaces_are_filled_from_start_to_end() {
+        for start in 0..=ROW {
+            for end in start..=ROW {
+                let mut surfaces: [SurfaceId; ROW] =
+                    std::array::from_fn(|i| SurfaceId::try_from(100 + i).expect("a surface"));
+                let mut expected = surfaces;
+                expected[start..end].fill(9);
+                fill(&mut surfaces, start..end, 9);
+                assert_eq!(surfaces, expected, "{start} to {end}");
+            }
+        }
     }
 }

@@ -1,0 +1,125 @@
+//! What is to be drawn into a frame: chunks in painter's order, their textures and the settings.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use crate::color::Premultiplied16;
+use crate::raster::binning::bins::{Bins, Plan};
+use crate::raster::coverage::free_positions::FreePositions;
+use crate::raster::coverage::shape_rows::ShapeRows;
+use crate::raster::list::chunk::{Chunk, measure_layers};
+use crate::raster::list::context::ListContext;
+use crate::raster::paint::method::Kinds;
+use crate::raster::resolve::ResolveFilter;
+use crate::raster::sampling::positions::SamplePositions;
+use crate::raster::settings::RasterSettings;
+use crate::raster::shading::context::ShadeContext;
+use crate::raster::span::Span;
+use crate::raster::stats::SharedTally;
+use crate::texture::Texture;
+
+/// A display list ready to be drawn.
+#[derive(Debug)]
+pub struct DisplayList<'a> {
+    pub(in crate::raster) context: ListContext,
+    pub(in crate::raster) settings: RasterSettings,
+    pub(in crate::raster) chunks: Vec<Chunk>,
+    pub(in crate::raster) textures: Vec<&'a Texture>,
+    pub(in crate::raster) kinds: Kinds,
+}
+
+/// One group of tile rows on its way to the frame.
+pub(in crate::raster) struct Pass<'a> {
+    /// The entries of each chunk.
+    pub(in crate::raster) bins: Vec<Arc<Bins>>,
+    pub(in crate::raster) first_row: u32,
+    pub(in crate::raster) cancelled: &'a AtomicBool,
+    pub(in crate::raster) tally: SharedTally,
+}
+
+impl<'a> DisplayList<'a> {
+    /// Chunks in painter's order, built with `context`; [`crate::raster::Paint::texture`] points into `textures`.
+    pub fn new(
+        context: ListContext,
+        settings: RasterSettings,
+        mut chunks: Vec<Chunk>,
+        textures: Vec<&'a Texture>,
+    ) -> Self {
+        measure_layers(&mut chunks, &context);
+        let mut outlines = 0;
+        for chunk in &mut chunks {
+            chunk.first_outline = outlines;
+            outlines += chunk.outlines.len();
+        }
+        let kinds = Kinds::of(&chunks, &textures, settings.sampling.rules);
+        Self {
+            context,
+            settings,
+            chunks,
+            textures,
+            kinds,
+        }
+    }
+
+    /// Triangles in the list.
+    pub fn triangles(&self) -> u64 {
+        self.chunks.iter().map(|chunk| chunk.triangle_count).sum()
+    }
+
+    /// How many commands the list has.
+    pub fn commands(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.commands.len()).sum()
+    }
+
+    pub(in crate::raster) fn background(&self) -> Premultiplied16 {
+        Premultiplied16::from_straight(self.settings.background, self.settings.sampling.rules)
+    }
+
+    /// Counts what each tile will hold.
+    pub(in crate::raster) fn plan(&self) -> Plan {
+        Plan::new(&self.chunks, &self.context, &self.textures)
+    }
+
+    /// Sorts everything into the tiles of some tile rows.
+    pub(in crate::raster) fn pass<'p>(&self, plan: &Plan, rows: Span, cancelled: &'p AtomicBool) -> Pass<'p> {
+        Pass {
+            bins: plan.bins(&self.chunks, &self.context, &self.textures, rows),
+            first_row: rows.start.cast_unsigned(),
+            cancelled,
+            tally: SharedTally::default(),
+        }
+    }
+
+    pub(in crate::raster) fn shade_context(&self) -> ShadeContext<'_> {
+        ShadeContext {
+            grid: self.context.grid,
+            rate: self.context.rate,
+            filter: ResolveFilter::default(),
+            space: self.settings.space,
+            sampling: self.settings.sampling,
+            textures: &self.textures,
+        }
+    }
+
+    /// What finds coverage in some columns of pixels where samples are not those of the grid.
+    pub(in crate::raster) fn free_positions(&self, columns: Span) -> Option<FreePositions> {
+        (!self.context.is_grid()).then(|| self.scatter_in(columns))
+    }
+
+    /// As [`DisplayList::free_positions`], also for the samples of a grid.
+    pub(in crate::raster) fn scatter_in(&self, columns: Span) -> FreePositions {
+        let context = &self.context;
+        let places = SamplePositions::new(context.pattern, context.rate);
+        FreePositions::new((context.grid, context.rules), places, self.outlines(), columns)
+    }
+
+    /// How many outlines there are.
+    pub(in crate::raster) fn outlines(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.outlines.len()).sum()
+    }
+
+    pub(in crate::raster) fn shape_rows(&self) -> ShapeRows {
+        let columns = self.context.samples().columns.end;
+        ShapeRows::new((self.context.grid, self.context.rules), columns, self.outlines())
+    }
+}

@@ -1,0 +1,93 @@
+//! Layers: what takes the samples of a tile and composites them with those below.
+//!
+//! ```text
+//!      begin_layer      paint, paint, ...       end_layer
+//!      a transparent    samples of the tile     each sample of the layer becomes a fragment,
+//!      buffer on top    gather in the layer     which is composited with the sample below
+//! ```
+//!
+//! [`stack`] holds the buffers, whatever a painter keeps in them. How a finished layer is composited is a [`Composite`]; to
+//! add one, write it in a file of its own and add a line to the table below. Painters ask a [`Compositing`] and know none.
+
+mod composite;
+mod opacity;
+pub(in crate::raster) mod stack;
+
+use crate::color::Premultiplied16;
+use crate::raster::layers::composite::Composite;
+use crate::raster::layers::opacity::Opacity;
+use crate::rules::Rules;
+
+/// Makes the enum of all ways, and what hands a question to the one that is there.
+macro_rules! composites {
+    ($($(#[$doc:meta])* $make:ident($($part:ident: $of:ty),*) => $kind:ident,)+) => {
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        enum AnyComposite {
+            $($kind($kind),)+
+        }
+
+        impl Composite for AnyComposite {
+            fn fragment(self, sample: Premultiplied16) -> Premultiplied16 {
+                match self {
+                    $(Self::$kind(own) => own.fragment(sample),)+
+                }
+            }
+
+            fn over(self, fragment: Premultiplied16, below: Premultiplied16, rules: Rules) -> Premultiplied16 {
+                match self {
+                    $(Self::$kind(own) => own.over(fragment, below, rules),)+
+                }
+            }
+
+            fn opacity(self) -> f64 {
+                match self {
+                    $(Self::$kind(own) => own.opacity(),)+
+                }
+            }
+        }
+
+        impl Compositing {
+            $(
+                $(#[$doc])*
+                pub fn $make($($part: $of),*) -> Self {
+                    Self(AnyComposite::$kind($kind::new($($part),*)))
+                }
+            )+
+        }
+    };
+}
+
+// The table of ways to composite a layer: a line for each.
+composites! {
+    /// Source over, as if the layer were one shape of an opacity that is clamped to `0.0..=1.0`.
+    with_opacity(opacity: f32) => Opacity,
+}
+
+/// How a finished layer is composited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Compositing(AnyComposite);
+
+impl Compositing {
+    /// The fragment that a sample of the layer becomes.
+    #[inline]
+    pub(crate) fn fragment(self, sample: Premultiplied16) -> Premultiplied16 {
+        self.0.fragment(sample)
+    }
+
+    /// What a sample shows once a fragment is painted over it.
+    #[inline]
+    pub(crate) fn over(self, fragment: Premultiplied16, below: Premultiplied16, rules: Rules) -> Premultiplied16 {
+        self.0.over(fragment, below, rules)
+    }
+
+    /// What a sample shows once the layer's is composited with it.
+    #[inline]
+    pub(crate) fn composited(self, sample: Premultiplied16, below: Premultiplied16, rules: Rules) -> Premultiplied16 {
+        self.over(self.fragment(sample), below, rules)
+    }
+
+    /// How much of the layer's own opacity is left, `0.0..=1.0`.
+    pub fn opacity(self) -> f64 {
+        self.0.opacity()
+    }
+}

@@ -1,0 +1,82 @@
+//! What filling a chunk needs to know about the drawing: the frame, its samples and tiles.
+
+use crate::geometry::subpixel::SubpixelGrid;
+use crate::raster::sampling::pattern::SamplePattern;
+use crate::raster::sampling::positions::lattice;
+use crate::raster::sampling::rate::SampleRate;
+use crate::raster::settings::RasterSettings;
+use crate::raster::span::{PixelRect, SampleBox, Span};
+use crate::raster::tile_layout::TileLayout;
+use crate::rules::Rules;
+
+/// What a chunk needs to know about the drawing.
+#[derive(Clone, Copy, Debug)]
+pub struct ListContext {
+    /// Where vertices and samples may lie.
+    pub(crate) grid: SubpixelGrid,
+    /// Where samples do, and how many there are: a rate that the pattern takes.
+    pub(crate) pattern: SamplePattern,
+    pub(crate) rate: SampleRate,
+    pub(crate) rules: Rules,
+    /// Pixels in a row, rows.
+    pub(crate) size: [u32; 2],
+    pub(crate) tiles: TileLayout,
+}
+
+impl ListContext {
+    /// For a frame of `size` pixels.
+    pub fn new(size: [u32; 2], settings: &RasterSettings) -> Self {
+        Self::with_tiles(
+            size,
+            settings,
+            TileLayout::for_rate(settings.pattern.nearest(settings.rate), size),
+        )
+    }
+
+    pub(crate) fn with_tiles(size: [u32; 2], settings: &RasterSettings, tiles: TileLayout) -> Self {
+        let rate = settings.pattern.nearest(settings.rate);
+        let pattern = settings.pattern.simplest(rate);
+        Self {
+            grid: lattice(pattern, rate),
+            pattern,
+            rate,
+            rules: settings.sampling.rules,
+            size,
+            tiles,
+        }
+    }
+
+    /// Whether samples are all those of the grid.
+    pub(crate) fn is_grid(&self) -> bool {
+        self.pattern == SamplePattern::Grid
+    }
+
+    /// The samples of the frame.
+    pub(crate) fn samples(&self) -> SampleBox {
+        let all = |pixels: u32| Span {
+            start: 0,
+            end: pixels.cast_signed() * self.grid.side(),
+        };
+        SampleBox {
+            columns: all(self.size[0]),
+            rows: all(self.size[1]),
+        }
+    }
+
+    /// The pixels that hold any sample of a box, clipped to the frame; `None` when there are none.
+    pub(crate) fn pixels_of(&self, samples: SampleBox) -> Option<PixelRect> {
+        let side = self.grid.side();
+        let frame = self.samples();
+        let pixels = |span: Span, frame: Span| {
+            let inside = span.intersection(frame);
+            (!inside.is_empty()).then(|| Span {
+                start: inside.start / side,
+                end: (inside.end - 1) / side + 1,
+            })
+        };
+        Some(PixelRect {
+            x: pixels(samples.columns, frame.columns)?,
+            y: pixels(samples.rows, frame.rows)?,
+        })
+    }
+}

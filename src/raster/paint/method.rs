@@ -1,0 +1,82 @@
+//! Which painter a tile gets.
+
+use rayon::prelude::*;
+
+use crate::color::ResolveSpace;
+use crate::raster::SampleRate;
+use crate::raster::binning::tile_command::{TileCommand, Work};
+use crate::raster::list::chunk::Chunk;
+use crate::raster::list::context::ListContext;
+use crate::rules::Rules;
+use crate::texture::Texture;
+
+/// How a tile is painted.
+///
+/// With one sample per pixel, and where everything is flat, all methods give the same bytes, so each tile takes the
+/// fastest. Where samples are shaded, the deferred method rounds once per primitive and pixel, blending once per
+/// sample: tiles that shade anything take the one or the other for the whole list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::raster) enum Method {
+    /// Opaque primitives straight into the frame.
+    Direct,
+    /// What each sample shows, then its colour.
+    Deferred,
+    /// The colour of each sample, primitive by primitive.
+    Blended,
+}
+
+/// What the primitives of a list are like.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::raster) struct Kinds {
+    /// All are opaque, and none is in a layer.
+    opaque: bool,
+    /// Samples that are shaded must be blended one by one.
+    blended: bool,
+}
+
+impl Kinds {
+    pub(in crate::raster) fn of(chunks: &[Chunk], textures: &[&Texture], rules: Rules) -> Self {
+        let layers = chunks.iter().any(Chunk::has_layers);
+        let translucent = chunks.iter().any(|chunk| chunk.translucent);
+        // A few are looked at faster than another thread wakes up.
+        let (shaded, shaded_opaque) = chunks
+            .par_iter()
+            .with_min_len(8)
+            .map(|chunk| {
+                let mut shaded = chunk.paints.iter().filter(|paint| paint.constant.is_none()).peekable();
+                let any = shaded.peek().is_some();
+                (any, shaded.all(|paint| paint.is_opaque(textures)))
+            })
+            .reduce(|| (false, true), |a, b| (a.0 || b.0, a.1 && b.1));
+        Self {
+            opaque: !translucent && shaded_opaque && !layers,
+            // The course truncates every sample; layers do not know what would be below a sample that shows through.
+            blended: !shaded_opaque || shaded && (layers || rules == Rules::Course),
+        }
+    }
+
+    /// How a tile is painted of which these commands are to be seen, chunk by chunk; its samples are averaged in `space`.
+    pub(in crate::raster) fn method<'c>(
+        self,
+        context: &ListContext,
+        space: ResolveSpace,
+        commands: &(impl Iterator<Item = (&'c Chunk, &'c [TileCommand])> + Clone),
+    ) -> Method {
+        let all = |is_so: fn(&TileCommand, &Chunk) -> bool| {
+            let mut commands = commands.clone();
+            commands.all(|(chunk, commands)| commands.iter().all(|command| is_so(command, chunk)))
+        };
+        let rate_one = context.rate == SampleRate::ONE;
+        // Neither samples off the grid nor their light can be summed up before all are painted.
+        if !context.is_grid() || space != ResolveSpace::Stored && !rate_one {
+            return Method::Blended;
+        }
+        if rate_one && (self.opaque || all(|command, _| command.is_opaque())) {
+            Method::Direct
+        } else if !self.blended || all(|command, chunk| !matches!(command.work(chunk), Work::Shaded(..))) {
+            Method::Deferred
+        } else {
+            Method::Blended
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! Translucent paint and layers: lets covered samples show another surface, by what they show.
+
+use std::ops::Range;
+
+use crate::raster::coverage::pixel_rows::PixelRow;
+use crate::raster::paint::visibility::buffer::paint::{Sides, mask};
+use crate::raster::paint::visibility::buffer::{PixelIndex, VisibilityBuffer, offset, run_length};
+use crate::raster::paint::visibility::packed::{PER_WORD, changed, joined, lanes, of_two, splat};
+use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
+use crate::raster::span::Span;
+use crate::raster::surface_id::{SPLIT, SurfaceId, TWO_SURFACES};
+
+impl VisibilityBuffer {
+    /// Lets the samples that a row of pixels covers show what `change` makes of what they show.
+    pub(crate) fn change(&mut self, row: &PixelRow<'_>, mut change: impl FnMut(SurfaceId) -> SurfaceId) {
+        let left = self.rect.x.start;
+        let y = offset(self.rect.y.start, row.y);
+        if !row.full.is_empty() {
+            let full = self.columns(row.full);
+            self.change_whole(y, full, &mut change);
+        }
+        for x in row.partial() {
+            let covered = if self.all != 0 {
+                mask(self.side, x, row.spans(), Sides::Both)
+            } else {
+                0
+            };
+            self.change_samples(((y, offset(left, x)), x), (covered, row.spans()), &mut change);
+        }
+    }
+
+    /// Lets the samples that `spans` cover in a pixel, by its place and its column in the frame, show what `change` makes
+    /// of what they show; `covered` are their bits, if it may show two surfaces.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
+    pub(super) fn change_samples(
+        &mut self,
+        (pixel, x): (PixelIndex, i32),
+        (covered, spans): (u64, &[Span]),
+        change: &mut impl FnMut(SurfaceId) -> SurfaceId,
+    ) {
+        let shown = self.whole[pixel.0][pixel.1];
+        if shown != SPLIT && self.all != 0 && (covered == 0 || self.change_two(pixel, covered, change)) {
+            return;
+        }
+        self.split(pixel);
+        self.each_covered_word(pixel, x, spans, |word, mask| {
+            if mask != 0 {
+                *word = *word & !mask | changed(*word, mask, change) & mask;
+            }
+        });
+    }
+
+    /// Lets samples of a pixel that is not split show what `change` makes of what they show; false, and nothing done,
+    /// where the pixel would show three surfaces or more.
+    fn change_two(&mut self, pixel: PixelIndex, covered: u64, change: &mut impl FnMut(SurfaceId) -> SurfaceId) -> bool {
+        let shown = self.whole[pixel.0][pixel.1];
+        let two = if shown == TWO_SURFACES {
+            let TwoSurfaces { mask, first, second } = self.two_surfaces.get(pixel);
+            let (of_first, of_second) = (self.all & !mask, mask);
+            // Each is covered as a whole or not at all.
+            if [of_first, of_second]
+                .iter()
+                .any(|part| part & covered != 0 && part & !covered != 0)
+            {
+                return false;
+            }
+            let mut changed = |part: u64, surface| if part & covered == 0 { surface } else { change(surface) };
+            TwoSurfaces {
+                mask,
+                first: changed(of_first, first),
+                second: changed(of_second, second),
+            }
+        } else {
+            TwoSurfaces {
+                mask: covered,
+                first: shown,
+                second: change(shown),
+            }
+        };
+        self.set_two(pixel, two);
+        true
+    }
+
+    /// As [`VisibilityBuffer::change`] for all samples.
+    pub(crate) fn change_all(&mut self, mut change: impl FnMut(SurfaceId) -> SurfaceId) {
+        for y in 0..self.whole.len() {
+            self.change_whole(y, 0..self.width, &mut change);
+        }
+    }
+
+    /// As [`VisibilityBuffer::change`] for all samples of the pixels `xs` of row `y`.
+    pub(crate) fn change_pixels(&mut self, xs: Span, y: i32, mut change: impl FnMut(SurfaceId) -> SurfaceId) {
+        self.change_whole(offset(self.rect.y.start, y), self.columns(xs), &mut change);
+    }
+
+    /// Lets all samples of the pixels `xs` of row number `y` show what `change` makes of what they show.
+    pub(super) fn change_whole(&mut self, y: usize, xs: Range<usize>, change: &mut impl FnMut(SurfaceId) -> SurfaceId) {
+        let mut start = xs.start;
+        while start < xs.end {
+            let row = &mut self.whole[y];
+            let shown = row[start];
+            let end = start + run_length(&row[start..xs.end], shown);
+            match shown {
+                SPLIT => {
+                    let per_pixel = self.side * self.words;
+                    let first = self.first_packed((y, start));
+                    for word in &mut self.samples[first..first + (end - start) * per_pixel] {
+                        *word = changed(*word, u64::MAX, change);
+                    }
+                }
+                TWO_SURFACES => {
+                    for x in start..end {
+                        let TwoSurfaces { mask, first, second } = self.two_surfaces.get((y, x));
+                        let (first, second) = (change(first), change(second));
+                        self.two_surfaces.set((y, x), TwoSurfaces { mask, first, second });
+                    }
+                }
+                _ => row[start..end].fill(change(shown)),
+            }
+            start = end;
+        }
+    }
+
+    /// Lets each sample show what `mix` makes of its surface here and in a `layer` of the same rectangle.
+    pub(crate) fn composite(&mut self, layer: &Self, mut mix: impl FnMut(SurfaceId, SurfaceId) -> SurfaceId) {
+        let per_pixel = self.side * self.words;
+        for pixel in self.places() {
+            if let (Some(below), Some(above)) = (self.one_or_two(pixel), layer.one_or_two(pixel))
+                && (below.mask == 0 || above.mask == 0 || below.mask == above.mask)
+            {
+                let two = TwoSurfaces {
+                    mask: below.mask | above.mask,
+                    first: mix(below.first, above.first),
+                    second: mix(below.second, above.second),
+                };
+                self.set_two(pixel, two);
+                continue;
+            }
+            self.split(pixel);
+            let first = self.first_packed(pixel);
+            for i in 0..per_pixel {
+                let above = match layer.one_or_two(pixel) {
+                    None => layer.samples[first + i],
+                    Some(two) => layer.word(two, i),
+                };
+                let (below, above) = (lanes(self.samples[first + i]), lanes(above));
+                let mixed = [0, 1, 2, 3].map(|i| mix(below[i], above[i]));
+                self.samples[first + i] = joined(mixed);
+            }
+        }
+    }
+
+    /// Four samples of a pixel of at most two surfaces, as word `i` of the split pixel.
+    #[inline]
+    fn word(&self, two: TwoSurfaces, i: usize) -> u64 {
+        if two.mask == 0 {
+            return splat(two.first);
+        }
+        let (row, column) = (i / self.words, i % self.words * PER_WORD);
+        of_two(
+            [splat(two.first), splat(two.second)],
+            two.mask >> (row * self.side + column),
+        )
+    }
+
+    /// Renumbers all surfaces in use: `renumber` is called once for each, in no particular order.
+    pub(crate) fn renumber(&mut self, renumber: impl Fn(SurfaceId) -> SurfaceId) {
+        for pixel in self.places() {
+            match self.whole[pixel.0][pixel.1] {
+                TWO_SURFACES => {
+                    let TwoSurfaces { mask, first, second } = self.two_surfaces.get(pixel);
+                    let (first, second) = (renumber(first), renumber(second));
+                    self.two_surfaces.set(pixel, TwoSurfaces { mask, first, second });
+                }
+                SPLIT => {
+                    let first = self.first_packed(pixel);
+                    for word in &mut self.samples[first..][..self.side * self.words] {
+                        *word = joined(lanes(*word).map(&renumber));
+                    }
+                }
+                whole => self.whole[pixel.0][pixel.1] = renumber(whole),
+            }
+        }
+    }
+
+    /// Calls `seen` with every surface in use, often several times.
+    pub(crate) fn each_surface(&self, mut seen: impl FnMut(SurfaceId)) {
+        for pixel in self.places() {
+            match self.whole[pixel.0][pixel.1] {
+                SPLIT => {
+                    for word in &self.samples[self.first_packed(pixel)..][..self.side * self.words] {
+                        lanes(*word).into_iter().for_each(&mut seen);
+                    }
+                }
+                TWO_SURFACES => {
+                    let two = self.two_surfaces.get(pixel);
+                    [two.first, two.second].into_iter().for_each(&mut seen);
+                }
+                whole => seen(whole),
+            }
+        }
+    }
+}

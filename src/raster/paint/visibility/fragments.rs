@@ -1,0 +1,65 @@
+//! The fragments of one primitive, shaded together: whole pixels at once, then parts of pixels 64 samples at a time.
+
+use crate::raster::paint::visibility::shading_queue::{Fragment, Part};
+use crate::raster::shading::Shader;
+use crate::raster::shading::context::Pixels;
+use crate::texture::SampleGrid;
+
+/// Memory for the fragments of one primitive.
+#[derive(Debug, Default)]
+pub(super) struct FragmentSums {
+    /// Pixels of the tile, and which of their samples; the latter empty where it is all.
+    pub(super) places: Vec<[u16; 2]>,
+    pub(super) masks: Vec<u64>,
+    /// Where their sums go.
+    pub(super) targets: Vec<u32>,
+    pub(super) sums: Vec<[u32; 4]>,
+}
+
+impl FragmentSums {
+    /// Shades the fragments that are whole pixels; how many there are.
+    pub(super) fn shade_whole(&mut self, fragments: &[Fragment], grid: SampleGrid, shader: &Shader<'_>) -> u64 {
+        self.places.clear();
+        for fragment in fragments {
+            if let Part::Whole { place } = fragment.part {
+                self.places.push(place);
+            }
+        }
+        self.make_sums();
+        if !self.places.is_empty() {
+            let places = &self.places;
+            shader.pixel_sums(Pixels { grid, places }, &mut self.sums);
+        }
+        self.places.len() as u64
+    }
+
+    /// Gathers the fragments that are parts of pixels; of the 64 samples from `first` on.
+    pub(super) fn gather(&mut self, fragments: &[Fragment], places: &[[u16; 2]], first: u32) {
+        self.places.clear();
+        self.masks.clear();
+        self.targets.clear();
+        for fragment in fragments {
+            if let Part::Masked { pixel, first: at, mask } = fragment.part
+                && u32::from(at) == first
+            {
+                self.places.push(places[pixel as usize]);
+                self.masks.push(mask);
+                self.targets.push(pixel);
+            }
+        }
+    }
+
+    /// Shades the fragments that were gathered.
+    pub(super) fn shade_parts(&mut self, (grid, first): (SampleGrid, u32), shader: &Shader<'_>) {
+        self.make_sums();
+        if !self.places.is_empty() {
+            let places = &self.places;
+            shader.masked_sums(Pixels { grid, places }.masked(&self.masks, first), &mut self.sums);
+        }
+    }
+
+    fn make_sums(&mut self) {
+        self.sums.clear();
+        self.sums.resize(self.places.len(), [0; 4]);
+    }
+}

@@ -1,0 +1,271 @@
+//! The second step of a tile: pixels of flat colours are averaged, and what is seen of other paints is shaded, primitive by
+//! primitive.
+
+use std::time::{Duration, Instant};
+
+use fearless_simd::{Simd, dispatch};
+
+use crate::raster::frame::block::PixelBlock;
+use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityBuffer};
+use crate::raster::paint::visibility::packed::{lanes, splat};
+use crate::raster::paint::visibility::painter::VisibilityPainter;
+use crate::raster::paint::visibility::shading_queue::ShadingQueue;
+use crate::raster::paint::visibility::surface_color::{Shaded, Spread};
+use crate::raster::paint::visibility::surfaces::SurfaceTable;
+use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
+use crate::raster::shading::Shader;
+use crate::raster::span::PixelRect;
+use crate::raster::surface_id::{MAX_SURFACES, ROW, TWO_SURFACES};
+use crate::simd;
+
+impl VisibilityPainter<'_> {
+    /// Shades what is seen and resolves the finished tile; how long shading took, if that is to be `timed`.
+    pub(crate) fn resolve(&mut self, block: &mut PixelBlock<'_>, timed: bool) -> Duration {
+        self.unresolved.clear();
+        let PixelRect { x, y } = self.layers.base().rect;
+        if !self.surfaces.any_shaded {
+            dispatch!(simd::level(), simd => resolve_flat(simd, self, block));
+            return Duration::ZERO;
+        }
+        for (y, row) in (y.start..y.end).zip(0..) {
+            self.resolve_row(y, row, block.line(y));
+        }
+        if self.unresolved.is_empty() {
+            return Duration::ZERO;
+        }
+        let start = timed.then(Instant::now);
+        self.unresolved.sort(self.surfaces.len());
+        let resolver = self.resolver;
+        self.shade([x.start, y.start], &mut |place, sums| {
+            block.put(place, resolver.pixel(sums));
+        });
+        let shading = start.map(|start| start.elapsed()).unwrap_or_default();
+        for (place, sums) in self.unresolved.places.iter().zip(&self.unresolved.sums) {
+            block.put(*place, self.resolver.pixel(*sums));
+        }
+        shading
+    }
+
+    /// After a tile of a single pixel was resolved: the sums of its samples' channels, if any of them was shaded.
+    pub(crate) fn shaded_sums(&mut self) -> Option<[u32; 4]> {
+        if self.unresolved.is_empty() {
+            return None;
+        }
+        self.unresolved.clear();
+        let PixelRect { x, y } = self.layers.base().rect;
+        self.resolve_row(y.start, 0, &mut [0]);
+        self.unresolved.sort(self.surfaces.len());
+        let mut whole = None;
+        self.shade([x.start, y.start], &mut |_, sums| whole = Some(sums));
+        whole.or_else(|| self.unresolved.sums.first().copied())
+    }
+
+    /// Resolves a row in which nothing is to be shaded.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn resolve_flat_row<S: Simd>(&self, simd: S, y: i32, line: &mut [u32]) {
+        let Some(flat) = self.surfaces.flat_resolve() else {
+            return self.resolve_row_of_many(y, line);
+        };
+        let shown = self.layers.base().shown(y);
+        flat.row(shown.whole, line);
+        // Where pixels are shared, what they got there is written over.
+        match flat.mixer(simd) {
+            Some(mixer) => each_shared(
+                &shown,
+                line,
+                #[inline(always)]
+                |two| mixer.pixel(two.first, two.second, two.mask.count_ones()),
+                #[inline(always)]
+                |x| match self.layers.base().full_packed(x, y) {
+                    Some(words) => mixer.pixel_of_packed(words),
+                    None => self.resolve_split(x, y),
+                },
+            ),
+            None => each_shared(
+                &shown,
+                line,
+                |two| {
+                    self.resolver
+                        .pixel_of_halves(self.two_surface_sum(two, two.mask.count_ones()))
+                },
+                |x| self.resolve_split(x, y),
+            ),
+        }
+    }
+
+    /// As [`VisibilityPainter::resolve_flat_row`] where there are many surfaces.
+    #[cold]
+    fn resolve_row_of_many(&self, y: i32, line: &mut [u32]) {
+        let tile = self.layers.base();
+        let row_of_two = tile.two_surfaces(y);
+        for ((x, surface), pixel) in tile.row(y).iter().enumerate().zip(line) {
+            *pixel = match *surface {
+                TWO_SURFACES => {
+                    let two = row_of_two.get(x);
+                    self.resolver
+                        .pixel_of_halves(self.two_surface_sum(two, two.mask.count_ones()))
+                }
+                surface if usize::from(surface) < MAX_SURFACES => self.surfaces.get(surface).pixel,
+                _ => self.resolve_split(x, y),
+            };
+        }
+    }
+
+    /// The pixel in column `x` of the tile and row `y`, which is split and all flat.
+    #[inline(never)]
+    fn resolve_split(&self, x: usize, y: i32) -> u32 {
+        self.resolver
+            .pixel_of_halves(flat_sum(self.layers.base(), &self.surfaces, x, y))
+    }
+
+    /// The sum of the samples of a pixel that shows two flat colours, `of_second` times the second one.
+    #[inline]
+    fn two_surface_sum(&self, two: TwoSurfaces, of_second: u32) -> [u64; 2] {
+        let [first, second] = [two.first, two.second].map(|surface| self.surfaces.get(surface).spread);
+        first.mixed(self.resolver.count(), second, of_second)
+    }
+
+    /// Resolves what is flat, and notes what is to be shaded.
+    fn resolve_row(&mut self, y: i32, row: u16, line: &mut [u32]) {
+        let (tile, surfaces) = (self.layers.base(), &self.surfaces);
+        let unresolved = &mut self.unresolved;
+        for (run, range) in tile.runs(y) {
+            let columns = (0_u16..).take(range.end).skip(range.start);
+            match run {
+                Run::Whole(surface) => {
+                    let shown = surfaces.get(surface);
+                    if shown.shaded.is_none() {
+                        line[range].fill(shown.pixel);
+                    } else {
+                        columns.for_each(|x| unresolved.whole(surface, [x, row]));
+                    }
+                }
+                Run::TwoSurfacePixels => {
+                    let row_of_two = tile.two_surfaces(y);
+                    for x in columns {
+                        let two = row_of_two.get(usize::from(x));
+                        if [two.first, two.second]
+                            .iter()
+                            .all(|surface| surfaces.get(*surface).shaded.is_none())
+                        {
+                            let [first, second] = [two.first, two.second].map(|surface| surfaces.get(surface).spread);
+                            let sum = first.mixed(self.resolver.count(), second, two.mask.count_ones());
+                            line[usize::from(x)] = self.resolver.pixel_of_halves(sum);
+                        } else {
+                            let parts = [(two.first, 0, tile.all() & !two.mask), (two.second, 0, two.mask)];
+                            unresolved.parts([x, row], parts.into_iter(), |surface| {
+                                let shown = surfaces.get(surface);
+                                shown.shaded.is_none().then(|| shown.sum(1))
+                            });
+                        }
+                    }
+                }
+                Run::Split => {
+                    for x in columns {
+                        unresolved.split([x, row], tile.samples(usize::from(x), y), |surface| {
+                            let shown = surfaces.get(surface);
+                            shown.shaded.is_none().then(|| shown.sum(1))
+                        });
+                    }
+                }
+            }
+        }
+    }
+
+    /// Shades all fragments: the sums of whole pixels go to `put`, others have the colours added to theirs. `origin` is
+    /// the tile's first pixel.
+    #[inline]
+    fn shade(&mut self, origin: [i32; 2], put: &mut impl FnMut([u16; 2], [u32; 4])) {
+        let (context, resolver, surfaces, shading) =
+            (&self.context, self.resolver, &self.surfaces, &mut self.fragments);
+        let ShadingQueue {
+            places, sums, sorted, ..
+        } = &mut self.unresolved;
+        let grid = context.samples_from(origin);
+        for fragments in sorted.by_surface() {
+            let shown = surfaces.get(fragments[0].surface);
+            let Some(Shaded { corners, paint, kept }) = shown.shaded else {
+                continue;
+            };
+            let shader = Shader::new(context, corners, paint);
+            let whole = shading.shade_whole(fragments, grid, &shader);
+            self.samples_shaded += whole * u64::from(grid.side * grid.side);
+            for (place, sum) in shading.places.iter().zip(&shading.sums) {
+                put(*place, shown.over_shaded(*sum, kept, resolver.count()));
+            }
+            for first in (0..resolver.count()).step_by(64) {
+                shading.gather(fragments, places, first);
+                self.samples_shaded += shading
+                    .masks
+                    .iter()
+                    .map(|mask| u64::from(mask.count_ones()))
+                    .sum::<u64>();
+                shading.shade_parts((grid, first), &shader);
+                for ((target, found), mask) in shading.targets.iter().zip(&shading.sums).zip(&shading.masks) {
+                    let found = shown.over_shaded(*found, kept, mask.count_ones());
+                    for (sum, channel) in sums[*target as usize].iter_mut().zip(found) {
+                        *sum += channel;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Resolves the pixels of a row that show two surfaces or are split, by what each is and by its column.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn each_shared(
+    shown: &Shown<'_>,
+    pixels: &mut [u32],
+    of_two: impl Fn(TwoSurfaces) -> u32,
+    of_split: impl Fn(usize) -> u32,
+) {
+    let mut rest = shown.shared;
+    while rest != 0 {
+        let x = rest.trailing_zeros() as usize;
+        rest &= rest - 1;
+        let Some(pixel) = pixels.get_mut(x) else {
+            return;
+        };
+        let surface = shown.whole[x % ROW];
+        if surface == TWO_SURFACES {
+            *pixel = of_two(shown.two_surfaces.get(x));
+        } else if usize::from(surface) > MAX_SURFACES {
+            *pixel = of_split(x);
+        }
+    }
+}
+
+/// Resolves a tile in which nothing is to be shaded.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+fn resolve_flat<S: Simd>(simd: S, painter: &VisibilityPainter<'_>, block: &mut PixelBlock<'_>) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let rows = block.rect.y;
+            for y in rows.start..rows.end {
+                painter.resolve_flat_row(simd, y, block.line(y));
+            }
+        },
+    );
+}
+
+/// The sum of a split pixel's samples where all of them are flat.
+#[inline]
+fn flat_sum(tile: &VisibilityBuffer, surfaces: &SurfaceTable<'_>, x: usize, y: i32) -> [u64; 2] {
+    let mut sum = Spread::default();
+    tile.each_packed(x, y, |word, used| {
+        let shown = lanes(word);
+        if word == splat(shown[0]) {
+            sum.add(surfaces.get(shown[0]).spread, used);
+        } else {
+            for surface in &shown[..used as usize] {
+                sum.add_one(surfaces.get(*surface).spread);
+            }
+        }
+    });
+    sum.halves()
+}

@@ -1,0 +1,23 @@
+//! Everything that decides how primitives become pixels.
+
+use crate::color::{ResolveSpace, Rgba};
+use crate::raster::sampling::pattern::SamplePattern;
+use crate::raster::sampling::rate::SampleRate;
+use crate::texture::SamplingSettings;
+
+/// Everything that decides how primitives become pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct RasterSettings {
+    /// Samples per pixel.
+    pub rate: SampleRate,
+    /// Where they lie; where the pattern does not take the rate, it has the nearest one that it takes.
+    pub pattern: SamplePattern,
+    /// How textures are read, and by whose rules.
+    pub sampling: SamplingSettings,
+    /// In which values samples are averaged.
+    pub space: ResolveSpace,
+    /// What lies below the first primitive.
+    pub background: Rgba,
+    /// Where it is given, the red of each resolved pixel is a number and becomes the colour of that index.
+    pub palette: Option<&'static [u32; 256]>,
+}

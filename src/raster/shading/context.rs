@@ -1,0 +1,79 @@
+//! What shaders are asked about: a drawing, and samples and pixels of a tile.
+
+use crate::color::ResolveSpace;
+use crate::geometry::subpixel::SubpixelGrid;
+use crate::raster::SampleRate;
+use crate::raster::resolve::ResolveFilter;
+use crate::texture::{SampleGrid, SamplingSettings, Texture};
+
+/// What shading needs to know besides the triangle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShadeContext<'a> {
+    pub(crate) grid: SubpixelGrid,
+    /// Samples per pixel.
+    pub(crate) rate: SampleRate,
+    /// What each of them weighs in its pixel, and in which values they are averaged.
+    pub(crate) filter: ResolveFilter,
+    pub(crate) space: ResolveSpace,
+    pub(crate) sampling: SamplingSettings,
+    pub(crate) textures: &'a [&'a Texture],
+}
+
+/// Some pixels of a tile, counted from the first pixel of the grid.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pixels<'p> {
+    pub(crate) grid: SampleGrid,
+    pub(crate) places: &'p [[u16; 2]],
+}
+
+/// Some samples of some pixels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MaskedPixels<'p> {
+    pub(crate) pixels: Pixels<'p>,
+    /// For each pixel a bit for each of its 64 samples from `first` on.
+    pub(crate) masks: &'p [u64],
+    pub(crate) first: u32,
+}
+
+/// A single sample of the frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShadedSample {
+    /// Whose origin is the sample's pixel.
+    pub(crate) grid: SampleGrid,
+    /// Its column and row in the pixel.
+    pub(crate) place: [u16; 2],
+}
+
+impl ShadeContext<'_> {
+    /// The samples of a tile whose first pixel is `origin`.
+    pub(crate) fn samples_from(&self, origin: [i32; 2]) -> SampleGrid {
+        SampleGrid {
+            side: self.grid.side().cast_unsigned(),
+            origin,
+        }
+    }
+}
+
+impl<'p> Pixels<'p> {
+    /// Of each pixel those samples that its mask names, of the 64 from `first` on.
+    pub(crate) fn masked(self, masks: &'p [u64], first: u32) -> MaskedPixels<'p> {
+        MaskedPixels {
+            pixels: self,
+            masks,
+            first,
+        }
+    }
+}
+
+impl ShadedSample {
+    /// Its column and row in the frame.
+    pub(crate) fn in_frame(self) -> [i32; 2] {
+        let side = self.grid.side.cast_signed();
+        [0, 1].map(|i| self.grid.origin[i] * side + i32::from(self.place[i]))
+    }
+
+    /// Where it lies, in samples.
+    pub(crate) fn position(self) -> [f64; 2] {
+        self.in_frame().map(|at| f64::from(at) + 0.5)
+    }
+}

@@ -1,0 +1,211 @@
+//! A paint that reads a texture through the footprint of a pixel or of a sample.
+
+use glam::DVec2;
+
+use crate::color::{Premultiplied16, unit_to_16};
+use crate::geometry::clip::ClipVertex;
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::raster::attributes::Planes;
+use crate::raster::shading::context::{MaskedPixels, Pixels, ShadeContext, ShadedSample};
+use crate::raster::shading::interpolated::{Attributes, TextureUse};
+use crate::raster::shading::kind::{PaintKind, Shade, at_corner, masked_sums_by_points, pixels_by_points};
+use crate::rules::Rules;
+use crate::simd;
+use crate::texture::{Filter, Footprint, PixelList, Reading, SampleGrid, Sampler, Texture, UvMap};
+
+/// Most samples along the side of a pixel of which a filter takes sums by masks.
+const MAX_MASKED_SIDE: u32 = 8;
+
+/// Texture coordinates at a triangle's corners.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::raster) struct TexturePaint {
+    /// Index into the textures of the drawing.
+    texture: u32,
+    /// `(u, v)` at the corners.
+    uv: [[f32; 2]; 3],
+    /// Multiplies the texture's own, `0.0..=1.0`.
+    opacity: f32,
+}
+
+/// A texture on one triangle.
+#[derive(Debug)]
+pub(super) struct TextureShader<'a> {
+    texture: u32,
+    uv: Planes<2>,
+    opacity: f32,
+    reader: Reader<'a>,
+}
+
+/// By whose rules the texture is read.
+#[derive(Debug)]
+enum Reader<'a> {
+    Standard(Filter<'a>),
+    Course(Sampler<'a>),
+}
+
+impl TexturePaint {
+    pub(in crate::raster) fn new(texture: u32, uv: [[f32; 2]; 3], opacity: f32) -> Self {
+        Self { texture, uv, opacity }
+    }
+
+    /// The change of `(u, v)` per pixel on the triangle with these corners.
+    pub(in crate::raster) fn footprint(&self, grid: SubpixelGrid, corners: &[GridPoint; 3]) -> Footprint {
+        uv_map(grid, &Planes::new(grid, corners, self.uv)).footprint()
+    }
+
+    /// The same coordinates on a part of the triangle.
+    pub(in crate::raster) fn on_part(&self, corners: &[ClipVertex; 3]) -> Self {
+        let uv = |corner: &ClipVertex| [0, 1].map(|i| at_corner(corner, self.uv.map(|uv| uv[i])));
+        Self {
+            uv: corners.each_ref().map(uv),
+            ..*self
+        }
+    }
+}
+
+impl PaintKind for TexturePaint {
+    type Shader<'a> = TextureShader<'a>;
+
+    fn is_opaque(&self, textures: &[&Texture]) -> bool {
+        self.opacity >= 1.0 && textures[self.texture as usize].pyramid.is_opaque()
+    }
+
+    fn clipped(&self, corners: &[ClipVertex; 3]) -> Self {
+        self.on_part(corners)
+    }
+
+    fn shader<'a>(&self, context: &ShadeContext<'a>, corners: &[GridPoint; 3]) -> TextureShader<'a> {
+        let pyramid = &context.textures[self.texture as usize].pyramid;
+        let uv = Planes::new(context.grid, corners, self.uv);
+        let map = uv_map(context.grid, &uv);
+        let sampling = &context.sampling;
+        TextureShader {
+            texture: self.texture,
+            uv,
+            opacity: self.opacity,
+            reader: match sampling.rules {
+                Rules::Standard | Rules::Float => Reader::Standard(Filter::new(pyramid, &map, sampling)),
+                Rules::Course => Reader::Course(Sampler::new(pyramid, &map.footprint(), sampling)),
+            },
+        }
+    }
+}
+
+impl Shade for TextureShader<'_> {
+    fn points(&self, grid: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
+        match &self.reader {
+            Reader::Standard(filter) => {
+                filter.points(simd::level(), grid, points, colors);
+                if self.opacity < 1.0 {
+                    let opacity = unit_to_16(self.opacity.max(0.0));
+                    for color in colors {
+                        *color = color.faded(opacity);
+                    }
+                }
+            }
+            Reader::Course(sampler) => {
+                for (place, color) in points.iter().zip(colors) {
+                    let sample = ShadedSample { grid, place: *place };
+                    *color = course_texel(sampler, course_uv(&self.uv, sample), self.opacity);
+                }
+            }
+        }
+    }
+
+    fn pixels(&self, pixels: Pixels<'_>, rules: Rules, values: &mut [u32]) {
+        match &self.reader {
+            Reader::Standard(filter) => filter.pixels(simd::level(), pixels.grid, pixels.places, values),
+            Reader::Course(_) => pixels_by_points(self, pixels, rules, values),
+        }
+    }
+
+    fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {
+        self.filtered_sums(pixels, None, sums);
+    }
+
+    fn masked_sums(&self, pixels: MaskedPixels<'_>, sums: &mut [[u32; 4]]) {
+        if pixels.pixels.grid.side <= MAX_MASKED_SIDE {
+            self.filtered_sums(pixels.pixels, Some(pixels.masks), sums);
+        } else {
+            masked_sums_by_points(self, pixels, sums);
+        }
+    }
+
+    fn interpolated(&self, sample: ShadedSample) -> Attributes {
+        let [x, y] = sample.position();
+        match &self.reader {
+            Reader::Standard(filter) => Attributes::Texture {
+                uv: self.uv.at(x, y),
+                reads: filter.reads(sample.grid, sample.place),
+            },
+            Reader::Course(sampler) => {
+                let [u, v] = course_uv(&self.uv, sample);
+                Attributes::Texture {
+                    uv: [u.into(), v.into()],
+                    reads: sampler.course_reads(u, v),
+                }
+            }
+        }
+    }
+
+    fn texture_use(&self, context: &ShadeContext<'_>) -> Option<TextureUse> {
+        let pyramid = &context.textures[self.texture as usize].pyramid;
+        let footprint = uv_map(context.grid, &self.uv).footprint();
+        Some(TextureUse {
+            texture: self.texture,
+            reading: Reading::new(&footprint, pyramid, &context.sampling),
+            opacity: self.opacity,
+        })
+    }
+}
+
+impl TextureShader<'_> {
+    /// Sums over the samples of pixels, of which each must be opaque, under the standard rules.
+    fn filtered_sums(&self, pixels: Pixels<'_>, masks: Option<&[u64]>, sums: &mut [[u32; 4]]) {
+        if let Reader::Standard(filter) = &self.reader {
+            let list = PixelList {
+                pixels: pixels.places,
+                masks,
+            };
+            filter.sums(simd::level(), pixels.grid, list, sums);
+        } else {
+            debug_assert!(false, "the course truncates every sample: nothing is summed before");
+        }
+    }
+}
+
+/// The planes of `(u, v)` in pixels.
+fn uv_map(grid: SubpixelGrid, uv: &Planes<2>) -> UvMap {
+    let side = f64::from(grid.side());
+    UvMap {
+        pivot: DVec2::from_array(uv.pivot) / side,
+        uv: DVec2::from_array(uv.at_pivot),
+        dx: DVec2::from_array(uv.dx) * side,
+        dy: DVec2::from_array(uv.dy) * side,
+    }
+}
+
+/// `(u, v)` at a sample as the course's 32-bit arithmetic has it: in 64 bits at an anchor every eight pixels of a row, in
+/// 32 bits from there on. Where a sample lies on the border of two texels, the last bit decides.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the course reads textures at 32-bit floats"
+)]
+fn course_uv(uv: &Planes<2>, sample: ShadedSample) -> [f32; 2] {
+    let side = sample.grid.side.cast_signed();
+    let [column, row] = sample.in_frame();
+    let anchor = column.div_euclid(8 * side) * 8 * side;
+    let at_anchor = uv.at(f64::from(anchor), f64::from(row) + 0.5);
+    let pixels = ((column - anchor) as f32 + 0.5) * (1.0 / side as f32);
+    [0, 1].map(|i| at_anchor[i] as f32 + pixels * (uv.dx[i] * f64::from(side)) as f32)
+}
+
+/// A texture read by the course's rules.
+fn course_texel(sampler: &Sampler<'_>, [u, v]: [f32; 2], opacity: f32) -> Premultiplied16 {
+    let color = sampler.sample(u, v);
+    if opacity >= 1.0 {
+        return Premultiplied16::from_byte_range(color, Rules::Course);
+    }
+    // Truncation comes after blending: half of a texel is no byte.
+    Premultiplied16::from_byte_range(color.map(|channel| channel * opacity), Rules::Standard)
+}

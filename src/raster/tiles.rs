@@ -1,0 +1,201 @@
+//! The tiles of a frame, each painted and resolved by the painter that it gets.
+
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+use crate::color::Premultiplied16;
+use crate::raster::binning::tile_command::Work;
+use crate::raster::binning::visible::{first_visible, visible};
+use crate::raster::coverage::shape_rows::ShapeRows;
+use crate::raster::display_list::{DisplayList, Pass};
+use crate::raster::frame::block::PixelBlock;
+use crate::raster::frame::row::FrameRow;
+use crate::raster::paint::direct::DirectPainter;
+use crate::raster::paint::method::Method;
+use crate::raster::paint::per_sample::PerSamplePainter;
+use crate::raster::paint::visibility::painter::VisibilityPainter;
+use crate::raster::span::Span;
+use crate::raster::stats::Tally;
+
+/// One tile of so many is timed.
+const TIMED: usize = 7;
+
+/// A painter for each method.
+#[derive(Debug)]
+pub(in crate::raster) struct Painters<'a> {
+    direct: DirectPainter<'a>,
+    pub(in crate::raster) deferred: VisibilityPainter<'a>,
+    pub(in crate::raster) blended: PerSamplePainter<'a>,
+    pub(in crate::raster) shape_rows: ShapeRows,
+    pub(in crate::raster) tally: Tally,
+}
+
+impl DisplayList<'_> {
+    /// Painters for one thread.
+    pub(in crate::raster) fn painters(&self) -> Painters<'_> {
+        self.painters_of(Span {
+            start: 0,
+            end: self.context.size[0].cast_signed(),
+        })
+    }
+
+    /// Painters of tiles in these columns of pixels.
+    pub(in crate::raster) fn painters_of(&self, columns: Span) -> Painters<'_> {
+        Painters {
+            direct: DirectPainter::new(self.shade_context()),
+            deferred: VisibilityPainter::new(self.shade_context()),
+            blended: PerSamplePainter::new(self.shade_context(), self.free_positions(columns)),
+            shape_rows: self.shape_rows(),
+            tally: Tally::default(),
+        }
+    }
+
+    /// How a tile is painted, of which the commands from `first` on are to be seen.
+    pub(in crate::raster) fn method(&self, pass: &Pass<'_>, tile: usize, first: (usize, usize)) -> Method {
+        let commands = visible(&pass.bins, tile, first).map(|(chunk, commands)| (&self.chunks[chunk], commands));
+        self.kinds.method(&self.context, self.settings.space, &commands)
+    }
+
+    /// The colour of a tile in which nothing else is to be seen, of the commands from `first` on.
+    fn only_color(&self, pass: &Pass<'_>, tile: usize, first: (usize, usize)) -> Option<Premultiplied16> {
+        let mut entries = visible(&pass.bins, tile, first)
+            .flat_map(|(chunk, entries)| entries.iter().map(move |entry| (chunk, entry)));
+        let (chunk, only) = entries.next()?;
+        if !only.hides_tile() || entries.next().is_some() {
+            return None;
+        }
+        match only.work(&self.chunks[chunk]) {
+            Work::Flat(_, color) => Some(color),
+            _ => None,
+        }
+    }
+
+    /// Paints and resolves the tiles of one row.
+    pub(in crate::raster) fn tile_row<'s>(
+        &'s self,
+        pass: &Pass<'_>,
+        painters: &mut Painters<'s>,
+        mut row: FrameRow<'_>,
+    ) {
+        let stride = self.context.size[0] as usize;
+        let columns = self.context.tiles.columns;
+        let first = ((row.number - pass.first_row) * columns) as usize;
+        for (column, tile) in (0..columns).zip(first..) {
+            if pass.cancelled.load(Ordering::Relaxed) {
+                return;
+            }
+            let rect = self.context.tiles.pixels(column, row.number, self.context.size);
+            let mut block = PixelBlock::in_rows(rect, row.pixels, stride);
+            self.numbered_tile(pass, painters, tile, &mut block);
+        }
+        row.keep();
+        pass.tally.take(&mut painters.tally);
+    }
+
+    /// Paints and resolves the tile in `column` and `row`.
+    pub(in crate::raster) fn tile<'s>(
+        &'s self,
+        pass: &Pass<'_>,
+        painters: &mut Painters<'s>,
+        [column, row]: [u32; 2],
+        block: &mut PixelBlock<'_>,
+    ) {
+        let tile = (row - pass.first_row) * self.context.tiles.columns + column;
+        self.numbered_tile(pass, painters, tile as usize, block);
+    }
+
+    /// As [`DisplayList::tile`], for a tile counted from the first one of the pass.
+    pub(in crate::raster) fn numbered_tile<'s>(
+        &'s self,
+        pass: &Pass<'_>,
+        painters: &mut Painters<'s>,
+        tile: usize,
+        block: &mut PixelBlock<'_>,
+    ) {
+        match self.even_pixel(pass, painters, tile) {
+            Some(pixel) => block.fill(pixel),
+            None => self.paint_tile(pass, painters, tile, block),
+        }
+    }
+
+    /// The pixel that all of a tile shows, where no sample needs to be looked at to know it.
+    fn even_pixel(&self, pass: &Pass<'_>, painters: &mut Painters<'_>, tile: usize) -> Option<u32> {
+        let color = if pass.bins.iter().all(|bins| bins.of_tile(tile).is_empty()) {
+            self.background()
+        } else {
+            let first = first_visible(&pass.bins, tile);
+            let color = self.only_color(pass, tile, first)?;
+            painters.tally.counters.blocks_whole += 1;
+            color
+        };
+        let pixel = color.to_pixel(self.settings.sampling.rules);
+        Some(self.settings.palette.map_or(pixel, |palette| recolor(palette, pixel)))
+    }
+
+    fn paint_tile<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, tile: usize, block: &mut PixelBlock<'_>) {
+        let background = self.background();
+        let rules = self.settings.sampling.rules;
+        let first = first_visible(&pass.bins, tile);
+        for (_, entries) in visible(&pass.bins, tile, first) {
+            let whole = entries.iter().filter(|entry| entry.covers_tile()).count() as u64;
+            painters.tally.counters.blocks_whole += whole;
+            painters.tally.counters.blocks_split += entries.len() as u64 - whole;
+        }
+        // Looking at the clock costs as much as resolving a few rows.
+        let start = tile.is_multiple_of(TIMED).then(Instant::now);
+        let mut resolving = None;
+        match self.method(pass, tile, first) {
+            Method::Direct => {
+                let covered = pass.bins[first.0].of_tile(tile).get(first.1);
+                if !covered.is_some_and(|entry| entry.hides_tile()) {
+                    block.fill(background.to_pixel(rules));
+                }
+                for (chunk, entries) in visible(&pass.bins, tile, first) {
+                    painters
+                        .direct
+                        .paint((&self.chunks[chunk], entries), &mut painters.shape_rows, block);
+                }
+                painters.tally.counters.samples_shaded += std::mem::take(&mut painters.direct.samples_shaded);
+            }
+            Method::Deferred => {
+                painters.deferred.begin(block.rect, background);
+                for (chunk, entries) in visible(&pass.bins, tile, first) {
+                    painters
+                        .deferred
+                        .paint(&self.chunks[chunk], entries, &mut painters.shape_rows);
+                }
+                resolving = start.map(|_| Instant::now());
+                // Shading comes in between, and is none of it.
+                let shading = painters.deferred.resolve(block, start.is_some());
+                resolving = resolving.and_then(|start| start.checked_add(shading));
+                painters.tally.counters.samples_shaded += std::mem::take(&mut painters.deferred.samples_shaded);
+            }
+            Method::Blended => {
+                painters.blended.begin(block.rect, background);
+                for (chunk, entries) in visible(&pass.bins, tile, first) {
+                    painters
+                        .blended
+                        .paint(&self.chunks[chunk], entries, &mut painters.shape_rows);
+                }
+                resolving = start.map(|_| Instant::now());
+                for y in block.rect.y.start..block.rect.y.end {
+                    painters.blended.resolve(y, block.line(y));
+                }
+                painters.tally.counters.samples_shaded += std::mem::take(&mut painters.blended.samples_shaded);
+            }
+        }
+        if let Some(start) = start {
+            painters.tally.timed += start.elapsed();
+            painters.tally.resolving += resolving.map(|start| start.elapsed()).unwrap_or_default();
+        }
+        if let Some(palette) = self.settings.palette {
+            block.map(|pixel| recolor(palette, pixel));
+        }
+    }
+}
+
+/// What a palette makes of a pixel: its colour number red.
+fn recolor(palette: &[u32; 256], pixel: u32) -> u32 {
+    let [_, red, ..] = pixel.to_be_bytes();
+    palette[usize::from(red)]
+}

@@ -1,0 +1,153 @@
+//! What a picture shows in place of colours: by which paints those of a scene's primitives are replaced, and how numbers
+//! become colours.
+//!
+//! Shapes, samples and resolve stay those of the picture: only paints change, so that a visualisation can be laid over
+//! the picture pixel by pixel. All colours are told apart by people with any kind of colour vision.
+//!
+//! Each visualisation is a [`Show`] in a file of its own, with its legend. To add one, write its file and a line in the
+//! table below.
+
+mod anisotropy;
+mod barycentric;
+mod colors;
+mod coverage;
+mod level_of_detail;
+mod mip_levels;
+mod overdraw;
+mod picture;
+mod primitive;
+mod show;
+mod uv;
+mod wireframe;
+
+use super::{Legend, Screen};
+use crate::raster::{ChunkBuilder, RasterSettings};
+use crate::render::visualisation::show::{Show, Source};
+use crate::scene::Scene;
+use crate::texture::{SamplingSettings, Texture};
+
+/// Makes the enum of all visualisations, with their names and what shows them.
+macro_rules! visualisations {
+    ($($(#[$doc:meta])* $kind:ident = $name:literal => $show:expr,)+) => {
+        /// What the pixels of a picture show.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+        pub enum Visualisation {
+            $($(#[$doc])* $kind,)+
+        }
+
+        impl Visualisation {
+            /// Every value, in the order of menus and of the key that steps through them.
+            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$kind),+];
+
+            /// The name used in the command line and the interface.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$kind => $name,)+
+                }
+            }
+
+            fn show(self) -> &'static dyn Show {
+                match self {
+                    $(Self::$kind => &$show,)+
+                }
+            }
+        }
+    };
+}
+
+// The table of visualisations: a line for each.
+visualisations! {
+    /// The picture itself.
+    #[default]
+    Color = "colour" => picture::Picture,
+    /// The part of the pixel's samples that any primitive covers, however transparent it is.
+    Coverage = "coverage" => coverage::Coverage,
+    /// How many fragments the pixel's samples received, on average: what is painted, seen or not.
+    Overdraw = "overdraw" => overdraw::Overdraw,
+    /// Each primitive in a colour of its own.
+    Primitive = "primitive" => primitive::Primitives,
+    /// The edges of all primitives over the paled picture.
+    Wireframe = "wireframe" => wireframe::Wireframe,
+    /// Barycentric weights: a triangle's three corners in three colours.
+    Barycentric = "barycentric" => barycentric::Barycentric,
+    /// Texture coordinates, clamped to the texture.
+    Uv = "uv" => uv::Uv,
+    /// The level of detail with which a texture is read, before it is clamped to the levels that exist.
+    LevelOfDetail = "lod" => level_of_detail::Lod,
+    /// Which mip levels are read: the picture with a tint for each level.
+    MipLevels = "mip" => mip_levels::MipLevels,
+    /// How many times as long as wide a pixel's footprint is, as anisotropic filtering measures it.
+    Anisotropy = "anisotropy" => anisotropy::Lengths,
+}
+
+impl Visualisation {
+    /// A name that it had once: scripts, and the records of pictures that were saved then, still have it.
+    pub fn former_name(self) -> Option<&'static str> {
+        self.show().former_name()
+    }
+
+    /// What the colours of this visualisation of `scene` mean; nothing to say of the picture itself.
+    pub fn legend(self, scene: &Scene) -> Option<Legend> {
+        self.show().legend(scene)
+    }
+
+    /// Whether the canvas' outline belongs into the picture: it is not to be counted.
+    pub(super) fn has_outline(self) -> bool {
+        self.show().has_outline()
+    }
+}
+
+/// Replaces the paints of primitives.
+#[derive(Clone, Copy)]
+pub(super) struct Visualiser<'a> {
+    show: &'static dyn Show,
+    source: Source<'a>,
+}
+
+impl<'a> Visualiser<'a> {
+    /// For the picture of a scene that is sampled like this.
+    pub(super) fn new(kind: Visualisation, scene: &'a Scene, sampling: SamplingSettings) -> Self {
+        Self {
+            show: kind.show(),
+            source: Source { scene, sampling },
+        }
+    }
+
+    /// What the rasterizer does otherwise than for the picture.
+    pub(super) fn change(kind: Visualisation, settings: &mut RasterSettings) {
+        kind.show().change(settings);
+    }
+
+    /// The textures that paints point to.
+    pub(super) fn textures(&self) -> Vec<&'a Texture> {
+        match self.show.texture() {
+            Some(own) => vec![own],
+            None => self.source.scene.textures.iter().map(AsRef::as_ref).collect(),
+        }
+    }
+
+    /// A builder that does with fragments what is shown.
+    pub(super) fn prepare<'b>(&self, builder: ChunkBuilder<'b>) -> ChunkBuilder<'b> {
+        self.show.prepare(builder)
+    }
+
+    /// Adds primitive number `index`.
+    pub(super) fn add(&self, builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, index: usize) {
+        self.show.add(&self.source, (builder, screen), index);
+    }
+
+    /// Whether something comes on top of everything.
+    pub(super) fn has_overlay(&self) -> bool {
+        self.show.has_overlay()
+    }
+
+    /// Pales what was painted so far.
+    pub(super) fn add_veil(builder: &mut ChunkBuilder<'_>, size: [u32; 2], background: crate::color::Rgba) {
+        wireframe::add_veil(builder, size, background);
+    }
+
+    /// Adds what comes on top of primitive number `index`.
+    pub(super) fn add_overlay(&self, builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, index: usize) {
+        self.show.add_overlay(&self.source, (builder, screen), index);
+    }
+}

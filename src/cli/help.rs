@@ -7,6 +7,7 @@ use clap_mangen::Man;
 
 use crate::plain;
 use crate::raster::SamplePattern;
+use crate::render::Visualisation;
 use crate::viewer::picture::{self, Values};
 use crate::viewer::{PictureSetting, commands};
 
@@ -18,6 +19,9 @@ const SETTINGS: &str = "<!-- settings -->";
 
 /// Where the page of pixels holds the table of sample patterns.
 const PATTERNS: &str = "<!-- patterns -->";
+
+/// Where it holds the table of visualisations.
+const VISUALISATIONS: &str = "<!-- visualisations -->";
 
 /// The pages with their names.
 const PAGES: [(&str, &str); 8] = [
@@ -45,7 +49,8 @@ pub(super) fn page(words: &[OsString]) -> Option<String> {
     Some(
         text.replace(KEYS, commands::markdown().trim())
             .replace(SETTINGS, settings().trim_end())
-            .replace(PATTERNS, patterns().trim_end()),
+            .replace(PATTERNS, patterns().trim_end())
+            .replace(VISUALISATIONS, visualisations().trim_end()),
     )
 }
 
@@ -107,4 +112,11 @@ fn patterns() -> String {
     };
     let lines: String = SamplePattern::ALL.into_iter().map(line).collect();
     format!("| pattern | samples of a pixel | how many | after |\n|---|---|---|---|\n{lines}")
+}
+
+/// The visualisations as a table in Markdown.
+fn visualisations() -> String {
+    let line = |kind: Visualisation| format!("| `{}` | {} |\n", kind.name(), kind.meaning());
+    let lines: String = Visualisation::ALL.into_iter().map(line).collect();
+    format!("| shows | what a pixel's colour is |\n|---|---|\n{lines}")
 }

@@ -12,6 +12,10 @@ use crate::texture::{Anisotropy, Footprint, MipPyramid, Taps};
 pub(super) struct Lengths;
 
 impl Show for Lengths {
+    fn meaning(&self) -> &'static str {
+        "how many times as long as wide the pixel's footprint is, on a logarithmic scale up to 64"
+    }
+
     fn legend(&self, _: &Scene) -> Option<Legend> {
         let most = Anisotropy::MAX as f32;
         let color = |part: f32| color((part * most.log2()).exp2());

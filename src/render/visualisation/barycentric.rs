@@ -12,6 +12,10 @@ const CORNERS: [u32; 3] = [0xFFD5_5E00, 0xFF00_72B2, 0xFFF0_E442];
 pub(super) struct Barycentric;
 
 impl Show for Barycentric {
+    fn meaning(&self) -> &'static str {
+        "the weights of a triangle's three corners, mixed from three colours"
+    }
+
     fn legend(&self, _: &Scene) -> Option<Legend> {
         let [a, b, c] = CORNERS;
         Some(Legend {

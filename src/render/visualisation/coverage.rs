@@ -16,6 +16,10 @@ static PALETTE: LazyLock<[u32; 256]> =
 pub(super) struct Coverage;
 
 impl Show for Coverage {
+    fn meaning(&self) -> &'static str {
+        "the part of its samples that any primitive covers, however transparent"
+    }
+
     fn legend(&self, _: &Scene) -> Option<Legend> {
         let labels = ["0", "1/4", "1/2", "3/4", "1"];
         let ticks = (0_u8..)

@@ -13,6 +13,10 @@ const MOST: f32 = 8.0;
 pub(super) struct Lod;
 
 impl Show for Lod {
+    fn meaning(&self) -> &'static str {
+        "the level of detail before it is clamped: blue is magnified, white is one texel per pixel, orange is minified"
+    }
+
     fn legend(&self, _: &Scene) -> Option<Legend> {
         let color = |part: f32| color(MOST * (2.0 * part - 1.0));
         let ticks = [-8_i8, -4, 0, 4, 8].map(|level| {

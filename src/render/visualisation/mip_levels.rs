@@ -25,6 +25,10 @@ const LEVELS: [u32; 8] = [
 pub(super) struct MipLevels;
 
 impl Show for MipLevels {
+    fn meaning(&self) -> &'static str {
+        "the mip levels that are read: a tint for each over the picture, mixed where levels are"
+    }
+
     fn legend(&self, scene: &Scene) -> Option<Legend> {
         Some(Legend {
             title: "mip levels that are read",

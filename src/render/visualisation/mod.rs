@@ -86,6 +86,11 @@ impl Visualisation {
         self.show().former_name()
     }
 
+    /// What a pixel's colour is, in few words of Markdown.
+    pub fn meaning(self) -> &'static str {
+        self.show().meaning()
+    }
+
     /// What the colours of this visualisation of `scene` mean; nothing to say of the picture itself.
     pub fn legend(self, scene: &Scene) -> Option<Legend> {
         self.show().legend(scene)

@@ -20,6 +20,10 @@ static PALETTE: LazyLock<[u32; 256]> =
 pub(super) struct Overdraw;
 
 impl Show for Overdraw {
+    fn meaning(&self) -> &'static str {
+        "fragments per sample, hidden ones too, on a logarithmic scale up to 31: what painting costs; under `--rules course` samples on shared edges count twice, under `float` not at all"
+    }
+
     fn legend(&self, _: &Scene) -> Option<Legend> {
         let most = f32::from(MOST);
         let color = |part: f32| color((part * (most + 1.0).log2()).exp2() - 1.0);

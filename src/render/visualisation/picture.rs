@@ -7,6 +7,10 @@ use crate::scene::Scene;
 pub(super) struct Picture;
 
 impl Show for Picture {
+    fn meaning(&self) -> &'static str {
+        "the picture"
+    }
+
     fn former_name(&self) -> Option<&'static str> {
         Some("color")
     }

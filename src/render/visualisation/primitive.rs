@@ -25,6 +25,10 @@ const MOST: usize = 6;
 pub(super) struct Primitives;
 
 impl Show for Primitives {
+    fn meaning(&self) -> &'static str {
+        "each primitive in a colour of its own"
+    }
+
     fn legend(&self, scene: &Scene) -> Option<Legend> {
         Some(Legend {
             title: "primitives, in painter's order",

@@ -22,6 +22,9 @@ pub(super) type Target<'t, 'b> = (&'t mut ChunkBuilder<'b>, &'t Screen<'t>);
 
 /// A visualisation.
 pub(super) trait Show: Sync {
+    /// What a pixel's colour is, in Markdown: for the help.
+    fn meaning(&self) -> &'static str;
+
     /// A name that it had once.
     fn former_name(&self) -> Option<&'static str> {
         None

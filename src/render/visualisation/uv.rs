@@ -29,6 +29,10 @@ static RAMP: LazyLock<Texture> = LazyLock::new(|| {
 pub(super) struct Uv;
 
 impl Show for Uv {
+    fn meaning(&self) -> &'static str {
+        "texture coordinates: orange grows with u, blue with v"
+    }
+
     fn legend(&self, _: &Scene) -> Option<Legend> {
         Some(Legend {
             title: "texture coordinates",

@@ -18,6 +18,10 @@ const PALE: f32 = 0.8;
 pub(super) struct Wireframe;
 
 impl Show for Wireframe {
+    fn meaning(&self) -> &'static str {
+        "edges of triangles, outlines of polygons, hairlines and points over the paled picture"
+    }
+
     fn legend(&self, _: &Scene) -> Option<Legend> {
         let labels = ["edges of triangles", "outlines of polygons", "hairlines and points"];
         Some(Legend {

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use rasterscope::raster::SamplePattern;
+use rasterscope::render::Visualisation;
 use rasterscope::viewer::{commands, picture};
 
 const START: &str = "<!-- keys: made by the command table, `BLESS=1 cargo test readme` writes it anew -->\n";
@@ -257,6 +258,10 @@ fn help_tells_every_setting_and_every_pattern() {
     }
     for pattern in SamplePattern::ALL {
         let row = format!("| `{}` | {}", pattern.name(), pattern.description());
+        assert!(page("pixels").contains(&row), "{row}");
+    }
+    for kind in Visualisation::ALL {
+        let row = format!("| `{}` | {}", kind.name(), kind.meaning());
         assert!(page("pixels").contains(&row), "{row}");
     }
     for (name, text) in &pages {

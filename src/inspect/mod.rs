@@ -5,11 +5,11 @@
 //! other way: from a texel to the pixels around that read it.
 
 mod accumulation;
+mod advice;
 mod contributions;
 mod depth;
 mod differences;
 mod explanation;
-mod hints;
 mod model;
 mod numbers;
 mod part_words;

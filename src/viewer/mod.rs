@@ -15,7 +15,7 @@ mod export;
 mod frames;
 mod inspector;
 mod jobs;
-mod keys;
+mod key_chords;
 mod lesson;
 mod library;
 pub mod script;
@@ -31,15 +31,15 @@ pub use chrome::Dialog;
 pub use chrome::ending::ASKS_FOR;
 pub use chrome::messages::{Message, MessageKind};
 pub use command::arguments::Argument;
-pub use command::lookup as commands;
-pub use command::lookup::Gesture;
+pub use command::key_bindings as commands;
+pub use command::key_bindings::Gesture;
 pub use command::spec::{Action, CommandSpec, Group};
 pub use command::{
     AbCommand, Command, Effect, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, SceneCommand,
     SheetCommand, ViewCommand, WindowCommand,
 };
 pub use export::naming::NameTemplate;
-pub use export::record::{Grammar, ReadArguments, Restored};
+pub use export::restored::{Grammar, ReadArguments, Restored};
 pub use export::sheet::axes::{Axis, AxisLists, Choice};
 pub use export::sheet::captions::caption_of;
 pub use export::sheet::draft::{PanelSize, SheetChange, SheetDraft, SheetSide};
@@ -53,7 +53,7 @@ pub use inspector::samples::{Hit, ProbedSample};
 pub use inspector::status::Status;
 pub use inspector::{AskedAt, Inspector, PixelLabel, PlacedInset};
 pub use jobs::mailbox::Waker;
-pub use keys::{Chord, Key, KeyPress, Modifiers};
+pub use key_chords::{Chord, Key, KeyPress, Modifiers};
 pub use lesson::markdown::{Block, Look, Span};
 pub use lesson::model::{Lesson, LessonError, LessonStep};
 pub use lesson::source::{BUILT_IN, LessonSource};

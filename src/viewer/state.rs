@@ -15,7 +15,7 @@ use crate::viewer::ab::outside::ReadPicture;
 use crate::viewer::chrome::messages::Message;
 use crate::viewer::chrome::{Chrome, Dialog};
 use crate::viewer::export::naming::NameTemplate;
-use crate::viewer::export::record::{Grammar, Restored};
+use crate::viewer::export::restored::{Grammar, Restored};
 use crate::viewer::export::saver::{Saved, Saver};
 use crate::viewer::export::sheet::desk::SheetDesk;
 use crate::viewer::export::sheet::preview;

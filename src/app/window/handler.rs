@@ -17,10 +17,10 @@ use super::super::headless::{self, NamedScript};
 use super::super::session::{Clock, Session};
 use super::super::{AppError, ViewOptions};
 use super::frame_log::FrameLog;
-use super::keys;
 use super::opened::Opened;
 use super::player::Player;
 use super::startup::Wake;
+use super::winit_keys;
 use crate::figure::Guard;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Command, PointerButton, Theme, Viewer, Waker};
@@ -190,10 +190,10 @@ impl Opened {
         if event.state != ElementState::Pressed {
             return false;
         }
-        let Some(command) = self.session.command_for(&keys::press(event, held)) else {
+        let Some(command) = self.session.command_for(&winit_keys::press(event, held)) else {
             return false;
         };
-        if !event.repeat || keys::repeats(&command) {
+        if !event.repeat || winit_keys::repeats(&command) {
             self.session.run(command);
         }
         true

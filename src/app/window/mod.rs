@@ -2,11 +2,11 @@
 
 mod frame_log;
 mod handler;
-mod keys;
 mod opened;
 mod player;
 mod rhythm;
 mod startup;
+mod winit_keys;
 
 use super::{AppError, ViewOptions, headless};
 use handler::Handler;

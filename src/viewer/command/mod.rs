@@ -4,7 +4,7 @@
 //! frame pixels; the two differ only where a pixel zoom is in force.
 
 pub(in crate::viewer) mod arguments;
-pub mod lookup;
+pub mod key_bindings;
 pub(in crate::viewer) mod parts;
 pub(in crate::viewer) mod spec;
 pub(in crate::viewer) mod table;

@@ -2,7 +2,7 @@
 
 use crate::viewer::command::Command;
 use crate::viewer::command::arguments::Argument;
-use crate::viewer::keys::{Chord, Key};
+use crate::viewer::key_chords::{Chord, Key};
 use crate::viewer::settings::picture::PictureSetting;
 
 /// One line of the table.

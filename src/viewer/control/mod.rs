@@ -4,7 +4,7 @@
 
 pub(in crate::viewer) mod ab_words;
 pub(in crate::viewer) mod apply;
-pub(in crate::viewer) mod asked;
+pub(in crate::viewer) mod asked_pixel;
 pub(in crate::viewer) mod compare;
 pub(in crate::viewer) mod contributions;
 pub(in crate::viewer) mod copy;

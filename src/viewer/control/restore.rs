@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use crate::figure::{Guard, InsetPlace, InsetSpec};
 use crate::viewer::ab::other::Other;
-use crate::viewer::export::record::Restored;
+use crate::viewer::export::restored::Restored;
 use crate::viewer::export::spec::PictureSpec;
 use crate::viewer::inspector::Pin;
 use crate::viewer::library;

@@ -1,6 +1,6 @@
 //! What saves pictures, and what reads saved ones back.
 
-use crate::viewer::export::record::{Grammar, Restored};
+use crate::viewer::export::restored::{Grammar, Restored};
 use crate::viewer::export::saver::Saver;
 
 /// What saves pictures, and what a saved one brings back.

@@ -5,8 +5,8 @@
 
 pub(in crate::viewer) mod contributions;
 pub(in crate::viewer) mod explanation;
-pub(in crate::viewer) mod halves;
 pub(in crate::viewer) mod samples;
+pub(in crate::viewer) mod side_by_side;
 pub(in crate::viewer) mod state;
 pub(in crate::viewer) mod status;
 

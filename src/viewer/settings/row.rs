@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{Settings, values};
-use crate::viewer::keys::Chord;
+use crate::viewer::key_chords::Chord;
 
 /// A setting that decides the pixels of a picture, besides scene and view.
 pub struct PictureSetting {

@@ -11,7 +11,7 @@ use crate::render::Visualisation;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
-use crate::viewer::keys::{Chord, Key, Modifiers};
+use crate::viewer::key_chords::{Chord, Key, Modifiers};
 
 /// What stands for a level that nobody fixed.
 const AUTO: &str = "auto";

@@ -20,7 +20,7 @@ const HOUSES: &[House] = &[
     House {
         room: "viewer",
         floors: &[
-            "keys",
+            "key_chords",
             "jobs",
             "settings",
             "chrome",

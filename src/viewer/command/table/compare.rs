@@ -10,9 +10,9 @@ use crate::viewer::command::parts::WindowCommand;
 use crate::viewer::command::spec::CommandSpec;
 use crate::viewer::command::spec::Group;
 use crate::viewer::command::spec::spec;
-use crate::viewer::keys::Chord;
-use crate::viewer::keys::Key;
-use crate::viewer::keys::Modifiers;
+use crate::viewer::key_chords::Chord;
+use crate::viewer::key_chords::Key;
+use crate::viewer::key_chords::Modifiers;
 use crate::viewer::settings::Toggle;
 
 /// The lines under this heading, in the order of help and menus.

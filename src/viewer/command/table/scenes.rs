@@ -7,8 +7,8 @@ use crate::viewer::command::parts::SceneCommand;
 use crate::viewer::command::spec::CommandSpec;
 use crate::viewer::command::spec::Group;
 use crate::viewer::command::spec::spec;
-use crate::viewer::keys::Chord;
-use crate::viewer::keys::Key;
+use crate::viewer::key_chords::Chord;
+use crate::viewer::key_chords::Key;
 use crate::viewer::lesson::source::LessonSource;
 
 /// The lines under this heading, in the order of help and menus.

@@ -6,8 +6,8 @@ use crate::viewer::command::parts::ViewCommand;
 use crate::viewer::command::spec::CommandSpec;
 use crate::viewer::command::spec::Group;
 use crate::viewer::command::spec::spec;
-use crate::viewer::keys::Chord;
-use crate::viewer::keys::Key;
+use crate::viewer::key_chords::Chord;
+use crate::viewer::key_chords::Key;
 
 /// Degrees that one press of a key turns the picture.
 const TURN: f64 = 5.0;

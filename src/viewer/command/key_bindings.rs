@@ -7,7 +7,7 @@ use crate::viewer::command::Command;
 use crate::viewer::command::arguments::Argument;
 use crate::viewer::command::spec::{Action, CommandSpec, Group};
 use crate::viewer::command::table;
-use crate::viewer::keys::{Chord, KeyPress};
+use crate::viewer::key_chords::{Chord, KeyPress};
 use crate::viewer::settings::picture;
 use crate::viewer::settings::picture::{About, PictureSetting};
 
@@ -130,7 +130,7 @@ pub const GESTURES: &[Gesture] = &[
 mod tests {
     use super::*;
     use crate::viewer::Modifiers;
-    use crate::viewer::keys::Key;
+    use crate::viewer::key_chords::Key;
 
     #[test]
     fn table_is_consistent() {

@@ -36,7 +36,7 @@ fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], now: &Settings, comma
         if let Control::WideButtons(across) = panel.control {
             ui.label(egui::RichText::new(panel.label).weak());
             for values in first.offered(now).chunks(across) {
-                buttons(ui, first, panel, values, now, commands);
+                buttons(ui, (first, panel), values, now, commands);
             }
             continue;
         }
@@ -59,7 +59,7 @@ fn control(
 ) {
     match panel.control {
         Control::Buttons | Control::WideButtons(_) => {
-            buttons(ui, setting, panel, &setting.offered(now), now, commands);
+            buttons(ui, (setting, panel), &setting.offered(now), now, commands);
         }
         Control::List => {
             let current = setting.value(now);
@@ -79,8 +79,7 @@ fn control(
 /// A button for each of these values.
 fn buttons(
     ui: &mut Ui,
-    setting: &'static PictureSetting,
-    panel: &PanelRow,
+    (setting, panel): (&'static PictureSetting, &PanelRow),
     values: &[String],
     now: &Settings,
     commands: &mut Vec<Command>,
@@ -91,19 +90,14 @@ fn buttons(
     commands.extend(chosen.and_then(|value| setting.to(value).ok()).map(Command::Set));
 }
 
-/// What the tool tips of a setting's commands say, those that step through it both ways.
+/// What the tool tip of the command says that sets and steps a setting; where there is none, those that step it both ways.
 fn tip_of(setting: &PictureSetting) -> String {
-    let with_value = setting
-        .commands
-        .iter()
-        .find(|command| command.takes_value && command.step.is_some());
-    let tips: Vec<String> = match with_value {
-        Some(command) => vec![tip(command.id)],
-        None => {
-            let steps = setting.commands.iter().filter(|command| command.step.is_some());
-            steps.map(|command| tip(command.id)).collect()
-        }
-    };
+    let mut commands = setting.commands.iter();
+    if let Some(command) = commands.find(|command| command.takes_value && command.step.is_some()) {
+        return tip(command.id);
+    }
+    let steps = setting.commands.iter().filter(|command| command.step.is_some());
+    let tips: Vec<String> = steps.map(|command| tip(command.id)).collect();
     tips.join("; ")
 }
 

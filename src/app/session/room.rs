@@ -36,10 +36,10 @@ impl Wanted {
     fn of(command: &Command) -> Self {
         match command {
             Command::Window(WindowCommand::Panel(_)) => Self::Panel,
-            Command::Inspector(InspectorCommand::PinUnderPointer)
-            | Command::Inspector(InspectorCommand::Pin(_))
-            | Command::Pointer(PointerCommand::Pressed(PointerButton::Secondary))
-            | Command::Inspector(InspectorCommand::Explanation(_)) => Self::Explanation,
+            Command::Inspector(
+                InspectorCommand::PinUnderPointer | InspectorCommand::Pin(_) | InspectorCommand::Explanation(_),
+            )
+            | Command::Pointer(PointerCommand::Pressed(PointerButton::Secondary)) => Self::Explanation,
             _ => Self::Neither,
         }
     }

@@ -38,15 +38,10 @@ pub(super) fn repeats(command: &Command) -> bool {
     }
     matches!(
         command,
-        Command::Inspector(InspectorCommand::Nudge(_))
-            | Command::View(ViewCommand::RotateBy { .. })
-            | Command::View(ViewCommand::ZoomAt { .. })
-            | Command::View(ViewCommand::PanBy { .. })
-            | Command::Scenes(SceneCommand::Next)
-            | Command::Scenes(SceneCommand::Previous)
-            | Command::Inspector(InspectorCommand::StepMagnification(_))
-            | Command::Ab(AbCommand::StepGain(_))
-            | Command::Ab(AbCommand::NextDifference)
+        Command::Inspector(InspectorCommand::Nudge(_) | InspectorCommand::StepMagnification(_))
+            | Command::View(ViewCommand::RotateBy { .. } | ViewCommand::ZoomAt { .. } | ViewCommand::PanBy { .. })
+            | Command::Scenes(SceneCommand::Next | SceneCommand::Previous)
+            | Command::Ab(AbCommand::StepGain(_) | AbCommand::NextDifference)
     )
 }
 

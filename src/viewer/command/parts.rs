@@ -16,7 +16,7 @@ use crate::viewer::view::camera::ViewNumbers;
 use crate::viewer::view::pointer::PointerButton;
 
 /// What the mouse does.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PointerCommand {
     /// The pointer is at `at`, in window pixels; with the primary button down this drags the picture.
     Moved {
@@ -43,7 +43,7 @@ pub enum PointerCommand {
 }
 
 /// Moving, scaling and turning the picture.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ViewCommand {
     /// Moves the picture by window pixels: what was at `p` is then at `p + by`.
     PanBy {
@@ -136,7 +136,7 @@ pub enum LessonCommand {
 }
 
 /// The inspector, its pin and the explanation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum InspectorCommand {
     /// Opens or closes the pixel inspector.
     Show(Toggle),
@@ -161,7 +161,7 @@ pub enum InspectorCommand {
 }
 
 /// What leaves the program.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ExportCommand {
     /// Copies place and colour of the inspected pixel.
     CopyPixel,
@@ -193,7 +193,7 @@ pub enum SheetCommand {
 }
 
 /// What the window shows besides the picture.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WindowCommand {
     /// The window's size in device pixels; zero when it is minimised.
     Resize([u32; 2]),

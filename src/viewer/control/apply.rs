@@ -53,8 +53,9 @@ impl Viewer {
             Command::Pointer(command) => self.apply_pointer(command),
             Command::View(command) => self.apply_view(command),
             Command::Set(change) => {
-                let remark = change.apply(&mut self.settings);
-                remark.into_iter().for_each(|remark| self.chrome.messages.error(remark));
+                if let Some(remark) = change.apply(&mut self.settings) {
+                    self.chrome.messages.error(remark);
+                }
             }
             Command::Ab(command) => self.apply_ab(command),
             Command::Scenes(command) => self.apply_scenes(command),
@@ -134,7 +135,7 @@ impl Viewer {
             InspectorCommand::Show(toggle) => self.show_inspector(toggle),
             InspectorCommand::SetRegion(region) => self.inspector.magnifier.set_region(region),
             InspectorCommand::SetMagnification(magnification) => {
-                self.inspector.magnifier.set_magnification(magnification)
+                self.inspector.magnifier.set_magnification(magnification);
             }
             InspectorCommand::StepMagnification(steps) => self.inspector.magnifier.step(steps),
             InspectorCommand::PinUnderPointer => self.pin_under_pointer(),

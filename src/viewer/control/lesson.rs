@@ -98,8 +98,9 @@ impl Viewer {
             ..
         } = step;
         for change in settings {
-            let remark = change.apply(&mut self.settings);
-            remark.into_iter().for_each(|remark| self.chrome.messages.error(remark));
+            if let Some(remark) = change.apply(&mut self.settings) {
+                self.chrome.messages.error(remark);
+            }
         }
         if let Some((against, arrangement)) = against {
             self.compare(against);

@@ -16,7 +16,7 @@ impl Viewer {
         match entry.state.dialect() {
             None => self.read_current(),
             Some(dialect) if dialect != self.reading_of(self.library.current, self.settings.dialect) => {
-                self.read_for(Side::A)
+                self.read_for(Side::A);
             }
             Some(_) => {}
         }

@@ -57,11 +57,11 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         },
         about: About::Samples,
         told: Told::Always,
-        panel: row(
+        panel: Some(row(
             "Samples per pixel",
             "Samples per pixel",
             Control::WideButtons(usize::MAX),
-        ),
+        )),
         commands: &[
             SettingCommand {
                 step: Some(-1.0),
@@ -99,7 +99,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         help: "Where the samples of a pixel lie",
         about: About::Samples,
         told: Told::IfChanged,
-        panel: row("Sample pattern", "Sample pattern", Control::WideButtons(3)),
+        panel: Some(row("Sample pattern", "Sample pattern", Control::WideButtons(3))),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
@@ -117,7 +117,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         help: "How a texture is read inside a mip level",
         about: About::Textures,
         told: Told::Always,
-        panel: row("Pixel", "Pixel sampling", Control::Buttons),
+        panel: Some(row("Pixel", "Pixel sampling", Control::Buttons)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
@@ -134,7 +134,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         help: "Which mip levels of a texture are read",
         about: About::Textures,
         told: Told::Always,
-        panel: row("Level", "Level sampling", Control::Buttons),
+        panel: Some(row("Level", "Level sampling", Control::Buttons)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
@@ -160,7 +160,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         },
         about: About::Textures,
         told: Told::IfChanged,
-        panel: row("Anisotropy", "Anisotropy", Control::Buttons),
+        panel: Some(row("Anisotropy", "Anisotropy", Control::Buttons)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
@@ -202,7 +202,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         },
         about: About::Textures,
         told: Told::IfChanged,
-        panel: row(
+        panel: Some(row(
             "Level bias",
             "Level of detail bias",
             Control::Number {
@@ -210,7 +210,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
                 prefix: "",
                 none: None,
             },
-        ),
+        )),
         commands: &[
             SettingCommand {
                 takes_value: true,
@@ -263,7 +263,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         },
         about: About::Textures,
         told: Told::IfChanged,
-        panel: row(
+        panel: Some(row(
             "",
             "Fixed level",
             Control::Number {
@@ -271,7 +271,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
                 prefix: "level ",
                 none: Some(AUTO),
             },
-        ),
+        )),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
@@ -303,7 +303,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         help: "Whether a footprint is a pixel's or a sample's",
         about: About::Textures,
         told: Told::IfChanged,
-        panel: row("Level per", "Level of detail per", Control::Buttons),
+        panel: Some(row("Level per", "Level of detail per", Control::Buttons)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
@@ -320,7 +320,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         help: "In which values the samples of a pixel are averaged",
         about: About::Samples,
         told: Told::IfChanged,
-        panel: row("Resolve", "Resolve space", Control::Buttons),
+        panel: Some(row("Resolve", "Resolve space", Control::Buttons)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
@@ -338,7 +338,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         help: "What the pixels show; all but colour come with a legend",
         about: About::Samples,
         told: Told::IfChanged,
-        panel: row("Show", "Visualisation", Control::List),
+        panel: Some(row("Show", "Visualisation", Control::List)),
         commands: &[
             SettingCommand {
                 step: Some(1.0),
@@ -373,7 +373,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         help: "Whose conventions decide edges, texels and bytes",
         about: About::Samples,
         told: Told::IfChanged,
-        panel: row("Rules", "Rules", Control::Buttons),
+        panel: Some(row("Rules", "Rules", Control::Buttons)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
@@ -422,7 +422,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         help: "How documents are read",
         about: About::Document,
         told: Told::IfDifferent,
-        panel: row("Dialect", "Dialect", Control::Buttons),
+        panel: Some(row("Dialect", "Dialect", Control::Buttons)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
@@ -436,8 +436,8 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
     },
 ];
 
-const fn row(label: &'static str, name: &'static str, control: Control) -> Option<PanelRow> {
-    Some(PanelRow { label, name, control })
+const fn row(label: &'static str, name: &'static str, control: Control) -> PanelRow {
+    PanelRow { label, name, control }
 }
 
 const fn command(id: &'static str, name: &'static str, help: &'static str) -> SettingCommand {

@@ -95,9 +95,10 @@ fn path_from(text: &str, home: Option<&Path>) -> PathBuf {
 /// The value `by` places after `current` in `all`, round and round; before it where `by` is below zero.
 pub(in crate::viewer) fn next_of<T: Copy + PartialEq>(all: &[T], current: T, by: f64) -> T {
     let at = all.iter().position(|value| *value == current).unwrap_or(0);
-    let next = match by < 0.0 {
-        true => (at + all.len()).checked_sub(1),
-        false => at.checked_add(1),
+    let next = if by < 0.0 {
+        (at + all.len()).checked_sub(1)
+    } else {
+        at.checked_add(1)
     };
     let next = next.and_then(|next| next.checked_rem(all.len()));
     next.and_then(|next| all.get(next)).copied().unwrap_or(current)

@@ -19,7 +19,7 @@ pub(super) fn has_report(viewer: &Viewer) -> bool {
         .is_some_and(|entry| entry.failure().is_some() || noted(entry))
 }
 
-/// Height of [`readings`], in points.
+/// Height of [`Readings::show`], in points.
 pub(super) const READINGS: f32 = 96.0;
 
 /// What is said about the readings of a scene, kept while the next scene is read.

@@ -8,7 +8,7 @@ const MOST: usize = 6;
 /// One message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// Grows with every message; names it in [`crate::viewer::command::Command::DismissMessage`].
+    /// Grows with every message; names it in [`crate::viewer::command::parts::WindowCommand::DismissMessage`].
     pub id: u64,
     /// How bad it is.
     pub kind: MessageKind,

@@ -6,7 +6,7 @@ use std::time::Duration;
 use egui::{RichText, Sense, Ui, vec2};
 
 use super::controls::{command_button, heading};
-use crate::viewer::{Command, SceneEntry, Viewer};
+use crate::viewer::{Command, SceneEntry, SceneSource, Viewer};
 
 /// Lines of the reader's report that are shown at once.
 const MAX_LINES: usize = 200;
@@ -26,11 +26,20 @@ pub(super) const READINGS: f32 = 96.0;
 #[derive(Debug, Default)]
 pub(super) struct Readings {
     note: Option<String>,
-    /// Whether a scene of the list has two readings, as far as one knows.
+    /// Whether a scene of the list has two readings, or may have: then all have the room for the note.
     seen: bool,
 }
 
 impl Readings {
+    /// Of a list that is new: scenes that are not read yet may have two readings, but not those of the gallery.
+    pub(super) fn of_list(scenes: &[SceneEntry]) -> Self {
+        let may_have_two = |entry: &SceneEntry| matches!(entry.source, SceneSource::File(_));
+        Self {
+            note: None,
+            seen: scenes.len() > 1 && scenes.iter().any(may_have_two),
+        }
+    }
+
     /// Takes in the current scene.
     pub(super) fn follow(&mut self, viewer: &Viewer) {
         if viewer.current().is_none_or(|entry| !entry.is_reading()) {

@@ -47,6 +47,7 @@ impl PanelMemory {
             *self = Self {
                 list: list.map(|(count, first)| (count, first.clone())),
                 height: self.height,
+                readings: Readings::of_list(viewer.scenes()),
                 ..Self::default()
             };
         }

@@ -1,6 +1,6 @@
 //! What a hand does that has nothing but a mouse: what it clicks is explained, and what it opens it can close.
 
-use crate::viewer::{AbCommand, InspectorCommand, SceneCommand, WindowCommand};
+use crate::viewer::{AbCommand, InspectorCommand, SceneCommand, ViewCommand, WindowCommand};
 use std::path::PathBuf;
 
 use glam::{DVec2, dvec2};
@@ -263,4 +263,63 @@ fn other_reading_moves_nothing_and_draws_its_folder_anew() {
     for (old, new) in drawn.iter().zip(pictures(&session)) {
         assert!(**old != *new, "drawn as it is read now");
     }
+}
+
+#[test]
+fn thumbnails_stay_where_they_are_when_another_scene_has_two_readings() {
+    let folder = folder();
+    let plain = folder.path().join("1.svg");
+    let boxed = folder.path().join("7.svg");
+    let document = std::fs::read_to_string(&plain).expect("a file");
+    std::fs::write(&boxed, document.replace("width=", r#"viewBox="0 0 50 50" width="#)).expect("a file");
+    let mut session = session(vec![plain, boxed], [1600, 1300]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.settle();
+    let names = ["Scene 1.svg", "Scene 7.svg"];
+    let before = names.map(|name| place_of(&mut session, name));
+    click_on(&mut session, names[1]);
+    session.settle();
+    assert!(session.viewer.reading_note().is_some(), "it has two");
+    assert_eq!(
+        names.map(|name| place_of(&mut session, name)),
+        before,
+        "under the pointer"
+    );
+}
+
+#[test]
+fn wheel_goes_on_turning_the_inset_that_it_moved_away() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    right_click(&mut session, [570.0, 300.0]);
+    let view = session.viewer.view_numbers();
+    let inset = session.viewer.inset().expect("a magnifier").rect;
+    let at = DVec2::new(inset.x as f64 + 30.0, inset.y as f64 + 30.0);
+    session.pointer(Some(at));
+    let mut moved = false;
+    for clicks in [1.0, -1.0].into_iter().cycle().take(24).chain([1.0; 12]) {
+        session.wheel(clicks);
+        session.settle();
+        moved |= !session.viewer.pointer_over_inset();
+        assert_eq!(session.viewer.view_numbers(), view, "the picture rests");
+    }
+    assert!(moved, "the inset left the pointer");
+    session.pointer(Some(dvec2(300.0, 500.0)));
+    session.wheel(1.0);
+    assert_ne!(session.viewer.view_numbers(), view, "elsewhere the wheel zooms again");
+}
+
+#[test]
+fn message_about_a_pin_goes_with_it() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    right_click(&mut session, [570.0, 300.0]);
+    session.command(Command::View(ViewCommand::PanBy {
+        by: dvec2(-3000.0, 0.0),
+    }));
+    let tells = |session: &Session| {
+        let mut all = session.viewer.messages().iter();
+        all.any(|message| message.text.contains("outside the window"))
+    };
+    assert!(tells(&session), "the pin is out of sight");
+    session.command(Command::Inspector(InspectorCommand::Pin([500, 300])));
+    assert!(!tells(&session), "another one is in sight");
 }

@@ -71,6 +71,11 @@ impl Messages {
             .retain(|message| message.kind != MessageKind::Error || !of_file(&message.text));
     }
 
+    /// Drops what is no longer so: messages that begin like this.
+    pub(in crate::viewer) fn retract(&mut self, beginning: &str) {
+        self.list.retain(|message| !message.text.starts_with(beginning));
+    }
+
     pub(in crate::viewer) fn dismiss(&mut self, id: u64) {
         self.list.retain(|message| message.id != id);
     }

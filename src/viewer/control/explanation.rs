@@ -11,6 +11,9 @@ use crate::viewer::state::Viewer;
 /// Most points of an outline that are drawn over the picture.
 const MOST_POINTS: usize = 20_000;
 
+/// How it begins what is said where the explanation has no room.
+pub(in crate::viewer) const NO_ROOM: &str = "no room here for the explanation of the pixel";
+
 /// What is said about pixels of a scene that could not be read.
 const NO_PICTURE: &str = "no picture to explain: this scene could not be read";
 
@@ -72,9 +75,7 @@ impl Viewer {
         } else {
             "make the window wider"
         };
-        self.chrome
-            .messages
-            .done(format!("no room here for the explanation of the pixel: {cure}"));
+        self.chrome.messages.done(format!("{NO_ROOM}: {cure}"));
         self.revision += 1;
     }
 

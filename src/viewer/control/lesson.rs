@@ -4,6 +4,7 @@ use crate::geometry::View;
 use crate::render::RenderSettings;
 use crate::scene::DialectChoice;
 use crate::viewer::ab::other::Against;
+use crate::viewer::control::explanation::NO_ROOM;
 use crate::viewer::inspector::Pin;
 use crate::viewer::lesson::model::{Lesson, LessonStep};
 use crate::viewer::lesson::source::LessonSource;
@@ -148,6 +149,7 @@ impl Viewer {
         let Some(Walk { before, .. }) = self.lesson.take() else {
             return false;
         };
+        self.chrome.messages.retract(NO_ROOM);
         self.compare(Against::Nothing);
         let mut scenes = before.scenes;
         if scenes.is_empty() {

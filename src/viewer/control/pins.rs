@@ -179,6 +179,7 @@ impl Viewer {
             });
             self.inspector.magnifier.revealed = false;
             self.inspector.magnifier.asked_at = None;
+            self.chrome.messages.retract(PIN_OUTSIDE);
             self.inspector.magnifier.pins += 1;
             self.inspector.magnifier.came_with_pin |= !self.inspector.magnifier.open;
             self.inspector.magnifier.open = true;

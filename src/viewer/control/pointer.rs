@@ -46,6 +46,7 @@ impl Viewer {
             return;
         }
         let from = self.pointer.at.replace(to);
+        self.pointer.wheels_inset &= from == Some(to);
         if self.ab.drags_line {
             self.drag_line(to.x);
         } else if let Some(from) = from.filter(|_| self.pointer.dragging) {

@@ -20,7 +20,9 @@ impl Viewer {
     }
 
     pub(in crate::viewer) fn wheel(&mut self, clicks: f64) {
-        if self.pointer_over_inset() {
+        self.pointer.wheels_inset |= self.pointer_over_inset();
+        self.pointer.wheels_inset &= self.inspector.inset.is_some();
+        if self.pointer.wheels_inset {
             self.inspector.magnifier.wheel(clicks);
         } else if clicks.is_finite() {
             let factor = WHEEL_FACTOR.powf(clicks.clamp(-MAX_CLICKS, MAX_CLICKS));

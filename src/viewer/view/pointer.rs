@@ -18,6 +18,9 @@ pub(in crate::viewer) struct Pointer {
     pub(in crate::viewer) at: Option<DVec2>,
     /// Whether a drag moves the picture.
     pub(in crate::viewer) dragging: bool,
+    /// Whether the wheel turned over the inset and the pointer has rested since: it goes on turning that, wherever the inset
+    /// goes.
+    pub(in crate::viewer) wheels_inset: bool,
 }
 
 /// The window pixel that contains a position.

@@ -256,7 +256,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         placeholder: "L",
         help: "The level of detail instead of the footprint's: auto, or 0 to 16",
         values: Values::Open {
-            form: "auto, or a number from 0 to 16",
+            form: "auto, or a number from 0, the base, to 16",
             range: "`auto`, 0 ... 16",
             some: &["0", "1", "2"],
             offered: |_| Vec::new(),

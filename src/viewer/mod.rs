@@ -5,6 +5,18 @@
 //! threads of their own: [`Viewer::apply`] never waits, [`Viewer::poll`] takes in what they finished, and
 //! [`Viewer::finish`] waits until the frame of the current state is there, for scripts and tests.
 //!
+//! The parts stand on floors, and each imports only those below it:
+//!
+//! ```text
+//! script, slides                        who drives a viewer by texts, or step by step through a lesson
+//! control                               what commands and results do to several parts
+//! state                                 the viewer: its parts side by side
+//! command                               what a user can do, as data
+//! lesson, export, inspector, ab,        the parts, each with its own state;
+//! frames, library, view, chrome         none of them knows the viewer
+//! settings, jobs, key_chords            what all of them use
+//! ```
+//!
 //! Window pixels are device pixels from the window's upper left corner; frame pixels are `pixel zoom` times larger.
 
 mod ab;

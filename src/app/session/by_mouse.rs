@@ -293,23 +293,24 @@ fn wheel_goes_on_turning_the_inset_that_it_moved_away() {
     right_click(&mut session, [570.0, 300.0]);
     let view = session.viewer.view_numbers();
     let inset = session.viewer.inset().expect("a magnifier").rect;
-    let at = DVec2::new(inset.x as f64 + 30.0, inset.y as f64 + 30.0);
+    let [x, y] = [
+        inset.x + i64::from(inset.width) / 2,
+        inset.y + i64::from(inset.height) / 2,
+    ];
+    let at = dvec2(x as f64, y as f64);
     session.pointer(Some(at));
-    let mut moved = false;
-    for clicks in [1.0, -1.0].into_iter().cycle().take(24).chain([1.0; 12]) {
-        session.wheel(clicks);
-        session.settle();
-        moved |= !session.viewer.pointer_over_inset();
-        assert_eq!(session.viewer.view_numbers(), view, "the picture rests");
-    }
-    assert!(moved, "the inset left the pointer");
-    let inset = session.viewer.inset().expect("still there").rect;
-    let elsewhere = [[300, 500], [300, 100]].into_iter().find(|at| !inset.contains(*at));
-    let [x, y] = elsewhere.expect("the inset is in one corner").map(|side| side as f64);
-    session.pointer(Some(dvec2(x, y)));
+    assert!(session.viewer.pointer_over_inset(), "the pointer is in the magnifier");
     session.wheel(1.0);
+    assert_eq!(session.viewer.view_numbers(), view, "the magnifier took it");
+    // A pin below it sends it away from the pointer, which rests.
+    session.command(Command::Inspector(InspectorCommand::Pin([x, y])));
     session.settle();
-    assert_ne!(session.viewer.view_numbers(), view, "elsewhere the wheel zooms again");
+    assert!(!session.viewer.pointer_over_inset(), "it gave way");
+    session.wheel(1.0);
+    assert_eq!(session.viewer.view_numbers(), view, "the magnifier takes it still");
+    session.pointer(Some(at + 1.0));
+    session.wheel(1.0);
+    assert_ne!(session.viewer.view_numbers(), view, "the wheel zooms again");
 }
 
 #[test]
@@ -326,4 +327,29 @@ fn message_about_a_pin_goes_with_it() {
     assert!(tells(&session), "the pin is out of sight");
     session.command(Command::Inspector(InspectorCommand::Pin([500, 300])));
     assert!(!tells(&session), "another one is in sight");
+}
+
+#[test]
+fn second_click_in_the_inset_unpins_what_the_first_one_pinned() {
+    let mut session = session(Vec::new(), [800, 600]);
+    right_click(&mut session, [200.0, 300.0]);
+    let inset = session.viewer.inset().expect("a magnifier").rect;
+    let mut moved = false;
+    for part in [0.04, 0.2, 0.35, 0.65, 0.8, 0.96] {
+        let across = |from: i64, size: u32| from as f64 + (f64::from(size) * part).floor();
+        let at = [across(inset.x, inset.width), across(inset.y, inset.height)];
+        session.pointer(Some(DVec2::from(at)));
+        let (hovered, before) = (session.viewer.hovered_pixel(), session.viewer.pinned_pixel());
+        if !session.viewer.pointer_over_inset() || hovered.is_none() || hovered == before {
+            continue;
+        }
+        right_click(&mut session, at);
+        let pinned = session.viewer.pinned_pixel();
+        moved |= !session.viewer.pointer_over_inset();
+        assert!(pinned.is_some(), "a pixel of the inset");
+        right_click(&mut session, at);
+        assert_eq!(session.viewer.pinned_pixel(), None, "{pinned:?} at {at:?}");
+        right_click(&mut session, [200.0, 300.0]);
+    }
+    assert!(moved, "the inset left the pointer once");
 }

@@ -12,6 +12,8 @@ pub(super) struct PanelRoom {
     follows: bool,
     /// It made way for an explanation and comes back after that.
     gave_way: bool,
+    /// Before the last command, the panel left no room for an explanation that is not closed.
+    hid_explanation: bool,
 }
 
 /// What a command asks to be seen.
@@ -27,6 +29,7 @@ impl Default for PanelRoom {
         Self {
             follows: true,
             gave_way: false,
+            hid_explanation: false,
         }
     }
 }
@@ -63,6 +66,7 @@ impl Session {
         let wanted = Wanted::of(&command);
         self.room.follows &= wanted != Wanted::Panel;
         let is_unseen = self.viewer.panel() && self.viewer.explains() && self.is_narrow();
+        self.room.hid_explanation = is_unseen;
         match command {
             Command::Inspector(InspectorCommand::Explanation(Toggle::Flip)) if is_unseen => {
                 (wanted, Command::Inspector(InspectorCommand::Explanation(Toggle::On)))
@@ -79,7 +83,8 @@ impl Session {
         match wanted {
             Wanted::Panel => {
                 self.room.gave_way = false;
-                if is_narrow && panel && explains {
+                // Who closes the panel wants the picture, not what the panel hid.
+                if is_narrow && explains && (panel || self.room.hid_explanation) {
                     self.apply(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
                 }
             }

@@ -275,3 +275,26 @@ fn explanation_of_another_view_leads_back_to_the_picture() {
     assert_eq!(shown, Visualisation::Color, "the button leads back");
     assert!(!says(&mut session, "The window shows"), "and nothing more is said");
 }
+
+#[test]
+fn panel_that_is_closed_leaves_the_picture() {
+    let mut session = session(Vec::new(), [800, 600]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+    session.settle();
+    session.command(Command::Ab(AbCommand::NextDifference));
+    session.settle();
+    assert!(session.viewer.pinned_pixel().is_some(), "the next difference");
+    assert!(session.viewer.panel(), "still there");
+    session.command(Command::Window(WindowCommand::Panel(Toggle::Flip)));
+    session.settle();
+    assert!(
+        !session.viewer.panel() && !session.viewer.explains(),
+        "nothing took its place"
+    );
+    let pinned = session.viewer.pinned_pixel().expect("still pinned");
+    session.command(Command::Inspector(InspectorCommand::Pin(pinned.map(i64::from))));
+    session.command(Command::Inspector(InspectorCommand::Explanation(Toggle::On)));
+    session.settle();
+    assert!(session.viewer.explains(), "asked for, it comes");
+}

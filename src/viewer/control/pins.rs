@@ -73,7 +73,9 @@ impl Viewer {
         if self.refuses_to_explain() {
             return;
         }
-        let is_pinned = self.pinned_pixel() == Some(pixel) || self.slid_away();
+        let through_inset = self.pointer_over_inset();
+        let same_click = self.pointer.pinned_through_inset.take() == Some(self.inspector.magnifier.pins);
+        let is_pinned = self.pinned_pixel() == Some(pixel) || self.slid_away() || same_click;
         if is_pinned && self.explains() {
             self.inspector.magnifier.pin = None;
             self.inspector.magnifier.open &= !std::mem::take(&mut self.inspector.magnifier.came_with_pin);
@@ -83,6 +85,7 @@ impl Viewer {
             let asked_at = self.place_asked_about();
             self.pin(pixel.map(i64::from));
             self.inspector.magnifier.asked_at = asked_at;
+            self.pointer.pinned_through_inset = through_inset.then_some(self.inspector.magnifier.pins);
         }
     }
 

@@ -46,7 +46,9 @@ impl Viewer {
             return;
         }
         let from = self.pointer.at.replace(to);
-        self.pointer.wheels_inset &= from == Some(to);
+        if from != Some(to) {
+            (self.pointer.wheels_inset, self.pointer.pinned_through_inset) = (false, None);
+        }
         if self.ab.drags_line {
             self.drag_line(to.x);
         } else if let Some(from) = from.filter(|_| self.pointer.dragging) {

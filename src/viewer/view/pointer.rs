@@ -21,6 +21,9 @@ pub(in crate::viewer) struct Pointer {
     /// Whether the wheel turned over the inset and the pointer has rested since: it goes on turning that, wherever the inset
     /// goes.
     pub(in crate::viewer) wheels_inset: bool,
+    /// The pin that was set through the inset, which then went elsewhere, while the pointer has rested: the same click unpins
+    /// it.
+    pub(in crate::viewer) pinned_through_inset: Option<u64>,
 }
 
 /// The window pixel that contains a position.

@@ -6,6 +6,10 @@ use crate::viewer::{Command, PointerButton, Toggle};
 use crate::viewer::{InspectorCommand, PointerCommand, WindowCommand};
 
 /// What the session does to the side panel by itself.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "three things that are so or not, each on its own"
+)]
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PanelRoom {
     /// The panel folds by itself until the user says what he wants.

@@ -34,7 +34,7 @@ use crate::viewer::jobs::mailbox::{Mailbox, Waker};
 use crate::viewer::lesson::walk::Walk;
 use crate::viewer::library::SceneEntry;
 use crate::viewer::library::readers::{ReadScene, Readers, Thumbnail};
-use crate::viewer::library::state::Library;
+use crate::viewer::library::state::SceneList;
 use crate::viewer::settings::{PixelZoom, Settings, Theme};
 use crate::viewer::view::camera::{ViewContext, ViewNumbers};
 use crate::viewer::view::panes::Panes;
@@ -76,7 +76,7 @@ pub struct Viewer {
     pub(in crate::viewer) settings: Settings,
     pub(in crate::viewer) chrome: Chrome,
     pub(in crate::viewer) pointer: Pointer,
-    pub(in crate::viewer) library: Library,
+    pub(in crate::viewer) scene_list: SceneList,
     pub(in crate::viewer) frames: Frames,
     pub(in crate::viewer) ab: Comparison,
     pub(in crate::viewer) inspector: Inspection,
@@ -175,7 +175,7 @@ impl Viewer {
             settings: options.settings,
             chrome: Chrome::new(options.window, options.theme),
             pointer: Pointer::default(),
-            library: Library::new(options.view, readers),
+            scene_list: SceneList::new(options.view, readers),
             frames: Frames::new(drawing),
             ab: Comparison::new(
                 mailbox.of(|drawn| Finished::Drawn(DrawingId::Second, drawn)),
@@ -223,17 +223,17 @@ impl Viewer {
 
     /// All scenes, in the order of the list.
     pub fn scenes(&self) -> &[SceneEntry] {
-        &self.library.scenes
+        &self.scene_list.scenes
     }
 
     /// The place of the current scene in the list.
     pub fn current_index(&self) -> usize {
-        self.library.current
+        self.scene_list.current
     }
 
     /// The current scene; `None` only while the list is empty.
     pub fn current(&self) -> Option<&SceneEntry> {
-        self.library.current()
+        self.scene_list.current()
     }
 
     /// Sampling, rules, dialect, pixel zoom.

@@ -110,9 +110,9 @@ impl Viewer {
         match command {
             SceneCommand::Next if self.step_lesson(true) => {}
             SceneCommand::Previous if self.step_lesson(false) => {}
-            SceneCommand::Next => self.library.step(1),
-            SceneCommand::Previous => self.library.step(self.library.scenes.len().saturating_sub(1)),
-            SceneCommand::Show(index) => self.library.show(index),
+            SceneCommand::Next => self.scene_list.step(1),
+            SceneCommand::Previous => self.scene_list.step(self.scene_list.scenes.len().saturating_sub(1)),
+            SceneCommand::Show(index) => self.scene_list.show(index),
             SceneCommand::Open(paths) => self.open(&paths),
             SceneCommand::OpenGallery => self.replace_scenes(library::gallery_entries()),
             SceneCommand::Reload => self.read_current(),

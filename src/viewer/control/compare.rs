@@ -114,7 +114,7 @@ impl Viewer {
                 std::mem::swap(&mut self.settings.render, render);
                 std::mem::swap(&mut self.settings.dialect, dialect);
                 if self.own_dialect_of_b().is_some()
-                    && let Some(entry) = self.library.scenes.get_mut(self.library.current)
+                    && let Some(entry) = self.scene_list.scenes.get_mut(self.scene_list.current)
                 {
                     std::mem::swap(&mut entry.state, &mut entry.other_state);
                 }

@@ -9,12 +9,17 @@ use crate::viewer::state::Viewer;
 impl Viewer {
     /// How the scene at `index` is read where the settings say `choice`.
     pub(in crate::viewer) fn reading_of(&self, index: usize, choice: DialectChoice) -> DialectChoice {
-        let Some(entry) = self.library.scenes.get(index).filter(|_| choice == DialectChoice::Auto) else {
+        let Some(entry) = self
+            .scene_list
+            .scenes
+            .get(index)
+            .filter(|_| choice == DialectChoice::Auto)
+        else {
             return choice;
         };
         let chosen = entry
             .folder()
-            .and_then(|folder| self.library.chosen_readings.get(folder));
+            .and_then(|folder| self.scene_list.chosen_readings.get(folder));
         match chosen {
             Some(Dialect::Course) => DialectChoice::Course,
             Some(Dialect::Svg) => DialectChoice::Svg,
@@ -25,7 +30,7 @@ impl Viewer {
 
     /// The choice of dialect that makes the current picture from its file alone.
     pub(in crate::viewer) fn dialect_of_picture(&self) -> DialectChoice {
-        let choice = self.reading_of(self.library.current, self.settings.dialect);
+        let choice = self.reading_of(self.scene_list.current, self.settings.dialect);
         let asks_for_course = self.settings.render.rules == crate::rules::Rules::Course;
         let scene = self.current().and_then(SceneEntry::scene);
         match scene.map(|scene| scene.dialect) {
@@ -49,7 +54,9 @@ impl Viewer {
         let other = scene.other_reading?.name();
         let why = match self.settings.dialect {
             DialectChoice::Course | DialectChoice::Svg => ", as the setting says",
-            DialectChoice::Auto if self.library.chosen_readings.contains_key(folder) => ", as you chose for its folder",
+            DialectChoice::Auto if self.scene_list.chosen_readings.contains_key(folder) => {
+                ", as you chose for its folder"
+            }
             DialectChoice::Auto if entry.is_of_course => ", as other scenes of its folder are",
             DialectChoice::Auto => "",
         };
@@ -67,7 +74,7 @@ impl Viewer {
         };
         let folder: Option<PathBuf> = entry.folder().map(Path::to_owned);
         let readings = |viewer: &Self| -> Vec<DialectChoice> {
-            let scenes = 0..viewer.library.scenes.len();
+            let scenes = 0..viewer.scene_list.scenes.len();
             scenes
                 .map(|index| viewer.reading_of(index, viewer.settings.dialect))
                 .collect()
@@ -75,12 +82,12 @@ impl Viewer {
         let before = readings(self);
         match folder.filter(|_| self.settings.dialect == DialectChoice::Auto) {
             Some(folder) => {
-                self.library.chosen_readings.insert(folder, other);
+                self.scene_list.chosen_readings.insert(folder, other);
             }
             None => self.settings.dialect = choice,
         }
         for (index, (before, now)) in before.into_iter().zip(readings(self)).enumerate() {
-            if index != self.library.current && before != now {
+            if index != self.scene_list.current && before != now {
                 self.read_anew(index);
             }
         }
@@ -88,7 +95,12 @@ impl Viewer {
 
     /// Lets go of a scene that is read in another way now, and asks for its thumbnail again; the old one stays until then.
     fn read_anew(&mut self, index: usize) {
-        let Some(entry) = self.library.scenes.get_mut(index).filter(|entry| !entry.is_reading()) else {
+        let Some(entry) = self
+            .scene_list
+            .scenes
+            .get_mut(index)
+            .filter(|entry| !entry.is_reading())
+        else {
             return;
         };
         entry.state = SceneState::Unread;

@@ -65,7 +65,7 @@ impl Viewer {
             other.lend_surface(false);
         }
         let size = self.frame_size();
-        let Some(entry) = self.library.scenes.get(self.library.current) else {
+        let Some(entry) = self.scene_list.scenes.get(self.scene_list.current) else {
             return self.clear_frames();
         };
         if entry.failure().is_some() {

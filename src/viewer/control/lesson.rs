@@ -38,8 +38,8 @@ impl Viewer {
         let before = match self.lesson.take() {
             Some(walk) => walk.before,
             None => Before {
-                scenes: std::mem::take(&mut self.library.scenes),
-                current: self.library.current,
+                scenes: std::mem::take(&mut self.scene_list.scenes),
+                current: self.scene_list.current,
                 settings: self.settings,
                 explanation: self.chrome.shown.explanation,
             },
@@ -87,7 +87,7 @@ impl Viewer {
         };
         (walk.at, walk.view_pending, walk.fitted) = (at, true, None);
         let (scene, step) = (walk.scenes[at], walk.lesson.steps[at].clone());
-        self.library.current = scene.min(self.library.scenes.len().saturating_sub(1));
+        self.scene_list.current = scene.min(self.scene_list.scenes.len().saturating_sub(1));
         self.compare(Against::Nothing);
         self.settings.render = RenderSettings::default();
         self.settings.dialect = DialectChoice::default();
@@ -113,7 +113,7 @@ impl Viewer {
         (self.inspector.magnifier.asked, self.inspector.magnifier.kept_view) = (false, None);
         self.inspector.magnifier.pin = pin.map(|place| Pin {
             pixel: [0, 0],
-            place: Some((place, (self.library.current, self.library.generation))),
+            place: Some((place, (self.scene_list.current, self.scene_list.generation))),
         });
     }
 
@@ -164,10 +164,10 @@ impl Viewer {
         }
         let cameras: Vec<Camera> = scenes.iter().map(|entry| entry.camera).collect();
         self.replace_scenes(scenes);
-        for (entry, camera) in self.library.scenes.iter_mut().zip(cameras) {
+        for (entry, camera) in self.scene_list.scenes.iter_mut().zip(cameras) {
             entry.camera = camera;
         }
-        self.library.current = before.current.min(self.library.scenes.len().saturating_sub(1));
+        self.scene_list.current = before.current.min(self.scene_list.scenes.len().saturating_sub(1));
         self.settings = before.settings;
         self.chrome.shown.explanation = before.explanation;
         (self.inspector.magnifier.pin, self.inspector.magnifier.open) = (None, false);

@@ -27,7 +27,7 @@ impl Viewer {
             return self.open_gallery_if_empty();
         }
         // A picture alone at the start is told that it is no scene.
-        let compares = !self.library.scenes.is_empty() || !documents.is_empty();
+        let compares = !self.scene_list.scenes.is_empty() || !documents.is_empty();
         let (mut scenes, problems) = library::list_scenes(if compares { &documents } else { paths });
         if let Some(picture) = pictures.last().filter(|_| compares) {
             self.compare(Against::File((*picture).clone()));
@@ -35,7 +35,7 @@ impl Viewer {
         for problem in problems {
             self.chrome.messages.error(problem);
         }
-        if self.library.scenes.is_empty() {
+        if self.scene_list.scenes.is_empty() {
             if scenes.is_empty() {
                 scenes = library::gallery_entries();
             }
@@ -47,7 +47,7 @@ impl Viewer {
 
     /// A picture whose scene is gone leaves a list with something to look at too.
     fn open_gallery_if_empty(&mut self) {
-        if self.library.scenes.is_empty() {
+        if self.scene_list.scenes.is_empty() {
             self.replace_scenes(library::gallery_entries());
         }
     }
@@ -57,22 +57,23 @@ impl Viewer {
         let place = |list: &[SceneEntry], source: &SceneSource| list.iter().position(|entry| entry.source == *source);
         let first = scenes.first().map(|entry| entry.source.clone());
         for mut scene in scenes {
-            if place(&self.library.scenes, &scene.source).is_some() {
+            if place(&self.scene_list.scenes, &scene.source).is_some() {
                 continue;
             }
-            if self.library.scenes.len() >= library::MAX_SCENES {
+            if self.scene_list.scenes.len() >= library::MAX_SCENES {
                 self.chrome.messages.error(format!(
                     "{}: the list is full; start the program anew with it",
                     scene.label
                 ));
                 break;
             }
-            scene.camera = Camera::new(self.library.start_view);
-            self.library.scenes.push(scene);
+            scene.camera = Camera::new(self.scene_list.start_view);
+            self.scene_list.scenes.push(scene);
         }
-        if let Some(index) = first.and_then(|source| place(&self.library.scenes, &source)) {
-            let known = self.library.scenes[index].scene().is_some() || self.library.scenes[index].failure().is_some();
-            self.library.current = index;
+        if let Some(index) = first.and_then(|source| place(&self.scene_list.scenes, &source)) {
+            let known =
+                self.scene_list.scenes[index].scene().is_some() || self.scene_list.scenes[index].failure().is_some();
+            self.scene_list.current = index;
             if known {
                 self.read_current();
             }
@@ -83,12 +84,12 @@ impl Viewer {
         // Its steps would show other scenes.
         self.lesson = None;
         for scene in &mut scenes {
-            scene.camera = Camera::new(self.library.start_view);
+            scene.camera = Camera::new(self.scene_list.start_view);
         }
-        self.library.scenes = scenes;
-        self.library.generation += 1;
-        self.library.readers.drop_thumbnails();
-        self.library.recent.clear();
-        self.library.current = 0;
+        self.scene_list.scenes = scenes;
+        self.scene_list.generation += 1;
+        self.scene_list.readers.drop_thumbnails();
+        self.scene_list.recent.clear();
+        self.scene_list.current = 0;
     }
 }

@@ -33,7 +33,7 @@ impl Viewer {
             return;
         };
         let Some(entry) = self.current() else { return };
-        let scene = (self.library.current, self.library.generation);
+        let scene = (self.scene_list.current, self.scene_list.generation);
         let view = entry.camera.transform(&context);
         match pin.place {
             Some((place, of)) if of == scene => {

@@ -49,7 +49,7 @@ impl Viewer {
                 .error(format!("{name}: the scene of this picture is not there: {problem}"));
             return true;
         }
-        if self.library.scenes.is_empty() {
+        if self.scene_list.scenes.is_empty() {
             self.replace_scenes(scenes);
         } else {
             self.add_scenes(scenes);
@@ -57,7 +57,7 @@ impl Viewer {
         self.settings.render = restored.spec.render;
         self.settings.render.outline = true;
         self.settings.dialect = restored.spec.dialect;
-        if let Some(entry) = self.library.scenes.get_mut(self.library.current) {
+        if let Some(entry) = self.scene_list.scenes.get_mut(self.scene_list.current) {
             entry.camera = Camera::new(restored.spec.view);
         }
         self.chrome.messages.done(format!("as in {}", shot.display()));
@@ -102,7 +102,7 @@ impl Viewer {
         self.inspector.magnifier.open = true;
         self.inspector.magnifier.pin = Some(Pin {
             pixel: [0, 0],
-            place: Some((place, (self.library.current, self.library.generation))),
+            place: Some((place, (self.scene_list.current, self.scene_list.generation))),
         });
     }
 }

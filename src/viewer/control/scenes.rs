@@ -10,12 +10,12 @@ const KEPT: usize = 3;
 impl Viewer {
     /// Sees to it that the current scene is read in the dialect that is set, and in B's.
     pub(in crate::viewer) fn want_scene(&mut self) {
-        let Some(entry) = self.library.scenes.get(self.library.current) else {
+        let Some(entry) = self.scene_list.scenes.get(self.scene_list.current) else {
             return;
         };
         match entry.state.dialect() {
             None => self.read_current(),
-            Some(dialect) if dialect != self.reading_of(self.library.current, self.settings.dialect) => {
+            Some(dialect) if dialect != self.reading_of(self.scene_list.current, self.settings.dialect) => {
                 self.read_for(Side::A);
             }
             Some(_) => {}
@@ -27,8 +27,8 @@ impl Viewer {
     /// The same for B where it has a dialect of its own; else B shares A's scene.
     fn want_other_scene(&mut self) {
         let own = self.own_dialect_of_b();
-        let wanted = own.map(|dialect| self.reading_of(self.library.current, dialect));
-        let Some(entry) = self.library.scenes.get_mut(self.library.current) else {
+        let wanted = own.map(|dialect| self.reading_of(self.scene_list.current, dialect));
+        let Some(entry) = self.scene_list.scenes.get_mut(self.scene_list.current) else {
             return;
         };
         match wanted {
@@ -40,9 +40,9 @@ impl Viewer {
 
     /// Reads the current scene again.
     pub(in crate::viewer) fn read_current(&mut self) {
-        self.library.documents += 1;
-        let documents = self.library.documents;
-        let Some(entry) = self.library.scenes.get_mut(self.library.current) else {
+        self.scene_list.documents += 1;
+        let documents = self.scene_list.documents;
+        let Some(entry) = self.scene_list.scenes.get_mut(self.scene_list.current) else {
             return;
         };
         entry.document = documents;
@@ -54,13 +54,13 @@ impl Viewer {
 
     /// Reads the current scene for one side, in its dialect.
     fn read_for(&mut self, side: Side) {
-        let (generation, index) = (self.library.generation, self.library.current);
+        let (generation, index) = (self.scene_list.generation, self.scene_list.current);
         let dialect = match side {
             Side::A => self.settings.dialect,
             Side::B => self.own_dialect_of_b().unwrap_or(self.settings.dialect),
         };
         let dialect = self.reading_of(index, dialect);
-        let Some(entry) = self.library.scenes.get_mut(index) else {
+        let Some(entry) = self.scene_list.scenes.get_mut(index) else {
             return;
         };
         let state = side.state(entry);
@@ -75,12 +75,12 @@ impl Viewer {
             scene: None,
         };
         if side == Side::B {
-            self.library.readers.scenes.push(order);
+            self.scene_list.readers.scenes.push(order);
             return;
         }
-        for order in self.library.readers.scenes.replace(order) {
+        for order in self.scene_list.readers.scenes.replace(order) {
             let forgotten = self
-                .library
+                .scene_list
                 .scenes
                 .get_mut(order.index)
                 .filter(|_| order.generation == generation);
@@ -96,12 +96,12 @@ impl Viewer {
 
     /// Takes in a scene that was read. One that is no longer shown is kept, if it was read as the settings say.
     pub(in crate::viewer) fn scene_read(&mut self, read: ReadScene) {
-        let is_current = read.index == self.library.current;
-        let Some(entry) = self.library.scenes.get_mut(read.index) else {
+        let is_current = read.index == self.scene_list.current;
+        let Some(entry) = self.scene_list.scenes.get_mut(read.index) else {
             return;
         };
         let dialect = read.dialect;
-        let is_newest = read.generation == self.library.generation && read.document == entry.document;
+        let is_newest = read.generation == self.scene_list.generation && read.document == entry.document;
         let Some(side) = Side::reading(entry, dialect).filter(|_| is_newest) else {
             return;
         };
@@ -135,20 +135,20 @@ impl Viewer {
 
     /// Keeps the current scene and the ones shown last; the others are read again when they are asked for.
     fn let_go_of_old_scenes(&mut self) {
-        let current = self.library.current;
-        if self.library.recent.last() == Some(&current) {
+        let current = self.scene_list.current;
+        if self.scene_list.recent.last() == Some(&current) {
             return;
         }
-        for index in &self.library.recent {
-            if let Some(entry) = self.library.scenes.get_mut(*index) {
+        for index in &self.scene_list.recent {
+            if let Some(entry) = self.scene_list.scenes.get_mut(*index) {
                 entry.other_state = SceneState::Unread;
             }
         }
-        self.library.recent.retain(|index| *index != current);
-        self.library.recent.push(current);
-        while self.library.recent.len() > KEPT + 1 {
-            let oldest = self.library.recent.remove(0);
-            if let Some(entry) = self.library.scenes.get_mut(oldest) {
+        self.scene_list.recent.retain(|index| *index != current);
+        self.scene_list.recent.push(current);
+        while self.scene_list.recent.len() > KEPT + 1 {
+            let oldest = self.scene_list.recent.remove(0);
+            if let Some(entry) = self.scene_list.scenes.get_mut(oldest) {
                 entry.state = SceneState::Unread;
             }
         }
@@ -157,10 +157,10 @@ impl Viewer {
     /// Asks for the thumbnail of a scene in the list: it is read and drawn when nothing else is to be done, and stands
     /// in [`crate::viewer::library::SceneEntry::thumbnail`] then. To be called for the scenes that a panel shows.
     pub fn request_thumbnail(&mut self, index: usize) {
-        let generation = self.library.generation;
+        let generation = self.scene_list.generation;
         let dialect = self.reading_of(index, self.settings.dialect);
         let Some(entry) = self
-            .library
+            .scene_list
             .scenes
             .get_mut(index)
             .filter(|entry| !entry.thumbnail_asked)
@@ -168,8 +168,8 @@ impl Viewer {
             return;
         };
         entry.thumbnail_asked = true;
-        self.library.readers.pending_thumbnails += 1;
-        self.library.readers.thumbnails.push(Order {
+        self.scene_list.readers.pending_thumbnails += 1;
+        self.scene_list.readers.thumbnails.push(Order {
             generation,
             index,
             document: entry.document,
@@ -180,9 +180,9 @@ impl Viewer {
     }
 
     pub(in crate::viewer) fn thumbnail_drawn(&mut self, thumbnail: Thumbnail) {
-        self.library.readers.pending_thumbnails = self.library.readers.pending_thumbnails.saturating_sub(1);
-        let in_list = thumbnail.generation == self.library.generation;
-        if let Some(entry) = self.library.scenes.get_mut(thumbnail.index).filter(|_| in_list) {
+        self.scene_list.readers.pending_thumbnails = self.scene_list.readers.pending_thumbnails.saturating_sub(1);
+        let in_list = thumbnail.generation == self.scene_list.generation;
+        if let Some(entry) = self.scene_list.scenes.get_mut(thumbnail.index).filter(|_| in_list) {
             entry.thumbnail = thumbnail.picture;
         }
     }

@@ -71,7 +71,7 @@ impl Viewer {
 
     /// As [`Viewer::finish`], and waits for the thumbnails that were asked for.
     pub fn finish_thumbnails(&mut self) {
-        self.finish_until(|viewer| viewer.is_settled() && !viewer.library.readers.has_thumbnails_pending());
+        self.finish_until(|viewer| viewer.is_settled() && !viewer.scene_list.readers.has_thumbnails_pending());
     }
 
     fn finish_until(&mut self, done: fn(&Self) -> bool) {

@@ -34,7 +34,7 @@ impl Viewer {
     pub(in crate::viewer) fn look(&mut self, change: impl FnOnce(&mut Camera, &ViewContext)) {
         if let Some((context, entry)) = self
             .view_context()
-            .zip(self.library.scenes.get_mut(self.library.current))
+            .zip(self.scene_list.scenes.get_mut(self.scene_list.current))
         {
             change(&mut entry.camera, &context);
         }
@@ -56,7 +56,7 @@ impl Viewer {
     }
 
     pub(in crate::viewer) fn reset_view(&mut self) {
-        if let Some(entry) = self.library.scenes.get_mut(self.library.current) {
+        if let Some(entry) = self.scene_list.scenes.get_mut(self.scene_list.current) {
             entry.camera = Camera::default();
         }
         self.center_fixed();
@@ -87,7 +87,7 @@ impl Viewer {
         let factor = f64::from(self.settings.pixel_zoom.factor()) / f64::from(zoom.factor());
         self.settings.pixel_zoom = zoom;
         let frame = self.frame_size();
-        for entry in &mut self.library.scenes {
+        for entry in &mut self.scene_list.scenes {
             if let Some(canvas) = entry.scene().map(|scene| scene.canvas) {
                 entry.camera.rescale(factor, &ViewContext { canvas, frame });
             }

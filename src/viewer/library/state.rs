@@ -10,7 +10,7 @@ use crate::viewer::library::readers::Readers;
 
 /// The list of scenes, and what reads them.
 #[derive(Debug)]
-pub(in crate::viewer) struct Library {
+pub(in crate::viewer) struct SceneList {
     pub(in crate::viewer) scenes: Vec<SceneEntry>,
     /// The dialects that were chosen for the scenes of folders.
     pub(in crate::viewer) chosen_readings: HashMap<PathBuf, Dialect>,
@@ -27,7 +27,7 @@ pub(in crate::viewer) struct Library {
     pub(in crate::viewer) readers: Readers,
 }
 
-impl Library {
+impl SceneList {
     /// An empty list.
     pub(in crate::viewer) fn new(start_view: View, readers: Readers) -> Self {
         Self {

@@ -1,11 +1,15 @@
 //! Colours: straight and premultiplied, floats and bytes. The only file that knows gamma.
 
+mod blend;
 mod colormap;
+mod ramp;
 mod resolve;
 
 use crate::rules::Rules;
 
+pub use blend::BlendMode;
 pub use colormap::Colormap;
+pub use ramp::{Mix, Ramp, Spread, Stop};
 pub use resolve::{ResolveSpace, encoded};
 
 /// A straight (not premultiplied) sRGB-encoded colour; each channel and alpha in `0.0..=1.0`.

@@ -20,7 +20,7 @@ use crate::raster::{
     RasterTimes, SamplePattern, SampleRate,
 };
 use crate::rules::Rules;
-use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};
+use crate::scene::{Composite, Fill, Paint, Primitive, PrimitiveKind, Scene};
 use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, SamplingSettings};
 
 pub use legend::{Legend, LegendKey};
@@ -359,7 +359,8 @@ fn add(builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, kind: &PrimitiveKind
         PrimitiveKind::Triangle { points, paint: own } => {
             builder.triangle(points.map(|p| screen.place(p)), &paint(own));
         }
-        PrimitiveKind::Polygon { polygon, color } => {
+        PrimitiveKind::Polygon { polygon, fill } => {
+            let Fill::Solid(color) = fill else { return };
             match polygon.triangles().filter(|_| screen.rules.cut_polygons()) {
                 // The course knows triangles only, whose edges it counts twice; first drafts leave them to nobody.
                 Some(triangles) => {
@@ -373,7 +374,11 @@ fn add(builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, kind: &PrimitiveKind
         PrimitiveKind::Hairline { ends, color } => builder.hairline(ends.map(|p| screen.place(p)), *color),
         PrimitiveKind::Point { at, color } => builder.point(screen.place(*at), *color),
         PrimitiveKind::BeginLayer => builder.begin_layer(),
-        PrimitiveKind::EndLayer { opacity } => builder.end_layer(Compositing::with_opacity(*opacity)),
+        PrimitiveKind::EndLayer { composite } => {
+            if let Composite::Over { opacity, .. } = composite {
+                builder.end_layer(Compositing::with_opacity(*opacity));
+            }
+        }
     }
 }
 

@@ -6,6 +6,8 @@ mod area;
 pub mod clip;
 pub mod edge;
 pub mod float_edge;
+mod gradient;
+mod path;
 mod polygon;
 mod stroke;
 pub mod subpixel;
@@ -14,6 +16,8 @@ mod view;
 mod width;
 
 pub use area::area_in_pixel;
+pub use gradient::GradientShape;
+pub use path::{CurvedArea, Path, Stroke};
 pub use polygon::Polygon;
 pub use stroke::{LineCap, LineJoin, StrokeStyle, stroke_outline};
 pub use triangulate::{FillRule, estimate_crossings, triangulate};

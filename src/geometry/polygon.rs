@@ -1,13 +1,22 @@
-//! A filled area of one colour: contours and the rule that says which points they enclose.
+//! A filled area: contours and the rule that says which points they enclose.
+//!
+//! Where the contours stand for curves ([`Polygon::curved`]), the polygon knows the curves too, and gives finer contours to
+//! views that show it larger.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use glam::DVec2;
 
-use super::{FillRule, estimate_crossings, triangulate};
+use super::{CurvedArea, FillRule, estimate_crossings, triangulate};
 
 /// Most crossings of edges, as estimated, of contours that are cut into triangles.
 const MAX_CROSSINGS: usize = 200_000;
+
+/// How far an edge may be from the curve that it stands for, in distances between samples.
+const TOLERANCE: f64 = 0.1;
+
+/// How often the scale for which a curve is flattened is doubled at most.
+const MAX_DOUBLINGS: u32 = 24;
 
 /// Closed contours with a fill rule. All coordinates are finite.
 #[derive(Debug)]
@@ -19,6 +28,17 @@ pub struct Polygon {
     rule: FillRule,
     /// The triangles, once somebody asked for them.
     triangles: OnceLock<Option<Vec<[DVec2; 3]>>>,
+    curves: Option<Box<Curves>>,
+}
+
+/// The curves that contours stand for.
+#[derive(Debug)]
+struct Curves {
+    area: CurvedArea,
+    /// Samples per user unit for which the contours are fine enough.
+    scale: f64,
+    /// How often that scale was doubled last, and the contours for it.
+    finer: Mutex<Option<(u32, Arc<Polygon>)>>,
 }
 
 impl Polygon {
@@ -40,7 +60,47 @@ impl Polygon {
             ends,
             rule,
             triangles: OnceLock::new(),
+            curves: None,
         }
+    }
+
+    /// The contours of an area with curved edges, good for views of up to `scale` samples per user unit;
+    /// [`Polygon::at_scale`] gives finer ones. A stroke is filled by the non-zero rule, whatever `rule` says.
+    pub fn curved(area: CurvedArea, rule: FillRule, scale: f64) -> Self {
+        let rule = if area.stroke.is_some() { FillRule::NonZero } else { rule };
+        let flat = Self::new(area.flattened(TOLERANCE / scale), rule);
+        let curves = (!area.is_straight()).then(|| {
+            Box::new(Curves {
+                area,
+                scale,
+                finer: Mutex::new(None),
+            })
+        });
+        Self { curves, ..flat }
+    }
+
+    /// The same area with edges fine enough for a view of so many samples per user unit: nowhere further from the curve
+    /// than a tenth of the distance between samples. `None` where this one is fine enough itself.
+    ///
+    /// Scales are taken in steps of two, so that a view that moves sees the same edges.
+    pub fn at_scale(&self, scale: f64) -> Option<Arc<Self>> {
+        let curves = self.curves.as_ref()?;
+        let doublings = doublings(scale / curves.scale)?;
+        let mut finer = curves.finer.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((found, polygon)) = finer.as_ref()
+            && *found == doublings
+        {
+            return Some(Arc::clone(polygon));
+        }
+        let tolerance = TOLERANCE / (curves.scale * f64::from(1_u32 << doublings));
+        let polygon = Arc::new(Self::new(curves.area.flattened(tolerance), self.rule));
+        *finer = Some((doublings, Arc::clone(&polygon)));
+        Some(polygon)
+    }
+
+    /// The curves that the contours stand for, if they stand for any.
+    pub fn curves(&self) -> Option<&CurvedArea> {
+        self.curves.as_ref().map(|curves| &curves.area)
     }
 
     /// The contours; the last point of each is joined to its first.
@@ -78,6 +138,14 @@ impl Polygon {
     }
 }
 
+/// How often 1 must be doubled to be at least `factor`; `None` for not at all.
+fn doublings(factor: f64) -> Option<u32> {
+    (1..=MAX_DOUBLINGS)
+        .find(|doublings| factor <= f64::from(1_u32 << doublings))
+        .or(Some(MAX_DOUBLINGS))
+        .filter(|_| factor > 1.0)
+}
+
 impl PartialEq for Polygon {
     fn eq(&self, other: &Self) -> bool {
         (&self.points, &self.ends, self.rule) == (&other.points, &other.ends, other.rule)
@@ -97,7 +165,10 @@ impl FillRule {
 
 #[cfg(test)]
 mod tests {
+    use glam::DAffine2;
+
     use super::*;
+    use crate::geometry::Path;
 
     fn square(side: f64) -> Vec<DVec2> {
         [[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]]
@@ -123,6 +194,31 @@ mod tests {
         let scribble = (0..10_000).map(|i| DVec2::new(random(2 * i + 1), random(7 * i + 3)));
         let polygon = Polygon::new([scribble.collect::<Vec<_>>()], FillRule::NonZero);
         assert_eq!(polygon.triangles(), None, "too many crossings");
+    }
+
+    #[test]
+    fn curves_get_finer_edges_where_a_view_shows_them_larger() {
+        let mut path = Path::default();
+        path.move_to(DVec2::ZERO);
+        path.quad_to(DVec2::new(50.0, 100.0), DVec2::new(100.0, 0.0));
+        let area = CurvedArea {
+            path: path.clone(),
+            stroke: None,
+            to_user: DAffine2::IDENTITY,
+        };
+        let polygon = Polygon::curved(area, FillRule::NonZero, 1.0);
+        assert_eq!(polygon.at_scale(0.5), None, "fine enough");
+        assert_eq!(polygon.at_scale(1.0), None, "just fine enough");
+        let larger = polygon.at_scale(3.0).expect("finer edges");
+        assert!(larger.points().len() > polygon.points().len(), "more of them");
+        let same = polygon.at_scale(4.0).expect("finer edges");
+        assert!(Arc::ptr_eq(&larger, &same), "the same up to the next step");
+        // The area under the parabola is two thirds of its box.
+        let exact = 100.0 * 50.0 * 2.0 / 3.0;
+        let error = |polygon: &Polygon| (polygon.area().expect("no crossings") - exact).abs();
+        assert!(error(&polygon.at_scale(1e4).expect("finer")) < 1e-2, "nearly exact");
+        assert!(error(&polygon) < 15.0, "a tenth of a unit along its edge");
+        assert!(polygon.at_scale(f64::INFINITY).is_some(), "as fine as it gets");
     }
 
     #[test]

@@ -9,10 +9,10 @@ use super::document::{LineIndex, Source};
 use super::error::Fault;
 use super::textures::TextureTable;
 use super::{
-    Dialect, Paint, Primitive, PrimitiveKind, Problem, Report, Scene, SceneFiles, Shape, ShapeId, SkippedKind,
-    SourceLocation,
+    Composite, Dialect, Fill, Gradient, Paint, Pattern, Primitive, PrimitiveKind, Problem, Report, Scene, SceneFiles,
+    Shape, ShapeId, SkippedKind, SourceLocation,
 };
-use crate::color::Rgba;
+use crate::color::{BlendMode, Rgba};
 use crate::geometry::{FillRule, Polygon};
 
 /// Most primitives of a scene, about 400 MB.
@@ -30,6 +30,8 @@ pub(super) struct Builder<'doc> {
     pub(super) shapes: Vec<Shape>,
     pub(super) primitives: Vec<Primitive>,
     pub(super) textures: TextureTable<'doc>,
+    pub(super) gradients: Vec<Gradient>,
+    pub(super) patterns: Vec<Pattern>,
     pub(super) report: Report,
     points_left: usize,
     open_layers: usize,
@@ -43,6 +45,8 @@ impl<'doc> Builder<'doc> {
             shapes: Vec::new(),
             primitives: Vec::new(),
             textures,
+            gradients: Vec::new(),
+            patterns: Vec::new(),
             report: Report::default(),
             points_left: MAX_POINTS,
             open_layers: 0,
@@ -134,7 +138,9 @@ impl<'doc> Builder<'doc> {
             self.primitives.pop();
             return Ok(());
         }
-        self.push(shape, PrimitiveKind::EndLayer { opacity })
+        let blend = BlendMode::Normal;
+        let composite = Composite::Over { opacity, blend };
+        self.push(shape, PrimitiveKind::EndLayer { composite })
     }
 
     /// Adds a triangle.
@@ -178,7 +184,8 @@ impl<'doc> Builder<'doc> {
         };
         self.points_left = left;
         let polygon = Arc::new(polygon);
-        self.push(shape, PrimitiveKind::Polygon { polygon, color })
+        let fill = Fill::Solid(color);
+        self.push(shape, PrimitiveKind::Polygon { polygon, fill })
     }
 
     /// The scene, once its textures are loaded.
@@ -196,6 +203,8 @@ impl<'doc> Builder<'doc> {
             shapes: self.shapes,
             primitives: self.primitives,
             textures,
+            gradients: self.gradients,
+            patterns: self.patterns,
             report: self.report,
             document: None,
             files,

@@ -37,7 +37,10 @@ pub use dialect::{DialectChoice, ReadOptions, is_of_course};
 pub use digest::{FileDigest, SceneFiles};
 pub use error::{Problem, SceneError};
 pub use location::SourceLocation;
-pub use model::{Dialect, Paint, Primitive, PrimitiveKind, Scene, Shape, ShapeId, TextureId};
+pub use model::{
+    Composite, Dialect, Fill, Gradient, GradientId, MaskKind, Paint, Pattern, PatternId, Primitive, PrimitiveKind,
+    Scene, Shape, ShapeId, TextureId,
+};
 pub use quotes::Quotes;
 pub use report::{Report, Skipped, SkippedKind, Warning};
 pub use resources::{FolderResources, NoResources, ResourceError, Resources};

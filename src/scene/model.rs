@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, Vec2};
+use glam::{DAffine2, DVec2, Vec2};
 
 use super::{Report, SceneFiles, SourceLocation};
-use crate::color::Rgba;
-use crate::geometry::Polygon;
+use crate::color::{BlendMode, Ramp, Rgba};
+use crate::geometry::{GradientShape, Polygon};
 use crate::texture::Texture;
 
 /// Which reading of a document is in force.
@@ -35,6 +35,10 @@ pub struct Scene {
     pub primitives: Vec<Primitive>,
     /// What [`Paint::Texture`] points to.
     pub textures: Vec<Arc<Texture>>,
+    /// What [`Fill::Gradient`] points to.
+    pub gradients: Vec<Gradient>,
+    /// What [`Fill::Pattern`] points to.
+    pub patterns: Vec<Pattern>,
     /// What the document asks for and the picture lacks.
     pub report: Report,
     /// The document itself, for [`Scene::quotes`]; not kept when it is larger than 32 MB or the scene was made in
@@ -55,6 +59,8 @@ impl Scene {
             shapes: Vec::new(),
             primitives: Vec::new(),
             textures: Vec::new(),
+            gradients: Vec::new(),
+            patterns: Vec::new(),
             report: Report::default(),
             document: None,
             files: SceneFiles::default(),
@@ -81,6 +87,14 @@ pub struct ShapeId(pub u32);
 /// Index into [`Scene::textures`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TextureId(pub u32);
+
+/// Index into [`Scene::gradients`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct GradientId(pub u32);
+
+/// Index into [`Scene::patterns`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct PatternId(pub u32);
 
 /// Where a shape came from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -112,12 +126,12 @@ pub enum PrimitiveKind {
         /// What fills it.
         paint: Paint,
     },
-    /// A filled area of one colour.
+    /// A filled area.
     Polygon {
         /// Which.
         polygon: Arc<Polygon>,
-        /// Its colour.
-        color: Rgba,
+        /// What fills it.
+        fill: Fill,
     },
     /// A line as wide as one pixel at every zoom (course dialect).
     Hairline {
@@ -135,11 +149,73 @@ pub enum PrimitiveKind {
     },
     /// What follows, up to the matching [`PrimitiveKind::EndLayer`], is painted on a transparent layer of its own.
     BeginLayer,
-    /// The layer is painted over what lies below it with this opacity (SVG's `opacity` of a group or shape).
+    /// The layer is finished.
     EndLayer {
+        /// What becomes of it and of what lies below it.
+        composite: Composite,
+    },
+}
+
+/// How a finished layer is composited with what lies below it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Composite {
+    /// It is painted over it (SVG's `opacity` and `mix-blend-mode` of a group or shape).
+    Over {
         /// `0.0..=1.0`.
         opacity: f32,
+        /// How colours are mixed.
+        blend: BlendMode,
     },
+    /// What lies below stays where the layer covers it (`clip-path`); the layer itself is not seen.
+    Clip,
+    /// What lies below stays as far as the layer lets it (`mask`); the layer itself is not seen.
+    Mask(MaskKind),
+}
+
+/// What of a mask's colours counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MaskKind {
+    /// How light they are, times their opacity.
+    Luminance,
+    /// Their opacity.
+    Alpha,
+}
+
+/// What fills a polygon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fill {
+    /// One colour.
+    Solid(Rgba),
+    /// A gradient.
+    Gradient(GradientId),
+    /// A picture, over and over.
+    Pattern(PatternId),
+}
+
+/// Colours along a line or between circles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gradient {
+    /// Its element and where that stands; an index into [`Scene::shapes`].
+    pub shape: ShapeId,
+    /// Where on the ramp a point lies, in the gradient's own coordinates.
+    pub geometry: GradientShape,
+    /// The colours, the fill's opacity included.
+    pub ramp: Ramp,
+    /// The gradient's own coordinates to user space.
+    pub to_user: DAffine2,
+}
+
+/// A picture that is repeated in both directions.
+#[derive(Clone, Debug)]
+pub struct Pattern {
+    /// Its element and where that stands; an index into [`Scene::shapes`].
+    pub shape: ShapeId,
+    /// One tile, which is as large as its canvas; its primitives point to its own shapes.
+    pub tile: Arc<Scene>,
+    /// The tile's coordinates to user space.
+    pub to_user: DAffine2,
+    /// Multiplies the tile's own opacity, `0.0..=1.0`.
+    pub opacity: f32,
 }
 
 /// What fills a triangle.

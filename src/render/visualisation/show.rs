@@ -7,7 +7,7 @@ use crate::geometry::Polygon;
 use crate::raster::{self, ChunkBuilder, RasterSettings};
 use crate::render::visualisation::colors::{NONE, rgba};
 use crate::render::{Legend, Screen, add};
-use crate::scene::{Paint, PrimitiveKind, Scene};
+use crate::scene::{Fill, Paint, PrimitiveKind, Scene};
 use crate::texture::{MipPyramid, SamplingSettings, Texture};
 
 /// What is visualised.
@@ -110,7 +110,8 @@ pub(super) fn repaint((builder, screen): Target<'_, '_>, kind: &PrimitiveKind, c
         }
         PrimitiveKind::Polygon { polygon, .. } => {
             let polygon = polygon.clone();
-            add(builder, screen, &PrimitiveKind::Polygon { polygon, color });
+            let fill = Fill::Solid(color);
+            add(builder, screen, &PrimitiveKind::Polygon { polygon, fill });
         }
         PrimitiveKind::Hairline { ends, .. } => {
             builder.hairline(ends.map(|end| screen.place(end)), color);

@@ -1,0 +1,408 @@
+//! Paths of lines and curves: what a shape's outline is before it is flattened for a view.
+//!
+//! A path is filled, or its stroke is ([`Stroke`]). Both end as contours of straight edges that are as near to the curve as
+//! the view asks for ([`CurvedArea::flattened`]). The offset curves of strokes and the flattening are `kurbo`'s.
+
+use glam::{DAffine2, DVec2};
+use kurbo::{BezPath, Cap, Join, PathEl, Point, Shape, StrokeOpts};
+
+use super::{LineCap, LineJoin, StrokeStyle};
+
+/// Longest path that has a stroke, in its widths: beyond, floats no longer tell its sides apart.
+const LONGEST: f64 = 1e12;
+
+/// Most dashes of a path; with more of them it is drawn without gaps.
+const MAX_DASHES: f64 = 200_000.0;
+
+/// Most points of a flattened area; beyond, it is flattened more coarsely.
+const MAX_POINTS: usize = 4_000_000;
+
+/// Subpaths of lines, quadratic and cubic Bézier curves, in coordinates of its own. All coordinates are finite.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Path(BezPath);
+
+/// What a path covers: its inside, or its stroke; in user space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurvedArea {
+    /// In its own coordinates.
+    pub path: Path,
+    /// Its stroke, whose style is given in the path's own units; `None` for the inside of the path.
+    pub stroke: Option<Stroke>,
+    /// The path's own coordinates to user space.
+    pub to_user: DAffine2,
+}
+
+/// How a path is stroked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stroke {
+    /// Width, caps and joins.
+    pub style: StrokeStyle,
+    /// Lengths of dashes and gaps by turns, none negative; empty for a line without gaps.
+    pub dashes: Vec<f64>,
+    /// How far into the pattern of dashes the line begins.
+    pub dash_offset: f64,
+}
+
+impl Path {
+    /// Begins a subpath.
+    pub fn move_to(&mut self, to: DVec2) {
+        self.0.move_to(point(to));
+    }
+
+    /// A straight line from where the path has come to; [`Path::move_to`] must have been called before, as for all that
+    /// follow.
+    pub fn line_to(&mut self, to: DVec2) {
+        self.0.line_to(point(to));
+    }
+
+    /// A quadratic curve with one control point.
+    pub fn quad_to(&mut self, control: DVec2, to: DVec2) {
+        self.0.quad_to(point(control), point(to));
+    }
+
+    /// A cubic curve with two control points.
+    pub fn cubic_to(&mut self, controls: [DVec2; 2], to: DVec2) {
+        let [first, second] = controls.map(point);
+        self.0.curve_to(first, second, point(to));
+    }
+
+    /// Closes the subpath.
+    pub fn close(&mut self) {
+        self.0.close_path();
+    }
+
+    /// Whether it has no segments.
+    pub fn is_empty(&self) -> bool {
+        self.0.segments().next().is_none()
+    }
+
+    /// How many segments it has.
+    pub fn segments(&self) -> usize {
+        self.0.elements().len()
+    }
+
+    /// Whether all its segments are straight, so that flattening changes nothing.
+    pub fn is_straight(&self) -> bool {
+        let curved = |element: &PathEl| matches!(element, PathEl::QuadTo(..) | PathEl::CurveTo(..));
+        !self.0.elements().iter().any(curved)
+    }
+
+    /// Its contours with straight edges that are nowhere further than `tolerance` from the curves.
+    fn contours(&self, tolerance: f64) -> Vec<Vec<DVec2>> {
+        let mut contours: Vec<Vec<DVec2>> = Vec::new();
+        kurbo::flatten(&self.0, tolerance, |element| match element {
+            PathEl::MoveTo(to) => contours.push(vec![DVec2::new(to.x, to.y)]),
+            PathEl::LineTo(to) => {
+                if let Some(contour) = contours.last_mut() {
+                    contour.push(DVec2::new(to.x, to.y));
+                }
+            }
+            // Flattening leaves straight lines; every contour closes itself.
+            PathEl::ClosePath | PathEl::QuadTo(..) | PathEl::CurveTo(..) => {}
+        });
+        contours
+    }
+}
+
+impl CurvedArea {
+    /// Whether its contours are the same at every tolerance.
+    pub fn is_straight(&self) -> bool {
+        let round = |stroke: &Stroke| stroke.style.cap == LineCap::Round || stroke.style.join == LineJoin::Round;
+        self.path.is_straight() && !self.stroke.as_ref().is_some_and(round)
+    }
+
+    /// Closed contours in user space whose edges are nowhere further than `tolerance` user units from the area's border; a
+    /// stroke's are to be filled by the non-zero rule.
+    pub fn flattened(&self, tolerance: f64) -> Vec<Vec<DVec2>> {
+        let matrix = self.to_user.matrix2;
+        let stretch = matrix.x_axis.length().max(matrix.y_axis.length());
+        let mut own = tolerance / stretch;
+        if !own.is_finite() || own <= 0.0 {
+            return Vec::new();
+        }
+        loop {
+            let mut contours = match &self.stroke {
+                None => self.path.contours(own),
+                Some(stroke) => stroke.outline(&self.path, own),
+            };
+            if contours.iter().map(Vec::len).sum::<usize>() > MAX_POINTS && own < f64::MAX / 64.0 {
+                own *= 64.0;
+                continue;
+            }
+            for point in contours.iter_mut().flatten() {
+                *point = self.to_user.transform_point2(*point);
+            }
+            return contours;
+        }
+    }
+}
+
+impl Stroke {
+    /// Whether the dashes are so many that they are left out.
+    pub fn is_too_fine(&self, path: &Path) -> bool {
+        let period: f64 = self.dashes.iter().sum();
+        !self.dashes.is_empty() && {
+            let length = path.0.perimeter(self.style.width.max(f64::MIN_POSITIVE));
+            !(length * (self.dashes.len() as f64) / period <= MAX_DASHES)
+        }
+    }
+
+    /// Contours of the stroke in the path's own coordinates.
+    fn outline(&self, path: &Path, tolerance: f64) -> Vec<Vec<DVec2>> {
+        let width = self.style.width;
+        let Some(origin) = path.0.elements().first().and_then(PathEl::end_point) else {
+            return Vec::new();
+        };
+        // The first point is the origin and the width is one, so that tolerances fit lines of any size.
+        let local = kurbo::Affine::scale(1.0 / width) * kurbo::Affine::translate(-origin.to_vec2());
+        let path_in_widths = local * &path.0;
+        let reach = |point: Point| point.x.abs().max(point.y.abs());
+        if path_in_widths.control_box().union_pt(Point::ORIGIN).is_nan()
+            || path_in_widths
+                .elements()
+                .iter()
+                .filter_map(PathEl::end_point)
+                .any(|end| !(reach(end) <= LONGEST))
+        {
+            return Vec::new();
+        }
+        // A quarter of it for the offset curve, the rest for its flattening.
+        let tolerance = (tolerance / width).clamp(1e-9, 0.25);
+        let stroke = self.in_widths(path);
+        let mut contours = Vec::new();
+        let mut lines = BezPath::new();
+        for subpath in subpaths(&path_in_widths) {
+            match dot(subpath) {
+                Some(center) => contours.extend(self.dot(center, tolerance)),
+                None => lines.extend(subpath.iter().copied()),
+            }
+        }
+        let outline = kurbo::stroke(lines, &stroke, &StrokeOpts::default(), tolerance / 4.0);
+        contours.extend(Path(outline).contours(tolerance * 0.75));
+        for point in contours.iter_mut().flatten() {
+            *point = DVec2::new(origin.x, origin.y) + *point * width;
+        }
+        contours
+    }
+
+    fn in_widths(&self, path: &Path) -> kurbo::Stroke {
+        let StrokeStyle {
+            width,
+            cap,
+            join,
+            miter_limit,
+        } = self.style;
+        let stroke = kurbo::Stroke::new(1.0)
+            .with_caps(match cap {
+                LineCap::Butt => Cap::Butt,
+                LineCap::Round => Cap::Round,
+                LineCap::Square => Cap::Square,
+            })
+            .with_join(match join {
+                LineJoin::Miter => Join::Miter,
+                LineJoin::Round => Join::Round,
+                LineJoin::Bevel => Join::Bevel,
+            })
+            .with_miter_limit(miter_limit);
+        if self.dashes.is_empty() || self.is_too_fine(path) {
+            return stroke;
+        }
+        // An odd number of lengths is gone through twice.
+        let twice = if self.dashes.len() % 2 == 1 { 2 } else { 1 };
+        let pattern: Vec<f64> = (0..twice)
+            .flat_map(|_| &self.dashes)
+            .map(|length| length / width)
+            .collect();
+        let period: f64 = pattern.iter().sum();
+        stroke.with_dashes((self.dash_offset / width).rem_euclid(period), pattern)
+    }
+
+    /// A subpath without length, in widths.
+    fn dot(&self, center: Point, tolerance: f64) -> Option<Vec<DVec2>> {
+        let center = DVec2::new(center.x, center.y);
+        match self.style.cap {
+            LineCap::Butt => None,
+            LineCap::Square => {
+                let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
+                Some(corners.map(|corner| center + DVec2::from(corner)).to_vec())
+            }
+            LineCap::Round => {
+                let circle = kurbo::Circle::new(point(center), 0.5).to_path(tolerance / 4.0);
+                Path(circle).contours(tolerance * 0.75).pop()
+            }
+        }
+    }
+}
+
+/// The subpaths of a path.
+fn subpaths(path: &BezPath) -> impl Iterator<Item = &[PathEl]> {
+    let elements = path.elements();
+    elements
+        .chunk_by(|_, next| !matches!(next, PathEl::MoveTo(_)))
+        .filter(|subpath| subpath.len() > 1)
+}
+
+/// Where a subpath lies that has no length.
+fn dot(subpath: &[PathEl]) -> Option<Point> {
+    let start = subpath.first()?.end_point()?;
+    let stays = |element: &PathEl| match *element {
+        PathEl::MoveTo(to) | PathEl::LineTo(to) => to == start,
+        PathEl::QuadTo(control, to) => control == start && to == start,
+        PathEl::CurveTo(first, second, to) => first == start && second == start && to == start,
+        PathEl::ClosePath => true,
+    };
+    subpath.iter().all(stays).then_some(start)
+}
+
+fn point(at: DVec2) -> Point {
+    Point::new(at.x, at.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{FillRule, triangulate};
+
+    const PI: f64 = std::f64::consts::PI;
+
+    fn line(points: &[[f64; 2]]) -> Path {
+        let mut path = Path::default();
+        path.move_to(points[0].into());
+        for to in &points[1..] {
+            path.line_to((*to).into());
+        }
+        path
+    }
+
+    fn circle(radius: f64) -> Path {
+        Path(kurbo::Circle::new(Point::ORIGIN, radius).to_path(1e-9))
+    }
+
+    fn filled(path: Path) -> CurvedArea {
+        CurvedArea {
+            path,
+            stroke: None,
+            to_user: DAffine2::IDENTITY,
+        }
+    }
+
+    fn stroked(path: Path, style: StrokeStyle, dashes: &[f64]) -> CurvedArea {
+        CurvedArea {
+            stroke: Some(Stroke {
+                style,
+                dashes: dashes.to_vec(),
+                dash_offset: 0.0,
+            }),
+            ..filled(path)
+        }
+    }
+
+    const STYLE: StrokeStyle = StrokeStyle {
+        width: 2.0,
+        cap: LineCap::Butt,
+        join: LineJoin::Miter,
+        miter_limit: 4.0,
+    };
+
+    fn measured(area: &CurvedArea, tolerance: f64) -> f64 {
+        let triangles = triangulate(&area.flattened(tolerance), FillRule::NonZero);
+        triangles
+            .iter()
+            .map(|[a, b, c]| (b - a).perp_dot(c - a).abs() / 2.0)
+            .sum()
+    }
+
+    #[test]
+    fn strokes_have_the_areas_of_their_style() {
+        let straight = line(&[[0.0, 0.0], [10.0, 0.0]]);
+        let corner = line(&[[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]]);
+        let mut square = line(&[[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]]);
+        square.close();
+        let spot = line(&[[3.0, 3.0], [3.0, 3.0]]);
+        let cap = |cap| StrokeStyle { cap, ..STYLE };
+        let join = |join| StrokeStyle { join, ..STYLE };
+        let short_miter = StrokeStyle {
+            miter_limit: 1.0,
+            ..STYLE
+        };
+        for (what, path, style, dashes, expected) in [
+            ("butt", &straight, STYLE, &[][..], 20.0),
+            ("round", &straight, cap(LineCap::Round), &[], 20.0 + PI),
+            ("square", &straight, cap(LineCap::Square), &[], 24.0),
+            ("miter", &corner, STYLE, &[], 40.0),
+            ("round join", &corner, join(LineJoin::Round), &[], 39.0 + PI / 4.0),
+            ("bevel", &corner, join(LineJoin::Bevel), &[], 39.5),
+            ("miter beyond its limit", &corner, short_miter, &[], 39.5),
+            ("closed", &square, STYLE, &[], 80.0),
+            ("dashes", &straight, STYLE, &[2.0, 1.0], 14.0),
+            ("an odd number of dashes", &straight, STYLE, &[3.0], 12.0),
+            (
+                "dashes with round caps",
+                &straight,
+                cap(LineCap::Round),
+                &[1.0, 4.0],
+                4.0 + 2.0 * PI,
+            ),
+            ("no length, butt", &spot, STYLE, &[], 0.0),
+            ("no length, round", &spot, cap(LineCap::Round), &[], PI),
+            ("no length, square", &spot, cap(LineCap::Square), &[], 4.0),
+            ("a ring", &circle(10.0), STYLE, &[], 40.0 * PI),
+        ] {
+            let found = measured(&stroked(path.clone(), style, dashes), 1e-3);
+            assert!((found - expected).abs() < 0.05, "{what}: {found}, not {expected}");
+        }
+    }
+
+    #[test]
+    fn edges_are_as_near_to_the_curve_as_they_are_asked_to_be() {
+        let radius = 100.0;
+        for tolerance in [1.0, 0.1, 0.01, 0.001] {
+            for (what, area, [inner, outer]) in [
+                ("a circle", filled(circle(radius)), [radius, radius]),
+                (
+                    "a ring",
+                    stroked(circle(radius), STYLE, &[]),
+                    [radius - 1.0, radius + 1.0],
+                ),
+            ] {
+                let contours = area.flattened(tolerance);
+                for contour in &contours {
+                    for (i, to) in contour.iter().enumerate() {
+                        let from = contour[(i + contour.len() - 1) % contour.len()];
+                        for at in [from.lerp(*to, 0.5), *to] {
+                            let away = (at.length() - inner).abs().min((at.length() - outer).abs());
+                            assert!(away <= tolerance * 1.01, "{what} at {tolerance}: {away} away");
+                        }
+                    }
+                }
+                let points: usize = contours.iter().map(Vec::len).sum();
+                assert!(points < 4000, "{what} at {tolerance}: {points} points");
+            }
+        }
+    }
+
+    #[test]
+    fn extremes_end() {
+        for scale in [1e-30, 1e30] {
+            for width in [1e-30, 1.0, 1e30] {
+                for dashes in [&[][..], &[1e-9, 1e-9], &[0.0, 1e30]] {
+                    let path = line(&[[0.0, 0.0], [scale, 0.0], [scale, scale]]);
+                    let style = StrokeStyle {
+                        width,
+                        cap: LineCap::Round,
+                        join: LineJoin::Round,
+                        miter_limit: 1e30,
+                    };
+                    let contours = stroked(path, style, dashes).flattened(0.01);
+                    let count: usize = contours.iter().map(Vec::len).sum();
+                    assert!(count <= MAX_POINTS, "{count} points at {scale}, {width}");
+                }
+            }
+        }
+        let fine = stroked(line(&[[0.0, 0.0], [1000.0, 0.0]]), STYLE, &[1e-9, 1e-9]);
+        assert!(
+            (measured(&fine, 0.01) - 2000.0).abs() < 1e-6,
+            "dashes too fine to be seen: a solid line"
+        );
+    }
+}

@@ -12,7 +12,7 @@ use super::{
     Composite, Dialect, Fill, Gradient, Paint, Pattern, Primitive, PrimitiveKind, Problem, Report, Scene, SceneFiles,
     Shape, ShapeId, SkippedKind, SourceLocation,
 };
-use crate::color::{BlendMode, Rgba};
+use crate::color::Rgba;
 use crate::geometry::{FillRule, Polygon};
 
 /// Most primitives of a scene, about 400 MB.
@@ -138,8 +138,7 @@ impl<'doc> Builder<'doc> {
             self.primitives.pop();
             return Ok(());
         }
-        let blend = BlendMode::Normal;
-        let composite = Composite::Over { opacity, blend };
+        let composite = Composite::over(opacity);
         self.push(shape, PrimitiveKind::EndLayer { composite })
     }
 

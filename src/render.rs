@@ -13,14 +13,14 @@ use std::time::{Duration, Instant};
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::color::{ResolveSpace, Rgba};
-use crate::geometry::ViewTransform;
+use crate::color::{BlendMode, ResolveSpace, Rgba};
+use crate::geometry::{Polygon, ViewTransform};
 use crate::raster::{
-    self, Chunk, ChunkBuilder, Compositing, Counters, DisplayList, Framebuffer, Hidden, ListContext, RasterSettings,
-    RasterTimes, SamplePattern, SampleRate,
+    self, Chunk, ChunkBuilder, Compositing, Counters, DisplayList, Framebuffer, Hidden, ListContext, PaintSources,
+    PlacedGradient, RasterSettings, RasterTimes, SamplePattern, SampleRate,
 };
 use crate::rules::Rules;
-use crate::scene::{Composite, Fill, Paint, Primitive, PrimitiveKind, Scene};
+use crate::scene::{Composite, Fill, Gradient, MaskKind, Paint, Primitive, PrimitiveKind, Scene};
 use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, SamplingSettings};
 
 pub use legend::{Legend, LegendKey};
@@ -214,10 +214,7 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
     let mut raster = raster_settings(settings);
     Visualiser::change(kind, &mut raster);
     let context = ListContext::new(size, &raster);
-    let screen = Screen {
-        view,
-        rules: settings.rules,
-    };
+    let screen = Screen::new(view, settings, size);
     let visualiser = Visualiser::new(kind, scene, raster.sampling);
     let mut list = chunks(scene, |index, primitives| {
         let mut builder = visualiser.prepare(ChunkBuilder::new(&context, primitives.len()));
@@ -243,7 +240,7 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
     if kind.has_outline() {
         list.extend(outline(scene, &context, &screen, settings));
     }
-    DisplayList::new(context, raster, list, visualiser.textures())
+    DisplayList::new(context, raster, list, visualiser.sources(view))
 }
 
 /// Transforms those primitives of a scene that are `wanted` to screen space, in parallel. It is the picture that they
@@ -257,10 +254,7 @@ fn picture_list<'a>(
     let Subject { scene, view, settings } = *subject;
     let raster = raster_settings(settings);
     let context = ListContext::new(size, &raster);
-    let screen = Screen {
-        view,
-        rules: settings.rules,
-    };
+    let screen = Screen::new(view, settings, size);
     let mut list = chunks(scene, |index, primitives| {
         let mut builder = ChunkBuilder::new(&context, primitives.len());
         if hidden == Hidden::Kept {
@@ -275,8 +269,20 @@ fn picture_list<'a>(
         builder.finish()
     });
     list.extend(outline(scene, &context, &screen, settings));
-    let textures = scene.textures.iter().map(AsRef::as_ref).collect();
-    DisplayList::new(context, raster, list, textures)
+    DisplayList::new(context, raster, list, sources(scene, view))
+}
+
+/// What a scene's paints point to, where it is seen in this view.
+fn sources<'a>(scene: &'a Scene, view: &ViewTransform) -> PaintSources<'a> {
+    let placed = |gradient: &'a Gradient| PlacedGradient {
+        geometry: gradient.geometry,
+        ramp: &gradient.ramp,
+        from_pixels: (view.scene_to_pixels * gradient.to_user).inverse(),
+    };
+    PaintSources {
+        textures: scene.textures.iter().map(AsRef::as_ref).collect(),
+        gradients: scene.gradients.iter().map(placed).collect(),
+    }
 }
 
 /// What `make` makes of each part of a scene, in painter's order: of the number of its first primitive and its primitives.
@@ -359,26 +365,44 @@ fn add(builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, kind: &PrimitiveKind
         PrimitiveKind::Triangle { points, paint: own } => {
             builder.triangle(points.map(|p| screen.place(p)), &paint(own));
         }
-        PrimitiveKind::Polygon { polygon, fill } => {
-            let Fill::Solid(color) = fill else { return };
+        PrimitiveKind::Polygon { polygon, fill } => screen.with_edges(polygon, |polygon| {
+            let paint = fill_paint(*fill);
             match polygon.triangles().filter(|_| screen.rules.cut_polygons()) {
                 // The course knows triangles only, whose edges it counts twice; first drafts leave them to nobody.
                 Some(triangles) => {
                     for points in triangles {
-                        builder.triangle(points.map(|p| screen.place(p)), &raster::Paint::solid(*color));
+                        builder.triangle(points.map(|p| screen.place(p)), &paint);
                     }
                 }
-                None => builder.polygon(polygon, |p| screen.place(p), *color),
+                None => builder.polygon(polygon, |p| screen.place(p), &paint),
             }
-        }
+        }),
         PrimitiveKind::Hairline { ends, color } => builder.hairline(ends.map(|p| screen.place(p)), *color),
         PrimitiveKind::Point { at, color } => builder.point(screen.place(*at), *color),
         PrimitiveKind::BeginLayer => builder.begin_layer(),
-        PrimitiveKind::EndLayer { composite } => {
-            if let Composite::Over { opacity, .. } = composite {
-                builder.end_layer(Compositing::with_opacity(*opacity));
-            }
-        }
+        PrimitiveKind::EndLayer { composite } => builder.end_layer(compositing(*composite)),
+    }
+}
+
+/// How a layer is composited, as the rasterizer has it.
+fn compositing(composite: Composite) -> Compositing {
+    match composite {
+        Composite::Over {
+            opacity,
+            blend: BlendMode::Normal,
+        } => Compositing::with_opacity(opacity),
+        Composite::Over { opacity, blend } => Compositing::blended(blend, opacity),
+        Composite::Clip => Compositing::mask(false),
+        Composite::Mask(kind) => Compositing::mask(kind == MaskKind::Luminance),
+    }
+}
+
+/// What fills a polygon, as the rasterizer has it.
+fn fill_paint(fill: Fill) -> raster::Paint {
+    match fill {
+        Fill::Solid(color) => raster::Paint::solid(color),
+        Fill::Gradient(gradient) => raster::Paint::gradient(gradient.0),
+        Fill::Pattern(_) => raster::Paint::solid(Rgba::TRANSPARENT),
     }
 }
 
@@ -397,9 +421,47 @@ fn paint(paint: &Paint) -> raster::Paint {
 struct Screen<'a> {
     view: &'a ViewTransform,
     rules: Rules,
+    /// Samples per user unit, in the direction in which there are most.
+    scale: f64,
+    /// Pixels of the frame.
+    size: [u32; 2],
 }
 
-impl Screen<'_> {
+impl<'a> Screen<'a> {
+    fn new(view: &'a ViewTransform, settings: &RenderSettings, size: [u32; 2]) -> Self {
+        let matrix = view.scene_to_pixels.matrix2;
+        let pixels = matrix.x_axis.length().max(matrix.y_axis.length());
+        Self {
+            view,
+            rules: settings.rules,
+            scale: pixels * f64::from(settings.sample_rate.side()),
+            size,
+        }
+    }
+
+    /// Calls `draw` with a polygon whose edges are fine enough for this view.
+    fn with_edges<T>(&self, polygon: &Polygon, draw: impl FnOnce(&Polygon) -> T) -> T {
+        let finer = if self.shows(polygon) {
+            polygon.at_scale(self.scale)
+        } else {
+            None
+        };
+        draw(finer.as_deref().unwrap_or(polygon))
+    }
+
+    /// Whether any of a polygon may lie in the frame.
+    fn shows(&self, polygon: &Polygon) -> bool {
+        let [low, high] = polygon.bounds();
+        let corners =
+            [low, high, DVec2::new(low.x, high.y), DVec2::new(high.x, low.y)].map(|corner| self.place(corner));
+        let [first, last] = corners
+            .iter()
+            .fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[first, last], corner| {
+                [first.min(*corner), last.max(*corner)]
+            });
+        first.cmple(DVec2::from(self.size.map(f64::from))).all() && last.cmpge(DVec2::ZERO).all()
+    }
+
     fn place(&self, point: DVec2) -> DVec2 {
         let exact = self.view.to_pixels(point);
         match self.rules {

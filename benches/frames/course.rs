@@ -7,7 +7,7 @@
 use glam::DVec2;
 use rasterscope::color::Rgba;
 use rasterscope::geometry::View;
-use rasterscope::scene::{Paint, PrimitiveKind, Scene};
+use rasterscope::scene::{Fill, Paint, PrimitiveKind, Scene};
 
 use crate::ours::{Ours, pool, settings};
 use crate::race::{Budget, Rival, Timing, race};
@@ -53,7 +53,10 @@ impl Course {
         let mut triangles = Vec::new();
         for primitive in &read.primitives {
             match &primitive.kind {
-                PrimitiveKind::Polygon { polygon, color } => {
+                PrimitiveKind::Polygon {
+                    polygon,
+                    fill: Fill::Solid(color),
+                } => {
                     let corners = polygon.triangles().unwrap_or_default();
                     triangles.extend(corners.iter().map(|corners| placed(corners, *color)));
                 }

@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use rasterscope::render::RenderSettings;
-use rasterscope::scene::{Paint, PrimitiveKind, Scene};
+use rasterscope::scene::{Fill, Paint, PrimitiveKind, Scene};
 use rasterscope::texture::Anisotropy;
 use serde_json::{Value, json};
 
@@ -71,7 +71,10 @@ impl Export<'_> {
         for primitive in &scene.primitives {
             let (triangles, paint) = match &primitive.kind {
                 PrimitiveKind::Triangle { points, paint } => (std::slice::from_ref(points), *paint),
-                PrimitiveKind::Polygon { polygon, color } => {
+                PrimitiveKind::Polygon {
+                    polygon,
+                    fill: Fill::Solid(color),
+                } => {
                     let triangles = polygon.triangles().expect("few crossings");
                     (triangles, Paint::Solid(*color))
                 }

@@ -46,6 +46,8 @@ pub struct Mix {
     pub at: f64,
     /// Numbers of the two stops; the same one twice where nothing is mixed.
     pub stops: [usize; 2],
+    /// The stops themselves.
+    pub ends: [Stop; 2],
     /// What the second one weighs, `0.0..=1.0`.
     pub weight: f64,
     /// The mixed colour.
@@ -95,6 +97,7 @@ impl Ramp {
         let single = |index: usize| Mix {
             at,
             stops: [index; 2],
+            ends: [stops[index]; 2],
             weight: 0.0,
             color: stops[index].color,
         };
@@ -110,6 +113,7 @@ impl Ramp {
         Mix {
             at,
             stops: [next - 1, next],
+            ends: [from, to],
             weight,
             color: mixed(from.color, to.color, weight),
         }
@@ -117,6 +121,15 @@ impl Ramp {
 }
 
 impl Spread {
+    /// The name that it has in SVG.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Pad => "pad",
+            Self::Reflect => "reflect",
+            Self::Repeat => "repeat",
+        }
+    }
+
     /// Where on the ramp `t` falls, `0.0..=1.0`.
     #[inline]
     fn folded(self, t: f64) -> f64 {

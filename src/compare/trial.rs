@@ -7,7 +7,7 @@ use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 
 use super::cause::{self, Cause, CellCorner};
-use crate::geometry::{Polygon, ViewTransform};
+use crate::geometry::{ViewTransform};
 use crate::raster::Framebuffer;
 use crate::render::{self, CancelToken, RenderSettings, Subject};
 use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};
@@ -145,10 +145,7 @@ fn move_shapes(primitives: &mut [Primitive], by: DVec2) {
         match &mut primitive.kind {
             PrimitiveKind::Triangle { points, .. } => *points = points.map(|point| point + by),
             PrimitiveKind::Polygon { polygon, .. } => {
-                let contours = polygon
-                    .contours()
-                    .map(|contour| contour.iter().map(|point| *point + by));
-                *polygon = Arc::new(Polygon::new(contours, polygon.rule()));
+                *polygon = Arc::new(polygon.moved(by));
             }
             _ => {}
         }

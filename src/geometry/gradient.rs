@@ -35,6 +35,19 @@ pub enum GradientShape {
 }
 
 impl GradientShape {
+    /// Whether every point has a place on the ramp.
+    pub fn is_everywhere(&self) -> bool {
+        match *self {
+            Self::Linear { .. } => true,
+            Self::Radial {
+                center,
+                radius,
+                focus,
+                focal_radius,
+            } => center.distance(focus) + focal_radius < radius,
+        }
+    }
+
     /// The place on the ramp, before spreading; `None` where no circle of the gradient goes through the point.
     #[inline]
     pub fn at(&self, point: DVec2) -> Option<f64> {

@@ -5,7 +5,7 @@
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use glam::DVec2;
+use glam::{DAffine2, DVec2};
 
 use super::{CurvedArea, FillRule, estimate_crossings, triangulate};
 
@@ -26,6 +26,8 @@ pub struct Polygon {
     /// Where each contour ends in `points`.
     ends: Vec<usize>,
     rule: FillRule,
+    /// The box around all points.
+    bounds: [DVec2; 2],
     /// The triangles, once somebody asked for them.
     triangles: OnceLock<Option<Vec<[DVec2; 3]>>>,
     curves: Option<Box<Curves>>,
@@ -55,7 +57,13 @@ impl Polygon {
             }
         }
         points.shrink_to_fit();
+        let bounds = points
+            .iter()
+            .fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], point: &DVec2| {
+                [low.min(*point), high.max(*point)]
+            });
         Self {
+            bounds,
             points,
             ends,
             rule,
@@ -76,7 +84,10 @@ impl Polygon {
                 finer: Mutex::new(None),
             })
         });
-        Self { curves, ..flat }
+        // Curves bulge a little beyond the edges that stand for them.
+        let bulge = DVec2::splat(if curves.is_some() { TOLERANCE / scale } else { 0.0 });
+        let bounds = [flat.bounds[0] - bulge, flat.bounds[1] + bulge];
+        Self { curves, bounds, ..flat }
     }
 
     /// The same area with edges fine enough for a view of so many samples per user unit: nowhere further from the curve
@@ -98,6 +109,18 @@ impl Polygon {
         Some(polygon)
     }
 
+    /// The same polygon moved by some user units.
+    #[must_use]
+    pub fn moved(&self, by: DVec2) -> Self {
+        if let Some(curves) = &self.curves {
+            let mut area = curves.area.clone();
+            area.to_user = DAffine2::from_translation(by) * area.to_user;
+            return Self::curved(area, self.rule, curves.scale);
+        }
+        let contours = self.contours().map(|contour| contour.iter().map(|point| *point + by));
+        Self::new(contours, self.rule)
+    }
+
     /// The curves that the contours stand for, if they stand for any.
     pub fn curves(&self) -> Option<&CurvedArea> {
         self.curves.as_ref().map(|curves| &curves.area)
@@ -112,6 +135,11 @@ impl Polygon {
     /// All points of all contours.
     pub fn points(&self) -> &[DVec2] {
         &self.points
+    }
+
+    /// The box around the area, curves included: its least and its greatest corner; the former is not below the latter where there is none.
+    pub fn bounds(&self) -> [DVec2; 2] {
+        self.bounds
     }
 
     /// Which points the contours enclose.
@@ -165,8 +193,6 @@ impl FillRule {
 
 #[cfg(test)]
 mod tests {
-    use glam::DAffine2;
-
     use super::*;
     use crate::geometry::Path;
 

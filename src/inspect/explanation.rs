@@ -4,12 +4,12 @@ use glam::DVec2;
 
 use super::depth;
 use super::model::{
-    Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve, Rounding, Sample, Shape, Source,
-    Tap, Texel, Texture, VERSION, Verdict, View,
+    Edge, Explanation, Fragment, GradientUse, Interpolated, Level, Missed, Paint, Pinhole, RampStop, Resolve, Rounding,
+    Sample, Shape, Source, Tap, Texel, Texture, VERSION, Verdict, View,
 };
 use super::numbers::one_line;
 use super::samples::{SampleHit, shape_of, straight};
-use crate::color::{Premultiplied16, ResolveSpace};
+use crate::color::{BlendMode, Premultiplied16, ResolveSpace, Rgba};
 use crate::geometry::FillRule;
 use crate::geometry::edge::{EdgeKind, EdgeTest};
 use crate::raster::{
@@ -17,7 +17,7 @@ use crate::raster::{
 };
 use crate::render::{self, Explainer, OpenSample, RenderSettings, Subject};
 use crate::rules::Rules;
-use crate::scene::Quotes;
+use crate::scene::{self, Composite, Fill, MaskKind, PrimitiveKind, Quotes};
 
 /// How far beside the pixel primitives are measured, in distances of samples: far enough that the corner of something
 /// large is not taken for something thin.
@@ -108,9 +108,7 @@ impl Question<'_> {
         let (mut views, mut texture) = (Vec::new(), None);
         let shape = match (op.kind, piece.map(|piece| piece.shape)) {
             (PaintedKind::BeginLayer, _) => Shape::BeginLayer,
-            (PaintedKind::EndLayer(compositing), _) => Shape::EndLayer {
-                opacity: compositing.opacity(),
-            },
+            (PaintedKind::EndLayer(compositing), _) => self.end_of_layer(op.source, compositing.opacity()),
             (
                 PaintedKind::Primitive,
                 Some(PieceShape::Triangle {
@@ -126,8 +124,19 @@ impl Question<'_> {
                     corners: corners.map(|corner| corner.to_array()),
                 }
             }
-            (PaintedKind::Primitive, Some(PieceShape::Outline { rule, windings })) => {
-                views = windings.into_iter().map(|winding| View::Polygon { winding }).collect();
+            (
+                PaintedKind::Primitive,
+                Some(PieceShape::Outline {
+                    rule,
+                    windings,
+                    attributes,
+                }),
+            ) => {
+                let view = |(winding, attributes): (i32, &Attributes)| View::Polygon {
+                    winding,
+                    value: interpolated(attributes),
+                };
+                views = windings.into_iter().zip(&attributes).map(view).collect();
                 Shape::Polygon {
                     rule: match rule {
                         FillRule::NonZero => "nonzero",
@@ -160,7 +169,57 @@ impl Question<'_> {
                 .collect(),
             views,
             texture,
+            gradient: self.gradient(op.source),
         }
+    }
+
+    /// What the end of a layer does.
+    fn end_of_layer(&self, primitive: u32, opacity: f64) -> Shape {
+        let kind = self
+            .subject
+            .scene
+            .primitives
+            .get(primitive as usize)
+            .map(|primitive| &primitive.kind);
+        match kind {
+            Some(PrimitiveKind::EndLayer {
+                composite: Composite::Clip,
+            }) => Shape::EndClip,
+            Some(PrimitiveKind::EndLayer {
+                composite: Composite::Mask(kind),
+            }) => Shape::EndMask {
+                by: match kind {
+                    MaskKind::Luminance => "luminance",
+                    MaskKind::Alpha => "alpha",
+                },
+            },
+            Some(PrimitiveKind::EndLayer {
+                composite: Composite::Over { blend, .. },
+            }) if *blend != BlendMode::Normal => Shape::EndLayer {
+                opacity,
+                blend: Some(blend.name()),
+            },
+            _ => Shape::EndLayer { opacity, blend: None },
+        }
+    }
+
+    /// The gradient that fills a primitive.
+    fn gradient(&self, primitive: u32) -> Option<GradientUse> {
+        let scene = self.subject.scene;
+        let PrimitiveKind::Polygon {
+            fill: Fill::Gradient(gradient),
+            ..
+        } = scene.primitives.get(primitive as usize)?.kind
+        else {
+            return None;
+        };
+        let gradient = scene.gradients.get(gradient.0 as usize)?;
+        let shape = scene.shapes.get(gradient.shape.0 as usize)?;
+        Some(GradientUse {
+            source: self.source_of(shape, None),
+            spread: gradient.ramp.spread().name(),
+            stops: gradient.ramp.stops().len(),
+        })
     }
 
     /// The samples that the float rules leave open, though a triangle above what is seen there is theirs.
@@ -193,14 +252,18 @@ impl Question<'_> {
         let SampleHit::Shape(shape) = shape_of(scene, primitive) else {
             return None;
         };
-        Some(Source {
+        Some(self.source_of(shape, quotes))
+    }
+
+    fn source_of(&self, shape: &scene::Shape, quotes: Option<&Quotes<'_>>) -> Source {
+        Source {
             element: shape.element.to_string(),
             id: shape.id.as_deref().map(one_line),
             file: self.file.to_owned(),
             line: shape.location.line,
             column: shape.location.column,
             text: quotes.and_then(|quotes| quotes.excerpt(shape.location)),
-        })
+        }
     }
 
     fn texture(&self, usage: &TextureUse) -> Texture {
@@ -261,9 +324,15 @@ fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> 
             seen: None,
         })
         .collect();
+    let parts_of_masks = parts_of_masks(paints);
+    let mut in_masks = vec![0; samples.len()];
     for (number, paint) in paints.iter().enumerate() {
-        let is_primitive = !matches!(paint.shape, Shape::BeginLayer | Shape::EndLayer { .. });
+        let is_primitive = !paint.shape.is_layer_mark();
         for fragment in &paint.fragments {
+            if parts_of_masks[number] {
+                in_masks[fragment.sample] += 1;
+                continue;
+            }
             let sample = &mut samples[fragment.sample];
             sample.stack.push(number);
             if fragment.seen && is_primitive {
@@ -271,10 +340,30 @@ fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> 
             }
         }
     }
-    for (sample, replayed) in samples.iter_mut().zip(&replay.samples) {
-        sample.unlisted = replayed.fragments.saturating_sub(sample.stack.len());
+    for ((sample, replayed), in_masks) in samples.iter_mut().zip(&replay.samples).zip(in_masks) {
+        sample.unlisted = replayed.fragments.saturating_sub(sample.stack.len() + in_masks);
     }
     samples
+}
+
+/// For each paint whether it is part of a clip path or mask, which lies on no sample.
+fn parts_of_masks(paints: &[Paint]) -> Vec<bool> {
+    let mut parts = vec![false; paints.len()];
+    let mut open = Vec::new();
+    for (number, paint) in paints.iter().enumerate() {
+        match paint.shape {
+            Shape::BeginLayer => open.push(number),
+            Shape::EndLayer { .. } => {
+                open.pop();
+            }
+            Shape::EndClip | Shape::EndMask { .. } => {
+                let begin = open.pop().unwrap_or(number);
+                parts[begin..=number].fill(true);
+            }
+            _ => {}
+        }
+    }
+    parts
 }
 
 fn resolve(replay: &PixelReplay, (rules, space): (Rules, ResolveSpace)) -> Resolve {
@@ -353,6 +442,21 @@ fn interpolated(attributes: &Attributes) -> Interpolated {
     match attributes {
         Attributes::None => Interpolated::Flat,
         Attributes::Color(rgba) => Interpolated::Color { rgba: *rgba },
+        Attributes::Gradient { place, mix } => {
+            let stop = |i: usize| RampStop {
+                number: mix.stops[i],
+                offset: mix.ends[i].offset,
+                color: mix.ends[i].color.to_bytes(Rules::Standard),
+            };
+            let Rgba { r, g, b, a } = mix.color;
+            Interpolated::Gradient {
+                t: *place,
+                at: mix.at,
+                stops: [stop(0), stop(1)],
+                weight: mix.weight,
+                rgba: [r, g, b, a],
+            }
+        }
         Attributes::Texture { uv, reads } => Interpolated::Texture {
             uv: *uv,
             taps: reads

@@ -167,6 +167,9 @@ pub struct Paint {
     pub views: Vec<View>,
     /// How it reads its texture.
     pub texture: Option<Texture>,
+    /// The gradient that fills it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gradient: Option<GradientUse>,
     /// The part of the pixel that it covers in truth, `0.0..=1.0`.
     pub area: Option<f64>,
 }
@@ -180,7 +183,7 @@ pub enum Shape {
         /// Its corners as snapped to the sub-pixel grid, in pixels of the frame.
         corners: [[f64; 2]; 3],
     },
-    /// A polygon of one colour.
+    /// A polygon.
     Polygon {
         /// The fill rule: `nonzero` or `evenodd`.
         rule: &'static str,
@@ -195,6 +198,16 @@ pub enum Shape {
     EndLayer {
         /// `0.0..=1.0`.
         opacity: f64,
+        /// How its colours are mixed with those below, where not by source over.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        blend: Option<&'static str>,
+    },
+    /// The end of a clip path: what lies below stays where the path covers a sample.
+    EndClip,
+    /// The end of a mask: what lies below stays as far as the mask lets it.
+    EndMask {
+        /// What of the mask counts: `luminance` or `alpha`.
+        by: &'static str,
     },
 }
 
@@ -247,6 +260,9 @@ pub enum View {
     Polygon {
         /// How often its contours run clockwise around the sample.
         winding: i32,
+        /// What its gradient shows there.
+        #[serde(skip_serializing_if = "Interpolated::is_flat")]
+        value: Interpolated,
     },
 }
 
@@ -295,6 +311,19 @@ pub enum Interpolated {
         /// Straight red, green, blue, alpha, `0.0..=1.0`.
         rgba: [f64; 4],
     },
+    /// A place on the ramp of a gradient.
+    Gradient {
+        /// Where, before spreading: 0 at the ramp's beginning, 1 at its end.
+        t: f64,
+        /// Where on the ramp that is, `0.0..=1.0`.
+        at: f64,
+        /// The two stops around it, numbered from 0; the same one twice where nothing is mixed.
+        stops: [RampStop; 2],
+        /// What the second one weighs.
+        weight: f64,
+        /// The mixed colour: straight red, green, blue, alpha, `0.0..=1.0`.
+        rgba: [f32; 4],
+    },
     /// Texture coordinates.
     Texture {
         /// `[u, v]`.
@@ -304,6 +333,28 @@ pub enum Interpolated {
         /// The texels read there.
         texels: Vec<Texel>,
     },
+}
+
+/// A stop of a gradient.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RampStop {
+    /// Its number, from 0.
+    pub number: usize,
+    /// Its place, `0.0..=1.0`.
+    pub offset: f32,
+    /// Its colour as style sheets have it: straight red, green, blue, alpha.
+    pub color: [u8; 4],
+}
+
+/// What fills a polygon with a gradient.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GradientUse {
+    /// Where it stands in the document.
+    pub source: Source,
+    /// What lies beyond its ends: `pad`, `reflect` or `repeat`.
+    pub spread: &'static str,
+    /// How many stops it has.
+    pub stops: usize,
 }
 
 /// A point of a mip level around which texels were read.
@@ -411,5 +462,22 @@ impl Verdict {
     /// Whether the sample lies on the line.
     pub fn is_tie(self) -> bool {
         !matches!(self, Self::Inside | Self::Outside)
+    }
+}
+
+impl Shape {
+    /// Whether it is the beginning or the end of a layer.
+    pub fn is_layer_mark(&self) -> bool {
+        match self {
+            Self::BeginLayer | Self::EndLayer { .. } | Self::EndClip | Self::EndMask { .. } => true,
+            Self::Triangle { .. } | Self::Polygon { .. } | Self::WholePixel | Self::CanvasOutline => false,
+        }
+    }
+}
+
+impl Interpolated {
+    /// Whether nothing is interpolated.
+    fn is_flat(&self) -> bool {
+        *self == Self::Flat
     }
 }

@@ -1,7 +1,8 @@
 //! The parts of a report in words: what painted a sample, where its edges are, what it read of a texture.
 
-use super::model::{Edge, Fragment, Interpolated, Paint, Shape, Source, Verdict};
+use super::model::{Edge, Fragment, Interpolated, Paint, RampStop, Shape, Source, Verdict};
 use super::numbers::{cut, number, percent, significant};
+use crate::color::BlendMode;
 use crate::plain;
 
 /// Points of a texture that are listed at most.
@@ -24,6 +25,8 @@ impl Paint {
             Shape::CanvasOutline => "outline of the canvas".to_owned(),
             Shape::BeginLayer => of("layer"),
             Shape::EndLayer { .. } => of("end of the layer"),
+            Shape::EndClip => of("clip"),
+            Shape::EndMask { .. } => of("mask"),
         }
     }
 
@@ -93,7 +96,59 @@ impl Edge {
 }
 
 impl Fragment {
-    pub(super) fn lines(&self) -> Vec<String> {
+    /// What it did, as one of a shape's fragments.
+    pub(super) fn lines(&self, shape: &Shape) -> Vec<String> {
+        match shape {
+            Shape::EndClip | Shape::EndMask { .. } => self.mask_lines(),
+            Shape::EndLayer { blend: Some(blend), .. } => self.blend_lines(blend),
+            _ => self.over_lines(),
+        }
+    }
+
+    /// What a clip path or mask leaves of the sample.
+    fn mask_lines(&self) -> Vec<String> {
+        let kept = self.color[3] / 255.0;
+        if kept <= 0.0 {
+            return vec!["takes this sample away: nothing of it is left".to_owned()];
+        }
+        if kept >= 1.0 {
+            return vec!["leaves this sample as it was".to_owned()];
+        }
+        vec![
+            format!("keeps     {} of {}", percent(kept), color(self.before)),
+            format!("gives     {}", color(self.after)),
+        ]
+    }
+
+    /// How a layer's colour was blended, channel by channel.
+    fn blend_lines(&self, name: &str) -> Vec<String> {
+        let Some(mode) = BlendMode::ALL.into_iter().find(|mode| mode.name() == name) else {
+            return self.over_lines();
+        };
+        let mut lines = vec![
+            format!("above     {}", color(self.color)),
+            format!("below     {}", color(self.before)),
+        ];
+        if self.color[3] > 0.0 && self.before[3] > 0.0 {
+            let straight = |[r, g, b, a]: [f64; 4]| [r, g, b].map(|channel| unit(channel / a));
+            let mixed = mode.mixed(straight(self.before), straight(self.color));
+            let [r, g, b] = mixed.map(|channel| format!("{channel:.4}"));
+            lines.push(format!("{name}: {}", mode.formula()));
+            lines.push(format!("mixed     red {r}, green {g}, blue {b}, each 0 to 1"));
+            lines.push(
+                "weighed   above x (1 - alpha below) + below x (1 - alpha above) + mixed x both alphas".to_owned(),
+            );
+        }
+        lines.push(format!("gives     {}", color(self.after)));
+        lines.extend(self.hidden_line());
+        lines
+    }
+
+    fn hidden_line(&self) -> Option<String> {
+        (!self.seen).then(|| "and is hidden by what is painted later".to_owned())
+    }
+
+    fn over_lines(&self) -> Vec<String> {
         let mut lines = vec![format!("colour    {}", color(self.color))];
         if self.color[3] >= 255.0 {
             lines.push(format!("replaces  {}", color(self.before)));
@@ -101,9 +156,7 @@ impl Fragment {
             lines.push(format!("over      {}", color(self.before)));
             lines.push(format!("gives     {}", color(self.after)));
         }
-        if !self.seen {
-            lines.push("and is hidden by what is painted later".to_owned());
-        }
+        lines.extend(self.hidden_line());
         lines
     }
 }
@@ -166,6 +219,34 @@ impl Interpolated {
             Self::Color { rgba: [r, g, b, a] } => {
                 vec![format!("mixed     red {r:.4}, green {g:.4}, blue {b:.4}, alpha {a:.4}")]
             }
+            Self::Gradient {
+                t,
+                at,
+                stops: [first, second],
+                weight,
+                rgba: [r, g, b, a],
+            } => {
+                let folded = if (t - at).abs() > 1e-9 {
+                    format!(", on the ramp {at:.5}")
+                } else {
+                    String::new()
+                };
+                let stop = |stop: &RampStop| {
+                    let hex = super::explanation::hex(stop.color);
+                    format!("stop {} ({hex} at {})", stop.number + 1, number(f64::from(stop.offset)))
+                };
+                let mix = if first.number == second.number {
+                    format!("{} alone", stop(first))
+                } else {
+                    let (rest, weight) = (percent(1.0 - weight), percent(*weight));
+                    format!("{rest} of {}, {weight} of {}", stop(first), stop(second))
+                };
+                vec![
+                    format!("t         {t:.5}{folded}"),
+                    format!("ramp      {mix}"),
+                    format!("mixed     red {r:.4}, green {g:.4}, blue {b:.4}, alpha {a:.4}"),
+                ]
+            }
             Self::Texture {
                 uv: [u, v],
                 texels,
@@ -198,6 +279,12 @@ impl Interpolated {
             }
         }
     }
+}
+
+/// A part of one as a channel.
+#[expect(clippy::cast_possible_truncation, reason = "colours are 32-bit floats")]
+fn unit(value: f64) -> f32 {
+    value as f32
 }
 
 /// A premultiplied colour in levels.

@@ -137,7 +137,7 @@ impl Explanation {
                 .iter()
                 .all(|above| paint < *above && self.overlap(paint, *above))
         };
-        let is_layer = |paint: usize| matches!(self.paints[paint].shape, Shape::BeginLayer | Shape::EndLayer { .. });
+        let is_layer = |paint: usize| self.paints[paint].shape.is_layer_mark();
         sample.stack.iter().all(|paint| is_layer(*paint) || is_below(*paint))
     }
 

@@ -1,9 +1,9 @@
-//! Which fragments of a pixel are seen.
+//! Which fragments of a pixel are seen: painted over by nothing opaque, and not taken away by a clip path or mask.
 
 use crate::color::Premultiplied16;
 use crate::raster::{PaintedKind, PixelReplay};
 
-/// For each op and each of its fragments whether anything of it is seen: painted over by nothing opaque.
+/// For each op and each of its fragments whether anything of it is seen. Of a clip path or mask nothing is.
 pub(super) fn seen_fragments(replay: &PixelReplay) -> Vec<Vec<bool>> {
     let mut seen: Vec<Vec<bool>> = replay
         .painted
@@ -17,12 +17,22 @@ pub(super) fn seen_fragments(replay: &PixelReplay) -> Vec<Vec<bool>> {
         if let Some(hidden) = hidden.last_mut() {
             for (fragment, seen) in op.fragments.iter().zip(seen) {
                 let sample = &mut hidden[fragment.sample];
-                *seen = !*sample && fragment.color != Premultiplied16::TRANSPARENT;
-                *sample |= fragment.color.is_opaque();
+                let color = fragment.color;
+                *seen = match op.kind {
+                    PaintedKind::EndLayer(compositing) if !compositing.keeps_below() => false,
+                    _ => !*sample && color != Premultiplied16::TRANSPARENT,
+                };
+                *sample |= match op.kind {
+                    PaintedKind::EndLayer(compositing) => compositing.hides(color),
+                    PaintedKind::Primitive | PaintedKind::BeginLayer => color.is_opaque(),
+                };
             }
         }
         match op.kind {
             PaintedKind::Primitive => {}
+            PaintedKind::EndLayer(compositing) if !compositing.keeps_below() => {
+                hidden.push(vec![true; replay.samples.len()]);
+            }
             // What is hidden around a layer is hidden in it.
             PaintedKind::EndLayer(_) => hidden.push(above),
             PaintedKind::BeginLayer => {

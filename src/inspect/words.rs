@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use super::model::{Explanation, Fragment, Resolve, Rounding, Shape, Source, View};
+use super::model::{Explanation, Fragment, GradientUse, Paint, Resolve, Rounding, Shape, Source, View};
 use super::numbers::{number, percent, runs};
 use super::part_words::color;
 use crate::color::{ResolveSpace, encoded};
@@ -247,10 +247,29 @@ impl Explanation {
         let seen = found.fragments.iter().filter(|fragment| fragment.seen).count();
         let painted = match &found.shape {
             Shape::BeginLayer => "what follows is painted on a transparent layer".to_owned(),
-            Shape::EndLayer { opacity } => {
+            Shape::EndLayer { opacity, blend: None } => {
                 format!(
                     "the layer is painted over what is below, at opacity {}",
                     number(*opacity)
+                )
+            }
+            Shape::EndLayer {
+                opacity,
+                blend: Some(blend),
+            } => {
+                format!(
+                    "the layer is blended with what is below by {blend}, at opacity {}",
+                    number(*opacity)
+                )
+            }
+            Shape::EndClip => format!(
+                "what is below stays where the clip path covers it: {}",
+                self.kept(found)
+            ),
+            Shape::EndMask { by } => {
+                format!(
+                    "what is below stays as far as the mask's {by} lets it: {}",
+                    self.kept(found)
                 )
             }
             Shape::WholePixel | Shape::CanvasOutline => {
@@ -280,7 +299,28 @@ impl Explanation {
         if let Some(texture) = &found.texture {
             lines.extend(texture.lines());
         }
+        if let Some(gradient) = &found.gradient {
+            let GradientUse { source, spread, stops } = gradient;
+            let plural = if *stops == 1 { "" } else { "s" };
+            lines.push(format!(
+                "filled by {}, line {}: {stops} stop{plural}, spread {spread}",
+                source.name(),
+                source.line
+            ));
+        }
         lines
+    }
+
+    /// Which samples a clip path or mask leaves something of, in words.
+    fn kept(&self, mask: &Paint) -> String {
+        let kept = mask.fragments.iter().filter(|fragment| fragment.color[3] > 0.0);
+        let kept: Vec<usize> = kept.map(|fragment| fragment.sample).collect();
+        let all = self.samples.len();
+        match kept.len() {
+            0 => "it takes away all samples".to_owned(),
+            count if count == all => "it takes away none".to_owned(),
+            count => format!("{count} of {all} samples stay: {}", runs(&kept)),
+        }
     }
 
     /// What a sample sees of a paint: edges, weights, texels, blending.
@@ -298,7 +338,7 @@ impl Explanation {
                 lines.push(format!("weights   A {a:.4}  B {b:.4}  C {c:.4}"));
                 lines.extend(value.lines());
             }
-            Some(View::Polygon { winding }) => {
+            Some(View::Polygon { winding, value }) => {
                 let rule = match &found.shape {
                     Shape::Polygon { rule } => rule,
                     _ => "nonzero",
@@ -306,11 +346,12 @@ impl Explanation {
                 let inside = self.fragment(paint, sample).is_some();
                 let verdict = if inside { "inside" } else { "outside" };
                 lines.push(format!("winding   {winding}: {verdict} by the rule {rule}"));
+                lines.extend(value.lines());
             }
             None => {}
         }
         match self.fragment(paint, sample) {
-            Some(fragment) => lines.extend(fragment.lines()),
+            Some(fragment) => lines.extend(fragment.lines(&found.shape)),
             None => lines.push("leaves this sample as it was".to_owned()),
         }
         lines

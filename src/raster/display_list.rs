@@ -14,9 +14,9 @@ use crate::raster::resolve::ResolveFilter;
 use crate::raster::sampling::positions::SamplePositions;
 use crate::raster::settings::RasterSettings;
 use crate::raster::shading::context::ShadeContext;
+use crate::raster::shading::sources::PaintSources;
 use crate::raster::span::Span;
 use crate::raster::stats::SharedTally;
-use crate::texture::Texture;
 
 /// A display list ready to be drawn.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ pub struct DisplayList<'a> {
     pub(in crate::raster) context: ListContext,
     pub(in crate::raster) settings: RasterSettings,
     pub(in crate::raster) chunks: Vec<Chunk>,
-    pub(in crate::raster) textures: Vec<&'a Texture>,
+    pub(in crate::raster) sources: PaintSources<'a>,
     pub(in crate::raster) kinds: Kinds,
 }
 
@@ -43,7 +43,7 @@ impl<'a> DisplayList<'a> {
         context: ListContext,
         settings: RasterSettings,
         mut chunks: Vec<Chunk>,
-        textures: Vec<&'a Texture>,
+        sources: PaintSources<'a>,
     ) -> Self {
         measure_layers(&mut chunks, &context);
         let mut outlines = 0;
@@ -51,12 +51,12 @@ impl<'a> DisplayList<'a> {
             chunk.first_outline = outlines;
             outlines += chunk.outlines.len();
         }
-        let kinds = Kinds::of(&chunks, &textures, settings.sampling.rules);
+        let kinds = Kinds::of(&chunks, &sources, settings.sampling.rules);
         Self {
             context,
             settings,
             chunks,
-            textures,
+            sources,
             kinds,
         }
     }
@@ -77,13 +77,13 @@ impl<'a> DisplayList<'a> {
 
     /// Counts what each tile will hold.
     pub(in crate::raster) fn plan(&self) -> Plan {
-        Plan::new(&self.chunks, &self.context, &self.textures)
+        Plan::new(&self.chunks, &self.context, &self.sources)
     }
 
     /// Sorts everything into the tiles of some tile rows.
     pub(in crate::raster) fn pass<'p>(&self, plan: &Plan, rows: Span, cancelled: &'p AtomicBool) -> Pass<'p> {
         Pass {
-            bins: plan.bins(&self.chunks, &self.context, &self.textures, rows),
+            bins: plan.bins(&self.chunks, &self.context, &self.sources, rows),
             first_row: rows.start.cast_unsigned(),
             cancelled,
             tally: SharedTally::default(),
@@ -97,7 +97,7 @@ impl<'a> DisplayList<'a> {
             filter: ResolveFilter::default(),
             space: self.settings.space,
             sampling: self.settings.sampling,
-            textures: &self.textures,
+            sources: &self.sources,
         }
     }
 

@@ -43,7 +43,7 @@ pub(in crate::raster) fn fill(builder: &mut ChunkBuilder<'_>, u: &mut Unstructur
                     contours.push(contour);
                 }
                 let rule = *u.choose(&[FillRule::NonZero, FillRule::EvenOdd])?;
-                builder.polygon(&Polygon::new(contours, rule), |point| point, color(u)?);
+                builder.polygon(&Polygon::new(contours, rule), |point| point, &Paint::solid(color(u)?));
             }
             0 => builder.hairline([points[0], points[1]], color(u)?),
             1 => builder.triangle(points, &Paint::vertex([color(u)?, color(u)?, color(u)?])),

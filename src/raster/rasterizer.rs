@@ -141,7 +141,7 @@ mod tests {
                 let context = ListContext::with_tiles(SIZE, &settings, tiles);
                 let mut builder = ChunkBuilder::new(&context, 12);
                 fill(&mut builder, &mut Unstructured::new(&seed))?;
-                let list = DisplayList::new(context, settings, vec![builder.finish()], vec![&texture]);
+                let list = DisplayList::new(context, settings, vec![builder.finish()], vec![&texture].into());
                 let mut frame = Framebuffer::new(SIZE[0], SIZE[1]);
                 list.rasterize(&mut frame, &AtomicBool::new(false))
                     .expect("not cancelled");

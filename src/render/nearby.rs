@@ -4,10 +4,10 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::replay::{bounds, shines_through, touch};
-use super::{RenderSettings, Screen, Subject, add, number, outline, raster_settings};
+use super::{RenderSettings, Screen, Subject, add, number, outline, raster_settings, sources};
 use crate::geometry::ViewTransform;
 use crate::raster::{ChunkBuilder, DisplayList, ListContext};
-use crate::scene::{PrimitiveKind, Scene};
+use crate::scene::{Composite, PrimitiveKind, Scene};
 
 /// How far from the pixel a primitive may lie and yet paint it, in pixels: corners are snapped by far less, whoever's
 /// rules, and a hairline is as wide as a pixel.
@@ -28,10 +28,7 @@ impl<'a> Nearby<'a> {
     /// Of a frame of `size` pixels, in which the pixel must lie.
     pub fn new(subject: &Subject<'a>, size: [u32; 2], pixel: [u32; 2]) -> Self {
         let Subject { scene, view, settings } = *subject;
-        let screen = Screen {
-            view,
-            rules: settings.rules,
-        };
+        let screen = Screen::new(view, settings, size);
         let corner = pixel.map(f64::from);
         let near = [DVec2::from(corner) - REACH, DVec2::from(corner) + 1.0 + REACH];
         let wanted = scene.primitives.par_iter().enumerate().filter(|(_, primitive)| {
@@ -65,10 +62,7 @@ impl<'a> Nearby<'a> {
     pub fn pixel(&self, settings: &RenderSettings) -> Option<u32> {
         let raster = raster_settings(settings);
         let context = ListContext::new(self.size, &raster);
-        let screen = Screen {
-            view: self.view,
-            rules: settings.rules,
-        };
+        let screen = Screen::new(self.view, settings, self.size);
         let mut builder = ChunkBuilder::new(&context, self.primitives.len());
         for index in &self.primitives {
             builder.set_source(*index);
@@ -76,9 +70,8 @@ impl<'a> Nearby<'a> {
         }
         let mut list = vec![builder.finish()];
         list.extend(outline(self.scene, &context, &screen, settings));
-        let textures = self.scene.textures.iter().map(AsRef::as_ref).collect();
         let [x, y] = self.pixel;
-        DisplayList::new(context, raster, list, textures).pixel(x, y)
+        DisplayList::new(context, raster, list, sources(self.scene, self.view)).pixel(x, y)
     }
 }
 
@@ -124,7 +117,8 @@ fn without_empty_layers(scene: &Scene, primitives: &[u32]) -> Vec<u32> {
         let begun = kept
             .last()
             .is_some_and(|last| matches!(kind(*last), PrimitiveKind::BeginLayer));
-        if begun && matches!(kind(*index), PrimitiveKind::EndLayer { .. }) {
+        let is_seen = |composite: &Composite| matches!(composite, Composite::Over { .. });
+        if begun && matches!(kind(*index), PrimitiveKind::EndLayer { composite } if is_seen(composite)) {
             kept.pop();
         } else {
             kept.push(*index);

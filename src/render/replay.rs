@@ -5,14 +5,14 @@ use std::collections::HashSet;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::{Screen, Subject, add, number, picture_list, raster_settings};
+use super::{Screen, Subject, add, number, picture_list, raster_settings, sources};
 use crate::color::Rgba;
-use crate::geometry::{area_in_pixel, width_in_window};
+use crate::geometry::{Polygon, area_in_pixel, width_in_window};
 use crate::raster::{
     ChunkBuilder, DisplayList, Hidden, ListContext, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay,
     RasterSettings, Region, SampleOfTriangle,
 };
-use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};
+use crate::scene::{Fill, Paint, Primitive, PrimitiveKind, Scene};
 
 /// Whether a primitive is shaded and lets what is below it shine through.
 pub(super) fn shines_through(scene: &Scene, kind: &PrimitiveKind) -> bool {
@@ -25,6 +25,13 @@ pub(super) fn shines_through(scene: &Scene, kind: &PrimitiveKind) -> bool {
             paint: Paint::Vertex(colors),
             ..
         } => colors.iter().any(|color| color.a < 1.0),
+        PrimitiveKind::Polygon {
+            fill: Fill::Gradient(gradient),
+            ..
+        } => {
+            let gradient = &scene.gradients[gradient.0 as usize];
+            !gradient.geometry.is_everywhere() || !gradient.ramp.is_opaque()
+        }
         _ => false,
     }
 }
@@ -71,10 +78,7 @@ impl<'a> Neighbourhood<'a> {
     pub fn new(subject: Subject<'a>, size: [u32; 2], region: Region) -> Self {
         /// Corners are snapped by far less than this, in pixels.
         const SNAP: f64 = 1.0;
-        let screen = Screen {
-            view: subject.view,
-            rules: subject.settings.rules,
-        };
+        let screen = Screen::new(subject.view, subject.settings, size);
         let low = DVec2::new(f64::from(region.x), f64::from(region.y));
         let size_of = DVec2::new(f64::from(region.width), f64::from(region.height));
         let near = [low - SNAP, low + size_of + SNAP];
@@ -129,10 +133,12 @@ fn drop_what_paints_nothing(painted: &mut Vec<PaintedCommand>) {
                 open.push((i, false));
                 false
             }
-            PaintedKind::EndLayer(_) => match open.pop() {
+            PaintedKind::EndLayer(compositing) => match open.pop() {
                 Some((begin, used)) => {
-                    (kept[begin], kept[i]) = (used, used);
-                    used
+                    // A clip path that is not there takes away all that was painted in the layer around it.
+                    let felt = !compositing.keeps_below() && open.last().is_some_and(|(_, any)| *any);
+                    (kept[begin], kept[i]) = (used || felt, used || felt);
+                    used && compositing.keeps_below()
                 }
                 None => false,
             },
@@ -208,8 +214,8 @@ impl<'a> Explainer<'a> {
             builder.finish()
         };
         let weights = chunk(&weighted(primitive));
-        let textures = self.subject.scene.textures.iter().map(AsRef::as_ref).collect();
-        let list = DisplayList::new(self.context, self.raster, vec![chunk(primitive)], textures);
+        let sources = sources(self.subject.scene, self.subject.view);
+        let list = DisplayList::new(self.context, self.raster, vec![chunk(primitive)], sources);
         let pieces = list.pieces(self.pixel, &weights);
         (list, pieces)
     }
@@ -246,10 +252,7 @@ impl<'a> Explainer<'a> {
     }
 
     fn screen(&self) -> Screen<'_> {
-        Screen {
-            view: self.subject.view,
-            rules: self.subject.settings.rules,
-        }
+        Screen::new(self.subject.view, self.subject.settings, self.context.size)
     }
 
     /// The part of the pixel that a primitive covers in truth, `0.0..=1.0`, before it is snapped and sampled; `None` for
@@ -265,7 +268,8 @@ impl<'a> Explainer<'a> {
             PrimitiveKind::Triangle { points, .. } => Some(area(points)),
             PrimitiveKind::Polygon { polygon, .. } => {
                 // Each part is rounded; together they cannot be more than all of it.
-                Some(polygon.triangles()?.iter().map(area).sum::<f64>().min(1.0))
+                let measured = |polygon: &Polygon| Some(polygon.triangles()?.iter().map(area).sum::<f64>().min(1.0));
+                screen.with_edges(polygon, measured)
             }
             PrimitiveKind::Hairline { .. }
             | PrimitiveKind::Point { .. }
@@ -283,7 +287,9 @@ impl<'a> Explainer<'a> {
         let place = |points: &[DVec2; 3]| points.map(|point| screen.place(point));
         match &self.subject.scene.primitives.get(source as usize)?.kind {
             PrimitiveKind::Triangle { points, .. } => width_in_window([place(points)].into_iter(), window),
-            PrimitiveKind::Polygon { polygon, .. } => width_in_window(polygon.triangles()?.iter().map(place), window),
+            PrimitiveKind::Polygon { polygon, .. } => screen.with_edges(polygon, |polygon| {
+                width_in_window(polygon.triangles()?.iter().map(place), window)
+            }),
             _ => None,
         }
     }
@@ -293,8 +299,10 @@ impl<'a> Explainer<'a> {
     pub fn missed(&self, painted: &[PaintedCommand], most: usize) -> Vec<(u32, f64)> {
         /// Less than this is rounding.
         const LEAST: f64 = 1e-9;
+        let masks = self.subject.scene.parts_of_masks();
+        let is_seen = |index: usize| !masks.as_ref().is_some_and(|parts| parts[index]);
         let primitives = self.subject.scene.primitives.par_iter().enumerate();
-        let near = primitives.filter(|(_, primitive)| self.is_near(&primitive.kind));
+        let near = primitives.filter(|(index, primitive)| is_seen(*index) && self.is_near(&primitive.kind));
         let hits: HashSet<u32> = painted.iter().filter(|op| op.count > 0).map(|op| op.source).collect();
         let mut missed: Vec<(u32, f64)> = near
             .filter_map(|(index, primitive)| {
@@ -317,8 +325,14 @@ impl<'a> Explainer<'a> {
 
 /// The box around a primitive on the screen, its least and its greatest corner; `None` for what has no area of its own.
 pub(super) fn bounds(screen: &Screen<'_>, kind: &PrimitiveKind) -> Option<[DVec2; 2]> {
+    let corners;
     let points: &[DVec2] = match kind {
         PrimitiveKind::Triangle { points, .. } => points,
+        PrimitiveKind::Polygon { polygon, .. } if polygon.curves().is_some() => {
+            let [low, high] = polygon.bounds();
+            corners = [low, high, DVec2::new(low.x, high.y), DVec2::new(high.x, low.y)];
+            &corners
+        }
         PrimitiveKind::Polygon { polygon, .. } => polygon.points(),
         _ => return None,
     };

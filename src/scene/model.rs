@@ -69,6 +69,32 @@ impl Scene {
 }
 
 impl Scene {
+    /// For each primitive whether it is part of a clip path or mask, and so not seen itself; `None` where there are none.
+    pub fn parts_of_masks(&self) -> Option<Vec<bool>> {
+        let is_mask = |kind: &PrimitiveKind| match kind {
+            PrimitiveKind::EndLayer { composite } => !matches!(composite, Composite::Over { .. }),
+            _ => false,
+        };
+        if !self.primitives.iter().any(|primitive| is_mask(&primitive.kind)) {
+            return None;
+        }
+        let mut parts = vec![false; self.primitives.len()];
+        let mut open = Vec::new();
+        for (index, primitive) in self.primitives.iter().enumerate() {
+            match &primitive.kind {
+                PrimitiveKind::BeginLayer => open.push(index),
+                kind @ PrimitiveKind::EndLayer { .. } => {
+                    let begin = open.pop().unwrap_or(index);
+                    if is_mask(kind) {
+                        parts[begin..=index].fill(true);
+                    }
+                }
+                _ => {}
+            }
+        }
+        Some(parts)
+    }
+
     /// Where the document may be meant in the other dialect: which reading this is, `why`, and which option asks for the
     /// other, in one line.
     pub fn reading_note(&self, why: &str) -> Option<String> {
@@ -172,6 +198,16 @@ pub enum Composite {
     Clip,
     /// What lies below stays as far as the layer lets it (`mask`); the layer itself is not seen.
     Mask(MaskKind),
+}
+
+impl Composite {
+    /// Source over at this opacity.
+    pub const fn over(opacity: f32) -> Self {
+        Self::Over {
+            opacity,
+            blend: BlendMode::Normal,
+        }
+    }
 }
 
 /// What of a mask's colours counts.

@@ -12,8 +12,8 @@ use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::list::chunk::{Chunk, DrawCommand};
 use crate::raster::list::context::ListContext;
+use crate::raster::shading::sources::PaintSources;
 use crate::raster::span::{PixelRect, Reach, SampleBox, Span, to_index};
-use crate::texture::Texture;
 
 /// Walks over the commands of a chunk.
 pub(crate) struct Binner<'a> {
@@ -83,7 +83,7 @@ impl<'a> Binner<'a> {
     }
 
     /// Calls `visit` with every entry of the chunk and the number of its tile, counted from the first row's first.
-    pub(crate) fn each(&self, textures: &[&Texture], mut visit: impl FnMut(usize, TileCommand)) {
+    pub(crate) fn each(&self, sources: &PaintSources<'_>, mut visit: impl FnMut(usize, TileCommand)) {
         let mut depth = self.chunk.layers_open;
         let mut tiles = OutlineTiles::default();
         for (i, command) in self.chunk.commands.iter().enumerate() {
@@ -108,7 +108,7 @@ impl<'a> Binner<'a> {
                 DrawCommand::Triangle(index) => {
                     let triangle = &self.chunk.triangles[index as usize];
                     let paint = &self.chunk.paints[triangle.paint as usize];
-                    let opaque = paint.is_opaque(textures);
+                    let opaque = paint.is_opaque(sources);
                     if let Some(float) = self.chunk.floats.get(index as usize) {
                         let entry = TileCommand::triangle(i, index, None, opaque);
                         self.float(float, entry, depth == 0, &mut visit);
@@ -118,7 +118,9 @@ impl<'a> Binner<'a> {
                     self.triangle(triangle.corners, entry, depth == 0, &mut visit);
                 }
                 DrawCommand::Outline(index) => {
-                    let entry = TileCommand::outline(i, index, self.chunk.outline_colors[index as usize]);
+                    let paint = self.chunk.outline_paint(index);
+                    let opaque = paint.is_opaque(sources);
+                    let entry = TileCommand::outline(i, index, paint.constant, opaque);
                     self.outline(&mut tiles, (index, entry), depth == 0, &mut visit);
                 }
                 DrawCommand::BeginLayer(index) | DrawCommand::EndLayer(index) => {
@@ -453,7 +455,7 @@ mod tests {
                 end: context.tiles.rows.cast_signed(),
             };
             let mut tiles = vec![Vec::new(); (context.tiles.columns * context.tiles.rows) as usize];
-            Binner::new(&chunk, &context, rows).each(&[&texture], |tile, command| tiles[tile].push(command));
+            Binner::new(&chunk, &context, rows).each(&vec![&texture].into(), |tile, command| tiles[tile].push(command));
             let all: Vec<TileCommand> = tiles.concat();
             let mut bits = vec![0; chunk.commands.len()];
             for (tile, commands) in (0..).zip(&tiles) {

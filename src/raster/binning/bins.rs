@@ -12,8 +12,8 @@ use crate::raster::binning::binner::Binner;
 use crate::raster::binning::tile_command::TileCommand;
 use crate::raster::list::chunk::Chunk;
 use crate::raster::list::context::ListContext;
+use crate::raster::shading::sources::PaintSources;
 use crate::raster::span::{Span, to_index};
-use crate::texture::Texture;
 
 /// Most entries that are held at once; more are made and painted in several passes over groups of tile rows.
 const MAX_ENTRIES: u64 = 1 << 22;
@@ -54,7 +54,7 @@ pub(crate) struct Bins {
 
 impl Plan {
     /// Counts the entries of all chunks.
-    pub(crate) fn new(chunks: &[Chunk], context: &ListContext, textures: &[&Texture]) -> Self {
+    pub(crate) fn new(chunks: &[Chunk], context: &ListContext, sources: &PaintSources<'_>) -> Self {
         let tiles = context.tiles;
         let all = Span {
             start: 0,
@@ -64,7 +64,7 @@ impl Plan {
             let mut counts = vec![0; tiles.columns as usize * tiles.rows as usize];
             let mut few = chunk.commands.len() <= MAX_KEPT_COMMANDS;
             let mut kept = Vec::with_capacity(if few { FEW } else { 0 });
-            Binner::new(chunk, context, all).each(textures, |tile, entry| {
+            Binner::new(chunk, context, all).each(sources, |tile, entry| {
                 counts[tile] += 1;
                 few &= kept.len() < MAX_KEPT;
                 if few {
@@ -110,7 +110,7 @@ impl Plan {
         &self,
         chunks: &[Chunk],
         context: &ListContext,
-        textures: &[&Texture],
+        sources: &PaintSources<'_>,
         rows: Span,
     ) -> Vec<Arc<Bins>> {
         let tiles = to_index(rows.start) * self.columns..to_index(rows.end) * self.columns;
@@ -123,7 +123,7 @@ impl Plan {
         let of_chunk = |(chunk, plan): (&Chunk, &ChunkPlan)| {
             ready(plan).unwrap_or_else(|| {
                 let mut sorter = Sorter::new(&plan.counts[tiles.clone()]);
-                Binner::new(chunk, context, rows).each(textures, |tile, entry| sorter.add(tile, entry));
+                Binner::new(chunk, context, rows).each(sources, |tile, entry| sorter.add(tile, entry));
                 Arc::new(sorter.bins)
             })
         };
@@ -185,7 +185,7 @@ impl Bins {
 pub(crate) fn entries_of_tile(
     chunk: &Chunk,
     context: &ListContext,
-    textures: &[&Texture],
+    sources: &PaintSources<'_>,
     [column, row]: [i32; 2],
 ) -> Vec<TileCommand> {
     let mut entries = Vec::new();
@@ -193,7 +193,7 @@ pub(crate) fn entries_of_tile(
         start: row,
         end: row + 1,
     };
-    Binner::new(chunk, context, rows).each(textures, |tile, entry| {
+    Binner::new(chunk, context, rows).each(sources, |tile, entry| {
         if tile == to_index(column) {
             entries.push(entry);
         }
@@ -242,10 +242,14 @@ mod tests {
         }
         let chunk = builder.finish();
         let chunks = [chunk];
-        let mut plan = Plan::new(&chunks, context, &[]);
+        let mut plan = Plan::new(&chunks, context, &PaintSources::default());
         let groups = plan.groups();
         assert_eq!(groups.len(), 1, "few entries are one group");
-        let bins = |plan: &Plan, rows| plan.bins(&chunks, context, &[], rows).pop().expect("one chunk");
+        let bins = |plan: &Plan, rows| {
+            plan.bins(&chunks, context, &PaintSources::default(), rows)
+                .pop()
+                .expect("one chunk")
+        };
         let kept = bins(&plan, groups[0]);
         assert!(plan.chunks[0].bins.take().is_some(), "few entries are kept");
         let walked = bins(&plan, groups[0]);

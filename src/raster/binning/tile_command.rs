@@ -21,6 +21,9 @@ pub(crate) struct TileCommand {
     color: Premultiplied16,
 }
 
+/// The corners of a polygon's paint, which needs none.
+pub(in crate::raster) const NO_CORNERS: [GridPoint; 3] = [GridPoint { x: 0, y: 0 }; 3];
+
 /// What is to be painted.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Work<'c> {
@@ -30,7 +33,7 @@ pub(crate) enum Work<'c> {
     Pixels(CoverageMask, Premultiplied16),
     /// A triangle or polygon of one colour.
     Flat(Shape<'c>, Premultiplied16),
-    /// A triangle of any other paint: what it covers, its corners and the paint between them.
+    /// A triangle or polygon of any other paint: what it covers, and the corners between which the paint lies.
     Shaded(Shape<'c>, &'c [GridPoint; 3], &'c Paint),
     BeginLayer,
     /// With how the layer is composited.
@@ -60,14 +63,14 @@ impl TileCommand {
         }
     }
 
-    /// A polygon that touches the tile, outline number `outline` of its chunk.
-    pub(crate) fn outline(command: usize, outline: u32, color: Premultiplied16) -> Self {
-        let opaque = if color.is_opaque() { Self::OPAQUE } else { 0 };
+    /// A polygon that touches the tile, outline number `outline` of its chunk; `flat` is its colour, if it has just one.
+    pub(crate) fn outline(command: usize, outline: u32, flat: Option<Premultiplied16>, opaque: bool) -> Self {
+        let flags = if flat.is_some() { Self::OUTLINE } else { 0 } | if opaque { Self::OPAQUE } else { 0 };
         Self {
-            head: Self::number(command) | Self::OUTLINE | opaque,
+            head: Self::number(command) | flags,
             at: [0; 2],
             bits: u64::from(outline),
-            color,
+            color: flat.unwrap_or_default(),
         }
     }
 
@@ -193,10 +196,12 @@ impl TileCommand {
                 let compositing = chunk.layers[index as usize].compositing;
                 compositing.map_or(Work::BeginLayer, Work::EndLayer)
             }
-            // Stamps, outlines and hairlines have returned above.
-            DrawCommand::Outline(_) | DrawCommand::Samples(_) | DrawCommand::Pixels(_) | DrawCommand::Hairline(_) => {
-                Work::BeginLayer
+            DrawCommand::Outline(index) => {
+                let paint = &chunk.outline_paint(index).paint;
+                Work::Shaded(Shape::Outline(chunk.outline(index)), &NO_CORNERS, paint)
             }
+            // Stamps and hairlines have returned above.
+            DrawCommand::Samples(_) | DrawCommand::Pixels(_) | DrawCommand::Hairline(_) => Work::BeginLayer,
         }
     }
 }

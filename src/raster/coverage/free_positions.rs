@@ -323,7 +323,7 @@ mod tests {
             context,
             settings,
             vec![builder.finish()],
-            vec![texture],
+            vec![texture].into(),
         ))
     }
 

@@ -8,8 +8,8 @@ use crate::geometry::FillRule;
 use crate::geometry::edge::{EdgeTest, EdgeWalker};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::DisplayList;
+use crate::raster::binning::tile_command::NO_CORNERS;
 use crate::raster::coverage::float_shape::FloatShape;
-use crate::raster::coverage::polygon::Outline;
 use crate::raster::list::chunk::{Chunk, DrawCommand, ScreenTriangle};
 use crate::raster::paint::recorder::PaintedCommand;
 use crate::raster::sampling::positions::Position;
@@ -40,12 +40,14 @@ pub enum PieceShape {
         /// How it reads a texture.
         texture: Option<TextureUse>,
     },
-    /// A polygon of one colour.
+    /// A polygon.
     Outline {
         /// Which windings are inside.
         rule: FillRule,
         /// How often it winds around each sample of the pixel: clockwise on the screen counts up.
         windings: Vec<i32>,
+        /// What its paint finds at each sample.
+        attributes: Vec<Attributes>,
     },
     /// Whole pixels: a hairline or a point.
     Pixels,
@@ -108,7 +110,7 @@ impl DisplayList<'_> {
                 let paint = &chunk.paints[triangle.paint as usize].paint;
                 Some(seen.triangle((triangle, float), paint, weights))
             }
-            DrawCommand::Outline(index) => Some(seen.outline(chunk, &chunk.outlines[index as usize])),
+            DrawCommand::Outline(index) => Some(seen.outline(chunk, index)),
             DrawCommand::Hairline(_) | DrawCommand::Pixels(_) | DrawCommand::Samples(_) => Some(PieceShape::Pixels),
             DrawCommand::BeginLayer(_) | DrawCommand::EndLayer(_) => None,
         };
@@ -134,7 +136,7 @@ fn corner_weights() -> Paint {
 fn weights_at(shaders: &[Shader<'_>], sample: ShadedSample) -> [f64; 3] {
     let of = |shader: &Shader<'_>| match shader.interpolated(sample) {
         Attributes::Color([a, b, c, _]) => Some([a, b, c]),
-        Attributes::None | Attributes::Texture { .. } => None,
+        Attributes::None | Attributes::Texture { .. } | Attributes::Gradient { .. } => None,
     };
     shaders.iter().find_map(of).unwrap_or_default()
 }
@@ -199,8 +201,10 @@ impl SeenFrom<'_> {
         }
     }
 
-    fn outline(&self, chunk: &Chunk, outline: &Outline) -> PieceShape {
+    fn outline(&self, chunk: &Chunk, index: u32) -> PieceShape {
         let grid = self.grid();
+        let outline = &chunk.outlines[index as usize];
+        let shader = Shader::new(&self.context, &NO_CORNERS, &chunk.outline_paint(index).paint);
         let winding = |sample: ShadedSample| {
             let [column, row] = sample.in_frame();
             let rows = Span {
@@ -217,6 +221,7 @@ impl SeenFrom<'_> {
         PieceShape::Outline {
             rule: outline.rule,
             windings: self.samples().map(winding).collect(),
+            attributes: self.samples().map(|sample| shader.interpolated(sample)).collect(),
         }
     }
 }

@@ -53,19 +53,42 @@ pub struct ReplayedSample {
 }
 
 impl PixelReplay {
-    /// What painted each sample last; `None` for the background.
+    /// What painted each sample last and was not taken away by a clip path or mask; `None` for the background.
     pub fn sources(&self) -> Vec<Option<u32>> {
-        let mut sources = vec![None; self.samples.len()];
+        let nothing = vec![None; self.samples.len()];
+        let mut layers = vec![nothing.clone()];
         for command in &self.painted {
-            for fragment in command
-                .fragments
-                .iter()
-                .filter(|_| command.kind == PaintedKind::Primitive)
-            {
-                sources[fragment.sample] = Some(command.source);
+            match command.kind {
+                PaintedKind::Primitive => {
+                    if let Some(top) = layers.last_mut() {
+                        for fragment in &command.fragments {
+                            top[fragment.sample] = Some(command.source);
+                        }
+                    }
+                }
+                PaintedKind::BeginLayer => layers.push(nothing.clone()),
+                PaintedKind::EndLayer(compositing) => {
+                    let layer = if layers.len() > 1 { layers.pop() } else { None };
+                    let (Some(layer), Some(below)) = (layer, layers.last_mut()) else {
+                        continue;
+                    };
+                    if compositing.keeps_below() {
+                        for (below, above) in below.iter_mut().zip(layer) {
+                            *below = above.or(*below);
+                        }
+                    } else {
+                        for fragment in command
+                            .fragments
+                            .iter()
+                            .filter(|fragment| compositing.hides(fragment.color))
+                        {
+                            below[fragment.sample] = None;
+                        }
+                    }
+                }
             }
         }
-        sources
+        layers.swap_remove(0)
     }
 }
 
@@ -163,7 +186,7 @@ impl DisplayList<'_> {
             Arc::new(Bins::of_one_tile(entries_of_tile(
                 chunk,
                 &context,
-                &self.textures,
+                &self.sources,
                 pixel,
             )))
         };

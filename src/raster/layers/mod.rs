@@ -9,12 +9,16 @@
 //! [`stack`] holds the buffers, whatever a painter keeps in them. How a finished layer is composited is a [`Composite`]; to
 //! add one, write it in a file of its own and add a line to the table below. Painters ask a [`Compositing`] and know none.
 
+mod blend;
 mod composite;
+mod mask;
 mod opacity;
 pub(in crate::raster) mod stack;
 
-use crate::color::Premultiplied16;
+use crate::color::{BlendMode, Premultiplied16};
+use crate::raster::layers::blend::Blend;
 use crate::raster::layers::composite::Composite;
+use crate::raster::layers::mask::Mask;
 use crate::raster::layers::opacity::Opacity;
 use crate::rules::Rules;
 
@@ -36,6 +40,18 @@ macro_rules! composites {
             fn over(self, fragment: Premultiplied16, below: Premultiplied16, rules: Rules) -> Premultiplied16 {
                 match self {
                     $(Self::$kind(own) => own.over(fragment, below, rules),)+
+                }
+            }
+
+            fn keeps_below(self) -> bool {
+                match self {
+                    $(Self::$kind(own) => own.keeps_below(),)+
+                }
+            }
+
+            fn hides(self, fragment: Premultiplied16) -> bool {
+                match self {
+                    $(Self::$kind(own) => own.hides(fragment),)+
                 }
             }
 
@@ -61,6 +77,10 @@ macro_rules! composites {
 composites! {
     /// Source over, as if the layer were one shape of an opacity that is clamped to `0.0..=1.0`.
     with_opacity(opacity: f32) => Opacity,
+    /// Blended with what is below it, at an opacity that is clamped to `0.0..=1.0`.
+    blended(mode: BlendMode, opacity: f32) => Blend,
+    /// Not seen itself: what is below stays as far as the layer is opaque or, if `luminance`, light.
+    mask(luminance: bool) => Mask,
 }
 
 /// How a finished layer is composited.
@@ -84,6 +104,17 @@ impl Compositing {
     #[inline]
     pub(crate) fn composited(self, sample: Premultiplied16, below: Premultiplied16, rules: Rules) -> Premultiplied16 {
         self.over(self.fragment(sample), below, rules)
+    }
+
+    /// Whether samples at which the layer is transparent leave what is below them as it is.
+    #[inline]
+    pub fn keeps_below(self) -> bool {
+        self.0.keeps_below()
+    }
+
+    /// Whether nothing of what is below is left under such a fragment.
+    pub fn hides(self, fragment: Premultiplied16) -> bool {
+        self.0.hides(fragment)
     }
 
     /// How much of the layer's own opacity is left, `0.0..=1.0`.

@@ -16,10 +16,10 @@ use crate::raster::layers::Compositing;
 use crate::raster::list::context::ListContext;
 use crate::raster::list::hairline::Hairline;
 use crate::raster::shading::Paint;
-use crate::raster::span::{PixelRect, SampleBox, scaled};
-use crate::texture::Texture;
+use crate::raster::shading::sources::PaintSources;
+use crate::raster::span::{PixelRect, SampleBox, Span, scaled};
 
-/// A paint of a chunk's triangles.
+/// A paint of a chunk's triangles and polygons.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ChunkPaint {
     pub(crate) paint: Paint,
@@ -55,7 +55,7 @@ pub(crate) struct LayerMark {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum DrawCommand {
     Triangle(u32),
-    /// A polygon of one colour.
+    /// A polygon.
     Outline(u32),
     /// A stamp of samples.
     Samples(u32),
@@ -78,8 +78,8 @@ pub struct Chunk {
     pub(crate) floats: Vec<FloatShape>,
     pub(crate) paints: Vec<ChunkPaint>,
     pub(crate) outlines: Vec<Outline>,
-    /// The colour of each outline.
-    pub(crate) outline_colors: Vec<Premultiplied16>,
+    /// Of each outline the index of its paint.
+    pub(crate) outline_paints: Vec<u32>,
     pub(crate) outline_edges: Vec<OutlineEdge>,
     /// Outlines in the chunks before this one.
     pub(crate) first_outline: usize,
@@ -94,6 +94,12 @@ pub struct Chunk {
 }
 
 impl Chunk {
+    /// The paint of the outline at `index`.
+    #[inline]
+    pub(crate) fn outline_paint(&self, index: u32) -> &ChunkPaint {
+        &self.paints[self.outline_paints[index as usize] as usize]
+    }
+
     /// The outline at `index`, with what it needs.
     #[inline]
     pub(crate) fn outline(&self, index: u32) -> OutlineOf<'_> {
@@ -171,6 +177,16 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
     if !chunks.iter().any(Chunk::has_layers) {
         return;
     }
+    let frame = PixelRect {
+        x: Span {
+            start: 0,
+            end: context.size[0].cast_signed(),
+        },
+        y: Span {
+            start: 0,
+            end: context.size[1].cast_signed(),
+        },
+    };
     let mut open: Vec<(usize, usize, PixelRect)> = Vec::new();
     for at in 0..chunks.len() {
         chunks[at].layers_open = u32::try_from(open.len()).unwrap_or(u32::MAX);
@@ -178,9 +194,14 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
             match chunks[at].commands[command] {
                 DrawCommand::BeginLayer(begin) => open.push((at, begin as usize, PixelRect::EMPTY)),
                 DrawCommand::EndLayer(end) => {
-                    let Some((begin_chunk, begin, area)) = open.pop() else {
+                    let Some((begin_chunk, begin, mut area)) = open.pop() else {
                         continue;
                     };
+                    let compositing = chunks[at].layers[end as usize].compositing;
+                    if !compositing.is_none_or(Compositing::keeps_below) {
+                        // It is felt wherever there is anything below it.
+                        area = area.union(open.last().map_or(frame, |(_, _, outer)| *outer));
+                    }
                     chunks[begin_chunk].layers[begin].area = area;
                     chunks[at].layers[end as usize].area = area;
                     if let Some((_, _, outer)) = open.last_mut() {
@@ -201,9 +222,9 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
 
 impl ChunkPaint {
     /// Whether every fragment hides what is below it.
-    pub(crate) fn is_opaque(&self, textures: &[&Texture]) -> bool {
+    pub(crate) fn is_opaque(&self, sources: &PaintSources<'_>) -> bool {
         self.constant
-            .map_or_else(|| self.paint.is_opaque(textures), Premultiplied16::is_opaque)
+            .map_or_else(|| self.paint.is_opaque(sources), Premultiplied16::is_opaque)
     }
 
     /// Whether both give all fragments the same colours. Most triangles have the colour of the one before.

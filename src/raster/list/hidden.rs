@@ -124,7 +124,7 @@ mod tests {
         let [a, b, c, d] = points;
         if u.arbitrary()? {
             let polygon = Polygon::new([points.to_vec()], FillRule::NonZero);
-            builder.polygon(&polygon, |point| point, color);
+            builder.polygon(&polygon, |point| point, &Paint::solid(color));
         } else {
             builder.triangle([a, b, c], &Paint::solid(color));
             builder.triangle([c, d, a], &Paint::solid(color));
@@ -164,7 +164,7 @@ mod tests {
                 }
                 let chunk = builder.finish();
                 assert_eq!(chunk.commands.len(), chunk.sources.len(), "each command has its source");
-                let list = DisplayList::new(context, settings, vec![chunk], vec![&texture]);
+                let list = DisplayList::new(context, settings, vec![chunk], vec![&texture].into());
                 *(if keep { &mut all } else { &mut kept }) += list.commands();
                 let mut frame = Framebuffer::new(SIZE[0], SIZE[1]);
                 list.rasterize(&mut frame, &AtomicBool::new(false))

@@ -7,8 +7,8 @@ use crate::raster::SampleRate;
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::list::chunk::Chunk;
 use crate::raster::list::context::ListContext;
+use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
-use crate::texture::Texture;
 
 /// How a tile is painted.
 ///
@@ -35,7 +35,7 @@ pub(in crate::raster) struct Kinds {
 }
 
 impl Kinds {
-    pub(in crate::raster) fn of(chunks: &[Chunk], textures: &[&Texture], rules: Rules) -> Self {
+    pub(in crate::raster) fn of(chunks: &[Chunk], sources: &PaintSources<'_>, rules: Rules) -> Self {
         let layers = chunks.iter().any(Chunk::has_layers);
         let translucent = chunks.iter().any(|chunk| chunk.translucent);
         // A few are looked at faster than another thread wakes up.
@@ -45,7 +45,7 @@ impl Kinds {
             .map(|chunk| {
                 let mut shaded = chunk.paints.iter().filter(|paint| paint.constant.is_none()).peekable();
                 let any = shaded.peek().is_some();
-                (any, shaded.all(|paint| paint.is_opaque(textures)))
+                (any, shaded.all(|paint| paint.is_opaque(sources)))
             })
             .reduce(|| (false, true), |a, b| (a.0 || b.0, a.1 && b.1));
         Self {

@@ -259,8 +259,10 @@ impl SampleColors {
         self.samples[pixel * self.per_pixel..][..self.per_pixel].fill(self.whole[pixel]);
     }
 
-    /// Paints another tile of the same rectangle over this one.
+    /// Composites another tile of the same rectangle with this one.
     pub(crate) fn composite(&mut self, layer: &Self, compositing: Compositing) {
+        let keeps_below = compositing.keeps_below();
+        self.opaque &= keeps_below;
         for pixel in 0..self.whole.len() {
             if layer.split[pixel] {
                 self.ensure_split(pixel);
@@ -268,7 +270,7 @@ impl SampleColors {
                 for (below, above) in self.samples[range.clone()].iter_mut().zip(&layer.samples[range]) {
                     *below = compositing.composited(*above, *below, self.rules);
                 }
-            } else if layer.whole[pixel] != Premultiplied16::TRANSPARENT {
+            } else if !keeps_below || layer.whole[pixel] != Premultiplied16::TRANSPARENT {
                 let fragment = compositing.fragment(layer.whole[pixel]);
                 if self.split[pixel] {
                     for below in &mut self.samples[pixel * self.per_pixel..][..self.per_pixel] {

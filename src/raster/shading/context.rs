@@ -4,7 +4,8 @@ use crate::color::ResolveSpace;
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::SampleRate;
 use crate::raster::resolve::ResolveFilter;
-use crate::texture::{SampleGrid, SamplingSettings, Texture};
+use crate::raster::shading::sources::PaintSources;
+use crate::texture::{SampleGrid, SamplingSettings};
 
 /// What shading needs to know besides the triangle.
 #[derive(Clone, Copy, Debug)]
@@ -16,7 +17,7 @@ pub(crate) struct ShadeContext<'a> {
     pub(crate) filter: ResolveFilter,
     pub(crate) space: ResolveSpace,
     pub(crate) sampling: SamplingSettings,
-    pub(crate) textures: &'a [&'a Texture],
+    pub(crate) sources: &'a PaintSources<'a>,
 }
 
 /// Some pixels of a tile, counted from the first pixel of the grid.

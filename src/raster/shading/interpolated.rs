@@ -1,5 +1,6 @@
 //! What a shader tells of the way to a sample's colour.
 
+use crate::color::Mix;
 use crate::texture::{Reading, TextureReads};
 
 /// What is interpolated at a sample.
@@ -15,6 +16,13 @@ pub enum Attributes {
         uv: [f64; 2],
         /// The texels read there.
         reads: TextureReads,
+    },
+    /// A place on a ramp.
+    Gradient {
+        /// Before spreading.
+        place: f64,
+        /// What is mixed there.
+        mix: Mix,
     },
 }
 

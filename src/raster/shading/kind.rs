@@ -6,8 +6,9 @@ use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::shading::context::{MaskedPixels, Pixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
+use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
-use crate::texture::{SampleGrid, Texture};
+use crate::texture::SampleGrid;
 
 /// Samples that a mask has bits for.
 const MASK_BITS: usize = 64;
@@ -23,7 +24,7 @@ pub(super) trait PaintKind: Copy {
     }
 
     /// Whether every fragment hides what is below it.
-    fn is_opaque(&self, textures: &[&Texture]) -> bool;
+    fn is_opaque(&self, sources: &PaintSources<'_>) -> bool;
 
     /// The same paint on a part of its triangle.
     fn clipped(&self, corners: &[ClipVertex; 3]) -> Self;

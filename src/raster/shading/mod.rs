@@ -5,15 +5,18 @@
 //! | [`solid`] | one everywhere |
 //! | [`vertex`] | interpolated between a triangle's corners |
 //! | [`texture`] | read from a texture through the footprint of a pixel or a sample |
+//! | [`gradient`] | found on a ramp |
 //!
 //! A paint is a [`PaintKind`] as a display list holds it, and a [`Shade`] once it is prepared for one triangle. To add one,
 //! write both in a file of its own and add a line to the table below. Painters hold a [`Paint`] or a [`Shader`] and ask
 //! it questions; only this folder knows which kind it is.
 
 pub(in crate::raster) mod context;
+mod gradient;
 pub(in crate::raster) mod interpolated;
 mod kind;
 mod solid;
+pub(in crate::raster) mod sources;
 mod texture;
 mod vertex;
 
@@ -21,12 +24,14 @@ use crate::color::{Premultiplied16, Rgba};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::shading::context::{MaskedPixels, Pixels, ShadeContext, ShadedSample};
+use crate::raster::shading::gradient::GradientPaint;
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
 use crate::raster::shading::kind::{PaintKind, Shade};
 use crate::raster::shading::solid::{SolidPaint, SolidShader};
+use crate::raster::shading::sources::PaintSources;
 use crate::raster::shading::vertex::VertexPaint;
 use crate::rules::Rules;
-use crate::texture::{SampleGrid, Texture};
+use crate::texture::SampleGrid;
 
 pub(in crate::raster) use texture::TexturePaint;
 
@@ -86,6 +91,8 @@ paints! {
     /// The texture with an index in the drawing, read between the coordinates `(u, v)` at the corners; its own opacity is
     /// multiplied by another one, `0.0..=1.0`.
     texture(texture: u32, uv: [[f32; 2]; 3], opacity: f32) => Texture(TexturePaint),
+    /// The gradient with an index in the drawing.
+    gradient(gradient: u32) => Gradient(GradientPaint),
 }
 
 /// What fills a triangle.
@@ -109,8 +116,8 @@ impl Paint {
     }
 
     /// Whether every fragment hides what is below it.
-    pub(crate) fn is_opaque(&self, textures: &[&Texture]) -> bool {
-        ask!(&self.0, AnyPaint, paint => paint.is_opaque(textures))
+    pub(crate) fn is_opaque(&self, sources: &PaintSources<'_>) -> bool {
+        ask!(&self.0, AnyPaint, paint => paint.is_opaque(sources))
     }
 
     /// The same paint on a part of its triangle.
@@ -125,7 +132,7 @@ impl<'a> Shader<'a> {
         let any = paint.0.shader(context, corners);
         let constant = ask!(&any, AnyShader, shader => shader.constant());
         Self {
-            opaque: constant.map_or_else(|| paint.is_opaque(context.textures), Premultiplied16::is_opaque),
+            opaque: constant.map_or_else(|| paint.is_opaque(context.sources), Premultiplied16::is_opaque),
             any,
             rules: context.sampling.rules,
         }
@@ -231,20 +238,21 @@ mod tests {
 
     #[test]
     fn a_constant_paint_is_known_as_one() {
+        let sources = PaintSources::default();
         let context = ShadeContext {
             grid: SubpixelGrid::new(2),
             rate: SampleRate::ONE,
             filter: ResolveFilter::default(),
             space: ResolveSpace::Stored,
             sampling: SamplingSettings::default(),
-            textures: &[],
+            sources: &sources,
         };
         let corners = [[0, 0], [999, 0], [0, 999]].map(|[x, y]| GridPoint { x, y });
         let [solid, vertex] = [Paint::solid(Rgba::WHITE), Paint::vertex([Rgba::WHITE; 3])];
         assert_eq!((solid.constant(), vertex.constant()), (Some(Rgba::WHITE), None));
         let shader = Shader::new(&context, &corners, &solid);
         assert_eq!(shader.constant(), Some(Premultiplied16([65_280; 4])));
-        assert!(shader.opaque && vertex.is_opaque(&[]), "white is opaque");
-        assert!(!Paint::vertex([Rgba::WHITE, Rgba::WHITE, Rgba::TRANSPARENT]).is_opaque(&[]));
+        assert!(shader.opaque && vertex.is_opaque(context.sources), "white is opaque");
+        assert!(!Paint::vertex([Rgba::WHITE, Rgba::WHITE, Rgba::TRANSPARENT]).is_opaque(context.sources));
     }
 }

@@ -5,8 +5,9 @@ use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::shading::context::{Pixels, ShadeContext};
 use crate::raster::shading::kind::{PaintKind, Shade};
+use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
-use crate::texture::{SampleGrid, Texture};
+use crate::texture::SampleGrid;
 
 /// One straight colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +30,7 @@ impl PaintKind for SolidPaint {
         Some(self.0)
     }
 
-    fn is_opaque(&self, _: &[&Texture]) -> bool {
+    fn is_opaque(&self, _: &PaintSources<'_>) -> bool {
         self.0.a >= 1.0
     }
 

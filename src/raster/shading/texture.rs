@@ -9,9 +9,10 @@ use crate::raster::attributes::Planes;
 use crate::raster::shading::context::{MaskedPixels, Pixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
 use crate::raster::shading::kind::{PaintKind, Shade, at_corner, masked_sums_by_points, pixels_by_points};
+use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
 use crate::simd;
-use crate::texture::{Filter, Footprint, PixelList, Reading, SampleGrid, Sampler, Texture, UvMap};
+use crate::texture::{Filter, Footprint, PixelList, Reading, SampleGrid, Sampler, UvMap};
 
 /// Most samples along the side of a pixel of which a filter takes sums by masks.
 const MAX_MASKED_SIDE: u32 = 8;
@@ -66,8 +67,8 @@ impl TexturePaint {
 impl PaintKind for TexturePaint {
     type Shader<'a> = TextureShader<'a>;
 
-    fn is_opaque(&self, textures: &[&Texture]) -> bool {
-        self.opacity >= 1.0 && textures[self.texture as usize].pyramid.is_opaque()
+    fn is_opaque(&self, sources: &PaintSources<'_>) -> bool {
+        self.opacity >= 1.0 && sources.textures[self.texture as usize].pyramid.is_opaque()
     }
 
     fn clipped(&self, corners: &[ClipVertex; 3]) -> Self {
@@ -75,7 +76,7 @@ impl PaintKind for TexturePaint {
     }
 
     fn shader<'a>(&self, context: &ShadeContext<'a>, corners: &[GridPoint; 3]) -> TextureShader<'a> {
-        let pyramid = &context.textures[self.texture as usize].pyramid;
+        let pyramid = &context.sources.textures[self.texture as usize].pyramid;
         let uv = Planes::new(context.grid, corners, self.uv);
         let map = uv_map(context.grid, &uv);
         let sampling = &context.sampling;
@@ -149,7 +150,7 @@ impl Shade for TextureShader<'_> {
     }
 
     fn texture_use(&self, context: &ShadeContext<'_>) -> Option<TextureUse> {
-        let pyramid = &context.textures[self.texture as usize].pyramid;
+        let pyramid = &context.sources.textures[self.texture as usize].pyramid;
         let footprint = uv_map(context.grid, &self.uv).footprint();
         Some(TextureUse {
             texture: self.texture,

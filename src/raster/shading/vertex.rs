@@ -14,9 +14,10 @@ use crate::raster::attributes::Planes;
 use crate::raster::shading::context::{MaskedPixels, Pixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::Attributes;
 use crate::raster::shading::kind::{PaintKind, Shade, at_corner, pixels_by_points};
+use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
 use crate::simd;
-use crate::texture::{SampleGrid, Texture};
+use crate::texture::SampleGrid;
 
 /// Samples that are shaded together.
 const LANES: usize = 8;
@@ -53,7 +54,7 @@ impl VertexPaint {
 impl PaintKind for VertexPaint {
     type Shader<'a> = VertexShader;
 
-    fn is_opaque(&self, _: &[&Texture]) -> bool {
+    fn is_opaque(&self, _: &PaintSources<'_>) -> bool {
         self.are_opaque()
     }
 

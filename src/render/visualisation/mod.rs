@@ -20,11 +20,12 @@ mod show;
 mod uv;
 mod wireframe;
 
-use super::{Legend, Screen};
-use crate::raster::{ChunkBuilder, RasterSettings};
+use super::{Legend, Screen, sources};
+use crate::geometry::ViewTransform;
+use crate::raster::{ChunkBuilder, PaintSources, RasterSettings};
 use crate::render::visualisation::show::{Show, Source};
 use crate::scene::Scene;
-use crate::texture::{SamplingSettings, Texture};
+use crate::texture::SamplingSettings;
 
 /// Makes the enum of all visualisations, with their names and what shows them.
 macro_rules! visualisations {
@@ -103,10 +104,11 @@ impl Visualisation {
 }
 
 /// Replaces the paints of primitives.
-#[derive(Clone, Copy)]
 pub(super) struct Visualiser<'a> {
     show: &'static dyn Show,
     source: Source<'a>,
+    /// For each primitive whether it is part of a clip path or mask, which is not seen itself.
+    unseen: Option<Vec<bool>>,
 }
 
 impl<'a> Visualiser<'a> {
@@ -115,6 +117,7 @@ impl<'a> Visualiser<'a> {
         Self {
             show: kind.show(),
             source: Source { scene, sampling },
+            unseen: scene.parts_of_masks(),
         }
     }
 
@@ -123,12 +126,13 @@ impl<'a> Visualiser<'a> {
         kind.show().change(settings);
     }
 
-    /// The textures that paints point to.
-    pub(super) fn textures(&self) -> Vec<&'a Texture> {
-        match self.show.texture() {
-            Some(own) => vec![own],
-            None => self.source.scene.textures.iter().map(AsRef::as_ref).collect(),
+    /// What paints point to in a view.
+    pub(super) fn sources(&self, view: &ViewTransform) -> PaintSources<'a> {
+        let mut sources = sources(self.source.scene, view);
+        if let Some(own) = self.show.texture() {
+            sources.textures = vec![own];
         }
+        sources
     }
 
     /// A builder that does with fragments what is shown.
@@ -138,7 +142,9 @@ impl<'a> Visualiser<'a> {
 
     /// Adds primitive number `index`.
     pub(super) fn add(&self, builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, index: usize) {
-        self.show.add(&self.source, (builder, screen), index);
+        if self.is_seen(index) {
+            self.show.add(&self.source, (builder, screen), index);
+        }
     }
 
     /// Whether something comes on top of everything.
@@ -153,6 +159,12 @@ impl<'a> Visualiser<'a> {
 
     /// Adds what comes on top of primitive number `index`.
     pub(super) fn add_overlay(&self, builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, index: usize) {
-        self.show.add_overlay(&self.source, (builder, screen), index);
+        if self.is_seen(index) {
+            self.show.add_overlay(&self.source, (builder, screen), index);
+        }
+    }
+
+    fn is_seen(&self, index: usize) -> bool {
+        !self.unseen.as_ref().is_some_and(|unseen| unseen[index])
     }
 }

@@ -43,18 +43,20 @@ impl Show for Wireframe {
         let [triangle, polygon, other] = EDGES.map(rgba);
         match source.kind(index) {
             PrimitiveKind::Triangle { points, .. } => closed(builder, screen, points, triangle),
-            PrimitiveKind::Polygon { polygon: shape, .. } => match triangles_of(shape, screen) {
-                Some(triangles) => {
-                    for points in triangles {
-                        closed(builder, screen, points, triangle);
+            PrimitiveKind::Polygon { polygon: shape, .. } => {
+                screen.with_edges(shape, |shape| match triangles_of(shape, screen) {
+                    Some(triangles) => {
+                        for points in triangles {
+                            closed(builder, screen, points, triangle);
+                        }
                     }
-                }
-                None => {
-                    for contour in shape.contours() {
-                        closed(builder, screen, contour, polygon);
+                    None => {
+                        for contour in shape.contours() {
+                            closed(builder, screen, contour, polygon);
+                        }
                     }
-                }
-            },
+                });
+            }
             kind @ (PrimitiveKind::Hairline { .. } | PrimitiveKind::Point { .. }) => {
                 repaint((builder, screen), kind, other);
             }

@@ -248,8 +248,25 @@ fn check_accumulation(found: &Explanation) {
     }
 }
 
+/// For each paint whether it is part of a clip path or mask.
+fn parts_of_masks(found: &Explanation) -> Vec<bool> {
+    let mut parts = vec![false; found.paints.len()];
+    for (end, paint) in found.paints.iter().enumerate() {
+        if matches!(paint.shape, Shape::EndClip | Shape::EndMask { .. }) {
+            let begins = |i: &usize| {
+                let begin = &found.paints[*i];
+                matches!(begin.shape, Shape::BeginLayer) && begin.layers + 1 == paint.layers
+            };
+            let begin = (0..end).rev().find(begins).expect("it began");
+            parts[begin..=end].fill(true);
+        }
+    }
+    parts
+}
+
 /// Stacks and fragments tell the same story, and it ends with the sample's colour.
 fn check_samples(found: &Explanation) {
+    let parts_of_masks = parts_of_masks(found);
     for (number, sample) in found.samples.iter().enumerate() {
         let touched: Vec<(usize, &Fragment)> = found
             .paints
@@ -259,9 +276,11 @@ fn check_samples(found: &Explanation) {
             .filter(|(_, fragment)| fragment.sample == number)
             .collect();
         let stack: Vec<usize> = touched.iter().map(|(i, _)| *i).collect();
-        assert_eq!(sample.stack, stack, "in painter's order");
+        let listed = |paint: &&usize| !parts_of_masks[**paint];
+        let on_samples: Vec<usize> = stack.iter().filter(listed).copied().collect();
+        assert_eq!(sample.stack, on_samples, "in painter's order");
         let on_base = touched.iter().rev().find(|(i, _)| match found.paints[*i].shape {
-            Shape::EndLayer { .. } => found.paints[*i].layers == 1,
+            Shape::EndLayer { .. } | Shape::EndClip | Shape::EndMask { .. } => found.paints[*i].layers == 1,
             _ => found.paints[*i].layers == 0,
         });
         if let Some((_, last)) = on_base {
@@ -272,7 +291,7 @@ fn check_samples(found: &Explanation) {
         }
         for pair in touched.windows(2) {
             let same_layer = found.paints[pair[0].0].layers == found.paints[pair[1].0].layers;
-            let marks = |i: usize| matches!(found.paints[i].shape, Shape::BeginLayer | Shape::EndLayer { .. });
+            let marks = |i: usize| found.paints[i].shape.is_layer_mark();
             if same_layer && !marks(pair[0].0) && !marks(pair[1].0) && found.paints[pair[0].0].layers == 0 {
                 assert_eq!(pair[0].1.after, pair[1].1.before, "one after the other: {found:?}");
             }
@@ -286,7 +305,7 @@ fn check_coverage(paint: &Paint, samples: usize, rules: Rules) {
     match &paint.shape {
         Shape::Triangle { .. } | Shape::Polygon { .. } => assert_eq!(paint.views.len(), samples, "{paint:?}"),
         Shape::WholePixel | Shape::CanvasOutline => assert_eq!(paint.fragments.len(), samples, "{paint:?}"),
-        Shape::BeginLayer | Shape::EndLayer { .. } => {}
+        Shape::BeginLayer | Shape::EndLayer { .. } | Shape::EndClip | Shape::EndMask { .. } => {}
     }
     for (number, view) in paint.views.iter().enumerate() {
         let inside = match (view, &paint.shape) {
@@ -305,8 +324,8 @@ fn check_coverage(paint: &Paint, samples: usize, rules: Rules) {
                 }
                 edges.iter().all(|edge| edge.verdict.is_inside())
             }
-            (View::Polygon { winding }, Shape::Polygon { rule }) if *rule == "evenodd" => winding % 2 != 0,
-            (View::Polygon { winding }, _) => *winding != 0,
+            (View::Polygon { winding, .. }, Shape::Polygon { rule }) if *rule == "evenodd" => winding % 2 != 0,
+            (View::Polygon { winding, .. }, _) => *winding != 0,
         };
         assert_eq!(painted(number), inside, "sample {number} of {paint:?}");
     }
@@ -323,7 +342,7 @@ fn paint_is_clipped(paint: &Paint) -> bool {
 /// Interpolated colours and texels are the fragments' colours.
 fn check_colors(paint: &Paint, rules: Rules) {
     for fragment in &paint.fragments {
-        let Some(View::Triangle { value, .. }) = paint.views.get(fragment.sample) else {
+        let Some(View::Triangle { value, .. } | View::Polygon { value, .. }) = paint.views.get(fragment.sample) else {
             continue;
         };
         let expected = match value {
@@ -332,6 +351,20 @@ fn check_colors(paint: &Paint, rules: Rules) {
                 let alpha = rgba[3].clamp(0.0, 1.0);
                 let channel = |i: usize| rgba[i].clamp(0.0, 1.0) * alpha * 255.0;
                 [channel(0), channel(1), channel(2), alpha * 255.0]
+            }
+            Interpolated::Gradient {
+                at,
+                stops,
+                weight,
+                rgba,
+                ..
+            } => {
+                let [from, to] = stops.map(|stop| f64::from(stop.offset));
+                let place = from + (to - from) * weight;
+                // Before the first stop and beyond the last one nothing is mixed.
+                assert!(stops[0] == stops[1] || (place - at).abs() < 1e-9, "{value:?}");
+                let [r, g, b, alpha] = rgba.map(f64::from);
+                [r, g, b, 1.0].map(|channel| channel * alpha * 255.0)
             }
             Interpolated::Texture { texels, taps, .. } => {
                 let weights: f64 = texels.iter().map(|texel| texel.weight).sum();

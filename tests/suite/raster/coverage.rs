@@ -8,7 +8,7 @@ use rasterscope::color::Rgba;
 use rasterscope::geometry::{FillRule, Polygon, View};
 use rasterscope::raster::Framebuffer;
 use rasterscope::rules::Rules;
-use rasterscope::scene::{Paint, PrimitiveKind};
+use rasterscope::scene::{Fill, Paint, PrimitiveKind};
 
 use crate::support::scenes::{Fills, at_rate, drawn, one_to_one, random, scene, triangle};
 
@@ -248,7 +248,7 @@ fn coverage_of_a_polygon_is_that_of_its_triangles() {
         let color = Rgba::BLACK.faded(0.5);
         let whole = vec![PrimitiveKind::Polygon {
             polygon: Arc::new(polygon),
-            color,
+            fill: Fill::Solid(color),
         }];
         let PrimitiveKind::Polygon { polygon, .. } = &whole[0] else {
             return Ok(());

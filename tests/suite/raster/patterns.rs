@@ -8,7 +8,7 @@ use rasterscope::geometry::{FillRule, Polygon, View};
 use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{RenderSettings, Subject, replay};
 use rasterscope::rules::Rules;
-use rasterscope::scene::{Dialect, DialectChoice, Paint, PrimitiveKind, ReadOptions, Scene, read};
+use rasterscope::scene::{Dialect, DialectChoice, Fill, Paint, PrimitiveKind, ReadOptions, Scene, read};
 use rasterscope::viewer::gallery;
 
 use crate::support::scenes::{drawn, one_to_one, scene};
@@ -154,7 +154,7 @@ fn fan(corners: &[DVec2], middle: DVec2, as_polygons: bool) -> Scene {
             let polygon = Polygon::new(vec![points.to_vec()], FillRule::NonZero);
             return PrimitiveKind::Polygon {
                 polygon: polygon.into(),
-                color,
+                fill: Fill::Solid(color),
             };
         }
         let paint = Paint::Solid(color);
@@ -252,7 +252,7 @@ fn pictures_of_every_pattern_are_those_of_one_thread() {
     let star = Polygon::new(vec![corners], FillRule::EvenOdd);
     let kind = PrimitiveKind::Polygon {
         polygon: star.into(),
-        color: Rgba::from_bytes([20, 60, 200, 170]),
+        fill: Fill::Solid(Rgba::from_bytes([20, 60, 200, 170])),
     };
     let scene = scene(150.0, vec![kind]);
     for pattern in SamplePattern::ALL {

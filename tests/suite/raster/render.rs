@@ -7,7 +7,7 @@ use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::{FillRule, Polygon, View};
 use rasterscope::raster::{Framebuffer, SamplePattern};
 use rasterscope::render::{CancelToken, RenderSettings, Subject, Visualisation, draw, draw_cancellable, replay};
-use rasterscope::scene::{DialectChoice, PrimitiveKind, ReadOptions, read};
+use rasterscope::scene::{Composite, DialectChoice, Fill, PrimitiveKind, ReadOptions, read};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 
 use crate::support::scenes::{Fills, at_rate, drawn, one_to_one, random, scene, triangle};
@@ -91,7 +91,9 @@ fn render_layer_fades_what_overlaps_inside_it_once() {
         PrimitiveKind::BeginLayer,
         square(0.0),
         square(-2.0),
-        PrimitiveKind::EndLayer { opacity: 0.5 },
+        PrimitiveKind::EndLayer {
+            composite: Composite::over(0.5),
+        },
     ];
     let frame = drawn(&scene(8.0, kinds), &one_to_one([8, 8]), &at_rate(4), [8, 8]);
     assert!(
@@ -275,7 +277,7 @@ fn render_drops_what_is_hidden_and_still_counts_and_tells_it() {
     let corners = [(20.0, 10.0), (170.0, 10.0), (170.0, 190.0), (20.0, 190.0)].map(DVec2::from);
     let square = |shade: f32| PrimitiveKind::Polygon {
         polygon: Arc::new(Polygon::new([corners.to_vec()], FillRule::NonZero)),
-        color: Rgba::opaque(shade, 0.5, 0.2),
+        fill: Fill::Solid(Rgba::opaque(shade, 0.5, 0.2)),
     };
     let half = |shade: f32, lower: bool| {
         let last = if lower { (15.0, 195.0) } else { (175.0, 5.0) };

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, Vec2};
 use rasterscope::color::Rgba;
-use rasterscope::scene::{Dialect, DialectChoice, Paint, PrimitiveKind, Scene};
+use rasterscope::scene::{Dialect, DialectChoice, Fill, Paint, PrimitiveKind, Scene};
 
 use crate::support::documents::{area, kinds, lines, read, svg};
 
@@ -84,7 +84,14 @@ fn course_fill_defaults_to_black_and_none_is_nothing() {
 #[test]
 fn course_rect_is_a_polygon_and_four_lines() {
     let scene = course("<rect x='1' y='2' width='3' height='4' fill='#ff0000' stroke='#0000ff'/>");
-    let [PrimitiveKind::Polygon { polygon, color: RED }, lines @ ..] = &kinds(&scene)[..] else {
+    let [
+        PrimitiveKind::Polygon {
+            polygon,
+            fill: Fill::Solid(RED),
+        },
+        lines @ ..,
+    ] = &kinds(&scene)[..]
+    else {
         panic!("first the fill: {:?}", scene.primitives);
     };
     let halves = [

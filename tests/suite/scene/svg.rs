@@ -2,7 +2,7 @@
 
 use glam::{DVec2, Vec2};
 use rasterscope::color::Rgba;
-use rasterscope::scene::{DialectChoice, Paint, PrimitiveKind, Scene};
+use rasterscope::scene::{Composite, DialectChoice, Fill, Paint, PrimitiveKind, Scene};
 
 use crate::support::documents::{area, kinds, lines, read, svg, try_read};
 
@@ -18,7 +18,10 @@ fn filled(body: &str) -> (f64, Rgba) {
             paint: Paint::Solid(color),
             ..
         }
-        | PrimitiveKind::Polygon { color, .. } => *color,
+        | PrimitiveKind::Polygon {
+            fill: Fill::Solid(color),
+            ..
+        } => *color,
         other => panic!("{body}: {other:?}"),
     };
     let colors: Vec<Rgba> = scene.primitives.iter().map(|p| color(&p.kind)).collect();
@@ -215,14 +218,19 @@ fn svg_opacity_layers_where_things_overlap() {
     );
     assert_eq!(
         kinds_of_both.last(),
-        Some(&PrimitiveKind::EndLayer { opacity: 0.5 }),
+        Some(&PrimitiveKind::EndLayer {
+            composite: Composite::over(0.5)
+        }),
         "the shape's opacity"
     );
     let group = svg_scene(&format!(
         "<g opacity='.5'><rect {UNIT} fill='red'/><rect {UNIT} fill='blue'/></g>"
     ));
     let solid = |kind: &PrimitiveKind| match kind {
-        PrimitiveKind::Polygon { color, .. } => Some(*color),
+        PrimitiveKind::Polygon {
+            fill: Fill::Solid(color),
+            ..
+        } => Some(*color),
         _ => None,
     };
     let colors: Vec<Rgba> = kinds(&group).iter().filter_map(solid).collect();

@@ -9,12 +9,14 @@
 )]
 
 use glam::DVec2;
+use rasterscope::color::BlendMode;
+use rasterscope::color::Spread;
 use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::{FillRule, View, ViewTransform};
 use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{RenderSettings, Subject, replay};
 use rasterscope::rules::Rules;
-use rasterscope::scene::{Dialect, Paint, PrimitiveKind, Scene};
+use rasterscope::scene::{Composite, Dialect, Fill, MaskKind, Paint, PrimitiveKind, Scene};
 use rasterscope::texture::{Derivatives, FixedLevel, LevelSampling, MipLevel, PixelSampling, Texture};
 
 /// Premultiplied, `0.0..=1.0`.
@@ -24,7 +26,7 @@ pub(crate) type Color = [f64; 4];
 struct Outline {
     edges: Vec<[(i128, i128); 2]>,
     rule: FillRule,
-    color: Rgba,
+    fill: Fill,
 }
 
 struct Triangle<'a> {
@@ -44,7 +46,7 @@ enum Step<'a> {
     Outline(Outline),
     Pixels(Vec<(i64, i64)>, Rgba),
     BeginLayer,
-    EndLayer(f64),
+    EndLayer(Composite),
 }
 
 /// Draws a scene under the standard rules or those of first drafts. Coordinates must stay small.
@@ -63,7 +65,7 @@ pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSetting
             let places = places(settings, [x, y]);
             for [right, down] in &places {
                 let (i, j) = (x * side + right, y * side + down);
-                let color = sample_color(&steps, scene, settings, [i, j], (side, bits));
+                let color = sample_color(&steps, (scene, view), settings, [i, j], (side, bits));
                 let averaged = match settings.resolve {
                     ResolveSpace::Stored => color,
                     ResolveSpace::Linear => each_straight(color, to_light),
@@ -189,7 +191,10 @@ fn steps_of<'a>(kind: &'a PrimitiveKind, view: &ViewTransform, units: f64, rules
     match kind {
         _ if rules == Rules::Standard => vec![step(kind, view, units)],
         PrimitiveKind::Triangle { points, paint } => vec![triangle(points, Filling::Paint(paint))],
-        PrimitiveKind::Polygon { polygon, color } => {
+        PrimitiveKind::Polygon {
+            polygon,
+            fill: Fill::Solid(color),
+        } => {
             let Some(triangles) = polygon.triangles() else {
                 return vec![step(kind, view, units)];
             };
@@ -213,7 +218,7 @@ fn step<'a>(kind: &'a PrimitiveKind, view: &ViewTransform, units: f64) -> Step<'
             float: None,
             fill: Filling::Paint(paint),
         }),
-        PrimitiveKind::Polygon { polygon, color } => {
+        PrimitiveKind::Polygon { polygon, fill } => {
             let mut edges = Vec::new();
             for contour in polygon.contours() {
                 let next = contour.iter().cycle().skip(1);
@@ -222,7 +227,7 @@ fn step<'a>(kind: &'a PrimitiveKind, view: &ViewTransform, units: f64) -> Step<'
             Step::Outline(Outline {
                 edges,
                 rule: polygon.rule(),
-                color: *color,
+                fill: *fill,
             })
         }
         PrimitiveKind::Point { at, color } => {
@@ -231,7 +236,7 @@ fn step<'a>(kind: &'a PrimitiveKind, view: &ViewTransform, units: f64) -> Step<'
         }
         PrimitiveKind::Hairline { ends, color } => Step::Pixels(hairline(ends.map(|end| view.to_pixels(end))), *color),
         PrimitiveKind::BeginLayer => Step::BeginLayer,
-        PrimitiveKind::EndLayer { opacity } => Step::EndLayer(f64::from(*opacity)),
+        PrimitiveKind::EndLayer { composite } => Step::EndLayer(*composite),
     }
 }
 
@@ -262,7 +267,7 @@ pub(crate) fn hairline(ends: [DVec2; 2]) -> Vec<(i64, i64)> {
 
 fn sample_color(
     steps: &[Step<'_>],
-    scene: &Scene,
+    (scene, view): (&Scene, &ViewTransform),
     settings: &RenderSettings,
     [i, j]: [u32; 2],
     (side, bits): (u32, u32),
@@ -274,15 +279,21 @@ fn sample_color(
                 layers.push([0.0; 4]);
                 continue;
             }
-            Step::EndLayer(opacity) => {
+            Step::EndLayer(composite) => {
                 let layer = layers.pop().expect("layers are balanced");
-                Some(layer.map(|channel| channel * opacity))
+                let below = layers.last_mut().expect("the base");
+                *below = composited(layer, *below, *composite);
+                continue;
             }
             Step::Pixels(pixels, color) => {
                 let here = (i64::from(i / side), i64::from(j / side));
                 pixels.contains(&here).then(|| premultiply(*color))
             }
-            Step::Outline(outline) => outline.encloses([i, j], bits).then(|| premultiply(outline.color)),
+            Step::Outline(outline) if !outline.encloses([i, j], bits) => None,
+            Step::Outline(outline) => {
+                let pixel = DVec2::new(f64::from(i) + 0.5, f64::from(j) + 0.5) / f64::from(side);
+                Some(filled(outline.fill, scene, view.to_scene(pixel)))
+            }
             Step::Triangle(triangle) => triangle.color(scene, settings, [i, j], (side, bits)),
         };
         if let (Some(above), Some(below)) = (painted, layers.last_mut()) {
@@ -290,6 +301,74 @@ fn sample_color(
         }
     }
     layers[0]
+}
+
+/// What a layer leaves of what is below it.
+fn composited(layer: Color, below: Color, composite: Composite) -> Color {
+    match composite {
+        Composite::Over { opacity, blend } => {
+            let above = layer.map(|channel| channel * f64::from(opacity));
+            let (upper, lower) = (above[3], below[3]);
+            let mixed = |k: usize| {
+                let (a, b) = (above[k] / upper, below[k] / lower);
+                let mixed = match blend {
+                    BlendMode::Multiply => a * b,
+                    BlendMode::Screen => 1.0 - (1.0 - a) * (1.0 - b),
+                    BlendMode::Difference => (a - b).abs(),
+                    BlendMode::Exclusion => a + b - 2.0 * a * b,
+                    _ => a,
+                };
+                (1.0 - lower) * above[k] + (1.0 - upper) * below[k] + upper * lower * mixed
+            };
+            if upper == 0.0 || lower == 0.0 {
+                return std::array::from_fn(|k| above[k] + below[k]);
+            }
+            [mixed(0), mixed(1), mixed(2), upper + lower - upper * lower]
+        }
+        Composite::Clip | Composite::Mask(MaskKind::Alpha) => below.map(|channel| channel * layer[3]),
+        Composite::Mask(MaskKind::Luminance) => {
+            let kept = 0.2125 * layer[0] + 0.7154 * layer[1] + 0.0721 * layer[2];
+            below.map(|channel| channel * kept)
+        }
+    }
+}
+
+/// The colour of a fill at a point of user space.
+fn filled(fill: Fill, scene: &Scene, at: DVec2) -> Color {
+    let gradient = match fill {
+        Fill::Solid(color) => return premultiply(color),
+        Fill::Gradient(gradient) => &scene.gradients[gradient.0 as usize],
+        Fill::Pattern(_) => panic!("no patterns here"),
+    };
+    let at = gradient.to_user.inverse().transform_point2(at);
+    let Some(place) = gradient.geometry.at(at) else {
+        return [0.0; 4];
+    };
+    let place = match gradient.ramp.spread() {
+        Spread::Pad => place.clamp(0.0, 1.0),
+        Spread::Repeat => place.rem_euclid(1.0),
+        Spread::Reflect if place.rem_euclid(2.0) > 1.0 => 2.0 - place.rem_euclid(2.0),
+        Spread::Reflect => place.rem_euclid(2.0),
+    };
+    let stops = gradient.ramp.stops();
+    let mut color = stops[0].color;
+    for pair in stops.windows(2) {
+        let [from, to] = [pair[0], pair[1]].map(|stop| f64::from(stop.offset));
+        if place >= to {
+            color = pair[1].color;
+        } else if place >= from {
+            let weight = ((place - from) / (to - from)) as f32;
+            let mix = |a: f32, b: f32| a + (b - a) * weight;
+            let (a, b) = (pair[0].color, pair[1].color);
+            color = Rgba {
+                r: mix(a.r, b.r),
+                g: mix(a.g, b.g),
+                b: mix(a.b, b.b),
+                a: mix(a.a, b.a),
+            };
+        }
+    }
+    premultiply(color)
 }
 
 impl Outline {

@@ -13,7 +13,7 @@ use rasterscope::geometry::{FillRule, Polygon, ViewTransform};
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
-use rasterscope::scene::{Paint, PrimitiveKind, Scene};
+use rasterscope::scene::{Fill, Paint, PrimitiveKind, Scene};
 use rasterscope::texture::Texture;
 
 use super::brute_force::{Color, filtered, hairline, premultiply, to_light, to_stored};
@@ -103,12 +103,18 @@ impl Foreign {
                         }
                     });
                 }
-                PrimitiveKind::Polygon { polygon, color } if self.is_course() => {
+                PrimitiveKind::Polygon {
+                    polygon,
+                    fill: Fill::Solid(color),
+                } if self.is_course() => {
                     for points in polygon.triangles().expect("a plain polygon") {
                         self.triangle(&mut samples, points.map(place), |_, _| premultiply(*color));
                     }
                 }
-                PrimitiveKind::Polygon { polygon, color } => {
+                PrimitiveKind::Polygon {
+                    polygon,
+                    fill: Fill::Solid(color),
+                } => {
                     let color = premultiply(*color);
                     let points: Vec<DVec2> = polygon.points().iter().map(|point| place(*point)).collect();
                     self.each(&mut samples, &points, |at| {
@@ -124,6 +130,7 @@ impl Foreign {
                     let at = place(*at).floor();
                     self.pixel(&mut samples, (at.x as i64, at.y as i64), premultiply(*color));
                 }
+                PrimitiveKind::Polygon { fill, .. } => panic!("no {fill:?} here"),
                 PrimitiveKind::BeginLayer | PrimitiveKind::EndLayer { .. } => panic!("no layers here"),
             }
         }

@@ -3,13 +3,15 @@
 use std::sync::Arc;
 
 use arbtest::arbitrary::{Result, Unstructured};
-use glam::{DVec2, Vec2};
-use rasterscope::color::Rgba;
-
-use rasterscope::geometry::{FillRule, Polygon, View, ViewTransform};
+use glam::{DAffine2, DVec2, Vec2};
+use rasterscope::color::{BlendMode, Ramp, Rgba, Spread, Stop};
+use rasterscope::geometry::{FillRule, GradientShape, Polygon, View, ViewTransform};
 use rasterscope::raster::{Framebuffer, SampleRate};
 use rasterscope::render::{RenderSettings, draw};
-use rasterscope::scene::{Dialect, Paint, Primitive, PrimitiveKind, Scene, Shape, ShapeId, SourceLocation, TextureId};
+use rasterscope::scene::{
+    Composite, Dialect, Fill, Gradient, GradientId, MaskKind, Paint, Primitive, PrimitiveKind, Scene, Shape, ShapeId,
+    SourceLocation, TextureId,
+};
 use rasterscope::texture::{MipLevel, MipPyramid, Texture};
 
 /// A scene of `kinds` on a canvas of `side x side`.
@@ -115,6 +117,57 @@ pub(crate) enum Fills {
     Everything,
 }
 
+/// A layer that is painted over what is below, clips or masks it. Modes that divide are left out: they make much of little.
+fn composite(u: &mut Unstructured<'_>) -> Result<Composite> {
+    let opacity = f32::from(u.arbitrary::<u8>()?) / 255.0;
+    Ok(match u.int_in_range(0..=5)? {
+        0 => Composite::Clip,
+        1 => Composite::Mask(*u.choose(&[MaskKind::Alpha, MaskKind::Luminance])?),
+        2 => Composite::Over {
+            opacity,
+            blend: *u.choose(&[
+                BlendMode::Multiply,
+                BlendMode::Screen,
+                BlendMode::Difference,
+                BlendMode::Exclusion,
+            ])?,
+        },
+        _ => Composite::over(opacity),
+    })
+}
+
+/// A linear or radial gradient of a few stops.
+fn gradient(u: &mut Unstructured<'_>, side: i32, fills: Fills) -> Result<Gradient> {
+    let mut stops = Vec::new();
+    for i in 0..u.int_in_range(1..=4_u8)? {
+        stops.push(Stop {
+            offset: f32::from(i) * 0.25 + f32::from(u.int_in_range(0..=15_u8)?) / 64.0,
+            color: color(u, fills != Fills::Flat)?,
+        });
+    }
+    let spread = *u.choose(&[Spread::Pad, Spread::Reflect, Spread::Repeat])?;
+    let (first, second) = (point(u, side)?, point(u, side)?);
+    let geometry = if u.arbitrary()? {
+        GradientShape::Linear {
+            from: first,
+            to: second,
+        }
+    } else {
+        GradientShape::Radial {
+            center: first,
+            radius: f64::from(u.int_in_range(1..=side)?),
+            focus: first.lerp(second, 0.1),
+            focal_radius: f64::from(u.int_in_range(0..=2)?),
+        }
+    };
+    Ok(Gradient {
+        shape: ShapeId(0),
+        geometry,
+        ramp: Ramp::new(stops, spread).expect("some stops"),
+        to_user: DAffine2::from_angle_translation(0.3, DVec2::new(2.0, 1.0)),
+    })
+}
+
 /// Random triangles, polygons, hairlines, points and layers on a canvas of `side` pixels.
 pub(crate) fn random(u: &mut Unstructured<'_>, side: i32, fills: Fills) -> Result<Scene> {
     let mut kinds = Vec::new();
@@ -136,12 +189,15 @@ pub(crate) fn random(u: &mut Unstructured<'_>, side: i32, fills: Fills) -> Resul
             3 if open > 0 => {
                 open -= 1;
                 PrimitiveKind::EndLayer {
-                    opacity: f32::from(u.arbitrary::<u8>()?) / 255.0,
+                    composite: composite(u)?,
                 }
             }
             4 | 5 => PrimitiveKind::Polygon {
                 polygon: Arc::new(polygon(u, side)?),
-                color: color(u, fills != Fills::Flat)?,
+                fill: match u.int_in_range(0..=3)? {
+                    0 if fills == Fills::Everything => Fill::Gradient(GradientId(u.int_in_range(0..=1)?)),
+                    _ => Fill::Solid(color(u, fills != Fills::Flat)?),
+                },
             },
             _ => {
                 let points = [point(u, side)?, point(u, side)?, point(u, side)?];
@@ -152,8 +208,11 @@ pub(crate) fn random(u: &mut Unstructured<'_>, side: i32, fills: Fills) -> Resul
             }
         });
     }
-    kinds.extend((0..open).map(|_| PrimitiveKind::EndLayer { opacity: 0.5 }));
+    kinds.extend((0..open).map(|_| PrimitiveKind::EndLayer {
+        composite: Composite::over(0.5),
+    }));
     let mut scene = scene(f64::from(side), kinds);
+    scene.gradients = vec![gradient(u, side, fills)?, gradient(u, side, fills)?];
     scene.textures = vec![
         Arc::new(busy_texture(16, 16, fills != Fills::Flat)),
         Arc::new(busy_texture(9, 5, false)),

@@ -116,9 +116,9 @@ impl<'a> ChunkBuilder<'a> {
         self.chunk
     }
 
-    /// Adds a polygon of one colour, its points brought to screen space by `place`; nothing where any of them is not
-    /// finite there.
-    pub fn polygon(&mut self, polygon: &Polygon, place: impl Fn(DVec2) -> DVec2, color: Rgba) {
+    /// Adds a polygon, its points brought to screen space by `place`; nothing where any of them is not finite there. Its
+    /// paint must be one that needs no corners to interpolate between.
+    pub fn polygon(&mut self, polygon: &Polygon, place: impl Fn(DVec2) -> DVec2, paint: &Paint) {
         self.add_waiting();
         let (grid, frame) = (self.context.grid, self.frame);
         let mut builder = OutlineBuilder::new(grid, frame, &mut self.chunk.outline_edges);
@@ -129,6 +129,7 @@ impl<'a> ChunkBuilder<'a> {
             return;
         };
         if self.stamps
+            && let Some(color) = paint.constant()
             && let Some(coverage) = outline.coverage_mask(&self.chunk.outline_edges, grid, &mut self.scanner)
         {
             outline.drop_edges(&mut self.chunk.outline_edges);
@@ -139,12 +140,15 @@ impl<'a> ChunkBuilder<'a> {
             return;
         }
         let index = index(self.chunk.outlines.len());
-        let (color, samples) = (self.color(color), outline.samples);
+        let (paint, samples) = (self.paint(paint), outline.samples);
+        let hides = self.chunk.paints[paint as usize]
+            .constant
+            .is_some_and(Premultiplied16::is_opaque);
         self.chunk.outlines.push(outline);
-        self.chunk.outline_colors.push(color);
+        self.chunk.outline_paints.push(paint);
         self.push(DrawCommand::Outline(index));
         self.chunk.triangle_count += 1;
-        if color.is_opaque() && polygon.points().len() <= MOST_CORNERS {
+        if hides && polygon.points().len() <= MOST_CORNERS {
             // So few are one contour.
             let points = polygon.points().iter().map(|point| place(*point));
             self.drop_below_polygon(points, samples);

@@ -160,7 +160,7 @@ impl<'a> VisibilityPainter<'a> {
         let mut composited = HashMap::new();
         below.composite(layer, |below, above| {
             let sample = surfaces.get(above).flat;
-            if sample == Premultiplied16::TRANSPARENT {
+            if sample == Premultiplied16::TRANSPARENT && compositing.keeps_below() {
                 return below;
             }
             *composited
@@ -268,7 +268,7 @@ mod tests {
             let context = ListContext::new(SIZE, &settings);
             let mut builder = ChunkBuilder::new(&context, 12);
             fill(&mut builder, u)?;
-            let list = DisplayList::new(context, settings, vec![builder.finish()], vec![&texture]);
+            let list = DisplayList::new(context, settings, vec![builder.finish()], vec![&texture].into());
             let cancelled = AtomicBool::new(false);
             let tiles = context.tiles;
             let rows = Span {

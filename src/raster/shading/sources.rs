@@ -1,0 +1,55 @@
+//! What paints point to: the textures and gradients of a drawing.
+
+use glam::{DAffine2, DVec2};
+
+use crate::color::{Mix, Ramp};
+use crate::geometry::GradientShape;
+use crate::texture::Texture;
+
+/// The textures and gradients that the paints of a display list name by number.
+#[derive(Debug, Default)]
+pub struct PaintSources<'a> {
+    /// What [`crate::raster::Paint::texture`] points to.
+    pub textures: Vec<&'a Texture>,
+    /// What [`crate::raster::Paint::gradient`] points to.
+    pub gradients: Vec<PlacedGradient<'a>>,
+}
+
+/// A gradient as it lies on the screen.
+#[derive(Clone, Copy, Debug)]
+pub struct PlacedGradient<'a> {
+    /// Where on the ramp a point lies, in the gradient's own coordinates.
+    pub geometry: GradientShape,
+    /// The colours.
+    pub ramp: &'a Ramp,
+    /// Pixels of the frame to the gradient's own coordinates.
+    pub from_pixels: DAffine2,
+}
+
+impl<'a> From<Vec<&'a Texture>> for PaintSources<'a> {
+    fn from(textures: Vec<&'a Texture>) -> Self {
+        Self {
+            textures,
+            gradients: Vec::new(),
+        }
+    }
+}
+
+impl PlacedGradient<'_> {
+    /// The place on the ramp, before spreading, of a point of the frame; `None` where the gradient shows nothing.
+    #[inline]
+    pub(in crate::raster) fn at(&self, pixel: DVec2) -> Option<f64> {
+        self.geometry.at(self.from_pixels.transform_point2(pixel))
+    }
+
+    /// What the ramp shows at that point, with its place before spreading.
+    pub(in crate::raster) fn mix(&self, pixel: DVec2) -> Option<(f64, Mix)> {
+        let t = self.at(pixel)?;
+        Some((t, self.ramp.mix(t)))
+    }
+
+    /// Whether every point has a colour that lets nothing shine through.
+    pub(in crate::raster) fn is_opaque(&self) -> bool {
+        self.geometry.is_everywhere() && self.ramp.is_opaque()
+    }
+}

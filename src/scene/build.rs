@@ -1,5 +1,6 @@
 //! The scene while it grows: shapes, primitives, textures and report, with their ceilings.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2, Vec2};
@@ -13,14 +14,15 @@ use super::{
     Shape, ShapeId, SkippedKind, SourceLocation,
 };
 use crate::color::Rgba;
-use crate::geometry::{FillRule, Polygon};
+use crate::geometry::{CurvedArea, FillRule, Polygon};
+use crate::texture::Texture;
 
 /// Most primitives of a scene, about 400 MB.
 const MAX_PRIMITIVES: usize = 4_000_000;
 /// Most points of all polygons together, about 400 MB with the frame's copy.
 const MAX_POINTS: usize = 10_000_000;
-/// Most layers inside each other: each takes memory in every tile.
-const MAX_LAYERS: usize = 32;
+/// Most layers inside each other, those of clips and masks included: each takes memory in every tile.
+const MAX_LAYERS: usize = 64;
 
 /// A growing scene and the document it comes from.
 #[derive(Debug)]
@@ -33,7 +35,15 @@ pub(super) struct Builder<'doc> {
     pub(super) gradients: Vec<Gradient>,
     pub(super) patterns: Vec<Pattern>,
     pub(super) report: Report,
+    primitives_left: usize,
     points_left: usize,
+    open_layers: usize,
+}
+
+/// A state of a growing scene, to return to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mark {
+    primitives: usize,
     open_layers: usize,
 }
 
@@ -48,6 +58,7 @@ impl<'doc> Builder<'doc> {
             gradients: Vec::new(),
             patterns: Vec::new(),
             report: Report::default(),
+            primitives_left: MAX_PRIMITIVES,
             points_left: MAX_POINTS,
             open_layers: 0,
         }
@@ -80,10 +91,16 @@ impl<'doc> Builder<'doc> {
 
     /// The shape of an element; what is pushed with it belongs to it.
     pub(super) fn shape(&mut self, node: Node<'_, '_>) -> ShapeId {
+        self.shape_used(node, None)
+    }
+
+    /// As [`Builder::shape`], of an element that the `use` at `used` puts here.
+    pub(super) fn shape_used(&mut self, node: Node<'_, '_>, used: Option<SourceLocation>) -> ShapeId {
         let shape = Shape {
             element: node.tag_name().name().into(),
             id: node.attribute("id").map(Into::into),
             location: self.locate(node),
+            used,
         };
         self.shapes.push(shape);
         // Shapes are fewer than nodes, and nodes are fewer than 2^32.
@@ -92,7 +109,8 @@ impl<'doc> Builder<'doc> {
 
     /// Adds a primitive whose coordinates lie in user space.
     pub(super) fn push(&mut self, shape: ShapeId, kind: PrimitiveKind) -> Result<(), Fault> {
-        if self.primitives.len() >= MAX_PRIMITIVES {
+        // Counted down, so that the tiles of patterns count too.
+        let Some(left) = self.primitives_left.checked_sub(1) else {
             return Err(self.fault(
                 shape,
                 Problem::TooMany {
@@ -100,7 +118,8 @@ impl<'doc> Builder<'doc> {
                     limit: MAX_PRIMITIVES,
                 },
             ));
-        }
+        };
+        self.primitives_left = left;
         let points = match &kind {
             PrimitiveKind::Triangle { points, .. } => points.as_slice(),
             PrimitiveKind::Polygon { polygon, .. } => polygon.points(),
@@ -131,15 +150,33 @@ impl<'doc> Builder<'doc> {
         self.push(shape, PrimitiveKind::BeginLayer)
     }
 
-    /// Ends the layer that was begun last; one with nothing on it vanishes.
-    pub(super) fn end_layer(&mut self, shape: ShapeId, opacity: f32) -> Result<(), Fault> {
+    /// Ends the layer that was begun last; one that would be painted and has nothing on it vanishes.
+    pub(super) fn end_layer(&mut self, shape: ShapeId, composite: Composite) -> Result<(), Fault> {
         self.open_layers = self.open_layers.saturating_sub(1);
-        if matches!(self.primitives.last(), Some(last) if last.kind == PrimitiveKind::BeginLayer) {
+        if matches!(composite, Composite::Over { .. }) && self.is_empty_layer() {
             self.primitives.pop();
             return Ok(());
         }
-        let composite = Composite::over(opacity);
         self.push(shape, PrimitiveKind::EndLayer { composite })
+    }
+
+    /// Whether the layer that was begun last has nothing on it so far.
+    pub(super) fn is_empty_layer(&self) -> bool {
+        matches!(self.primitives.last(), Some(last) if last.kind == PrimitiveKind::BeginLayer)
+    }
+
+    /// Where the scene has come to.
+    pub(super) fn mark(&self) -> Mark {
+        Mark {
+            primitives: self.primitives.len(),
+            open_layers: self.open_layers,
+        }
+    }
+
+    /// Takes back all primitives since `mark`.
+    pub(super) fn take_back(&mut self, mark: Mark) {
+        self.primitives.truncate(mark.primitives);
+        self.open_layers = mark.open_layers;
     }
 
     /// Adds a triangle.
@@ -168,6 +205,24 @@ impl<'doc> Builder<'doc> {
             return self.triangle(shape, [a, b, c].map(place), Paint::Solid(color));
         }
         let polygon = Polygon::new(area.contours.iter().map(|contour| contour.iter().map(place)), area.rule);
+        self.polygon(shape, polygon, Fill::Solid(color))
+    }
+
+    /// Fills an area with curves, whose edges shall be fine enough for `scale` samples per user unit.
+    pub(super) fn fill_curved(
+        &mut self,
+        shape: ShapeId,
+        (area, rule): (CurvedArea, FillRule),
+        fill: Fill,
+        scale: f64,
+    ) -> Result<(), Fault> {
+        if matches!(fill, Fill::Solid(color) if color.a <= 0.0) {
+            return Ok(());
+        }
+        self.polygon(shape, Polygon::curved(area, rule, scale), fill)
+    }
+
+    fn polygon(&mut self, shape: ShapeId, polygon: Polygon, fill: Fill) -> Result<(), Fault> {
         if polygon.points().is_empty() {
             return Ok(());
         }
@@ -183,8 +238,29 @@ impl<'doc> Builder<'doc> {
         };
         self.points_left = left;
         let polygon = Arc::new(polygon);
-        let fill = Fill::Solid(color);
         self.push(shape, PrimitiveKind::Polygon { polygon, fill })
+    }
+
+    /// What is drawn by `draw`, as a scene of its own with a canvas of this size. Its textures are still missing.
+    pub(super) fn apart(
+        &mut self,
+        canvas: DVec2,
+        draw: impl FnOnce(&mut Self) -> Result<(), Fault>,
+    ) -> Result<Scene, Fault> {
+        let mut scene = Scene::empty(canvas, Dialect::Svg);
+        let layers = std::mem::take(&mut self.open_layers);
+        self.exchange(&mut scene);
+        let drawn = draw(self);
+        self.exchange(&mut scene);
+        self.open_layers = layers;
+        drawn.map(|()| scene)
+    }
+
+    fn exchange(&mut self, scene: &mut Scene) {
+        std::mem::swap(&mut self.shapes, &mut scene.shapes);
+        std::mem::swap(&mut self.primitives, &mut scene.primitives);
+        std::mem::swap(&mut self.gradients, &mut scene.gradients);
+        std::mem::swap(&mut self.patterns, &mut scene.patterns);
     }
 
     /// The scene, once its textures are loaded.
@@ -194,6 +270,9 @@ impl<'doc> Builder<'doc> {
             textures: self.textures.digests(),
         };
         let textures = self.textures.load(&mut self.report);
+        if !textures.is_empty() {
+            hand_down(&mut self.patterns, &textures);
+        }
         Scene {
             name: Arc::default(),
             canvas,
@@ -226,6 +305,21 @@ pub(super) struct Area<'a> {
     pub(super) rule: FillRule,
     /// The shape's own coordinates to user space.
     pub(super) to_user: DAffine2,
+}
+
+/// Gives the textures of a scene to the tiles of its patterns too.
+fn hand_down(patterns: &mut [Pattern], textures: &[Arc<Texture>]) {
+    let mut done: HashMap<*const Scene, Arc<Scene>> = HashMap::new();
+    for pattern in patterns {
+        let key = Arc::as_ptr(&pattern.tile);
+        let tile = done.entry(key).or_insert_with(|| {
+            let mut tile = Scene::clone(&pattern.tile);
+            tile.textures = textures.to_vec();
+            hand_down(&mut tile.patterns, textures);
+            Arc::new(tile)
+        });
+        pattern.tile = Arc::clone(tile);
+    }
 }
 
 /// Whether both coordinates are within the range of 32-bit floats, which also says that they are finite.

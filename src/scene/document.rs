@@ -4,12 +4,13 @@
 //! attributes of an element pairwise and expands entities; so a quick look at the text comes first.
 
 use std::borrow::Cow;
+use std::io::Read as _;
 
 use roxmltree::{Document, Error, ParsingOptions};
 
 use super::error::Fault;
 use super::report::shorten;
-use super::{Problem, SourceLocation, entities};
+use super::{MAX_DOCUMENT_BYTES, Problem, ResourceError, SourceLocation, entities};
 
 /// Most elements, texts and comments in a document.
 const MAX_NODES: u32 = 4_000_000;
@@ -91,6 +92,28 @@ fn after(place: SourceLocation, c: char) -> SourceLocation {
     SourceLocation {
         column: place.column.saturating_add(1),
         ..place
+    }
+}
+
+/// What every compressed document begins with.
+const GZIP: [u8; 2] = [0x1f, 0x8b];
+
+/// The document's bytes, unpacked where they are compressed (`.svgz`).
+pub(super) fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, Fault> {
+    if !bytes.starts_with(&GZIP) {
+        return Ok(Cow::Borrowed(bytes));
+    }
+    let mut document = Vec::new();
+    let unpacking = flate2::read::MultiGzDecoder::new(bytes)
+        .take(MAX_DOCUMENT_BYTES + 1)
+        .read_to_end(&mut document);
+    match unpacking {
+        Ok(_) if document.len() as u64 > MAX_DOCUMENT_BYTES => {
+            let limit = MAX_DOCUMENT_BYTES;
+            Err(Problem::from(ResourceError::TooLarge { limit }).nowhere())
+        }
+        Ok(_) => Ok(Cow::Owned(document)),
+        Err(_) => Err(Problem::Packed.nowhere()),
     }
 }
 
@@ -188,6 +211,11 @@ impl<'doc> Source<'doc> {
         } else {
             offset - length.min(offset - at)
         }
+    }
+
+    /// The text that is parsed, which places of its elements are of.
+    pub(super) fn text(&self) -> &str {
+        &self.text
     }
 
     /// Parses the text.

@@ -28,6 +28,9 @@ pub enum Problem {
     /// No bytes, or only blanks.
     #[error("the document is empty; save the drawing again")]
     Empty,
+    /// Compressed, and damaged.
+    #[error("the compressed document is damaged; save the drawing again")]
+    Packed,
     /// Neither UTF-8 nor UTF-16.
     #[error("this is not text in UTF-8 or UTF-16; is it an SVG file? Save it as UTF-8")]
     Encoding,

@@ -28,7 +28,6 @@ use build::Builder;
 use course::CourseReader;
 use document::{LineIndex, Source};
 use error::Fault;
-use svg::SvgReader;
 use textures::{Alpha, TextureTable};
 
 use crate::memory;
@@ -44,6 +43,7 @@ pub use model::{
 pub use quotes::Quotes;
 pub use report::{Report, Skipped, SkippedKind, Warning};
 pub use resources::{FolderResources, NoResources, ResourceError, Resources};
+pub use svg::{Fonts, set_fonts};
 
 /// Largest scene file, in bytes.
 const MAX_DOCUMENT_BYTES: u64 = 256 << 20;
@@ -97,6 +97,8 @@ pub fn read(document: &[u8], name: &str, options: ReadOptions, resources: &dyn R
 }
 
 fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> Result<Scene, Fault> {
+    let packed = bytes;
+    let bytes = &*document::unpacked(packed)?;
     let memory = (bytes.len() as u64).saturating_mul(MEMORY_PER_BYTE).min(MAX_MEMORY);
     memory::ask_for(memory).map_err(|error| Problem::from(error).nowhere())?;
     let text = document::decode(bytes)?;
@@ -116,7 +118,7 @@ fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> 
     let mut builder = Builder::new(&source, &lines, TextureTable::new(resources, alpha));
     let canvas = match dialect {
         Dialect::Course => CourseReader::read(&mut builder, root)?,
-        Dialect::Svg => SvgReader::read(&mut builder, root)?,
+        Dialect::Svg => svg::read(&mut builder, root, source.text())?,
     };
     if canvas.min_element() <= 0.0 {
         let (width, height) = (canvas.x, canvas.y);
@@ -126,7 +128,7 @@ fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> 
     room.map_err(|error| Problem::from(error).nowhere())?;
     let mut scene = builder.finish(dialect, canvas);
     scene.other_reading = other;
-    scene.files.document = Some(FileDigest::of(bytes));
+    scene.files.document = Some(FileDigest::of(packed));
     scene.document = (text.len() <= MAX_KEPT_DOCUMENT).then(|| text.as_ref().into());
     Ok(scene)
 }

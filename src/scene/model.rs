@@ -131,6 +131,8 @@ pub struct Shape {
     pub id: Option<Box<str>>,
     /// Where its start tag begins.
     pub location: SourceLocation,
+    /// Where the `use` stands that put it here, if one did.
+    pub used: Option<SourceLocation>,
 }
 
 /// The smallest thing that is painted.

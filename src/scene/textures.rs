@@ -1,5 +1,6 @@
 //! The textures a document refers to: each address once, read and decoded in parallel, within a budget of texels.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
@@ -28,12 +29,14 @@ const MAX_TEXTURES: usize = 4_096;
 pub(super) struct TextureTable<'doc> {
     resources: &'doc dyn Resources,
     alpha: Alpha,
-    ids: HashMap<&'doc str, TextureId>,
+    ids: HashMap<Cow<'doc, str>, TextureId>,
     entries: Vec<Entry<'doc>>,
     bytes_left: u64,
     held_left: u64,
     /// Whether a file could be read but for the memory.
     starved: Result<(), OutOfMemory>,
+    /// Files that are documents.
+    documents: Vec<(String, FileDigest)>,
 }
 
 /// Whether a texture's transparency counts.
@@ -48,7 +51,7 @@ pub(super) enum Alpha {
 /// One texture.
 #[derive(Debug)]
 struct Entry<'doc> {
-    address: &'doc str,
+    address: Cow<'doc, str>,
     /// Where it is first asked for.
     location: SourceLocation,
     /// Its file, or why there is none.
@@ -74,20 +77,40 @@ impl<'doc> TextureTable<'doc> {
             bytes_left: MAX_BYTES,
             held_left: MAX_HELD,
             starved: Ok(()),
+            documents: Vec::new(),
         }
     }
 
+    /// The bytes of an image that is a document.
+    ///
+    /// # Errors
+    /// One line that says why they are not there.
+    pub(super) fn document(&mut self, address: &str) -> Result<Vec<u8>, String> {
+        let bytes = self.bytes(address.trim())?;
+        self.bytes_left = self.bytes_left.saturating_sub(bytes.len() as u64);
+        if !is_data(address) {
+            let name = shorten(address.trim(), MAX_ADDRESS);
+            self.documents.push((name, FileDigest::of(&bytes)));
+        }
+        Ok(bytes)
+    }
+
     /// The texture at `address`, asked for at `location`. `None` when there are too many.
-    pub(super) fn request(&mut self, address: &'doc str, location: SourceLocation) -> Option<TextureId> {
-        if let Some(&id) = self.ids.get(address) {
+    pub(super) fn request(
+        &mut self,
+        address: impl Into<Cow<'doc, str>>,
+        location: SourceLocation,
+    ) -> Option<TextureId> {
+        let address = address.into();
+        if let Some(&id) = self.ids.get(&address) {
             return Some(id);
         }
         if self.entries.len() >= MAX_TEXTURES {
             return None;
         }
         let id = TextureId(u32::try_from(self.entries.len()).ok()?);
-        let file = self.read(address);
-        self.ids.insert(address, id);
+        let file = self.read(&address);
+        self.ids.insert(address.clone(), id);
         self.entries.push(Entry {
             address,
             location,
@@ -104,12 +127,13 @@ impl<'doc> TextureTable<'doc> {
 
     /// The addresses of the files that could be read, with their digests.
     pub(super) fn digests(&self) -> Vec<(String, FileDigest)> {
-        let files = self.entries.par_iter().filter(|entry| !is_data(entry.address));
+        let files = self.entries.par_iter().filter(|entry| !is_data(&entry.address));
         let digest = |entry: &Entry<'_>| {
             let file = entry.file.as_ref().ok()?;
             Some((shorten(entry.address.trim(), MAX_ADDRESS), FileDigest::of(&file.bytes)))
         };
-        files.filter_map(digest).collect()
+        let textures: Vec<_> = files.filter_map(digest).collect();
+        [textures, self.documents.clone()].concat()
     }
 
     /// Whether the system has room for everything that [`TextureTable::load`] decodes.
@@ -130,7 +154,7 @@ impl<'doc> TextureTable<'doc> {
         let (places, files): (Vec<_>, Vec<_>) = self
             .entries
             .into_iter()
-            .map(|entry| ((name_of(entry.address), entry.location), entry.file))
+            .map(|entry| ((name_of(&entry.address), entry.location), entry.file))
             .unzip();
         let mut textures = Vec::with_capacity(places.len());
         let mut places = places.into_iter();
@@ -155,30 +179,9 @@ impl<'doc> TextureTable<'doc> {
         textures
     }
 
-    /// The bytes of the image, if they fit what is left of the ceilings.
+    /// The image, if it fits what is left of the ceilings.
     fn read(&mut self, address: &str) -> Result<EncodedImage, String> {
-        let address = address.trim();
-        if !is_data(address) && is_elsewhere(address) {
-            return Err("addresses in the net are not fetched".to_owned());
-        }
-        if self.bytes_left == 0 {
-            return Err(format!(
-                "the files of all images together have more than {} MB",
-                MAX_BYTES >> 20
-            ));
-        }
-        let bytes = if is_data(address) {
-            embedded(address)?
-        } else if address.is_empty() {
-            return Err("nothing says which file it is".to_owned());
-        } else {
-            linked(address, self.resources).map_err(|error| {
-                if error.is_of_memory() {
-                    self.starved = Err(OutOfMemory { megabytes: 1 });
-                }
-                error.to_string()
-            })?
-        };
+        let bytes = self.bytes(address.trim())?;
         let length = bytes.len() as u64;
         let fits = length <= self.bytes_left;
         // What turns out to be no image was read all the same.
@@ -197,18 +200,42 @@ impl<'doc> TextureTable<'doc> {
         self.held_left = left;
         Ok(EncodedImage { bytes, size, memory })
     }
+
+    fn bytes(&mut self, address: &str) -> Result<Vec<u8>, String> {
+        if !is_data(address) && is_elsewhere(address) {
+            return Err("addresses in the net are not fetched".to_owned());
+        }
+        if self.bytes_left == 0 {
+            return Err(format!(
+                "the files of all images together have more than {} MB",
+                MAX_BYTES >> 20
+            ));
+        }
+        if is_data(address) {
+            embedded(address)
+        } else if address.is_empty() {
+            Err("nothing says which file it is".to_owned())
+        } else {
+            linked(address, self.resources).map_err(|error| {
+                if error.is_of_memory() {
+                    self.starved = Err(OutOfMemory { megabytes: 1 });
+                }
+                error.to_string()
+            })
+        }
+    }
 }
 
 impl fmt::Debug for TextureTable<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list()
-            .entries(self.entries.iter().map(|entry| name_of(entry.address)))
+            .entries(self.entries.iter().map(|entry| name_of(&entry.address)))
             .finish()
     }
 }
 
 /// A texture's name in messages and tool tips.
-fn name_of(address: &str) -> String {
+pub(super) fn name_of(address: &str) -> String {
     match address.trim() {
         "" => "without a name".to_owned(),
         data if is_data(data) => "in the document".to_owned(),
@@ -248,7 +275,7 @@ fn explain(error: DecodeError) -> String {
     shorten(&error.to_string(), MAX_MESSAGE)
 }
 
-fn is_data(address: &str) -> bool {
+pub(super) fn is_data(address: &str) -> bool {
     address
         .trim_start()
         .get(..5)

@@ -1,316 +1,125 @@
-//! The dialect `svg`: SVG 1.1 and 2 as far as straight edges, colours and images go.
+//! The dialect `svg`: SVG 1.1 and 2, as usvg reads them.
 //!
-//! Styles come from presentation attributes and the `style` attribute and are inherited; strokes have widths; the
-//! canvas is the document's viewport. What is not drawn is reported.
+//! ```text
+//!     document -> check, references -> prepare -> usvg -> paint -> primitives
+//!                 (what usvg would     (ids, own   (styles,
+//!                  pass over or not     triangles,  units,
+//!                  survive)             images)     text)
+//! ```
+//!
+//! What is not drawn is reported.
 
-mod declarations;
-mod outline;
+mod check;
+mod clip;
+mod edits;
+mod elements;
+mod fonts;
+mod paint;
+mod pictures;
+mod prepare;
+mod server;
 mod shapes;
-mod style;
 mod values;
-mod viewport;
 
-use glam::{DAffine2, DVec2};
-use roxmltree::{Children, Node};
-use svgtypes::AspectRatio;
+use std::sync::{Mutex, PoisonError};
 
-use self::style::{OwnStyle, Style};
-use self::values::{Along, Units};
-use self::viewport::{DEFAULT_ASPECT, Frame};
+use glam::DVec2;
+use roxmltree::Node;
+
+use self::paint::Painter;
+use self::pictures::Loading;
 use super::build::Builder;
 use super::error::Fault;
-use super::report::quote;
-use super::triangles::{Element, TextureFiles};
-use super::{ShapeId, SkippedKind, attributes, numbers};
+use super::{Problem, numbers};
+use crate::memory::OutOfMemory;
 
-/// Size of a document that does not say, as web browsers have it.
-const DEFAULT_SIZE: DVec2 = DVec2::new(300.0, 150.0);
+pub use fonts::{Fonts, set_fonts};
 
-/// Elements that only define what others refer to; the reference is what is reported.
-const DEFINITIONS: [&str; 10] = [
-    "defs",
-    "texture",
-    "symbol",
-    "clipPath",
-    "mask",
-    "linearGradient",
-    "radialGradient",
-    "pattern",
-    "marker",
-    "filter",
-];
+/// Stack for documents that are as deep as they may be: usvg and what follows it recurse. Only what is used is taken.
+const STACK: usize = 256 << 20;
 
-/// Properties whose values are numbers: one that is not finite is refused, not ignored.
-const NUMERIC: [&str; 7] = [
-    "font-size",
-    "fill-opacity",
-    "stroke-opacity",
-    "stroke-width",
-    "stroke-miterlimit",
-    "opacity",
-    "transform",
-];
+/// Most elements that usvg reads, those that a `use` repeats counted again.
+const MAX_ELEMENTS: usize = 1_000_000;
 
-/// Reads one document.
-#[derive(Debug)]
-pub(super) struct SvgReader<'a, 'doc> {
-    builder: &'a mut Builder<'doc>,
-    texture_files: TextureFiles<'doc>,
+/// Samples along the longer side of the canvas for which the edges of curves are fine enough from the start.
+const FINE_FOR: f64 = 4096.0;
+
+/// Reads everything below `root`, which was parsed from `text`, and answers with the canvas.
+pub(super) fn read<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, text: &str) -> Result<DVec2, Fault> {
+    let thread = std::thread::Builder::new().name("svg".to_owned()).stack_size(STACK);
+    std::thread::scope(|scope| {
+        let reading = thread.spawn_scoped(scope, || read_here(builder, root, text));
+        let megabytes = (STACK >> 20) as u64;
+        let reading = reading.map_err(|_| Problem::from(OutOfMemory { megabytes }).nowhere())?;
+        reading.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })
 }
 
-/// What an element finds around it.
-#[derive(Clone, Copy, Debug)]
-struct Surroundings {
-    to_user: DAffine2,
-    style: Style,
-    viewport: DVec2,
+fn read_here<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, text: &str) -> Result<DVec2, Fault> {
+    let prepared = prepare::prepare(root, text, builder)?;
+    let letters = prepared.letters;
+    let loading = Mutex::new(Loading::new(builder));
+    let tree = loading_tree(&prepared, &loading);
+    let Loading {
+        builder,
+        pictures,
+        missing,
+        ..
+    } = loading.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let tree = tree.map_err(|error| explain(&error, builder, root))?;
+    for message in missing.iter().filter_map(|missing| missing.message()) {
+        builder.warn(letters.unwrap_or(root), message);
+    }
+    let canvas = DVec2::new(tree.size().width().into(), tree.size().height().into());
+    warn_of_size(builder, root, canvas);
+    let scale = FINE_FOR / canvas.max_element();
+    Painter::new(builder, root, &prepared.elements, &pictures, scale).tree(&tree)?;
+    Ok(canvas)
 }
 
-/// A container whose children are being read.
-#[derive(Debug)]
-struct Open<'doc> {
-    children: Children<'doc, 'doc>,
-    surroundings: Surroundings,
-    /// The layer to close in the end.
-    layer: Option<(ShapeId, f32)>,
+/// usvg's tree of a document.
+fn loading_tree<'doc>(
+    prepared: &prepare::Prepared<'doc>,
+    loading: &Mutex<Loading<'_, 'doc>>,
+) -> Result<usvg::Tree, usvg::Error> {
+    let fonts = prepared.letters.map(|_| fonts::database());
+    let load = |address: &str| {
+        let node = *prepared.images.get(prepared.elements.number(address)?)?;
+        pictures::load(loading, node)
+    };
+    usvg::Tree::from_str(&prepared.text, &pictures::options(fonts, loading, load))
 }
 
-impl Surroundings {
-    fn units(&self) -> Units {
-        Units {
-            viewport: self.viewport,
-            font_size: self.style.font_size,
+/// usvg's error in our words.
+fn explain(error: &usvg::Error, builder: &Builder<'_>, root: Node<'_, '_>) -> Fault {
+    let number = |name| numbers::leading(name, root.attribute(name).unwrap_or(""));
+    let side = |name| f64::from(number(name).ok().flatten().unwrap_or(0.0));
+    match error {
+        usvg::Error::InvalidSize => Problem::Canvas {
+            width: side("width"),
+            height: side("height"),
         }
-    }
-
-    /// What is inside an `svg` element that fills `port` is measured by its `viewBox`.
-    fn establish_viewport(&mut self, port: Frame, view_box: Option<Frame>, aspect: AspectRatio) {
-        if let Some(content) = view_box {
-            self.to_user *= port.fit(content, aspect);
-            self.viewport = content.size;
-        } else {
-            self.to_user *= DAffine2::from_translation(port.corner);
-            self.viewport = port.size;
+        .at(builder.locate(root)),
+        usvg::Error::ElementsLimitReached | usvg::Error::ParsingFailed(roxmltree::Error::NodesLimitReached) => {
+            Problem::TooMany {
+                what: "elements, with those that are used again",
+                limit: MAX_ELEMENTS,
+            }
+            .nowhere()
         }
+        error => Problem::Xml(super::report::quote(&error.to_string())).nowhere(),
     }
 }
 
-impl<'a, 'doc> SvgReader<'a, 'doc> {
-    /// Reads everything below `root` and answers with the canvas.
-    pub(super) fn read(builder: &'a mut Builder<'doc>, root: Node<'doc, 'doc>) -> Result<DVec2, Fault> {
-        let mut reader = Self {
-            builder,
-            texture_files: TextureFiles::below(root),
-        };
-        let view_box = reader.view_box(root)?;
-        let viewport = view_box.map_or(DEFAULT_SIZE, |frame| frame.size);
-        let outside = Surroundings {
-            to_user: DAffine2::IDENTITY,
-            style: Style::INITIAL,
-            viewport,
-        };
-        let width = reader.length(root, "width", Along::X, &outside)?;
-        let height = reader.length(root, "height", Along::Y, &outside)?;
-        let canvas = DVec2::new(width.unwrap_or(viewport.x), height.unwrap_or(viewport.y));
-        if canvas.min_element() <= 0.0 {
-            return Ok(canvas);
-        }
-        let unsized_canvas = view_box.is_none() && (width.is_none() || height.is_none());
-        if unsized_canvas {
-            let message = format!(
-                "width, height or viewBox is missing; the canvas is {} x {}",
-                canvas.x, canvas.y
-            );
-            reader.builder.warn(root, message);
-        }
-        let port = Frame {
-            corner: DVec2::ZERO,
-            size: canvas,
-        };
-        reader.tree(root, outside, port, view_box)?;
-        Ok(canvas)
+/// Tells of a document without a size, which is as large as what is drawn.
+fn warn_of_size(builder: &mut Builder<'_>, root: Node<'_, '_>, canvas: DVec2) {
+    let is_given = |name| root.attribute(name).is_some_and(|side| !side.trim_end().ends_with('%'));
+    if root.has_attribute("viewBox") || is_given("width") && is_given("height") {
+        return;
     }
-
-    /// Walks the tree without recursion, so that no nesting is too deep.
-    fn tree(
-        &mut self,
-        root: Node<'doc, 'doc>,
-        outside: Surroundings,
-        port: Frame,
-        view_box: Option<Frame>,
-    ) -> Result<(), Fault> {
-        let (mut surroundings, own) = self.enter(root, outside)?;
-        if !own.displayed || own.opacity <= 0.0 {
-            return Ok(());
-        }
-        let aspect = self.aspect(root)?;
-        surroundings.establish_viewport(port, view_box, aspect);
-        let mut open = vec![self.open(root, surroundings, own)?];
-        while let Some(container) = open.last_mut() {
-            let surroundings = container.surroundings;
-            match container.children.next() {
-                Some(node) if node.is_element() && !attributes::is_silent(node) => {
-                    open.extend(self.element(node, surroundings)?);
-                }
-                Some(_) => {}
-                None => {
-                    let layer = open.pop().and_then(|container| container.layer);
-                    if let Some((shape, opacity)) = layer {
-                        self.builder.end_layer(shape, opacity)?;
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Draws an element, or opens it if it is a container.
-    fn element(&mut self, node: Node<'doc, 'doc>, parent: Surroundings) -> Result<Option<Open<'doc>>, Fault> {
-        let name = node.tag_name().name();
-        if DEFINITIONS.contains(&name) {
-            return Ok(None);
-        }
-        let (mut surroundings, own) = self.enter(node, parent)?;
-        if !own.displayed || own.opacity <= 0.0 {
-            return Ok(None);
-        }
-        match name {
-            "g" | "a" => {}
-            "svg" => {
-                let Some(port) = self.nested_port(node, &surroundings)? else {
-                    return Ok(None);
-                };
-                let (view_box, aspect) = (self.view_box(node)?, self.aspect(node)?);
-                surroundings.establish_viewport(port, view_box, aspect);
-            }
-            "line" | "polyline" | "polygon" | "rect" | "image" | "colortri" | "textri" => {
-                if surroundings.style.visible {
-                    self.shape(node, &surroundings, own.opacity)?;
-                }
-                return Ok(None);
-            }
-            _ => {
-                self.builder.skip(SkippedKind::Element, name, node);
-                return Ok(None);
-            }
-        }
-        self.open(node, surroundings, own).map(Some)
-    }
-
-    fn open(
-        &mut self,
-        node: Node<'doc, 'doc>,
-        surroundings: Surroundings,
-        own: OwnStyle<'doc>,
-    ) -> Result<Open<'doc>, Fault> {
-        let mut layer = None;
-        if own.opacity < 1.0 {
-            let shape = self.builder.shape(node);
-            self.builder.begin_layer(shape)?;
-            layer = Some((shape, own.opacity));
-        }
-        Ok(Open {
-            children: node.children(),
-            surroundings,
-            layer,
-        })
-    }
-
-    /// Style and transform of an element, with complaints about them.
-    fn enter(&mut self, node: Node<'doc, 'doc>, parent: Surroundings) -> Result<(Surroundings, OwnStyle<'doc>), Fault> {
-        let (style, own, complaints) = style::cascade(node, parent.style, parent.units());
-        for (name, value) in complaints.invalid {
-            self.not_understood(node, name, value)?;
-        }
-        for name in complaints.without_effect {
-            self.builder.skip(SkippedKind::Attribute, name, node);
-        }
-        let mut to_user = parent.to_user;
-        if let Some(text) = own.transform.filter(|text| *text != "none") {
-            match values::transform(text) {
-                Some(transform) => to_user *= transform,
-                None => self.not_understood(node, "transform", text)?,
-            }
-        }
-        let surroundings = Surroundings {
-            to_user,
-            style,
-            ..parent
-        };
-        Ok((surroundings, own))
-    }
-
-    /// Refuses a value with a number that is not finite, and warns of any other that is not understood.
-    fn not_understood(&mut self, node: Node<'doc, 'doc>, name: &str, value: &str) -> Result<(), Fault> {
-        let geometry = !style::is_property(name);
-        if geometry || NUMERIC.contains(&name) {
-            numbers::all(name, value).map_err(|problem| problem.at(self.builder.locate_attribute(node, name)))?;
-        }
-        self.builder.warn(
-            node,
-            format!("{name}=\"{}\" is not understood and has no effect", quote(value)),
-        );
-        Ok(())
-    }
-
-    /// A length in user units, if there is one.
-    fn length(
-        &mut self,
-        node: Node<'doc, 'doc>,
-        name: &str,
-        along: Along,
-        surroundings: &Surroundings,
-    ) -> Result<Option<f64>, Fault> {
-        let Some(text) = node.attribute(name).filter(|text| *text != "auto") else {
-            return Ok(None);
-        };
-        let length = surroundings.units().length(text, along);
-        if length.is_none() {
-            self.not_understood(node, name, text)?;
-        }
-        Ok(length)
-    }
-
-    fn view_box(&mut self, node: Node<'doc, 'doc>) -> Result<Option<Frame>, Fault> {
-        let Some(text) = node.attribute("viewBox") else {
-            return Ok(None);
-        };
-        let frame = Frame::parse(text);
-        if frame.is_none() {
-            self.not_understood(node, "viewBox", text)?;
-        }
-        Ok(frame)
-    }
-
-    fn aspect(&mut self, node: Node<'doc, 'doc>) -> Result<AspectRatio, Fault> {
-        let Some(text) = node.attribute("preserveAspectRatio") else {
-            return Ok(DEFAULT_ASPECT);
-        };
-        if let Ok(aspect) = text.parse() {
-            return Ok(aspect);
-        }
-        self.not_understood(node, "preserveAspectRatio", text)?;
-        Ok(DEFAULT_ASPECT)
-    }
-
-    /// Where a nested `svg` goes; `None` if it has no area.
-    fn nested_port(&mut self, node: Node<'doc, 'doc>, around: &Surroundings) -> Result<Option<Frame>, Fault> {
-        let x = self.length(node, "x", Along::X, around)?.unwrap_or(0.0);
-        let y = self.length(node, "y", Along::Y, around)?.unwrap_or(0.0);
-        let width = self
-            .length(node, "width", Along::X, around)?
-            .unwrap_or(around.viewport.x);
-        let height = self
-            .length(node, "height", Along::Y, around)?
-            .unwrap_or(around.viewport.y);
-        if !matches!(node.attribute("overflow"), Some("visible" | "auto")) {
-            self.builder
-                .skip(SkippedKind::Attribute, "the clipping of a nested <svg>", node);
-        }
-        let frame = Frame {
-            corner: DVec2::new(x, y),
-            size: DVec2::new(width, height),
-        };
-        Ok(Some(frame).filter(|frame| frame.size.min_element() > 0.0))
-    }
+    let message = format!(
+        "width, height or viewBox is missing; the canvas is {} x {}",
+        canvas.x, canvas.y
+    );
+    builder.warn(root, message);
 }

@@ -1,211 +1,203 @@
-//! SVG's basic shapes and images, from attributes to primitives.
+//! Whose a node of usvg's is, and its outline as ours.
+
+use std::collections::HashSet;
 
 use glam::DVec2;
 use roxmltree::Node;
-use svgtypes::NumberListParser;
+use usvg::Group;
+use usvg::tiny_skia_path::{Path as TheirPath, PathSegment, Point};
 
-use super::outline::{self, Outline};
-use super::style::Style;
-use super::values::Along;
-use super::viewport::Frame;
-use super::{Element, Surroundings, SvgReader};
-use crate::color::Rgba;
-use crate::geometry::{FillRule, StrokeStyle, stroke_outline};
-use crate::scene::build::{Area, unit_square};
-use crate::scene::error::Fault;
-use crate::scene::{Paint, attributes, triangles};
+use super::paint::Painter;
+use crate::geometry::{LineCap, LineJoin, Path, Stroke, StrokeStyle};
+use crate::scene::{ShapeId, SourceLocation, attributes};
 
-impl<'doc> SvgReader<'_, 'doc> {
-    /// Draws a visible shape.
-    pub(super) fn shape(&mut self, node: Node<'doc, 'doc>, around: &Surroundings, opacity: f32) -> Result<(), Fault> {
-        let element = Element {
-            node,
-            shape: self.builder.shape(node),
-            to_user: around.to_user,
-        };
-        let outline = match node.tag_name().name() {
-            "colortri" => return triangles::colortri(self.builder, element, opacity),
-            "textri" => return triangles::textri(self.builder, element, &self.texture_files, opacity),
-            "image" => return self.image(element, around, opacity),
-            "line" => Some(self.line(node, around)?),
-            "rect" => self.rect(node, around)?,
-            name => Some(Outline {
-                points: self.points(node)?,
-                closed: name == "polygon",
-            }),
-        };
-        match outline {
-            Some(outline) => self.paint(element, &outline, around, opacity),
-            None => Ok(()),
+/// Most elements that a `use` shows and that are told apart.
+const MAX_USED: usize = 10_000;
+
+/// A `use` that is being shown.
+#[derive(Debug)]
+pub(super) struct Used<'doc> {
+    location: SourceLocation,
+    /// What it shows and has not yet been met, the next one last; nothing where that cannot be told.
+    left: Vec<Node<'doc, 'doc>>,
+}
+
+impl<'doc> Painter<'_, 'doc> {
+    /// The shape of an element, the same for all that is painted for it.
+    pub(super) fn shape(&mut self, node: Node<'doc, 'doc>) -> ShapeId {
+        if let Some(shape) = self.inside {
+            return shape;
+        }
+        let builder = &mut *self.builder;
+        *self.known.entry(node.id()).or_insert_with(|| builder.shape(node))
+    }
+
+    /// Whose a group is; `around` where it does not say.
+    pub(super) fn owner(&mut self, group: &Group, around: ShapeId) -> ShapeId {
+        let id = first_id(group, 0);
+        match self.elements.find(id).filter(|_| self.inside.is_none()) {
+            Some(node) => self.shape(node),
+            None => around,
         }
     }
 
-    /// Fills and strokes an outline. Where both show through, they share a layer: the stroke hides the fill below it.
-    fn paint(
-        &mut self,
-        element: Element<'doc>,
-        outline: &Outline,
-        around: &Surroundings,
-        opacity: f32,
-    ) -> Result<(), Fault> {
-        let (fill, stroke) = (around.style.fill_color(), around.style.stroke_color());
-        let both = fill.a > 0.0 && stroke.a > 0.0 && opacity < 1.0;
-        let own_opacity = if both { 1.0 } else { opacity };
-        if both {
-            self.builder.begin_layer(element.shape)?;
+    /// Whose a path or text is.
+    pub(super) fn leaf(&mut self, id: &str, around: ShapeId) -> ShapeId {
+        if self.inside.is_some() {
+            return around;
         }
-        let area = Area {
-            contours: std::slice::from_ref(&outline.points),
-            rule: around.style.fill_rule,
-            to_user: element.to_user,
+        if let Some(node) = self.elements.find(id) {
+            return self.shape(node);
+        }
+        let Some(used) = self.used.last_mut() else {
+            return around;
         };
-        self.builder.fill(element.shape, &area, fill.faded(own_opacity))?;
-        self.stroke(element, outline, around, stroke.faded(own_opacity))?;
-        if both {
-            self.builder.end_layer(element.shape, opacity)?;
+        let location = used.location;
+        match used.left.pop() {
+            Some(node) => self.builder.shape_used(node, Some(location)),
+            None => around,
         }
-        Ok(())
     }
 
-    fn stroke(
-        &mut self,
-        element: Element<'doc>,
-        outline: &Outline,
-        around: &Surroundings,
-        color: Rgba,
-    ) -> Result<(), Fault> {
-        let Style {
-            stroke_width,
-            cap,
-            join,
-            miter_limit,
-            ..
-        } = around.style;
-        let width = around.units().resolve(stroke_width, Along::Diagonal);
-        if color.a <= 0.0 || width <= 0.0 {
-            return Ok(());
+    /// Whose a definition is, by its id, or by what is inside.
+    pub(super) fn definition(&mut self, id: &str, inside: &Group, element: &str, around: ShapeId) -> ShapeId {
+        if self.inside.is_some() {
+            return around;
         }
-        let style = StrokeStyle {
-            width,
-            cap,
-            join,
-            miter_limit,
+        let found = self.elements.find(id).or_else(|| {
+            let node = self.elements.find(first_id(inside, 0))?;
+            node.ancestors().find(|node| node.tag_name().name() == element)
+        });
+        found.map_or(around, |node| self.shape(node))
+    }
+
+    /// Whether the group stands for a `use`; then the shapes inside belong to what it shows.
+    pub(super) fn begin_use(&mut self, group: &Group) -> bool {
+        if self.inside.is_some() {
+            return false;
+        }
+        let found = self
+            .elements
+            .find(group.id())
+            .filter(|node| node.tag_name().name() == "use");
+        let Some(node) = found else {
+            return false;
         };
-        // In the shape's own coordinates, so that its transform acts on the stroke too.
-        let area = Area {
-            contours: &stroke_outline(&outline.points, outline.closed, &style),
-            rule: FillRule::NonZero,
-            to_user: element.to_user,
-        };
-        self.builder.fill(element.shape, &area, color)
-    }
-
-    fn line(&mut self, node: Node<'doc, 'doc>, around: &Surroundings) -> Result<Outline, Fault> {
-        let from = self.point(node, ["x1", "y1"], around)?;
-        let to = self.point(node, ["x2", "y2"], around)?;
-        Ok(Outline {
-            points: vec![from, to],
-            closed: false,
-        })
-    }
-
-    /// `None` if it has no area.
-    fn rect(&mut self, node: Node<'doc, 'doc>, around: &Surroundings) -> Result<Option<Outline>, Fault> {
-        let corner = self.point(node, ["x", "y"], around)?;
-        let size = self.point(node, ["width", "height"], around)?;
-        let rx = self.length(node, "rx", Along::X, around)?;
-        let ry = self.length(node, "ry", Along::Y, around)?;
-        if size.min_element() <= 0.0 {
-            return Ok(None);
+        let mut left = self.shown_by(node);
+        if left.len() != leaves(group) {
+            left.clear();
         }
-        // One radius that is missing is like the other.
-        let rounding = DVec2::new(rx.or(ry).unwrap_or(0.0), ry.or(rx).unwrap_or(0.0));
-        let frame = Frame { corner, size };
-        Ok(Some(outline::rect(frame, rounding.min(size / 2.0))))
+        left.reverse();
+        let location = self.builder.locate(node);
+        self.used.push(Used { location, left });
+        true
     }
 
-    fn point(&mut self, node: Node<'doc, 'doc>, names: [&str; 2], around: &Surroundings) -> Result<DVec2, Fault> {
-        let x = self.length(node, names[0], Along::X, around)?;
-        let y = self.length(node, names[1], Along::Y, around)?;
-        Ok(DVec2::new(x.unwrap_or(0.0), y.unwrap_or(0.0)))
-    }
-
-    /// The pairs in `points`, up to the first that is none, as SVG wants it.
-    fn points(&mut self, node: Node<'doc, 'doc>) -> Result<Vec<DVec2>, Fault> {
-        let text = node.attribute("points").unwrap_or("");
-        let mut numbers = Vec::new();
-        let mut damaged = false;
-        for number in NumberListParser::from(text) {
-            match number {
-                Ok(number) => numbers.push(number),
-                Err(_) => damaged = true,
+    /// The elements with something to paint that a `use` shows, in their order.
+    fn shown_by(&self, node: Node<'doc, 'doc>) -> Vec<Node<'doc, 'doc>> {
+        let mut shown = Vec::new();
+        let mut entered = HashSet::new();
+        let mut open: Vec<Node<'doc, 'doc>> = self.elements.target(node).into_iter().collect();
+        while let Some(node) = open.pop() {
+            let hidden = node.attribute("display") == Some("none");
+            match node.tag_name().name() {
+                _ if hidden || attributes::is_silent(node) || shown.len() > MAX_USED => {}
+                "rect" | "circle" | "ellipse" | "line" | "polyline" | "polygon" | "path" | "image" | "text"
+                | "colortri" | "textri" => shown.push(node),
+                "use" if entered.insert(node.id()) => open.extend(self.elements.target(node)),
+                "g" | "a" | "svg" | "symbol" | "switch" => {
+                    open.extend(node.children().filter(Node::is_element).rev());
+                }
+                _ => {}
             }
         }
-        let (pairs, odd) = numbers.as_chunks::<2>();
-        if damaged {
-            self.not_understood(node, "points", text)?;
-        } else if !odd.is_empty() {
-            self.builder.warn(
-                node,
-                "points holds an odd number of coordinates; the last has no effect".to_owned(),
-            );
-        }
-        Ok(pairs.iter().copied().map(DVec2::from).collect())
-    }
-
-    fn image(&mut self, element: Element<'doc>, around: &Surroundings, opacity: f32) -> Result<(), Fault> {
-        let node = element.node;
-        let Some(address) = attributes::href(node) else {
-            self.builder.warn(node, "not drawn: it has no href".to_owned());
-            return Ok(());
-        };
-        let Some(texture) = triangles::texture(self.builder, node, address) else {
-            return Ok(());
-        };
-        let corner = self.point(node, ["x", "y"], around)?;
-        let width = self.length(node, "width", Along::X, around)?;
-        let height = self.length(node, "height", Along::Y, around)?;
-        let natural = self
-            .builder
-            .textures
-            .size(texture)
-            .map(|size| DVec2::new(size[0].into(), size[1].into()));
-        let port = Frame {
-            corner,
-            size: image_size(width, height, natural),
-        };
-        if port.size.min_element() <= 0.0 {
-            return Ok(());
-        }
-        let aspect = self.aspect(node)?;
-        let content = Frame {
-            corner: DVec2::ZERO,
-            size: natural.unwrap_or(port.size),
-        };
-        let placed = port.fit(content, aspect);
-        let whole = Frame {
-            corner: placed.transform_point2(DVec2::ZERO),
-            size: placed.transform_vector2(content.size),
-        };
-        // `slice` lets the image hang over: only what lies in the port is drawn.
-        let visible = whole.intersection(port);
-        let uv_of_visible = whole.unit_map().inverse() * visible.unit_map();
-        for (points, uv) in unit_square(element.to_user * visible.unit_map()) {
-            let uv = uv.map(|corner| uv_of_visible.transform_point2(corner.as_dvec2()).as_vec2());
-            let paint = Paint::Texture { texture, uv, opacity };
-            self.builder.triangle(element.shape, points, paint)?;
-        }
-        Ok(())
+        shown
     }
 }
 
-/// The size of an image's box: what is missing follows from the natural size and its proportions.
-fn image_size(width: Option<f64>, height: Option<f64>, natural: Option<DVec2>) -> DVec2 {
-    let natural = natural.unwrap_or(DVec2::splat(64.0));
-    match (width, height) {
-        (Some(width), Some(height)) => DVec2::new(width, height),
-        (Some(width), None) => natural * (width / natural.x),
-        (None, Some(height)) => natural * (height / natural.y),
-        (None, None) => natural,
+/// The id of a group, or of the first thing inside that has one.
+fn first_id(group: &Group, depth: usize) -> &str {
+    const DEEP: usize = 4;
+    if !group.id().is_empty() || depth > DEEP {
+        return group.id();
+    }
+    match group.children().first() {
+        Some(usvg::Node::Group(inner)) => first_id(inner, depth + 1),
+        Some(node) => node.id(),
+        None => "",
+    }
+}
+
+/// How many paths, texts and images a group holds.
+fn leaves(group: &Group) -> usize {
+    let of_node = |node: &usvg::Node| match node {
+        usvg::Node::Group(group) => leaves(group),
+        _ => 1,
+    };
+    group.children().iter().map(of_node).sum()
+}
+
+fn point(at: Point) -> DVec2 {
+    DVec2::new(at.x.into(), at.y.into())
+}
+
+/// usvg's path as ours.
+pub(super) fn path(theirs: &TheirPath) -> Path {
+    let mut path = Path::default();
+    for segment in theirs.segments() {
+        match segment {
+            PathSegment::MoveTo(to) => path.move_to(point(to)),
+            PathSegment::LineTo(to) => path.line_to(point(to)),
+            PathSegment::QuadTo(control, to) => path.quad_to(point(control), point(to)),
+            PathSegment::CubicTo(first, second, to) => path.cubic_to([first, second].map(point), point(to)),
+            PathSegment::Close => path.close(),
+        }
+    }
+    path
+}
+
+/// The corners of a path that is nothing but a triangle.
+pub(super) fn triangle(theirs: &TheirPath) -> Option<[DVec2; 3]> {
+    use PathSegment::{Close, LineTo, MoveTo};
+    if theirs.len() > 5 {
+        return None;
+    }
+    let segments: Vec<PathSegment> = theirs.segments().collect();
+    let [MoveTo(a), LineTo(b), LineTo(c), end @ ..] = segments.as_slice() else {
+        return None;
+    };
+    let is_closed = match end {
+        [] | [Close] => true,
+        [LineTo(last)] | [LineTo(last), Close] => last == a,
+        _ => false,
+    };
+    is_closed.then(|| [*a, *b, *c].map(point))
+}
+
+/// usvg's stroke as ours.
+pub(super) fn stroke(theirs: &usvg::Stroke) -> Stroke {
+    Stroke {
+        style: StrokeStyle {
+            width: theirs.width().get().into(),
+            cap: match theirs.linecap() {
+                usvg::LineCap::Butt => LineCap::Butt,
+                usvg::LineCap::Round => LineCap::Round,
+                usvg::LineCap::Square => LineCap::Square,
+            },
+            join: match theirs.linejoin() {
+                usvg::LineJoin::Miter | usvg::LineJoin::MiterClip => LineJoin::Miter,
+                usvg::LineJoin::Round => LineJoin::Round,
+                usvg::LineJoin::Bevel => LineJoin::Bevel,
+            },
+            miter_limit: theirs.miterlimit().get().into(),
+        },
+        dashes: theirs
+            .dasharray()
+            .unwrap_or_default()
+            .iter()
+            .copied()
+            .map(f64::from)
+            .collect(),
+        dash_offset: theirs.dashoffset().into(),
     }
 }

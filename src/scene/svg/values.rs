@@ -1,115 +1,114 @@
-//! Attribute values in SVG's grammar: lengths, colours, paints, opacities, transforms.
-//!
-//! `None` means that the text is no such value; whether that is a mere mistake or a number without end is decided by
-//! the caller, in one place.
+//! Which values of attributes and properties have a meaning, by SVG's grammar.
 
 use glam::{DAffine2, DMat2, DVec2};
-use svgtypes::{Length, LengthUnit, Paint, PaintFallback, TransformListParser, TransformListToken};
+use svgtypes::{Length, NumberListParser, Paint, TransformListParser, TransformListToken};
 
-use crate::color::Rgba;
-
-/// What lengths are relative to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Units {
-    /// Size of the nearest viewport in user units.
-    pub(super) viewport: DVec2,
-    /// In user units.
-    pub(super) font_size: f64,
-}
-
-/// Along what a percentage is taken.
+/// What kind of value belongs to a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Along {
-    /// Of the viewport's width.
-    X,
-    /// Of the viewport's height.
-    Y,
-    /// Of the viewport's diagonal divided by the root of two.
-    Diagonal,
+enum Kind {
+    /// A length, or a list of them.
+    Lengths,
+    /// A number, or a percentage.
+    Number,
+    /// A colour, a reference, or nothing.
+    Paint,
+    Color,
+    Transform,
+    Points,
+    ViewBox,
+    Aspect,
+    /// Path data, of which as much is drawn as is understood.
+    Path,
+    /// One of these words.
+    Words(&'static [&'static str]),
 }
 
-/// What fills or strokes a shape.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum SvgPaint {
-    /// Nothing.
-    None,
-    /// The `color` property.
-    CurrentColor,
-    /// This.
-    Color(Rgba),
+/// Words that stand for a length, or for what the parent has.
+const KEYWORDS: [&str; 16] = [
+    "auto", "inherit", "initial", "unset", "none", "normal", "xx-small", "x-small", "small", "medium", "large",
+    "x-large", "xx-large", "smaller", "larger", "thin",
+];
+
+fn kind(name: &str) -> Option<Kind> {
+    Some(match name {
+        "x" | "y" | "width" | "height" | "rx" | "ry" | "cx" | "cy" | "r" | "x1" | "y1" | "x2" | "y2" | "fx" | "fy"
+        | "fr" | "dx" | "dy" | "stroke-width" | "stroke-dasharray" | "stroke-dashoffset" | "font-size"
+        | "letter-spacing" | "word-spacing" | "markerWidth" | "markerHeight" | "refX" | "refY" => Kind::Lengths,
+        "opacity" | "fill-opacity" | "stroke-opacity" | "stop-opacity" | "stroke-miterlimit" | "offset" => Kind::Number,
+        "fill" | "stroke" => Kind::Paint,
+        "color" | "stop-color" => Kind::Color,
+        "transform" | "gradientTransform" | "patternTransform" => Kind::Transform,
+        "points" => Kind::Points,
+        "viewBox" => Kind::ViewBox,
+        "preserveAspectRatio" => Kind::Aspect,
+        "d" => Kind::Path,
+        "stroke-linecap" => Kind::Words(&["butt", "round", "square"]),
+        "stroke-linejoin" => Kind::Words(&["miter", "miter-clip", "arcs", "round", "bevel"]),
+        "fill-rule" | "clip-rule" => Kind::Words(&["nonzero", "evenodd"]),
+        "visibility" => Kind::Words(&["visible", "hidden", "collapse"]),
+        "filter" | "vector-effect" | "shape-rendering" | "image-rendering" => Kind::Words(&[]),
+        _ => return None,
+    })
 }
 
-impl Units {
-    /// A length in user units.
-    pub(super) fn resolve(self, length: Length, along: Along) -> f64 {
-        const PIXELS_PER_INCH: f64 = 96.0;
-        let n = length.number;
-        match length.unit {
-            LengthUnit::None | LengthUnit::Px => n,
-            LengthUnit::Em => n * self.font_size,
-            LengthUnit::Ex => n * self.font_size / 2.0,
-            LengthUnit::In => n * PIXELS_PER_INCH,
-            LengthUnit::Cm => n * PIXELS_PER_INCH / 2.54,
-            LengthUnit::Mm => n * PIXELS_PER_INCH / 25.4,
-            LengthUnit::Pt => n * PIXELS_PER_INCH / 72.0,
-            LengthUnit::Pc => n * PIXELS_PER_INCH / 6.0,
-            LengthUnit::Percent => {
-                n / 100.0
-                    * match along {
-                        Along::X => self.viewport.x,
-                        Along::Y => self.viewport.y,
-                        Along::Diagonal => self.viewport.length() / std::f64::consts::SQRT_2,
-                    }
-            }
-        }
-    }
-
-    /// A length as text in user units.
-    pub(super) fn length(self, text: &str, along: Along) -> Option<f64> {
-        let length: Length = text.trim().parse().ok()?;
-        Some(self.resolve(length, along)).filter(|length| length.abs() <= f64::from(f32::MAX))
-    }
+/// Whether it is known what values belong to the name.
+pub(super) fn is_known(name: &str) -> bool {
+    kind(name).is_some()
 }
 
-/// An opacity as number or percentage, clamped to `0.0..=1.0`.
-pub(super) fn opacity(text: &str) -> Option<f32> {
-    let text = text.trim();
-    let (number, scale) = match text.strip_suffix('%') {
-        Some(percent) => (percent, 0.01),
-        None => (text, 1.0),
+/// Whether its values hold numbers.
+pub(super) fn is_numeric(name: &str) -> bool {
+    !matches!(
+        kind(name),
+        None | Some(Kind::Words(_) | Kind::Paint | Kind::Color | Kind::Aspect)
+    )
+}
+
+/// Whether the value is a word that has a meaning anywhere.
+pub(super) fn is_keyword(value: &str) -> bool {
+    KEYWORDS.contains(&value.trim())
+}
+
+/// Whether the value has a meaning; that of an unknown name is not asked after.
+pub(super) fn is_understood(name: &str, value: &str) -> bool {
+    let Some(kind) = kind(name) else {
+        return true;
     };
-    let number: svgtypes::Number = number.parse().ok()?;
-    #[expect(clippy::cast_possible_truncation, reason = "clamped to 0..=1 first")]
-    Some((number.0 * scale).clamp(0.0, 1.0) as f32)
-}
-
-/// A colour with its own opacity.
-pub(super) fn color(text: &str) -> Option<Rgba> {
-    text.trim().parse().ok().map(rgba)
-}
-
-fn rgba(color: svgtypes::Color) -> Rgba {
-    Rgba::from_bytes([color.red, color.green, color.blue, color.alpha])
-}
-
-/// A paint, and whether it points to a gradient or pattern whose fallback is taken instead.
-pub(super) fn paint(text: &str) -> Option<(SvgPaint, bool)> {
-    let paint = match Paint::from_str(text).ok()? {
-        Paint::None => SvgPaint::None,
-        Paint::CurrentColor => SvgPaint::CurrentColor,
-        Paint::Color(color) => SvgPaint::Color(rgba(color)),
-        Paint::FuncIRI(_, fallback) => {
-            let fallback = match fallback {
-                None | Some(PaintFallback::None) => SvgPaint::None,
-                Some(PaintFallback::CurrentColor) => SvgPaint::CurrentColor,
-                Some(PaintFallback::Color(color)) => SvgPaint::Color(rgba(color)),
-            };
-            return Some((fallback, true));
+    if is_keyword(value) || value.is_empty() {
+        return true;
+    }
+    match kind {
+        Kind::Lengths => value
+            .split([',', ' ', '\t', '\n', '\r'])
+            .filter(|part| !part.is_empty())
+            .all(is_length),
+        Kind::Number => value
+            .strip_suffix('%')
+            .unwrap_or(value)
+            .parse::<svgtypes::Number>()
+            .is_ok(),
+        Kind::Paint => Paint::from_str(value).is_ok(),
+        Kind::Color => value == "currentColor" || value.parse::<svgtypes::Color>().is_ok(),
+        Kind::Transform => transform(value).is_some(),
+        Kind::Points => {
+            let numbers: Result<Vec<f64>, _> = NumberListParser::from(value).collect();
+            numbers.is_ok_and(|numbers| numbers.len() % 2 == 0)
         }
-        Paint::ContextFill | Paint::ContextStroke => return Some((SvgPaint::None, true)),
-        Paint::Inherit => return None,
-    };
-    Some((paint, false))
+        Kind::ViewBox => value.parse::<svgtypes::ViewBox>().is_ok(),
+        Kind::Aspect => value.parse::<svgtypes::AspectRatio>().is_ok(),
+        Kind::Words(words) => words.is_empty() || words.contains(&value),
+        Kind::Path => true,
+    }
+}
+
+/// Whether these are numbers, and one too many.
+pub(super) fn is_odd(points: &str) -> bool {
+    let numbers: Result<Vec<f64>, _> = NumberListParser::from(points).collect();
+    numbers.is_ok_and(|numbers| numbers.len() % 2 == 1)
+}
+
+fn is_length(text: &str) -> bool {
+    text.parse::<Length>().is_ok() || is_keyword(text)
 }
 
 /// A list of transforms, the first outermost.
@@ -133,93 +132,4 @@ pub(super) fn transform(text: &str) -> Option<DAffine2> {
 /// `x += shear.x * y`, `y += shear.y * x`.
 fn skew(shear: DVec2) -> DAffine2 {
     DAffine2::from_mat2(DMat2::from_cols(DVec2::new(1.0, shear.y), DVec2::new(shear.x, 1.0)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const UNITS: Units = Units {
-        viewport: DVec2::new(300.0, 400.0),
-        font_size: 10.0,
-    };
-
-    #[test]
-    fn length_every_unit() {
-        for (text, expected) in [
-            ("7", 7.0),
-            (" 7px ", 7.0),
-            ("1in", 96.0),
-            ("2.54cm", 96.0),
-            ("25.4mm", 96.0),
-            ("72pt", 96.0),
-            ("6pc", 96.0),
-            ("3em", 30.0),
-            ("3ex", 15.0),
-            ("-50%", -150.0),
-        ] {
-            let found = UNITS.length(text, Along::X).expect(text);
-            assert!((found - expected).abs() < 1e-9, "{text}: {found}");
-        }
-        assert_eq!(UNITS.length("50%", Along::Y), Some(200.0), "of the height");
-        let diagonal = UNITS.length("100%", Along::Diagonal).expect("a length");
-        assert!(
-            (diagonal - 500.0 / 2.0_f64.sqrt()).abs() < 1e-9,
-            "of the diagonal: {diagonal}"
-        );
-        for text in ["", "px", "1e400", "1e39", "nan", "7 7", "7furlong"] {
-            assert_eq!(UNITS.length(text, Along::X), None, "{text:?}");
-        }
-    }
-
-    #[test]
-    fn paint_every_form() {
-        let red = SvgPaint::Color(Rgba::opaque(1.0, 0.0, 0.0));
-        for text in [
-            "red",
-            "#f00",
-            "#ff0000",
-            "rgb(255,0,0)",
-            "rgb(100%, 0%, 0%)",
-            "hsl(0, 100%, 50%)",
-            "RED",
-        ] {
-            assert_eq!(paint(text), Some((red, false)), "{text}");
-        }
-        assert_eq!(paint("none"), Some((SvgPaint::None, false)), "none");
-        assert_eq!(
-            paint("currentColor"),
-            Some((SvgPaint::CurrentColor, false)),
-            "currentColor"
-        );
-        assert_eq!(paint("url(#a)"), Some((SvgPaint::None, true)), "a gradient");
-        assert_eq!(paint("url(#a) red"), Some((red, true)), "a gradient with fallback");
-        assert_eq!(paint("no colour"), None, "nonsense");
-    }
-
-    #[test]
-    fn opacity_clamped() {
-        for (text, expected) in [("0.5", 0.5), ("50%", 0.5), ("2", 1.0), ("-1", 0.0), (" 1 ", 1.0)] {
-            assert_eq!(opacity(text), Some(expected), "{text}");
-        }
-        assert_eq!(opacity("half"), None, "nonsense");
-    }
-
-    #[test]
-    fn transform_first_is_outermost() {
-        for (text, expected) in [
-            ("translate(10 0) scale(2)", [12.0, 4.0]),
-            ("scale(2),translate(10,0)", [22.0, 4.0]),
-            ("rotate(90)", [-2.0, 1.0]),
-            ("rotate(90, 1, 1)", [0.0, 1.0]),
-            ("matrix(1 2 3 4 5 6)", [12.0, 16.0]),
-            ("skewX(45)", [3.0, 2.0]),
-            ("skewY(45)", [1.0, 3.0]),
-        ] {
-            let found = transform(text).expect(text).transform_point2(DVec2::new(1.0, 2.0));
-            assert!(found.abs_diff_eq(DVec2::from(expected), 1e-12), "{text}: {found}");
-        }
-        assert_eq!(transform("spin(3)"), None, "unknown");
-        assert_eq!(transform("scale(1e400)"), None, "not finite");
-    }
 }

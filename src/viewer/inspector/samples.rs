@@ -47,7 +47,9 @@ impl fmt::Display for Hit {
         match self {
             Self::Background => f.write_str("background"),
             Self::Outline => f.write_str("outline of the canvas"),
-            Self::Shape(Shape { element, id, location }) => {
+            Self::Shape(Shape {
+                element, id, location, ..
+            }) => {
                 f.write_str(element)?;
                 if let Some(id) = id {
                     write!(f, " \"{id}\"")?;

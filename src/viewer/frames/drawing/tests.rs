@@ -30,6 +30,7 @@ fn scene() -> Arc<Scene> {
         element: "polygon".into(),
         id: None,
         location: SourceLocation { line: 1, column: 1 },
+        used: None,
     }];
     let corners = [[5.0, 8.0], [92.0, 20.0], [40.0, 97.0], [80.0, 88.0], [11.0, 60.0]];
     scene.primitives = (0..corners.len())

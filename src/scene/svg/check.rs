@@ -1,0 +1,118 @@
+//! What usvg would pass over in silence: values that it does not understand, numbers that are not finite, properties without
+//! effect.
+
+use roxmltree::Node;
+
+use super::prepare::Listener;
+use super::values;
+use crate::scene::error::Fault;
+use crate::scene::report::quote;
+use crate::scene::{SkippedKind, numbers};
+
+/// Properties that are read and not drawn, with the values that make no difference.
+const WITHOUT_EFFECT: [(&str, &[&str]); 4] = [
+    ("filter", &["none"]),
+    ("vector-effect", &["none"]),
+    ("shape-rendering", &["auto", "geometricPrecision"]),
+    (
+        "image-rendering",
+        &["auto", "optimizeQuality", "smooth", "high-quality"],
+    ),
+];
+
+/// Attributes that hold coordinates and lengths.
+const LENGTHS: [&str; 14] = [
+    "x", "y", "width", "height", "rx", "ry", "cx", "cy", "r", "x1", "y1", "x2", "y2", "points",
+];
+
+/// What is seen at an element.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    pub(super) displayed: bool,
+    /// How much its transform enlarges, at most; with how far it moves.
+    pub(super) stretch: f64,
+    /// The largest of its coordinates.
+    pub(super) reach: f64,
+}
+
+/// Looks at an element's attributes and style; complains unless nobody shall hear it.
+pub(super) fn look<L: Listener>(listener: &mut L, node: Node<'_, '_>, heard: bool) -> Result<Look, Fault> {
+    let mut look = Look {
+        displayed: true,
+        stretch: 1.0,
+        reach: 1.0,
+    };
+    let mut complaints = Vec::new();
+    for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
+        let (name, value) = (attribute.name(), attribute.value());
+        declared(&mut look, name, value.trim());
+        if LENGTHS.contains(&name) || values::is_known(name) {
+            finite(listener, node, name, value)?;
+            complaints.push((name, value.trim()));
+        }
+        if LENGTHS.contains(&name) {
+            let largest = numbers::all(name, value).unwrap_or_default().into_iter();
+            look.reach = largest.fold(look.reach, |reach, number| reach.max(f64::from(number).abs()));
+        }
+    }
+    let style = node.attribute("style").unwrap_or("");
+    for declaration in simplecss::DeclarationTokenizer::from(style) {
+        declared(&mut look, declaration.name, declaration.value);
+        if values::is_numeric(declaration.name) {
+            finite(listener, node, "style", declaration.value)?;
+        }
+        complaints.push((declaration.name, declaration.value));
+    }
+    if heard && look.displayed {
+        for (name, value) in complaints {
+            complain(listener, node, name, value);
+        }
+    }
+    Ok(look)
+}
+
+fn declared(look: &mut Look, name: &str, value: &str) {
+    match name {
+        "display" => look.displayed = value != "none",
+        "transform" => {
+            if let Some(transform) = values::transform(value) {
+                let matrix = transform.matrix2;
+                let size = matrix.x_axis.abs() + matrix.y_axis.abs();
+                look.stretch = size
+                    .max_element()
+                    .max(transform.translation.abs().max_element())
+                    .max(1.0);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Refuses numbers that are not finite.
+fn finite<L: Listener>(listener: &L, node: Node<'_, '_>, name: &str, value: &str) -> Result<(), Fault> {
+    // Most values are short and plain: only what may be too large is looked at.
+    let suspect = |byte: &u8| matches!(byte, b'e' | b'E' | b'n' | b'N' | b'i' | b'I');
+    let digits = value.split(|c: char| !c.is_ascii_digit()).any(|run| run.len() > 37);
+    if values::is_numeric(name) && (digits || value.bytes().any(|byte| suspect(&byte))) && !values::is_keyword(value) {
+        numbers::all(name, value).map_err(|problem| listener.fault(problem, node, name))?;
+    }
+    Ok(())
+}
+
+fn complain<L: Listener>(listener: &mut L, node: Node<'_, '_>, name: &str, value: &str) {
+    if let Some((name, harmless)) = WITHOUT_EFFECT.iter().find(|(property, _)| *property == name) {
+        if !harmless.contains(&value) && value != "inherit" {
+            listener.skip(SkippedKind::Attribute, name, node);
+        }
+        return;
+    }
+    if values::is_understood(name, value) {
+        return;
+    }
+    let message = if name == "points" && values::is_odd(value) {
+        "points holds an odd number of coordinates; the last has no effect".to_owned()
+    } else {
+        format!("{name}=\"{}\" is not understood and has no effect", quote(value))
+    };
+    listener.warn(node, message);
+}

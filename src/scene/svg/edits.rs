@@ -1,0 +1,54 @@
+//! Changes to a text, gathered in any order and made at once.
+
+use std::ops::Range;
+
+/// Pieces of a text that are to be replaced; none overlaps another.
+#[derive(Debug, Default)]
+pub(super) struct Edits(Vec<(Range<usize>, String)>);
+
+impl Edits {
+    /// Puts `piece` before the byte `at`.
+    pub(super) fn insert(&mut self, at: usize, piece: String) {
+        self.0.push((at..at, piece));
+    }
+
+    /// Puts `piece` in the place of what is there.
+    pub(super) fn replace(&mut self, there: Range<usize>, piece: String) {
+        self.0.push((there, piece));
+    }
+
+    /// The text with all changes.
+    pub(super) fn apply(mut self, text: &str) -> String {
+        // In the order in which they were gathered where two stand at one place.
+        self.0.sort_by_key(|(there, _)| there.start);
+        let more: usize = self.0.iter().map(|(_, piece)| piece.len()).sum();
+        let mut changed = String::with_capacity(text.len() + more);
+        let mut copied = 0;
+        for (there, piece) in self.0 {
+            changed.push_str(text.get(copied..there.start).unwrap_or(""));
+            changed.push_str(&piece);
+            copied = there.end.max(copied);
+        }
+        changed.push_str(text.get(copied..).unwrap_or(""));
+        changed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edits_are_made_in_the_order_of_the_text() {
+        let mut edits = Edits::default();
+        edits.replace(4..7, "<g>".to_owned());
+        edits.insert(0, "[".to_owned());
+        edits.insert(4, "\u{e9}".to_owned());
+        assert_eq!(
+            edits.apply("abc def"),
+            "[abc <g>\u{e9}",
+            "a change where another begins comes first"
+        );
+        assert_eq!(Edits::default().apply("abc"), "abc", "nothing to do");
+    }
+}

@@ -1,0 +1,184 @@
+//! Typefaces for text: those of the system, those that the user names, and two that are always there.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use usvg::fontdb::{Database, Family, ID, Query, Source, Stretch, Style, Weight};
+use usvg::{Font, FontFamily, FontResolver, FontStretch, FontStyle};
+
+/// Where typefaces come from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Fonts {
+    /// Whether the system's are used. Without them text is the same on every machine.
+    pub system: bool,
+    /// More files, and folders of files.
+    pub more: Vec<PathBuf>,
+}
+
+/// Typefaces as they are asked for, and those found so far.
+static CHOSEN: Mutex<(Option<Fonts>, Option<Arc<Database>>)> = Mutex::new((None, None));
+
+/// From now on text is set in these. Until this is called, only in the typefaces that come with the program.
+///
+/// # Errors
+/// The path that holds no typeface.
+pub fn set_fonts(fonts: Fonts) -> Result<(), PathBuf> {
+    for path in &fonts.more {
+        let mut found = Database::new();
+        add(&mut found, path);
+        if found.is_empty() {
+            return Err(path.clone());
+        }
+    }
+    *CHOSEN.lock().unwrap_or_else(PoisonError::into_inner) = (Some(fonts), None);
+    Ok(())
+}
+
+/// The typefaces, which are looked for when the first document has text.
+pub(super) fn database() -> Arc<Database> {
+    let mut chosen = CHOSEN.lock().unwrap_or_else(PoisonError::into_inner);
+    let (fonts, found) = &mut *chosen;
+    Arc::clone(found.get_or_insert_with(|| Arc::new(gathered(&fonts.clone().unwrap_or_default()))))
+}
+
+fn gathered(fonts: &Fonts) -> Database {
+    let mut database = Database::new();
+    for shipped in [epaint_default_fonts::UBUNTU_LIGHT, epaint_default_fonts::HACK_REGULAR] {
+        database.load_font_source(Source::Binary(Arc::new(shipped)));
+    }
+    for path in &fonts.more {
+        add(&mut database, path);
+    }
+    if fonts.system {
+        database.load_system_fonts();
+    }
+    generic(&mut database);
+    database
+}
+
+fn add(database: &mut Database, path: &std::path::Path) {
+    if path.is_dir() {
+        database.load_fonts_dir(path);
+    } else {
+        // A file that is none leaves the database as it is.
+        let _ = database.load_font_file(path);
+    }
+}
+
+/// Points generic families to typefaces that are there.
+fn generic(database: &mut Database) {
+    const SANS: &str = "Ubuntu";
+    const MONO: &str = "Hack";
+    let families = [
+        Family::Serif,
+        Family::SansSerif,
+        Family::Cursive,
+        Family::Fantasy,
+        Family::Monospace,
+    ];
+    let missing = families.map(|family| !is_there(database, &family));
+    let mut set: [Box<dyn FnMut(&mut Database)>; 5] = [
+        Box::new(|database| database.set_serif_family(SANS)),
+        Box::new(|database| database.set_sans_serif_family(SANS)),
+        Box::new(|database| database.set_cursive_family(SANS)),
+        Box::new(|database| database.set_fantasy_family(SANS)),
+        Box::new(|database| database.set_monospace_family(MONO)),
+    ];
+    for (set, _) in set.iter_mut().zip(missing).filter(|(_, missing)| *missing) {
+        set(database);
+    }
+}
+
+fn is_there(database: &Database, family: &Family<'_>) -> bool {
+    let name = database.family_name(family);
+    database
+        .faces()
+        .any(|face| face.families.iter().any(|(known, _)| known == name))
+}
+
+/// A family that a document asks for and the machine has not.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Missing {
+    family: String,
+    /// What is taken instead.
+    instead: Option<String>,
+}
+
+impl Missing {
+    /// One line about it.
+    pub(super) fn message(&self) -> Option<String> {
+        let family = crate::scene::report::quote(&self.family);
+        let instead = self.instead.as_deref()?;
+        Some(format!(
+            "there is no typeface {family}; {} is taken instead (--font adds more)",
+            crate::scene::report::quote(instead)
+        ))
+    }
+}
+
+/// Chooses typefaces as usvg does, and tells of the families that are missing.
+pub(super) fn resolver<'a>(tell: impl Fn(Missing) + Send + Sync + 'a) -> FontResolver<'a> {
+    FontResolver {
+        select_font: Box::new(move |font, database| {
+            let found = font
+                .families()
+                .iter()
+                .find_map(|family| query(database, font, &theirs(family)));
+            let found = found.or_else(|| query(database, font, &Family::Serif));
+            let named = |family: &&FontFamily| matches!(family, FontFamily::Named(_));
+            for family in font.families().iter().filter(named) {
+                if query(database, font, &theirs(family)).is_some() {
+                    break;
+                }
+                tell(Missing {
+                    family: family.to_string().trim_matches('"').to_owned(),
+                    instead: found.and_then(|id| name(database, id)),
+                });
+            }
+            found
+        }),
+        select_fallback: FontResolver::default_fallback_selector(),
+    }
+}
+
+fn name(database: &Database, id: ID) -> Option<String> {
+    database.face(id)?.families.first().map(|(name, _)| name.clone())
+}
+
+fn theirs(family: &FontFamily) -> Family<'_> {
+    match family {
+        FontFamily::Serif => Family::Serif,
+        FontFamily::SansSerif => Family::SansSerif,
+        FontFamily::Cursive => Family::Cursive,
+        FontFamily::Fantasy => Family::Fantasy,
+        FontFamily::Monospace => Family::Monospace,
+        FontFamily::Named(name) => Family::Name(name),
+    }
+}
+
+fn query(database: &Database, font: &Font, family: &Family<'_>) -> Option<ID> {
+    database.query(&Query {
+        families: std::slice::from_ref(family),
+        weight: Weight(font.weight()),
+        stretch: stretch(font.stretch()),
+        style: match font.style() {
+            FontStyle::Normal => Style::Normal,
+            FontStyle::Italic => Style::Italic,
+            FontStyle::Oblique => Style::Oblique,
+        },
+    })
+}
+
+fn stretch(stretch: FontStretch) -> Stretch {
+    match stretch {
+        FontStretch::UltraCondensed => Stretch::UltraCondensed,
+        FontStretch::ExtraCondensed => Stretch::ExtraCondensed,
+        FontStretch::Condensed => Stretch::Condensed,
+        FontStretch::SemiCondensed => Stretch::SemiCondensed,
+        FontStretch::Normal => Stretch::Normal,
+        FontStretch::SemiExpanded => Stretch::SemiExpanded,
+        FontStretch::Expanded => Stretch::Expanded,
+        FontStretch::ExtraExpanded => Stretch::ExtraExpanded,
+        FontStretch::UltraExpanded => Stretch::UltraExpanded,
+    }
+}

@@ -1,0 +1,373 @@
+//! usvg's tree as primitives: groups become layers where they must, paths become areas.
+
+use std::collections::HashMap;
+
+use glam::DAffine2;
+use roxmltree::Node;
+use usvg::{Group, Image, ImageKind, Path};
+
+use super::elements::Elements;
+use super::pictures::{self, Picture};
+use super::server::Servers;
+use super::shapes::Used;
+use super::{clip, prepare, shapes};
+use crate::color::{BlendMode, Rgba};
+use crate::geometry::{CurvedArea, FillRule};
+use crate::scene::build::{Builder, unit_square};
+use crate::scene::error::Fault;
+use crate::scene::triangles::{self, Element, TextureFiles};
+use crate::scene::{Composite, Fill, Paint, ShapeId};
+
+/// Paints one document.
+pub(super) struct Painter<'a, 'doc> {
+    pub(super) builder: &'a mut Builder<'doc>,
+    pub(super) root: Node<'doc, 'doc>,
+    pub(super) elements: &'a Elements<'doc>,
+    pub(super) pictures: &'a [Picture],
+    /// Samples per user unit for which edges of curves are fine enough.
+    pub(super) scale: f64,
+    pub(super) servers: Servers,
+    texture_files: TextureFiles<'doc>,
+    /// Inside an image that is a document: the image, to which everything belongs.
+    pub(super) inside: Option<ShapeId>,
+    /// The `use` elements that are being shown, innermost last.
+    pub(super) used: Vec<Used<'doc>>,
+    /// The shapes of elements that have one.
+    pub(super) known: HashMap<roxmltree::NodeId, ShapeId>,
+}
+
+/// Where something is painted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) to_user: DAffine2,
+    /// Whose it is where nothing else is said.
+    pub(super) shape: ShapeId,
+    /// Multiplies the opacity of what is painted.
+    pub(super) opacity: f32,
+}
+
+impl<'a, 'doc> Painter<'a, 'doc> {
+    pub(super) fn new(
+        builder: &'a mut Builder<'doc>,
+        root: Node<'doc, 'doc>,
+        elements: &'a Elements<'doc>,
+        pictures: &'a [Picture],
+        scale: f64,
+    ) -> Self {
+        Self {
+            builder,
+            root,
+            elements,
+            pictures,
+            scale,
+            servers: Servers::default(),
+            texture_files: TextureFiles::below(root),
+            inside: None,
+            used: Vec::new(),
+            known: HashMap::new(),
+        }
+    }
+
+    /// Paints a whole document.
+    pub(super) fn tree(&mut self, tree: &usvg::Tree) -> Result<(), Fault> {
+        self.servers.name(tree, self.elements);
+        let shape = self.shape(self.root);
+        let place = Place {
+            to_user: DAffine2::IDENTITY,
+            shape,
+            opacity: 1.0,
+        };
+        self.group(tree.root(), place)
+    }
+
+    /// Paints a group, on a layer of its own where that makes a difference.
+    pub(super) fn group(&mut self, group: &Group, around: Place) -> Result<(), Fault> {
+        let place = Place {
+            to_user: around.to_user * affine(group.transform()),
+            shape: self.owner(group, around.shape),
+            opacity: around.opacity * group.opacity().get(),
+        };
+        if place.opacity <= 0.0 {
+            return Ok(());
+        }
+        let is_using = self.begin_use(group);
+        let painted = self.layered(group, place);
+        if is_using {
+            self.used.pop();
+        }
+        painted
+    }
+
+    fn layered(&mut self, group: &Group, place: Place) -> Result<(), Fault> {
+        if is_plain(group) && (place.opacity >= 1.0 || is_single(group)) {
+            return self.children(group, place);
+        }
+        let mark = self.builder.mark();
+        self.builder.begin_layer(place.shape)?;
+        let opaque = Place { opacity: 1.0, ..place };
+        self.children(group, opaque)?;
+        let is_seen = !self.builder.is_empty_layer() && self.cut(group, opaque)?;
+        if !is_seen {
+            self.builder.take_back(mark);
+            return Ok(());
+        }
+        let composite = Composite::Over {
+            opacity: place.opacity,
+            blend: blend_mode(group.blend_mode()),
+        };
+        self.builder.end_layer(place.shape, composite)
+    }
+
+    /// Cuts the layer that was begun last by the group's clip path and mask; whether anything is left.
+    fn cut(&mut self, group: &Group, place: Place) -> Result<bool, Fault> {
+        if let Some(path) = group.clip_path()
+            && !clip::clip(self, path, place)?
+        {
+            return Ok(false);
+        }
+        match group.mask() {
+            Some(mask) => clip::mask(self, mask, place),
+            None => Ok(true),
+        }
+    }
+
+    pub(super) fn children(&mut self, group: &Group, place: Place) -> Result<(), Fault> {
+        let mut place = place;
+        for node in group.children() {
+            match node {
+                usvg::Node::Group(group) => self.group(group, place)?,
+                usvg::Node::Text(text) => {
+                    let shape = self.leaf(text.id(), place.shape);
+                    self.group(text.flattened(), Place { shape, ..place })?;
+                }
+                usvg::Node::Path(path) => {
+                    // Markers follow their path, and have nothing else that says whose they are.
+                    place.shape = self.leaf(path.id(), place.shape);
+                    self.path(path, place)?;
+                }
+                usvg::Node::Image(image) => self.image(image, place)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn path(&mut self, path: &Path, place: Place) -> Result<(), Fault> {
+        if !path.is_visible() {
+            return Ok(());
+        }
+        if let Some(node) = self
+            .elements
+            .find(path.id())
+            .filter(|node| prepare::is_own_triangle(*node))
+            && self.inside.is_none()
+        {
+            return self.own_triangle(node, place);
+        }
+        match path.paint_order() {
+            usvg::PaintOrder::FillAndStroke => {
+                self.fill(path, place)?;
+                self.stroke(path, place)
+            }
+            usvg::PaintOrder::StrokeAndFill => {
+                self.stroke(path, place)?;
+                self.fill(path, place)
+            }
+        }
+    }
+
+    fn own_triangle(&mut self, node: Node<'doc, 'doc>, place: Place) -> Result<(), Fault> {
+        let element = Element {
+            node,
+            shape: place.shape,
+            to_user: place.to_user,
+        };
+        match node.tag_name().name() {
+            "colortri" => triangles::colortri(self.builder, element, place.opacity),
+            _ => triangles::textri(self.builder, element, &self.texture_files, place.opacity),
+        }
+    }
+
+    fn fill(&mut self, path: &Path, place: Place) -> Result<(), Fault> {
+        let Some(fill) = path.fill() else {
+            return Ok(());
+        };
+        let opacity = fill.opacity().get() * place.opacity;
+        if let Some(paint) = self.server(fill.paint(), Place { opacity, ..place })? {
+            self.area(path, fill.rule(), paint, place)?;
+        }
+        Ok(())
+    }
+
+    /// Fills the inside of a path.
+    pub(super) fn area(&mut self, path: &Path, rule: usvg::FillRule, fill: Fill, place: Place) -> Result<(), Fault> {
+        let bounds = path.data().bounds();
+        // What is flat has no inside.
+        if bounds.width() <= 0.0 || bounds.height() <= 0.0 {
+            return Ok(());
+        }
+        if let (Fill::Solid(color), Some(corners)) = (fill, shapes::triangle(path.data())) {
+            if color.a <= 0.0 {
+                return Ok(());
+            }
+            let points = corners.map(|corner| place.to_user.transform_point2(corner));
+            return self.builder.triangle(place.shape, points, Paint::Solid(color));
+        }
+        let rule = match rule {
+            usvg::FillRule::NonZero => FillRule::NonZero,
+            usvg::FillRule::EvenOdd => FillRule::EvenOdd,
+        };
+        let area = CurvedArea {
+            path: shapes::path(path.data()),
+            stroke: None,
+            to_user: place.to_user,
+        };
+        self.builder.fill_curved(place.shape, (area, rule), fill, self.scale)
+    }
+
+    fn stroke(&mut self, path: &Path, place: Place) -> Result<(), Fault> {
+        let Some(stroke) = path.stroke() else {
+            return Ok(());
+        };
+        let opacity = stroke.opacity().get() * place.opacity;
+        let Some(paint) = self.server(stroke.paint(), Place { opacity, ..place })? else {
+            return Ok(());
+        };
+        // In the shape's own coordinates, so that its transform acts on the stroke too.
+        let area = CurvedArea {
+            path: shapes::path(path.data()),
+            stroke: Some(shapes::stroke(stroke)),
+            to_user: place.to_user,
+        };
+        if let Some(stroke) = &area.stroke
+            && stroke.is_too_fine(&area.path)
+        {
+            self.warn_once("more than 200000 dashes; the line is drawn without gaps");
+        }
+        self.builder
+            .fill_curved(place.shape, (area, FillRule::NonZero), paint, self.scale)
+    }
+
+    fn warn_once(&mut self, message: &str) {
+        let location = self.builder.locate(self.root);
+        if !self
+            .builder
+            .report
+            .warnings
+            .iter()
+            .any(|warning| warning.message == message)
+        {
+            self.builder.report.warn(location, message.to_owned());
+        }
+    }
+
+    fn image(&mut self, image: &Image, place: Place) -> Result<(), Fault> {
+        if !image.is_visible() {
+            return Ok(());
+        }
+        let pictures = self.pictures;
+        match pictures::of(image, pictures) {
+            Some(Picture::Texture(texture)) => {
+                let size = [image.size().width(), image.size().height()].map(f64::from);
+                let unit_to_user = place.to_user * DAffine2::from_scale(size.into());
+                for (points, uv) in unit_square(unit_to_user) {
+                    let paint = Paint::Texture {
+                        texture: *texture,
+                        uv,
+                        opacity: place.opacity,
+                    };
+                    self.builder.triangle(place.shape, points, paint)?;
+                }
+                Ok(())
+            }
+            Some(Picture::Document(tree)) => {
+                let outer = self.inside.replace(place.shape);
+                let painted = self.nested(tree, place);
+                self.inside = outer;
+                painted
+            }
+            None => {
+                if let ImageKind::SVG(_) = image.kind() {
+                    return Ok(());
+                }
+                self.warn_once("a letter that is a picture is not drawn");
+                Ok(())
+            }
+        }
+    }
+
+    /// A document in an image, which ends where its canvas does.
+    fn nested(&mut self, tree: &usvg::Tree, place: Place) -> Result<(), Fault> {
+        let mark = self.builder.mark();
+        self.builder.begin_layer(place.shape)?;
+        self.group(tree.root(), Place { opacity: 1.0, ..place })?;
+        if self.builder.is_empty_layer() {
+            self.builder.take_back(mark);
+            return Ok(());
+        }
+        clip::to_box(self, [0.0, 0.0, tree.size().width(), tree.size().height()], place)?;
+        let composite = Composite::Over {
+            opacity: place.opacity,
+            blend: BlendMode::Normal,
+        };
+        self.builder.end_layer(place.shape, composite)
+    }
+}
+
+impl std::fmt::Debug for Painter<'_, '_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Painter").finish_non_exhaustive()
+    }
+}
+
+/// Whether a group does nothing but move, and fade, what is inside. What its filters would do is not done.
+fn is_plain(group: &Group) -> bool {
+    let blends = group.blend_mode() != usvg::BlendMode::Normal;
+    !blends && !group.isolate() && group.clip_path().is_none() && group.mask().is_none()
+}
+
+/// Whether one thing is painted at most, so that it may be faded itself.
+fn is_single(group: &Group) -> bool {
+    let [child] = group.children() else {
+        return group.children().is_empty();
+    };
+    match child {
+        usvg::Node::Group(group) => is_plain(group) && is_single(group),
+        usvg::Node::Path(path) => path.fill().is_none() || path.stroke().is_none(),
+        usvg::Node::Text(text) => is_single(text.flattened()),
+        usvg::Node::Image(image) => !matches!(image.kind(), ImageKind::SVG(_)),
+    }
+}
+
+/// usvg's transform as ours.
+pub(super) fn affine(transform: usvg::Transform) -> DAffine2 {
+    let usvg::Transform { sx, kx, ky, sy, tx, ty } = transform;
+    DAffine2::from_cols_array(&[sx, ky, kx, sy, tx, ty].map(f64::from))
+}
+
+/// usvg's colour with an opacity.
+pub(super) fn color(color: usvg::Color, opacity: f32) -> Rgba {
+    Rgba::from_bytes([color.red, color.green, color.blue, u8::MAX]).faded(opacity)
+}
+
+fn blend_mode(mode: usvg::BlendMode) -> BlendMode {
+    use usvg::BlendMode as Theirs;
+    match mode {
+        // Not a mode of the specification; usvg makes none of it by itself.
+        Theirs::Normal | Theirs::PlusLighter => BlendMode::Normal,
+        Theirs::Multiply => BlendMode::Multiply,
+        Theirs::Screen => BlendMode::Screen,
+        Theirs::Overlay => BlendMode::Overlay,
+        Theirs::Darken => BlendMode::Darken,
+        Theirs::Lighten => BlendMode::Lighten,
+        Theirs::ColorDodge => BlendMode::ColorDodge,
+        Theirs::ColorBurn => BlendMode::ColorBurn,
+        Theirs::HardLight => BlendMode::HardLight,
+        Theirs::SoftLight => BlendMode::SoftLight,
+        Theirs::Difference => BlendMode::Difference,
+        Theirs::Exclusion => BlendMode::Exclusion,
+        Theirs::Hue => BlendMode::Hue,
+        Theirs::Saturation => BlendMode::Saturation,
+        Theirs::Color => BlendMode::Color,
+        Theirs::Luminosity => BlendMode::Luminosity,
+    }
+}

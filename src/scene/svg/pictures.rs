@@ -1,0 +1,310 @@
+//! Images: textures, and documents inside the document.
+//!
+//! usvg asks for an image when it meets one, and wants to know no more than its size. It gets a picture without pixels that
+//! carries our number for it; the pixels stay with the textures.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use roxmltree::Node;
+use usvg::fontdb::Database;
+use usvg::{Image, ImageHrefResolver, ImageKind, Options};
+
+use super::fonts::{self, Missing};
+use super::prepare;
+use crate::scene::build::Builder;
+use crate::scene::document::{self, Source};
+use crate::scene::error::Fault;
+use crate::scene::textures::{is_data, name_of};
+use crate::scene::{Problem, SkippedKind, SourceLocation, TextureId, attributes};
+
+/// Documents inside each other's images, at most.
+const MAX_DEPTH: usize = 8;
+
+/// The size of a texture that is missing, in texels.
+const MISSING: [u32; 2] = [64; 2];
+
+/// What an image shows.
+#[derive(Debug)]
+pub(super) enum Picture {
+    /// Pixels.
+    Texture(TextureId),
+    /// A document, as usvg has it.
+    Document(Box<usvg::Tree>),
+}
+
+/// What is loaded while usvg reads.
+pub(super) struct Loading<'a, 'doc> {
+    pub(super) builder: &'a mut Builder<'doc>,
+    pub(super) pictures: Vec<Picture>,
+    pub(super) missing: Vec<Missing>,
+    /// Numbers of pictures by their addresses; nothing where there is none to show.
+    known: HashMap<Cow<'doc, str>, Option<usize>>,
+    /// Documents that are being read, inside each other.
+    depth: usize,
+}
+
+impl<'a, 'doc> Loading<'a, 'doc> {
+    pub(super) fn new(builder: &'a mut Builder<'doc>) -> Self {
+        Self {
+            builder,
+            pictures: Vec::new(),
+            missing: Vec::new(),
+            known: HashMap::new(),
+            depth: 0,
+        }
+    }
+
+    fn add(&mut self, picture: Picture) -> usize {
+        self.pictures.push(picture);
+        self.pictures.len() - 1
+    }
+
+    /// What usvg gets for a picture.
+    fn kind(&self, number: usize) -> Option<ImageKind> {
+        match self.pictures.get(number)? {
+            Picture::Texture(texture) => Some(header(self.builder.textures.size(*texture).unwrap_or(MISSING), number)),
+            Picture::Document(tree) => empty_document(tree.size(), number),
+        }
+    }
+}
+
+/// The guard, also after a panic elsewhere.
+fn lock<'l, 'a, 'doc>(loading: &'l Mutex<Loading<'a, 'doc>>) -> MutexGuard<'l, Loading<'a, 'doc>> {
+    loading.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// How usvg shall read: `load` finds images by the addresses that they were given.
+pub(super) fn options<'o, 'doc>(
+    fonts: Option<Arc<Database>>,
+    loading: &'o Mutex<Loading<'_, 'doc>>,
+    load: impl Fn(&str) -> Option<ImageKind> + Send + Sync + 'o,
+) -> Options<'o> {
+    Options {
+        font_family: "serif".to_owned(),
+        fontdb: fonts.unwrap_or_default(),
+        font_resolver: fonts::resolver(|missing| {
+            let found = &mut lock(loading).missing;
+            if !found.contains(&missing) {
+                found.push(missing);
+            }
+        }),
+        image_href_resolver: ImageHrefResolver {
+            // Images have addresses of ours; what else asks for one, as a filter may, gets none.
+            resolve_data: Box::new(|_, _, _| None),
+            resolve_string: Box::new(move |address, _| load(address)),
+        },
+        ..Options::default()
+    }
+}
+
+/// The picture that an image of the document shows.
+pub(super) fn load<'doc>(loading: &Mutex<Loading<'_, 'doc>>, node: Node<'doc, 'doc>) -> Option<ImageKind> {
+    let address = attributes::href(node)?;
+    let location = lock(loading).builder.locate(node);
+    let number = numbered(loading, Cow::Borrowed(address), location)?;
+    lock(loading).kind(number)
+}
+
+/// The number of the picture at an address, which is loaded when it is asked for first.
+fn numbered<'doc>(
+    loading: &Mutex<Loading<'_, 'doc>>,
+    address: Cow<'doc, str>,
+    location: SourceLocation,
+) -> Option<usize> {
+    let mut guard = lock(loading);
+    if let Some(known) = guard.known.get(&address) {
+        return *known;
+    }
+    let number = if is_document(&address) {
+        let bytes = guard.builder.textures.document(&address);
+        let deeper = guard.depth < MAX_DEPTH;
+        guard.depth += 1;
+        drop(guard);
+        let tree = match bytes {
+            Ok(_) if !deeper => Err(format!("more than {MAX_DEPTH} documents are inside each other")),
+            Ok(bytes) => nested(loading, &bytes, location).map_err(|fault| fault.problem.to_string()),
+            Err(trouble) => Err(trouble),
+        };
+        guard = lock(loading);
+        guard.depth -= 1;
+        match tree {
+            Ok(tree) => Some(guard.add(Picture::Document(Box::new(tree)))),
+            Err(trouble) => {
+                let message = format!("image {}: {trouble}; it is not drawn", name_of(&address));
+                guard.builder.report.warn(location, message);
+                None
+            }
+        }
+    } else {
+        let texture = guard.builder.textures.request(address.clone(), location);
+        if texture.is_none() {
+            let message = "not drawn: the scene has too many textures".to_owned();
+            guard.builder.report.warn(location, message);
+        }
+        texture.map(|texture| guard.add(Picture::Texture(texture)))
+    };
+    guard.known.insert(address, number);
+    number
+}
+
+/// usvg's tree of a document inside an image: it sees no other files.
+fn nested(loading: &Mutex<Loading<'_, '_>>, bytes: &[u8], location: SourceLocation) -> Result<usvg::Tree, Fault> {
+    let unpacked = document::unpacked(bytes)?;
+    let text = document::decode(&unpacked)?;
+    let source = Source::new(&text)?;
+    let tree = source.parse()?;
+    let root = tree.root_element();
+    if root.tag_name().name() != "svg" {
+        return Err(Problem::NotSvg(root.tag_name().name().to_owned()).nowhere());
+    }
+    let mut listener = Outside { loading, location };
+    let prepared = prepare::prepare(root, source.text(), &mut listener)?;
+    let fonts = prepared.letters.map(|_| fonts::database());
+    let load = |address: &str| {
+        let node = *prepared.images.get(prepared.elements.number(address)?)?;
+        let address = attributes::href(node).filter(|address| is_data(address))?;
+        let number = numbered(loading, Cow::Owned(address.to_owned()), location)?;
+        lock(loading).kind(number)
+    };
+    let options = options(fonts, loading, load);
+    usvg::Tree::from_str(&prepared.text, &options).map_err(|error| Problem::Xml(error.to_string()).nowhere())
+}
+
+/// Hears of what a document in an image lacks, and tells it of the image.
+struct Outside<'l, 'a, 'doc> {
+    loading: &'l Mutex<Loading<'a, 'doc>>,
+    location: SourceLocation,
+}
+
+impl prepare::Listener for Outside<'_, '_, '_> {
+    fn skip(&mut self, kind: SkippedKind, name: &str, _node: Node<'_, '_>) {
+        lock(self.loading).builder.report.skip(kind, name, self.location);
+    }
+
+    fn warn(&mut self, _node: Node<'_, '_>, message: String) {
+        let message = format!("in the image: {message}");
+        lock(self.loading).builder.report.warn(self.location, message);
+    }
+
+    fn fault(&self, problem: Problem, _node: Node<'_, '_>, _attribute: &str) -> Fault {
+        problem.at(self.location)
+    }
+}
+
+/// Whether an address names a document rather than pixels.
+fn is_document(address: &str) -> bool {
+    let address = address.trim();
+    if is_data(address) {
+        let kind = address.get(5..).unwrap_or("").trim_start();
+        return kind
+            .get(..13)
+            .is_some_and(|kind| kind.eq_ignore_ascii_case("image/svg+xml"));
+    }
+    let path = address.split(['?', '#']).next().unwrap_or("");
+    let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
+    ["svg", "svgz"].iter().any(|known| ending.eq_ignore_ascii_case(known))
+}
+
+/// The picture that usvg's image stands for.
+pub(super) fn of<'p>(image: &Image, pictures: &'p [Picture]) -> Option<&'p Picture> {
+    let number = match image.kind() {
+        ImageKind::PNG(bytes) => {
+            let number = bytes.strip_prefix(SIGNATURE)?.get(HEADER..)?;
+            usize::try_from(u64::from_be_bytes(number.try_into().ok()?)).ok()?
+        }
+        ImageKind::SVG(tree) => tree
+            .root()
+            .children()
+            .first()?
+            .id()
+            .strip_prefix(PICTURE)?
+            .parse()
+            .ok()?,
+        _ => return None,
+    };
+    pictures.get(number)
+}
+
+/// What every PNG begins with.
+const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+/// Bytes of a PNG's header behind the signature, up to the height.
+const HEADER: usize = 16;
+/// Begins the id in a document that only has a size.
+const PICTURE: &str = "picture";
+
+/// The beginning of a PNG of this size, with our number in the place of pixels.
+fn header([width, height]: [u32; 2], number: usize) -> ImageKind {
+    let mut bytes = SIGNATURE.to_vec();
+    bytes.extend(b"\0\0\0\x0dIHDR");
+    bytes.extend([width, height].map(u32::to_be_bytes).concat());
+    bytes.extend((number as u64).to_be_bytes());
+    ImageKind::PNG(Arc::new(bytes))
+}
+
+/// A document of this size with our number, and nothing else.
+fn empty_document(size: usvg::Size, number: usize) -> Option<ImageKind> {
+    let text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\"><g id=\"{PICTURE}{number}\"/></svg>",
+        size.width(),
+        size.height()
+    );
+    usvg::Tree::from_str(&text, &Options::default())
+        .ok()
+        .map(ImageKind::SVG)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn addresses_tell_documents_from_pixels() {
+        for (address, expected) in [
+            ("a.svg", true),
+            ("a.b/C.SVGZ", true),
+            (" a.svg#layer", true),
+            ("a.png", false),
+            ("svg", false),
+            ("data:image/svg+xml;base64,AA", true),
+            ("data:image/SVG+XML,%3Csvg", true),
+            ("data:image/png;base64,AA.svg", false),
+        ] {
+            assert_eq!(is_document(address), expected, "{address}");
+        }
+    }
+
+    #[test]
+    fn pictures_of_a_size_carry_their_number() {
+        let sizes = [
+            header([3, 70_000], 258),
+            empty_document(usvg::Size::from_wh(2.5, 0.25).expect("a size"), 258).expect("a document"),
+        ];
+        let pictures: Vec<Picture> = (0..300).map(|i| Picture::Texture(TextureId(i))).collect();
+        for kind in sizes {
+            let address = "_0_picture0";
+            let load = move |_: &str| Some(kind.clone());
+            let options = Options {
+                image_href_resolver: ImageHrefResolver {
+                    resolve_data: Box::new(|_, _, _| None),
+                    resolve_string: Box::new(move |address, _| load(address)),
+                },
+                ..Options::default()
+            };
+            let text =
+                format!("<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'><image href='{address}'/></svg>");
+            let tree = usvg::Tree::from_str(&text, &options).expect("a tree");
+            let Some(usvg::Node::Group(group)) = tree.root().children().first() else {
+                panic!("a group");
+            };
+            let Some(usvg::Node::Image(image)) = group.children().first() else {
+                panic!("an image");
+            };
+            assert!(
+                matches!(of(image, &pictures), Some(Picture::Texture(TextureId(258)))),
+                "its number"
+            );
+        }
+    }
+}

@@ -1,0 +1,318 @@
+//! A document made ready for usvg: every element with an id, images by number, the course's triangles as paths; and a report of
+//! what is not drawn.
+
+use roxmltree::{Attribute, Node};
+
+use super::check;
+use super::edits::Edits;
+use super::elements::Elements;
+use crate::scene::build::Builder;
+use crate::scene::error::Fault;
+use crate::scene::{Problem, SkippedKind, attributes, numbers};
+
+/// Elements inside each other, at most: each takes usvg's stack.
+const MAX_DEPTH: usize = 1_000;
+
+/// Elements that usvg makes something of.
+const UNDERSTOOD: [&str; 31] = [
+    "svg",
+    "g",
+    "a",
+    "switch",
+    "use",
+    "symbol",
+    "defs",
+    "style",
+    "rect",
+    "circle",
+    "ellipse",
+    "line",
+    "polyline",
+    "polygon",
+    "path",
+    "image",
+    "text",
+    "tspan",
+    "textPath",
+    "tref",
+    "clipPath",
+    "mask",
+    "marker",
+    "pattern",
+    "linearGradient",
+    "radialGradient",
+    "stop",
+    "filter",
+    "colortri",
+    "textri",
+    "texture",
+];
+
+/// The namespace of SVG.
+const SVG: &str = "http://www.w3.org/2000/svg";
+
+/// What usvg reads, and what it is made from.
+#[derive(Debug)]
+pub(super) struct Prepared<'doc> {
+    pub(super) text: String,
+    pub(super) elements: Elements<'doc>,
+    /// Elements that show images, by the numbers in their addresses.
+    pub(super) images: Vec<Node<'doc, 'doc>>,
+    /// The first element with text, if there is one.
+    pub(super) letters: Option<Node<'doc, 'doc>>,
+}
+
+/// Who hears of what is not drawn.
+pub(super) trait Listener {
+    /// An element, or an attribute, without effect.
+    fn skip(&mut self, kind: SkippedKind, name: &str, node: Node<'_, '_>);
+    /// Something that is read differently from what the document says.
+    fn warn(&mut self, node: Node<'_, '_>, message: String);
+    /// A problem of an element or its attribute.
+    fn fault(&self, problem: Problem, node: Node<'_, '_>, attribute: &str) -> Fault;
+}
+
+impl Listener for Builder<'_> {
+    fn skip(&mut self, kind: SkippedKind, name: &str, node: Node<'_, '_>) {
+        Builder::skip(self, kind, name, node);
+    }
+
+    fn warn(&mut self, node: Node<'_, '_>, message: String) {
+        Builder::warn(self, node, message);
+    }
+
+    fn fault(&self, problem: Problem, node: Node<'_, '_>, attribute: &str) -> Fault {
+        problem.at(self.locate_attribute(node, attribute))
+    }
+}
+
+/// Gathers the changes to one document.
+struct Preparation<'a, 'doc, L> {
+    text: &'a str,
+    edits: Edits,
+    elements: Elements<'doc>,
+    images: Vec<Node<'doc, 'doc>>,
+    letters: Option<Node<'doc, 'doc>>,
+    listener: &'a mut L,
+}
+
+/// Makes the document below `root`, which was parsed from `text`, ready.
+pub(super) fn prepare<'doc, L: Listener>(
+    root: Node<'doc, 'doc>,
+    text: &str,
+    listener: &mut L,
+) -> Result<Prepared<'doc>, Fault> {
+    let mut preparation = Preparation {
+        text,
+        edits: Edits::default(),
+        elements: Elements::below(root),
+        images: Vec::new(),
+        letters: None,
+        listener,
+    };
+    preparation.namespace(root);
+    preparation.tree(root)?;
+    let Preparation {
+        edits,
+        elements,
+        images,
+        letters,
+        ..
+    } = preparation;
+    Ok(Prepared {
+        text: edits.apply(text),
+        elements,
+        images,
+        letters,
+    })
+}
+
+/// A container whose children are being looked at.
+struct Open<'doc> {
+    node: Node<'doc, 'doc>,
+    next: Option<Node<'doc, 'doc>>,
+    /// How much the transforms so far enlarge, at most.
+    stretch: f64,
+    /// Whether what is inside may be seen, so that its absence is worth a word.
+    heard: bool,
+}
+
+impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
+    /// Walks the tree without recursion, so that no nesting is too deep.
+    fn tree(&mut self, root: Node<'doc, 'doc>) -> Result<(), Fault> {
+        let mut open: Vec<Open<'doc>> = Vec::new();
+        open.extend(self.element(root, 1.0, true)?);
+        while let Some(container) = open.last_mut() {
+            let Some(node) = container.next else {
+                open.pop();
+                continue;
+            };
+            container.next = node.next_sibling();
+            if !node.is_element() || attributes::is_silent(node) {
+                continue;
+            }
+            let (stretch, heard) = (container.stretch, container.heard);
+            if open.len() >= MAX_DEPTH {
+                let what = "elements inside each other";
+                let problem = Problem::TooMany { what, limit: MAX_DEPTH };
+                return Err(self.listener.fault(problem, node, ""));
+            }
+            open.extend(self.element(node, stretch, heard)?);
+        }
+        Ok(())
+    }
+
+    /// Looks at an element, and opens it unless nobody sees what is inside.
+    fn element(&mut self, node: Node<'doc, 'doc>, stretch: f64, heard: bool) -> Result<Option<Open<'doc>>, Fault> {
+        let name = node.tag_name().name();
+        let is_effect = name.starts_with("fe")
+            && node
+                .parent_element()
+                .is_some_and(|parent| parent.has_tag_name("filter"));
+        if !UNDERSTOOD.contains(&name) && !is_effect {
+            if heard && !is_fallen_back(node) {
+                self.listener.skip(SkippedKind::Element, name, node);
+            }
+            return Ok(None);
+        }
+        let look = check::look(self.listener, node, heard)?;
+        let stretch = stretch * look.stretch;
+        if look.reach * stretch > f64::from(f32::MAX) {
+            return Err(self.listener.fault(Problem::TooFar, node, ""));
+        }
+        let heard = heard && look.displayed;
+        self.identify(node);
+        match name {
+            "image" => self.image(node, heard),
+            "colortri" | "textri" => self.triangle(node)?,
+            "use" if heard => self.used(node),
+            "text" if self.letters.is_none() => self.letters = Some(node),
+            _ => {}
+        }
+        Ok(Some(Open {
+            node,
+            next: node.first_child(),
+            stretch,
+            heard,
+        })
+        .filter(|open| open.node.has_children()))
+    }
+
+    /// Gives the element an id if it needs one.
+    fn identify(&mut self, node: Node<'doc, 'doc>) {
+        if let Some(id) = self.elements.give(node) {
+            self.edits.insert(self.name_end(node), format!(" id=\"{id}\""));
+        }
+    }
+
+    /// Where the name in the start tag ends.
+    fn name_end(&self, node: Node<'doc, 'doc>) -> usize {
+        let start = node.range().start + 1;
+        let name = self.text.as_bytes()[start..].iter();
+        start + name.take_while(|byte| !b" \t\r\n/>".contains(byte)).count()
+    }
+
+    /// Documents without SVG's namespace get it where they have another.
+    fn namespace(&mut self, root: Node<'doc, 'doc>) {
+        if root.tag_name().namespace().is_none_or(|uri| uri == SVG) {
+            return;
+        }
+        let start = self.name_end(root);
+        let prefix = root
+            .lookup_prefix(root.tag_name().namespace().unwrap_or(""))
+            .filter(|prefix| !prefix.is_empty());
+        let name = prefix.map_or_else(|| "xmlns".to_owned(), |prefix| format!("xmlns:{prefix}"));
+        let tag = self.text.get(start..).unwrap_or("");
+        let declared = tag.match_indices(&name).find_map(|(at, _)| {
+            let value = tag[at + name.len()..].trim_start().strip_prefix('=')?.trim_start();
+            let quote = value.chars().next().filter(|c| matches!(c, '"' | '\''))?;
+            // What is left of the text ends where the text does.
+            let begin = self.text.len() - value.len() + 1;
+            let length = value[1..].find(quote)?;
+            Some(begin..begin + length)
+        });
+        if let Some(uri) = declared {
+            self.edits.replace(uri, SVG.to_owned());
+        }
+    }
+
+    /// usvg asks for images by their numbers.
+    fn image(&mut self, node: Node<'doc, 'doc>, heard: bool) {
+        let address = self.elements.address(self.images.len());
+        let hrefs: Vec<Attribute<'_, '_>> = node
+            .attributes()
+            .filter(|attribute| attribute.name() == "href")
+            .collect();
+        if attributes::href(node).is_none() {
+            if heard {
+                self.listener.warn(node, "not drawn: it has no href".to_owned());
+            }
+            return;
+        }
+        for href in hrefs {
+            self.edits.replace(href.range_value(), address.clone());
+        }
+        self.images.push(node);
+    }
+
+    /// The course's triangles become paths, which usvg brings to their places.
+    fn triangle(&mut self, node: Node<'doc, 'doc>) -> Result<(), Fault> {
+        let points = numbers::all("points", node.attribute("points").unwrap_or(""))
+            .map_err(|problem| self.listener.fault(problem, node, "points"))?;
+        let name = node.tag_name().name();
+        let end = self.name_end(node);
+        self.edits.replace(end - name.len()..end, "path".to_owned());
+        let range = node.range();
+        let closing = self.text[range.clone()]
+            .rfind("</")
+            .filter(|at| range.start + at >= end);
+        if let Some(at) = closing.filter(|_| !self.text[range.clone()].ends_with("/>")) {
+            let tag = range.start + at;
+            let name_at = tag + self.text[tag..range.end].rfind(name).unwrap_or(2);
+            self.edits.replace(name_at..name_at + name.len(), "path".to_owned());
+        }
+        // A path that is always painted: its own look is ours, everything around it is the document's.
+        let place = match points.first_chunk::<6>() {
+            Some([a, b, c, d, e, f]) => format!("M{a} {b}L{c} {d}L{e} {f}Z"),
+            None => "M0 0L1 0L0 1Z".to_owned(),
+        };
+        for own in node.attributes().filter(|attribute| attribute.name() == "d") {
+            self.edits.replace(own.range_qname(), "data-d".to_owned());
+        }
+        self.edits.insert(end, format!(" d=\"{place}\""));
+        let look = "fill:#000!important;stroke:none!important;marker:none!important;";
+        match node.attributes().find(|attribute| attribute.name() == "style") {
+            Some(style) => self.edits.insert(style.range_value().start, look.to_owned()),
+            None => self.edits.insert(end, format!(" style=\"{look}\"")),
+        }
+        Ok(())
+    }
+
+    /// Tells of a `use` of what is not there.
+    fn used(&mut self, node: Node<'doc, 'doc>) {
+        let Some(address) = attributes::href(node) else {
+            return;
+        };
+        if self.elements.target(node).is_some() {
+            return;
+        }
+        let message = if address.trim().starts_with('#') {
+            "not drawn: no element has the id that it refers to"
+        } else {
+            "not drawn: other documents are not looked into"
+        };
+        self.listener.warn(node, message.to_owned());
+    }
+}
+
+/// Whether a `switch` has something else to show than this.
+fn is_fallen_back(node: Node<'_, '_>) -> bool {
+    node.parent_element()
+        .is_some_and(|parent| parent.tag_name().name() == "switch")
+        && node.next_sibling_element().is_some()
+}
+
+/// Whether this is a triangle of the course.
+pub(super) fn is_own_triangle(node: Node<'_, '_>) -> bool {
+    matches!(node.tag_name().name(), "colortri" | "textri")
+}

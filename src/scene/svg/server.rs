@@ -1,0 +1,219 @@
+//! Paint servers: gradients and patterns, each once however many shapes it fills.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use glam::{DAffine2, DVec2};
+use usvg::{BaseGradient, LinearGradient, Paint, RadialGradient};
+
+use super::elements::Elements;
+use super::paint::{Painter, Place, affine, color};
+use crate::color::{Ramp, Spread, Stop};
+use crate::geometry::GradientShape;
+use crate::scene::error::Fault;
+use crate::scene::{Fill, Gradient, GradientId, Pattern, PatternId, Scene, ShapeId};
+
+/// What tells paint servers apart: the one of usvg's, its opacity, and how it lies.
+type Key = (usize, u32, [u64; 6]);
+
+/// The paint servers of one scene, by what they are made from.
+#[derive(Debug, Default)]
+pub(super) struct Servers {
+    gradients: HashMap<Key, Option<GradientId>>,
+    patterns: HashMap<Key, Option<PatternId>>,
+    tiles: HashMap<(usize, u64), Option<Arc<Scene>>>,
+    /// Ids of gradients in the document by what they show: usvg gives the copies that it makes for boxes other ids.
+    names: HashMap<Vec<u32>, String>,
+}
+
+impl Servers {
+    /// Remembers which gradients the document has.
+    pub(super) fn name(&mut self, tree: &usvg::Tree, elements: &Elements<'_>) {
+        let linear = tree.linear_gradients().iter();
+        let radial = tree.radial_gradients().iter();
+        let looks = linear.map(|gradient| (linear_look(gradient), gradient.id()));
+        for (look, id) in looks.chain(radial.map(|gradient| (radial_look(gradient), gradient.id()))) {
+            if elements.find(id).is_some() {
+                self.names.entry(look).or_insert_with(|| id.to_owned());
+            }
+        }
+    }
+}
+
+impl Painter<'_, '_> {
+    /// What fills a shape; `None` where nothing does.
+    pub(super) fn server(&mut self, paint: &Paint, place: Place) -> Result<Option<Fill>, Fault> {
+        if place.opacity <= 0.0 {
+            return Ok(None);
+        }
+        Ok(match paint {
+            Paint::Color(solid) => Some(Fill::Solid(color(*solid, place.opacity))),
+            Paint::LinearGradient(gradient) => {
+                let shape = GradientShape::Linear {
+                    from: DVec2::new(gradient.x1().into(), gradient.y1().into()),
+                    to: DVec2::new(gradient.x2().into(), gradient.y2().into()),
+                };
+                self.gradient(
+                    gradient,
+                    Arc::as_ptr(gradient) as usize,
+                    (shape, &linear_look(gradient)),
+                    place,
+                )
+            }
+            Paint::RadialGradient(gradient) => {
+                let shape = GradientShape::Radial {
+                    center: DVec2::new(gradient.cx().into(), gradient.cy().into()),
+                    radius: gradient.r().get().into(),
+                    focus: DVec2::new(gradient.fx().into(), gradient.fy().into()),
+                    focal_radius: gradient.fr().get().into(),
+                };
+                self.gradient(
+                    gradient,
+                    Arc::as_ptr(gradient) as usize,
+                    (shape, &radial_look(gradient)),
+                    place,
+                )
+            }
+            Paint::Pattern(pattern) => self.pattern(pattern, place)?.map(Fill::Pattern),
+        })
+    }
+
+    fn gradient(
+        &mut self,
+        gradient: &BaseGradient,
+        address: usize,
+        (geometry, look): (GradientShape, &Vec<u32>),
+        place: Place,
+    ) -> Option<Fill> {
+        let to_user = place.to_user * affine(gradient.transform());
+        let key = key(address, place.opacity, to_user);
+        if let Some(known) = self.servers.gradients.get(&key) {
+            return known.map(Fill::Gradient);
+        }
+        let stops = gradient.stops().iter().map(|stop| Stop {
+            offset: stop.offset().get(),
+            color: color(stop.color(), stop.opacity().get() * place.opacity),
+        });
+        let spread = match gradient.spread_method() {
+            usvg::SpreadMethod::Pad => Spread::Pad,
+            usvg::SpreadMethod::Reflect => Spread::Reflect,
+            usvg::SpreadMethod::Repeat => Spread::Repeat,
+        };
+        let id = Ramp::new(stops.collect(), spread).and_then(|ramp| {
+            let shape = self.shape_of_gradient(gradient.id(), look, place.shape);
+            let gradient = Gradient {
+                shape,
+                geometry,
+                ramp,
+                to_user,
+            };
+            let id = GradientId(u32::try_from(self.builder.gradients.len()).ok()?);
+            self.builder.gradients.push(gradient);
+            Some(id)
+        });
+        self.servers.gradients.insert(key, id);
+        id.map(Fill::Gradient)
+    }
+
+    fn shape_of_gradient(&mut self, id: &str, look: &Vec<u32>, around: ShapeId) -> ShapeId {
+        let named = self.servers.names.get(look).map_or("", String::as_str);
+        let node = self.elements.find(id).or_else(|| self.elements.find(named));
+        node.map_or(around, |node| self.shape(node))
+    }
+
+    fn pattern(&mut self, pattern: &Arc<usvg::Pattern>, place: Place) -> Result<Option<PatternId>, Fault> {
+        let rect = pattern.rect();
+        let corner = DVec2::new(rect.x().into(), rect.y().into());
+        let to_user = place.to_user * affine(pattern.transform()) * DAffine2::from_translation(corner);
+        let key = key(Arc::as_ptr(pattern) as usize, place.opacity, to_user);
+        if let Some(known) = self.servers.patterns.get(&key) {
+            return Ok(*known);
+        }
+        let shape = self.definition(pattern.id(), pattern.root(), "pattern", place.shape);
+        let id = self.tile(pattern, to_user)?.and_then(|tile| {
+            let id = PatternId(u32::try_from(self.builder.patterns.len()).ok()?);
+            self.builder.patterns.push(Pattern {
+                shape,
+                tile,
+                to_user,
+                opacity: place.opacity,
+            });
+            Some(id)
+        });
+        self.servers.patterns.insert(key, id);
+        Ok(id)
+    }
+
+    /// One tile of a pattern; `None` where nothing is on it.
+    fn tile(&mut self, pattern: &Arc<usvg::Pattern>, to_user: DAffine2) -> Result<Option<Arc<Scene>>, Fault> {
+        let matrix = to_user.matrix2;
+        let stretch = matrix.x_axis.length().max(matrix.y_axis.length());
+        let scale = self.scale * stretch;
+        let key = (Arc::as_ptr(pattern) as usize, scale.to_bits());
+        if let Some(tile) = self.servers.tiles.get(&key) {
+            return Ok(tile.clone());
+        }
+        let size = DVec2::new(pattern.rect().width().into(), pattern.rect().height().into());
+        // A scene has its own shapes, gradients and patterns.
+        let builder = &mut *self.builder;
+        let (root, elements, pictures) = (self.root, self.elements, self.pictures);
+        let image = self
+            .inside
+            .and_then(|image| builder.shapes.get(image.0 as usize).cloned());
+        let names = std::mem::take(&mut self.servers.names);
+        let mut names_back = HashMap::new();
+        let drawn = builder.apart(size, |builder| {
+            let mut painter = Painter::new(builder, root, elements, pictures, scale);
+            painter.servers.names = names;
+            let shape = match image {
+                Some(image) => {
+                    painter.builder.shapes.push(image);
+                    *painter.inside.insert(ShapeId(0))
+                }
+                None => painter.shape(root),
+            };
+            let place = Place {
+                to_user: DAffine2::IDENTITY,
+                shape,
+                opacity: 1.0,
+            };
+            let painted = painter.children(pattern.root(), place);
+            names_back = std::mem::take(&mut painter.servers.names);
+            painted
+        });
+        self.servers.names = names_back;
+        let tile = Some(drawn?).filter(|scene| !scene.primitives.is_empty()).map(Arc::new);
+        self.servers.tiles.insert(key, tile.clone());
+        Ok(tile)
+    }
+}
+
+fn key(address: usize, opacity: f32, to_user: DAffine2) -> Key {
+    (address, opacity.to_bits(), to_user.to_cols_array().map(f64::to_bits))
+}
+
+/// What a gradient shows, but for its place: the same for all copies of one.
+fn look(gradient: &BaseGradient, geometry: &[f32]) -> Vec<u32> {
+    let mut look: Vec<u32> = geometry.iter().map(|number| number.to_bits()).collect();
+    look.push(match gradient.spread_method() {
+        usvg::SpreadMethod::Pad => 0,
+        usvg::SpreadMethod::Reflect => 1,
+        usvg::SpreadMethod::Repeat => 2,
+    });
+    for stop in gradient.stops() {
+        let usvg::Color { red, green, blue } = stop.color();
+        look.push(u32::from_be_bytes([0, red, green, blue]));
+        look.extend([stop.offset().get(), stop.opacity().get()].map(f32::to_bits));
+    }
+    look
+}
+
+fn linear_look(gradient: &LinearGradient) -> Vec<u32> {
+    look(gradient, &[gradient.x1(), gradient.y1(), gradient.x2(), gradient.y2()])
+}
+
+fn radial_look(gradient: &RadialGradient) -> Vec<u32> {
+    let radii = [gradient.r().get(), gradient.fr().get()];
+    let middles = [gradient.cx(), gradient.cy(), gradient.fx(), gradient.fy()];
+    look(gradient, &[radii.as_slice(), &middles].concat())
+}

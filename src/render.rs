@@ -4,6 +4,7 @@ mod legend;
 mod nearby;
 mod regions;
 mod replay;
+mod tiles;
 mod visualisation;
 
 use std::ops::Range;
@@ -240,7 +241,7 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
     if kind.has_outline() {
         list.extend(outline(scene, &context, &screen, settings));
     }
-    DisplayList::new(context, raster, list, visualiser.sources(view))
+    DisplayList::new(context, raster, list, visualiser.sources(view, settings))
 }
 
 /// Transforms those primitives of a scene that are `wanted` to screen space, in parallel. It is the picture that they
@@ -269,11 +270,11 @@ fn picture_list<'a>(
         builder.finish()
     });
     list.extend(outline(scene, &context, &screen, settings));
-    DisplayList::new(context, raster, list, sources(scene, view))
+    DisplayList::new(context, raster, list, sources(scene, view, settings))
 }
 
-/// What a scene's paints point to, where it is seen in this view.
-fn sources<'a>(scene: &'a Scene, view: &ViewTransform) -> PaintSources<'a> {
+/// What a scene's paints point to, where it is seen in this view with these settings.
+fn sources<'a>(scene: &'a Scene, view: &ViewTransform, settings: &RenderSettings) -> PaintSources<'a> {
     let placed = |gradient: &'a Gradient| PlacedGradient {
         geometry: gradient.geometry,
         ramp: &gradient.ramp,
@@ -282,6 +283,11 @@ fn sources<'a>(scene: &'a Scene, view: &ViewTransform) -> PaintSources<'a> {
     PaintSources {
         textures: scene.textures.iter().map(AsRef::as_ref).collect(),
         gradients: scene.gradients.iter().map(placed).collect(),
+        patterns: scene
+            .patterns
+            .iter()
+            .map(|pattern| tiles::placed(pattern, view, settings))
+            .collect(),
     }
 }
 
@@ -402,7 +408,7 @@ fn fill_paint(fill: Fill) -> raster::Paint {
     match fill {
         Fill::Solid(color) => raster::Paint::solid(color),
         Fill::Gradient(gradient) => raster::Paint::gradient(gradient.0),
-        Fill::Pattern(_) => raster::Paint::solid(Rgba::TRANSPARENT),
+        Fill::Pattern(pattern) => raster::Paint::pattern(pattern.0),
     }
 }
 

@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::depth;
 use super::model::{
-    Edge, Explanation, Fragment, GradientUse, Interpolated, Level, Missed, Paint, Pinhole, RampStop, Resolve, Rounding,
-    Sample, Shape, Source, Tap, Texel, Texture, VERSION, Verdict, View,
+    Edge, Explanation, Fragment, GradientUse, Interpolated, Level, Missed, Paint, PatternUse, Pinhole, RampStop,
+    Resolve, Rounding, Sample, Shape, Source, Tap, Texel, Texture, TileTexel, VERSION, Verdict, View,
 };
 use super::numbers::one_line;
 use super::samples::{SampleHit, shape_of, straight};
@@ -170,6 +170,7 @@ impl Question<'_> {
             views,
             texture,
             gradient: self.gradient(op.source),
+            pattern: self.pattern(op.source),
         }
     }
 
@@ -201,6 +202,25 @@ impl Question<'_> {
             },
             _ => Shape::EndLayer { opacity, blend: None },
         }
+    }
+
+    /// The pattern that fills a primitive.
+    fn pattern(&self, primitive: u32) -> Option<PatternUse> {
+        let scene = self.subject.scene;
+        let PrimitiveKind::Polygon {
+            fill: Fill::Pattern(pattern),
+            ..
+        } = scene.primitives.get(primitive as usize)?.kind
+        else {
+            return None;
+        };
+        let pattern = scene.patterns.get(pattern.0 as usize)?;
+        let shape = scene.shapes.get(pattern.shape.0 as usize)?;
+        Some(PatternUse {
+            source: self.source_of(shape, None),
+            tile: pattern.tile.canvas.to_array(),
+            opacity: f64::from(pattern.opacity),
+        })
     }
 
     /// The gradient that fills a primitive.
@@ -442,6 +462,18 @@ fn interpolated(attributes: &Attributes) -> Interpolated {
     match attributes {
         Attributes::None => Interpolated::Flat,
         Attributes::Color(rgba) => Interpolated::Color { rgba: *rgba },
+        Attributes::Pattern { size, read } => Interpolated::Pattern {
+            copy: read.copy,
+            size: *size,
+            texels: read
+                .texels
+                .iter()
+                .map(|(at, weight)| TileTexel {
+                    at: *at,
+                    weight: *weight,
+                })
+                .collect(),
+        },
         Attributes::Gradient { place, mix } => {
             let stop = |i: usize| RampStop {
                 number: mix.stops[i],

@@ -170,6 +170,9 @@ pub struct Paint {
     /// The gradient that fills it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gradient: Option<GradientUse>,
+    /// The pattern that fills it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pattern: Option<PatternUse>,
     /// The part of the pixel that it covers in truth, `0.0..=1.0`.
     pub area: Option<f64>,
 }
@@ -311,6 +314,15 @@ pub enum Interpolated {
         /// Straight red, green, blue, alpha, `0.0..=1.0`.
         rgba: [f64; 4],
     },
+    /// Texels of a tile that is repeated.
+    Pattern {
+        /// Column and row of the copy of the tile.
+        copy: [i64; 2],
+        /// Width and height of the tile in texels.
+        size: [u32; 2],
+        /// The texels read there.
+        texels: Vec<TileTexel>,
+    },
     /// A place on the ramp of a gradient.
     Gradient {
         /// Where, before spreading: 0 at the ramp's beginning, 1 at its end.
@@ -344,6 +356,26 @@ pub struct RampStop {
     pub offset: f32,
     /// Its colour as style sheets have it: straight red, green, blue, alpha.
     pub color: [u8; 4],
+}
+
+/// A texel of a pattern's tile that was read.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct TileTexel {
+    /// Column and row.
+    pub at: [u32; 2],
+    /// Its part of the colour that was read, `0.0..=1.0`.
+    pub weight: f64,
+}
+
+/// What fills a polygon with a pattern.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PatternUse {
+    /// Where it stands in the document.
+    pub source: Source,
+    /// Width and height of a tile in its own units.
+    pub tile: [f64; 2],
+    /// Multiplies the tile's own opacity.
+    pub opacity: f64,
 }
 
 /// What fills a polygon with a gradient.

@@ -219,6 +219,20 @@ impl Interpolated {
             Self::Color { rgba: [r, g, b, a] } => {
                 vec![format!("mixed     red {r:.4}, green {g:.4}, blue {b:.4}, alpha {a:.4}")]
             }
+            Self::Pattern {
+                copy: [column, row],
+                size: [width, height],
+                texels,
+            } => {
+                let mut lines = vec![format!(
+                    "copy      ({column}, {row}) of the tile, drawn as {width} x {height} texels"
+                )];
+                for texel in texels {
+                    let [x, y] = texel.at;
+                    lines.push(format!("{:>10}  of texel ({x}, {y})", percent(texel.weight)));
+                }
+                lines
+            }
             Self::Gradient {
                 t,
                 at,

@@ -86,6 +86,7 @@ mod tests {
             element: "polygon".into(),
             id: Some("left".into()),
             location,
+            used: None,
         }];
         let points = [DVec2::new(0.0, -8.0), DVec2::new(1.5, -8.0), DVec2::new(0.0, 4000.0)];
         let paint = Paint::Solid(Rgba::opaque(1.0, 0.0, 0.0));

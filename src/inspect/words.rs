@@ -299,6 +299,17 @@ impl Explanation {
         if let Some(texture) = &found.texture {
             lines.extend(texture.lines());
         }
+        if let Some(pattern) = &found.pattern {
+            let [width, height] = pattern.tile.map(number);
+            lines.push(format!(
+                "filled by {}, line {}: tiles of {width} x {height} units",
+                pattern.source.name(),
+                pattern.source.line
+            ));
+            if pattern.opacity < 1.0 {
+                lines.push(format!("opacity  {}", number(pattern.opacity)));
+            }
+        }
         if let Some(gradient) = &found.gradient {
             let GradientUse { source, spread, stops } = gradient;
             let plural = if *stops == 1 { "" } else { "s" };

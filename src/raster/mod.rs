@@ -64,5 +64,5 @@ pub use sampling::rate::SampleRate;
 pub use settings::RasterSettings;
 pub use shading::Paint;
 pub use shading::interpolated::{Attributes, TextureUse};
-pub use shading::sources::{PaintSources, PlacedGradient};
+pub use shading::sources::{PaintSources, PlacedGradient, PlacedPattern};
 pub use stats::{Counters, RasterTimes};

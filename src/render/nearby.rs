@@ -71,7 +71,7 @@ impl<'a> Nearby<'a> {
         let mut list = vec![builder.finish()];
         list.extend(outline(self.scene, &context, &screen, settings));
         let [x, y] = self.pixel;
-        DisplayList::new(context, raster, list, sources(self.scene, self.view)).pixel(x, y)
+        DisplayList::new(context, raster, list, sources(self.scene, self.view, settings)).pixel(x, y)
     }
 }
 

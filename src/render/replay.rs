@@ -32,6 +32,9 @@ pub(super) fn shines_through(scene: &Scene, kind: &PrimitiveKind) -> bool {
             let gradient = &scene.gradients[gradient.0 as usize];
             !gradient.geometry.is_everywhere() || !gradient.ramp.is_opaque()
         }
+        PrimitiveKind::Polygon {
+            fill: Fill::Pattern(_), ..
+        } => true,
         _ => false,
     }
 }
@@ -214,7 +217,7 @@ impl<'a> Explainer<'a> {
             builder.finish()
         };
         let weights = chunk(&weighted(primitive));
-        let sources = sources(self.subject.scene, self.subject.view);
+        let sources = sources(self.subject.scene, self.subject.view, self.subject.settings);
         let list = DisplayList::new(self.context, self.raster, vec![chunk(primitive)], sources);
         let pieces = list.pieces(self.pixel, &weights);
         (list, pieces)

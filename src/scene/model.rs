@@ -7,7 +7,7 @@ use glam::{DAffine2, DVec2, Vec2};
 use super::{Report, SceneFiles, SourceLocation};
 use crate::color::{BlendMode, Ramp, Rgba};
 use crate::geometry::{GradientShape, Polygon};
-use crate::texture::Texture;
+use crate::texture::{Texture, TileCache};
 
 /// Which reading of a document is in force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -254,6 +254,8 @@ pub struct Pattern {
     pub to_user: DAffine2,
     /// Multiplies the tile's own opacity, `0.0..=1.0`.
     pub opacity: f32,
+    /// The tile as views have shown it.
+    pub drawn: TileCache,
 }
 
 /// What fills a triangle.

@@ -20,6 +20,7 @@ mod settings;
 mod simd_channels;
 mod tent_weights;
 mod texel_coordinates;
+mod tile;
 mod trace;
 mod uv_map;
 
@@ -33,6 +34,7 @@ pub use level_of_detail::{Derivatives, FixedLevel, LevelOfDetail, LodBias};
 pub use pyramid::{MAX_SIDE, MipLevel, MipPyramid};
 pub use reading::{LevelChoice, Reading};
 pub use settings::SamplingSettings;
+pub use tile::{Tile, TileCache, TileRead};
 pub use trace::{TapRead, TexelRead, TextureReads};
 pub use uv_map::UvMap;
 

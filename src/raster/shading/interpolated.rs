@@ -1,7 +1,7 @@
 //! What a shader tells of the way to a sample's colour.
 
 use crate::color::Mix;
-use crate::texture::{Reading, TextureReads};
+use crate::texture::{Reading, TextureReads, TileRead};
 
 /// What is interpolated at a sample.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +16,13 @@ pub enum Attributes {
         uv: [f64; 2],
         /// The texels read there.
         reads: TextureReads,
+    },
+    /// Texels of a tile that is repeated.
+    Pattern {
+        /// Width and height of the tile in texels.
+        size: [u32; 2],
+        /// What is read.
+        read: TileRead,
     },
     /// A place on a ramp.
     Gradient {

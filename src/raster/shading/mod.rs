@@ -6,6 +6,7 @@
 //! | [`vertex`] | interpolated between a triangle's corners |
 //! | [`texture`] | read from a texture through the footprint of a pixel or a sample |
 //! | [`gradient`] | found on a ramp |
+//! | [`pattern`] | read from a tile that is repeated |
 //!
 //! A paint is a [`PaintKind`] as a display list holds it, and a [`Shade`] once it is prepared for one triangle. To add one,
 //! write both in a file of its own and add a line to the table below. Painters hold a [`Paint`] or a [`Shader`] and ask
@@ -15,6 +16,7 @@ pub(in crate::raster) mod context;
 mod gradient;
 pub(in crate::raster) mod interpolated;
 mod kind;
+mod pattern;
 mod solid;
 pub(in crate::raster) mod sources;
 mod texture;
@@ -27,6 +29,7 @@ use crate::raster::shading::context::{MaskedPixels, Pixels, ShadeContext, Shaded
 use crate::raster::shading::gradient::GradientPaint;
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
 use crate::raster::shading::kind::{PaintKind, Shade};
+use crate::raster::shading::pattern::PatternPaint;
 use crate::raster::shading::solid::{SolidPaint, SolidShader};
 use crate::raster::shading::sources::PaintSources;
 use crate::raster::shading::vertex::VertexPaint;
@@ -93,6 +96,8 @@ paints! {
     texture(texture: u32, uv: [[f32; 2]; 3], opacity: f32) => Texture(TexturePaint),
     /// The gradient with an index in the drawing.
     gradient(gradient: u32) => Gradient(GradientPaint),
+    /// The pattern with an index in the drawing.
+    pattern(pattern: u32) => Pattern(PatternPaint),
 }
 
 /// What fills a triangle.

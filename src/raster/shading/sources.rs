@@ -1,18 +1,33 @@
-//! What paints point to: the textures and gradients of a drawing.
+//! What paints point to: the textures, gradients and patterns of a drawing.
+
+use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
 
 use crate::color::{Mix, Ramp};
 use crate::geometry::GradientShape;
-use crate::texture::Texture;
+use crate::texture::{Texture, Tile};
 
-/// The textures and gradients that the paints of a display list name by number.
+/// The textures, gradients and patterns that the paints of a display list name by number.
 #[derive(Debug, Default)]
 pub struct PaintSources<'a> {
     /// What [`crate::raster::Paint::texture`] points to.
     pub textures: Vec<&'a Texture>,
     /// What [`crate::raster::Paint::gradient`] points to.
     pub gradients: Vec<PlacedGradient<'a>>,
+    /// What [`crate::raster::Paint::pattern`] points to.
+    pub patterns: Vec<PlacedPattern>,
+}
+
+/// A pattern as it lies on the screen.
+#[derive(Clone, Debug)]
+pub struct PlacedPattern {
+    /// Its tile, drawn for this view; `None` where there is nothing to be seen.
+    pub tile: Option<Arc<Tile>>,
+    /// Pixels of the frame to copies of the tile.
+    pub from_pixels: DAffine2,
+    /// Multiplies the tile's own, `0.0..=1.0`.
+    pub opacity: f32,
 }
 
 /// A gradient as it lies on the screen.
@@ -30,7 +45,7 @@ impl<'a> From<Vec<&'a Texture>> for PaintSources<'a> {
     fn from(textures: Vec<&'a Texture>) -> Self {
         Self {
             textures,
-            gradients: Vec::new(),
+            ..Self::default()
         }
     }
 }

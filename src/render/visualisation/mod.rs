@@ -20,7 +20,7 @@ mod show;
 mod uv;
 mod wireframe;
 
-use super::{Legend, Screen, sources};
+use super::{Legend, RenderSettings, Screen, sources};
 use crate::geometry::ViewTransform;
 use crate::raster::{ChunkBuilder, PaintSources, RasterSettings};
 use crate::render::visualisation::show::{Show, Source};
@@ -127,8 +127,8 @@ impl<'a> Visualiser<'a> {
     }
 
     /// What paints point to in a view.
-    pub(super) fn sources(&self, view: &ViewTransform) -> PaintSources<'a> {
-        let mut sources = sources(self.source.scene, view);
+    pub(super) fn sources(&self, view: &ViewTransform, settings: &RenderSettings) -> PaintSources<'a> {
+        let mut sources = sources(self.source.scene, view, settings);
         if let Some(own) = self.show.texture() {
             sources.textures = vec![own];
         }

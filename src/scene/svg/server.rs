@@ -12,6 +12,7 @@ use crate::color::{Ramp, Spread, Stop};
 use crate::geometry::GradientShape;
 use crate::scene::error::Fault;
 use crate::scene::{Fill, Gradient, GradientId, Pattern, PatternId, Scene, ShapeId};
+use crate::texture::TileCache;
 
 /// What tells paint servers apart: the one of usvg's, its opacity, and how it lies.
 type Key = (usize, u32, [u64; 6]);
@@ -137,6 +138,7 @@ impl Painter<'_, '_> {
                 tile,
                 to_user,
                 opacity: place.opacity,
+                drawn: TileCache::default(),
             });
             Some(id)
         });

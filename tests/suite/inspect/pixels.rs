@@ -346,7 +346,7 @@ fn check_colors(paint: &Paint, rules: Rules) {
             continue;
         };
         let expected = match value {
-            Interpolated::Flat => continue,
+            Interpolated::Flat | Interpolated::Pattern { .. } => continue,
             Interpolated::Color { rgba } => {
                 let alpha = rgba[3].clamp(0.0, 1.0);
                 let channel = |i: usize| rgba[i].clamp(0.0, 1.0) * alpha * 255.0;

@@ -220,12 +220,19 @@ fn replay_tells_the_samples_that_make_the_pixel() {
             "one colour per sample"
         );
         let mean = |channel: usize| {
-            let sum = samples.iter().map(|sample| u32::from(sample.color.0[channel])).sum::<u32>();
+            let sum = samples
+                .iter()
+                .map(|sample| u32::from(sample.color.0[channel]))
+                .sum::<u32>();
             f64::from(sum) / (256.0 * samples.len() as f64)
         };
         // A mask on the picture itself lets it shine through: its pixels are straight, its samples premultiplied.
         let [red, _, _, alpha] = frame.rgba(x, y).expect("inside the frame").map(f64::from);
-        assert!((mean(3) - alpha).abs() <= 0.5 + rounding, "alpha {} and {alpha}", mean(3));
+        assert!(
+            (mean(3) - alpha).abs() <= 0.5 + rounding,
+            "alpha {} and {alpha}",
+            mean(3)
+        );
         if mean(3) > 1.0 {
             let thinned = 255.0 / mean(3);
             let straight = mean(0) * thinned;

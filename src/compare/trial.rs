@@ -7,7 +7,7 @@ use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 
 use super::cause::{self, Cause, CellCorner};
-use crate::geometry::{ViewTransform};
+use crate::geometry::ViewTransform;
 use crate::raster::Framebuffer;
 use crate::render::{self, CancelToken, RenderSettings, Subject};
 use crate::scene::{Paint, Primitive, PrimitiveKind, Scene};

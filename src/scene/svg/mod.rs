@@ -10,6 +10,7 @@
 //! What is not drawn is reported.
 
 mod check;
+mod circles;
 mod clip;
 mod edits;
 mod elements;
@@ -17,8 +18,10 @@ mod fonts;
 mod paint;
 mod pictures;
 mod prepare;
+mod references;
 mod server;
 mod shapes;
+mod styles;
 mod values;
 
 use std::sync::{Mutex, PoisonError};
@@ -57,6 +60,7 @@ pub(super) fn read<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, te
 
 fn read_here<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, text: &str) -> Result<DVec2, Fault> {
     let prepared = prepare::prepare(root, text, builder)?;
+    references::check(root, builder)?;
     let letters = prepared.letters;
     let loading = Mutex::new(Loading::new(builder));
     let tree = loading_tree(&prepared, &loading);

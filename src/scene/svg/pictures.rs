@@ -12,7 +12,7 @@ use usvg::fontdb::Database;
 use usvg::{Image, ImageHrefResolver, ImageKind, Options};
 
 use super::fonts::{self, Missing};
-use super::prepare;
+use super::{prepare, references};
 use crate::scene::build::Builder;
 use crate::scene::document::{self, Source};
 use crate::scene::error::Fault;
@@ -161,6 +161,7 @@ fn nested(loading: &Mutex<Loading<'_, '_>>, bytes: &[u8], location: SourceLocati
     }
     let mut listener = Outside { loading, location };
     let prepared = prepare::prepare(root, source.text(), &mut listener)?;
+    references::check(root, &mut listener)?;
     let fonts = prepared.letters.map(|_| fonts::database());
     let load = |address: &str| {
         let node = *prepared.images.get(prepared.elements.number(address)?)?;

@@ -1,0 +1,143 @@
+//! Which elements an element refers to: by attributes, by its style, and by the document's style sheets.
+
+use std::cell::Cell;
+
+use roxmltree::Node;
+use simplecss::{AttributeOperator, PseudoClass, Selector, StyleSheet};
+
+use super::prepare::Listener;
+use super::references::By;
+use crate::scene::error::Fault;
+use crate::scene::{Problem, attributes};
+
+/// Most steps of comparing elements with the rules of style sheets.
+const MAX_STEPS: u64 = 60_000_000;
+
+/// The style sheets of one document, as far as they refer to elements.
+#[derive(Debug, Default)]
+pub(super) struct Styles<'doc> {
+    rules: Vec<(Selector<'doc>, Vec<(By, &'doc str)>)>,
+}
+
+impl<'doc> Styles<'doc> {
+    /// Reads the style sheets below `root`, and refuses those that take too long to compare with all elements.
+    pub(super) fn below<L: Listener>(root: Node<'doc, 'doc>, listener: &L) -> Result<Self, Fault> {
+        let mut sheet = StyleSheet::new();
+        for node in root
+            .descendants()
+            .filter(|node| node.has_tag_name("style") || node.tag_name().name() == "style")
+        {
+            sheet.parse_more(node.text().unwrap_or(""));
+        }
+        if sheet.rules.is_empty() {
+            return Ok(Self::default());
+        }
+        let steps = Cell::new(0);
+        for node in root.descendants().filter(Node::is_element) {
+            for rule in &sheet.rules {
+                rule.selector.matches(&Counted { node, steps: &steps });
+                if steps.get() > MAX_STEPS {
+                    let what = "comparisons of elements with style sheets";
+                    let limit = usize::try_from(MAX_STEPS).unwrap_or(usize::MAX);
+                    return Err(listener.fault(Problem::TooMany { what, limit }, node, ""));
+                }
+            }
+        }
+        let rules = sheet.rules.into_iter().filter_map(|rule| {
+            let references = rule.declarations.iter();
+            let references: Vec<_> = references.flat_map(|d| declared(d.name, d.value)).collect();
+            (!references.is_empty()).then_some((rule.selector, references))
+        });
+        Ok(Self { rules: rules.collect() })
+    }
+
+    /// The ids that an element refers to, wherever that is said.
+    pub(super) fn references(&self, node: Node<'doc, 'doc>) -> Vec<(By, &'doc str)> {
+        let mut found = Vec::new();
+        for attribute in node.attributes() {
+            found.extend(declared(attribute.name(), attribute.value()));
+        }
+        if let Some(style) = node.attribute("style") {
+            for declaration in simplecss::DeclarationTokenizer::from(style) {
+                found.extend(declared(declaration.name, declaration.value));
+            }
+        }
+        let steps = Cell::new(0);
+        for (selector, references) in &self.rules {
+            if selector.matches(&Counted { node, steps: &steps }) {
+                found.extend(references);
+            }
+        }
+        if node.tag_name().name() != "a" {
+            let href = attributes::href(node).and_then(|href| href.trim().strip_prefix('#'));
+            found.extend(href.map(|id| (By::Href, id)));
+        }
+        found
+    }
+}
+
+/// The references in the value of a property.
+fn declared<'v>(name: &str, value: &'v str) -> impl Iterator<Item = (By, &'v str)> + use<'v> {
+    let by = match name {
+        "clip-path" => Some(By::Clip),
+        "mask" => Some(By::Mask),
+        "fill" => Some(By::Fill),
+        "stroke" => Some(By::Stroke),
+        "marker" | "marker-start" | "marker-mid" | "marker-end" => Some(By::Marker),
+        "filter" => Some(By::Filter),
+        _ => None,
+    };
+    by.into_iter().flat_map(move |by| {
+        let parts = value.split("url(").skip(1);
+        parts.filter_map(move |part| {
+            let address = part.split(')').next()?.trim().trim_matches(['"', '\'']).trim();
+            Some((by, address.strip_prefix('#')?))
+        })
+    })
+}
+
+/// An element that counts how often it, and those around it, are asked.
+struct Counted<'c, 'doc> {
+    node: Node<'doc, 'doc>,
+    steps: &'c Cell<u64>,
+}
+
+impl Counted<'_, '_> {
+    /// Counts a step; whether there may be more.
+    fn step(&self) -> bool {
+        self.steps.set(self.steps.get() + 1);
+        self.steps.get() <= MAX_STEPS
+    }
+}
+
+impl simplecss::Element for Counted<'_, '_> {
+    fn parent_element(&self) -> Option<Self> {
+        let node = self.node.parent_element().filter(|_| self.step())?;
+        Some(Self {
+            node,
+            steps: self.steps,
+        })
+    }
+
+    fn prev_sibling_element(&self) -> Option<Self> {
+        let node = self.node.prev_sibling_element().filter(|_| self.step())?;
+        Some(Self {
+            node,
+            steps: self.steps,
+        })
+    }
+
+    fn has_local_name(&self, name: &str) -> bool {
+        self.step();
+        self.node.tag_name().name() == name
+    }
+
+    fn attribute_matches(&self, name: &str, operator: AttributeOperator<'_>) -> bool {
+        self.step();
+        self.node.attribute(name).is_some_and(|value| operator.matches(value))
+    }
+
+    fn pseudo_class_matches(&self, class: PseudoClass<'_>) -> bool {
+        class == PseudoClass::FirstChild && self.node.prev_sibling_element().is_none()
+    }
+}

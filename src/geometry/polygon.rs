@@ -31,6 +31,7 @@ pub struct Polygon {
     /// The triangles, once somebody asked for them.
     triangles: OnceLock<Option<Vec<[DVec2; 3]>>>,
     curves: Option<Box<Curves>>,
+    is_stroke: bool,
 }
 
 /// The curves that contours stand for.
@@ -69,13 +70,15 @@ impl Polygon {
             rule,
             triangles: OnceLock::new(),
             curves: None,
+            is_stroke: false,
         }
     }
 
     /// The contours of an area with curved edges, good for views of up to `scale` samples per user unit;
     /// [`Polygon::at_scale`] gives finer ones. A stroke is filled by the non-zero rule, whatever `rule` says.
     pub fn curved(area: CurvedArea, rule: FillRule, scale: f64) -> Self {
-        let rule = if area.stroke.is_some() { FillRule::NonZero } else { rule };
+        let is_stroke = area.stroke.is_some();
+        let rule = if is_stroke { FillRule::NonZero } else { rule };
         let flat = Self::new(area.flattened(TOLERANCE / scale), rule);
         let curves = (!area.is_straight()).then(|| {
             Box::new(Curves {
@@ -87,7 +90,12 @@ impl Polygon {
         // Curves bulge a little beyond the edges that stand for them.
         let bulge = DVec2::splat(if curves.is_some() { TOLERANCE / scale } else { 0.0 });
         let bounds = [flat.bounds[0] - bulge, flat.bounds[1] + bulge];
-        Self { curves, bounds, ..flat }
+        Self {
+            curves,
+            bounds,
+            is_stroke,
+            ..flat
+        }
     }
 
     /// The same area with edges fine enough for a view of so many samples per user unit: nowhere further from the curve
@@ -119,6 +127,11 @@ impl Polygon {
         }
         let contours = self.contours().map(|contour| contour.iter().map(|point| *point + by));
         Self::new(contours, self.rule)
+    }
+
+    /// Whether it is the stroke of a path.
+    pub fn is_stroke(&self) -> bool {
+        self.is_stroke
     }
 
     /// The curves that the contours stand for, if they stand for any.

@@ -51,7 +51,7 @@ impl Explanation {
         let (seen, unlisted) = depth::list(&mut replay);
         let pieces = explainer.pieces(&replay.painted);
         let rules = subject.settings.rules;
-        let paints: Vec<Paint> = replay
+        let mut paints: Vec<Paint> = replay
             .painted
             .iter()
             .zip(pieces)
@@ -61,6 +61,7 @@ impl Explanation {
                 question.paint((op, source), piece, seen, &explainer)
             })
             .collect();
+        mark_masks(&mut paints);
         let [a, r, g, b] = replay.pixel.to_be_bytes();
         let center = DVec2::new(f64::from(pixel[0]), f64::from(pixel[1])) + 0.5;
         let samples = samples(&replay, &paints, rules);
@@ -105,6 +106,16 @@ impl Question<'_> {
         explainer: &Explainer<'_>,
     ) -> Paint {
         let rules = self.subject.settings.rules;
+        let polygon = match self
+            .subject
+            .scene
+            .primitives
+            .get(op.source as usize)
+            .map(|primitive| &primitive.kind)
+        {
+            Some(PrimitiveKind::Polygon { polygon, .. }) => Some(polygon),
+            _ => None,
+        };
         let (mut views, mut texture) = (Vec::new(), None);
         let shape = match (op.kind, piece.map(|piece| piece.shape)) {
             (PaintedKind::BeginLayer, _) => Shape::BeginLayer,
@@ -142,6 +153,8 @@ impl Question<'_> {
                         FillRule::NonZero => "nonzero",
                         FillRule::EvenOdd => "evenodd",
                     },
+                    curved: polygon.is_some_and(|polygon| polygon.curves().is_some()),
+                    stroke: polygon.is_some_and(|polygon| polygon.is_stroke()),
                 }
             }
             (PaintedKind::Primitive, _) if source.is_none() => Shape::CanvasOutline,
@@ -155,6 +168,7 @@ impl Question<'_> {
             source,
             primitive: op.source,
             layers: op.layers,
+            in_mask: false,
             fragments: op
                 .fragments
                 .iter()
@@ -344,12 +358,11 @@ fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> 
             seen: None,
         })
         .collect();
-    let parts_of_masks = parts_of_masks(paints);
     let mut in_masks = vec![0; samples.len()];
     for (number, paint) in paints.iter().enumerate() {
         let is_primitive = !paint.shape.is_layer_mark();
         for fragment in &paint.fragments {
-            if parts_of_masks[number] {
+            if paint.in_mask {
                 in_masks[fragment.sample] += 1;
                 continue;
             }
@@ -366,24 +379,24 @@ fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> 
     samples
 }
 
-/// For each paint whether it is part of a clip path or mask, which lies on no sample.
-fn parts_of_masks(paints: &[Paint]) -> Vec<bool> {
-    let mut parts = vec![false; paints.len()];
+/// Marks what is part of a clip path or mask, which lies on no sample itself.
+fn mark_masks(paints: &mut [Paint]) {
     let mut open = Vec::new();
-    for (number, paint) in paints.iter().enumerate() {
-        match paint.shape {
+    for number in 0..paints.len() {
+        match paints[number].shape {
             Shape::BeginLayer => open.push(number),
             Shape::EndLayer { .. } => {
                 open.pop();
             }
             Shape::EndClip | Shape::EndMask { .. } => {
                 let begin = open.pop().unwrap_or(number);
-                parts[begin..=number].fill(true);
+                for part in &mut paints[begin..=number] {
+                    part.in_mask = true;
+                }
             }
             _ => {}
         }
     }
-    parts
 }
 
 fn resolve(replay: &PixelReplay, (rules, space): (Rules, ResolveSpace)) -> Resolve {

@@ -161,6 +161,9 @@ pub struct Paint {
     pub primitive: u32,
     /// How many layers it lies in.
     pub layers: usize,
+    /// Whether it is part of a clip path or mask, and so not seen itself.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub in_mask: bool,
     /// The samples that it painted.
     pub fragments: Vec<Fragment>,
     /// What every sample of the pixel sees of it, in the order of samples; empty for what has neither edges nor windings.
@@ -190,6 +193,12 @@ pub enum Shape {
     Polygon {
         /// The fill rule: `nonzero` or `evenodd`.
         rule: &'static str,
+        /// Whether its edges stand for curves, and are as fine as the view needs.
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        curved: bool,
+        /// Whether it is the stroke of a path.
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        stroke: bool,
     },
     /// A line one pixel wide, or a point: whole pixels, whatever the samples.
     WholePixel,

@@ -20,6 +20,11 @@ impl Paint {
         };
         match &self.shape {
             Shape::Triangle { .. } => of("triangle"),
+            Shape::Polygon { stroke: true, .. } => of("stroke"),
+            Shape::Polygon { curved: true, .. } => self
+                .source
+                .as_ref()
+                .map_or_else(|| of("shape"), |source| of(&source.element)),
             Shape::Polygon { .. } => of("polygon"),
             Shape::WholePixel => of("pixel"),
             Shape::CanvasOutline => "outline of the canvas".to_owned(),
@@ -96,9 +101,13 @@ impl Edge {
 }
 
 impl Fragment {
-    /// What it did, as one of a shape's fragments.
-    pub(super) fn lines(&self, shape: &Shape) -> Vec<String> {
-        match shape {
+    /// What it did, as one of a paint's fragments.
+    pub(super) fn lines(&self, paint: &Paint) -> Vec<String> {
+        match &paint.shape {
+            _ if paint.in_mask && !paint.shape.is_layer_mark() => vec![
+                format!("colour    {}", color(self.color)),
+                "counts for the mask, and is not seen itself".to_owned(),
+            ],
             Shape::EndClip | Shape::EndMask { .. } => self.mask_lines(),
             Shape::EndLayer { blend: Some(blend), .. } => self.blend_lines(blend),
             _ => self.over_lines(),

@@ -275,6 +275,12 @@ impl Explanation {
             Shape::WholePixel | Shape::CanvasOutline => {
                 "one pixel wide at every zoom: paints whole pixels, whatever the samples".to_owned()
             }
+            Shape::Triangle { .. } | Shape::Polygon { .. } if found.in_mask => {
+                format!(
+                    "part of a clip path or mask: lies on {count} of {all} samples: {}",
+                    runs(&found.samples())
+                )
+            }
             Shape::Triangle { .. } | Shape::Polygon { .. } => {
                 let hidden = if seen < count {
                     format!(", {} of them hidden", count - seen)
@@ -351,7 +357,7 @@ impl Explanation {
             }
             Some(View::Polygon { winding, value }) => {
                 let rule = match &found.shape {
-                    Shape::Polygon { rule } => rule,
+                    Shape::Polygon { rule, .. } => rule,
                     _ => "nonzero",
                 };
                 let inside = self.fragment(paint, sample).is_some();
@@ -362,7 +368,7 @@ impl Explanation {
             None => {}
         }
         match self.fragment(paint, sample) {
-            Some(fragment) => lines.extend(fragment.lines(&found.shape)),
+            Some(fragment) => lines.extend(fragment.lines(found)),
             None => lines.push("leaves this sample as it was".to_owned()),
         }
         lines

@@ -348,7 +348,7 @@ mod tests {
     fn warnings(addresses: &[&'static str]) -> Vec<String> {
         let mut table = TextureTable::new(&NoResources, Alpha::Keep);
         for address in addresses {
-            table.request(address, HERE).expect("few");
+            table.request(*address, HERE).expect("few");
         }
         let mut report = Report::default();
         assert_eq!(

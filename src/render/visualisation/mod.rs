@@ -9,6 +9,7 @@
 
 mod anisotropy;
 mod barycentric;
+mod clips;
 mod colors;
 mod coverage;
 mod level_of_detail;
@@ -23,6 +24,7 @@ mod wireframe;
 use super::{Legend, RenderSettings, Screen, sources};
 use crate::geometry::ViewTransform;
 use crate::raster::{ChunkBuilder, PaintSources, RasterSettings};
+use crate::render::visualisation::clips::{Role, add_clip, roles};
 use crate::render::visualisation::show::{Show, Source};
 use crate::scene::Scene;
 use crate::texture::SamplingSettings;
@@ -107,8 +109,8 @@ impl Visualisation {
 pub(super) struct Visualiser<'a> {
     show: &'static dyn Show,
     source: Source<'a>,
-    /// For each primitive whether it is part of a clip path or mask, which is not seen itself.
-    unseen: Option<Vec<bool>>,
+    /// What each primitive is, where any is clipped or masked.
+    roles: Option<Vec<Role>>,
 }
 
 impl<'a> Visualiser<'a> {
@@ -117,7 +119,7 @@ impl<'a> Visualiser<'a> {
         Self {
             show: kind.show(),
             source: Source { scene, sampling },
-            unseen: scene.parts_of_masks(),
+            roles: roles(scene),
         }
     }
 
@@ -142,8 +144,15 @@ impl<'a> Visualiser<'a> {
 
     /// Adds primitive number `index`.
     pub(super) fn add(&self, builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, index: usize) {
-        if self.is_seen(index) {
-            self.show.add(&self.source, (builder, screen), index);
+        let role = if self.show.keeps_layers() {
+            Role::Shown
+        } else {
+            self.role(index)
+        };
+        match role {
+            Role::Shown => self.show.add(&self.source, (builder, screen), index),
+            Role::Clip => add_clip((builder, screen), self.source.kind(index)),
+            Role::LeftOut => {}
         }
     }
 
@@ -159,12 +168,14 @@ impl<'a> Visualiser<'a> {
 
     /// Adds what comes on top of primitive number `index`.
     pub(super) fn add_overlay(&self, builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, index: usize) {
-        if self.is_seen(index) {
-            self.show.add_overlay(&self.source, (builder, screen), index);
+        match self.role(index) {
+            Role::Shown => self.show.add_overlay(&self.source, (builder, screen), index),
+            Role::Clip => add_clip((builder, screen), self.source.kind(index)),
+            Role::LeftOut => {}
         }
     }
 
-    fn is_seen(&self, index: usize) -> bool {
-        !self.unseen.as_ref().is_some_and(|unseen| unseen[index])
+    fn role(&self, index: usize) -> Role {
+        self.roles.as_ref().map_or(Role::Shown, |roles| roles[index])
     }
 }

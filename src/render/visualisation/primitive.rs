@@ -50,11 +50,13 @@ fn color(index: usize) -> Rgba {
 /// The first primitives that are there.
 fn swatches(scene: &Scene) -> Vec<(u32, String)> {
     let all = scene.primitives.iter().enumerate();
-    let painted = all.filter(|(_, primitive)| {
-        !matches!(
+    let masks = scene.parts_of_masks();
+    let painted = all.filter(|(index, primitive)| {
+        let is_mark = matches!(
             primitive.kind,
             PrimitiveKind::BeginLayer | PrimitiveKind::EndLayer { .. }
-        )
+        );
+        !is_mark && !masks.as_ref().is_some_and(|parts| parts[*index])
     });
     let (mut swatches, mut count) = (Vec::new(), 0);
     for (index, primitive) in painted {

@@ -51,6 +51,11 @@ pub(super) trait Show: Sync {
         builder
     }
 
+    /// Whether layers are the picture's, and not only clips are kept.
+    fn keeps_layers(&self) -> bool {
+        false
+    }
+
     /// Adds primitive number `index`.
     fn add(&self, source: &Source<'_>, target: Target<'_, '_>, index: usize);
 

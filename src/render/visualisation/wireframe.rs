@@ -35,6 +35,10 @@ impl Show for Wireframe {
         add(builder, screen, source.kind(index));
     }
 
+    fn keeps_layers(&self) -> bool {
+        true
+    }
+
     fn has_overlay(&self) -> bool {
         true
     }

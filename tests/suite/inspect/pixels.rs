@@ -324,7 +324,7 @@ fn check_coverage(paint: &Paint, samples: usize, rules: Rules) {
                 }
                 edges.iter().all(|edge| edge.verdict.is_inside())
             }
-            (View::Polygon { winding, .. }, Shape::Polygon { rule }) if *rule == "evenodd" => winding % 2 != 0,
+            (View::Polygon { winding, .. }, Shape::Polygon { rule, .. }) if *rule == "evenodd" => winding % 2 != 0,
             (View::Polygon { winding, .. }, _) => *winding != 0,
         };
         assert_eq!(painted(number), inside, "sample {number} of {paint:?}");

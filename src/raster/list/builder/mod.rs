@@ -91,6 +91,19 @@ impl<'a> ChunkBuilder<'a> {
         self
     }
 
+    /// What `add` adds is painted, though fragments are counted otherwise.
+    pub fn uncounted(&mut self, add: impl FnOnce(&mut Self)) {
+        self.add_waiting();
+        let counting = (std::mem::take(&mut self.counts), self.color);
+        self.color = (
+            Rgba::BLACK,
+            Premultiplied16::from_straight(Rgba::BLACK, self.context.rules),
+        );
+        add(self);
+        self.add_waiting();
+        (self.counts, self.color) = counting;
+    }
+
     /// Keeps small triangles and polygons as they are, rather than reduced to the samples that they cover.
     #[must_use]
     pub fn with_all_shapes(mut self) -> Self {

@@ -2,5 +2,6 @@
 
 mod advice;
 mod contributions;
+mod painting;
 mod pixels;
 mod seams;

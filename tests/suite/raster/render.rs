@@ -10,6 +10,7 @@ use rasterscope::render::{CancelToken, RenderSettings, Subject, Visualisation, d
 use rasterscope::scene::{Composite, DialectChoice, Fill, PrimitiveKind, ReadOptions, read};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 
+use crate::support::documents;
 use crate::support::scenes::{Fills, at_rate, drawn, one_to_one, random, scene, triangle};
 
 #[test]
@@ -329,5 +330,39 @@ fn render_drops_what_is_hidden_and_still_counts_and_tells_it() {
         };
         let told = replay(&subject, size, [100, 50]).expect("a pixel of the frame");
         assert_eq!(told.painted.len(), 12, "of each six the pixel saw two");
+    }
+}
+
+#[test]
+fn a_circle_is_round_at_ten_thousand_per_cent() {
+    let document =
+        "<svg xmlns='http://www.w3.org/2000/svg' width='100' height='100'><circle cx='50' cy='50' r='40'/></svg>";
+    let scene = documents::read(document, DialectChoice::Svg);
+    let size = [200, 160];
+    for (scale, angle) in [(1.0, 0.3_f64), (10.0, 1.1), (100.0, 2.0), (1000.0, 4.0)] {
+        // A part of its border, magnified.
+        let center = DVec2::splat(50.0) + DVec2::from_angle(angle) * 40.0;
+        let view = View::At {
+            center,
+            scale,
+            rotation: 0.0,
+        }
+        .transform(scene.canvas, size);
+        let frame = drawn(&scene, &view, &at_rate(16), size);
+        let mut wrong = 0;
+        for (i, pixel) in (0..).zip(frame.pixels()) {
+            let corner = DVec2::new(f64::from(i % size[0]), f64::from(i / size[0]));
+            let inside = (0..16).filter(|sample| {
+                let offset = DVec2::new(f64::from(sample % 4), f64::from(sample / 4)) / 4.0 + 0.125;
+                view.to_scene(corner + offset).distance(DVec2::splat(50.0)) < 40.0
+            });
+            let expected = 255 - (inside.count() * 255 + 8) / 16;
+            let red = (pixel >> 16 & 0xFF) as usize;
+            // A sample may lie within a tenth of the samples' distance from the border.
+            if red.abs_diff(expected) > 17 {
+                wrong += 1;
+            }
+        }
+        assert_eq!(wrong, 0, "pixels more than a sample away at {scale}");
     }
 }

@@ -1,6 +1,7 @@
 //! What is read: both dialects, polygons into triangles, the gallery.
 
 mod course;
+mod drawings;
 mod gallery;
 mod svg;
 mod triangulation;

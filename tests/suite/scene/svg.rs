@@ -83,8 +83,8 @@ fn svg_canvas_and_view_box() {
         ),
         (
             "width='50%' viewBox='0 0 100 50'",
-            [50.0, 50.0],
-            [5.0, 22.5, 20.0, 27.5],
+            [50.0, 25.0],
+            [5.0, 10.0, 20.0, 15.0],
         ),
     ] {
         let scene = read(&svg(attributes, rect), DialectChoice::Svg);
@@ -240,20 +240,31 @@ fn svg_opacity_layers_where_things_overlap() {
 
 #[test]
 fn svg_reports_what_it_does_not_draw() {
-    let body = "<circle r='1'/><rect width='1' height='1' fill='url(#g) red' filter='url(#f)' clip-path='none'/>\
-                <line stroke-dasharray='1 2'/><style>a{}</style><x:y xmlns:x='urn:x'/><metadata/>";
+    let body = "<foreignObject/><rect width='1' height='1' fill='url(#g) red' filter='url(#f)' clip-path='none'/>\
+                <filter id='f'><feOffset/></filter><line stroke='red' style='vector-effect: non-scaling-stroke'/>\
+                <script>1</script><rect shape-rendering='crispEdges'><animate/></rect><x:y xmlns:x='urn:x'/><metadata/>\
+                <switch><foreignObject/><g/></switch><g display='none'><audio/></g>";
     let scene = svg_scene(body);
     let what: Vec<&str> = scene.report.skipped.iter().map(|skipped| &*skipped.name).collect();
-    assert_eq!(
-        what,
-        ["circle", "filter", "fill with url()", "stroke-dasharray", "style"],
-        "in order"
-    );
+    let expected = [
+        "foreignObject",
+        "filter",
+        "vector-effect",
+        "script",
+        "shape-rendering",
+        "animate",
+    ];
+    assert_eq!(what, expected, "in order");
+    let with_filter =
+        filled("<rect width='1' height='1' fill='red' filter='url(#f)'/><filter id='f'><feOffset/></filter>");
+    assert_eq!(with_filter, (1.0, RED), "drawn without it");
     assert_eq!(
         filled("<rect width='1' height='1' fill='url(#g) red'/>").1,
         RED,
         "the fallback is drawn"
     );
+    let elsewhere = svg_scene("<use href='other.svg#a'/><use href='#nobody'/><use href='#a'/><g id='a'/>");
+    assert_eq!(lines(&elsewhere).len(), 2, "{:?}", lines(&elsewhere));
 }
 
 #[test]
@@ -261,7 +272,7 @@ fn svg_nonsense_is_ignored_with_a_warning() {
     for (body, warning) in [
         (
             "<rect width='1' height='1' fill='reddish'/>",
-            "fill=\"reddish\" is not understood and has no effect",
+            "fill=\"reddish\" is not understood; black is taken",
         ),
         (
             "<rect width='1' height='1' transform='spin(2)'/>",

@@ -21,6 +21,7 @@ pub(crate) fn scene(side: f64, kinds: Vec<PrimitiveKind>) -> Scene {
         element: "polygon".into(),
         id: None,
         location: SourceLocation { line: 1, column: 1 },
+        used: None,
     }];
     scene.primitives = kinds
         .into_iter()

@@ -82,7 +82,7 @@ pub(super) fn options<'o, 'doc>(
     load: impl Fn(&str) -> Option<ImageKind> + Send + Sync + 'o,
 ) -> Options<'o> {
     Options {
-        font_family: "serif".to_owned(),
+        font_family: fonts::UNNAMED.to_owned(),
         fontdb: fonts.unwrap_or_default(),
         font_resolver: fonts::resolver(|missing| {
             let found = &mut lock(loading).missing;

@@ -3,5 +3,6 @@
 mod course;
 mod drawings;
 mod gallery;
+mod hostile_drawings;
 mod svg;
 mod triangulation;

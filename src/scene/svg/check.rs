@@ -3,7 +3,7 @@
 
 use roxmltree::Node;
 
-use super::prepare::Listener;
+use super::listener::Listener;
 use super::values;
 use crate::scene::error::Fault;
 use crate::scene::report::quote;

@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 
-use super::references::By;
+use super::styles::By;
 
 /// A reference, or a step to something inside: from, to, and how.
 pub(super) type Edge = (usize, usize, By);

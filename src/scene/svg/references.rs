@@ -8,8 +8,8 @@ use std::collections::HashMap;
 use roxmltree::{Node, NodeId};
 
 use super::circles;
-use super::prepare::Listener;
-use super::styles::Styles;
+use super::listener::Listener;
+use super::styles::{By, Styles};
 use crate::scene::Problem;
 use crate::scene::error::Fault;
 
@@ -37,19 +37,6 @@ struct Link<'doc> {
     /// The property or attribute.
     by: By,
     to: Node<'doc, 'doc>,
-}
-
-/// How elements refer to each other. usvg looks for circles of one kind at a time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum By {
-    Inside,
-    Href,
-    Clip,
-    Mask,
-    Fill,
-    Stroke,
-    Marker,
-    Filter,
 }
 
 /// An element on the way down.

@@ -5,13 +5,25 @@ use std::cell::Cell;
 use roxmltree::Node;
 use simplecss::{AttributeOperator, PseudoClass, Selector, StyleSheet};
 
-use super::prepare::Listener;
-use super::references::By;
+use super::listener::Listener;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, attributes};
 
 /// Most steps of comparing elements with the rules of style sheets.
 const MAX_STEPS: u64 = 60_000_000;
+
+/// How elements refer to each other. usvg looks for circles of one kind at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum By {
+    Inside,
+    Href,
+    Clip,
+    Mask,
+    Fill,
+    Stroke,
+    Marker,
+    Filter,
+}
 
 /// The style sheets of one document, as far as they refer to elements.
 #[derive(Debug, Default)]

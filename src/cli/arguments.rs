@@ -31,6 +31,9 @@ use super::options::writeup::WriteupOptions;
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) verb: Verb,
+    /// Set text in the typefaces of this file, or of all files in this folder, too; may be given several times
+    #[arg(long = "font", global = true, value_name = "PATH")]
+    pub(super) fonts: Vec<PathBuf>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -176,6 +179,7 @@ mod tests {
                     --view=-5,10,2.5,-90 --background #ff8000 --dialect course --rules course --resolve linear --visualise mip --threads 2";
         let Ok(Arguments {
             verb: Verb::Render(options),
+            ..
         }) = parsed(&line.split_whitespace().collect::<Vec<_>>().join(" "))
         else {
             panic!("a good line");

@@ -17,7 +17,7 @@ use crate::figure::{Guard, Named, Record, save_picture};
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::render::CancelToken;
-use crate::scene::FolderResources;
+use crate::scene::{self, FolderResources};
 use crate::viewer::{SceneSource, as_path, plain_record};
 
 /// Version of the JSON's shape; a field that changes its meaning raises it, a new one does not.
@@ -189,10 +189,7 @@ fn drawing(options: &DiffOptions, size: [u32; 2]) -> PictureOptions {
 
 /// Whether a path names a scene and no picture.
 fn is_scene(path: &Path) -> bool {
-    matches!(SceneSource::from_address(path), SceneSource::Gallery(_))
-        || path
-            .extension()
-            .is_some_and(|ending| ending.eq_ignore_ascii_case("svg"))
+    matches!(SceneSource::from_address(path), SceneSource::Gallery(_)) || scene::is_document(path)
 }
 
 /// The bytes of a picture that is not decoded yet, and its size.

@@ -34,17 +34,23 @@ use arguments::{Arguments, Verb};
 use failure::Failure;
 use progress::Progress;
 
+use crate::scene::{self, Fonts};
 use crate::simd;
 use crate::viewer::Restored;
 
 /// The environment variable that fixes the vector instructions: for measurements that must not depend on the machine.
 const SIMD_VARIABLE: &str = "RASTERSCOPE_SIMD";
 
+/// The environment variable that leaves out the system's typefaces if it is `shipped`: for pictures that must not depend on the
+/// machine.
+const FONTS_VARIABLE: &str = "RASTERSCOPE_FONTS";
+
 /// Runs the program with its arguments, its own name first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     interrupt::listen();
     let done = restore::parse(arguments).and_then(|(arguments, restored)| {
         choose_simd()?;
+        choose_fonts(&arguments)?;
         execute(&arguments, restored.as_ref())
     });
     match done {
@@ -67,6 +73,19 @@ fn choose_simd() -> Result<(), Failure> {
         return Ok(());
     };
     simd::choose(&name.to_string_lossy()).map_err(|error| Failure::input(format!("{SIMD_VARIABLE}: {error}")))
+}
+
+fn choose_fonts(arguments: &Arguments) -> Result<(), Failure> {
+    let fonts = Fonts {
+        system: std::env::var_os(FONTS_VARIABLE).is_none_or(|value| value != "shipped"),
+        more: arguments.fonts.clone(),
+    };
+    scene::set_fonts(fonts).map_err(|path| {
+        let path = path.display();
+        Failure::input(format!(
+            "--font {path}: no typeface is there; give a TrueType or OpenType file, or a folder of them"
+        ))
+    })
 }
 
 /// `restored` is the picture that scene and options come from.

@@ -50,7 +50,7 @@ pub(super) fn verb_of(arguments: &[String]) -> Result<Verb, String> {
     // A name without a command would open the window.
     let words = ["rasterscope"].into_iter().chain(arguments.iter().map(String::as_str));
     match arguments::parse_words(words.map(OsString::from).collect(), false) {
-        Ok(Arguments { verb }) => Ok(verb),
+        Ok(Arguments { verb, .. }) => Ok(verb),
         Err(Failure::Input(problem) | Failure::Other(problem)) => Err(problem),
         Err(Failure::Text(_) | Failure::Different) => Err("it asks for help".to_owned()),
     }

@@ -1,9 +1,52 @@
 //! Which reading of a document the user asks for.
 
 use roxmltree::Node;
+use svgtypes::{Length, LengthUnit};
 
 use super::document::Source;
 use super::{Dialect, attributes, course, course_values, numbers};
+
+/// Attributes with which nobody writes for the course's reader, which knows nothing of them.
+const ONLY_SVG: [&str; 24] = [
+    "class",
+    "clip-path",
+    "clip-rule",
+    "color",
+    "display",
+    "fill-rule",
+    "filter",
+    "marker-end",
+    "marker-mid",
+    "marker-start",
+    "mask",
+    "mix-blend-mode",
+    "opacity",
+    "paint-order",
+    "preserveAspectRatio",
+    "rx",
+    "ry",
+    "shape-rendering",
+    "stroke-dasharray",
+    "stroke-dashoffset",
+    "transform-origin",
+    "vector-effect",
+    "visibility",
+    "xml:space",
+];
+
+/// Attributes that hold a length.
+const LENGTHS: [&str; 10] = [
+    "x",
+    "y",
+    "x1",
+    "y1",
+    "x2",
+    "y2",
+    "width",
+    "height",
+    "stroke-width",
+    "font-size",
+];
 
 /// The dialect as a setting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -123,14 +166,15 @@ impl Traits {
         let name = node.tag_name().name();
         let is_known = course::ELEMENTS.contains(&name);
         self.own |= matches!(name, "colortri" | "textri" | "texture") || is_point(node);
-        self.foreign |= !is_known || is_styled_as_svg(node);
+        self.foreign |= !is_known || is_styled_as_svg(node) || is_only_svg(node);
         self.rich |= !is_known && !matches!(name, "circle" | "ellipse");
         self.drawn |= is_known && name != "g";
         self.differs |= !is_known || is_styled_as_svg(node) || course::is_read_otherwise(node);
     }
 
     /// The course's dialect if the document uses what only the course has; or nothing that the course does not have,
-    /// colours that it reads as SVG does (named ones and `#fff` are others to it), no `style`, and a size in plain numbers.
+    /// colours that it reads as SVG does (named ones and `#fff` are others to it), no `style`, no attribute
+    /// or unit of which the course's reader knows nothing, and a size in plain numbers.
     fn dialect(self) -> Dialect {
         if self.own || (self.sized && !self.foreign) {
             Dialect::Course
@@ -178,6 +222,16 @@ fn is_styled_as_svg(node: Node<'_, '_>) -> bool {
             .is_some_and(|text| !course_values::color(text).as_svg)
     };
     node.has_attribute("style") || misread("fill") || misread("stroke")
+}
+
+/// Whether the element has an attribute, or a unit, that the course's reader does not know.
+fn is_only_svg(node: Node<'_, '_>) -> bool {
+    let has_unit = |text: &str| {
+        let length = text.trim().parse::<Length>();
+        length.is_ok_and(|length| !matches!(length.unit, LengthUnit::None | LengthUnit::Px))
+    };
+    ONLY_SVG.iter().any(|name| node.has_attribute(*name))
+        || LENGTHS.iter().any(|name| node.attribute(*name).is_some_and(has_unit))
 }
 
 /// Whether this is a rect without size, which the course draws as a point.

@@ -67,6 +67,12 @@ impl Scene {
     }
 }
 
+/// Whether a file is a document by the ending of its name: `.svg`, or `.svgz` where it is compressed.
+pub fn is_document(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default();
+    ["svg", "svgz"].iter().any(|known| ending.eq_ignore_ascii_case(known))
+}
+
 /// Reads the scene in the file `path`; textures are looked for relative to its folder.
 ///
 /// # Errors

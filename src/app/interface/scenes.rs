@@ -266,7 +266,8 @@ fn folder(entry: &SceneEntry) -> (&str, Option<&Path>) {
 /// The file's name without its ending.
 fn name(entry: &SceneEntry) -> &str {
     let file = entry.label.rsplit(['/', '\\']).next().unwrap_or(&entry.label);
-    file.strip_suffix(".svg").unwrap_or(file)
+    let bare = file.strip_suffix(".svg").or_else(|| file.strip_suffix(".svgz"));
+    bare.unwrap_or(file)
 }
 
 #[expect(

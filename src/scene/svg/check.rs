@@ -3,7 +3,7 @@
 
 use roxmltree::Node;
 
-use super::prepare::Listener;
+use super::listener::Listener;
 use super::values;
 use crate::scene::error::Fault;
 use crate::scene::report::quote;
@@ -109,7 +109,9 @@ fn complain<L: Listener>(listener: &mut L, node: Node<'_, '_>, name: &str, value
     if values::is_understood(name, value) {
         return;
     }
-    let message = if name == "points" && values::is_odd(value) {
+    let message = if name == "fill" {
+        format!("fill=\"{}\" is not understood; black is taken", quote(value))
+    } else if name == "points" && values::is_odd(value) {
         "points holds an odd number of coordinates; the last has no effect".to_owned()
     } else {
         format!("{name}=\"{}\" is not understood and has no effect", quote(value))

@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 
-use super::references::By;
+use super::styles::By;
 
 /// A reference, or a step to something inside: from, to, and how.
 pub(super) type Edge = (usize, usize, By);
@@ -25,6 +25,7 @@ pub(super) fn endless(edges: &[Edge]) -> Option<usize> {
             of_group.push((to, by));
         }
         let is_found = match of_group.as_slice() {
+            _ if matches!(by, By::Picture | By::Inherited) => false,
             [_] => true,
             [(_, first), (_, second)] => first == second && *first != By::Filter,
             _ => false,
@@ -101,7 +102,7 @@ mod tests {
 
     #[test]
     fn circles_of_one_or_two_of_a_kind_are_left_to_usvg() {
-        use By::{Clip, Fill, Href, Inside, Mask, Stroke};
+        use By::{Clip, Fill, Href, Inherited, Inside, Mask, Stroke};
         for (edges, expected, what) in [
             (vec![(0, 1, Inside), (1, 2, Fill)], false, "no circle"),
             (
@@ -112,6 +113,7 @@ mod tests {
             (vec![(0, 1, Mask), (1, 0, Mask)], false, "two masks"),
             (vec![(0, 1, Mask), (1, 2, Mask), (2, 0, Mask)], true, "three masks"),
             (vec![(0, 1, Fill), (1, 0, Stroke)], true, "two kinds"),
+            (vec![(0, 1, Inherited), (1, 0, Inside)], true, "by what is around"),
             (vec![(0, 1, Href), (1, 2, Inside), (2, 0, Href)], false, "use alone"),
             (
                 vec![(0, 1, Clip), (1, 0, Clip), (2, 3, Mask), (3, 2, Mask)],

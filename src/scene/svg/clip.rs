@@ -3,7 +3,7 @@
 use glam::{DAffine2, DVec2};
 use usvg::{ClipPath, Group, Mask};
 
-use super::paint::{Painter, Place, affine};
+use super::painter::{Painter, Place, affine};
 use crate::color::{BlendMode, Rgba};
 use crate::geometry::{CurvedArea, FillRule, Path};
 use crate::scene::error::Fault;

@@ -96,6 +96,9 @@ fn is_there(database: &Database, family: &Family<'_>) -> bool {
         .any(|face| face.families.iter().any(|(known, _)| known == name))
 }
 
+/// What text is set in that asks for nothing: usvg takes this for the name of a family.
+pub(super) const UNNAMED: &str = "serif";
+
 /// A family that a document asks for and the machine has not.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Missing {
@@ -152,6 +155,7 @@ fn theirs(family: &FontFamily) -> Family<'_> {
         FontFamily::Cursive => Family::Cursive,
         FontFamily::Fantasy => Family::Fantasy,
         FontFamily::Monospace => Family::Monospace,
+        FontFamily::Named(name) if name == UNNAMED => Family::Serif,
         FontFamily::Named(name) => Family::Name(name),
     }
 }

@@ -15,7 +15,9 @@ mod clip;
 mod edits;
 mod elements;
 mod fonts;
+mod listener;
 mod paint;
+mod painter;
 mod pictures;
 mod prepare;
 mod references;
@@ -29,7 +31,7 @@ use std::sync::{Mutex, PoisonError};
 use glam::DVec2;
 use roxmltree::Node;
 
-use self::paint::Painter;
+use self::painter::Painter;
 use self::pictures::Loading;
 use super::build::Builder;
 use super::error::Fault;

@@ -1,73 +1,20 @@
 //! usvg's tree as primitives: groups become layers where they must, paths become areas.
 
-use std::collections::HashMap;
-
 use glam::DAffine2;
 use roxmltree::Node;
 use usvg::{Group, Image, ImageKind, Path};
 
-use super::elements::Elements;
+use super::painter::{Painter, Place, affine};
 use super::pictures::{self, Picture};
-use super::server::Servers;
-use super::shapes::Used;
 use super::{clip, prepare, shapes};
-use crate::color::{BlendMode, Rgba};
+use crate::color::BlendMode;
 use crate::geometry::{CurvedArea, FillRule};
-use crate::scene::build::{Builder, unit_square};
+use crate::scene::build::unit_square;
 use crate::scene::error::Fault;
-use crate::scene::triangles::{self, Element, TextureFiles};
-use crate::scene::{Composite, Fill, Paint, ShapeId};
+use crate::scene::triangles::{self, Element};
+use crate::scene::{Composite, Fill, Paint};
 
-/// Paints one document.
-pub(super) struct Painter<'a, 'doc> {
-    pub(super) builder: &'a mut Builder<'doc>,
-    pub(super) root: Node<'doc, 'doc>,
-    pub(super) elements: &'a Elements<'doc>,
-    pub(super) pictures: &'a [Picture],
-    /// Samples per user unit for which edges of curves are fine enough.
-    pub(super) scale: f64,
-    pub(super) servers: Servers,
-    texture_files: TextureFiles<'doc>,
-    /// Inside an image that is a document: the image, to which everything belongs.
-    pub(super) inside: Option<ShapeId>,
-    /// The `use` elements that are being shown, innermost last.
-    pub(super) used: Vec<Used<'doc>>,
-    /// The shapes of elements that have one.
-    pub(super) known: HashMap<roxmltree::NodeId, ShapeId>,
-}
-
-/// Where something is painted.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
-    pub(super) to_user: DAffine2,
-    /// Whose it is where nothing else is said.
-    pub(super) shape: ShapeId,
-    /// Multiplies the opacity of what is painted.
-    pub(super) opacity: f32,
-}
-
-impl<'a, 'doc> Painter<'a, 'doc> {
-    pub(super) fn new(
-        builder: &'a mut Builder<'doc>,
-        root: Node<'doc, 'doc>,
-        elements: &'a Elements<'doc>,
-        pictures: &'a [Picture],
-        scale: f64,
-    ) -> Self {
-        Self {
-            builder,
-            root,
-            elements,
-            pictures,
-            scale,
-            servers: Servers::default(),
-            texture_files: TextureFiles::below(root),
-            inside: None,
-            used: Vec::new(),
-            known: HashMap::new(),
-        }
-    }
-
+impl<'doc> Painter<'_, 'doc> {
     /// Paints a whole document.
     pub(super) fn tree(&mut self, tree: &usvg::Tree) -> Result<(), Fault> {
         self.servers.name(tree, self.elements);
@@ -313,12 +260,6 @@ impl<'a, 'doc> Painter<'a, 'doc> {
     }
 }
 
-impl std::fmt::Debug for Painter<'_, '_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Painter").finish_non_exhaustive()
-    }
-}
-
 /// Whether a group does nothing but move, and fade, what is inside. What its filters would do is not done.
 fn is_plain(group: &Group) -> bool {
     let blends = group.blend_mode() != usvg::BlendMode::Normal;
@@ -336,17 +277,6 @@ fn is_single(group: &Group) -> bool {
         usvg::Node::Text(text) => is_single(text.flattened()),
         usvg::Node::Image(image) => !matches!(image.kind(), ImageKind::SVG(_)),
     }
-}
-
-/// usvg's transform as ours.
-pub(super) fn affine(transform: usvg::Transform) -> DAffine2 {
-    let usvg::Transform { sx, kx, ky, sy, tx, ty } = transform;
-    DAffine2::from_cols_array(&[sx, ky, kx, sy, tx, ty].map(f64::from))
-}
-
-/// usvg's colour with an opacity.
-pub(super) fn color(color: usvg::Color, opacity: f32) -> Rgba {
-    Rgba::from_bytes([color.red, color.green, color.blue, u8::MAX]).faded(opacity)
 }
 
 fn blend_mode(mode: usvg::BlendMode) -> BlendMode {

@@ -12,6 +12,7 @@ use usvg::fontdb::Database;
 use usvg::{Image, ImageHrefResolver, ImageKind, Options};
 
 use super::fonts::{self, Missing};
+use super::listener::Listener;
 use super::{prepare, references};
 use crate::scene::build::Builder;
 use crate::scene::document::{self, Source};
@@ -82,7 +83,7 @@ pub(super) fn options<'o, 'doc>(
     load: impl Fn(&str) -> Option<ImageKind> + Send + Sync + 'o,
 ) -> Options<'o> {
     Options {
-        font_family: "serif".to_owned(),
+        font_family: fonts::UNNAMED.to_owned(),
         fontdb: fonts.unwrap_or_default(),
         font_resolver: fonts::resolver(|missing| {
             let found = &mut lock(loading).missing;
@@ -179,7 +180,7 @@ struct Outside<'l, 'a, 'doc> {
     location: SourceLocation,
 }
 
-impl prepare::Listener for Outside<'_, '_, '_> {
+impl Listener for Outside<'_, '_, '_> {
     fn skip(&mut self, kind: SkippedKind, name: &str, _node: Node<'_, '_>) {
         lock(self.loading).builder.report.skip(kind, name, self.location);
     }

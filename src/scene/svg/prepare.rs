@@ -6,7 +6,7 @@ use roxmltree::{Attribute, Node};
 use super::check;
 use super::edits::Edits;
 use super::elements::Elements;
-use crate::scene::build::Builder;
+use super::listener::Listener;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, SkippedKind, attributes, numbers};
 
@@ -60,30 +60,6 @@ pub(super) struct Prepared<'doc> {
     pub(super) images: Vec<Node<'doc, 'doc>>,
     /// The first element with text, if there is one.
     pub(super) letters: Option<Node<'doc, 'doc>>,
-}
-
-/// Who hears of what is not drawn.
-pub(super) trait Listener {
-    /// An element, or an attribute, without effect.
-    fn skip(&mut self, kind: SkippedKind, name: &str, node: Node<'_, '_>);
-    /// Something that is read differently from what the document says.
-    fn warn(&mut self, node: Node<'_, '_>, message: String);
-    /// A problem of an element or its attribute.
-    fn fault(&self, problem: Problem, node: Node<'_, '_>, attribute: &str) -> Fault;
-}
-
-impl Listener for Builder<'_> {
-    fn skip(&mut self, kind: SkippedKind, name: &str, node: Node<'_, '_>) {
-        Builder::skip(self, kind, name, node);
-    }
-
-    fn warn(&mut self, node: Node<'_, '_>, message: String) {
-        Builder::warn(self, node, message);
-    }
-
-    fn fault(&self, problem: Problem, node: Node<'_, '_>, attribute: &str) -> Fault {
-        problem.at(self.locate_attribute(node, attribute))
-    }
 }
 
 /// Gathers the changes to one document.

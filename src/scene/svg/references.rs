@@ -8,8 +8,8 @@ use std::collections::HashMap;
 use roxmltree::{Node, NodeId};
 
 use super::circles;
-use super::prepare::Listener;
-use super::styles::Styles;
+use super::listener::Listener;
+use super::styles::{By, Styles};
 use crate::scene::Problem;
 use crate::scene::error::Fault;
 
@@ -18,6 +18,12 @@ const MAX_WORK: u64 = 4_000_000;
 
 /// Most elements inside each other, where what is referred to counts as inside.
 const MAX_DEPTH: usize = 2_000;
+
+/// Most references but those of `use`.
+const MAX_REFERENCES: u64 = 150_000;
+
+/// Elements inside a group with a marker that are looked at for the longest path.
+const MAX_INSIDE: usize = 1_000;
 
 /// Most steps of usvg's own search for circles.
 const MAX_SEARCH: u64 = 200_000_000;
@@ -37,19 +43,8 @@ struct Link<'doc> {
     /// The property or attribute.
     by: By,
     to: Node<'doc, 'doc>,
-}
-
-/// How elements refer to each other. usvg looks for circles of one kind at a time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum By {
-    Inside,
-    Href,
-    Clip,
-    Mask,
-    Fill,
-    Stroke,
-    Marker,
-    Filter,
+    /// How often it is drawn for one reference: a marker is, at every corner.
+    times: u64,
 }
 
 /// An element on the way down.
@@ -57,6 +52,7 @@ struct Open<'doc> {
     node: Node<'doc, 'doc>,
     links: std::vec::IntoIter<Link<'doc>>,
     by: By,
+    times: u64,
     found: Found,
 }
 
@@ -74,6 +70,8 @@ pub(super) fn check<'doc, L: Listener>(root: Node<'doc, 'doc>, listener: &mut L)
         ids: &ids,
         done: HashMap::new(),
         steps: 0,
+        references: 0,
+        inherited: styles.inherited(root),
         has_circles: false,
     };
     search.run(root, listener)?;
@@ -96,12 +94,21 @@ struct Search<'s, 'doc> {
     done: HashMap<NodeId, Option<Found>>,
     /// Of usvg's search for circles.
     steps: u64,
+    /// How many references there are, of which usvg compares each with each.
+    references: u64,
+    /// Paint servers that elements hand down.
+    inherited: HashMap<usize, [Option<&'doc str>; 2]>,
     has_circles: bool,
 }
 
 impl<'doc> Search<'_, 'doc> {
     fn run<L: Listener>(&mut self, root: Node<'doc, 'doc>, listener: &L) -> Result<(), Fault> {
-        let mut open = vec![self.open(root, By::Inside)];
+        let whole = Link {
+            by: By::Inside,
+            to: root,
+            times: 1,
+        };
+        let mut open = vec![self.open(whole)];
         while let Some(last) = open.last_mut() {
             let Some(link) = last.links.next() else {
                 let Some(closed) = open.pop() else {
@@ -109,7 +116,7 @@ impl<'doc> Search<'_, 'doc> {
                 };
                 self.done.insert(closed.node.id(), Some(closed.found));
                 if let Some(parent) = open.last_mut() {
-                    parent.found.add(closed.found);
+                    parent.found.add(closed.found, closed.times);
                     self.count(closed.by, closed.found);
                 }
                 continue;
@@ -117,7 +124,7 @@ impl<'doc> Search<'_, 'doc> {
             match self.done.get(&link.to.id()) {
                 Some(Some(found)) => {
                     let found = *found;
-                    last.found.add(found);
+                    last.found.add(found, link.times);
                     self.count(link.by, found);
                 }
                 Some(None) => self.has_circles = true,
@@ -126,9 +133,14 @@ impl<'doc> Search<'_, 'doc> {
                         let what = "elements inside each other, with those that are referred to";
                         return Err(listener.fault(Problem::TooMany { what, limit: MAX_DEPTH }, link.to, ""));
                     }
-                    let next = self.open(link.to, link.by);
+                    let next = self.open(link);
                     open.push(next);
                 }
+            }
+            if self.references > MAX_REFERENCES {
+                let limit = usize::try_from(MAX_REFERENCES).unwrap_or(usize::MAX);
+                let what = "references to gradients, patterns, clip paths and masks";
+                return Err(listener.fault(Problem::TooMany { what, limit }, link.to, ""));
             }
             if let Some(last) = open.last()
                 && (last.found.work > MAX_WORK || last.found.depth > MAX_DEPTH || self.steps > MAX_SEARCH)
@@ -145,6 +157,7 @@ impl<'doc> Search<'_, 'doc> {
     fn count(&mut self, by: By, found: Found) {
         if !matches!(by, By::Inside | By::Href) {
             self.steps = self.steps.saturating_add(found.work);
+            self.references += 1;
         }
     }
 
@@ -159,33 +172,64 @@ impl<'doc> Search<'_, 'doc> {
         edges.filter(|(_, _, by)| *by != By::Marker).collect()
     }
 
-    fn open(&mut self, node: Node<'doc, 'doc>, by: By) -> Open<'doc> {
-        self.done.insert(node.id(), None);
+    fn open(&mut self, link: Link<'doc>) -> Open<'doc> {
+        let Link { by, to, times } = link;
+        self.done.insert(to.id(), None);
         Open {
-            node,
-            links: self.links(node).into_iter(),
+            node: to,
+            links: self.links(to).into_iter(),
             by,
+            times,
             found: Found { work: 1, depth: 1 },
         }
     }
 
     /// What is inside an element, and what it refers to.
     fn links(&self, node: Node<'doc, 'doc>) -> Vec<Link<'doc>> {
-        let children = node
-            .children()
-            .filter(Node::is_element)
-            .map(|to| Link { by: By::Inside, to });
-        let mut links: Vec<Link<'doc>> = children.collect();
+        let inside = |to| Link {
+            by: By::Inside,
+            to,
+            times: 1,
+        };
+        let mut links: Vec<Link<'doc>> = node.children().filter(Node::is_element).map(inside).collect();
         for (by, id) in self.styles.references(node) {
-            links.extend(self.ids.get(id).map(|to| Link { by, to: *to }));
+            let times = if by == By::Marker { corners(node) } else { 1 };
+            links.extend(self.ids.get(id).map(|to| Link { by, to: *to, times }));
+        }
+        // What stands elsewhere is painted as what is around it there; and each shape has paints of its own.
+        let is_definition = DEFINITIONS.contains(&node.tag_name().name());
+        if is_definition || !node.has_children() {
+            let parent = node.parent_element().map(|parent| parent.id().get_usize());
+            let paints = parent.and_then(|parent| self.inherited.get(&parent));
+            let around = paints.into_iter().flatten().flatten().filter_map(|id| self.ids.get(id));
+            let by = if is_definition { By::Inherited } else { By::Fill };
+            links.extend(around.map(|to| Link { by, to: *to, times: 1 }));
         }
         links
     }
 }
 
+/// Elements that are drawn elsewhere, but with what they inherit where they stand.
+const DEFINITIONS: [&str; 3] = ["pattern", "marker", "mask"];
+
+/// How many corners the longest path inside an element has, at most.
+fn corners(node: Node<'_, '_>) -> u64 {
+    let of_one = |node: Node<'_, '_>| {
+        let data = node.attribute("d").or_else(|| node.attribute("points")).unwrap_or("");
+        // Two characters are the least that a corner takes.
+        (data.len() / 2) as u64
+    };
+    node.descendants()
+        .take(MAX_INSIDE)
+        .map(of_one)
+        .max()
+        .unwrap_or(0)
+        .max(1)
+}
+
 impl Found {
-    fn add(&mut self, inside: Self) {
-        self.work = self.work.saturating_add(inside.work);
+    fn add(&mut self, inside: Self, times: u64) {
+        self.work = self.work.saturating_add(inside.work.saturating_mul(times));
         self.depth = self.depth.max(inside.depth + 1);
     }
 }

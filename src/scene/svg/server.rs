@@ -7,25 +7,12 @@ use glam::{DAffine2, DVec2};
 use usvg::{BaseGradient, LinearGradient, Paint, RadialGradient};
 
 use super::elements::Elements;
-use super::paint::{Painter, Place, affine, color};
+use super::painter::{Key, Painter, Place, Servers, affine, color};
 use crate::color::{Ramp, Spread, Stop};
 use crate::geometry::GradientShape;
 use crate::scene::error::Fault;
 use crate::scene::{Fill, Gradient, GradientId, Pattern, PatternId, Scene, ShapeId};
 use crate::texture::TileCache;
-
-/// What tells paint servers apart: the one of usvg's, its opacity, and how it lies.
-type Key = (usize, u32, [u64; 6]);
-
-/// The paint servers of one scene, by what they are made from.
-#[derive(Debug, Default)]
-pub(super) struct Servers {
-    gradients: HashMap<Key, Option<GradientId>>,
-    patterns: HashMap<Key, Option<PatternId>>,
-    tiles: HashMap<(usize, u64), Option<Arc<Scene>>>,
-    /// Ids of gradients in the document by what they show: usvg gives the copies that it makes for boxes other ids.
-    names: HashMap<Vec<u32>, String>,
-}
 
 impl Servers {
     /// Remembers which gradients the document has.

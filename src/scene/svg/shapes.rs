@@ -7,20 +7,12 @@ use roxmltree::Node;
 use usvg::Group;
 use usvg::tiny_skia_path::{Path as TheirPath, PathSegment, Point};
 
-use super::paint::Painter;
+use super::painter::{Painter, Used};
 use crate::geometry::{LineCap, LineJoin, Path, Stroke, StrokeStyle};
-use crate::scene::{ShapeId, SourceLocation, attributes};
+use crate::scene::{ShapeId, attributes};
 
 /// Most elements that a `use` shows and that are told apart.
 const MAX_USED: usize = 10_000;
-
-/// A `use` that is being shown.
-#[derive(Debug)]
-pub(super) struct Used<'doc> {
-    location: SourceLocation,
-    /// What it shows and has not yet been met, the next one last; nothing where that cannot be told.
-    left: Vec<Node<'doc, 'doc>>,
-}
 
 impl<'doc> Painter<'_, 'doc> {
     /// The shape of an element, the same for all that is painted for it.

@@ -1,17 +1,34 @@
 //! Which elements an element refers to: by attributes, by its style, and by the document's style sheets.
 
 use std::cell::Cell;
+use std::collections::HashMap;
 
 use roxmltree::Node;
 use simplecss::{AttributeOperator, PseudoClass, Selector, StyleSheet};
 
-use super::prepare::Listener;
-use super::references::By;
+use super::listener::Listener;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, attributes};
 
 /// Most steps of comparing elements with the rules of style sheets.
 const MAX_STEPS: u64 = 60_000_000;
+
+/// How elements refer to each other. usvg looks for circles of one kind at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum By {
+    Inside,
+    Href,
+    Clip,
+    Mask,
+    Fill,
+    Stroke,
+    Marker,
+    Filter,
+    /// By the picture of a filter.
+    Picture,
+    /// By a paint of what is around: usvg does not look for circles of these.
+    Inherited,
+}
 
 /// The style sheets of one document, as far as they refer to elements.
 #[derive(Debug, Default)]
@@ -68,11 +85,39 @@ impl<'doc> Styles<'doc> {
                 found.extend(references);
             }
         }
-        if node.tag_name().name() != "a" {
-            let href = attributes::href(node).and_then(|href| href.trim().strip_prefix('#'));
-            found.extend(href.map(|id| (By::Href, id)));
-        }
+        let by = match node.tag_name().name() {
+            "a" => return found,
+            "feImage" => By::Picture,
+            _ => By::Href,
+        };
+        let href = attributes::href(node).and_then(|href| href.trim().strip_prefix('#'));
+        found.extend(href.map(|id| (by, id)));
         found
+    }
+
+    /// The paint servers that elements hand down to what is inside, by their numbers: fill and stroke.
+    pub(super) fn inherited(&self, root: Node<'doc, 'doc>) -> HashMap<usize, [Option<&'doc str>; 2]> {
+        let mut paints: HashMap<usize, [Option<&'doc str>; 2]> = HashMap::new();
+        for node in root.descendants().filter(Node::is_element) {
+            let around = node
+                .parent_element()
+                .and_then(|parent| paints.get(&parent.id().get_usize()));
+            let mut own = around.copied().unwrap_or_default();
+            for (paint, name) in own.iter_mut().zip(["fill", "stroke"]) {
+                *paint = paint.filter(|_| !node.has_attribute(name));
+            }
+            for (by, id) in self.references(node) {
+                match by {
+                    By::Fill => own[0] = Some(id),
+                    By::Stroke => own[1] = Some(id),
+                    _ => {}
+                }
+            }
+            if own.iter().any(Option::is_some) {
+                paints.insert(node.id().get_usize(), own);
+            }
+        }
+        paints
     }
 }
 

@@ -260,9 +260,7 @@ fn search(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) -> std::io::Res
     for item in fs::read_dir(folder)? {
         let item = item?;
         let (path, kind) = (item.path(), item.file_type()?);
-        let is_svg = path
-            .extension()
-            .is_some_and(|ending| ending.eq_ignore_ascii_case("svg"));
+        let is_svg = scene::is_document(&path);
         if kind.is_dir() && depth < MAX_DEPTH {
             // A folder inside that cannot be listed does not take the others away.
             let _ = search(&path, depth + 1, files);

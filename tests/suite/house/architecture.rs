@@ -97,7 +97,16 @@ const ROOMS: &[Room] = &[
     Room {
         name: "scene",
         rooms: &["texture", "color", "geometry", "rules", "simd", "plain", "memory"],
-        crates: &["roxmltree", "svgtypes", "data_url", "sha2"],
+        crates: &[
+            "roxmltree",
+            "svgtypes",
+            "usvg",
+            "simplecss",
+            "flate2",
+            "epaint_default_fonts",
+            "data_url",
+            "sha2",
+        ],
     },
     Room {
         name: "raster",
@@ -149,6 +158,9 @@ const GUARDED: &[&str] = &[
     "egui_winit",
     "roxmltree",
     "svgtypes",
+    "usvg",
+    "simplecss",
+    "flate2",
     "data_url",
     "image",
     "ab_glyph",

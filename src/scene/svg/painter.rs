@@ -1,0 +1,103 @@
+//! What is needed to paint one document, and where it is painted.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use glam::DAffine2;
+use roxmltree::Node;
+
+use super::elements::Elements;
+use super::pictures::Picture;
+use crate::color::Rgba;
+use crate::scene::build::Builder;
+use crate::scene::triangles::TextureFiles;
+use crate::scene::{GradientId, PatternId, Scene, ShapeId, SourceLocation};
+
+/// Paints one document.
+pub(super) struct Painter<'a, 'doc> {
+    pub(super) builder: &'a mut Builder<'doc>,
+    pub(super) root: Node<'doc, 'doc>,
+    pub(super) elements: &'a Elements<'doc>,
+    pub(super) pictures: &'a [Picture],
+    /// Samples per user unit for which edges of curves are fine enough.
+    pub(super) scale: f64,
+    pub(super) servers: Servers,
+    pub(super) texture_files: TextureFiles<'doc>,
+    /// Inside an image that is a document: the image, to which everything belongs.
+    pub(super) inside: Option<ShapeId>,
+    /// The `use` elements that are being shown, innermost last.
+    pub(super) used: Vec<Used<'doc>>,
+    /// The shapes of elements that have one.
+    pub(super) known: HashMap<roxmltree::NodeId, ShapeId>,
+}
+
+/// Where something is painted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) to_user: DAffine2,
+    /// Whose it is where nothing else is said.
+    pub(super) shape: ShapeId,
+    /// Multiplies the opacity of what is painted.
+    pub(super) opacity: f32,
+}
+
+/// A `use` that is being shown.
+#[derive(Debug)]
+pub(super) struct Used<'doc> {
+    pub(super) location: SourceLocation,
+    /// What it shows and has not yet been met, the next one last; nothing where that cannot be told.
+    pub(super) left: Vec<Node<'doc, 'doc>>,
+}
+
+/// What tells paint servers apart: the one of usvg's, its opacity, and how it lies.
+pub(super) type Key = (usize, u32, [u64; 6]);
+
+/// The paint servers of one scene, by what they are made from.
+#[derive(Debug, Default)]
+pub(super) struct Servers {
+    pub(super) gradients: HashMap<Key, Option<GradientId>>,
+    pub(super) patterns: HashMap<Key, Option<PatternId>>,
+    pub(super) tiles: HashMap<(usize, u64), Option<Arc<Scene>>>,
+    /// Ids of gradients in the document by what they show: usvg gives the copies that it makes for boxes other ids.
+    pub(super) names: HashMap<Vec<u32>, String>,
+}
+
+impl<'a, 'doc> Painter<'a, 'doc> {
+    pub(super) fn new(
+        builder: &'a mut Builder<'doc>,
+        root: Node<'doc, 'doc>,
+        elements: &'a Elements<'doc>,
+        pictures: &'a [Picture],
+        scale: f64,
+    ) -> Self {
+        Self {
+            builder,
+            root,
+            elements,
+            pictures,
+            scale,
+            servers: Servers::default(),
+            texture_files: TextureFiles::below(root),
+            inside: None,
+            used: Vec::new(),
+            known: HashMap::new(),
+        }
+    }
+}
+
+impl std::fmt::Debug for Painter<'_, '_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Painter").finish_non_exhaustive()
+    }
+}
+
+/// usvg's transform as ours.
+pub(super) fn affine(transform: usvg::Transform) -> DAffine2 {
+    let usvg::Transform { sx, kx, ky, sy, tx, ty } = transform;
+    DAffine2::from_cols_array(&[sx, ky, kx, sy, tx, ty].map(f64::from))
+}
+
+/// usvg's colour with an opacity.
+pub(super) fn color(color: usvg::Color, opacity: f32) -> Rgba {
+    Rgba::from_bytes([color.red, color.green, color.blue, u8::MAX]).faded(opacity)
+}

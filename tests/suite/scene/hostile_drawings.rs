@@ -1,0 +1,231 @@
+//! Drawings made to take time or memory: each ends as a picture, or in one line, soon.
+
+use std::time::Instant;
+
+use rasterscope::scene::DialectChoice;
+
+use crate::support::documents::{svg, try_read};
+
+/// The longest that any of these may take on a busy machine, in seconds.
+const SOON: f64 = 10.0;
+
+/// Reads a drawing; the line in which it is refused, or an empty one.
+fn outcome(what: &str, body: &str) -> String {
+    let document = svg("width='100' height='100'", body);
+    let started = Instant::now();
+    let line = match try_read(document.as_bytes(), DialectChoice::Svg) {
+        Ok(_) => String::new(),
+        Err(error) => error.to_string(),
+    };
+    let seconds = started.elapsed().as_secs_f64();
+    assert!(seconds < SOON, "{what}: {seconds} s");
+    assert!(!line.contains('\n') && !line.contains("_0_"), "{what}: {line}");
+    line
+}
+
+/// `count` definitions, each of which refers to the one before twice.
+fn chain(count: usize, one: impl Fn(&str, &str) -> String) -> String {
+    (0..count)
+        .map(|i| one(&format!("d{}", i + 1), &format!("#d{i}")))
+        .collect()
+}
+
+#[test]
+fn references_in_circles_end() {
+    let circle = |kind: &str, attribute: &str, length: usize| -> String {
+        let one = |i: usize| {
+            let next = (i + 1) % length;
+            format!("<{kind} id='d{i}'><rect width='9' height='9' {attribute}='url(#d{next})'/></{kind}>")
+        };
+        (0..length).map(one).collect()
+    };
+    for (kind, attribute) in [
+        ("clipPath", "clip-path"),
+        ("mask", "mask"),
+        ("pattern", "fill"),
+        ("pattern", "stroke"),
+    ] {
+        for length in [1, 2, 3, 50] {
+            let body = format!(
+                "{}<rect width='9' height='9' {attribute}='url(#d0)'/>",
+                circle(kind, attribute, length)
+            );
+            let line = outcome(&format!("{length} x {kind}"), &body);
+            assert_eq!(
+                line.contains("lead in a circle"),
+                length > 2,
+                "{length} x {kind}: {line}"
+            );
+        }
+    }
+    for (what, body) in [
+        (
+            "two kinds",
+            "<pattern id='a' width='1' height='1'><rect width='1' height='1' stroke='url(#b)'/></pattern>\
+                       <pattern id='b' width='1' height='1'><rect width='1' height='1' fill='url(#a)'/></pattern><rect width='9' height='9' fill='url(#b)'/>",
+        ),
+        (
+            "by a style sheet",
+            "<style>.x{mask:url(#a)}.y{mask:url(#b)}.z{mask:url(#c)}</style>\
+                       <mask id='a'><rect class='y' width='9' height='9'/></mask><mask id='b'><rect class='z' width='9' height='9'/></mask>\
+                       <mask id='c'><rect class='x' width='9' height='9'/></mask><rect class='x' width='9' height='9'/>",
+        ),
+        (
+            "a picture by a filter",
+            "<filter id='f'><feImage href='#g'/></filter><g id='g'><g filter='url(#f)'><rect width='9' height='9'/></g></g>",
+        ),
+    ] {
+        assert!(outcome(what, body).contains("lead in a circle"), "{what}");
+    }
+    for (what, body) in [
+        (
+            "use",
+            "<g id='a'><use href='#b'/></g><g id='b'><use href='#c'/></g><g id='c'><use href='#a'/></g>",
+        ),
+        ("use of itself", "<use id='a' href='#a'/><g id='b'><use href='#b'/></g>"),
+        (
+            "gradients",
+            "<linearGradient id='a' href='#b'/><linearGradient id='b' href='#c'/><linearGradient id='c' href='#a'/><rect width='9' height='9' fill='url(#a)'/>",
+        ),
+        (
+            "markers",
+            "<marker id='a' markerWidth='9' markerHeight='9'><path d='M0 0L1 1' marker-end='url(#b)'/></marker>\
+                     <marker id='b' markerWidth='9' markerHeight='9'><path d='M0 0L1 1' marker-end='url(#a)'/></marker><path d='M0 0L9 9' stroke='red' marker-end='url(#a)'/>",
+        ),
+    ] {
+        outcome(what, body);
+    }
+}
+
+#[test]
+fn what_multiplies_is_counted_first() {
+    let rect = "<rect width='9' height='9'";
+    let twice = |one: &str| one.repeat(10);
+    let bombs = [
+        (
+            "use",
+            chain(12, |id, to| {
+                format!("<g id='{id}'>{}</g>", twice(&format!("<use href='{to}'/>")))
+            }),
+            "<use href='#d12'/>".to_owned(),
+        ),
+        (
+            "clip paths",
+            chain(12, |id, to| {
+                format!(
+                    "<clipPath id='{id}' clipPathUnits='objectBoundingBox'>{}</clipPath>",
+                    twice(&format!("{rect} clip-path='url({to})'/>"))
+                )
+            }),
+            format!("{rect} clip-path='url(#d12)'/>"),
+        ),
+        (
+            "masks",
+            chain(12, |id, to| {
+                format!(
+                    "<mask id='{id}'>{}</mask>",
+                    twice(&format!("{rect} mask='url({to})'/>"))
+                )
+            }),
+            format!("{rect} mask='url(#d12)'/>"),
+        ),
+        (
+            "patterns",
+            chain(12, |id, to| {
+                format!(
+                    "<pattern id='{id}' width='.1' height='.1'>{}</pattern>",
+                    twice(&format!("{rect} fill='url({to})'/>"))
+                )
+            }),
+            format!("{rect} fill='url(#d12)'/>"),
+        ),
+        (
+            "markers",
+            chain(12, |id, to| {
+                format!(
+                    "<marker id='{id}' markerWidth='9' markerHeight='9'>{}</marker>",
+                    twice(&format!("<path d='M0 0L1 1 2 3 4 5' marker-mid='url({to})'/>"))
+                )
+            }),
+            "<path d='M0 0L1 1 2 3' marker-mid='url(#d12)'/>".to_owned(),
+        ),
+    ];
+    for (what, definitions, body) in bombs {
+        let line = outcome(what, &format!("{definitions}{body}"));
+        assert!(line.contains("more than"), "{what}: {line}");
+    }
+    let stops = "<stop/>".repeat(1000);
+    let shapes = "<rect width='1' height='1' fill='url(#g)'/>".repeat(10_000);
+    let line = outcome(
+        "stops",
+        &format!("<linearGradient id='g'>{stops}</linearGradient>{shapes}"),
+    );
+    assert!(
+        line.contains("more than"),
+        "a thousand stops, ten thousand times: {line}"
+    );
+}
+
+#[test]
+fn depth_has_an_end() {
+    let nested = |count: usize, open: &str, close: &str| {
+        format!(
+            "{}<rect width='9' height='9'/>{}",
+            open.repeat(count),
+            close.repeat(count)
+        )
+    };
+    for (open, close) in [
+        ("<g>", "</g>"),
+        ("<svg>", "</svg>"),
+        ("<g opacity='.5'>", "</g>"),
+        ("<text>", "</text>"),
+    ] {
+        for count in [900, 1100, 100_000] {
+            let line = outcome(open, &nested(count, open, close));
+            assert!(
+                count < 1000 || line.contains("inside each other"),
+                "{count} x {open}: {line}"
+            );
+            assert!(line.is_empty() || line.starts_with("test.svg:1:"), "{line}");
+        }
+    }
+    let masks = chain(30_000, |id, to| {
+        format!("<mask id='{id}'><rect width='9' height='9' mask='url({to})'/></mask>")
+    });
+    let line = outcome(
+        "a chain of masks",
+        &format!("{masks}<rect width='9' height='9' mask='url(#d30000)'/>"),
+    );
+    assert!(line.contains("inside each other"), "{line}");
+    let short = chain(400, |id, to| {
+        format!("<mask id='{id}'><rect width='9' height='9' mask='url({to})'/></mask>")
+    });
+    let line = outcome(
+        "a shorter one",
+        &format!("{short}<rect width='9' height='9' mask='url(#d400)'/>"),
+    );
+    assert!(line.contains("layers"), "usvg reads it: {line}");
+}
+
+#[test]
+fn strokes_and_gradients_of_any_size_end() {
+    for (what, body) in [
+        ("tiny dashes", "<path d='M0 0H100V100' stroke='red' stroke-dasharray='1e-9'/>".to_owned()),
+        ("a wide stroke", "<path d='M0 0H100V100' stroke='red' stroke-width='1e30' stroke-linejoin='round'/>".to_owned()),
+        ("a thin stroke", "<path d='M0 0H100V100C0 0 1 2 3 4' stroke='red' stroke-width='1e-30' stroke-linecap='round'/>".to_owned()),
+        ("far away", "<path d='M-1e30 0H1e30V1e30C0 0 1 2 3 4' stroke='red' stroke-dasharray='5'/>".to_owned()),
+        ("many stops", format!("<linearGradient id='g'>{}</linearGradient><rect width='9' height='9' fill='url(#g)'/>", "<stop offset='.5'/>".repeat(1_000_000))),
+        ("as many as may be", format!("<linearGradient id='g'>{}</linearGradient><rect width='9' height='9' fill='url(#g)'/>", (0..300_000).map(|i| format!("<stop offset='{}'/>", f64::from(i) / 3e5)).collect::<String>())),
+        ("a tiny tile", "<pattern id='p' width='1e-20' height='1e-20'><rect width='1' height='1'/></pattern><rect width='9' height='9' fill='url(#p)'/>".to_owned()),
+        ("much text", format!("<text>{}</text>", "word ".repeat(20_000))),
+        ("a selector", format!("<style>{}x{{fill:red}}</style>{}<rect/>{}", "g ".repeat(30), "<g>".repeat(500), "</g>".repeat(500))),
+        ("rules", format!("<style>{}</style>{}", ".a{fill:red}".repeat(20_000), "<rect/>".repeat(20_000))),
+        ("nested images", (0..12).fold("<rect width='9' height='9'/>".to_owned(), |inner, _| {
+            let document = svg("width='9' height='9'", &inner).replace('%', "%25").replace('#', "%23").replace('\'', "%27").replace('<', "%3c").replace('>', "%3e");
+            format!("<image href='data:image/svg+xml,{document}'/>")
+        })),
+    ] {
+        outcome(what, &body);
+    }
+}

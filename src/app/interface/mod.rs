@@ -165,8 +165,18 @@ impl Interface {
         if has_panel { width - lesson::WIDTH } else { width }
     }
 
+    /// Whether a lesson leaves no room for the explanation of a pixel in a window of that many points in width: then both
+    /// are pages of one panel.
+    pub(super) fn lesson_shares_panel(viewer: &Viewer, width: f32) -> bool {
+        let beside = Self::beside_lesson(viewer, width);
+        beside < width && !explanation::fits(beside)
+    }
+
     /// Whether the explanation of a pixel has room in a window of that many points in width.
     pub(super) fn has_room_to_explain(viewer: &Viewer, width: f32) -> bool {
+        if Self::lesson_shares_panel(viewer, width) {
+            return true;
+        }
         let panel = if viewer.panel() { look::PANEL_WIDTH } else { 0.0 };
         explanation::fits(Self::beside_lesson(viewer, width) - panel)
     }
@@ -196,6 +206,7 @@ impl Interface {
         let whole = ui.max_rect();
         let hidden = viewer.everything_hidden();
         let mut has_comparison = false;
+        let mut page = None;
         if !hidden {
             let line = Panel::bottom("status")
                 .resizable(false)
@@ -203,7 +214,7 @@ impl Interface {
                 .show(ui, |ui| status::show(ui, viewer, &mut asked.commands));
             self.covered.push(line.response.rect);
             if viewer.lesson().is_some() && ui.available_width() >= lesson::WIDTH + LEAST_PICTURE {
-                self.lesson_panel(ui, viewer, asked);
+                page = self.lesson_panel(ui, viewer, asked);
             }
             if viewer.panel() {
                 self.side_panel(ui, viewer, asked);
@@ -226,7 +237,10 @@ impl Interface {
             self.comparison_on_right = None;
         }
         self.explanation.has_comparison = viewer.other().is_some() && !has_comparison;
-        let hovered = self.explanation(ui, viewer, whole, asked);
+        let hovered = match page {
+            Some(hovered) => hovered,
+            None => self.explanation(ui, viewer, whole, asked),
+        };
         let free = ui.available_rect_before_wrap().intersect(whole);
         hovered.outline(ui, viewer, free);
         hovered.point_at_texel(viewer, &mut asked.commands);
@@ -260,13 +274,30 @@ impl Interface {
         self.dialogs.show(&ctx, viewer, &mut asked.commands);
     }
 
-    fn lesson_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
+    /// The lesson beside the picture. Where it leaves no room for the explanation of a pixel, that is a page of its panel,
+    /// and what the pointer is over there is returned.
+    fn lesson_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) -> Option<Hovered> {
+        let shares = Self::lesson_shares_panel(viewer, ui.available_width());
+        let commands = &mut asked.commands;
+        let memory = &mut self.explanation;
         let panel = Panel::left("lesson panel")
             .resizable(false)
             .exact_size(lesson::WIDTH)
             .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 8)))
-            .show(ui, |ui| lesson::show(ui, viewer, &mut asked.commands));
+            .show(ui, |ui| {
+                lesson::head(ui, viewer, commands);
+                if shares && viewer.pinned_pixel().is_some() {
+                    lesson::pages(ui, viewer, commands);
+                    if lesson::is_turned(viewer) {
+                        memory.has_comparison = viewer.other().is_some();
+                        return memory.show(ui, viewer, commands);
+                    }
+                }
+                lesson::text(ui, viewer);
+                Hovered::default()
+            });
         self.covered.push(panel.response.rect);
+        shares.then_some(panel.inner)
     }
 
     /// On the left, unless that would cover the pinned pixel. The panel keeps its side as long as it is to be seen, so that

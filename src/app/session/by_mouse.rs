@@ -196,10 +196,10 @@ fn scene_without_a_picture_says_so() {
 
 #[test]
 fn missing_room_for_an_explanation_is_told() {
-    let mut session = session(vec![PathBuf::from("lesson:six-tasks")], [800, 600]);
-    right_click(&mut session, [550.0, 300.0]);
+    let mut session = session(Vec::new(), [600, 400]);
+    right_click(&mut session, [300.0, 200.0]);
     assert!(session.viewer.pinned_pixel().is_some(), "pinned");
-    assert!(says(&mut session, "close the lesson"), "why there is no more");
+    assert!(says(&mut session, "make the window wider"), "why there is no more");
     session.resize([1280, 800]);
     session.settle();
     assert!(session.viewer.explanation().is_some(), "explained where there is room");

@@ -8,6 +8,8 @@ mod comparing;
 mod damage;
 #[cfg(test)]
 mod hands;
+#[cfg(test)]
+mod lessons;
 mod room;
 #[cfg(test)]
 mod small_windows;

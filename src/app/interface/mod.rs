@@ -18,6 +18,7 @@ mod floating;
 mod hits;
 mod lesson;
 mod look;
+mod messages;
 mod modal;
 mod pin;
 mod sampling;
@@ -38,7 +39,8 @@ use compare_marks::Marks;
 use dialogs::Dialogs;
 use explanation::{ExplanationPanel, Hovered};
 use explanation_side::Side;
-use floating::{CloseOfInset, MessageClock};
+use floating::CloseOfInset;
+use messages::{Messages, Taken};
 use scenes::Thumbnails;
 use side_panel::PanelMemory;
 
@@ -59,7 +61,7 @@ pub(super) struct Interface {
     view: ViewNumbers,
     dialogs: Dialogs,
     explanation: ExplanationPanel,
-    clock: MessageClock,
+    messages: Messages,
     close_of_inset: CloseOfInset,
     /// What the side panel remembers.
     panel: PanelMemory,
@@ -73,6 +75,10 @@ pub(super) struct Interface {
     labels: Vec<Rect>,
     /// Where the parts of the line of a wipe were, in points.
     line: Vec<Rect>,
+    /// Where its handle was.
+    handle: Option<Rect>,
+    /// Where messages were, in points.
+    told: Vec<Rect>,
 }
 
 /// What a pass asks for.
@@ -101,7 +107,7 @@ impl Interface {
             },
             dialogs: Dialogs::default(),
             explanation: ExplanationPanel::default(),
-            clock: MessageClock::default(),
+            messages: Messages::default(),
             close_of_inset: CloseOfInset::default(),
             panel: PanelMemory::default(),
             comparison_on_right: None,
@@ -109,6 +115,8 @@ impl Interface {
             covered: Vec::new(),
             labels: Vec::new(),
             line: Vec::new(),
+            handle: None,
+            told: Vec::new(),
         }
     }
 
@@ -136,6 +144,24 @@ impl Interface {
     #[cfg(test)]
     pub(super) fn line(&self) -> &[Rect] {
         &self.line
+    }
+
+    /// Where the handle of that line is, in points.
+    #[cfg(test)]
+    pub(super) fn handle(&self) -> Option<Rect> {
+        self.handle
+    }
+
+    /// Where messages are, in points.
+    #[cfg(test)]
+    pub(super) fn told(&self) -> &[Rect] {
+        &self.told
+    }
+
+    /// Where the rings of the pinned pixel are, in points.
+    #[cfg(test)]
+    pub(super) fn rings(&self, viewer: &Viewer) -> Vec<Rect> {
+        pin::rings(viewer, self.ctx.pixels_per_point()).collect()
     }
 
     /// Whether a line of text has the keyboard.
@@ -201,7 +227,7 @@ impl Interface {
     /// Lays out all panels.
     pub(super) fn show(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
         self.covered.clear();
-        self.labels.clear();
+        let words: Vec<Rect> = self.labels.drain(..).chain(self.handle.take()).collect();
         self.line.clear();
         let whole = ui.max_rect();
         let hidden = viewer.everything_hidden();
@@ -260,18 +286,28 @@ impl Interface {
         contributions::show(ui, viewer, free);
         hits::hits(ui, viewer);
         self.close_of_inset.show(ui, viewer, &mut asked.commands);
-        let messages = self.clock.show(ui, viewer, free, &mut asked.commands);
-        if !hidden {
-            let Marks { labels, line } = compare_marks::show(ui, viewer, free, &messages);
+        self.words(ui, viewer, (free, &words), asked);
+        let ctx = self.ctx.clone();
+        self.dialogs.show(&ctx, viewer, &mut asked.commands);
+    }
+
+    /// Messages, tags and the text over the picture, each where nothing else lies; `before` are the words of the last pass.
+    fn words(&mut self, ui: &Ui, viewer: &Viewer, (free, before): (Rect, &[Rect]), asked: &mut Asked) {
+        let taken = Taken {
+            things: &floating::things(viewer, ui.pixels_per_point()),
+            words: before,
+        };
+        let messages = self.messages.show(ui, viewer, (free, taken), &mut asked.commands);
+        if !viewer.everything_hidden() {
+            let Marks { labels, line, handle } = compare_marks::show(ui, viewer, free, &messages);
             let taken: Vec<Rect> = labels.iter().chain(&messages).chain(&line).copied().collect();
-            (self.labels, self.line) = (labels, line);
+            (self.labels, self.line, self.handle) = (labels, line, handle);
             if viewer.overlay_text() {
                 self.labels.extend(floating::overlay_text(ui, viewer, free, &taken));
             }
         }
-        self.covered.extend(messages);
-        let ctx = self.ctx.clone();
-        self.dialogs.show(&ctx, viewer, &mut asked.commands);
+        self.covered.extend(&messages);
+        self.told = messages;
     }
 
     /// The lesson beside the picture. Where it leaves no room for the explanation of a pixel, that is a page of its panel,

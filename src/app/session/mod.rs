@@ -10,6 +10,8 @@ mod damage;
 mod hands;
 #[cfg(test)]
 mod lessons;
+#[cfg(test)]
+mod overlaps;
 mod room;
 #[cfg(test)]
 mod small_windows;

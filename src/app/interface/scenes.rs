@@ -105,12 +105,17 @@ pub(super) fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 pub(super) fn height(viewer: &Viewer) -> f32 {
     /// The heading.
     const TITLE: f32 = 32.0;
+    TITLE + rows_height(viewer)
+}
+
+/// Height of the list without its heading, in points.
+pub(super) fn rows_height(viewer: &Viewer) -> f32 {
     let heights = groups(viewer.scenes()).into_iter().map(|(heading, scenes)| {
         let rows = scenes.len().div_ceil(COLUMNS) as f32;
         let name = if heading.is_some() { FOLDER } else { 0.0 };
         name + rows * ROW
     });
-    TITLE + heights.sum::<f32>()
+    heights.sum()
 }
 
 /// The height of as many whole rows as a list of at most so many points shows from its beginning on.

@@ -20,6 +20,8 @@ const TIMES: f32 = 80.0;
 const LEAST_LIST: f32 = 170.0;
 /// Height of the reader's report, in points: a longer one scrolls in it, so that the scenes below stay where they are.
 const REPORT: f32 = 96.0;
+/// Longest report on the only scene in a panel that scrolls as a whole, in points: there is no list that it would push.
+const LONG_REPORT: f32 = 240.0;
 
 /// What the side panel remembers.
 #[derive(Debug, Default)]
@@ -121,7 +123,12 @@ impl Interface {
                 memory.readings.show(ui, viewer, &mut asked.commands);
             }
             if memory.reports {
-                report(ui, viewer);
+                let room = match viewer.scenes().len() {
+                    1 if own_scroll => (ui.available_height() - scenes::rows_height(viewer)).max(REPORT),
+                    1 => LONG_REPORT,
+                    _ => REPORT,
+                };
+                report(ui, viewer, room);
             }
         });
         let mut requests = Wishes {
@@ -141,8 +148,8 @@ impl Interface {
     }
 }
 
-/// The reader's report, as high for every scene.
-fn report(ui: &mut Ui, viewer: &Viewer) {
+/// The reader's report, at most as high as there is `room`, and never lower than every scene of a list has it.
+fn report(ui: &mut Ui, viewer: &Viewer, room: f32) {
     // A bar that is always to be seen tells that there is more.
     ui.spacing_mut().scroll = ScrollStyle {
         floating_width: 4.0,
@@ -150,12 +157,12 @@ fn report(ui: &mut Ui, viewer: &Viewer) {
         ..ScrollStyle::thin()
     };
     ui.scope(|ui| {
-        let height = REPORT - ui.spacing().item_spacing.y;
-        ui.set_min_height(height);
+        let gap = ui.spacing().item_spacing.y;
+        ui.set_min_height(REPORT - gap);
         ScrollArea::vertical()
             .id_salt("report")
-            .auto_shrink(false)
-            .max_height(height)
+            .auto_shrink([false, true])
+            .max_height(room - gap)
             .show(ui, |ui| document::report(ui, viewer));
     });
 }

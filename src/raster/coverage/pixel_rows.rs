@@ -7,7 +7,7 @@
 //! ```
 
 use crate::raster::coverage::covered::Covered;
-use crate::raster::coverage::span_rows::{MAX_SIDE, SpanRows};
+use crate::raster::coverage::span_rows::{Batch, MAX_SIDE, SpanRows};
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::span::Span;
 
@@ -35,14 +35,23 @@ pub(in crate::raster) fn each_covered(
     let in_pixel = side.cast_unsigned() as usize;
     let room = MAX_SIDE / in_pixel;
     loop {
-        let count = rows.take(side, &mut lines[..room * in_pixel], &mut ys[..room]);
+        let count = rows.take(Batch {
+            side,
+            lines: &mut lines[..room * in_pixel],
+            ys: &mut ys[..room],
+        });
         for (spans, y) in lines.chunks_exact(in_pixel).zip(&ys[..count]) {
-            pixel_row(spans, columns, |covered| visit(*y, covered));
+            pixel_row(
+                spans,
+                columns,
+                #[inline(always)]
+                |covered| visit(*y, covered),
+            );
         }
         if count < room {
             return;
         }
-        lines = [Span::EMPTY; MAX_SIDE];
+        lines.fill(Span::EMPTY);
     }
 }
 
@@ -65,7 +74,7 @@ fn pixel_row(spans: &[Span], columns: Span, mut visit: impl FnMut(Covered)) {
     let side = u32::try_from(spans.len()).unwrap_or(1);
     let inside = |column: i32| column.clamp(columns.start * side.cast_signed(), columns.end * side.cast_signed());
     let down = |column: i32| (inside(column).cast_unsigned() / side).cast_signed();
-    let up = |column: i32| ((inside(column).cast_unsigned() + (side - 1)) / side).cast_signed();
+    let up = |column: i32| (inside(column).cast_unsigned().saturating_add(side - 1) / side).cast_signed();
     let (start, end) = (down(outer.start), up(outer.end));
     if start >= end {
         return;

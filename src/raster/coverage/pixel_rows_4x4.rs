@@ -8,7 +8,7 @@ use std::ops::Range;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i8x16, i8x64, i32x4, mask32x4, u32x4, u64x2};
 
-use crate::raster::coverage::span_rows::SpanRows;
+use crate::raster::coverage::span_rows::{Batch, SpanRows};
 use crate::raster::span::{PixelRect, Span, to_index};
 use crate::raster::surface_id::{GROUP, LAST_GROUP};
 
@@ -38,9 +38,6 @@ const SAMPLE_COLUMNS: [i8; 64] = {
 
 /// The spans of a row of pixels, one for each sample row.
 type Four = [Span; ROWS];
-
-/// A row of pixels without samples.
-const EMPTY: Four = [Span::EMPTY; ROWS];
 
 /// Some samples of a row of a tile's pixels.
 #[derive(Clone, Debug)]
@@ -85,15 +82,20 @@ pub(in crate::raster) fn each_row<S: Simd>(
     rect: PixelRect,
     mut paint: impl FnMut(&TileRow<'_>),
 ) {
-    let (mut fours, mut ys) = ([EMPTY; BATCH], [0; BATCH]);
+    let (mut lines, mut ys) = ([Span::EMPTY; BATCH * ROWS], [0; BATCH]);
     loop {
-        let count = rows.take(SIDE, fours.as_flattened_mut(), &mut ys);
+        let count = rows.take(Batch {
+            side: SIDE,
+            lines: &mut lines,
+            ys: &mut ys,
+        });
+        let fours = &lines.as_chunks().0[..count.next_multiple_of(2)];
         let y = |i: usize| to_index(ys[i % BATCH] - rect.y.start);
-        each(simd, (&fours[..count.next_multiple_of(2)], rect.x), y, &mut paint);
+        each(simd, (fours, rect.x), y, &mut paint);
         if count < BATCH {
             return;
         }
-        fours = [EMPTY; BATCH];
+        lines.fill(Span::EMPTY);
     }
 }
 

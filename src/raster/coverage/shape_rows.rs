@@ -184,38 +184,139 @@ mod tests {
         contour.iter().zip(next).map(|(from, to)| of([*from, *to])).sum()
     }
 
-    /// Looks at every sample of the tile, which must be covered once where `inside` says so, by its lattice column and row.
-    fn check(
-        (rows, shape): (&mut ShapeRows, Shape<'_>),
-        positions: &SamplePositions,
-        inside: impl Fn([i32; 2]) -> bool,
-        what: &dyn std::fmt::Debug,
-    ) {
-        let (width, count) = (RECT.x.length(), positions.count());
-        let mut found = vec![vec![0; count]; width * RECT.y.length()];
-        let at = |x: i32, y: i32| to_index(y - RECT.y.start) * width + to_index(x - RECT.x.start);
-        rows.each(shape, RECT, |y, covered| match covered {
-            Covered::Whole(xs) => {
-                assert!(!xs.is_empty(), "a run has pixels: {what:?}");
-                for x in xs.start..xs.end {
-                    found[at(x, y)].iter_mut().for_each(|sample| *sample += 1);
+    /// A drawing of one shape.
+    struct Drawing {
+        grid: SubpixelGrid,
+        rules: Rules,
+        positions: SamplePositions,
+        rows: ShapeRows,
+        frame: SampleBox,
+        /// A contour, and the same on the grid.
+        points: Vec<DVec2>,
+        snapped: Vec<GridPoint>,
+    }
+
+    impl Drawing {
+        fn new(u: &mut Unstructured<'_>, corners: usize) -> Result<Self> {
+            let pattern = *u.choose(&SamplePattern::ALL)?;
+            let rates: &[u32] = if pattern.needs_square() {
+                &[1, 4, 9, 16, 25, 49, 64, 81, 144, 256]
+            } else {
+                &[1, 2, 7, 16, 63, 64, 65, 130, 256]
+            };
+            let rate = SampleRate::new(*u.choose(rates)?).expect("a rate");
+            let (grid, rules) = (lattice(pattern, rate), *u.choose(&Rules::ALL)?);
+            let pixels = |end: i32| Span { start: 0, end };
+            let frame = SampleBox {
+                columns: scaled(pixels(FRAME[0]), grid.side()),
+                rows: scaled(pixels(FRAME[1]), grid.side()),
+            };
+            let positions = SamplePositions::new(pattern, rate);
+            let mut rows = ShapeRows::new((grid, rules), frame.columns.end, 1);
+            if pattern != SamplePattern::Grid {
+                let places = positions.clone();
+                rows = rows.with(FreePositions::new((grid, rules), places, 1, pixels(FRAME[0])));
+            }
+            let points = contour(u, corners, grid)?;
+            let snapped = points.iter().map(|point| grid.snap(*point)).collect();
+            Ok(Self {
+                grid,
+                rules,
+                positions,
+                rows,
+                frame,
+                points,
+                snapped,
+            })
+        }
+
+        fn sample(&self, at: [i32; 2]) -> GridPoint {
+            let [x, y] = at.map(|at| self.grid.sample_coordinate(at));
+            GridPoint { x, y }
+        }
+
+        fn triangle(&mut self) {
+            let corners = [self.snapped[0], self.snapped[1], self.snapped[2]];
+            self.check(Shape::Triangle(&corners), |drawing, at| {
+                let tests = EdgeTest::of_triangle(corners, drawing.sample(at));
+                doubled_area(corners) != 0 && tests.iter().all(|test| test.is_inside(drawing.rules))
+            });
+        }
+
+        fn outline(&mut self, rule: FillRule) {
+            let mut edges = Vec::new();
+            let mut builder = OutlineBuilder::new(self.grid, self.frame, &mut edges);
+            builder.contour(self.points.iter().copied());
+            if let Some(outline) = builder.finish(rule) {
+                let of = OutlineOf {
+                    outline: &outline,
+                    edges: &edges,
+                    number: 0,
+                };
+                self.check(Shape::Outline(of), |drawing, at| {
+                    rule.encloses(winding(&drawing.snapped, drawing.sample(at)))
+                });
+            }
+        }
+
+        fn float(&mut self) {
+            let points = [self.points[0], self.points[1], self.points[2]];
+            if let Some(float) = FloatShape::new(points, self.grid, self.frame) {
+                self.check(Shape::Float(&float), |drawing, at| float.covers(drawing.grid, at));
+            }
+        }
+
+        /// A few samples of a grid, side by side in each row, all in the tile.
+        fn stamp(&mut self, u: &mut Unstructured<'_>) -> Result<()> {
+            let side = self.grid.side();
+            let (columns, rows) = (scaled(RECT.x, side), scaled(RECT.y, side));
+            let mut mask = 0;
+            for row in 0..8 {
+                let bits = u64::MAX >> u.int_in_range(57..=63)? << u.int_in_range(0..=1)?;
+                let is_kept = row == 0 || u.ratio(2, 3)?;
+                mask |= if is_kept { bits << (8 * row) } else { 0 };
+            }
+            let stamp = CoverageMask {
+                column: u.int_in_range(columns.start..=columns.end - 1)?,
+                row: u.int_in_range(rows.start..=rows.end - 1)?,
+                mask,
+            };
+            let stamp = stamp.within(columns, rows);
+            let in_tile = stamp.moved(-columns.start, -rows.start);
+            self.check(Shape::Samples(in_tile), |_, [column, row]| {
+                let (i, j) = (column - stamp.column, row - stamp.row);
+                (0..8).contains(&i) && (0..8).contains(&j) && stamp.mask >> (8 * j + i) & 1 == 1
+            });
+            Ok(())
+        }
+
+        /// Looks at every sample of the tile, which must be covered once where `inside` says so, by its column and row.
+        fn check(&mut self, shape: Shape<'_>, inside: impl Fn(&Self, [i32; 2]) -> bool) {
+            let (width, count) = (RECT.x.length(), self.positions.count());
+            let mut found = vec![vec![0; count]; width * RECT.y.length()];
+            let index = |x: i32, y: i32| to_index(y - RECT.y.start) * width + to_index(x - RECT.x.start);
+            self.rows.each(shape, RECT, |y, covered| match covered {
+                Covered::Whole(xs) => {
+                    assert!(!xs.is_empty(), "a run has pixels: {shape:?}");
+                    let pixels = (xs.start..xs.end).map(|x| index(x, y));
+                    pixels.for_each(|pixel| found[pixel].iter_mut().for_each(|sample| *sample += 1));
                 }
-            }
-            Covered::Part(x, mask) => {
-                assert!(
-                    !mask.is_empty() && mask.count() < count,
-                    "neither none nor all: {what:?}"
-                );
-                mask.each(|sample| found[at(x, y)][sample] += 1);
-            }
-        });
-        let side = rows.settings.0.side();
-        for y in RECT.y.start..RECT.y.end {
-            for x in RECT.x.start..RECT.x.end {
-                let place = |[column, row]: Position| [x * side + i32::from(column), y * side + i32::from(row)];
-                let places = positions.of_pixel([x, y], &mut Vec::new()).to_vec();
-                let expected: Vec<i32> = places.iter().map(|at| i32::from(inside(place(*at)))).collect();
-                assert_eq!(found[at(x, y)], expected, "pixel {x}, {y} of {what:?}");
+                Covered::Part(x, mask) => {
+                    let some = !mask.is_empty() && mask.count() < count;
+                    assert!(some, "neither none nor all of a pixel: {shape:?}");
+                    mask.each(|sample| found[index(x, y)][sample] += 1);
+                }
+            });
+            let side = self.grid.side();
+            for y in RECT.y.start..RECT.y.end {
+                for x in RECT.x.start..RECT.x.end {
+                    let place = |[column, row]: Position| [x * side + i32::from(column), y * side + i32::from(row)];
+                    let mut memory = Vec::new();
+                    let places = self.positions.of_pixel([x, y], &mut memory).iter();
+                    let expected: Vec<i32> = places.map(|at| i32::from(inside(self, place(*at)))).collect();
+                    let what = (side, self.rules, &self.points, shape);
+                    assert_eq!(found[index(x, y)], expected, "pixel {x}, {y} of {what:?}");
+                }
             }
         }
     }
@@ -224,105 +325,15 @@ mod tests {
     fn every_shape_covers_the_samples_inside_it_at_any_rate_in_any_pattern() {
         let mut kinds = [0; 4];
         arbtest::arbtest(|u| {
-            let pattern = *u.choose(&SamplePattern::ALL)?;
-            let rate = if pattern.needs_square() {
-                *u.choose(&[1, 4, 9, 16, 25, 49, 64, 81, 144, 256])?
-            } else {
-                *u.choose(&[1, 2, 7, 16, 63, 64, 65, 130, 256])?
-            };
-            let rate = SampleRate::new(rate).expect("a rate");
-            let grid = lattice(pattern, rate);
-            let frame = SampleBox {
-                columns: Span {
-                    start: 0,
-                    end: FRAME[0] * grid.side(),
-                },
-                rows: Span {
-                    start: 0,
-                    end: FRAME[1] * grid.side(),
-                },
-            };
-            let positions = SamplePositions::new(pattern, rate);
-            let rules = *u.choose(&Rules::ALL)?;
-            let mut rows = ShapeRows::new((grid, rules), frame.columns.end, 1);
-            if pattern != SamplePattern::Grid {
-                let columns = Span {
-                    start: 0,
-                    end: FRAME[0],
-                };
-                rows = rows.with(FreePositions::new((grid, rules), positions.clone(), 1, columns));
-            }
-            let sample = |at: [i32; 2]| {
-                let [x, y] = at.map(|at| grid.sample_coordinate(at));
-                GridPoint { x, y }
-            };
             let kind = u.int_in_range(0..=3)?;
             let corners = if kind == 1 { u.int_in_range(3..=9)? } else { 3 };
-            let points = contour(u, corners, grid)?;
-            let snapped: Vec<GridPoint> = points.iter().map(|point| grid.snap(*point)).collect();
-            let what = (pattern, rate, rules, &points);
+            let mut drawing = Drawing::new(u, corners)?;
             match kind {
-                0 => {
-                    let corners = [snapped[0], snapped[1], snapped[2]];
-                    let inside = |at| {
-                        let tests = EdgeTest::of_triangle(corners, sample(at));
-                        doubled_area(corners) != 0 && tests.iter().all(|test| test.is_inside(rules))
-                    };
-                    check((&mut rows, Shape::Triangle(&corners)), &positions, inside, &what);
-                }
-                1 => {
-                    let mut edges = Vec::new();
-                    let mut builder = OutlineBuilder::new(grid, frame, &mut edges);
-                    builder.contour(points.iter().copied());
-                    let rule = *u.choose(&[FillRule::NonZero, FillRule::EvenOdd])?;
-                    let Some(outline) = builder.finish(rule) else {
-                        return Ok(());
-                    };
-                    let of = OutlineOf {
-                        outline: &outline,
-                        edges: &edges,
-                        number: 0,
-                    };
-                    let inside = |at| rule.encloses(winding(&snapped, sample(at)));
-                    check((&mut rows, Shape::Outline(of)), &positions, inside, &(what, rule));
-                }
-                2 => {
-                    let Some(float) = FloatShape::new([points[0], points[1], points[2]], grid, frame) else {
-                        return Ok(());
-                    };
-                    check(
-                        (&mut rows, Shape::Float(&float)),
-                        &positions,
-                        |at| float.covers(grid, at),
-                        &what,
-                    );
-                }
-                _ => {
-                    // Only on the grid, and all in the tile.
-                    if pattern != SamplePattern::Grid {
-                        return Ok(());
-                    }
-                    let small = SampleBox {
-                        columns: scaled(RECT.x, grid.side()),
-                        rows: scaled(RECT.y, grid.side()),
-                    };
-                    let (column, row) = (
-                        u.int_in_range(small.columns.start..=small.columns.end - 1)?,
-                        u.int_in_range(small.rows.start..=small.rows.end - 1)?,
-                    );
-                    let mut mask = 0;
-                    for row in 0..8 {
-                        let bits = u64::MAX >> u.int_in_range(57..=63)? << u.int_in_range(0..=1)?;
-                        mask |= (if row == 0 || u.ratio(2, 3)? { bits & 0xFF } else { 0 }) << (8 * row);
-                    }
-                    let stamp = CoverageMask { column, row, mask }.within(small.columns, small.rows);
-                    let inside = |[x, y]: [i32; 2]| {
-                        let (x, y) = (x - stamp.column, y - stamp.row);
-                        (0..8).contains(&x) && (0..8).contains(&y) && stamp.mask >> (8 * y + x) & 1 == 1
-                    };
-                    let in_tile = stamp.moved(-small.columns.start, -small.rows.start);
-                    check((&mut rows, Shape::Samples(in_tile)), &positions, inside, &(what, stamp));
-                }
+                0 => drawing.triangle(),
+                1 => drawing.outline(*u.choose(&[FillRule::NonZero, FillRule::EvenOdd])?),
+                2 => drawing.float(),
+                _ if drawing.rows.free_positions.is_some() => return Ok(()),
+                _ => drawing.stamp(u)?,
             }
             kinds[to_index(kind)] += 1;
             Ok(())

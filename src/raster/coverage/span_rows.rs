@@ -22,12 +22,22 @@ use crate::rules::Rules;
 /// Most samples along one side of a pixel.
 pub(in crate::raster) const MAX_SIDE: usize = SampleRate::MAX_SIDE as usize;
 
+/// Room for the spans of some rows of pixels.
+#[derive(Debug)]
+pub(in crate::raster) struct Batch<'b> {
+    /// Samples along one side of a pixel.
+    pub(in crate::raster) side: i32,
+    /// As many spans for each row of pixels; all are empty before.
+    pub(in crate::raster) lines: &'b mut [Span],
+    /// The rows' numbers in the frame.
+    pub(in crate::raster) ys: &'b mut [i32],
+}
+
 /// Where the spans of a shape in a tile come from, from top to bottom.
 pub(in crate::raster) trait SpanRows {
-    /// Puts spans of as many rows of pixels as there is room for into `lines`, `side` for each, and the rows' numbers in the
-    /// frame into `ys`; how many rows: fewer than there is room for at the end. Spans may be empty, and reach beyond the
-    /// tile; all of `lines` must be empty before.
-    fn take(&mut self, side: i32, lines: &mut [Span], ys: &mut [i32]) -> usize;
+    /// Puts spans of as many rows of pixels as there is room for into a batch; how many rows, fewer than there is room for at
+    /// the end. Spans may be empty, and reach beyond the tile.
+    fn take(&mut self, batch: Batch<'_>) -> usize;
 }
 
 /// The spans of a triangle.
@@ -102,28 +112,47 @@ impl<'a, const SIDE: usize> StoredRows<'a, SIDE> {
             several: None,
         }
     }
+
+    /// Row `y` of pixels; `lines` are those of its sample rows that the tile has, of which `top` would be the first.
+    fn several(&self, y: i32, lines: Range<i32>, top: i32) -> Several<'a, SIDE> {
+        let mut found = Several {
+            y,
+            left: [&[]; SIDE],
+            next: 0,
+            most: 0,
+        };
+        for line in lines {
+            let spans = reaching(self.spans.of_row(line), self.columns);
+            found.left[to_index(line - top)] = spans;
+            found.most = found.most.max(spans.len());
+        }
+        found
+    }
 }
 
 impl SpanRows for TriangleRows {
     #[inline(always)]
-    fn take(&mut self, side: i32, lines: &mut [Span], ys: &mut [i32]) -> usize {
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn take(&mut self, batch: Batch<'_>) -> usize {
         let Self { walker, rows } = self;
+        let by_four = batch.side == 4;
         take_single(
-            (side, rows),
-            (lines, ys),
+            rows,
+            batch,
             #[inline(always)]
-            |_, spans| walker.next_spans(spans, side == 4),
+            |_, spans| walker.next_spans(spans, by_four),
         )
     }
 }
 
 impl SpanRows for MaskRows {
     #[inline(always)]
-    fn take(&mut self, side: i32, lines: &mut [Span], ys: &mut [i32]) -> usize {
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn take(&mut self, batch: Batch<'_>) -> usize {
         let Self { mask, rows } = self;
         take_single(
-            (side, rows),
-            (lines, ys),
+            rows,
+            batch,
             #[inline(always)]
             |first, spans| {
                 for (span, row) in spans.iter_mut().zip(first..) {
@@ -137,11 +166,8 @@ impl SpanRows for MaskRows {
 /// As [`SpanRows::take`] where each of `rows` has one span; `next` is asked for those of some rows, from its first on.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn take_single(
-    (side, rows): (i32, &mut Span),
-    (lines, ys): (&mut [Span], &mut [i32]),
-    next: impl FnOnce(i32, &mut [Span]),
-) -> usize {
+fn take_single(rows: &mut Span, batch: Batch<'_>, next: impl FnOnce(i32, &mut [Span])) -> usize {
+    let Batch { side, lines, ys } = batch;
     if rows.is_empty() {
         return 0;
     }
@@ -161,7 +187,8 @@ fn take_single(
 }
 
 impl<const SIDE: usize> SpanRows for StoredRows<'_, SIDE> {
-    fn take(&mut self, side: i32, lines: &mut [Span], ys: &mut [i32]) -> usize {
+    fn take(&mut self, batch: Batch<'_>) -> usize {
+        let Batch { side, lines, ys } = batch;
         let in_pixel = side.cast_unsigned() as usize;
         let mut count = 0;
         while count < ys.len() {
@@ -198,7 +225,7 @@ impl<const SIDE: usize> SpanRows for StoredRows<'_, SIDE> {
             } else {
                 let end = self.rows.end.min((y + 1) * side);
                 self.rows.start = end;
-                self.several = Some(Several::new((&self.spans, self.columns), y, line..end, y * side));
+                self.several = Some(self.several(y, line..end, y * side));
             }
         }
         count
@@ -212,23 +239,7 @@ fn pixel(line: i32, side: i32) -> i32 {
     (line.cast_unsigned() / side.cast_unsigned()).cast_signed()
 }
 
-impl<'a, const SIDE: usize> Several<'a, SIDE> {
-    /// Row `y` of pixels; `lines` are those of its sample rows that the tile has, of which `top` would be the first.
-    fn new((spans, columns): (&RowSpans<'a>, Span), y: i32, lines: Range<i32>, top: i32) -> Self {
-        let mut found = Self {
-            y,
-            left: [&[]; SIDE],
-            next: 0,
-            most: 0,
-        };
-        for line in lines {
-            let spans = reaching(spans.of_row(line), columns);
-            found.left[to_index(line - top)] = spans;
-            found.most = found.most.max(spans.len());
-        }
-        found
-    }
-
+impl<const SIDE: usize> Several<'_, SIDE> {
     /// Takes the next span of each sample row; false where there is none left.
     #[inline]
     fn take(&mut self, lines: &mut [Span]) -> bool {

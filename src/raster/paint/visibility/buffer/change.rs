@@ -35,11 +35,16 @@ impl VisibilityBuffer {
             return;
         }
         self.split(pixel);
-        self.each_covered_word(pixel, covered, |word, mask| {
-            if mask != 0 {
-                *word = *word & !mask | changed(*word, mask, change) & mask;
-            }
-        });
+        self.each_covered_word(
+            pixel,
+            covered,
+            #[inline(always)]
+            |word, mask| {
+                if mask != 0 {
+                    *word = *word & !mask | changed(*word, mask, change) & mask;
+                }
+            },
+        );
     }
 
     /// Lets samples of a pixel that is not split show what `change` makes of what they show; false, and nothing done,

@@ -160,8 +160,13 @@ pub(super) fn unwritable_by(option: &str, path: &Path, error: &io::Error) -> Fai
             "{path}: not written: out of memory; close other programs, or draw fewer pixels with --size"
         ));
     }
-    Failure::input(format!(
+    let line = format!(
         "{}: cannot write here: {error}; choose another place with {option}",
         path.display()
-    ))
+    );
+    // Nothing is wrong with the place itself.
+    match error.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => Failure::other(line),
+        _ => Failure::input(line),
+    }
 }

@@ -101,25 +101,35 @@ impl<'a> DisplayList<'a> {
         }
     }
 
-    /// What finds coverage in some columns of pixels where samples are not those of the grid.
-    pub(in crate::raster) fn free_positions(&self, columns: Span) -> Option<FreePositions> {
-        (!self.context.is_grid()).then(|| self.scatter_in(columns))
-    }
-
-    /// As [`DisplayList::free_positions`], also for the samples of a grid.
-    pub(in crate::raster) fn scatter_in(&self, columns: Span) -> FreePositions {
-        let context = &self.context;
-        let places = SamplePositions::new(context.pattern, context.rate);
-        FreePositions::new((context.grid, context.rules), places, self.outlines(), columns)
-    }
-
     /// How many outlines there are.
     pub(in crate::raster) fn outlines(&self) -> usize {
         self.chunks.iter().map(|chunk| chunk.outlines.len()).sum()
     }
 
-    pub(in crate::raster) fn shape_rows(&self) -> ShapeRows {
+    /// Where samples lie, on the lattice of the grid.
+    pub(in crate::raster) fn places(&self) -> SamplePositions {
+        SamplePositions::new(self.context.pattern, self.context.rate)
+    }
+
+    /// What finds coverage, in these columns of pixels.
+    pub(in crate::raster) fn shape_rows(&self, columns: Span) -> ShapeRows {
+        let rows = self.grid_rows();
+        if self.context.is_grid() {
+            rows
+        } else {
+            rows.with(self.free_positions(columns))
+        }
+    }
+
+    /// As [`DisplayList::shape_rows`] by spans, for samples that are those of the grid.
+    fn grid_rows(&self) -> ShapeRows {
         let columns = self.context.samples().columns.end;
         ShapeRows::new((self.context.grid, self.context.rules), columns, self.outlines())
+    }
+
+    /// What finds coverage in some columns of pixels sample by sample, wherever samples lie.
+    pub(in crate::raster) fn free_positions(&self, columns: Span) -> FreePositions {
+        let settings = (self.context.grid, self.context.rules);
+        FreePositions::new(settings, self.places(), self.outlines(), columns)
     }
 }

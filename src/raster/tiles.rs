@@ -44,8 +44,8 @@ impl DisplayList<'_> {
         Painters {
             direct: DirectPainter::new(self.shade_context()),
             deferred: VisibilityPainter::new(self.shade_context()),
-            blended: PerSamplePainter::new(self.shade_context(), self.free_positions(columns)),
-            shape_rows: self.shape_rows(),
+            blended: PerSamplePainter::new(self.shade_context(), self.places()),
+            shape_rows: self.shape_rows(columns),
             tally: Tally::default(),
         }
     }

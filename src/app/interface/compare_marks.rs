@@ -1,9 +1,10 @@
 //! What lies over the picture while A and B share the window: the line of the wipe, and which picture is which.
 
 use egui::text::LayoutJob;
-use egui::{Align2, Color32, CursorIcon, FontId, Pos2, Rangef, Rect, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, Color32, CursorIcon, FontId, Pos2, Rangef, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
 
-use super::floating::{legends, points};
+use super::floating::{insets, points, things};
+use super::pin;
 use crate::viewer::{Arrangement, Viewer};
 
 /// Free space between a tag and what is beside it, in points.
@@ -12,12 +13,14 @@ const MARGIN: f32 = 10.0;
 const PADDING: Vec2 = vec2(8.0, 4.0);
 /// Width below which a tag is its letter alone, in points.
 const LEAST_WORDS: f32 = 48.0;
-/// Lines of a tag at most; what is left of its words becomes dots.
-const MOST_LINES: usize = 4;
+/// Part of the picture's height that a tag takes at most; what is left of its words becomes dots.
+const MOST_HEIGHT: f32 = 0.3;
 /// Side of the letter beside an inset, in points.
 const LETTER: f32 = 20.0;
 /// Radius of the line's handle, in points.
 const HANDLE: f32 = 9.0;
+/// Free space between the handle and the ring of a pin, in points.
+const RING_GAP: f32 = 5.0;
 
 /// What lies over the picture for A and B, in points.
 #[derive(Debug, Default)]
@@ -26,6 +29,8 @@ pub(super) struct Marks {
     pub(super) labels: Vec<Rect>,
     /// What the parts of the line of the wipe take, as wide as its handle.
     pub(super) line: Vec<Rect>,
+    /// The handle of that line.
+    pub(super) handle: Option<Rect>,
 }
 
 /// Draws line, letters and tags inside `free`, the tags where nothing is `taken`.
@@ -35,13 +40,11 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Mark
     };
     let [front, back] = if viewer.is_swapped() { [b, a] } else { [a, b] };
     let scale = ui.pixels_per_point();
-    let insets = viewer.inset().into_iter().chain(viewer.other_inset());
-    let insets: Vec<Rect> = insets.map(|placed| points(&placed.rect, scale)).collect();
     #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
     let line = viewer.wipe_line().map(|line| line as f32 / scale);
     let letters = letters(ui, viewer, free);
-    let mut drawn = Vec::new();
-    let taken = [&insets, taken, &letters, &legends(viewer, scale)].concat();
+    let (mut drawn, mut handle) = (Vec::new(), None);
+    let taken = [taken, &letters, &things(viewer, scale)].concat();
     let left = free.left() + MARGIN;
     let half = (free.width() / 2.0 - 2.0 * MARGIN).max(40.0);
     let places: Vec<(String, f32, Align2, f32)> = match viewer.arrangement() {
@@ -51,7 +54,8 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Mark
             let Some(line) = line else {
                 return Marks::default();
             };
-            drawn = draw_line(ui, viewer, free, (line, &[insets.as_slice(), &letters].concat()));
+            let before = [insets(viewer, scale), letters.clone()].concat();
+            (drawn, handle) = draw_line(ui, viewer, free, (line, &before));
             // Each on its own side: where there is little room its words give way, never the side.
             let beside = |room: f32| (room - 2.0 * MARGIN - 2.0 * PADDING.x).min(half);
             vec![
@@ -87,15 +91,21 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Mark
     Marks {
         labels: tags.chain(letters).collect(),
         line: drawn,
+        handle,
     }
 }
 
-/// Which inset is whose: a letter outside, where no magnified pixel is, and in the half of its picture. Returns where the
-/// letters are.
+/// Which inset is whose: a letter outside, where no magnified pixel is, in the half of its picture, and beside the line and
+/// the ring of a pin where there is room. Returns where the letters are.
 fn letters(ui: &Ui, viewer: &Viewer, free: Rect) -> Vec<Rect> {
     let Some(other) = viewer.other_inset() else {
         return Vec::new();
     };
+    let scale = ui.pixels_per_point();
+    #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
+    let line = viewer.wipe_line().map(|line| line as f32 / scale);
+    let line = line.map(|x| Rect::from_x_y_ranges(x - HANDLE..=x + HANDLE, free.y_range()));
+    let taken: Vec<Rect> = things(viewer, scale).into_iter().chain(line).collect();
     let mut places = Vec::new();
     for (letter, placed) in viewer.inset().map(|own| ("A", own)).into_iter().chain([("B", other)]) {
         let inset = points(&placed.rect, ui.pixels_per_point());
@@ -105,12 +115,21 @@ fn letters(ui: &Ui, viewer: &Viewer, free: Rect) -> Vec<Rect> {
             Arrangement::SideBySide => free.with_min_x(middle),
             _ => free,
         };
-        let sides = [inset.left_top() - vec2(LETTER, 0.0), inset.right_top()];
-        let sides = sides.map(|corner| Rect::from_min_size(corner, Vec2::splat(LETTER)));
-        let place = sides
-            .into_iter()
-            .find(|place| home.contains_rect(*place))
-            .unwrap_or(sides[1]);
+        let size = vec2(LETTER, LETTER);
+        let sides = [
+            inset.left_top() - vec2(LETTER, 0.0),
+            inset.right_top(),
+            inset.left_bottom() - size,
+            inset.right_bottom() - vec2(0.0, LETTER),
+            // Above and below, where the inset is as wide as its half.
+            inset.left_top() - vec2(0.0, LETTER),
+            inset.left_bottom(),
+        ];
+        let sides = sides.map(|corner| Rect::from_min_size(corner, size));
+        let inside = |place: &&Rect| home.contains_rect(**place);
+        let is_free = |place: &&Rect| taken.iter().all(|other| !other.intersects(**place));
+        let place = sides.iter().filter(inside).find(is_free);
+        let place = place.or_else(|| sides.iter().find(inside)).copied().unwrap_or(sides[1]);
         ui.painter().rect_filled(place, 0.0, Color32::from_black_alpha(190));
         let font = FontId::proportional(13.0);
         ui.painter()
@@ -121,13 +140,13 @@ fn letters(ui: &Ui, viewer: &Viewer, free: Rect) -> Vec<Rect> {
 }
 
 /// The line with its handle; the pointer tells that it can be dragged. It passes behind the insets, where no hand can
-/// take it, and behind their letters. Returns what its parts take.
-fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, (x, insets): (f32, &[Rect])) -> Vec<Rect> {
+/// take it, and behind their letters. Returns what its parts take, and the handle.
+fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, (x, insets): (f32, &[Rect])) -> (Vec<Rect>, Option<Rect>) {
     if viewer.pointer_over_line() {
         ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
     }
     if !free.x_range().contains(x) {
-        return Vec::new();
+        return (Vec::new(), None);
     }
     let painter = ui.painter();
     let pieces = free_pieces(free, x, insets);
@@ -136,14 +155,35 @@ fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, (x, insets): (f32, &[Rect])) 
             painter.vline(x, *piece, Stroke::new(width, color));
         }
     }
-    let longest = pieces.iter().max_by(|a, b| a.span().total_cmp(&b.span()));
-    if let Some(longest) = longest.filter(|piece| piece.span() >= 2.0 * HANDLE) {
-        draw_handle(ui, pos2(x, longest.center()));
+    let rings: Vec<Rect> = pin::rings(viewer, ui.pixels_per_point()).collect();
+    let handle = handle_place(&pieces, x, &rings);
+    if let Some(handle) = handle {
+        draw_handle(ui, handle.center());
     }
     let taken = pieces
         .into_iter()
         .map(|piece| Rect::from_x_y_ranges(x - HANDLE..=x + HANDLE, piece));
-    taken.collect()
+    (taken.collect(), handle)
+}
+
+/// Where the handle goes: the middle of the longest piece of the line, moved along the line where that would lie on the ring
+/// of a pin.
+fn handle_place(pieces: &[Rangef], x: f32, rings: &[Rect]) -> Option<Rect> {
+    let longest = pieces.iter().copied().max_by(|a, b| a.span().total_cmp(&b.span()))?;
+    let at = |y| Rect::from_center_size(pos2(x, y), Vec2::splat(2.0 * HANDLE));
+    let middle = at(longest.center());
+    let is_free = |handle: &Rect| rings.iter().all(|ring| !ring.expand(RING_GAP).intersects(*handle));
+    let ends = rings.iter().flat_map(|ring| {
+        let away = HANDLE + RING_GAP + 1.0;
+        [ring.top() - away, ring.bottom() + away]
+    });
+    let mut places: Vec<Rect> = std::iter::once(middle).chain(ends.map(at)).collect();
+    places.sort_by(|a, b| {
+        let moved = |place: &Rect| (place.center().y - longest.center()).abs();
+        moved(a).total_cmp(&moved(b))
+    });
+    let on_line = |place: &Rect| longest.contains(place.top()) && longest.contains(place.bottom());
+    places.into_iter().find(|place| on_line(place) && is_free(place))
 }
 
 fn draw_handle(ui: &Ui, middle: Pos2) {
@@ -195,8 +235,12 @@ fn tag(ui: &Ui, free: Rect, taken: &[Rect], (text, x, align, wide): (&str, f32, 
     let galley = if wide < LEAST_WORDS {
         letter()
     } else {
-        lines(MOST_LINES)
+        let line = ui.fonts_mut(|fonts| fonts.row_height(&FontId::proportional(12.0)));
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few")]
+        let rows = (free.height() * MOST_HEIGHT / line) as usize;
+        lines(rows.max(2))
     };
+    let is_short = galley.elided || wide < LEAST_WORDS;
     if galley.size().x > wide + 1.0 {
         return None;
     }
@@ -210,6 +254,10 @@ fn tag(ui: &Ui, free: Rect, taken: &[Rect], (text, x, align, wide): (&str, f32, 
     }
     ui.painter().rect_filled(place, 5.0, Color32::from_black_alpha(190));
     ui.painter().galley(place.min + PADDING, galley, Color32::WHITE);
+    if is_short {
+        let id = ui.scope_id().with(("tag", text));
+        ui.interact(place, id, Sense::hover()).on_hover_text(text);
+    }
     Some(place)
 }
 

@@ -6,7 +6,7 @@ use std::time::Duration;
 use egui::{RichText, Sense, Ui, vec2};
 
 use super::controls::{command_button, heading};
-use crate::viewer::{Command, SceneEntry, SceneSource, Viewer};
+use crate::viewer::{Command, SceneEntry, Viewer};
 
 /// Lines of the reader's report that are shown at once.
 const MAX_LINES: usize = 200;
@@ -33,10 +33,9 @@ pub(super) struct Readings {
 impl Readings {
     /// Of a list that is new: scenes that are not read yet may have two readings, but not those of the gallery.
     pub(super) fn of_list(scenes: &[SceneEntry]) -> Self {
-        let may_have_two = |entry: &SceneEntry| matches!(entry.source, SceneSource::File(_));
         Self {
             note: None,
-            seen: scenes.len() > 1 && scenes.iter().any(may_have_two),
+            seen: scenes.len() > 1 && scenes.iter().any(SceneEntry::is_file),
         }
     }
 

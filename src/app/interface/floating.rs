@@ -1,22 +1,17 @@
 //! What floats over the picture without taking part in the layout: overlay text, pixel numbers in the inspector's
-//! inset, messages, the handle of the folded panel.
+//! inset, progress.
 
-use crate::viewer::{InspectorCommand, WindowCommand};
-use std::collections::HashMap;
+use crate::viewer::InspectorCommand;
 
-use egui::{Align2, Area, Button, Color32, FontId, Frame, Id, Order, Pos2, Rect, RichText, Sense, Ui, Vec2};
+use egui::{Align2, Area, Button, Color32, FontId, Id, Order, Pos2, Rect, Ui, Vec2};
 use egui::{pos2, vec2};
 
 use super::controls::tip;
 use super::look::CONTROL;
+use super::pin;
 use crate::raster::SamplePattern;
 use crate::viewer::picture::{self, About, Told, changed_words};
-use crate::viewer::{ASKS_FOR, Arrangement, Command, Message, MessageKind, PixelRect, Toggle, Viewer};
-
-/// Seconds that a message stays.
-const DONE_SECONDS: f64 = 5.0;
-/// Seconds that a message about a fault stays.
-const ERROR_SECONDS: f64 = 15.0;
+use crate::viewer::{Arrangement, Command, PixelRect, Toggle, Viewer};
 
 /// How far a pointer moves that rests no more, in points.
 const REST: f32 = 5.0;
@@ -47,10 +42,7 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect])
         Color32::WHITE,
         (free.width() - 40.0).max(60.0),
     );
-    let insets = viewer.inset().into_iter().chain(viewer.other_inset());
-    let insets = insets.map(|placed| points(&placed.rect, ui.pixels_per_point()));
-    let legends = legends(viewer, ui.pixels_per_point());
-    let taken: Vec<Rect> = taken.iter().copied().chain(insets).chain(legends).collect();
+    let taken = [taken, &things(viewer, ui.pixels_per_point())].concat();
     let back = free_corner(free, galley.size() + vec2(16.0, 10.0), &taken)?;
     ui.painter().rect_filled(back, 5.0, Color32::from_black_alpha(170));
     ui.painter().galley(back.min + vec2(8.0, 5.0), galley, Color32::WHITE);
@@ -122,10 +114,18 @@ fn free_corner(area: Rect, size: Vec2, taken: &[Rect]) -> Option<Rect> {
     .find(|place| room.contains_rect(*place) && taken.iter().all(|other| !other.intersects(*place)))
 }
 
-/// Where the legends of the picture lie, in points.
-pub(super) fn legends(viewer: &Viewer, scale: f32) -> Vec<Rect> {
-    let places = viewer.legend_places();
-    places.iter().map(|place| points(place, scale)).collect()
+/// What words over the picture must not cover: insets, legends and the rings of pins, in points.
+pub(super) fn things(viewer: &Viewer, scale: f32) -> Vec<Rect> {
+    let legends = viewer.legend_places();
+    let legends = legends.iter().map(|place| points(place, scale));
+    let things = insets(viewer, scale).into_iter().chain(legends);
+    things.chain(pin::rings(viewer, scale)).collect()
+}
+
+/// Where the insets lie, in points.
+pub(super) fn insets(viewer: &Viewer, scale: f32) -> Vec<Rect> {
+    let insets = viewer.inset().into_iter().chain(viewer.other_inset());
+    insets.map(|placed| points(&placed.rect, scale)).collect()
 }
 
 /// Device pixels as points.
@@ -222,67 +222,6 @@ fn close_of_inset(ui: &Ui, inset: Rect, commands: &mut Vec<Command>) {
 
 fn middle(start: i64, length: u32) -> f32 {
     i32::try_from(start).unwrap_or_default() as f32 + length as f32 / 2.0
-}
-
-/// When each message vanishes, in egui's seconds.
-#[derive(Debug, Default)]
-pub(super) struct MessageClock {
-    ends: HashMap<u64, f64>,
-}
-
-impl MessageClock {
-    /// Shows the messages above the status line and dismisses the old ones.
-    pub(super) fn show(&mut self, ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Vec<Rect> {
-        let now = ui.input(|input| input.time);
-        self.ends
-            .retain(|id, _| viewer.messages().iter().any(|message| message.id == *id));
-        let mut covered = Vec::new();
-        let mut bottom = free.bottom() - 10.0;
-        for message in viewer.messages().iter().rev() {
-            let seconds = match message.kind {
-                MessageKind::Done => DONE_SECONDS,
-                MessageKind::Error => ERROR_SECONDS,
-                MessageKind::Question => ASKS_FOR.as_secs_f64(),
-            };
-            let end = *self.ends.entry(message.id).or_insert(now + seconds);
-            let rect = toast(ui, message, pos2(free.left() + 10.0, bottom), free.width() - 20.0);
-            let (rect, clicked) = rect;
-            if now >= end || clicked {
-                commands.push(Command::Window(WindowCommand::DismissMessage(message.id)));
-            } else {
-                let rest = std::time::Duration::from_secs_f64((end - now).clamp(0.02, 60.0));
-                ui.ctx().request_repaint_after(rest);
-            }
-            bottom = rect.top() - 6.0;
-            covered.push(rect);
-        }
-        covered
-    }
-}
-
-fn toast(ui: &Ui, message: &Message, corner: Pos2, width: f32) -> (Rect, bool) {
-    let visuals = ui.visuals();
-    let color = match message.kind {
-        MessageKind::Done | MessageKind::Question => visuals.strong_text_color(),
-        MessageKind::Error => visuals.error_fg_color,
-    };
-    let text = RichText::new(&message.text).color(color);
-    let response = Area::new(Id::unique(("message", message.id)))
-        .order(Order::Foreground)
-        .fixed_pos(corner)
-        .pivot(Align2::LEFT_BOTTOM)
-        .fade_in(false)
-        .accessible_name("Message")
-        .sense(Sense::click())
-        .show(ui.ctx(), |ui| {
-            Frame::popup(ui.style()).inner_margin(8.0).show(ui, |ui| {
-                ui.set_max_width(width.min(520.0) - 16.0);
-                ui.label(text);
-            });
-        })
-        .response;
-    let response = response.on_hover_text("Click to close");
-    (response.rect, response.clicked())
 }
 
 #[cfg(test)]

@@ -1,10 +1,11 @@
-//! The text of a lesson's step, beside the picture.
+//! The text of a lesson's step, beside the picture. Where there is no room for the explanation of a pixel besides, that is
+//! the panel's other page.
 
-use crate::viewer::{LessonCommand, SceneCommand};
+use crate::viewer::{InspectorCommand, LessonCommand, SceneCommand, Toggle};
 use egui::text::{LayoutJob, TextFormat};
 use egui::{FontFamily, FontId, RichText, ScrollArea, Ui};
 
-use super::controls::command_button;
+use super::controls::{choice, command_button, tip};
 use crate::viewer::{Block, Command, LessonStep, Look, Span, Viewer};
 
 /// Width of the panel, in points, frame included.
@@ -16,10 +17,24 @@ const HEADING: f32 = 17.0;
 /// What an item's words are moved to the right by, in points.
 const INDENT: f32 = 18.0;
 
-/// Fills the panel.
-pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+/// Whether the explanation's page is open. A step that explains a pixel begins with its text.
+pub(super) fn is_turned(viewer: &Viewer) -> bool {
+    viewer.explains() && viewer.asks_about_pixel()
+}
+
+/// The two pages of a panel that lesson and explanation share.
+pub(super) fn pages(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    let pages = [(false, "Text".to_owned()), (true, "Why this colour".to_owned())];
+    if let Some(turned) = choice(ui, "Page", &tip("explanation"), is_turned(viewer), &pages) {
+        let to = if turned { Toggle::On } else { Toggle::Off };
+        commands.push(Command::Inspector(InspectorCommand::Explanation(to)));
+    }
+    ui.add_space(4.0);
+}
+
+/// Where in the lesson the reader is, and buttons to go on.
+pub(super) fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let Some((lesson, at)) = viewer.lesson() else { return };
-    let Some(step) = lesson.steps.get(at) else { return };
     ui.horizontal(|ui| {
         let of = format!("step {} of {}", at + 1, lesson.steps.len());
         ui.label(RichText::new(of).size(12.0).weak());
@@ -38,6 +53,14 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     });
     ui.label(RichText::new(&lesson.title).size(12.0).weak());
     ui.add_space(4.0);
+}
+
+/// The text of the step.
+pub(super) fn text(ui: &mut Ui, viewer: &Viewer) {
+    let step = viewer
+        .lesson()
+        .and_then(|(lesson, at)| Some((at, lesson.steps.get(at)?)));
+    let Some((at, step)) = step else { return };
     // Another step begins at its beginning.
     ScrollArea::vertical()
         .id_salt(("lesson", at))

@@ -1,6 +1,6 @@
 //! How the panels look: sizes, type and colours of both themes, set once per change of theme.
 
-use egui::style::ScrollStyle;
+use egui::style::{ScrollFadeStyle, ScrollStyle};
 use egui::{Color32, Context, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Ui, Vec2, vec2};
 
 use crate::viewer::Theme;
@@ -118,6 +118,11 @@ pub(super) fn bars_beside(ui: &mut Ui) {
             ..Margin::ZERO
         },
         foreground_color: true,
+        // The bar tells that there is more; a fade would look like pictures that are not ready.
+        fade: ScrollFadeStyle {
+            strength: 0.0,
+            ..ScrollFadeStyle::default()
+        },
         ..ScrollStyle::thin()
     };
 }

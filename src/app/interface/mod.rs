@@ -18,6 +18,7 @@ mod floating;
 mod hits;
 mod lesson;
 mod look;
+mod messages;
 mod modal;
 mod pin;
 mod sampling;
@@ -38,7 +39,8 @@ use compare_marks::Marks;
 use dialogs::Dialogs;
 use explanation::{ExplanationPanel, Hovered};
 use explanation_side::Side;
-use floating::{CloseOfInset, MessageClock};
+use floating::CloseOfInset;
+use messages::{Messages, Taken};
 use scenes::Thumbnails;
 use side_panel::PanelMemory;
 
@@ -59,7 +61,7 @@ pub(super) struct Interface {
     view: ViewNumbers,
     dialogs: Dialogs,
     explanation: ExplanationPanel,
-    clock: MessageClock,
+    messages: Messages,
     close_of_inset: CloseOfInset,
     /// What the side panel remembers.
     panel: PanelMemory,
@@ -73,6 +75,10 @@ pub(super) struct Interface {
     labels: Vec<Rect>,
     /// Where the parts of the line of a wipe were, in points.
     line: Vec<Rect>,
+    /// Where its handle was.
+    handle: Option<Rect>,
+    /// Where messages were, in points.
+    told: Vec<Rect>,
 }
 
 /// What a pass asks for.
@@ -101,7 +107,7 @@ impl Interface {
             },
             dialogs: Dialogs::default(),
             explanation: ExplanationPanel::default(),
-            clock: MessageClock::default(),
+            messages: Messages::default(),
             close_of_inset: CloseOfInset::default(),
             panel: PanelMemory::default(),
             comparison_on_right: None,
@@ -109,6 +115,8 @@ impl Interface {
             covered: Vec::new(),
             labels: Vec::new(),
             line: Vec::new(),
+            handle: None,
+            told: Vec::new(),
         }
     }
 
@@ -138,6 +146,24 @@ impl Interface {
         &self.line
     }
 
+    /// Where the handle of that line is, in points.
+    #[cfg(test)]
+    pub(super) fn handle(&self) -> Option<Rect> {
+        self.handle
+    }
+
+    /// Where messages are, in points.
+    #[cfg(test)]
+    pub(super) fn told(&self) -> &[Rect] {
+        &self.told
+    }
+
+    /// Where the rings of the pinned pixel are, in points.
+    #[cfg(test)]
+    pub(super) fn rings(&self, viewer: &Viewer) -> Vec<Rect> {
+        pin::rings(viewer, self.ctx.pixels_per_point()).collect()
+    }
+
     /// Whether a line of text has the keyboard.
     pub(super) fn has_keyboard(&self) -> bool {
         self.ctx.text_edit_focused()
@@ -165,8 +191,18 @@ impl Interface {
         if has_panel { width - lesson::WIDTH } else { width }
     }
 
+    /// Whether a lesson leaves no room for the explanation of a pixel in a window of that many points in width: then both
+    /// are pages of one panel.
+    pub(super) fn lesson_shares_panel(viewer: &Viewer, width: f32) -> bool {
+        let beside = Self::beside_lesson(viewer, width);
+        beside < width && !explanation::fits(beside)
+    }
+
     /// Whether the explanation of a pixel has room in a window of that many points in width.
     pub(super) fn has_room_to_explain(viewer: &Viewer, width: f32) -> bool {
+        if Self::lesson_shares_panel(viewer, width) {
+            return true;
+        }
         let panel = if viewer.panel() { look::PANEL_WIDTH } else { 0.0 };
         explanation::fits(Self::beside_lesson(viewer, width) - panel)
     }
@@ -191,11 +227,12 @@ impl Interface {
     /// Lays out all panels.
     pub(super) fn show(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
         self.covered.clear();
-        self.labels.clear();
+        let words: Vec<Rect> = self.labels.drain(..).chain(self.handle.take()).collect();
         self.line.clear();
         let whole = ui.max_rect();
         let hidden = viewer.everything_hidden();
         let mut has_comparison = false;
+        let mut page = None;
         if !hidden {
             let line = Panel::bottom("status")
                 .resizable(false)
@@ -203,7 +240,7 @@ impl Interface {
                 .show(ui, |ui| status::show(ui, viewer, &mut asked.commands));
             self.covered.push(line.response.rect);
             if viewer.lesson().is_some() && ui.available_width() >= lesson::WIDTH + LEAST_PICTURE {
-                self.lesson_panel(ui, viewer, asked);
+                page = self.lesson_panel(ui, viewer, asked);
             }
             if viewer.panel() {
                 self.side_panel(ui, viewer, asked);
@@ -226,7 +263,10 @@ impl Interface {
             self.comparison_on_right = None;
         }
         self.explanation.has_comparison = viewer.other().is_some() && !has_comparison;
-        let hovered = self.explanation(ui, viewer, whole, asked);
+        let hovered = match page {
+            Some(hovered) => hovered,
+            None => self.explanation(ui, viewer, whole, asked),
+        };
         let free = ui.available_rect_before_wrap().intersect(whole);
         hovered.outline(ui, viewer, free);
         hovered.point_at_texel(viewer, &mut asked.commands);
@@ -246,27 +286,54 @@ impl Interface {
         contributions::show(ui, viewer, free);
         hits::hits(ui, viewer);
         self.close_of_inset.show(ui, viewer, &mut asked.commands);
-        let messages = self.clock.show(ui, viewer, free, &mut asked.commands);
-        if !hidden {
-            let Marks { labels, line } = compare_marks::show(ui, viewer, free, &messages);
-            let taken: Vec<Rect> = labels.iter().chain(&messages).chain(&line).copied().collect();
-            (self.labels, self.line) = (labels, line);
-            if viewer.overlay_text() {
-                self.labels.extend(floating::overlay_text(ui, viewer, free, &taken));
-            }
-        }
-        self.covered.extend(messages);
+        self.words(ui, viewer, (free, &words), asked);
         let ctx = self.ctx.clone();
         self.dialogs.show(&ctx, viewer, &mut asked.commands);
     }
 
-    fn lesson_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
+    /// Messages, tags and the text over the picture, each where nothing else lies; `before` are the words of the last pass.
+    fn words(&mut self, ui: &Ui, viewer: &Viewer, (free, before): (Rect, &[Rect]), asked: &mut Asked) {
+        let taken = Taken {
+            things: &floating::things(viewer, ui.pixels_per_point()),
+            words: before,
+        };
+        let messages = self.messages.show(ui, viewer, (free, taken), &mut asked.commands);
+        if !viewer.everything_hidden() {
+            let Marks { labels, line, handle } = compare_marks::show(ui, viewer, free, &messages);
+            let taken: Vec<Rect> = labels.iter().chain(&messages).chain(&line).copied().collect();
+            (self.labels, self.line, self.handle) = (labels, line, handle);
+            if viewer.overlay_text() {
+                self.labels.extend(floating::overlay_text(ui, viewer, free, &taken));
+            }
+        }
+        self.covered.extend(&messages);
+        self.told = messages;
+    }
+
+    /// The lesson beside the picture. Where it leaves no room for the explanation of a pixel, that is a page of its panel,
+    /// and what the pointer is over there is returned.
+    fn lesson_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) -> Option<Hovered> {
+        let shares = Self::lesson_shares_panel(viewer, ui.available_width());
+        let commands = &mut asked.commands;
+        let memory = &mut self.explanation;
         let panel = Panel::left("lesson panel")
             .resizable(false)
             .exact_size(lesson::WIDTH)
             .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 8)))
-            .show(ui, |ui| lesson::show(ui, viewer, &mut asked.commands));
+            .show(ui, |ui| {
+                lesson::head(ui, viewer, commands);
+                if shares && viewer.pinned_pixel().is_some() {
+                    lesson::pages(ui, viewer, commands);
+                    if lesson::is_turned(viewer) {
+                        memory.has_comparison = viewer.other().is_some();
+                        return memory.show(ui, viewer, commands);
+                    }
+                }
+                lesson::text(ui, viewer);
+                Hovered::default()
+            });
         self.covered.push(panel.response.rect);
+        shares.then_some(panel.inner)
     }
 
     /// On the left, unless that would cover the pinned pixel. The panel keeps its side as long as it is to be seen, so that

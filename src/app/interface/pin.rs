@@ -1,8 +1,8 @@
 //! The pinned pixel in the picture itself: a ring around it, so that the eye finds it without the inspector.
 
-use egui::{Color32, Rect, Stroke, Ui};
+use egui::{Color32, Pos2, Rect, Stroke, Ui, Vec2};
 
-use super::floating::{around, points};
+use super::floating::{around, insets, points};
 use crate::viewer::Viewer;
 
 /// Radius of the ring around a pixel of no extent, in points.
@@ -15,19 +15,29 @@ const RING: [(f32, Color32); 2] = [(4.5, Color32::WHITE), (2.0, Color32::from_rg
 /// Draws the ring where neither panels nor insets lie. The pixel and its neighbours stay as they are.
 pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect) {
     let scale = ui.pixels_per_point();
-    let insets = viewer.inset().into_iter().chain(viewer.other_inset());
-    let parts = insets.fold(vec![free], |parts, placed| {
-        let hole = points(&placed.rect, scale);
+    let parts = insets(viewer, scale).into_iter().fold(vec![free], |parts, hole| {
         parts.into_iter().flat_map(|part| around(part, Some(hole))).collect()
     });
-    for place in viewer.pinned_places() {
-        let pixel = points(&place, scale);
-        let radius = RADIUS + pixel.size().length() / 2.0;
+    for (center, radius) in circles(viewer, scale) {
         for part in &parts {
             let painter = ui.painter().with_clip_rect(*part);
             for (width, color) in RING {
-                painter.circle_stroke(pixel.center(), radius, Stroke::new(width, color));
+                painter.circle_stroke(center, radius, Stroke::new(width, color));
             }
         }
     }
+}
+
+/// What the rings take, in points.
+pub(super) fn rings(viewer: &Viewer, scale: f32) -> impl Iterator<Item = Rect> {
+    let square = |(center, radius)| Rect::from_center_size(center, Vec2::splat(2.0 * radius + RING[0].0));
+    circles(viewer, scale).map(square)
+}
+
+/// Centres and radii of the rings, in points.
+fn circles(viewer: &Viewer, scale: f32) -> impl Iterator<Item = (Pos2, f32)> {
+    viewer.pinned_places().into_iter().map(move |place| {
+        let pixel = points(&place, scale);
+        (pixel.center(), RADIUS + pixel.size().length() / 2.0)
+    })
 }

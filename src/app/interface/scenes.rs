@@ -22,6 +22,10 @@ const PICTURE_HEIGHT: f32 = 62.0;
 const NAME_HEIGHT: f32 = 16.0;
 /// Between two thumbnails, in points.
 const GAP: f32 = 6.0;
+/// Height of a row of thumbnails with the gap below it, in points.
+const ROW: f32 = PICTURE_HEIGHT + NAME_HEIGHT + GAP;
+/// Height of a folder's name with the gap below it, in points.
+const FOLDER: f32 = 14.0 + GAP;
 
 /// Thumbnails as textures of exactly the size in which they are shown.
 #[derive(Debug, Default)]
@@ -99,15 +103,36 @@ pub(super) fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 
 /// Height of the list with its heading, in points, known before it is laid out.
 pub(super) fn height(viewer: &Viewer) -> f32 {
-    /// Heading, and the name of a folder with the gap below it.
+    /// The heading.
     const TITLE: f32 = 32.0;
-    const FOLDER: f32 = 14.0 + GAP;
+    TITLE + rows_height(viewer)
+}
+
+/// Height of the list without its heading, in points.
+pub(super) fn rows_height(viewer: &Viewer) -> f32 {
     let heights = groups(viewer.scenes()).into_iter().map(|(heading, scenes)| {
         let rows = scenes.len().div_ceil(COLUMNS) as f32;
         let name = if heading.is_some() { FOLDER } else { 0.0 };
-        name + rows * (PICTURE_HEIGHT + NAME_HEIGHT + GAP)
+        name + rows * ROW
     });
-    TITLE + heights.sum::<f32>()
+    heights.sum()
+}
+
+/// The height of as many whole rows as a list of at most so many points shows from its beginning on.
+pub(super) fn whole_rows(viewer: &Viewer, height: f32) -> f32 {
+    let mut top = 0.0;
+    let mut whole = None;
+    for (heading, scenes) in groups(viewer.scenes()) {
+        if heading.is_some() {
+            top += FOLDER;
+        }
+        for _ in 0..scenes.len().div_ceil(COLUMNS) {
+            top += ROW;
+            // The gap below it hides what the next one begins with.
+            whole = Some(top - GAP).filter(|end| *end <= height).or(whole);
+        }
+    }
+    whole.unwrap_or(height)
 }
 
 /// The list itself.

@@ -10,7 +10,7 @@ use egui::{Panel, ScrollArea, Ui};
 use super::document::Readings;
 use super::scenes::{self, Wishes};
 use super::{Asked, Interface, compare, document, look, panel_frame, sampling, view_numbers};
-use crate::viewer::{SceneSource, Viewer};
+use crate::viewer::{SceneEntry, SceneSource, Viewer};
 
 /// Height of everything above the scenes but the report where all of it is shown, in points.
 const SETTINGS: f32 = 714.0;
@@ -18,9 +18,9 @@ const SETTINGS: f32 = 714.0;
 const TIMES: f32 = 80.0;
 /// Height that the scenes have at least where their list scrolls by itself, in points.
 const LEAST_LIST: f32 = 170.0;
-/// The same for the reader's report.
-const LEAST_REPORT: f32 = 96.0;
-/// Longest report in a panel that scrolls as a whole, in points.
+/// Height of the reader's report, in points: a longer one scrolls in it, so that the scenes below stay where they are.
+const REPORT: f32 = 96.0;
+/// Longest report on the only scene in a panel that scrolls as a whole, in points: there is no list that it would push.
 const LONG_REPORT: f32 = 240.0;
 
 /// What the side panel remembers.
@@ -29,9 +29,9 @@ pub(super) struct PanelMemory {
     /// How many scenes the list has, and the first: what follows belongs to these.
     list: Option<(usize, SceneSource)>,
     readings: Readings,
-    /// Height of the longest report so far, in points: every scene has that room, so that nothing moves from one to the
-    /// next.
-    report: f32,
+    /// Whether a scene of the list has a report, or may have one: then all have the room for it, so that nothing moves from
+    /// one to the next.
+    reports: bool,
     /// The panel's height in the last pass, in points.
     height: f32,
 }
@@ -48,9 +48,11 @@ impl PanelMemory {
                 list: list.map(|(count, first)| (count, first.clone())),
                 height: self.height,
                 readings: Readings::of_list(viewer.scenes()),
-                ..Self::default()
+                // Those of the gallery have nothing to report.
+                reports: viewer.scenes().iter().any(SceneEntry::is_file),
             };
         }
+        self.reports |= document::has_report(viewer);
         self.readings.follow(viewer);
     }
 }
@@ -66,12 +68,12 @@ impl Interface {
                 self.panel.follow(viewer);
                 let height = ui.available_height();
                 let before = std::mem::replace(&mut self.panel.height, height);
-                let Some(report_room) = self.report_room(height, viewer) else {
+                if !self.list_scrolls(height, viewer) {
                     let area = ScrollArea::vertical().id_salt("panel").auto_shrink(false);
                     area.show_viewport(ui, |ui, seen| {
                         self.settings(ui, viewer, asked);
                         // Scrolling to the scene would scroll the settings away.
-                        self.scenes(ui, viewer, None, asked);
+                        self.scenes(ui, viewer, false, asked);
                         // A scene with less to say leaves the panel scrolled as far as it is.
                         let rest = seen.max.y - ui.min_rect().height();
                         if rest > 0.0 && (before - height).abs() < 0.5 {
@@ -79,27 +81,21 @@ impl Interface {
                         }
                     });
                     return;
-                };
+                }
                 ui.scope(|ui| {
                     ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
                     self.settings(ui, viewer, asked);
                 });
-                self.scenes(ui, viewer, Some(report_room), asked);
+                self.scenes(ui, viewer, true, asked);
             });
         self.covered.push(panel.response.rect);
     }
 
-    /// How high the report may be in a panel of `height` points whose list scrolls by itself; `None` where the panel is
-    /// too low for that.
-    fn report_room(&self, height: f32, viewer: &Viewer) -> Option<f32> {
+    /// Whether a panel of `height` points is so high that the list of scenes scrolls by itself.
+    fn list_scrolls(&self, height: f32, viewer: &Viewer) -> bool {
         let settings = SETTINGS - if self.timed { 0.0 } else { TIMES };
-        let least = if document::has_report(viewer) || self.panel.report > 0.0 {
-            LEAST_REPORT
-        } else {
-            0.0
-        };
-        let room = height - settings - self.panel.readings.height() - scenes::height(viewer).min(LEAST_LIST);
-        (room >= least).then_some(room)
+        let report = if self.panel.reports { REPORT } else { 0.0 };
+        height >= settings + self.panel.readings.height() + report + scenes::height(viewer).min(LEAST_LIST)
     }
 
     /// What lies above the scenes, as high for every scene. Its height.
@@ -114,10 +110,8 @@ impl Interface {
     }
 
     /// The scenes with their heading, and what there is to say about the current one: below the heading, whose arrows stay
-    /// under the pointer. With `report_room` the list scrolls by itself and follows the current scene; the report is at most
-    /// that high then.
-    fn scenes(&mut self, ui: &mut Ui, viewer: &Viewer, report_room: Option<f32>, asked: &mut Asked) {
-        let own_scroll = report_room.is_some();
+    /// under the pointer. A list that scrolls by itself follows the current scene, and ends below a row.
+    fn scenes(&mut self, ui: &mut Ui, viewer: &Viewer, own_scroll: bool, asked: &mut Asked) {
         ui.scope(|ui| {
             if own_scroll {
                 ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
@@ -128,9 +122,13 @@ impl Interface {
                 // Its button must not hide in what scrolls.
                 memory.readings.show(ui, viewer, &mut asked.commands);
             }
-            if document::has_report(viewer) || memory.report > 0.0 {
-                let room = report_room.unwrap_or(LONG_REPORT);
-                memory.report = report(ui, viewer, (memory.report, room));
+            if memory.reports {
+                let room = match viewer.scenes().len() {
+                    1 if own_scroll => (ui.available_height() - scenes::rows_height(viewer)).max(REPORT),
+                    1 => LONG_REPORT,
+                    _ => REPORT,
+                };
+                report(ui, viewer, room);
             }
         });
         let mut requests = Wishes {
@@ -140,8 +138,9 @@ impl Interface {
         let thumbnails = &mut self.thumbnails;
         let mut list = |ui: &mut Ui| scenes::list(ui, viewer, thumbnails, &mut requests, &mut asked.commands);
         if own_scroll {
+            let height = scenes::whole_rows(viewer, ui.available_height());
             let area = ScrollArea::vertical().id_salt("scenes").auto_shrink(false);
-            area.show(ui, list);
+            area.max_height(height).show(ui, list);
         } else {
             list(ui);
         }
@@ -149,23 +148,23 @@ impl Interface {
     }
 }
 
-/// The reader's report, in `least` points at least where there is `room`. Its height.
-fn report(ui: &mut Ui, viewer: &Viewer, (least, room): (f32, f32)) -> f32 {
+/// The reader's report, at most as high as there is `room`, and never lower than every scene of a list has it.
+fn report(ui: &mut Ui, viewer: &Viewer, room: f32) {
     // A bar that is always to be seen tells that there is more.
     ui.spacing_mut().scroll = ScrollStyle {
         floating_width: 4.0,
         foreground_color: true,
         ..ScrollStyle::thin()
     };
-    let shown = ui.scope(|ui| {
-        ui.set_min_height(least.min(room));
+    ui.scope(|ui| {
+        let gap = ui.spacing().item_spacing.y;
+        ui.set_min_height(REPORT - gap);
         ScrollArea::vertical()
             .id_salt("report")
             .auto_shrink([false, true])
-            .max_height(room)
+            .max_height(room - gap)
             .show(ui, |ui| document::report(ui, viewer));
     });
-    shown.response.rect.height()
 }
 
 #[cfg(test)]
@@ -280,7 +279,7 @@ mod tests {
             let laid_out = measured(|interface, ui| {
                 ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
                 let top = ui.cursor().top();
-                interface.scenes(ui, &viewer, None, &mut Asked::default());
+                interface.scenes(ui, &viewer, false, &mut Asked::default());
                 ui.cursor().top() - top
             });
             let known = scenes::height(&viewer);

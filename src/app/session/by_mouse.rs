@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use glam::{DVec2, dvec2};
 
-use super::hands::{click, place_of, session};
+use super::hands::{click, nodes, place_of, session};
 use super::small_windows::{click_on, comparing, right_click, says};
 use super::*;
 use crate::viewer::script::Stage as _;
@@ -196,10 +196,10 @@ fn scene_without_a_picture_says_so() {
 
 #[test]
 fn missing_room_for_an_explanation_is_told() {
-    let mut session = session(vec![PathBuf::from("lesson:six-tasks")], [800, 600]);
-    right_click(&mut session, [550.0, 300.0]);
+    let mut session = session(Vec::new(), [600, 400]);
+    right_click(&mut session, [300.0, 200.0]);
     assert!(session.viewer.pinned_pixel().is_some(), "pinned");
-    assert!(says(&mut session, "close the lesson"), "why there is no more");
+    assert!(says(&mut session, "make the window wider"), "why there is no more");
     session.resize([1280, 800]);
     session.settle();
     assert!(session.viewer.explanation().is_some(), "explained where there is room");
@@ -285,6 +285,53 @@ fn thumbnails_stay_where_they_are_when_another_scene_has_two_readings() {
         before,
         "under the pointer"
     );
+}
+
+#[test]
+fn thumbnails_stay_where_they_are_for_a_longer_report() {
+    let folder = folder();
+    let plain = folder.path().join("1.svg");
+    let document = std::fs::read_to_string(&plain).expect("a file");
+    for (name, notes) in [("6.svg", 2), ("7.svg", 30)] {
+        let notes = "<blink/><marquee/>".repeat(notes);
+        let noted = document.replace("</svg>", &format!("{notes}</svg>"));
+        std::fs::write(folder.path().join(name), noted).expect("a file");
+    }
+    let paths = ["1.svg", "6.svg", "7.svg", "4.svg"].map(|name| folder.path().join(name));
+    let names = ["Scene 1.svg", "Scene 6.svg", "Scene 7.svg"];
+    for window in [[1366, 768], [1600, 1300], [1920, 1600]] {
+        let mut session = session(paths.to_vec(), window);
+        session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+        session.pointer(Some(dvec2(f64::from(window[0]) - 100.0, 300.0)));
+        for _ in 0..40 {
+            session.wheel(-3.0);
+        }
+        session.settle();
+        let places = |session: &mut Session| names.map(|name| place_of(session, name));
+        let before = places(&mut session);
+        for scene in 1..paths.len() {
+            session.command(Command::Scenes(SceneCommand::Show(scene)));
+            session.settle();
+            assert_eq!(places(&mut session), before, "with scene {scene} in {window:?}");
+        }
+    }
+}
+
+#[test]
+fn list_of_scenes_ends_below_a_row() {
+    for height in [1000, 1040, 1080, 1111, 1200] {
+        let mut session = session(Vec::new(), [1600, height]);
+        session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+        session.settle();
+        let status = f64::from(height) - 30.0;
+        let list = nodes(&mut session);
+        let scenes = list
+            .iter()
+            .filter(|node| node.label().is_some_and(|name| name.starts_with("Scene ")));
+        let bounds = scenes.filter_map(egui::accesskit::Node::bounds);
+        let cut = bounds.filter(|bounds| bounds.y0 < status && bounds.y1 > status);
+        assert_eq!(cut.count(), 0, "a row is cut in a window {height} high");
+    }
 }
 
 #[test]

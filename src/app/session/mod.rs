@@ -8,6 +8,10 @@ mod comparing;
 mod damage;
 #[cfg(test)]
 mod hands;
+#[cfg(test)]
+mod lessons;
+#[cfg(test)]
+mod overlaps;
 mod room;
 #[cfg(test)]
 mod small_windows;

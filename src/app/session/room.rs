@@ -65,12 +65,13 @@ impl Session {
     }
 
     /// What a command asks for, and the command that shows it: one that goes by what is to be seen takes an explanation
-    /// for which the panel leaves no room for closed.
+    /// that the panel or the text of a lesson hides for closed.
     pub(super) fn wanted(&mut self, command: Command) -> (Wanted, Command) {
         let wanted = Wanted::of(&command);
         self.room.follows &= wanted != Wanted::Panel;
-        let is_unseen = self.viewer.panel() && self.viewer.explains() && self.is_narrow();
-        self.room.hid_explanation = is_unseen;
+        let is_hidden = self.viewer.panel() && self.viewer.explains() && self.is_narrow();
+        self.room.hid_explanation = is_hidden;
+        let is_unseen = is_hidden || self.is_page_not_turned();
         match command {
             Command::Inspector(InspectorCommand::Explanation(Toggle::Flip)) if is_unseen => {
                 (wanted, Command::Inspector(InspectorCommand::Explanation(Toggle::On)))
@@ -115,6 +116,13 @@ impl Session {
         if asks && !Interface::has_room_to_explain(&self.viewer, width) {
             self.viewer.say_no_room();
         }
+    }
+
+    /// Whether a lesson's text is open where the explanation is the other page of its panel.
+    fn is_page_not_turned(&self) -> bool {
+        let width = self.viewer.window_size()[0] as f32 / self.scale;
+        let is_shared = Interface::lesson_shares_panel(&self.viewer, width);
+        is_shared && self.viewer.explains() && !self.viewer.asks_about_pixel()
     }
 
     /// Whether the window has room for the explanation only without the side panel.

@@ -382,6 +382,7 @@ mod tests {
     use super::*;
     use crate::color::{ResolveSpace, Rgba};
     use crate::raster::binning::tile_command::Work;
+    use crate::raster::coverage::shape::Shape;
     use crate::raster::coverage::shape_rows::ShapeRows;
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::random::{fill, noise};
@@ -421,25 +422,20 @@ mod tests {
         Ok((builder.finish(), context))
     }
 
-    /// The part of a span that lies in another.
-    fn shared(a: Span, b: Span) -> usize {
-        a.intersection(b).length()
-    }
-
-    /// How many samples a command covers in a rectangle of pixels.
+    /// How many samples a triangle or outline covers in a rectangle of pixels.
     fn covered(command: TileCommand, chunk: &Chunk, (context, rect): (&ListContext, PixelRect)) -> usize {
         let side = context.grid.side();
-        let columns = crate::raster::span::scaled(rect.x, side);
         let mut rows = ShapeRows::new(
             (context.grid, context.rules),
             context.samples().columns.end,
             chunk.outlines.len(),
         );
         let mut count = 0;
-        if let Work::Flat(shape, _) | Work::Shaded(shape, ..) = command.work(chunk) {
-            rows.each_pixel_row(shape, rect, |row| {
-                count += row.spans().iter().map(|span| shared(*span, columns)).sum::<usize>();
-            });
+        if let Work::Flat(shape, _) | Work::Shaded(shape, ..) = command.uncovered().work(chunk)
+            && !matches!(shape, Shape::Samples(_) | Shape::Pixels(_))
+        {
+            let per_pixel = to_index(side * side);
+            rows.each(shape, rect, |_, covered| count += covered.count(per_pixel));
         }
         count
     }
@@ -482,7 +478,7 @@ mod tests {
                     }
                 }
                 for command in commands {
-                    if let Work::Samples(mask, _) | Work::Pixels(mask, _) = command.work(&chunk) {
+                    if let Work::Flat(Shape::Samples(mask) | Shape::Pixels(mask), _) = command.work(&chunk) {
                         bits[command.command()] += mask.mask.count_ones();
                     }
                 }

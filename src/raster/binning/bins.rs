@@ -209,6 +209,7 @@ mod tests {
     use super::*;
     use crate::color::{ResolveSpace, Rgba};
     use crate::raster::binning::tile_command::Work;
+    use crate::raster::coverage::shape::Shape;
     use crate::raster::coverage::triangle::SortedTriangle;
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::shading::Paint;
@@ -390,7 +391,7 @@ mod tests {
                 for column in 0..context.tiles.columns {
                     let mut found = Vec::new();
                     for entry in bins.of_tile((row * context.tiles.columns + column) as usize) {
-                        let Work::Samples(coverage, _) = entry.work(&chunk) else {
+                        let Work::Flat(Shape::Samples(coverage), _) = entry.work(&chunk) else {
                             panic!("{entry:?} is a stamp of samples");
                         };
                         coverage.each_run(|row, span| found.extend((span.start..span.end).map(|column| (column, row))));

@@ -3,7 +3,7 @@
 use crate::color::Premultiplied16;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::coverage::mask8x8::CoverageMask;
-use crate::raster::coverage::shape_rows::Shape;
+use crate::raster::coverage::shape::Shape;
 use crate::raster::layers::Compositing;
 use crate::raster::list::chunk::{Chunk, DrawCommand};
 use crate::raster::shading::Paint;
@@ -27,11 +27,7 @@ pub(in crate::raster) const NO_CORNERS: [GridPoint; 3] = [GridPoint { x: 0, y: 0
 /// What is to be painted.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Work<'c> {
-    /// Samples of one colour, counted from the tile's first sample column and row; all lie in the tile.
-    Samples(CoverageMask, Premultiplied16),
-    /// Pixels of one colour, counted from the tile's first; all lie in the tile.
-    Pixels(CoverageMask, Premultiplied16),
-    /// A triangle or polygon of one colour.
+    /// A shape of one colour.
     Flat(Shape<'c>, Premultiplied16),
     /// A triangle or polygon of any other paint: what it covers, and the corners between which the paint lies.
     Shaded(Shape<'c>, &'c [GridPoint; 3], &'c Paint),
@@ -135,6 +131,15 @@ impl TileCommand {
         }
     }
 
+    /// The same shape by its edges, as in any other tile.
+    #[cfg(test)]
+    pub(crate) fn uncovered(self) -> Self {
+        Self {
+            head: self.head & !Self::COVERS,
+            ..self
+        }
+    }
+
     /// Index of the command in its chunk.
     #[inline]
     pub(crate) fn command(self) -> usize {
@@ -167,26 +172,28 @@ impl TileCommand {
             row: i32::from(self.at[1]),
             mask: self.bits,
         };
+        let covered = |shape| if self.covers_tile() { Shape::Tile } else { shape };
         if self.head & Self::SAMPLES != 0 {
-            return Work::Samples(coverage, self.color);
+            return Work::Flat(Shape::Samples(coverage), self.color);
         }
         if self.head & Self::PIXELS != 0 {
-            return Work::Pixels(coverage, self.color);
+            return Work::Flat(Shape::Pixels(coverage), self.color);
         }
         if self.head & Self::FLAT != 0 {
             let index = usize::try_from(self.bits).unwrap_or(usize::MAX);
-            return Work::Flat(Shape::Triangle(&chunk.triangles[index].corners), self.color);
+            let triangle = Shape::Triangle(&chunk.triangles[index].corners);
+            return Work::Flat(covered(triangle), self.color);
         }
         if self.head & Self::OUTLINE != 0 {
             let index = u32::try_from(self.bits).unwrap_or(u32::MAX);
-            return Work::Flat(Shape::Outline(chunk.outline(index)), self.color);
+            return Work::Flat(covered(Shape::Outline(chunk.outline(index))), self.color);
         }
         match chunk.commands[self.command()] {
             DrawCommand::Triangle(index) => {
                 let triangle = &chunk.triangles[index as usize];
                 let paint = &chunk.paints[triangle.paint as usize];
                 let float = chunk.floats.get(index as usize);
-                let shape = float.map_or(Shape::Triangle(&triangle.corners), Shape::Float);
+                let shape = covered(float.map_or(Shape::Triangle(&triangle.corners), Shape::Float));
                 match paint.constant {
                     Some(color) => Work::Flat(shape, color),
                     None => Work::Shaded(shape, &triangle.corners, &paint.paint),

@@ -1,4 +1,5 @@
-//! What a shape covers in a row of pixels whose samples lie off the grid.
+//! The one form in which painters get coverage: runs of pixels of which all samples are covered, and a mask for each pixel
+//! on an edge.
 
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::span::Span;
@@ -10,4 +11,15 @@ pub(crate) enum Covered {
     Whole(Span),
     /// Some samples of the pixel in this column: neither none nor all.
     Part(i32, SampleMask),
+}
+
+impl Covered {
+    /// How many samples these are, where a pixel has so many.
+    #[inline]
+    pub(crate) fn count(&self, per_pixel: usize) -> usize {
+        match self {
+            Self::Whole(xs) => xs.length() * per_pixel,
+            Self::Part(_, mask) => mask.count(),
+        }
+    }
 }

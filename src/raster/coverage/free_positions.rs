@@ -11,7 +11,7 @@ use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::free_positions_polygon::FreePositionsPolygon;
-use crate::raster::coverage::shape_rows::Shape;
+use crate::raster::coverage::shape::Shape;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::span::{PixelRect, Reach, SampleBox, Span};
@@ -60,17 +60,14 @@ impl FreePositions {
         }
     }
 
-    /// Where the samples of a pixel lie, in points of the lattice from its first.
-    pub(crate) fn places(&mut self, pixel: [i32; 2]) -> &[Position] {
-        self.places.of_pixel(pixel, &mut self.memory)
-    }
-
     /// Calls `visit` for every row of the tile `rect` with what the shape covers there, from top to bottom; no sample
     /// comes twice.
     pub(crate) fn each(&mut self, shape: Shape<'_>, rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
         match shape {
             Shape::Triangle(corners) => self.triangle(*corners, rect, visit),
             Shape::Float(float) => self.float(float, rect, visit),
+            // None is made off the grid, or none has edges.
+            Shape::Tile | Shape::Samples(_) | Shape::Pixels(_) => {}
             Shape::Outline(outline) => {
                 self.outlines.find(outline, (self.grid, &self.places), rect.y);
                 for y in rect.y.start..rect.y.end {
@@ -345,9 +342,12 @@ mod tests {
             .iter()
             .zip(bins.iter().map(|bins| bins.of_tile(0)))
             .collect();
-        let free_positions = scattered.then(|| list.scatter_in(column));
-        let mut painter = PerSamplePainter::new(list.shade_context(), free_positions);
-        let (painted, samples) = painter.replay(&chunks, (pixel, list.background()), &mut list.shape_rows());
+        let mut shape_rows = list.shape_rows(column);
+        if scattered {
+            shape_rows = shape_rows.with(list.free_positions(column));
+        }
+        let mut painter = PerSamplePainter::new(list.shade_context(), list.places());
+        let (painted, samples) = painter.replay(&chunks, (pixel, list.background()), &mut shape_rows);
         (painted, samples.into_iter().map(|(color, _)| color).collect())
     }
 

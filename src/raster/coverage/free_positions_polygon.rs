@@ -15,7 +15,7 @@ use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::edge_bounds::{Line, MARGIN};
 use crate::raster::coverage::outline_cache::OutlineCache;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
-use crate::raster::coverage::shape_rows::{MAX_SPANS, OutlineOf};
+use crate::raster::coverage::shape::{MAX_SPANS, OutlineOf};
 use crate::raster::coverage::windings::RowWindings;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::{Position, SamplePositions};

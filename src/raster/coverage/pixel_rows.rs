@@ -1,232 +1,131 @@
-//! The coverage of a rectangle of pixels, one row of pixels at a time.
+//! The coverage of rows of pixels, with any number of samples: whole pixels, and a mask for each of the others.
+//!
+//! ```text
+//!      . . . | . # # | # # # | # # .
+//!      . . # | # # # | # # # | # . .      pixels touched: 0 to 3, full: 2
+//!      . # # | # # # | # # # | . . .
+//! ```
 
-use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-use crate::raster::coverage::mask8x8::CoverageMask;
-use crate::raster::coverage::polygon_rows::RowSpans;
-use crate::raster::coverage::triangle::SortedTriangle;
-use crate::raster::sampling::rate::SampleRate;
-use crate::raster::span::{PixelRect, Span, scaled};
-use crate::rules::Rules;
+use crate::raster::coverage::covered::Covered;
+use crate::raster::coverage::span_rows::{Batch, MAX_SIDE, SpanRows};
+use crate::raster::sampling::mask::SampleMask;
+use crate::raster::span::Span;
 
-/// Most samples along one side of a pixel.
-const MAX_SIDE: usize = SampleRate::MAX_SIDE as usize;
+/// Most samples along the side of a pixel whose bits fit one word.
+const NARROW: usize = 8;
 
-/// The samples of one row of pixels that a shape covers, or some of them.
-#[derive(Debug)]
-pub(crate) struct PixelRow<'a> {
-    /// The row of pixels.
-    pub(crate) y: i32,
-    /// Covered sample columns per sample row.
-    spans: &'a [Span],
-    /// Pixels of which any sample is covered, and among them those of which all are; where these are none, they are an
-    /// empty span at the end.
-    pub(crate) touched: Span,
-    pub(crate) full: Span,
+/// Which ends of spans may lie in a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sides {
+    Left,
+    Right,
+    Both,
 }
 
-/// Calls `paint` for every row of pixels in `rect` of which the triangle covers any sample, from top to bottom.
+/// Calls `visit` with what `rows` cover of the pixels `columns`, of `side` x `side` samples each: from top to bottom, each
+/// time with the row of pixels. A pixel may come several times, with other samples each time.
 #[inline]
-pub(crate) fn each_pixel_row(
-    corners: [GridPoint; 3],
-    (grid, rules): (SubpixelGrid, Rules),
-    rect: PixelRect,
-    paint: impl FnMut(&PixelRow<'_>),
-) {
-    let Some(sorted) = SortedTriangle::new(corners, rules) else {
-        return;
-    };
-    let rows = sorted.rows(grid).intersection(scaled(rect.y, grid.side()));
-    if !rows.is_empty() {
-        let mut walker = sorted.walk_from(grid, rows.start);
-        each_row(
-            grid.side(),
-            rect,
-            rows,
-            |_, columns, spans| walker.next_spans_within(spans, columns),
-            paint,
-        );
-    }
-}
-
-/// As [`each_pixel_row`] for samples that are known.
-#[inline]
-pub(crate) fn each_pixel_row_of_few(
-    coverage: CoverageMask,
+pub(in crate::raster) fn each_covered(
+    rows: &mut impl SpanRows,
     side: i32,
-    rect: PixelRect,
-    paint: impl FnMut(&PixelRow<'_>),
+    columns: Span,
+    mut visit: impl FnMut(i32, Covered),
 ) {
-    if coverage.mask != 0 {
-        let next = |first: i32, columns: Span, spans: &mut [Span]| {
-            for (span, line) in spans.iter_mut().zip(first..) {
-                *span = coverage.span(line).intersection(columns);
-            }
-        };
-        each_row(side, rect, coverage.rows(), next, paint);
-    }
-}
-
-/// As [`each_pixel_row`] for an outline. A row of pixels in which a sample row has several spans comes several times, each
-/// time with one of them.
-#[inline]
-pub(crate) fn each_pixel_row_of_spans(
-    spans: RowSpans<'_>,
-    side: i32,
-    rect: PixelRect,
-    mut paint: impl FnMut(&PixelRow<'_>),
-) {
-    if spans.single {
-        let next = |first: i32, columns: Span, of_rows: &mut [Span]| {
-            for (span, line) in of_rows.iter_mut().zip(first..) {
-                *span = spans
-                    .of_row(line)
-                    .first()
-                    .map_or(Span::EMPTY, |span| span.intersection(columns));
-            }
-        };
-        return each_row(side, rect, spans.rows, next, paint);
-    }
-    let columns = scaled(rect.x, side);
-    let rows = spans.rows.intersection(scaled(rect.y, side));
-    // For each sample row of a row of pixels, the spans that reach into the rectangle and have not come yet.
-    let mut left: [&[Span]; MAX_SIDE] = [&[]; MAX_SIDE];
-    let mut line = rows.start;
-    while line < rows.end {
-        let y = line.div_euclid(side);
-        let lines = Span {
-            start: y * side,
-            end: (y + 1) * side,
-        }
-        .intersection(rows);
-        for (left, line) in left.iter_mut().zip(lines.start..lines.end) {
-            let all = spans.of_row(line);
-            let first = all.partition_point(|span| span.end <= columns.start);
-            let end = first + all[first..].partition_point(|span| span.start < columns.end);
-            *left = &all[first..end];
-        }
-        let of_lines = &mut left[..(lines.end - lines.start).cast_unsigned() as usize];
-        while of_lines.iter().any(|spans| !spans.is_empty()) {
-            let next = |first: i32, columns: Span, of_rows: &mut [Span]| {
-                let left = &mut of_lines[(first - lines.start).cast_unsigned() as usize..];
-                for (span, left) in of_rows.iter_mut().zip(left) {
-                    *span = left
-                        .split_off_first()
-                        .map_or(Span::EMPTY, |span| span.intersection(columns));
-                }
-            };
-            each_row(side, rect, lines, next, &mut paint);
-        }
-        line = lines.end;
-    }
-}
-
-/// Gathers the spans of sample rows into rows of pixels; `next_spans` is asked for the parts of `rows` in `rect`, some
-/// rows at a time from top to bottom: the first of them, the columns, and where to put the spans.
-#[inline]
-fn each_row(
-    side: i32,
-    rect: PixelRect,
-    rows: Span,
-    mut next_spans: impl FnMut(i32, Span, &mut [Span]),
-    mut paint: impl FnMut(&PixelRow<'_>),
-) {
-    let columns = scaled(rect.x, side);
-    let rows = rows.intersection(scaled(rect.y, side));
-    let mut lines = [Span::EMPTY; MAX_SIDE];
+    let (mut lines, mut ys) = ([Span::EMPTY; MAX_SIDE], [0; MAX_SIDE]);
     let in_pixel = side.cast_unsigned() as usize;
-    // Sample rows of as many pixels as there is room for.
-    let batch = i32::try_from(MAX_SIDE / in_pixel * in_pixel).unwrap_or(side);
-    let mut line = rows.start;
-    while line < rows.end {
-        // Rows of a frame are never negative.
-        let first = (line.cast_unsigned() / side.cast_unsigned()).cast_signed();
-        let top = first * side;
-        let end = rows.end.min(top + batch);
-        let inside = |line: i32| (line - top).cast_unsigned() as usize;
-        lines[..inside(line)].fill(Span::EMPTY);
-        next_spans(line, columns, &mut lines[inside(line)..inside(end)]);
-        let last = inside(end).next_multiple_of(in_pixel);
-        lines[inside(end)..last].fill(Span::EMPTY);
-        for (spans, y) in lines[..last].chunks_exact(in_pixel).zip(first..) {
-            let row = PixelRow::new(y, spans);
-            if !row.touched.is_empty() {
-                paint(&row);
-            }
+    let room = MAX_SIDE / in_pixel;
+    loop {
+        let count = rows.take(Batch {
+            side,
+            lines: &mut lines[..room * in_pixel],
+            ys: &mut ys[..room],
+        });
+        for (spans, y) in lines.chunks_exact(in_pixel).zip(&ys[..count]) {
+            pixel_row(
+                spans,
+                columns,
+                #[inline(always)]
+                |covered| visit(*y, covered),
+            );
         }
-        line = end;
+        if count < room {
+            return;
+        }
+        lines.fill(Span::EMPTY);
     }
 }
 
-impl<'a> PixelRow<'a> {
-    /// The row `y` of pixels with these spans, one for each sample row.
-    #[inline]
-    fn new(y: i32, spans: &'a [Span]) -> Self {
-        let nothing = Span::EMPTY;
-        if let [only] = *spans {
-            let touched = if only.is_empty() { nothing } else { only };
-            return Self {
-                y,
-                spans,
-                touched,
-                full: touched,
-            };
+/// Calls `visit` with what spans, one for each sample row, cover of the pixels `columns` in a row.
+#[inline]
+fn pixel_row(spans: &[Span], columns: Span, mut visit: impl FnMut(Covered)) {
+    if let [only] = *spans {
+        let whole = only.intersection(columns);
+        if !whole.is_empty() {
+            visit(Covered::Whole(whole));
         }
-        let first = spans[0];
-        let (mut outer, mut inner, mut any_empty) = (first, first, first.is_empty());
-        for span in &spans[1..] {
-            any_empty |= span.is_empty();
-            inner = inner.intersection(*span);
-            outer = outer.union(*span);
-        }
-        if any_empty {
-            // A sample row without samples leaves no pixel full.
-            inner = Span::EMPTY;
-            outer = spans
-                .iter()
-                .filter(|span| !span.is_empty())
-                .fold(Span::EMPTY, |outer, span| outer.union(*span));
-        }
-        let mut row = Self {
-            y,
-            spans,
-            touched: nothing,
-            full: nothing,
-        };
-        if outer.is_empty() {
-            return row;
-        }
-        // Columns of a frame are never negative, so that division rounds down.
-        let side = u32::try_from(spans.len()).unwrap_or(1);
-        let down = |column: i32| (column.cast_unsigned() / side).cast_signed();
-        let up = |column: i32| (column.cast_unsigned().saturating_add(side - 1) / side).cast_signed();
-        row.touched = Span {
-            start: down(outer.start),
-            end: up(outer.end),
-        };
-        if !inner.is_empty() {
-            row.full = Span {
-                start: up(inner.start),
-                end: down(inner.end),
-            };
-        }
-        if row.full.is_empty() {
-            row.full = Span {
-                start: row.touched.end,
-                end: row.touched.end,
-            };
-        }
-        row
+        return;
     }
+    let (mut outer, mut inner) = (spans[0], spans[0]);
+    for span in &spans[1..] {
+        outer = outer.union(*span);
+        inner = inner.intersection(*span);
+    }
+    // Columns of a frame are never negative, so that division rounds down.
+    let side = u32::try_from(spans.len()).unwrap_or(1);
+    let inside = |column: i32| column.clamp(columns.start * side.cast_signed(), columns.end * side.cast_signed());
+    let down = |column: i32| (inside(column).cast_unsigned() / side).cast_signed();
+    let up = |column: i32| (inside(column).cast_unsigned().saturating_add(side - 1) / side).cast_signed();
+    let (start, end) = (down(outer.start), up(outer.end));
+    if start >= end {
+        return;
+    }
+    let full = Span {
+        start: up(inner.start),
+        end: down(inner.end),
+    };
+    if inner.is_empty() || full.is_empty() {
+        for x in start..end {
+            let mask = mask(x, spans, Sides::Both);
+            if !mask.is_empty() {
+                visit(Covered::Part(x, mask));
+            }
+        }
+        return;
+    }
+    // Beside pixels that are full, each holds some covered samples, and none holds all.
+    for x in start..full.start {
+        visit(Covered::Part(x, mask(x, spans, Sides::Left)));
+    }
+    for x in full.end..end {
+        visit(Covered::Part(x, mask(x, spans, Sides::Right)));
+    }
+    visit(Covered::Whole(full));
+}
 
-    /// Covered sample columns for each sample row of the row of pixels; spans may reach beyond the rectangle.
-    #[inline]
-    pub(crate) fn spans(&self) -> &'a [Span] {
-        self.spans
+/// The samples that spans, one for each sample row, cover in the pixel of column `x`.
+#[inline(always)]
+#[expect(
+    clippy::inline_always,
+    reason = "a few instructions for every row of samples on an edge"
+)]
+fn mask(x: i32, spans: &[Span], sides: Sides) -> SampleMask {
+    let side = spans.len();
+    let width = i32::try_from(side).unwrap_or(1);
+    let left = x * width;
+    let all = (1_u64 << width) - 1;
+    let up_to = |column: i32| (1_u64 << (column - left).clamp(0, width)) - 1;
+    let of_row = |span: &Span| match sides {
+        Sides::Left => all & !up_to(span.start),
+        Sides::Right => up_to(span.end),
+        Sides::Both => up_to(span.end) & !up_to(span.start),
+    };
+    if side <= NARROW {
+        let bits = spans.iter().rev().fold(0, |bits, span| bits << width | of_row(span));
+        return SampleMask::of_bits(bits);
     }
-
-    /// The pixels that are covered in part.
-    #[inline]
-    pub(crate) fn partial(&self) -> impl Iterator<Item = i32> + use<> {
-        (self.touched.start..self.full.start).chain(self.full.end..self.touched.end)
+    let mut mask = SampleMask::default();
+    for (span, first) in spans.iter().zip((0..).step_by(side)) {
+        mask.add(first, of_row(span));
     }
+    mask
 }

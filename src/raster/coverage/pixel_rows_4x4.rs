@@ -1,4 +1,4 @@
-//! Rows of pixels with 4 x 4 samples, the commonest rate above one: as in `pixel_row`, but with few instructions.
+//! Rows of pixels with 4 x 4 samples, the commonest rate above one: as in [`super::pixel_rows`], but with few instructions.
 //!
 //! Spans are not cut to the tile; only the pixels are. The masks of four neighbouring pixels are made as one word, so
 //! that nothing is clamped pixel by pixel.
@@ -8,12 +8,9 @@ use std::ops::Range;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i8x16, i8x64, i32x4, mask32x4, u32x4, u64x2};
 
-use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-use crate::raster::coverage::polygon_rows::RowSpans;
-use crate::raster::coverage::triangle::SortedTriangle;
-use crate::raster::span::{PixelRect, Span, scaled, to_index};
+use crate::raster::coverage::span_rows::{Batch, SpanRows};
+use crate::raster::span::{PixelRect, Span, to_index};
 use crate::raster::surface_id::{GROUP, LAST_GROUP};
-use crate::rules::Rules;
 
 /// Samples along one side of a pixel.
 pub(crate) const SIDE: i32 = 4;
@@ -22,10 +19,7 @@ pub(crate) const SIDE: i32 = 4;
 const ROWS: usize = SIDE as usize;
 
 /// Rows of pixels that are looked at together: as many as tiles have.
-const BATCH: usize = BATCH_LINES as usize / ROWS;
-
-/// Their sample rows.
-const BATCH_LINES: i32 = 128;
+const BATCH: usize = 32;
 
 /// The sample columns of a window.
 const COLUMNS: i32 = SIDE * SIDE;
@@ -44,9 +38,6 @@ const SAMPLE_COLUMNS: [i8; 64] = {
 
 /// The spans of a row of pixels, one for each sample row.
 type Four = [Span; ROWS];
-
-/// A row of pixels without samples.
-const EMPTY: Four = [Span::EMPTY; ROWS];
 
 /// Some samples of a row of a tile's pixels.
 #[derive(Clone, Debug)]
@@ -81,165 +72,31 @@ pub(crate) enum Ends {
     Both,
 }
 
-/// Calls `paint` for every row of pixels of the tile `rect` of which the triangle covers any sample, from top to bottom.
+/// Calls `paint` for every row of pixels of the tile `rect` of which the shape with these rows covers any sample, from top to
+/// bottom. A row in which a sample row has several spans comes several times, each time with one of them.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "what paints is to be seen by the compiler")]
-pub(crate) fn each_row_of_triangle<S: Simd>(
+pub(in crate::raster) fn each_row<S: Simd>(
     simd: S,
-    corners: [GridPoint; 3],
-    (grid, rules): (SubpixelGrid, Rules),
+    rows: &mut impl SpanRows,
     rect: PixelRect,
     mut paint: impl FnMut(&TileRow<'_>),
 ) {
-    let Some(sorted) = SortedTriangle::new(corners, rules) else {
-        return;
-    };
-    let rows = sorted.rows(grid).intersection(scaled(rect.y, SIDE));
-    if rows.is_empty() {
-        return;
-    }
-    let mut walker = sorted.walk_from(grid, rows.start);
-    let mut fours = [EMPTY; BATCH];
-    let mut line = rows.start;
-    while line < rows.end {
-        // Rows of a frame are never negative.
-        let first = line >> 2;
-        let lines = fours.as_flattened_mut();
-        let count = lines.len();
-        let inside = |line: i32| ((line - first * SIDE).cast_unsigned() as usize).min(count);
-        let end = inside(rows.end);
-        // Nothing above and below, up to an even number of rows of pixels.
-        lines[..ROWS].fill(Span::EMPTY);
-        walker.next_spans(&mut lines[inside(line)..end]);
-        let used = end.next_multiple_of(2 * ROWS).min(count);
-        lines[end..used].fill(Span::EMPTY);
-        let y = to_index(first - rect.y.start);
-        each(simd, (&fours[..used / ROWS], rect.x), |i| y + i, &mut paint);
-        line = first * SIDE + BATCH_LINES;
-    }
-}
-
-/// As [`each_row_of_triangle`] for an outline; a row of pixels in which a sample row has several spans comes several
-/// times, each time with one of them.
-#[inline(always)]
-#[expect(clippy::inline_always, reason = "what paints is to be seen by the compiler")]
-pub(crate) fn each_row_of_spans<S: Simd>(
-    simd: S,
-    spans: RowSpans<'_>,
-    rect: PixelRect,
-    mut paint: impl FnMut(&TileRow<'_>),
-) {
-    let mut rows = FourRows::new(spans, rect);
-    let (mut fours, mut ys) = ([EMPTY; BATCH], [0; BATCH]);
+    let (mut lines, mut ys) = ([Span::EMPTY; BATCH * ROWS], [0; BATCH]);
     loop {
-        let count = rows.take(&mut fours, &mut ys);
-        if count == 0 {
+        let count = rows.take(Batch {
+            side: SIDE,
+            lines: &mut lines,
+            ys: &mut ys,
+        });
+        let fours = &lines.as_chunks().0[..count.next_multiple_of(2)];
+        let y = |i: usize| to_index(ys[i % BATCH] - rect.y.start);
+        each(simd, (fours, rect.x), y, &mut paint);
+        if count < BATCH {
             return;
         }
-        let used = count.next_multiple_of(2);
-        fours[count..used].fill(EMPTY);
-        each(simd, (&fours[..used], rect.x), |i| ys[i % BATCH], &mut paint);
+        lines.fill(Span::EMPTY);
     }
-}
-
-/// The spans of an outline by rows of pixels.
-struct FourRows<'a> {
-    spans: RowSpans<'a>,
-    /// The columns of samples of the tile, and its first row of pixels.
-    columns: Span,
-    top: i32,
-    /// The sample rows to come.
-    rows: Span,
-    /// The spans of the row of pixels at work, which of them comes next, and how many there are.
-    left: [&'a [Span]; ROWS],
-    next: usize,
-    most: usize,
-    y: usize,
-}
-
-impl<'a> FourRows<'a> {
-    #[inline]
-    fn new(spans: RowSpans<'a>, rect: PixelRect) -> Self {
-        Self {
-            spans,
-            columns: scaled(rect.x, SIDE),
-            top: rect.y.start,
-            rows: spans.rows.intersection(scaled(rect.y, SIDE)),
-            left: [&[]; ROWS],
-            next: 0,
-            most: 0,
-            y: 0,
-        }
-    }
-
-    /// Puts spans of as many rows as there is room into `fours`, and the numbers of these rows into `ys`; how many.
-    fn take(&mut self, fours: &mut [Four; BATCH], ys: &mut [usize; BATCH]) -> usize {
-        let mut count = 0;
-        while count < BATCH {
-            if self.next < self.most {
-                fours[count] = self
-                    .left
-                    .map(|spans| spans.get(self.next).copied().unwrap_or(Span::EMPTY));
-                ys[count] = self.y;
-                self.next += 1;
-                count += 1;
-                continue;
-            }
-            let line = self.rows.start;
-            if line >= self.rows.end {
-                break;
-            }
-            self.y = to_index((line >> 2) - self.top);
-            // As many rows of pixels as have one span in each of their sample rows.
-            let room = if self.spans.single { BATCH - count } else { 1 };
-            let whole = if line % SIDE == 0 {
-                (to_index(self.rows.end - line) / ROWS).min(room)
-            } else {
-                0
-            };
-            let end = line + i32::try_from(whole * ROWS).unwrap_or(0);
-            let lines = self.spans.of_rows(line, end);
-            if whole > 0 && lines.len() == whole * ROWS {
-                fours[count..count + whole].as_flattened_mut().copy_from_slice(lines);
-                for (y, number) in ys[count..count + whole].iter_mut().zip(self.y..) {
-                    *y = number;
-                }
-                self.rows.start = end;
-                count += whole;
-            } else {
-                self.rows.start = self.rows.end.min(((line >> 2) + 1) * SIDE);
-                self.begin(line, self.rows.start);
-            }
-        }
-        count
-    }
-
-    /// Begins a row of pixels of which a sample row has several spans, or not all have any.
-    fn begin(&mut self, line: i32, end: i32) {
-        self.left = [&[]; ROWS];
-        for line in line..end {
-            // Those spans that reach into the tile.
-            self.left[to_index(line & 3)] = reaching(self.spans.of_row(line), self.columns);
-        }
-        let [a, b, c, d] = self.left.map(<[Span]>::len);
-        (self.next, self.most) = (0, a.max(b).max(c.max(d)));
-        if self.most == 0 {
-            // One row without samples does no harm.
-            self.most = 1;
-        }
-    }
-}
-
-/// Those of some spans that reach into `columns`; there may be a few others among them.
-#[inline]
-fn reaching(spans: &[Span], columns: Span) -> &[Span] {
-    const FEW: usize = 3;
-    if spans.len() <= FEW {
-        return spans;
-    }
-    let first = spans.partition_point(|span| span.end <= columns.start);
-    let end = first + spans[first..].partition_point(|span| span.start < columns.end);
-    &spans[first..end]
 }
 
 /// Calls `paint` for each of an even number of rows of pixels of which any pixel in `columns` is touched; `y_of` tells
@@ -312,12 +169,6 @@ impl TileRow<'_> {
     #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
     pub(crate) fn beside_full(&self) -> (Range<usize>, Range<usize>) {
         (self.touched.start..self.full.start, self.full.end..self.touched.end)
-    }
-
-    /// The column of the frame in which pixel `x` lies.
-    #[inline]
-    pub(crate) fn column(&self, x: usize) -> i32 {
-        self.left + i32::try_from(x).unwrap_or(0)
     }
 }
 
@@ -403,7 +254,6 @@ mod tests {
     fn masks<S: Simd>(simd: S, fours: &[Four; 2], columns: Span) -> [[u64; ROW]; 2] {
         let mut found = [[0; ROW]; 2];
         each(simd, (fours, columns), |i| i, &mut |row: &TileRow<'_>| {
-            assert_eq!(row.column(0), columns.start, "the first column");
             assert_eq!(row.spans, &fours[row.y], "its spans");
             let mut times = [0; ROW];
             let mut add = |window: Window, partial: bool| {

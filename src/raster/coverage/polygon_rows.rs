@@ -261,6 +261,14 @@ impl SpanStore {
 }
 
 impl<'a> RowSpans<'a> {
+    /// Nothing, in no rows.
+    pub(crate) const EMPTY: Self = Self {
+        rows: Span::EMPTY,
+        starts: &[],
+        spans: &[],
+        single: true,
+    };
+
     /// The spans of some of the rows, row by row.
     #[inline]
     pub(crate) fn of_rows(&self, start: i32, end: i32) -> &'a [Span] {

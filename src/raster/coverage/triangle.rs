@@ -63,6 +63,8 @@ impl SortedTriangle {
     }
 
     /// A walker that stands at sample row `row`, which must be one of [`SortedTriangle::rows`].
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "the walker is too large to be moved")]
     pub(crate) fn walk_from(&self, grid: SubpixelGrid, row: i32) -> RowWalker {
         let [top, middle, bottom] = self.corners;
         let switch = if middle.y == bottom.y {
@@ -97,9 +99,10 @@ impl SortedTriangle {
 
 impl RowWalker {
     /// The covered columns of as many rows as there is room in `spans`, within a frame or beyond; then stands below them.
+    /// `by_four` says that they are found by four rows at once, which pays where there are many.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    pub(crate) fn next_spans(&mut self, spans: &mut [Span]) {
+    pub(crate) fn next_spans(&mut self, spans: &mut [Span], by_four: bool) {
         if self.rules == Rules::Course {
             for span in spans {
                 *span = self.next_span(Span::EVERYTHING);
@@ -110,18 +113,22 @@ impl RowWalker {
         let mut rest = spans;
         if (self.row..end).contains(&self.switch) {
             let (above, below) = rest.split_at_mut((self.switch - self.row).cast_unsigned() as usize);
-            self.run(above);
+            self.run(above, by_four);
             self.take_lower_edge();
             rest = below;
         }
-        self.run(rest);
+        self.run(rest, by_four);
     }
 
     /// As [`RowWalker::next_spans`] where no edge takes over.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-    fn run(&mut self, spans: &mut [Span]) {
-        let (fours, rest) = spans.as_chunks_mut::<4>();
+    fn run(&mut self, spans: &mut [Span], by_four: bool) {
+        let (fours, rest) = if by_four {
+            spans.as_chunks_mut::<4>()
+        } else {
+            (&mut [][..], &mut *spans)
+        };
         if !fours.is_empty() {
             let (mut left, mut right) = (self.left.four_rows(), self.right.four_rows());
             for four in fours {
@@ -138,37 +145,17 @@ impl RowWalker {
             self.left.go_to(&left);
             self.right.go_to(&right);
         }
+        let (mut left, mut right) = (self.left, self.right);
         for span in rest {
             *span = Span {
-                start: self.left.at_or_after(),
-                end: self.right.at_or_after(),
-            };
-            self.left.step();
-            self.right.step();
-        }
-        self.row += i32::try_from(spans.len()).unwrap_or(i32::MAX);
-    }
-
-    /// As [`RowWalker::next_span`] for as many rows as there is room in `spans`.
-    #[inline]
-    pub(crate) fn next_spans_within(&mut self, spans: &mut [Span], columns: Span) {
-        let end = self.row + i32::try_from(spans.len()).unwrap_or(i32::MAX);
-        if (self.row..end).contains(&self.switch) || self.rules == Rules::Course {
-            for span in spans {
-                *span = self.next_span(columns);
-            }
-            return;
-        }
-        let (mut left, mut right) = (self.left, self.right);
-        for span in spans {
-            *span = Span {
-                start: left.at_or_after().max(columns.start),
-                end: right.at_or_after().min(columns.end),
+                start: left.at_or_after(),
+                end: right.at_or_after(),
             };
             left.step();
             right.step();
         }
-        (self.left, self.right, self.row) = (left, right, end);
+        (self.left, self.right) = (left, right);
+        self.row += i32::try_from(spans.len()).unwrap_or(i32::MAX);
     }
 
     /// The covered columns of the current row, clipped to `columns`; then goes down one row.
@@ -231,14 +218,14 @@ mod tests {
                 let triangle = SortedTriangle::new(corners, rules);
                 let rows = triangle.map_or(Span::EMPTY, |triangle| triangle.rows(grid));
                 let all = Span { start: -2, end: 12 };
-                for start in [rows.start, (rows.start + 2).min(rows.end)] {
+                for (start, by_four) in [(rows.start, true), ((rows.start + 2).min(rows.end), false)] {
                     let mut walker = triangle.filter(|_| !rows.is_empty()).map(|t| t.walk_from(grid, start));
                     let mut at_once = vec![Span::EMPTY; (rows.end - start).max(0).unsigned_abs() as usize];
                     if let Some(mut walker) = walker.clone() {
                         let third = at_once.len() / 3;
                         let (first, second) = at_once.split_at_mut(third);
-                        walker.next_spans(first);
-                        walker.next_spans(second);
+                        walker.next_spans(first, by_four);
+                        walker.next_spans(second, by_four);
                     }
                     for row in start.max(-2)..12 {
                         let inside = row < rows.end && row >= start;

@@ -17,7 +17,7 @@ use crate::raster::list::chunk::Chunk;
 use crate::raster::list::context::ListContext;
 use crate::raster::paint::method::Method;
 use crate::raster::paint::recorder::{PaintedCommand, PaintedKind};
-use crate::raster::sampling::positions::{Position, SamplePositions};
+use crate::raster::sampling::positions::Position;
 use crate::raster::span::{PixelRect, Span};
 use crate::raster::stats::SharedTally;
 use crate::raster::tile_layout::TileLayout;
@@ -200,11 +200,6 @@ impl DisplayList<'_> {
         let places = self.places();
         let position = |place: &Position| place.map(|at| grid.sample_position(at.into()));
         places.of_pixel(pixel, &mut memory).iter().map(position).collect()
-    }
-
-    /// Where samples lie, on the lattice of the grid.
-    pub(in crate::raster) fn places(&self) -> SamplePositions {
-        SamplePositions::new(self.context.pattern, self.context.rate)
     }
 }
 

@@ -11,7 +11,7 @@ use crate::geometry::subpixel::GridPoint;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
-use crate::raster::coverage::shape_rows::OutlineOf;
+use crate::raster::coverage::shape::OutlineOf;
 use crate::raster::layers::Compositing;
 use crate::raster::list::context::ListContext;
 use crate::raster::list::hairline::Hairline;

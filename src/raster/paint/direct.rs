@@ -2,12 +2,14 @@
 
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::binning::tile_command::{TileCommand, Work};
-use crate::raster::coverage::shape_rows::{Shape, ShapeRows};
+use crate::raster::coverage::covered::Covered;
+use crate::raster::coverage::shape::Shape;
+use crate::raster::coverage::shape_rows::ShapeRows;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::list::chunk::Chunk;
 use crate::raster::shading::context::{Pixels, ShadeContext};
 use crate::raster::shading::{Paint, Shader};
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::span::PixelRect;
 
 /// Paints opaque primitives at one sample per pixel.
 #[derive(Debug)]
@@ -42,14 +44,15 @@ impl<'a> DirectPainter<'a> {
         for entry in entries {
             match entry.work(chunk) {
                 // With one sample per pixel these are the same.
-                Work::Samples(coverage, color) | Work::Pixels(coverage, color) => {
-                    let pixel = color.to_pixel(rules);
-                    block.stamp(coverage, pixel);
+                Work::Flat(Shape::Samples(stamp) | Shape::Pixels(stamp), color) => {
+                    block.stamp(stamp, color.to_pixel(rules));
                 }
                 Work::Flat(shape, color) => {
                     let pixel = color.to_pixel(rules);
-                    covered((shape, *entry), shape_rows, block, |y, xs, block| {
-                        block.span(y, xs).fill(pixel);
+                    shape_rows.each(shape, block.rect, |y, covered| {
+                        if let Covered::Whole(xs) = covered {
+                            block.span(y, xs).fill(pixel);
+                        }
                     });
                 }
                 Work::Shaded(shape, corners, paint) => {
@@ -57,11 +60,12 @@ impl<'a> DirectPainter<'a> {
                     places.clear();
                     let PixelRect { x: left, y: top } = block.rect;
                     let inside = |from: i32, to: i32| u16::try_from(to - from).unwrap_or(u16::MAX);
-                    covered((shape, *entry), shape_rows, block, |y, xs, _| {
-                        let row = inside(top.start, y);
-                        places.extend(
-                            (inside(left.start, xs.start)..inside(left.start, xs.end)).map(|column| [column, row]),
-                        );
+                    shape_rows.each(shape, block.rect, |y, covered| {
+                        if let Covered::Whole(xs) = covered {
+                            let row = inside(top.start, y);
+                            let columns = inside(left.start, xs.start)..inside(left.start, xs.end);
+                            places.extend(columns.map(|column| [column, row]));
+                        }
                     });
                     self.shaded(corners, paint, &places, block);
                     self.places = places;
@@ -90,22 +94,4 @@ impl<'a> DirectPainter<'a> {
             block.put(*place, *value);
         }
     }
-}
-
-/// Calls `paint` with every span of pixels that a shape covers.
-#[inline]
-fn covered(
-    (shape, entry): (Shape<'_>, TileCommand),
-    shape_rows: &mut ShapeRows,
-    block: &mut PixelBlock<'_>,
-    mut paint: impl FnMut(i32, Span, &mut PixelBlock<'_>),
-) {
-    let rect = block.rect;
-    if entry.covers_tile() {
-        for y in rect.y.start..rect.y.end {
-            paint(y, rect.x, block);
-        }
-        return;
-    }
-    shape_rows.each_pixel_row(shape, rect, |row| paint(row.y, row.full, block));
 }

@@ -3,31 +3,29 @@
 use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::coverage::covered::Covered;
-use crate::raster::coverage::free_positions::FreePositions;
-use crate::raster::coverage::mask8x8::CoverageMask;
-use crate::raster::coverage::pixel_rows::{PixelRow, each_pixel_row_of_few};
-use crate::raster::coverage::shape_rows::{Shape, ShapeRows};
+use crate::raster::coverage::shape::Shape;
+use crate::raster::coverage::shape_rows::ShapeRows;
 use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
 use crate::raster::paint::recorder::{PaintedCommand, PaintedKind, Recorder};
 use crate::raster::paint::sample_colors::SampleColors;
-use crate::raster::sampling::mask::SampleMask;
-use crate::raster::sampling::positions::Position;
+use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::shading::Shader;
 use crate::raster::shading::context::ShadeContext;
-use crate::raster::span::{PixelRect, Span, scaled};
+use crate::raster::span::{PixelRect, Span};
 
 /// Paints tiles, one after the other, reusing its memory.
 #[derive(Debug)]
 pub(crate) struct PerSamplePainter<'a> {
     context: ShadeContext<'a>,
     layers: LayerStack<SampleColors>,
-    /// The samples at work and their colours.
+    /// Where the samples of a pixel lie.
+    positions: SamplePositions,
+    memory: Vec<Position>,
+    /// What is to be shaded: rows of pixels and what is covered there, the places of these samples, and their colours.
+    covered: Vec<(i32, Covered)>,
     points: Vec<[u16; 2]>,
     colors: Vec<Premultiplied16>,
-    /// Finds coverage where samples are not those of the grid, and the parts of pixels at work there.
-    free_positions: Option<Box<FreePositions>>,
-    parts: Vec<([i32; 2], SampleMask)>,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
     /// When a single pixel is replayed: what was painted.
@@ -35,15 +33,16 @@ pub(crate) struct PerSamplePainter<'a> {
 }
 
 impl<'a> PerSamplePainter<'a> {
-    /// A painter for one drawing; `free_positions` where samples are not those of the grid.
-    pub(crate) fn new(context: ShadeContext<'a>, free_positions: Option<FreePositions>) -> Self {
+    /// A painter for one drawing.
+    pub(crate) fn new(context: ShadeContext<'a>, positions: SamplePositions) -> Self {
         Self {
             context,
             layers: LayerStack::new(buffer(&context)),
+            positions,
+            memory: Vec::new(),
+            covered: Vec::new(),
             points: Vec::new(),
             colors: Vec::new(),
-            free_positions: free_positions.map(Box::new),
-            parts: Vec::new(),
             samples_shaded: 0,
             recorder: None,
         }
@@ -61,18 +60,9 @@ impl<'a> PerSamplePainter<'a> {
                 self.record(chunk, *entry);
             }
             match entry.work(chunk) {
-                Work::Samples(coverage, color) => self.samples(coverage, color),
-                Work::Pixels(pixels, color) => {
-                    let PixelRect { x, y } = self.layers.base().rect;
-                    pixels
-                        .moved(x.start, y.start)
-                        .each_run(|row, xs| self.fill(xs, row, color));
-                }
-                Work::Flat(shape, color) => self.covered((shape, *entry), shape_rows, |_| Shader::flat(color)),
+                Work::Flat(shape, color) => self.shape(shape, shape_rows, |_| Shader::flat(color)),
                 Work::Shaded(shape, corners, paint) => {
-                    self.covered((shape, *entry), shape_rows, |context| {
-                        Shader::new(context, corners, paint)
-                    });
+                    self.shape(shape, shape_rows, |context| Shader::new(context, corners, paint));
                 }
                 Work::BeginLayer => {
                     let rect = self.layers.base().rect;
@@ -153,190 +143,88 @@ impl<'a> PerSamplePainter<'a> {
         }
     }
 
-    /// What covers all of the tile.
-    fn whole_tile(&mut self, shader: &Shader<'_>) {
-        let PixelRect { x, y } = self.layers.base().rect;
-        let side = self.context.grid.side();
-        let columns = scaled(x, side);
-        for row in y.start..y.end {
-            if let Some(color) = shader.constant() {
-                self.fill(x, row, color);
-            } else if self.free_positions.is_some() {
-                self.gather(row, Covered::Whole(x));
-            } else {
-                if shader.opaque {
-                    self.layers.top().split_unfilled(x, row);
-                }
-                for line in row * side..(row + 1) * side {
-                    self.shaded(shader, columns, line);
-                }
-            }
-        }
-        self.shade_parts(shader);
-    }
-
-    /// A shape, shaded by what `shader` makes once it is needed.
-    fn covered(
+    /// Paints a shape with the shader that `shader` makes once it is needed.
+    fn shape(
         &mut self,
-        (shape, entry): (Shape<'_>, TileCommand),
+        shape: Shape<'_>,
         shape_rows: &mut ShapeRows,
         shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>,
     ) {
-        if entry.covers_tile() {
-            return self.whole_tile(&shader(&self.context));
-        }
-        if self.free_positions.is_some() {
-            return self.scattered(shape, shader);
-        }
         let rect = self.layers.base().rect;
         let mut prepared = None;
-        shape_rows.each_pixel_row(shape, rect, |row| {
+        shape_rows.each(shape, rect, |y, covered| {
             let shader = prepared.get_or_insert_with(|| shader(&self.context));
-            self.pixel_row(shader, row);
-        });
-    }
-
-    /// A shape whose samples are not those of the grid.
-    fn scattered(&mut self, shape: Shape<'_>, shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>) {
-        let Some(mut free_positions) = self.free_positions.take() else {
-            return;
-        };
-        let mut prepared = None;
-        free_positions.each(shape, self.layers.base().rect, |y, covered| {
-            let shader = prepared.get_or_insert_with(|| shader(&self.context));
-            match (shader.constant(), covered) {
-                (Some(color), Covered::Whole(xs)) => self.fill(xs, y, color),
-                (Some(color), Covered::Part(x, mask)) => {
-                    self.layers.top().fill_mask(x, y, mask, color);
-                    if let Some(recorder) = &mut self.recorder {
-                        recorder.paint_mask(mask, |_| color);
-                    }
-                }
-                _ => self.gather(y, covered),
+            match shader.constant() {
+                Some(color) => self.fill(y, covered, color),
+                None => self.gather(y, covered),
             }
         });
-        self.free_positions = Some(free_positions);
         if let Some(shader) = prepared {
-            self.shade_parts(&shader);
+            self.shade(&shader);
         }
     }
 
-    /// Notes what is to be shaded.
+    /// Paints samples of row `y` of pixels with one colour.
+    #[inline]
+    fn fill(&mut self, y: i32, covered: Covered, color: Premultiplied16) {
+        match covered {
+            Covered::Whole(xs) => self.layers.top().fill(xs, y, color),
+            Covered::Part(x, mask) => self.layers.top().fill_mask(x, y, mask, color),
+        }
+        if let Some(recorder) = &mut self.recorder {
+            recorder.paint(covered, |_| color);
+        }
+    }
+
+    /// Notes samples of row `y` of pixels that are to be shaded.
     fn gather(&mut self, y: i32, covered: Covered) {
+        let side = self.context.grid.side();
+        let rect = self.layers.base().rect;
+        // No tile has more than `2^14` points of a lattice along a side.
+        let inside = |pixels: i32| u16::try_from(pixels * side).unwrap_or(u16::MAX);
+        let top = inside(y - rect.y.start);
+        let point =
+            |left: u16, [column, row]: Position| [left.saturating_add(column.into()), top.saturating_add(row.into())];
         match covered {
             Covered::Whole(xs) => {
-                let all = SampleMask::all(self.samples_per_pixel());
-                self.parts.extend((xs.start..xs.end).map(|x| ([x, y], all)));
+                for x in xs.start..xs.end {
+                    let left = inside(x - rect.x.start);
+                    let places = self.positions.of_pixel([x, y], &mut self.memory);
+                    self.points.extend(places.iter().map(|place| point(left, *place)));
+                }
             }
-            Covered::Part(x, mask) => self.parts.push(([x, y], mask)),
+            Covered::Part(x, mask) => {
+                let left = inside(x - rect.x.start);
+                let places = self.positions.of_pixel([x, y], &mut self.memory);
+                mask.each(|sample| self.points.push(point(left, places[sample])));
+            }
         }
+        self.covered.push((y, covered));
     }
 
     /// Shades what was noted, all samples together.
-    fn shade_parts(&mut self, shader: &Shader<'_>) {
-        let Some(free_positions) = &mut self.free_positions else {
-            return;
-        };
-        let PixelRect { x, y } = self.layers.base().rect;
-        let side = self.context.grid.side();
-        let all = SampleMask::all(self.context.rate.samples() as usize);
-        self.points.clear();
-        for (pixel, mask) in &self.parts {
-            let first = [(pixel[0] - x.start) * side, (pixel[1] - y.start) * side];
-            let places = free_positions.places(*pixel);
-            // No tile has more than `2^14` points of a lattice along a side.
-            let [left, top] = first.map(|at| u16::try_from(at).unwrap_or(u16::MAX));
-            let point = |[column, row]: Position| {
-                let (column, row) = (left.saturating_add(column.into()), top.saturating_add(row.into()));
-                [column, row]
-            };
-            if *mask == all {
-                self.points.extend(places.iter().map(|place| point(*place)));
-            } else {
-                mask.each(|sample| self.points.push(point(places[sample])));
-            }
-        }
+    fn shade(&mut self, shader: &Shader<'_>) {
         let count = self.points.len();
         if self.colors.len() < count {
             self.colors.resize(count, Premultiplied16::TRANSPARENT);
         }
         self.samples_shaded += count as u64;
+        let PixelRect { x, y } = self.layers.base().rect;
         let grid = self.context.samples_from([x.start, y.start]);
         shader.points(grid, &self.points, &mut self.colors[..count]);
-        let mut first = 0;
-        for ([x, y], mask) in &self.parts {
-            let colors = &self.colors[first..first + mask.count()];
-            first += colors.len();
-            self.layers.top().write_mask((*x, *y), *mask, colors, shader.opaque);
-            if let Some(recorder) = &mut self.recorder {
-                recorder.paint_mask(*mask, |i| colors[i]);
-            }
-        }
-        self.parts.clear();
-    }
-
-    /// Samples of one colour, counted from the tile's first.
-    fn samples(&mut self, coverage: CoverageMask, color: Premultiplied16) {
-        let side = self.context.grid.side();
-        let rect = self.layers.base().rect;
-        let coverage = coverage.moved(rect.x.start * side, rect.y.start * side);
-        let shader = Shader::flat(color);
-        each_pixel_row_of_few(coverage, side, rect, |row| self.pixel_row(&shader, row));
-    }
-
-    /// Paints one row of pixels: solid colours pixel by pixel, shaded ones by sample rows.
-    fn pixel_row(&mut self, shader: &Shader<'_>, pixels: &PixelRow<'_>) {
-        let (side, row) = (self.context.grid.side(), pixels.y);
-        if let Some(color) = shader.constant() {
-            self.fill(pixels.full, row, color);
-            for x in pixels.partial() {
-                self.layers.top().fill_part(x, row, pixels.spans(), color);
-            }
-            if let Some(recorder) = &mut self.recorder {
-                for (span, line) in pixels.spans().iter().zip(row * side..) {
-                    recorder.paint(*span, line, side, |_| color);
-                }
-            }
-        } else {
-            if shader.opaque {
-                self.layers.top().split_unfilled(pixels.full, row);
-            }
-            for (span, line) in pixels.spans().iter().zip(row * side..) {
-                self.shaded(shader, *span, line);
-            }
-        }
-    }
-
-    fn fill(&mut self, xs: Span, y: i32, color: Premultiplied16) {
-        self.layers.top().fill(xs, y, color);
-        if let Some(recorder) = &mut self.recorder
-            && !xs.is_empty()
-        {
-            recorder.fill(color);
-        }
-    }
-
-    fn shaded(&mut self, shader: &Shader<'_>, columns: Span, line: i32) {
-        if columns.is_empty() {
-            return;
-        }
-        let count = (columns.end - columns.start).cast_unsigned() as usize;
-        if self.colors.len() < count {
-            self.colors.resize(count, Premultiplied16::TRANSPARENT);
-        }
-        self.samples_shaded += count as u64;
-        let colors = &mut self.colors[..count];
-        let PixelRect { x, y } = self.layers.base().rect;
-        let side = self.context.grid.side();
-        let inside = |from: i32, to: i32| u16::try_from(to - from * side).unwrap_or(u16::MAX);
-        let row = inside(y.start, line);
         self.points.clear();
-        self.points
-            .extend((inside(x.start, columns.start)..inside(x.start, columns.end)).map(|column| [column, row]));
-        shader.points(self.context.samples_from([x.start, y.start]), &self.points, colors);
-        self.layers.top().write_samples(columns, line, colors, shader.opaque);
-        if let Some(recorder) = &mut self.recorder {
-            recorder.paint(columns, line, side, |i| colors[i]);
+        let per_pixel = self.samples_per_pixel();
+        let mut rest = &self.colors[..count];
+        for (y, covered) in self.covered.drain(..) {
+            let (colors, others) = rest.split_at(covered.count(per_pixel));
+            rest = others;
+            match covered {
+                Covered::Whole(xs) => self.layers.top().write(xs, y, colors, shader.opaque),
+                Covered::Part(x, mask) => self.layers.top().write_mask(x, y, mask, (colors, shader.opaque)),
+            }
+            if let Some(recorder) = &mut self.recorder {
+                recorder.paint(covered, |i| colors[i]);
+            }
         }
     }
 }
@@ -344,5 +232,5 @@ impl<'a> PerSamplePainter<'a> {
 /// A buffer of no pixels.
 fn buffer(context: &ShadeContext<'_>) -> SampleColors {
     let settings = (context.sampling.rules, context.filter, context.space);
-    SampleColors::new(context.rate, context.grid.side(), settings)
+    SampleColors::new(context.rate, settings)
 }

@@ -2,9 +2,9 @@
 
 use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::Work;
+use crate::raster::coverage::covered::Covered;
 use crate::raster::layers::Compositing;
 use crate::raster::sampling::mask::SampleMask;
-use crate::raster::span::Span;
 
 /// Fragments that are kept at most; beyond that those of the commands painted first are forgotten.
 const MOST_FRAGMENTS: usize = 1 << 19;
@@ -70,7 +70,7 @@ pub(in crate::raster) struct Recorder {
 impl PaintedKind {
     pub(in crate::raster) fn of(work: &Work<'_>) -> Self {
         match work {
-            Work::Samples(..) | Work::Pixels(..) | Work::Flat(..) | Work::Shaded(..) => Self::Primitive,
+            Work::Flat(..) | Work::Shaded(..) => Self::Primitive,
             Work::BeginLayer => Self::BeginLayer,
             Work::EndLayer(compositing) => Self::EndLayer(*compositing),
         }
@@ -156,33 +156,17 @@ impl Recorder {
         }
     }
 
-    /// The command paints all samples with one colour.
-    pub(in crate::raster) fn fill(&mut self, color: Premultiplied16) {
-        self.colors.fill(Some(color));
-    }
-
     /// The command paints all samples, each with its colour.
     pub(in crate::raster) fn paint_all(&mut self, colors: Vec<Premultiplied16>) {
         self.colors = colors.into_iter().map(Some).collect();
     }
 
-    /// The command paints the sample columns `columns` of sample row `line`, of which a pixel has `side` each; `color` is asked
-    /// for those counted from the first column.
-    pub(in crate::raster) fn paint(
-        &mut self,
-        columns: Span,
-        line: i32,
-        side: i32,
-        color: impl Fn(usize) -> Premultiplied16,
-    ) {
-        for (i, column) in (columns.start..columns.end).enumerate() {
-            let sample = line.rem_euclid(side) * side + column.rem_euclid(side);
-            self.colors[sample.cast_unsigned() as usize] = Some(color(i));
-        }
-    }
-
-    /// The command paints some samples; `color` is asked for those counted from the first of them.
-    pub(in crate::raster) fn paint_mask(&mut self, mask: SampleMask, color: impl Fn(usize) -> Premultiplied16) {
+    /// The command paints samples of the pixel; `color` is asked for those counted from the first of them.
+    pub(in crate::raster) fn paint(&mut self, covered: Covered, color: impl Fn(usize) -> Premultiplied16) {
+        let mask = match covered {
+            Covered::Whole(_) => SampleMask::all(self.colors.len()),
+            Covered::Part(_, mask) => mask,
+        };
         let mut i = 0;
         mask.each(|sample| {
             self.colors[sample] = Some(color(i));

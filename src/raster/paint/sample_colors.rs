@@ -19,8 +19,7 @@ use crate::rules::Rules;
 pub(crate) struct SampleColors {
     pub(crate) rect: PixelRect,
     width: usize,
-    /// Samples along one side of a pixel where they lie in rows, and per pixel.
-    side: usize,
+    /// Samples per pixel.
     per_pixel: usize,
     rules: Rules,
     filter: ResolveFilter,
@@ -35,16 +34,11 @@ pub(crate) struct SampleColors {
 }
 
 impl SampleColors {
-    /// A tile of no pixels; `side` is how many samples of a pixel lie in a row, where they do.
-    pub(crate) fn new(
-        rate: SampleRate,
-        side: i32,
-        (rules, filter, space): (Rules, ResolveFilter, ResolveSpace),
-    ) -> Self {
+    /// A tile of no pixels.
+    pub(crate) fn new(rate: SampleRate, (rules, filter, space): (Rules, ResolveFilter, ResolveSpace)) -> Self {
         Self {
             rect: PixelRect::EMPTY,
             width: 0,
-            side: usize::try_from(side).unwrap_or(1),
             per_pixel: rate.samples() as usize,
             rules,
             filter,
@@ -111,43 +105,23 @@ impl SampleColors {
         }
     }
 
-    /// Paints the samples that `spans` cover in pixel `x` of row `y` with one colour; a span for each sample row of the
-    /// pixel, in sample columns counted from the left of the frame.
+    /// Paints all samples of the pixels `xs` of row `y` with a colour each, pixel by pixel; `opaque` says that all of these are.
     #[inline]
-    pub(crate) fn fill_part(&mut self, x: i32, y: i32, spans: &[Span], color: Premultiplied16) {
-        let pixel = self.index(x, y);
-        self.ensure_split(pixel);
-        let side = spans.len();
-        let width = i32::try_from(side).unwrap_or(1);
-        let left = x * width;
-        let samples = &mut self.samples[pixel * self.per_pixel..][..self.per_pixel];
-        for (span, line) in spans.iter().zip(samples.chunks_exact_mut(side)) {
-            let (start, end) = ((span.start - left).max(0), (span.end - left).min(width));
-            if start >= end {
-                continue;
-            }
-            let covered = &mut line[offset(start)..offset(end)];
-            if color.is_opaque() {
-                covered.fill(color);
-            } else {
-                color.over_all(covered, self.rules);
-            }
-        }
-    }
-
-    /// Paints the samples `columns` of sample row `row` with a colour each; `opaque` says that all of these are.
-    #[inline]
-    pub(crate) fn write_samples(&mut self, columns: Span, row: i32, colors: &[Premultiplied16], opaque: bool) {
-        let rules = self.rules;
+    pub(crate) fn write(&mut self, xs: Span, y: i32, colors: &[Premultiplied16], opaque: bool) {
+        let (first, rules) = (self.index(xs.start, y), self.rules);
+        let last = first + offset(xs.end - xs.start);
         if self.per_pixel == 1 {
-            let first = self.index(columns.start, row);
-            paint(&mut self.whole[first..first + colors.len()], colors, opaque, rules);
+            paint(&mut self.whole[first..last], colors, opaque, rules);
             return;
         }
-        self.each_pixel_run(columns, row, |samples, at| {
-            let end = at + samples.len();
-            paint(samples, &colors[at..end], opaque, rules);
-        });
+        if opaque {
+            self.ensure_samples();
+            self.split[first..last].fill(true);
+        } else {
+            (first..last).for_each(|pixel| self.ensure_split(pixel));
+        }
+        let samples = &mut self.samples[first * self.per_pixel..last * self.per_pixel];
+        paint(samples, colors, opaque, rules);
     }
 
     /// Paints some samples of pixel `x` in row `y` with one colour.
@@ -156,9 +130,9 @@ impl SampleColors {
         let rules = self.rules;
         let samples = self.samples_of(x, y);
         if color.is_opaque() {
-            mask.each(|sample| samples[sample] = color);
+            mask.each_run(|run| samples[run].fill(color));
         } else {
-            mask.each(|sample| samples[sample] = color.over(samples[sample], rules));
+            mask.each_run(|run| color.over_all(&mut samples[run], rules));
         }
     }
 
@@ -166,26 +140,18 @@ impl SampleColors {
     #[inline]
     pub(crate) fn write_mask(
         &mut self,
-        (x, y): (i32, i32),
+        x: i32,
+        y: i32,
         mask: SampleMask,
-        colors: &[Premultiplied16],
-        opaque: bool,
+        (colors, opaque): (&[Premultiplied16], bool),
     ) {
         let rules = self.rules;
         let samples = self.samples_of(x, y);
-        if opaque && colors.len() == samples.len() {
-            samples.copy_from_slice(colors);
-            return;
-        }
-        let mut colors = colors.iter();
-        mask.each(|sample| {
-            if let Some(color) = colors.next() {
-                samples[sample] = if opaque || color.is_opaque() {
-                    *color
-                } else {
-                    color.over(samples[sample], rules)
-                };
-            }
+        let mut rest = colors;
+        mask.each_run(|run| {
+            let (colors, others) = rest.split_at(run.len());
+            paint(&mut samples[run], colors, opaque, rules);
+            rest = others;
         });
     }
 
@@ -198,42 +164,6 @@ impl SampleColors {
         }
         self.ensure_split(pixel);
         &mut self.samples[pixel * self.per_pixel..][..self.per_pixel]
-    }
-
-    /// Splits the pixels `xs` of row `y` for a painter that will overwrite all their samples.
-    #[inline]
-    pub(crate) fn split_unfilled(&mut self, xs: Span, y: i32) {
-        if self.per_pixel == 1 || xs.is_empty() {
-            return;
-        }
-        self.ensure_samples();
-        let first = self.index(xs.start, y);
-        self.split[first..first + offset(xs.end - xs.start)].fill(true);
-    }
-
-    /// Splits the pixels that a sample row touches and hands out the touched samples, pixel by pixel, each with its
-    /// distance from the start of the row.
-    #[inline]
-    fn each_pixel_run(&mut self, columns: Span, row: i32, mut paint: impl FnMut(&mut [Premultiplied16], usize)) {
-        if columns.is_empty() {
-            return;
-        }
-        let side = i32::try_from(self.side).unwrap_or(1);
-        let (y, line) = (row.div_euclid(side), row.rem_euclid(side));
-        let mut x = columns.start.div_euclid(side);
-        let mut column = columns.start;
-        while column < columns.end {
-            let end = columns.end.min((x + 1) * side);
-            let pixel = self.index(x, y);
-            self.ensure_split(pixel);
-            let start = pixel * self.per_pixel + offset(line) * self.side + offset(column - x * side);
-            paint(
-                &mut self.samples[start..start + offset(end - column)],
-                offset(column - columns.start),
-            );
-            column = end;
-            x += 1;
-        }
     }
 
     /// Makes room for the samples of every pixel.
@@ -251,10 +181,7 @@ impl SampleColors {
         if self.split[pixel] {
             return;
         }
-        if self.samples.len() < self.whole.len() * self.per_pixel {
-            self.samples
-                .resize(self.whole.len() * self.per_pixel, Premultiplied16::TRANSPARENT);
-        }
+        self.ensure_samples();
         self.split[pixel] = true;
         self.samples[pixel * self.per_pixel..][..self.per_pixel].fill(self.whole[pixel]);
     }

@@ -35,6 +35,11 @@ impl Viewer {
         is_open && self.chrome.shown.explanation && self.pinned_pixel().is_some()
     }
 
+    /// Whether a hand asked why the pinned pixel has its colour, and not only a lesson's step.
+    pub fn asks_about_pixel(&self) -> bool {
+        self.inspector.magnifier.asked
+    }
+
     /// Shows or hides the explanation. The switch goes by what is to be seen: it never closes what nobody sees, and where no
     /// pixel is pinned it pins one, since it would seem to do nothing otherwise.
     pub(in crate::viewer) fn show_explanation(&mut self, toggle: Toggle) {
@@ -70,12 +75,8 @@ impl Viewer {
 
     /// Tells the user that what he asked for is not to be seen.
     pub fn say_no_room(&mut self) {
-        let cure = if self.lesson.is_some() {
-            "make the window wider or close the lesson"
-        } else {
-            "make the window wider"
-        };
-        self.chrome.messages.done(format!("{NO_ROOM}: {cure}"));
+        let message = format!("{NO_ROOM}: make the window wider");
+        self.chrome.messages.done(message);
         self.revision += 1;
     }
 

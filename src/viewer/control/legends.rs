@@ -7,6 +7,7 @@ use crate::viewer::PixelRect;
 use crate::viewer::ab::other::Arrangement;
 use crate::viewer::frames::legends::LegendRequest;
 use crate::viewer::frames::present::{WindowPixels, paste};
+use crate::viewer::inspector::with_ring;
 use crate::viewer::state::Viewer;
 
 impl Viewer {
@@ -45,16 +46,16 @@ impl Viewer {
             let pixel = self
                 .inspector
                 .inset
-                .and_then(|placed| self.in_frame(placed.inset.center));
+                .and_then(|placed| self.in_frame(placed.inset.center))
+                .map(|pixel| self.shown_at(pixel));
+            let rings = self.pinned_places().into_iter();
+            let rings = rings.map(|place| with_ring(&place, self.inspector.magnifier.ring_room));
             LegendRequest {
                 scene,
                 shown,
                 window: self.chrome.window,
                 area: self.chrome.free_area.map_or(window, |free| free.intersection(&window)),
-                spared: insets
-                    .map(|placed| placed.rect)
-                    .chain(pixel.map(|pixel| self.shown_at(pixel)))
-                    .collect(),
+                spared: insets.map(|placed| placed.rect).chain(pixel).chain(rings).collect(),
             }
         });
         if request == self.frames.legends.request {

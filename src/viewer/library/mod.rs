@@ -113,6 +113,11 @@ impl SceneEntry {
         }
     }
 
+    /// Whether it is a file, not a scene of the gallery.
+    pub fn is_file(&self) -> bool {
+        matches!(self.source, SceneSource::File(_))
+    }
+
     /// Whether a thread is reading it.
     pub fn is_reading(&self) -> bool {
         matches!(self.state, SceneState::Reading { .. })

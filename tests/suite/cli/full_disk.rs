@@ -1,4 +1,4 @@
-//! A disk that is full: one clear line, and no half file. A limit of a file's size makes a write fail as a full disk does,
+//! A disk that is full: one clear line, the status of what the machine lacks, and no half file. A limit of a file's size makes a write fail as a full disk does,
 //! after some of it went through.
 
 #![cfg(unix)]
@@ -9,7 +9,7 @@ use std::process::Output;
 
 use crate::support::folder::names;
 use crate::support::program::run_after;
-use crate::support::refusal::assert_refused;
+use crate::support::refusal::assert_told;
 
 /// Runs the program where no file may grow beyond `blocks` of 512 bytes.
 fn run_with_room(blocks: u32, folder: &Path, arguments: &[&str]) -> Output {
@@ -30,7 +30,7 @@ fn full_disk_leaves_no_half_file() {
     for arguments in commands {
         let folder = tempfile::tempdir().unwrap();
         let output = run_with_room(64, folder.path(), arguments);
-        assert_refused(&output, arguments, &["out", "cannot"]);
+        assert_told(&output, 1, arguments, &["out", "cannot"]);
         let mut folders = vec![folder.path().to_owned()];
         while let Some(folder) = folders.pop() {
             for name in names(&folder) {
@@ -54,7 +54,7 @@ fn full_disk_keeps_what_was_there() {
     let arguments = ["render", "gallery:texmap/test4.svg", "-o", "out.png", "--size=400x400"];
     fs::write(folder.path().join("out.png"), "before").unwrap();
     let output = run_with_room(64, folder.path(), &arguments);
-    assert_refused(&output, &arguments, &["out.png", "cannot"]);
+    assert_told(&output, 1, &arguments, &["out.png", "cannot"]);
     assert_eq!(names(folder.path()), ["out.png"], "nothing else");
     assert_eq!(fs::read(folder.path().join("out.png")).unwrap(), b"before", "unchanged");
     let room = run_with_room(20_000, folder.path(), &arguments);

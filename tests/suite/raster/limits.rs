@@ -124,8 +124,8 @@ fn limits_of_a_file_are_told_where_their_signal_is_not_ignored() {
     let folder = tempfile::tempdir().unwrap();
     let arguments = ["render", "gallery:texmap/test4.svg", "-o", "a.png", "--size=400x400"];
     let output = run_after("ulimit -f 64", folder.path(), &arguments);
-    // As with a full disk: the place was the user's choice.
-    assert_told(&output, 2, &["a.png", "too large"], folder.path());
+    // As with a full disk: the machine has no room, and the place is as good as any.
+    assert_told(&output, 1, &["a.png", "too large"], folder.path());
 }
 
 #[cfg(feature = "window")]

@@ -1,6 +1,5 @@
 //! The surfaces of four samples in a word, sixteen bits each, the first one lowest.
 
-use crate::raster::span::Span;
 use crate::raster::surface_id::SurfaceId;
 
 /// Samples of a sample row in one word.
@@ -25,14 +24,6 @@ const SPREAD_BITS: [u64; 16] = {
     }
     spread
 };
-
-/// The bits of the four samples from column `left` on that a span covers. Bits beyond a pixel's last column are of no
-/// account.
-#[inline]
-pub(in crate::raster) fn covered(span: Span, left: i32) -> u64 {
-    let first = |at: i32| FIRST[(at - left).clamp(0, 4).cast_unsigned() as usize];
-    first(span.end) & !first(span.start)
-}
 
 /// Four samples of which the second surface shows where the lowest bits are set, and the first elsewhere; four times each.
 #[inline]

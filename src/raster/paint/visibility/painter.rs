@@ -10,10 +10,9 @@ use fearless_simd::{Simd, dispatch};
 
 use crate::color::{Premultiplied16, Resolver};
 use crate::raster::binning::tile_command::{TileCommand, Work};
-use crate::raster::coverage::mask8x8::CoverageMask;
-use crate::raster::coverage::pixel_rows::each_pixel_row_of_few;
 use crate::raster::coverage::pixel_rows_4x4;
-use crate::raster::coverage::shape_rows::{Shape, ShapeRows};
+use crate::raster::coverage::shape::Shape;
+use crate::raster::coverage::shape_rows::ShapeRows;
 use crate::raster::layers::Compositing;
 use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
@@ -67,16 +66,14 @@ impl<'a> VisibilityPainter<'a> {
         for entry in entries {
             self.make_room();
             match entry.work(chunk) {
-                Work::Samples(coverage, color) => self.samples(coverage, color),
-                Work::Pixels(coverage, color) => self.pixels(coverage, color),
-                Work::Flat(shape, color) if entry.is_opaque() => {
+                Work::Flat(shape, color) if color.is_opaque() => {
                     let surface = self.surfaces.flat(color);
-                    self.opaque((shape, *entry), surface, shape_rows);
+                    self.opaque(shape, surface, shape_rows);
                 }
-                Work::Flat(shape, color) => self.translucent((shape, *entry), color, shape_rows),
+                Work::Flat(shape, color) => self.translucent(shape, color, shape_rows),
                 Work::Shaded(shape, corners, paint) => {
                     let surface = self.surfaces.shaded(corners, paint);
-                    self.opaque((shape, *entry), surface, shape_rows);
+                    self.opaque(shape, surface, shape_rows);
                 }
                 Work::BeginLayer => self.begin_layer(),
                 Work::EndLayer(compositing) => self.end_layer(compositing),
@@ -85,63 +82,34 @@ impl<'a> VisibilityPainter<'a> {
     }
 
     #[inline]
-    fn opaque(&mut self, (shape, entry): (Shape<'_>, TileCommand), surface: SurfaceId, shape_rows: &mut ShapeRows) {
+    fn opaque(&mut self, shape: Shape<'_>, surface: SurfaceId, shape_rows: &mut ShapeRows) {
         let tile = self.layers.top();
-        if entry.covers_tile() {
+        if matches!(shape, Shape::Tile) {
             tile.cover(surface);
-        } else if self.context.grid.side() == pixel_rows_4x4::SIDE {
+        } else if self.context.grid.side() == pixel_rows_4x4::SIDE && has_rows(shape) {
             dispatch!(simd::level(), simd => opaque_four(simd, (shape, shape_rows), tile, surface));
         } else {
-            shape_rows.each_pixel_row(shape, tile.rect, |row| tile.paint(row, surface));
+            shape_rows.each(
+                shape,
+                tile.rect,
+                #[inline(always)]
+                |y, covered| tile.paint(y, covered, surface),
+            );
         }
     }
 
-    fn translucent(
-        &mut self,
-        (shape, entry): (Shape<'_>, TileCommand),
-        color: Premultiplied16,
-        shape_rows: &mut ShapeRows,
-    ) {
+    fn translucent(&mut self, shape: Shape<'_>, color: Premultiplied16, shape_rows: &mut ShapeRows) {
         let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
         surfaces.next_paint();
-        if entry.covers_tile() {
-            tile.change_all(|surface| surfaces.under(surface, color));
-        } else if self.context.grid.side() == pixel_rows_4x4::SIDE {
+        if self.context.grid.side() == pixel_rows_4x4::SIDE && has_rows(shape) {
             dispatch!(simd::level(), simd => translucent_four(simd, (shape, shape_rows), tile, (surfaces, color)));
         } else {
-            shape_rows.each_pixel_row(shape, tile.rect, |row| {
-                tile.change(row, |surface| surfaces.under(surface, color));
-            });
-        }
-    }
-
-    /// A few samples of one colour, counted from the tile's first.
-    fn samples(&mut self, coverage: CoverageMask, color: Premultiplied16) {
-        let side = self.context.grid.side();
-        let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
-        let rect = tile.rect;
-        let coverage = coverage.moved(rect.x.start * side, rect.y.start * side);
-        if color.is_opaque() {
-            let surface = surfaces.flat(color);
-            each_pixel_row_of_few(coverage, side, rect, |row| tile.paint(row, surface));
-        } else {
-            surfaces.next_paint();
-            each_pixel_row_of_few(coverage, side, rect, |row| {
-                tile.change(row, |surface| surfaces.under(surface, color));
-            });
-        }
-    }
-
-    /// A few pixels of one colour, counted from the tile's first.
-    fn pixels(&mut self, coverage: CoverageMask, color: Premultiplied16) {
-        let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
-        let coverage = coverage.moved(tile.rect.x.start, tile.rect.y.start);
-        if color.is_opaque() {
-            let surface = surfaces.flat(color);
-            coverage.each_run(|y, xs| tile.paint_pixels(xs, y, surface));
-        } else {
-            surfaces.next_paint();
-            coverage.each_run(|y, xs| tile.change_pixels(xs, y, |surface| surfaces.under(surface, color)));
+            shape_rows.each(
+                shape,
+                tile.rect,
+                #[inline(always)]
+                |y, covered| tile.change(y, covered, |surface| surfaces.under(surface, color)),
+            );
         }
     }
 
@@ -186,6 +154,12 @@ impl<'a> VisibilityPainter<'a> {
             layer.renumber(|surface| numbers[usize::from(surface)]);
         }
     }
+}
+
+/// Whether a shape may have many rows, so that it pays to look at several at once.
+#[inline]
+fn has_rows(shape: Shape<'_>) -> bool {
+    !matches!(shape, Shape::Tile | Shape::Samples(_) | Shape::Pixels(_))
 }
 
 /// Lets the samples of a shape show `surface`, where a pixel has 4 x 4 samples.

@@ -2,53 +2,49 @@
 
 use std::ops::Range;
 
-use crate::raster::coverage::pixel_rows::PixelRow;
-use crate::raster::paint::visibility::buffer::paint::{Sides, mask};
+use crate::raster::coverage::covered::Covered;
 use crate::raster::paint::visibility::buffer::{PixelIndex, VisibilityBuffer, offset, run_length};
 use crate::raster::paint::visibility::packed::{PER_WORD, changed, joined, lanes, of_two, splat};
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
-use crate::raster::span::Span;
+use crate::raster::sampling::mask::SampleMask;
 use crate::raster::surface_id::{SPLIT, SurfaceId, TWO_SURFACES};
 
 impl VisibilityBuffer {
-    /// Lets the samples that a row of pixels covers show what `change` makes of what they show.
-    pub(crate) fn change(&mut self, row: &PixelRow<'_>, mut change: impl FnMut(SurfaceId) -> SurfaceId) {
-        let left = self.rect.x.start;
-        let y = offset(self.rect.y.start, row.y);
-        if !row.full.is_empty() {
-            let full = self.columns(row.full);
-            self.change_whole(y, full, &mut change);
-        }
-        for x in row.partial() {
-            let covered = if self.all != 0 {
-                mask(self.side, x, row.spans(), Sides::Both)
-            } else {
-                0
-            };
-            self.change_samples(((y, offset(left, x)), x), (covered, row.spans()), &mut change);
+    /// Lets covered samples in row `y` of pixels show what `change` makes of what they show.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
+    pub(crate) fn change(&mut self, y: i32, covered: Covered, mut change: impl FnMut(SurfaceId) -> SurfaceId) {
+        let y = offset(self.rect.y.start, y);
+        match covered {
+            Covered::Whole(xs) => self.change_whole(y, self.columns(xs), &mut change),
+            Covered::Part(x, mask) => self.change_samples((y, offset(self.rect.x.start, x)), mask, &mut change),
         }
     }
 
-    /// Lets the samples that `spans` cover in a pixel, by its place and its column in the frame, show what `change` makes
-    /// of what they show; `covered` are their bits, if it may show two surfaces.
+    /// Lets some samples of a pixel, at least one, show what `change` makes of what they show.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
     pub(super) fn change_samples(
         &mut self,
-        (pixel, x): (PixelIndex, i32),
-        (covered, spans): (u64, &[Span]),
+        pixel: PixelIndex,
+        covered: SampleMask,
         change: &mut impl FnMut(SurfaceId) -> SurfaceId,
     ) {
         let shown = self.whole[pixel.0][pixel.1];
-        if shown != SPLIT && self.all != 0 && (covered == 0 || self.change_two(pixel, covered, change)) {
+        if shown != SPLIT && self.all != 0 && self.change_two(pixel, covered.low(), change) {
             return;
         }
         self.split(pixel);
-        self.each_covered_word(pixel, x, spans, |word, mask| {
-            if mask != 0 {
-                *word = *word & !mask | changed(*word, mask, change) & mask;
-            }
-        });
+        self.each_covered_word(
+            pixel,
+            covered,
+            #[inline(always)]
+            |word, mask| {
+                if mask != 0 {
+                    *word = *word & !mask | changed(*word, mask, change) & mask;
+                }
+            },
+        );
     }
 
     /// Lets samples of a pixel that is not split show what `change` makes of what they show; false, and nothing done,
@@ -80,18 +76,6 @@ impl VisibilityBuffer {
         };
         self.set_two(pixel, two);
         true
-    }
-
-    /// As [`VisibilityBuffer::change`] for all samples.
-    pub(crate) fn change_all(&mut self, mut change: impl FnMut(SurfaceId) -> SurfaceId) {
-        for y in 0..self.whole.len() {
-            self.change_whole(y, 0..self.width, &mut change);
-        }
-    }
-
-    /// As [`VisibilityBuffer::change`] for all samples of the pixels `xs` of row `y`.
-    pub(crate) fn change_pixels(&mut self, xs: Span, y: i32, mut change: impl FnMut(SurfaceId) -> SurfaceId) {
-        self.change_whole(offset(self.rect.y.start, y), self.columns(xs), &mut change);
     }
 
     /// Lets all samples of the pixels `xs` of row number `y` show what `change` makes of what they show.

@@ -317,8 +317,11 @@ mod tests {
     use arbtest::arbitrary::{Result, Unstructured};
 
     use super::*;
+    use crate::raster::coverage::covered::Covered;
     use crate::raster::coverage::mask8x8::CoverageMask;
-    use crate::raster::coverage::pixel_rows::each_pixel_row_of_few;
+    use crate::raster::coverage::pixel_rows::each_covered;
+    use crate::raster::coverage::span_rows::MaskRows;
+    use crate::raster::span::scaled;
 
     const RECT: PixelRect = PixelRect {
         x: Span { start: 3, end: 14 },
@@ -400,15 +403,17 @@ mod tests {
                 plain.change(side, |_, _| true, |_| surface);
             }
             1 => {
-                tile.paint_pixels(xs, y, surface);
+                tile.paint(y, Covered::Whole(xs), surface);
                 plain.change(side, in_run, |_| surface);
             }
             2 => {
-                tile.change_pixels(xs, y, other);
+                tile.change(y, Covered::Whole(xs), other);
                 plain.change(side, in_run, other);
             }
             3 => {
-                tile.change_all(other);
+                for y in RECT.y.start..RECT.y.end {
+                    tile.change(y, Covered::Whole(RECT.x), other);
+                }
                 plain.change(side, |_, _| true, other);
             }
             4 => {
@@ -418,11 +423,12 @@ mod tests {
             kind => {
                 let coverage = few_samples(u, side)?;
                 let covered = |column, row| holds(coverage, column, row);
+                let mut rows = MaskRows::new(coverage.within(scaled(RECT.x, side), scaled(RECT.y, side)));
                 if kind < 8 {
-                    each_pixel_row_of_few(coverage, side, RECT, |row| tile.paint(row, surface));
+                    each_covered(&mut rows, side, RECT.x, |y, covered| tile.paint(y, covered, surface));
                     plain.change(side, covered, |_| surface);
                 } else {
-                    each_pixel_row_of_few(coverage, side, RECT, |row| tile.change(row, other));
+                    each_covered(&mut rows, side, RECT.x, |y, covered| tile.change(y, covered, other));
                     plain.change(side, covered, other);
                 }
             }

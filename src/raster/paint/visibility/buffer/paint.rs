@@ -1,19 +1,11 @@
 //! Opaque paint: lets covered samples show a surface.
 
-use crate::raster::coverage::pixel_rows::PixelRow;
+use crate::raster::coverage::covered::Covered;
 use crate::raster::paint::visibility::buffer::{PixelIndex, VisibilityBuffer, offset};
-use crate::raster::paint::visibility::packed::{PER_WORD, covered, of_two, splat, spread};
+use crate::raster::paint::visibility::packed::{PER_WORD, of_two, splat, spread};
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
-use crate::raster::span::Span;
+use crate::raster::sampling::mask::SampleMask;
 use crate::raster::surface_id::{ROW, SPLIT, SurfaceId, TWO_SURFACES};
-
-/// Which ends of spans may lie in a pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Sides {
-    Left,
-    Right,
-    Both,
-}
 
 impl VisibilityBuffer {
     /// Lets every sample show `surface`.
@@ -21,54 +13,24 @@ impl VisibilityBuffer {
         self.whole.fill([surface; ROW]);
     }
 
-    /// Lets the samples that a row of pixels covers show `surface`.
-    #[inline]
-    pub(crate) fn paint(&mut self, row: &PixelRow<'_>, surface: SurfaceId) {
-        let y = offset(self.rect.y.start, row.y);
-        if !row.full.is_empty() {
-            let full = self.columns(row.full);
-            self.whole[y][full].fill(surface);
-        }
-        if self.all == 0 {
-            let left = self.rect.x.start;
-            for x in row.partial() {
-                let pixel = (y, offset(left, x));
-                self.split(pixel);
-                let painted = splat(surface);
-                self.each_covered_word(pixel, x, row.spans(), |word, mask| {
-                    *word = *word & !mask | painted & mask;
-                });
+    /// Lets covered samples in row `y` of pixels show `surface`.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
+    pub(crate) fn paint(&mut self, y: i32, covered: Covered, surface: SurfaceId) {
+        let y = offset(self.rect.y.start, y);
+        match covered {
+            Covered::Whole(xs) => {
+                let xs = self.columns(xs);
+                self.whole[y][xs].fill(surface);
             }
-            return;
-        }
-        self.paint_partial(self.side, row, y, surface);
-    }
-
-    /// Lets all samples of the pixels `xs` of row `y` show `surface`.
-    #[inline]
-    pub(crate) fn paint_pixels(&mut self, xs: Span, y: i32, surface: SurfaceId) {
-        let xs = self.columns(xs);
-        self.whole[offset(self.rect.y.start, y)][xs].fill(surface);
-    }
-
-    /// Lets the samples of a row of pixels that is covered in part show `surface`; `y` is its number.
-    fn paint_partial(&mut self, side: usize, row: &PixelRow<'_>, y: usize, surface: SurfaceId) {
-        let (left, spans) = (self.rect.x.start, row.spans());
-        if row.full.is_empty() {
-            for x in row.touched.start..row.touched.end {
-                let covered = mask(side, x, spans, Sides::Both);
-                if covered != 0 {
-                    self.paint_samples((y, offset(left, x)), covered, surface);
+            Covered::Part(x, mask) => {
+                let pixel = (y, offset(self.rect.x.start, x));
+                if self.all == 0 {
+                    self.paint_split(pixel, mask, surface);
+                } else {
+                    self.paint_samples(pixel, mask.low(), surface);
                 }
             }
-            return;
-        }
-        // Beside pixels that are full, each holds some covered samples, and none holds all.
-        for x in row.touched.start..row.full.start {
-            self.paint_samples((y, offset(left, x)), mask(side, x, spans, Sides::Left), surface);
-        }
-        for x in row.full.end..row.touched.end {
-            self.paint_samples((y, offset(left, x)), mask(side, x, spans, Sides::Right), surface);
         }
     }
 
@@ -102,24 +64,14 @@ impl VisibilityBuffer {
         if self.side == PER_WORD {
             return self.paint_packed(pixel, covered, surface);
         }
+        self.paint_split(pixel, SampleMask::of_bits(covered), surface);
+    }
+
+    /// As [`VisibilityBuffer::paint_samples`] of a pixel that is split, or is from now on.
+    fn paint_split(&mut self, pixel: PixelIndex, covered: SampleMask, surface: SurfaceId) {
         self.split(pixel);
         let painted = splat(surface);
-        let (side, words) = (self.side, self.words);
-        let first = self.first_packed(pixel);
-        let samples = &mut self.samples[first..][..side * words];
-        if words == 1 {
-            for (word, shift) in samples.iter_mut().zip((0..).step_by(side)) {
-                let mask = spread(covered >> shift);
-                *word = *word & !mask | painted & mask;
-            }
-            return;
-        }
-        for (row, of_row) in samples.chunks_exact_mut(words).enumerate() {
-            for (word, shift) in of_row.iter_mut().zip((row * side..).step_by(PER_WORD)) {
-                let mask = spread(covered >> shift);
-                *word = *word & !mask | painted & mask;
-            }
-        }
+        self.each_covered_word(pixel, covered, |word, mask| *word = *word & !mask | painted & mask);
     }
 
     /// As [`VisibilityBuffer::paint_samples`] where a pixel that shows two surfaces or is split has 4 x 4 samples and shows three surfaces.
@@ -182,50 +134,29 @@ impl VisibilityBuffer {
         true
     }
 
-    /// Calls `paint` for every word of a split pixel with the bits of the samples that `spans` cover; `x` is the pixel's
-    /// column in the frame.
+    /// Calls `paint` for every word of a split pixel with the bits of the samples that are covered.
     #[inline]
     pub(super) fn each_covered_word(
         &mut self,
         pixel: PixelIndex,
-        x: i32,
-        spans: &[Span],
+        covered: SampleMask,
         mut paint: impl FnMut(&mut u64, u64),
     ) {
-        let left = x * i32::try_from(self.side).unwrap_or(1);
-        if self.words == 1 {
-            let first = self.first_packed(pixel);
-            let samples = &mut self.samples[first..][..self.side];
-            for (word, span) in samples.iter_mut().zip(spans) {
-                paint(word, covered(*span, left));
+        let (side, words) = (self.side, self.words);
+        let first = self.first_packed(pixel);
+        let samples = &mut self.samples[first..][..side * words];
+        let of_row = (1 << side) - 1;
+        if words == 1 {
+            for (word, shift) in samples.iter_mut().zip((0..).step_by(side)) {
+                paint(word, spread(covered.low() >> shift & of_row));
             }
             return;
         }
-        let first = self.first_packed(pixel);
-        let samples = &mut self.samples[first..][..self.side * self.words];
-        for (words, span) in samples.chunks_exact_mut(self.words).zip(spans) {
-            for (word, left) in words.iter_mut().zip((left..).step_by(PER_WORD)) {
-                paint(word, covered(*span, left));
+        for (row, words) in samples.chunks_exact_mut(words).enumerate() {
+            let bits = covered.from(row * side) & of_row;
+            for (word, shift) in words.iter_mut().zip((0..).step_by(PER_WORD)) {
+                paint(word, spread(bits >> shift));
             }
         }
     }
-}
-
-/// The bits of the samples that `spans` cover in a pixel with `side` samples a row; `x` is its column in the frame.
-#[inline]
-pub(super) fn mask(side: usize, x: i32, spans: &[Span], sides: Sides) -> u64 {
-    let width = i32::try_from(side).unwrap_or(1);
-    let left = x * width;
-    let all = (1_u64 << width) - 1;
-    let up_to = |column: i32| (1_u64 << (column - left).clamp(0, width)) - 1;
-    let mut mask = 0;
-    for span in spans[..side].iter().rev() {
-        let of_row = match sides {
-            Sides::Left => all & !up_to(span.start),
-            Sides::Right => up_to(span.end),
-            Sides::Both => up_to(span.end) & !up_to(span.start),
-        };
-        mask = mask << width | of_row;
-    }
-    mask
 }

@@ -7,9 +7,10 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
 use crate::raster::coverage::pixel_rows_4x4::{Ends, TileRow, Window, each_window};
-use crate::raster::paint::visibility::buffer::VisibilityBuffer;
+use crate::raster::paint::visibility::buffer::{PixelIndex, VisibilityBuffer};
 use crate::raster::paint::visibility::packed::{lanes, splat};
 use crate::raster::paint::visibility::two_surfaces::{Group, GroupMask, group, put, word_at};
+use crate::raster::sampling::mask::SampleMask;
 use crate::raster::surface_id::{ROW, SurfaceId, TWO_SURFACES};
 
 /// The highest bit of each of four surfaces: set for every shared pixel, and for surfaces of high numbers.
@@ -59,7 +60,7 @@ impl VisibilityBuffer {
             simd,
             row,
             #[inline(always)]
-            |window| self.change_group(simd, row, window, &mut change),
+            |window| self.change_group(simd, row.y, window, &mut change),
         );
         self.change_whole(row.y, row.full.clone(), &mut change);
     }
@@ -83,7 +84,7 @@ impl VisibilityBuffer {
 
     /// As [`VisibilityBuffer::paint_group`] pixel by pixel.
     #[inline(never)]
-    fn paint_shared_group(&mut self, (y, x): (usize, usize), masks: u64, surface: SurfaceId) {
+    fn paint_shared_group(&mut self, (y, x): PixelIndex, masks: u64, surface: SurfaceId) {
         for (x, covered) in (x..).zip(lanes(masks)) {
             if covered != 0 {
                 self.paint_samples((y, x), u64::from(covered), surface);
@@ -97,15 +98,15 @@ impl VisibilityBuffer {
     fn change_group<S: Simd>(
         &mut self,
         simd: S,
-        row: &TileRow<'_>,
+        y: usize,
         Window { x, live, masks }: Window,
         change: &mut impl FnMut(SurfaceId) -> SurfaceId,
     ) {
-        let whole = &mut self.whole[row.y];
+        let whole = &mut self.whole[y];
         let word = word_at(whole, x);
         let [first, ..] = lanes(word >> (live.trailing_zeros() % 64));
         if first >= TWO_SURFACES || (word ^ splat(first)) & live != 0 {
-            return self.change_shared_group(row, (x, masks), change);
+            return self.change_shared_group((y, x), masks, change);
         }
         if masks == 0 {
             return;
@@ -115,19 +116,14 @@ impl VisibilityBuffer {
         let changed = in_part(simd, covered);
         put(whole, x, changed.select(number(TWO_SURFACES), shown));
         self.two_surfaces
-            .set_group(simd, ((row.y, x), changed), (covered, shown, number(change(first))));
+            .set_group(simd, ((y, x), changed), (covered, shown, number(change(first))));
     }
 
     /// As [`VisibilityBuffer::change_group`] pixel by pixel.
-    fn change_shared_group(
-        &mut self,
-        row: &TileRow<'_>,
-        (x, masks): (usize, u64),
-        change: &mut impl FnMut(SurfaceId) -> SurfaceId,
-    ) {
-        for ((x, column), covered) in (x..).zip(row.column(x)..).zip(lanes(masks)) {
+    fn change_shared_group(&mut self, (y, x): PixelIndex, masks: u64, change: &mut impl FnMut(SurfaceId) -> SurfaceId) {
+        for (x, covered) in (x..).zip(lanes(masks)) {
             if covered != 0 {
-                self.change_samples(((row.y, x), column), (u64::from(covered), row.spans), change);
+                self.change_samples((y, x), SampleMask::of_bits(covered.into()), change);
             }
         }
     }
@@ -194,9 +190,10 @@ mod tests {
     use fearless_simd::dispatch;
 
     use super::*;
-    use crate::raster::coverage::pixel_rows::each_pixel_row_of_spans;
-    use crate::raster::coverage::pixel_rows_4x4::each_row_of_spans;
+    use crate::raster::coverage::pixel_rows::each_covered;
+    use crate::raster::coverage::pixel_rows_4x4::each_row;
     use crate::raster::coverage::polygon_rows::{RowSpans, SpanStore};
+    use crate::raster::coverage::span_rows::StoredRows;
     use crate::raster::paint::visibility::buffer::Run;
     use crate::raster::span::{PixelRect, Span};
     use crate::simd;
@@ -266,13 +263,14 @@ mod tests {
         let [quick, slow] = tiles;
         let rect = quick.rect;
         let change = |surface: SurfaceId| surface % 200 * 7 % 101;
-        dispatch!(level, simd => each_row_of_spans(simd, spans, rect, |row| match surface {
+        let rows = || StoredRows::<4>::new(spans, SIDE, rect);
+        dispatch!(level, simd => each_row(simd, &mut rows(), rect, |row| match surface {
             Some(surface) => quick.paint_four(simd, row, surface),
             None => quick.change_four(simd, row, change),
         }));
-        each_pixel_row_of_spans(spans, SIDE, rect, |row| match surface {
-            Some(surface) => slow.paint(row, surface),
-            None => slow.change(row, change),
+        each_covered(&mut rows(), SIDE, rect.x, |y, covered| match surface {
+            Some(surface) => slow.paint(y, covered, surface),
+            None => slow.change(y, covered, change),
         });
     }
 

@@ -1,0 +1,123 @@
+//! What lies over the picture lies beside each other: magnifiers, rings of pins, words, legends, messages, the handle of a
+//! wipe. In small windows above all.
+
+#![expect(clippy::cast_possible_truncation, reason = "inside the window")]
+
+use crate::viewer::{AbCommand, ExportCommand, InspectorCommand, WindowCommand};
+
+use egui::vec2;
+
+use super::lessons::at_step;
+use super::small_windows::comparing;
+use super::*;
+use crate::viewer::script::Stage as _;
+use crate::viewer::{Arrangement, Toggle};
+
+/// Everything over the picture, by name.
+fn things(session: &Session) -> Vec<(&'static str, Rect)> {
+    let (viewer, scale) = (&session.viewer, session.scale);
+    let interface = &session.interface;
+    let rect = |place: &PixelRect| {
+        let corner = pos2(place.x as f32, place.y as f32) / scale;
+        Rect::from_min_size(corner, vec2(place.width as f32, place.height as f32) / scale)
+    };
+    let mut things = Vec::new();
+    let insets = viewer.inset().into_iter().chain(viewer.other_inset());
+    things.extend(insets.map(|placed| ("inset", rect(&placed.rect))));
+    things.extend(viewer.legend_places().iter().map(|place| ("legend", rect(place))));
+    things.extend(interface.rings(viewer).into_iter().map(|ring| ("ring", ring)));
+    things.extend(interface.labels().iter().map(|label| ("words", *label)));
+    things.extend(interface.told().iter().map(|message| ("message", *message)));
+    things.extend(interface.handle().map(|handle| ("handle", handle)));
+    things
+}
+
+/// No two of them may overlap.
+fn nothing_overlaps(session: &Session, what: &str) {
+    let things = things(session);
+    for (index, (name, rect)) in things.iter().enumerate() {
+        for (other, place) in &things[..index] {
+            let apart = !rect.shrink(0.5).intersects(*place);
+            assert!(apart, "{name} {rect:?} over {other} {place:?}, {what}");
+        }
+    }
+}
+
+/// Places all over the free part of the window.
+fn places(session: &Session) -> Vec<[i64; 2]> {
+    let free = session.free_area.expect("there is room");
+    let part = |start: i64, length: u32, part: i64| start + i64::from(length) * part / 12;
+    let rows = (0..12).map(|row| part(free.y, free.height, row) + 20);
+    rows.flat_map(|y| (0..12).map(move |column| [part(free.x, free.width, column) + 15, y]))
+        .collect()
+}
+
+#[test]
+fn nothing_lies_over_the_ring_of_a_pin() {
+    for (step, what) in [(2, "in a lesson"), (5, "in a visualisation"), (9, "in a comparison")] {
+        let mut session = at_step(step, [800, 600]);
+        nothing_overlaps(&session, what);
+        for at in places(&session) {
+            session.command(Command::Inspector(InspectorCommand::Pin(at)));
+            session.settle();
+            nothing_overlaps(&session, &format!("{what}, at {at:?}"));
+        }
+    }
+}
+
+#[test]
+fn nothing_lies_over_the_ring_of_a_pin_beside_panels() {
+    for arrangement in [Arrangement::Wipe, Arrangement::SideBySide, Arrangement::Difference] {
+        for window in [[800, 600], [1280, 800]] {
+            let mut session = comparing(window);
+            session.command(Command::Ab(AbCommand::Arrange(arrangement)));
+            session.settle();
+            for at in places(&session).into_iter().step_by(5) {
+                session.command(Command::Inspector(InspectorCommand::Pin(at)));
+                session.settle();
+                nothing_overlaps(&session, &format!("{arrangement:?} of {window:?} at {at:?}"));
+            }
+        }
+    }
+}
+
+#[test]
+fn messages_lie_beside_magnifiers_words_and_legends() {
+    for step in 0..10 {
+        let mut session = at_step(step, [800, 600]);
+        session.viewer.say_no_room();
+        session.command(Command::Export(ExportCommand::CopyPixel));
+        session.quiet_turn();
+        session.quiet_turn();
+        assert!(session.interface.told().len() >= 2, "messages");
+        nothing_overlaps(&session, &format!("in step {step}"));
+        let before = session.interface.told().to_vec();
+        session.quiet_turn();
+        assert_eq!(session.interface.told(), before, "and they stay there");
+    }
+}
+
+#[test]
+fn words_of_a_wipe_in_a_lesson_are_whole() {
+    let session = at_step(9, [800, 600]);
+    let first = session.interface.labels().first().copied().expect("words about A");
+    // "A: sample rate 1, level sampling linear" takes five lines there.
+    assert!(first.height() > 70.0, "{first:?}");
+}
+
+#[test]
+fn letters_of_magnifiers_stay_in_the_picture() {
+    let mut session = at_step(7, [800, 600]);
+    session.command(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.settle();
+    let free = session.free_area.expect("there is room");
+    assert!(free.width < 250, "a lesson and a panel leave little: {free:?}");
+    let labels = session.interface.labels();
+    assert!(labels.len() >= 2, "{labels:?}");
+    for label in labels {
+        let inside = [label.min, label.max - vec2(1.0, 1.0)];
+        let inside = inside.map(|at| free.contains([at.x as i64, at.y as i64]));
+        assert_eq!(inside, [true; 2], "{label:?} in {free:?}");
+    }
+}

@@ -14,6 +14,9 @@ use crate::scene::error::Fault;
 use crate::scene::triangles::{self, Element};
 use crate::scene::{Composite, Fill, Paint};
 
+/// Most samples along a path's longer side for which the edges of its curves are fine enough.
+const MOST_SAMPLES: f64 = 1e8;
+
 impl<'doc> Painter<'_, 'doc> {
     /// Paints a whole document.
     pub(super) fn tree(&mut self, tree: &usvg::Tree) -> Result<(), Fault> {
@@ -168,7 +171,8 @@ impl<'doc> Painter<'_, 'doc> {
             stroke: None,
             to_user: place.to_user,
         };
-        self.builder.fill_curved(place.shape, (area, rule), fill, self.scale)
+        let scale = self.scale_for(path, place, 0.0);
+        self.builder.fill_curved(place.shape, (area, rule), fill, scale)
     }
 
     fn stroke(&mut self, path: &Path, place: Place) -> Result<(), Fault> {
@@ -190,8 +194,20 @@ impl<'doc> Painter<'_, 'doc> {
         {
             self.warn_once("more than 200000 dashes; the line is drawn without gaps");
         }
+        let scale = self.scale_for(path, place, stroke.width().get());
         self.builder
-            .fill_curved(place.shape, (area, FillRule::NonZero), paint, self.scale)
+            .fill_curved(place.shape, (area, FillRule::NonZero), paint, scale)
+    }
+
+    /// Samples per user unit for which the edges of a path shall be fine enough: fewer where it is so large that they would
+    /// never end.
+    fn scale_for(&self, path: &Path, place: Place, width: f32) -> f64 {
+        let bounds = path.data().bounds();
+        let sides = [bounds.left(), bounds.top(), bounds.right(), bounds.bottom(), width];
+        let reach = sides.into_iter().map(|side| f64::from(side).abs()).fold(0.0, f64::max);
+        let matrix = place.to_user.matrix2;
+        let stretch = matrix.x_axis.length().max(matrix.y_axis.length());
+        self.scale.min(MOST_SAMPLES / (reach * stretch).max(f64::MIN_POSITIVE))
     }
 
     fn warn_once(&mut self, message: &str) {

@@ -25,6 +25,8 @@ const MAX_REFERENCES: u64 = 150_000;
 /// Elements inside a group with a marker that are looked at for the longest path.
 const MAX_INSIDE: usize = 1_000;
 
+const DEEP: &str = "elements inside each other, with those that are referred to";
+
 /// Most steps of usvg's own search for circles.
 const MAX_SEARCH: u64 = 200_000_000;
 
@@ -130,7 +132,7 @@ impl<'doc> Search<'_, 'doc> {
                 Some(None) => self.has_circles = true,
                 None => {
                     if open.len() >= MAX_DEPTH {
-                        let what = "elements inside each other, with those that are referred to";
+                        let what = DEEP;
                         return Err(listener.fault(Problem::TooMany { what, limit: MAX_DEPTH }, link.to, ""));
                     }
                     let next = self.open(link);
@@ -142,11 +144,17 @@ impl<'doc> Search<'_, 'doc> {
                 let what = "references to gradients, patterns, clip paths and masks";
                 return Err(listener.fault(Problem::TooMany { what, limit }, link.to, ""));
             }
-            if let Some(last) = open.last()
-                && (last.found.work > MAX_WORK || last.found.depth > MAX_DEPTH || self.steps > MAX_SEARCH)
-            {
-                let what = "elements, with those that references repeat";
-                let limit = usize::try_from(MAX_WORK).unwrap_or(usize::MAX);
+            if let Some(last) = open.last() {
+                let deep = last.found.depth > MAX_DEPTH;
+                let much = last.found.work > MAX_WORK || self.steps > MAX_SEARCH;
+                let (what, limit) = match (deep, much) {
+                    (true, _) => (DEEP, MAX_DEPTH),
+                    (_, true) => (
+                        "elements, with those that references repeat",
+                        usize::try_from(MAX_WORK).unwrap_or(usize::MAX),
+                    ),
+                    _ => continue,
+                };
                 return Err(listener.fault(Problem::TooMany { what, limit }, last.node, ""));
             }
         }

@@ -271,7 +271,8 @@ const BENCHES: Room = Room {
     rooms: &[
         "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
     ],
-    crates: &["serde_json", "sha2"],
+    // usvg is the peers' reader too.
+    crates: &["serde_json", "sha2", "usvg"],
 };
 
 #[test]

@@ -1,6 +1,7 @@
 //! What is read: both dialects, polygons into triangles, the gallery.
 
 mod course;
+mod drawing_files;
 mod drawings;
 mod gallery;
 mod hostile_drawings;

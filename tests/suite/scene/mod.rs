@@ -5,5 +5,6 @@ mod drawing_files;
 mod drawings;
 mod gallery;
 mod hostile_drawings;
+mod promised;
 mod svg;
 mod triangulation;

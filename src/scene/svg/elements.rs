@@ -36,7 +36,9 @@ impl<'doc> Elements<'doc> {
                 taken.extend(number_of(id));
             }
         }
-        let number = (0..).find(|number| !taken.contains(number)).unwrap_or(u64::MAX);
+        let number = (0..=taken.len() as u64)
+            .find(|number| !taken.contains(number))
+            .unwrap_or(u64::MAX);
         Self {
             prefix: format!("_{number}_"),
             given: Vec::new(),

@@ -76,16 +76,18 @@ fn generic(database: &mut Database) {
         Family::Fantasy,
         Family::Monospace,
     ];
-    let missing = families.map(|family| !is_there(database, &family));
-    let mut set: [Box<dyn FnMut(&mut Database)>; 5] = [
-        Box::new(|database| database.set_serif_family(SANS)),
-        Box::new(|database| database.set_sans_serif_family(SANS)),
-        Box::new(|database| database.set_cursive_family(SANS)),
-        Box::new(|database| database.set_fantasy_family(SANS)),
-        Box::new(|database| database.set_monospace_family(MONO)),
-    ];
-    for (set, _) in set.iter_mut().zip(missing).filter(|(_, missing)| *missing) {
-        set(database);
+    for family in families
+        .into_iter()
+        .filter(|family| !is_there(database, family))
+        .collect::<Vec<_>>()
+    {
+        match family {
+            Family::SansSerif => database.set_sans_serif_family(SANS),
+            Family::Cursive => database.set_cursive_family(SANS),
+            Family::Fantasy => database.set_fantasy_family(SANS),
+            Family::Monospace => database.set_monospace_family(MONO),
+            Family::Serif | Family::Name(_) => database.set_serif_family(SANS),
+        }
     }
 }
 

@@ -73,7 +73,7 @@ fn read_here<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, text: &s
         ..
     } = loading.into_inner().unwrap_or_else(PoisonError::into_inner);
     let tree = tree.map_err(|error| explain(&error, builder, root))?;
-    for message in missing.iter().filter_map(|missing| missing.message()) {
+    for message in missing.iter().filter_map(fonts::Missing::message) {
         builder.warn(letters.unwrap_or(root), message);
     }
     let canvas = DVec2::new(tree.size().width().into(), tree.size().height().into());

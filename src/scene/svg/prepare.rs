@@ -13,6 +13,13 @@ use crate::scene::{Problem, SkippedKind, attributes, numbers};
 /// Elements inside each other, at most: each takes usvg's stack.
 const MAX_DEPTH: usize = 1_000;
 
+/// Most bytes of one text, and how many a span counts for.
+const MAX_TEXT: usize = 20_000;
+const SPAN: usize = 8;
+
+/// Most stops of a gradient.
+const MAX_STOPS: usize = 100_000;
+
 /// Elements that usvg makes something of.
 const UNDERSTOOD: [&str; 31] = [
     "svg",
@@ -157,6 +164,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             return Err(self.listener.fault(Problem::TooFar, node, ""));
         }
         let heard = heard && look.displayed;
+        self.count(node)?;
         self.identify(node);
         match name {
             "image" => self.image(node, heard),
@@ -172,6 +180,28 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             heard,
         })
         .filter(|open| open.node.has_children()))
+    }
+
+    /// Refuses what takes usvg time that grows with the square of its length.
+    fn count(&mut self, node: Node<'doc, 'doc>) -> Result<(), Fault> {
+        let (what, limit, count) = match node.tag_name().name() {
+            "text" => {
+                let length = |node: Node<'_, '_>| {
+                    if node.is_element() {
+                        SPAN
+                    } else {
+                        node.text().map_or(0, str::len)
+                    }
+                };
+                ("characters in one text", MAX_TEXT, node.descendants().map(length).sum())
+            }
+            "linearGradient" | "radialGradient" => ("stops of one gradient", MAX_STOPS, node.children().count()),
+            _ => return Ok(()),
+        };
+        if count > limit {
+            return Err(self.listener.fault(Problem::TooMany { what, limit }, node, ""));
+        }
+        Ok(())
     }
 
     /// Gives the element an id if it needs one.

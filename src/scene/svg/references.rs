@@ -119,7 +119,7 @@ impl<'doc> Search<'_, 'doc> {
                 self.done.insert(closed.node.id(), Some(closed.found));
                 if let Some(parent) = open.last_mut() {
                     parent.found.add(closed.found, closed.times);
-                    self.count(closed.by, closed.found);
+                    self.count(closed.by, closed.found, closed.times);
                 }
                 continue;
             };
@@ -127,7 +127,7 @@ impl<'doc> Search<'_, 'doc> {
                 Some(Some(found)) => {
                     let found = *found;
                     last.found.add(found, link.times);
-                    self.count(link.by, found);
+                    self.count(link.by, found, link.times);
                 }
                 Some(None) => self.has_circles = true,
                 None => {
@@ -162,10 +162,10 @@ impl<'doc> Search<'_, 'doc> {
     }
 
     /// usvg looks through everything that is referred to, once for each reference.
-    fn count(&mut self, by: By, found: Found) {
+    fn count(&mut self, by: By, found: Found, times: u64) {
         if !matches!(by, By::Inside | By::Href) {
             self.steps = self.steps.saturating_add(found.work);
-            self.references += 1;
+            self.references = self.references.saturating_add(times);
         }
     }
 
@@ -224,8 +224,8 @@ const DEFINITIONS: [&str; 3] = ["pattern", "marker", "mask"];
 fn corners(node: Node<'_, '_>) -> u64 {
     let of_one = |node: Node<'_, '_>| {
         let data = node.attribute("d").or_else(|| node.attribute("points")).unwrap_or("");
-        // Two characters are the least that a corner takes.
-        (data.len() / 2) as u64
+        // A corner takes about as many characters, mostly more.
+        (data.len() / 4) as u64
     };
     node.descendants()
         .take(MAX_INSIDE)

@@ -3,8 +3,9 @@
 use egui::text::LayoutJob;
 use egui::{Align2, Color32, CursorIcon, FontId, Pos2, Rangef, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
 
-use super::floating::{insets, points, things};
+use super::floating::things;
 use super::pin;
+use super::places::{insets, points};
 use crate::viewer::{Arrangement, Viewer};
 
 /// Free space between a tag and what is beside it, in points.

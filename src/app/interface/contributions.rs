@@ -2,7 +2,7 @@
 
 use egui::{Color32, Mesh, Painter, Rect, Stroke, StrokeKind, Ui};
 
-use super::floating::{around, points};
+use super::places::{around, points};
 use crate::viewer::Viewer;
 
 /// What is lit, over anything: a light line on a dark one.

@@ -8,9 +8,9 @@ use egui::{
 };
 
 use super::controls::{command_button, tip};
-use super::floating::{around, points};
 use super::look::CONTROL;
 use super::look::opaque;
+use super::places::{around, points};
 use super::{compare, scrubber, texture_view};
 use crate::inspect::{Difference, Explanation, Paint, TexelPlace};
 use crate::render::Visualisation;

@@ -3,7 +3,7 @@
 use egui::{Rangef, Rect};
 
 use super::explanation::WIDTH;
-use super::floating::points;
+use super::places::points;
 use super::{look, pin};
 use crate::viewer::{Arrangement, AskedAt, Viewer};
 

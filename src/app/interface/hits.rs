@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Color32, FontId, Galley, Ui, pos2};
 
-use super::floating::points;
+use super::places::points;
 use crate::viewer::{Status, Viewer};
 
 /// The inset's ground is light in every theme.

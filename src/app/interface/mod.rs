@@ -21,6 +21,7 @@ mod look;
 mod messages;
 mod modal;
 mod pin;
+mod places;
 mod sampling;
 mod scenes;
 mod scrubber;
@@ -213,7 +214,7 @@ impl Interface {
         let places = viewer.pinned_places();
         places
             .iter()
-            .all(|place| floating::points(place, pixels_per_point).right() < left)
+            .all(|place| places::points(place, pixels_per_point).right() < left)
     }
 
     /// Takes the viewer's theme; to be called before a pass, which keeps the one that it begins with.
@@ -347,7 +348,7 @@ impl Interface {
                 return false;
             }
             let places = viewer.pinned_places();
-            let pin = places.first().map(|place| floating::points(place, scale).center().x);
+            let pin = places.first().map(|place| places::points(place, scale).center().x);
             pin.is_some_and(|x| {
                 let beside_left = x - room.left() - look::PANEL_WIDTH;
                 let beside_right = room.right() - look::PANEL_WIDTH - x;

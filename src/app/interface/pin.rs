@@ -2,7 +2,7 @@
 
 use egui::{Color32, Pos2, Rect, Stroke, Ui, Vec2};
 
-use super::floating::{around, insets, points};
+use super::places::{around, insets, points};
 use crate::viewer::Viewer;
 
 /// Radius of the ring around a pixel of no extent, in points.

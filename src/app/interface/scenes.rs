@@ -108,14 +108,19 @@ pub(super) fn height(viewer: &Viewer) -> f32 {
     TITLE + rows_height(viewer)
 }
 
-/// Height of the list without its heading, in points.
-pub(super) fn rows_height(viewer: &Viewer) -> f32 {
+/// Height of the list without its heading, in points, with the gap below its last row.
+fn rows_height(viewer: &Viewer) -> f32 {
     let heights = groups(viewer.scenes()).into_iter().map(|(heading, scenes)| {
         let rows = scenes.len().div_ceil(COLUMNS) as f32;
         let name = if heading.is_some() { FOLDER } else { 0.0 };
         name + rows * ROW
     });
     heights.sum()
+}
+
+/// Height of all rows of the list, in points.
+pub(super) fn all_rows(viewer: &Viewer) -> f32 {
+    rows_height(viewer) - GAP
 }
 
 /// The height of as many whole rows as a list of at most so many points shows from its beginning on.

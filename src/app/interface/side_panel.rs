@@ -124,7 +124,7 @@ impl Interface {
             }
             if memory.reports {
                 let room = match viewer.scenes().len() {
-                    1 if own_scroll => (ui.available_height() - scenes::rows_height(viewer)).max(REPORT),
+                    1 if own_scroll => (ui.available_height() - scenes::all_rows(viewer)).max(REPORT),
                     1 => LONG_REPORT,
                     _ => REPORT,
                 };

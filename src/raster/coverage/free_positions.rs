@@ -66,7 +66,7 @@ impl FreePositions {
         match shape {
             Shape::Triangle(corners) => self.triangle(*corners, rect, visit),
             Shape::Float(float) => self.float(float, rect, visit),
-            // None is made off the grid, or none has edges.
+            // These have no edges: `ShapeRows` knows them itself.
             Shape::Tile | Shape::Samples(_) | Shape::Pixels(_) => {}
             Shape::Outline(outline) => {
                 self.outlines.find(outline, (self.grid, &self.places), rect.y);

@@ -63,11 +63,11 @@ impl ShapeRows {
             Shape::Pixels(pixels) => pixels
                 .moved(rect.x.start, rect.y.start)
                 .each_run(|y, xs| visit(y, Covered::Whole(xs))),
-            _ if let Some(free_positions) = &mut self.free_positions => free_positions.each(shape, rect, visit),
             Shape::Samples(samples) => {
                 let samples = samples.moved(rect.x.start * side, rect.y.start * side);
                 each_covered(&mut MaskRows::new(samples), side, rect.x, visit);
             }
+            _ if let Some(free_positions) = &mut self.free_positions => free_positions.each(shape, rect, visit),
             Shape::Triangle(corners) => TriangleRows::of(*corners, self.settings, rect, |rows| {
                 each_covered(rows, side, rect.x, visit);
             }),

@@ -216,6 +216,7 @@ mod tests {
             match parsed(&line) {
                 Ok(Arguments {
                     verb: Verb::Render(options),
+                    ..
                 }) => assert_eq!(
                     options
                         .picture

@@ -139,7 +139,7 @@ impl Spread {
             Self::Reflect => 1.0 - (t.rem_euclid(2.0) - 1.0).abs(),
         };
         // In this order what is no number becomes 0.
-        folded.max(0.0).min(1.0)
+        if folded > 0.0 { folded.min(1.0) } else { 0.0 }
     }
 }
 

@@ -19,7 +19,7 @@ pub use area::area_in_pixel;
 pub use gradient::GradientShape;
 pub use path::{CurvedArea, Path, Stroke};
 pub use polygon::Polygon;
-pub use stroke::{LineCap, LineJoin, StrokeStyle, stroke_outline};
+pub use stroke::{LineCap, LineJoin, StrokeStyle};
 pub use triangulate::{FillRule, estimate_crossings, triangulate};
 pub use view::{View, ViewTransform};
 pub use width::width_in_window;

@@ -4,7 +4,7 @@
 //! the view asks for ([`CurvedArea::flattened`]). The offset curves of strokes and the flattening are `kurbo`'s.
 
 use glam::{DAffine2, DVec2};
-use kurbo::{BezPath, Cap, Join, PathEl, Point, Shape, StrokeOpts};
+use kurbo::{BezPath, Cap, Join, PathEl, PathSeg, Point, Shape, StrokeOpts};
 
 use super::{LineCap, LineJoin, StrokeStyle};
 
@@ -14,8 +14,8 @@ const LONGEST: f64 = 1e12;
 /// Most dashes of a path; with more of them it is drawn without gaps.
 const MAX_DASHES: f64 = 200_000.0;
 
-/// Most points of a flattened area; beyond, it is flattened more coarsely.
-const MAX_POINTS: usize = 4_000_000;
+/// About the most points of a flattened area; what would have more is flattened more coarsely.
+const MAX_POINTS: f64 = 4_000_000.0;
 
 /// Subpaths of lines, quadratic and cubic Bézier curves, in coordinates of its own. All coordinates are finite.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -116,35 +116,54 @@ impl CurvedArea {
     pub fn flattened(&self, tolerance: f64) -> Vec<Vec<DVec2>> {
         let matrix = self.to_user.matrix2;
         let stretch = matrix.x_axis.length().max(matrix.y_axis.length());
-        let mut own = tolerance / stretch;
-        if !own.is_finite() || own <= 0.0 {
+        let own = tolerance / stretch;
+        if own.is_nan() || own <= 0.0 {
             return Vec::new();
         }
-        loop {
-            let mut contours = match &self.stroke {
-                None => self.path.contours(own),
-                Some(stroke) => stroke.outline(&self.path, own),
-            };
-            if contours.iter().map(Vec::len).sum::<usize>() > MAX_POINTS && own < f64::MAX / 64.0 {
-                own *= 64.0;
-                continue;
-            }
-            for point in contours.iter_mut().flatten() {
-                *point = self.to_user.transform_point2(*point);
-            }
-            return contours;
+        // Points grow with the square root of the tolerance, so that this one leaves few enough.
+        let coarser = (self.points_at(own) / MAX_POINTS).max(1.0).powi(2);
+        let own = own * coarser;
+        if !own.is_finite() {
+            return Vec::new();
         }
+        let mut contours = match &self.stroke {
+            None => self.path.contours(own),
+            Some(stroke) => stroke.outline(&self.path, own),
+        };
+        for point in contours.iter_mut().flatten() {
+            *point = self.to_user.transform_point2(*point);
+        }
+        contours
+    }
+
+    /// About how many points the contours have at a tolerance in the path's own units; rather too many than too few.
+    fn points_at(&self, tolerance: f64) -> f64 {
+        let segments = self.path.segments() as f64;
+        let curves: f64 = self.path.0.segments().map(|segment| points_of(&segment, tolerance)).sum();
+        let Some(stroke) = &self.stroke else {
+            return segments + curves;
+        };
+        let round = stroke.style.cap == LineCap::Round || stroke.style.join == LineJoin::Round;
+        // A half circle at each end and corner.
+        let arc = if round { arc_points(stroke.style.width / 2.0, tolerance) } else { 0.0 };
+        let dashes = if stroke.dashes.is_empty() { 0.0 } else { stroke.dash_count(&self.path).min(MAX_DASHES) };
+        2.0 * curves + (segments + 2.0 * dashes) * (4.0 + arc)
     }
 }
 
 impl Stroke {
     /// Whether the dashes are so many that they are left out.
     pub fn is_too_fine(&self, path: &Path) -> bool {
+        let count = self.dash_count(path);
+        !self.dashes.is_empty() && (count.is_nan() || count > MAX_DASHES)
+    }
+
+    /// How many dashes and gaps there are along a path.
+    fn dash_count(&self, path: &Path) -> f64 {
         let period: f64 = self.dashes.iter().sum();
-        !self.dashes.is_empty() && {
-            let length = path.0.perimeter(self.style.width.max(f64::MIN_POSITIVE));
-            !(length * (self.dashes.len() as f64) / period <= MAX_DASHES)
-        }
+        // Control polygons are longer than their curves, and cost nothing to measure.
+        let length: f64 = path.0.segments().map(|segment| control_length(&segment)).sum();
+        length * (self.dashes.len() as f64) / period
     }
 
     /// Contours of the stroke in the path's own coordinates.
@@ -230,6 +249,34 @@ impl Stroke {
                 let circle = kurbo::Circle::new(point(center), 0.5).to_path(tolerance / 4.0);
                 Path(circle).contours(tolerance * 0.75).pop()
             }
+        }
+    }
+}
+
+/// About how many points a segment needs so that edges are within a tolerance: the error of one edge falls with the square of
+/// its length, and is an eighth of the curve's second derivative at first.
+fn points_of(segment: &PathSeg, tolerance: f64) -> f64 {
+    let bend = |a: Point, b: Point, c: Point| (a.to_vec2() - 2.0 * b.to_vec2() + c.to_vec2()).hypot();
+    let second = match segment {
+        PathSeg::Line(_) => return 0.0,
+        PathSeg::Quad(curve) => 2.0 * bend(curve.p0, curve.p1, curve.p2),
+        PathSeg::Cubic(curve) => 6.0 * bend(curve.p0, curve.p1, curve.p2).max(bend(curve.p1, curve.p2, curve.p3)),
+    };
+    (second / (8.0 * tolerance)).sqrt().ceil()
+}
+
+/// How many points a half circle needs.
+fn arc_points(radius: f64, tolerance: f64) -> f64 {
+    std::f64::consts::PI * (radius / (8.0 * tolerance)).sqrt().max(1.0)
+}
+
+/// The length of the lines between a segment's control points.
+fn control_length(segment: &PathSeg) -> f64 {
+    match segment {
+        PathSeg::Line(line) => line.p0.distance(line.p1),
+        PathSeg::Quad(curve) => curve.p0.distance(curve.p1) + curve.p1.distance(curve.p2),
+        PathSeg::Cubic(curve) => {
+            curve.p0.distance(curve.p1) + curve.p1.distance(curve.p2) + curve.p2.distance(curve.p3)
         }
     }
 }
@@ -395,9 +442,16 @@ mod tests {
                     };
                     let contours = stroked(path, style, dashes).flattened(0.01);
                     let count: usize = contours.iter().map(Vec::len).sum();
-                    assert!(count <= MAX_POINTS, "{count} points at {scale}, {width}");
+                    assert!(count as f64 <= 2.0 * MAX_POINTS, "{count} points at {scale}, {width}");
                 }
             }
+        }
+        let mut far = Path::default();
+        far.move_to(DVec2::ZERO);
+        far.cubic_to([DVec2::splat(1e30), DVec2::new(-1e30, 1e30)], DVec2::new(1e30, 0.0));
+        for area in [filled(far.clone()), stroked(far, STYLE, &[])] {
+            let count: usize = area.flattened(1e-6).iter().map(Vec::len).sum();
+            assert!(count as f64 <= 2.0 * MAX_POINTS, "{count} points of a curve without end");
         }
         let fine = stroked(line(&[[0.0, 0.0], [1000.0, 0.0]]), STYLE, &[1e-9, 1e-9]);
         assert!(

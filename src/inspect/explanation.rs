@@ -296,6 +296,7 @@ impl Question<'_> {
             file: self.file.to_owned(),
             line: shape.location.line,
             column: shape.location.column,
+            used: shape.used.map(|place| place.line),
             text: quotes.and_then(|quotes| quotes.excerpt(shape.location)),
         }
     }

@@ -236,6 +236,9 @@ pub struct Source {
     pub line: u32,
     /// See `line`.
     pub column: u32,
+    /// Line of the `use` that put it here, if one did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub used: Option<u32>,
     /// The line itself, where the document was kept; of one longer than 200 characters an excerpt around the element.
     pub text: Option<String>,
 }

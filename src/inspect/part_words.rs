@@ -55,6 +55,7 @@ impl Source {
         // An excerpt already.
         let quoted = self.text.iter().map(|text| text.replace('\t', " "));
         lines.extend(quoted.map(|text| format!("{} | {}", self.line, plain::line(&text))));
+        lines.extend(self.used.map(|line| format!("put here by the use in line {line}")));
         lines
     }
 }

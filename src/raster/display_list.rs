@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use crate::color::Premultiplied16;
 use crate::raster::binning::bins::{Bins, Plan};
 use crate::raster::coverage::free_positions::FreePositions;
-use crate::raster::coverage::shape_rows::ShapeRows;
+use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::list::chunk::{Chunk, measure_layers};
 use crate::raster::list::context::ListContext;
 use crate::raster::paint::method::Kinds;
@@ -112,7 +112,7 @@ impl<'a> DisplayList<'a> {
     }
 
     /// What finds coverage, in these columns of pixels.
-    pub(in crate::raster) fn shape_rows(&self, columns: Span) -> ShapeRows {
+    pub(in crate::raster) fn shape_coverage(&self, columns: Span) -> ShapeCoverage {
         let rows = self.grid_rows();
         if self.context.is_grid() {
             rows
@@ -121,10 +121,10 @@ impl<'a> DisplayList<'a> {
         }
     }
 
-    /// As [`DisplayList::shape_rows`] by spans, for samples that are those of the grid.
-    fn grid_rows(&self) -> ShapeRows {
+    /// As [`DisplayList::shape_coverage`] by spans, for samples that are those of the grid.
+    fn grid_rows(&self) -> ShapeCoverage {
         let columns = self.context.samples().columns.end;
-        ShapeRows::new((self.context.grid, self.context.rules), columns, self.outlines())
+        ShapeCoverage::new((self.context.grid, self.context.rules), columns, self.outlines())
     }
 
     /// What finds coverage in some columns of pixels sample by sample, wherever samples lie.

@@ -6,7 +6,7 @@ use std::time::Instant;
 use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::Work;
 use crate::raster::binning::visible::{first_visible, visible};
-use crate::raster::coverage::shape_rows::ShapeRows;
+use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::display_list::{DisplayList, Pass};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::frame::row::FrameRow;
@@ -24,9 +24,9 @@ const TIMED: usize = 7;
 #[derive(Debug)]
 pub(in crate::raster) struct Painters<'a> {
     direct: DirectPainter<'a>,
-    pub(in crate::raster) deferred: VisibilityPainter<'a>,
-    pub(in crate::raster) blended: PerSamplePainter<'a>,
-    pub(in crate::raster) shape_rows: ShapeRows,
+    pub(in crate::raster) visibility: VisibilityPainter<'a>,
+    pub(in crate::raster) per_sample: PerSamplePainter<'a>,
+    pub(in crate::raster) shape_coverage: ShapeCoverage,
     pub(in crate::raster) tally: Tally,
 }
 
@@ -43,9 +43,9 @@ impl DisplayList<'_> {
     pub(in crate::raster) fn painters_of(&self, columns: Span) -> Painters<'_> {
         Painters {
             direct: DirectPainter::new(self.shade_context()),
-            deferred: VisibilityPainter::new(self.shade_context()),
-            blended: PerSamplePainter::new(self.shade_context(), self.places()),
-            shape_rows: self.shape_rows(columns),
+            visibility: VisibilityPainter::new(self.shade_context()),
+            per_sample: PerSamplePainter::new(self.shade_context(), self.places()),
+            shape_coverage: self.shape_coverage(columns),
             tally: Tally::default(),
         }
     }
@@ -153,35 +153,35 @@ impl DisplayList<'_> {
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
                     painters
                         .direct
-                        .paint((&self.chunks[chunk], entries), &mut painters.shape_rows, block);
+                        .paint((&self.chunks[chunk], entries), &mut painters.shape_coverage, block);
                 }
                 painters.tally.counters.samples_shaded += std::mem::take(&mut painters.direct.samples_shaded);
             }
-            Method::Deferred => {
-                painters.deferred.begin(block.rect, background);
+            Method::Visibility => {
+                painters.visibility.begin(block.rect, background);
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
                     painters
-                        .deferred
-                        .paint(&self.chunks[chunk], entries, &mut painters.shape_rows);
+                        .visibility
+                        .paint(&self.chunks[chunk], entries, &mut painters.shape_coverage);
                 }
                 resolving = start.map(|_| Instant::now());
                 // Shading comes in between, and is none of it.
-                let shading = painters.deferred.resolve(block, start.is_some());
+                let shading = painters.visibility.resolve(block, start.is_some());
                 resolving = resolving.and_then(|start| start.checked_add(shading));
-                painters.tally.counters.samples_shaded += std::mem::take(&mut painters.deferred.samples_shaded);
+                painters.tally.counters.samples_shaded += std::mem::take(&mut painters.visibility.samples_shaded);
             }
-            Method::Blended => {
-                painters.blended.begin(block.rect, background);
+            Method::PerSample => {
+                painters.per_sample.begin(block.rect, background);
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
                     painters
-                        .blended
-                        .paint(&self.chunks[chunk], entries, &mut painters.shape_rows);
+                        .per_sample
+                        .paint(&self.chunks[chunk], entries, &mut painters.shape_coverage);
                 }
                 resolving = start.map(|_| Instant::now());
                 for y in block.rect.y.start..block.rect.y.end {
-                    painters.blended.resolve(y, block.line(y));
+                    painters.per_sample.resolve(y, block.line(y));
                 }
-                painters.tally.counters.samples_shaded += std::mem::take(&mut painters.blended.samples_shaded);
+                painters.tally.counters.samples_shaded += std::mem::take(&mut painters.per_sample.samples_shaded);
             }
         }
         if let Some(start) = start {

@@ -1,99 +1,255 @@
-//! What a user may change about the level of detail: a bias, a fixed level, and between which points footprints are measured.
+//! Which mip levels a footprint reads, and where along it.
+//!
+//! After the Vulkan specification, chapter "Image Operations", "Scale Factor Operation, LOD Operation and Image Level(s)
+//! Selection", and OpenGL 4.6, section 8.14.
 
-/// What a user may change about the level of detail.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LevelOfDetail {
-    /// Added to it.
-    pub bias: LodBias,
-    /// Takes its place, whatever the footprint is.
-    pub fixed: Option<FixedLevel>,
-    /// Between which points `(u, v)` is compared.
-    pub derivatives: Derivatives,
+use glam::DVec2;
+
+use super::detail_settings::FixedLevel;
+use super::{Footprint, LevelSampling, MipPyramid, SamplingSettings, Taps};
+
+/// Which levels a footprint reads: the finer one, and where two are mixed the next coarser and its weight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LevelChoice {
+    /// Number of the (finer) level.
+    pub level: usize,
+    /// Weight of level `level + 1`; zero when only one level is read.
+    pub next_weight: f32,
 }
 
-/// A number of levels that is added to the level of detail, `-16.0..=16.0`. Above zero it blurs, below it sharpens.
-#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
-pub struct LodBias(f64);
-
-/// A level of detail that a user fixes, `0.0..=16.0`; a pyramid that ends before is read at its last level.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-pub struct FixedLevel(f64);
-
-/// Between which points `(u, v)` is compared to find the footprint.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Derivatives {
-    /// From one pixel to the next: as GPUs do. The level does not change with the sample rate.
-    #[default]
-    Pixel,
-    /// From one sample to the next: each sample reads no more than its own part of the pixel.
-    Sample,
+/// How a footprint reads a pyramid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// The footprint that counts: a pixel's, or a sample's.
+    pub footprint: Footprint,
+    /// Where along it texels are read.
+    pub taps: Taps,
+    /// Level of detail with bias, not clamped.
+    pub lod: f64,
+    /// The levels that it leads to.
+    pub levels: LevelChoice,
 }
 
-impl LodBias {
-    /// The greatest bias; the least is its opposite.
-    pub const MAX: f64 = 16.0;
-
-    /// A bias of so many levels, or `None` unless that is -16 to 16.
-    pub fn new(levels: f64) -> Option<Self> {
-        // Adding turns -0 into 0.
-        (levels.abs() <= Self::MAX).then_some(Self(levels + 0.0))
-    }
-
-    /// So many levels more, kept within the limits; the same where `by` is no number.
-    #[must_use]
-    pub fn stepped(self, by: f64) -> Self {
-        Self::new((self.0 + by).clamp(-Self::MAX, Self::MAX)).unwrap_or(self)
-    }
-
-    /// In levels.
-    pub fn levels(self) -> f64 {
-        self.0
+impl Reading {
+    /// How `per_pixel`, the change of `(u, v)` from pixel to pixel, reads `pyramid`.
+    ///
+    /// The level of detail is `log2(longer side / ratio) + bias`, see [`Taps`]; a fixed level stands in for the
+    /// logarithm. Level sampling zero reads level 0 whatever the bias; only a fixed level is read there too, rounded.
+    pub fn new(per_pixel: &Footprint, pyramid: &MipPyramid, settings: &SamplingSettings) -> Self {
+        let (base, last) = (&pyramid.levels()[0], pyramid.last_level());
+        let size = DVec2::new(f64::from(base.width()), f64::from(base.height()));
+        let detail = &settings.detail;
+        let footprint = per_pixel.scaled(detail.derivatives.step(settings.sample_step));
+        let taps = Taps::new(&footprint, size, settings.anisotropy);
+        let computed = || {
+            let longer = footprint.level_of_detail(size);
+            if taps.count == 1 {
+                longer
+            } else {
+                longer - taps.ratio.log2()
+            }
+        };
+        let lod = detail.fixed.map_or_else(computed, FixedLevel::level) + detail.bias.levels();
+        let sampling = match settings.level {
+            LevelSampling::Zero if detail.fixed.is_some() => LevelSampling::Nearest,
+            sampling => sampling,
+        };
+        Self {
+            footprint,
+            taps,
+            lod,
+            levels: LevelChoice::new(lod, last, sampling),
+        }
     }
 }
 
-impl FixedLevel {
-    /// The greatest level that can be asked for.
-    pub const MAX: f64 = 16.0;
-    /// The greatest level that keys go to.
-    pub const LAST_STEP: f64 = 8.0;
-
-    /// The level `level`, or `None` unless that is 0 to 16.
-    pub fn new(level: f64) -> Option<Self> {
-        (0.0..=Self::MAX).contains(&level).then_some(Self(level + 0.0))
+impl LevelChoice {
+    /// The levels that are read at a level of detail, of levels `0..=last`.
+    pub fn new(lod: f64, last: usize, sampling: LevelSampling) -> Self {
+        let lod = lod.clamp(0.0, last as f64);
+        match sampling {
+            LevelSampling::Zero => Self {
+                level: 0,
+                next_weight: 0.0,
+            },
+            LevelSampling::Nearest => Self {
+                level: whole(lod + 0.5).min(last),
+                next_weight: 0.0,
+            },
+            LevelSampling::Linear => {
+                let level = whole(lod).min(last);
+                Self {
+                    level,
+                    next_weight: fraction(lod - level as f64),
+                }
+            }
+        }
     }
+}
 
-    /// What a key goes to: the whole level after this one, up to [`FixedLevel::LAST_STEP`], then none, then 0.
-    pub fn after(current: Option<Self>) -> Option<Self> {
-        match current {
-            None => Some(Self(0.0)),
-            Some(Self(level)) if level >= Self::LAST_STEP => None,
-            Some(Self(level)) => Some(Self(level.floor() + 1.0)),
+/// The whole part of a clamped level of detail.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a level of detail is clamped to 0..=30"
+)]
+fn whole(lod: f64) -> usize {
+    lod as usize
+}
+
+/// The fractional part of a level of detail as a weight.
+#[expect(clippy::cast_possible_truncation, reason = "a weight in 0..1 loses only digits")]
+fn fraction(weight: f64) -> f32 {
+    weight as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Anisotropy, Derivatives, LevelOfDetail, LodBias, MipLevel};
+    use super::*;
+
+    /// A footprint of `texels` texels of a base of 64 x 64 per pixel in both directions.
+    fn footprint(texels: f64) -> Footprint {
+        Footprint {
+            dx: DVec2::new(texels / 64.0, 0.0),
+            dy: DVec2::new(0.0, texels / 64.0),
         }
     }
 
-    /// Counted from the base, which is 0.
-    pub fn level(self) -> f64 {
-        self.0
+    fn pyramid() -> MipPyramid {
+        MipPyramid::build(MipLevel::new(64, 64, vec![[0, 0, 0, 255]; 64 * 64]))
     }
-}
 
-impl Derivatives {
-    /// Every value, in the order of menus.
-    pub const ALL: [Self; 2] = [Self::Pixel, Self::Sample];
+    fn choose(texels: f64, level: LevelSampling, detail: LevelOfDetail) -> LevelChoice {
+        let settings = SamplingSettings {
+            level,
+            detail,
+            ..SamplingSettings::default()
+        };
+        Reading::new(&footprint(texels), &pyramid(), &settings).levels
+    }
 
-    /// The name used in the command line and the interface.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Pixel => "pixel",
-            Self::Sample => "sample",
+    #[test]
+    fn levels_follow_the_level_of_detail() {
+        let plain = LevelOfDetail::default();
+        let choose = |texels: f64, sampling| choose(texels, sampling, plain);
+        assert_eq!(choose(40.0, LevelSampling::Zero).level, 0, "zero is zero");
+        let nearest = |lod: f64| choose(lod.exp2(), LevelSampling::Nearest).level;
+        assert_eq!((nearest(1.49), nearest(1.51)), (1, 2), "rounded to nearest");
+        let mixed = choose(2.25_f64.exp2(), LevelSampling::Linear);
+        assert_eq!(mixed.level, 2, "between 2 and 3");
+        assert!((mixed.next_weight - 0.25).abs() < 1e-6, "a quarter of level 3");
+        let last = choose(1e9, LevelSampling::Linear);
+        let top = LevelChoice {
+            level: 6,
+            next_weight: 0.0,
+        };
+        assert_eq!(last, top, "never beyond the last");
+    }
+
+    #[test]
+    fn bias_moves_levels_monotonously_and_is_clamped() {
+        for texels in [0.1, 1.0, 3.7, 50.0] {
+            for sampling in [LevelSampling::Nearest, LevelSampling::Linear] {
+                let mut before = 0.0;
+                for step in -64..=64 {
+                    let bias = LodBias::new(f64::from(step) / 4.0).expect("within limits");
+                    let detail = LevelOfDetail {
+                        bias,
+                        ..LevelOfDetail::default()
+                    };
+                    let found = choose(texels, sampling, detail);
+                    let level = found.level as f64 + f64::from(found.next_weight);
+                    assert!(
+                        level >= before && level <= 6.0,
+                        "{texels}, {sampling:?}, {bias:?}: {found:?} after {before}"
+                    );
+                    before = level;
+                }
+                assert!(before > 5.99, "16 levels more are the last one");
+            }
+        }
+        let detail = LevelOfDetail {
+            bias: LodBias::new(3.0).expect("within limits"),
+            ..LevelOfDetail::default()
+        };
+        assert_eq!(choose(1.0, LevelSampling::Nearest, detail).level, 3, "three more");
+        assert_eq!(choose(1.0, LevelSampling::Zero, detail).level, 0, "zero is zero");
+    }
+
+    #[test]
+    fn fixed_level_is_read_whatever_the_footprint() {
+        let fixed = |level: f64| LevelOfDetail {
+            fixed: FixedLevel::new(level),
+            ..LevelOfDetail::default()
+        };
+        for texels in [0.0, 0.3, 1.0, 77.0, f64::NAN] {
+            let mixed = choose(texels, LevelSampling::Linear, fixed(2.5));
+            assert_eq!(mixed.level, 2, "two and a half of {texels}");
+            assert!((mixed.next_weight - 0.5).abs() < 1e-6, "a half");
+            assert_eq!(choose(texels, LevelSampling::Nearest, fixed(2.4)).level, 2, "rounded");
+            assert_eq!(
+                choose(texels, LevelSampling::Zero, fixed(3.0)).level,
+                3,
+                "also for zero"
+            );
+            assert_eq!(choose(texels, LevelSampling::Linear, fixed(16.0)).level, 6, "the last");
         }
     }
 
-    /// How far apart the points are, in pixels, where samples are `sample_step` apart.
-    pub fn step(self, sample_step: f64) -> f64 {
-        match self {
-            Self::Pixel => 1.0,
-            Self::Sample => sample_step,
+    #[test]
+    fn derivatives_per_sample_see_a_sample_only() {
+        let settings = SamplingSettings {
+            level: LevelSampling::Nearest,
+            detail: LevelOfDetail {
+                derivatives: Derivatives::Sample,
+                ..LevelOfDetail::default()
+            },
+            sample_step: 0.25,
+            ..SamplingSettings::default()
+        };
+        let reading = Reading::new(&footprint(16.0), &pyramid(), &settings);
+        assert_eq!(reading.levels.level, 2, "two levels finer");
+        assert_eq!(reading.footprint, footprint(4.0), "a quarter");
+    }
+
+    #[test]
+    fn anisotropy_reads_the_level_of_the_shorter_side() {
+        let settings = |most| SamplingSettings {
+            level: LevelSampling::Linear,
+            anisotropy: Anisotropy::new(most).expect("a maximum"),
+            ..SamplingSettings::default()
+        };
+        let long = Footprint {
+            dx: DVec2::new(16.0 / 64.0, 0.0),
+            dy: DVec2::new(0.0, 2.0 / 64.0),
+        };
+        for (most, lod, count) in [(1, 4.0, 1), (2, 3.0, 2), (8, 1.0, 8), (64, 1.0, 8)] {
+            let reading = Reading::new(&long, &pyramid(), &settings(most));
+            assert!((reading.lod - lod).abs() < 1e-9, "{most}: {reading:?}");
+            assert_eq!(reading.taps.count, count, "{most}");
         }
+    }
+
+    #[test]
+    fn values_beyond_the_limits_are_none() {
+        for wrong in [16.1, -16.1, f64::NAN, f64::INFINITY] {
+            assert_eq!(LodBias::new(wrong), None, "bias {wrong}");
+        }
+        for wrong in [16.1, -0.1, f64::NAN, f64::INFINITY] {
+            assert_eq!(FixedLevel::new(wrong), None, "level {wrong}");
+        }
+        let most = LodBias::new(15.75).expect("within limits");
+        assert!((most.stepped(0.5).levels() - 16.0).abs() < 1e-12, "kept within limits");
+        assert_eq!(most.stepped(f64::NAN), most, "nothing");
+        let mut steps = vec![];
+        let mut level = FixedLevel::after(None);
+        while let Some(fixed) = level {
+            steps.push(fixed.level());
+            level = FixedLevel::after(level);
+        }
+        assert_eq!(steps, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], "then none");
+        let zero = LodBias::new(-0.0).expect("nothing");
+        assert!(zero.levels().is_sign_positive(), "no minus is shown");
     }
 }

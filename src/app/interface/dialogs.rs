@@ -11,6 +11,10 @@ use super::sheet::SheetDialog;
 use crate::viewer::commands::{self, GESTURES};
 use crate::viewer::{Action, Command, CommandSpec, Dialog, Group, Viewer};
 
+/// Height of a command in the palette, and of the gap below it, in points.
+const ENTRY: f32 = CONTROL.y + 2.0;
+const BETWEEN_ENTRIES: f32 = 1.0;
+
 /// What was typed into the dialogs.
 #[derive(Debug, Default)]
 pub(super) struct Dialogs {
@@ -183,10 +187,12 @@ impl Dialogs {
                 let mut run = found.get(self.chosen).copied().filter(|_| enter);
                 super::look::bars_beside(ui);
                 // An area keeps the height that it had: without a least height, a list that a filter made short stays so.
-                let height = screen.height() * 0.6;
+                // It ends below a row, so that what is cut off is not taken for all.
+                let row = ENTRY + BETWEEN_ENTRIES;
+                let height = (screen.height() * 0.6 / row).floor().max(1.0) * row - BETWEEN_ENTRIES;
                 let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
                 area.show(ui, |ui| {
-                    ui.spacing_mut().item_spacing.y = 1.0;
+                    ui.spacing_mut().item_spacing.y = BETWEEN_ENTRIES;
                     for (index, spec) in found.iter().enumerate() {
                         let chosen = index == self.chosen;
                         let response = entry(ui, spec, chosen);
@@ -259,7 +265,7 @@ fn entry(ui: &mut Ui, spec: &CommandSpec, chosen: bool) -> egui::Response {
     // Where both do not fit, the end of what may follow gives way; the name is always whole.
     let keys = RichText::new(keys).small().atom_shrink(true);
     let button = Button::selectable(chosen, spec.name).right_text(keys).truncate();
-    ui.add_sized([ui.available_width(), CONTROL.y + 2.0], button)
+    ui.add_sized([ui.available_width(), ENTRY], button)
         .accessible_name(spec.name)
 }
 

@@ -6,7 +6,6 @@ use crate::viewer::InspectorCommand;
 use egui::{Align2, Area, Button, Color32, FontId, Id, Order, Pos2, Rect, Ui, Vec2};
 use egui::{pos2, vec2};
 
-use super::controls::tip;
 use super::look::CONTROL;
 use super::pin;
 use super::places::{insets, points};
@@ -186,7 +185,7 @@ fn close_of_inset(ui: &Ui, inset: Rect, commands: &mut Vec<Command>) {
         .fade_in(false)
         .show(ui.ctx(), |ui| ui.add(Button::new("\u{d7}").min_size(CONTROL)))
         .inner
-        .on_hover_text(tip("inspector"))
+        .on_hover_text("Closes the pixel inspector, and forgets the pinned pixel")
         .accessible_name("Close the inspector");
     if button.clicked() {
         commands.push(Command::Inspector(InspectorCommand::Show(Toggle::Off)));

@@ -6,7 +6,7 @@
     reason = "inside the window"
 )]
 
-use crate::viewer::{AbCommand, InspectorCommand, SceneCommand, WindowCommand};
+use crate::viewer::{AbCommand, Against, InspectorCommand, SceneCommand, WindowCommand};
 use std::path::PathBuf;
 
 use glam::{DVec2, dvec2};
@@ -166,6 +166,35 @@ fn magnifiers_lie_beside_both_pictures() {
                 assert!(covered < whole * 0.05, "{inset:?} over {picture:?} in {window:?}");
             }
         }
+    }
+}
+
+#[test]
+fn magnifiers_follow_their_pictures_to_the_other_half() {
+    let mut session = side_by_side([1366, 768]);
+    session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+    session.command(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
+    session.settle();
+    let free = session.free_area.expect("there is room");
+    right_click(&mut session, [free.x as f64 + f64::from(free.width) * 0.3, 350.0]);
+    click_on(&mut session, CLOSE);
+    for own_is_left in [true, false] {
+        let free = session.free_area.expect("there is room");
+        let middle = free.x + i64::from(free.width / 2);
+        let [own, other] =
+            [session.viewer.inset(), session.viewer.other_inset()].map(|placed| placed.expect("room").rect);
+        assert_eq!(
+            own.right() <= middle,
+            own_is_left,
+            "A's lies in A's half: {own:?} of {free:?}"
+        );
+        assert_eq!(
+            other.right() <= middle,
+            !own_is_left,
+            "B's in B's: {other:?} of {free:?}"
+        );
+        session.command(Command::Ab(AbCommand::Swap));
+        session.settle();
     }
 }
 

@@ -9,6 +9,7 @@ use glam::{DVec2, dvec2};
 
 use super::*;
 use crate::viewer::script::Stage as _;
+use crate::viewer::{Dialog, KeyPress};
 use crate::viewer::{Toggle, ViewerOptions};
 
 /// A session at rest on these files, or on the gallery.

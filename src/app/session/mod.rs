@@ -8,6 +8,7 @@ mod comparing;
 mod damage;
 #[cfg(test)]
 mod hands;
+mod input;
 #[cfg(test)]
 mod lessons;
 #[cfg(test)]
@@ -16,6 +17,7 @@ mod room;
 #[cfg(test)]
 mod small_windows;
 mod stage;
+mod surface;
 #[cfg(test)]
 mod tests;
 
@@ -24,16 +26,14 @@ use std::collections::VecDeque;
 use std::io::Write as _;
 use std::time::{Duration, Instant};
 
-use egui::{Event, PlatformOutput, Pos2, RawInput, Rect, ViewportId, pos2, vec2};
+use egui::{Event, PlatformOutput, Pos2, RawInput, Rect, ViewportId, vec2};
 use glam::DVec2;
 
 use super::interface::{Asked, Interface};
 use super::overlay::{CanvasRect, Output, Overlay};
 use crate::plain;
 use crate::raster::Framebuffer;
-use crate::viewer::{
-    Command, Dialog, Effect, Key, KeyPress, Modifiers, PixelRect, PointerButton, Viewer, WindowPixels, commands,
-};
+use crate::viewer::{Command, Effect, Modifiers, PixelRect, PointerButton, Viewer};
 use damage::Damage;
 use room::{PanelRoom, Wanted};
 
@@ -252,83 +252,6 @@ impl Session {
         }
     }
 
-    /// The command that a key asks for, unless a line of text or an open list wants the key.
-    pub(super) fn command_for(&self, press: &KeyPress) -> Option<Command> {
-        if press.logical == Some(Key::Escape) && self.interface.list_is_open() {
-            return None;
-        }
-        let command = commands::for_key(press)?;
-        let typing = self.interface.has_keyboard();
-        let asks = matches!(
-            self.viewer.dialog(),
-            Some(Dialog::Palette | Dialog::GoToPixel | Dialog::ComparePicture)
-        );
-        let passes = match press.logical {
-            _ if !typing && !asks => true,
-            Some(Key::Escape) => asks,
-            Some(Key::F(_)) => true,
-            Some(Key::Char(c)) => press.modifiers.contains(Modifiers::CTRL) && !"acvxyz".contains(c),
-            _ => false,
-        };
-        passes.then(|| command.clone())
-    }
-
-    /// A pointer at `at`, in window pixels, or none in the window. True if the picture has it.
-    pub(super) fn pointer_at(&mut self, at: Option<DVec2>) -> bool {
-        self.pointer = at;
-        let on_picture = self.holds_picture || self.is_on_picture();
-        match at {
-            Some(at) if on_picture => self.run(Command::Pointer(PointerCommand::Moved { at })),
-            _ if self.viewer.pointer().is_some() => self.run(Command::Pointer(PointerCommand::Left)),
-            _ => {}
-        }
-        on_picture
-    }
-
-    /// A button of the mouse at the pointer's place. True if the picture took it.
-    pub(super) fn pointer_button(&mut self, button: PointerButton, down: bool) -> bool {
-        if down && self.is_on_picture() {
-            self.holds_picture = button == PointerButton::Primary;
-            self.run(Command::Pointer(PointerCommand::Pressed(button)));
-            return true;
-        }
-        if !down && self.holds_picture {
-            self.holds_picture = false;
-            self.run(Command::Pointer(PointerCommand::Released(button)));
-            self.pointer_at(self.pointer);
-            return true;
-        }
-        false
-    }
-
-    /// Turns of the wheel. True if the picture took them.
-    pub(super) fn turn_wheel(&mut self, clicks: f64) -> bool {
-        let on_picture = self.is_on_picture();
-        if on_picture {
-            self.run(Command::Pointer(PointerCommand::Wheel { clicks }));
-        }
-        on_picture
-    }
-
-    /// Two fingers on a touch pad. True if the picture took them.
-    pub(super) fn pinch(&mut self, factor: f64) -> bool {
-        let on_picture = self.is_on_picture();
-        if on_picture {
-            self.run(Command::Pointer(PointerCommand::Pinch { factor }));
-        }
-        on_picture
-    }
-
-    fn is_on_picture(&self) -> bool {
-        self.pointer
-            .is_some_and(|at| !self.interface.covers(self.to_points(at)))
-    }
-
-    #[expect(clippy::cast_possible_truncation, reason = "window pixels are small")]
-    fn to_points(&self, at: DVec2) -> Pos2 {
-        pos2(at.x as f32, at.y as f32) / self.scale
-    }
-
     /// Seconds on the panels' clock.
     fn now(&self) -> f64 {
         match self.clock {
@@ -421,84 +344,6 @@ impl Session {
         any
     }
 
-    /// From now on quick frames wait for [`Session::draw_frame`] instead of being drawn by a thread.
-    pub(super) fn lend_surface(&mut self) {
-        self.viewer.lend_surface();
-    }
-
-    /// Draws the frame that waits for it, if there is one, straight into a surface with rows of `width` pixels that was
-    /// composed `age` calls ago. What the surface holds then is for [`Session::compose`] to know.
-    pub(super) fn draw_frame(&mut self, surface: &mut [u32], width: u32, age: u8) -> Holds {
-        let size = self.window();
-        let drawn = fits(size, surface, width) && self.viewer.draw_frame(&mut WindowPixels { size, pixels: surface });
-        if drawn { Holds::Frame } else { Holds::Composed(age) }
-    }
-
-    /// Brings a surface up to date and says which parts it wrote. Its rows are `width` pixels long. Where the size is not
-    /// the window's, nothing is written: another call with the right size follows.
-    pub(super) fn compose(&mut self, surface: &mut [u32], width: u32, holds: Holds) -> Vec<PixelRect> {
-        let size = self.window();
-        if !fits(size, surface, width) {
-            return Vec::new();
-        }
-        let panels = std::mem::replace(&mut self.damage, Damage::none(size));
-        let picture = self.viewer.take_damage().filter(|_| panels.is_for(size));
-        self.composed.truncate(LONGEST_AGE);
-        if let (Holds::Frame, Some(parts)) = (holds, &picture) {
-            // All of it is new, but only what changed since the frame was drawn must come from the frame.
-            self.composed.push_front(Damage::all(size));
-            let whole = PixelRect::of_size(size);
-            let mut window = WindowPixels { size, pixels: surface };
-            self.viewer.draw_parts(parts, &mut window);
-            self.viewer.draw_over(&[whole], &mut window);
-            self.overlay.canvas().lay_over(window.pixels);
-            return vec![whole];
-        }
-        let mut now = match picture {
-            Some(parts) => parts.iter().fold(panels, |mut damage, part| {
-                damage.add(part);
-                damage
-            }),
-            None => Damage::all(size),
-        };
-        self.composed.push_front(now.clone());
-        let before = match holds {
-            Holds::Composed(age) => usize::from(age),
-            Holds::Frame => 0,
-        };
-        if before == 0 || before > self.composed.len() {
-            now = Damage::all(size);
-        }
-        self.composed.iter().take(before).for_each(|damage| now.join(damage));
-        let parts = now.rects();
-        self.write(surface, size, &parts);
-        parts
-    }
-
-    /// Writes parts of the window: the picture, straight from the frame, and the panels over it.
-    fn write(&self, surface: &mut [u32], size: [u32; 2], parts: &[PixelRect]) {
-        let mut window = WindowPixels { size, pixels: surface };
-        self.viewer.draw_parts(parts, &mut window);
-        for part in parts {
-            self.overlay.canvas().lay_part_over(canvas_rect(part), window.pixels);
-        }
-    }
-
-    fn window(&self) -> [u32; 2] {
-        self.viewer.window_size().map(|side| side.min(Framebuffer::MAX_SIDE))
-    }
-
-    /// The picture of the whole window.
-    pub(super) fn picture(&self) -> Framebuffer {
-        let size = self.window();
-        let mut picture = Framebuffer::new(size[0], size[1]);
-        self.write(picture.pixels_mut(), size, &[PixelRect::of_size(size)]);
-        for pixel in picture.pixels_mut() {
-            *pixel |= 0xff00_0000;
-        }
-        picture
-    }
-
     /// Saves the pictures of the window that were asked for, once it shows the final picture.
     fn save_pictures(&mut self) {
         if self.outbox.pictures == 0 || !self.viewer.is_final() {
@@ -517,22 +362,6 @@ impl Session {
             ..RawInput::default()
         };
         self.turn(input)
-    }
-}
-
-/// Whether a surface has a window's size.
-fn fits(size: [u32; 2], surface: &[u32], width: u32) -> bool {
-    size[0] == width && surface.len() == size[0] as usize * size[1] as usize
-}
-
-/// A part of the window as a part of the overlay.
-fn canvas_rect(part: &PixelRect) -> CanvasRect {
-    let edge = |at: i64| u32::try_from(at.max(0)).unwrap_or(u32::MAX);
-    CanvasRect {
-        left: edge(part.x),
-        top: edge(part.y),
-        right: edge(part.right()),
-        bottom: edge(part.bottom()),
     }
 }
 

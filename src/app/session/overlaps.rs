@@ -5,7 +5,7 @@
 
 use crate::viewer::{AbCommand, ExportCommand, InspectorCommand, WindowCommand};
 
-use egui::vec2;
+use egui::{pos2, vec2};
 
 use super::lessons::at_step;
 use super::small_windows::comparing;

@@ -10,6 +10,7 @@ use glam::{DVec2, dvec2};
 use super::hands::{click, key, nodes, place_of, session};
 use super::*;
 use crate::render::Visualisation;
+use crate::viewer::Dialog;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Against, Arrangement, Toggle};
 

@@ -4,11 +4,13 @@ use crate::viewer::{InspectorCommand, ViewCommand};
 use std::path::Path;
 use std::sync::Arc;
 
+use egui::pos2;
 use glam::DVec2;
 
 use super::*;
 use crate::viewer::ViewerOptions;
 use crate::viewer::script::Stage as _;
+use crate::viewer::{Key, KeyPress};
 
 /// A session on a scene of the gallery, and a surface that its window shows.
 struct Desk {

@@ -383,7 +383,7 @@ mod tests {
     use crate::color::{ResolveSpace, Rgba};
     use crate::raster::binning::tile_command::Work;
     use crate::raster::coverage::shape::Shape;
-    use crate::raster::coverage::shape_rows::ShapeRows;
+    use crate::raster::coverage::shape_coverage::ShapeCoverage;
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::random::{fill, noise};
     use crate::raster::shading::Paint;
@@ -425,7 +425,7 @@ mod tests {
     /// How many samples a triangle or outline covers in a rectangle of pixels.
     fn covered(command: TileCommand, chunk: &Chunk, (context, rect): (&ListContext, PixelRect)) -> usize {
         let side = context.grid.side();
-        let mut rows = ShapeRows::new(
+        let mut rows = ShapeCoverage::new(
             (context.grid, context.rules),
             context.samples().columns.end,
             chunk.outlines.len(),

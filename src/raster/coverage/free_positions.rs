@@ -66,7 +66,7 @@ impl FreePositions {
         match shape {
             Shape::Triangle(corners) => self.triangle(*corners, rect, visit),
             Shape::Float(float) => self.float(float, rect, visit),
-            // These have no edges: `ShapeRows` knows them itself.
+            // These have no edges: `ShapeCoverage` knows them itself.
             Shape::Tile | Shape::Samples(_) | Shape::Pixels(_) => {}
             Shape::Outline(outline) => {
                 self.outlines.find(outline, (self.grid, &self.places), rect.y);
@@ -342,12 +342,12 @@ mod tests {
             .iter()
             .zip(bins.iter().map(|bins| bins.of_tile(0)))
             .collect();
-        let mut shape_rows = list.shape_rows(column);
+        let mut shape_coverage = list.shape_coverage(column);
         if scattered {
-            shape_rows = shape_rows.with(list.free_positions(column));
+            shape_coverage = shape_coverage.with(list.free_positions(column));
         }
         let mut painter = PerSamplePainter::new(list.shade_context(), list.places());
-        let (painted, samples) = painter.replay(&chunks, (pixel, list.background()), &mut shape_rows);
+        let (painted, samples) = painter.replay(&chunks, (pixel, list.background()), &mut shape_coverage);
         (painted, samples.into_iter().map(|(color, _)| color).collect())
     }
 

@@ -1,4 +1,5 @@
-//! Which samples a shape covers. This is the one place where edges are decided.
+//! Which samples a shape covers. This is the one place where edges are asked; who owns a line that two shapes share is
+//! decided in [`crate::geometry::edge`].
 //!
 //! Positions are fixed-point and edge functions are integers, so every answer is exact and ties are ties. Where samples
 //! lie on a grid, a shape becomes spans of a row of samples:
@@ -11,7 +12,7 @@
 //! # One way to the painters
 //!
 //! Every shape reaches every painter in one form, [`covered`]: runs of pixels of which all samples are covered, and for each
-//! pixel on an edge a mask of its samples. It comes through one door, [`shape_rows`]:
+//! pixel on an edge a mask of its samples. It comes through one door, [`shape_coverage`]:
 //!
 //! ```text
 //!      triangle        polygon_rows, float_shape     mask8x8      free_positions, free_positions_polygon
@@ -60,7 +61,7 @@ pub(in crate::raster) mod pixel_rows_4x4;
 pub(in crate::raster) mod polygon;
 pub(in crate::raster) mod polygon_rows;
 pub(in crate::raster) mod shape;
-pub(in crate::raster) mod shape_rows;
+pub(in crate::raster) mod shape_coverage;
 pub(in crate::raster) mod simple_polygon_rows;
 pub(in crate::raster) mod span_rows;
 pub(in crate::raster) mod triangle;

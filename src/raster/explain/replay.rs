@@ -110,9 +110,10 @@ impl DisplayList<'_> {
             start: at[0],
             end: at[0] + 1,
         });
-        let (painted, samples) = painters
-            .blended
-            .replay(&chunks, (at, self.background()), &mut painters.shape_rows);
+        let (painted, samples) =
+            painters
+                .per_sample
+                .replay(&chunks, (at, self.background()), &mut painters.shape_coverage);
         let cancelled = AtomicBool::new(false);
         let pass = Pass {
             bins,
@@ -121,8 +122,8 @@ impl DisplayList<'_> {
             tally: SharedTally::default(),
         };
         let pixel = self.alone(&pass, &mut painters, at);
-        let deferred = self.method(&pass, 0, first_visible(&pass.bins, 0)) == Method::Deferred;
-        let shaded = deferred.then(|| painters.deferred.shaded_sums()).flatten();
+        let by_visibility = self.method(&pass, 0, first_visible(&pass.bins, 0)) == Method::Visibility;
+        let shaded = by_visibility.then(|| painters.visibility.shaded_sums()).flatten();
         let positions = self.positions(at);
         let weights = self.shade_context().filter.weights(&positions);
         Some(PixelReplay {

@@ -4,7 +4,7 @@ use crate::geometry::subpixel::GridPoint;
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::shape::Shape;
-use crate::raster::coverage::shape_rows::ShapeRows;
+use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::list::chunk::Chunk;
 use crate::raster::shading::context::{Pixels, ShadeContext};
@@ -37,7 +37,7 @@ impl<'a> DirectPainter<'a> {
     pub(crate) fn paint(
         &mut self,
         (chunk, entries): (&Chunk, &[TileCommand]),
-        shape_rows: &mut ShapeRows,
+        shape_coverage: &mut ShapeCoverage,
         block: &mut PixelBlock<'_>,
     ) {
         let rules = self.context.sampling.rules;
@@ -49,7 +49,7 @@ impl<'a> DirectPainter<'a> {
                 }
                 Work::Flat(shape, color) => {
                     let pixel = color.to_pixel(rules);
-                    shape_rows.each(shape, block.rect, |y, covered| {
+                    shape_coverage.each(shape, block.rect, |y, covered| {
                         if let Covered::Whole(xs) = covered {
                             block.span(y, xs).fill(pixel);
                         }
@@ -60,7 +60,7 @@ impl<'a> DirectPainter<'a> {
                     places.clear();
                     let PixelRect { x: left, y: top } = block.rect;
                     let inside = |from: i32, to: i32| u16::try_from(to - from).unwrap_or(u16::MAX);
-                    shape_rows.each(shape, block.rect, |y, covered| {
+                    shape_coverage.each(shape, block.rect, |y, covered| {
                         if let Covered::Whole(xs) = covered {
                             let row = inside(top.start, y);
                             let columns = inside(left.start, xs.start)..inside(left.start, xs.end);

@@ -13,16 +13,16 @@ use crate::rules::Rules;
 /// How a tile is painted.
 ///
 /// With one sample per pixel, and where everything is flat, all methods give the same bytes, so each tile takes the
-/// fastest. Where samples are shaded, the deferred method rounds once per primitive and pixel, blending once per
+/// fastest. Where samples are shaded, the visibility method rounds once per primitive and pixel, blending once per
 /// sample: tiles that shade anything take the one or the other for the whole list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::raster) enum Method {
     /// Opaque primitives straight into the frame.
     Direct,
     /// What each sample shows, then its colour.
-    Deferred,
+    Visibility,
     /// The colour of each sample, primitive by primitive.
-    Blended,
+    PerSample,
 }
 
 /// What the primitives of a list are like.
@@ -69,14 +69,14 @@ impl Kinds {
         let rate_one = context.rate == SampleRate::ONE;
         // Neither samples off the grid nor their light can be summed up before all are painted.
         if !context.is_grid() || space != ResolveSpace::Stored && !rate_one {
-            return Method::Blended;
+            return Method::PerSample;
         }
         if rate_one && (self.opaque || all(|command, _| command.is_opaque())) {
             Method::Direct
         } else if !self.blended || all(|command, chunk| !matches!(command.work(chunk), Work::Shaded(..))) {
-            Method::Deferred
+            Method::Visibility
         } else {
-            Method::Blended
+            Method::PerSample
         }
     }
 }

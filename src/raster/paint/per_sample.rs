@@ -4,7 +4,7 @@ use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::shape::Shape;
-use crate::raster::coverage::shape_rows::ShapeRows;
+use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
 use crate::raster::paint::recorder::{PaintedCommand, PaintedKind, Recorder};
@@ -54,15 +54,15 @@ impl<'a> PerSamplePainter<'a> {
     }
 
     /// Paints the commands of one chunk that touch the tile.
-    pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[TileCommand], shape_rows: &mut ShapeRows) {
+    pub(crate) fn paint(&mut self, chunk: &Chunk, entries: &[TileCommand], shape_coverage: &mut ShapeCoverage) {
         for entry in entries {
             if self.recorder.is_some() {
                 self.record(chunk, *entry);
             }
             match entry.work(chunk) {
-                Work::Flat(shape, color) => self.shape(shape, shape_rows, |_| Shader::flat(color)),
+                Work::Flat(shape, color) => self.shape(shape, shape_coverage, |_| Shader::flat(color)),
                 Work::Shaded(shape, corners, paint) => {
-                    self.shape(shape, shape_rows, |context| Shader::new(context, corners, paint));
+                    self.shape(shape, shape_coverage, |context| Shader::new(context, corners, paint));
                 }
                 Work::BeginLayer => {
                     let rect = self.layers.base().rect;
@@ -88,7 +88,7 @@ impl<'a> PerSamplePainter<'a> {
         &mut self,
         chunks: &[(&Chunk, &[TileCommand])],
         (pixel, background): ([i32; 2], Premultiplied16),
-        shape_rows: &mut ShapeRows,
+        shape_coverage: &mut ShapeCoverage,
     ) -> (Vec<PaintedCommand>, Vec<(Premultiplied16, usize)>) {
         let one = |start: i32| Span { start, end: start + 1 };
         self.recorder = Some(Recorder::new(self.samples_per_pixel()));
@@ -98,7 +98,7 @@ impl<'a> PerSamplePainter<'a> {
         };
         self.begin(rect, background);
         for (chunk, entries) in chunks {
-            self.paint(chunk, entries, shape_rows);
+            self.paint(chunk, entries, shape_coverage);
         }
         let samples = self.pixel_samples(self.layers.base());
         let recorded = self.recorder.take().map(|recorder| recorder.finish(&samples));
@@ -147,12 +147,12 @@ impl<'a> PerSamplePainter<'a> {
     fn shape(
         &mut self,
         shape: Shape<'_>,
-        shape_rows: &mut ShapeRows,
+        shape_coverage: &mut ShapeCoverage,
         shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>,
     ) {
         let rect = self.layers.base().rect;
         let mut prepared = None;
-        shape_rows.each(shape, rect, |y, covered| {
+        shape_coverage.each(shape, rect, |y, covered| {
             let shader = prepared.get_or_insert_with(|| shader(&self.context));
             match shader.constant() {
                 Some(color) => self.fill(y, covered, color),

@@ -19,7 +19,13 @@ impl Viewer {
             return self.inspector.magnifier.place_both(center, &shown, area);
         };
         let zoom = self.settings.pixel_zoom.factor();
-        let [low, high] = canvas.map(|place| screen_place(place, panes.first.corner));
+        // The magnifier of A lies in A's half, whichever that is.
+        let (own, other) = if self.ab.swapped {
+            (second, panes.first)
+        } else {
+            (panes.first, second)
+        };
+        let [low, high] = canvas.map(|place| screen_place(place, own.corner));
         let side = |axis: usize| u32::try_from(high[axis] - low[axis]).unwrap_or_default();
         let canvas = PixelRect {
             x: low[0],
@@ -27,10 +33,10 @@ impl Viewer {
             width: side(0),
             height: side(1),
         };
-        let [canvas, first, second] = [canvas, panes.first.area, second.area].map(|rect| magnified(&rect, zoom));
+        let [canvas, own, other] = [canvas, own.area, other.area].map(|rect| magnified(&rect, zoom));
         self.inspector
             .magnifier
-            .place_in_halves(center, &shown, &canvas, [&first, &second])
+            .place_in_halves(center, &shown, &canvas, [&own, &other])
     }
 
     /// The corners of the box around the canvas, in frame pixels; `None` before the scene was read.

@@ -12,7 +12,7 @@ use crate::color::{Premultiplied16, Resolver};
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::coverage::pixel_rows_4x4;
 use crate::raster::coverage::shape::Shape;
-use crate::raster::coverage::shape_rows::ShapeRows;
+use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::layers::Compositing;
 use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
@@ -62,18 +62,18 @@ impl<'a> VisibilityPainter<'a> {
     }
 
     /// Paints the commands of one chunk that touch the tile.
-    pub(crate) fn paint(&mut self, chunk: &'a Chunk, entries: &[TileCommand], shape_rows: &mut ShapeRows) {
+    pub(crate) fn paint(&mut self, chunk: &'a Chunk, entries: &[TileCommand], shape_coverage: &mut ShapeCoverage) {
         for entry in entries {
             self.make_room();
             match entry.work(chunk) {
                 Work::Flat(shape, color) if color.is_opaque() => {
                     let surface = self.surfaces.flat(color);
-                    self.opaque(shape, surface, shape_rows);
+                    self.opaque(shape, surface, shape_coverage);
                 }
-                Work::Flat(shape, color) => self.translucent(shape, color, shape_rows),
+                Work::Flat(shape, color) => self.translucent(shape, color, shape_coverage),
                 Work::Shaded(shape, corners, paint) => {
                     let surface = self.surfaces.shaded(corners, paint);
-                    self.opaque(shape, surface, shape_rows);
+                    self.opaque(shape, surface, shape_coverage);
                 }
                 Work::BeginLayer => self.begin_layer(),
                 Work::EndLayer(compositing) => self.end_layer(compositing),
@@ -82,14 +82,14 @@ impl<'a> VisibilityPainter<'a> {
     }
 
     #[inline]
-    fn opaque(&mut self, shape: Shape<'_>, surface: SurfaceId, shape_rows: &mut ShapeRows) {
+    fn opaque(&mut self, shape: Shape<'_>, surface: SurfaceId, shape_coverage: &mut ShapeCoverage) {
         let tile = self.layers.top();
         if matches!(shape, Shape::Tile) {
             tile.cover(surface);
         } else if self.context.grid.side() == pixel_rows_4x4::SIDE && has_rows(shape) {
-            dispatch!(simd::level(), simd => opaque_four(simd, (shape, shape_rows), tile, surface));
+            dispatch!(simd::level(), simd => opaque_four(simd, (shape, shape_coverage), tile, surface));
         } else {
-            shape_rows.each(
+            shape_coverage.each(
                 shape,
                 tile.rect,
                 #[inline(always)]
@@ -98,13 +98,13 @@ impl<'a> VisibilityPainter<'a> {
         }
     }
 
-    fn translucent(&mut self, shape: Shape<'_>, color: Premultiplied16, shape_rows: &mut ShapeRows) {
+    fn translucent(&mut self, shape: Shape<'_>, color: Premultiplied16, shape_coverage: &mut ShapeCoverage) {
         let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
         surfaces.next_paint();
         if self.context.grid.side() == pixel_rows_4x4::SIDE && has_rows(shape) {
-            dispatch!(simd::level(), simd => translucent_four(simd, (shape, shape_rows), tile, (surfaces, color)));
+            dispatch!(simd::level(), simd => translucent_four(simd, (shape, shape_coverage), tile, (surfaces, color)));
         } else {
-            shape_rows.each(
+            shape_coverage.each(
                 shape,
                 tile.rect,
                 #[inline(always)]
@@ -167,14 +167,14 @@ fn has_rows(shape: Shape<'_>) -> bool {
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn opaque_four<S: Simd>(
     simd: S,
-    (shape, shape_rows): (Shape<'_>, &mut ShapeRows),
+    (shape, shape_coverage): (Shape<'_>, &mut ShapeCoverage),
     tile: &mut VisibilityBuffer,
     surface: SurfaceId,
 ) {
     simd.vectorize(
         #[inline(always)]
         || {
-            shape_rows.each_row_of_four(
+            shape_coverage.each_row_of_four(
                 simd,
                 (shape, tile.rect),
                 #[inline(always)]
@@ -189,14 +189,14 @@ fn opaque_four<S: Simd>(
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn translucent_four<S: Simd>(
     simd: S,
-    (shape, shape_rows): (Shape<'_>, &mut ShapeRows),
+    (shape, shape_coverage): (Shape<'_>, &mut ShapeCoverage),
     tile: &mut VisibilityBuffer,
     (surfaces, color): (&mut SurfaceTable<'_>, Premultiplied16),
 ) {
     simd.vectorize(
         #[inline(always)]
         || {
-            shape_rows.each_row_of_four(
+            shape_coverage.each_row_of_four(
                 simd,
                 (shape, tile.rect),
                 #[inline(always)]
@@ -264,16 +264,16 @@ mod tests {
                 let rect = tiles.pixels(tile % tiles.columns, tile / tiles.columns, SIZE);
                 let (width, height) = (rect.x.length(), rect.y.length());
                 let mut found = vec![0x1234_5678; width * height];
-                painters.deferred.begin(rect, list.background());
-                painters.deferred.paint(chunk, commands, &mut painters.shape_rows);
+                painters.visibility.begin(rect, list.background());
+                painters.visibility.paint(chunk, commands, &mut painters.shape_coverage);
                 painters
-                    .deferred
+                    .visibility
                     .resolve(&mut PixelBlock::new(rect, &mut found, width), false);
-                painters.blended.begin(rect, list.background());
-                painters.blended.paint(chunk, commands, &mut painters.shape_rows);
+                painters.per_sample.begin(rect, list.background());
+                painters.per_sample.paint(chunk, commands, &mut painters.shape_coverage);
                 for (row, y) in found.chunks_exact(width).zip(rect.y.start..) {
                     let mut expected = vec![0; width];
-                    painters.blended.resolve(y, &mut expected);
+                    painters.per_sample.resolve(y, &mut expected);
                     assert_eq!(row, expected, "row {y} of tile {tile}, {settings:?}");
                 }
             }

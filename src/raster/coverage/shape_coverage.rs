@@ -17,7 +17,7 @@ use crate::rules::Rules;
 
 /// Remembers the spans of outlines in the tile row at work.
 #[derive(Debug)]
-pub(crate) struct ShapeRows {
+pub(crate) struct ShapeCoverage {
     /// By whose rules triangles cover samples.
     settings: (SubpixelGrid, Rules),
     /// Columns of samples in the frame.
@@ -31,7 +31,7 @@ pub(crate) struct ShapeRows {
     free_positions: Option<Box<FreePositions>>,
 }
 
-impl ShapeRows {
+impl ShapeCoverage {
     /// For a drawing of `outlines` outlines in a frame with `columns` columns of samples, which are those of the grid.
     pub(crate) fn new(settings: (SubpixelGrid, Rules), columns: i32, outlines: usize) -> Self {
         Self {
@@ -78,7 +78,7 @@ impl ShapeRows {
         }
     }
 
-    /// As [`ShapeRows::each`] for a triangle or polygon on the grid where a pixel has 4 x 4 samples, by rows of pixels, without
+    /// As [`ShapeCoverage::each`] for a triangle or polygon on the grid where a pixel has 4 x 4 samples, by rows of pixels, without
     /// a call for each.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "what paints is to be seen by the compiler")]
@@ -189,7 +189,7 @@ mod tests {
         grid: SubpixelGrid,
         rules: Rules,
         positions: SamplePositions,
-        rows: ShapeRows,
+        rows: ShapeCoverage,
         frame: SampleBox,
         /// A contour, and the same on the grid.
         points: Vec<DVec2>,
@@ -212,7 +212,7 @@ mod tests {
                 rows: scaled(pixels(FRAME[1]), grid.side()),
             };
             let positions = SamplePositions::new(pattern, rate);
-            let mut rows = ShapeRows::new((grid, rules), frame.columns.end, 1);
+            let mut rows = ShapeCoverage::new((grid, rules), frame.columns.end, 1);
             if pattern != SamplePattern::Grid {
                 let places = positions.clone();
                 rows = rows.with(FreePositions::new((grid, rules), places, 1, pixels(FRAME[0])));

@@ -1,0 +1,86 @@
+//! Keys, pointer and wheel: what the panels do not take is the picture's.
+
+use egui::{Pos2, pos2};
+use glam::DVec2;
+
+use super::Session;
+use crate::viewer::{Command, Dialog, Key, KeyPress, Modifiers, PointerButton, PointerCommand, commands};
+
+impl Session {
+    /// The command that a key asks for, unless a line of text or an open list wants the key.
+    pub(in crate::app) fn command_for(&self, press: &KeyPress) -> Option<Command> {
+        if press.logical == Some(Key::Escape) && self.interface.list_is_open() {
+            return None;
+        }
+        let command = commands::for_key(press)?;
+        let typing = self.interface.has_keyboard();
+        let asks = matches!(
+            self.viewer.dialog(),
+            Some(Dialog::Palette | Dialog::GoToPixel | Dialog::ComparePicture)
+        );
+        let passes = match press.logical {
+            _ if !typing && !asks => true,
+            Some(Key::Escape) => asks,
+            Some(Key::F(_)) => true,
+            Some(Key::Char(c)) => press.modifiers.contains(Modifiers::CTRL) && !"acvxyz".contains(c),
+            _ => false,
+        };
+        passes.then(|| command.clone())
+    }
+
+    /// A pointer at `at`, in window pixels, or none in the window. True if the picture has it.
+    pub(in crate::app) fn pointer_at(&mut self, at: Option<DVec2>) -> bool {
+        self.pointer = at;
+        let on_picture = self.holds_picture || self.is_on_picture();
+        match at {
+            Some(at) if on_picture => self.run(Command::Pointer(PointerCommand::Moved { at })),
+            _ if self.viewer.pointer().is_some() => self.run(Command::Pointer(PointerCommand::Left)),
+            _ => {}
+        }
+        on_picture
+    }
+
+    /// A button of the mouse at the pointer's place. True if the picture took it.
+    pub(in crate::app) fn pointer_button(&mut self, button: PointerButton, down: bool) -> bool {
+        if down && self.is_on_picture() {
+            self.holds_picture = button == PointerButton::Primary;
+            self.run(Command::Pointer(PointerCommand::Pressed(button)));
+            return true;
+        }
+        if !down && self.holds_picture {
+            self.holds_picture = false;
+            self.run(Command::Pointer(PointerCommand::Released(button)));
+            self.pointer_at(self.pointer);
+            return true;
+        }
+        false
+    }
+
+    /// Turns of the wheel. True if the picture took them.
+    pub(in crate::app) fn turn_wheel(&mut self, clicks: f64) -> bool {
+        let on_picture = self.is_on_picture();
+        if on_picture {
+            self.run(Command::Pointer(PointerCommand::Wheel { clicks }));
+        }
+        on_picture
+    }
+
+    /// Two fingers on a touch pad. True if the picture took them.
+    pub(in crate::app) fn pinch(&mut self, factor: f64) -> bool {
+        let on_picture = self.is_on_picture();
+        if on_picture {
+            self.run(Command::Pointer(PointerCommand::Pinch { factor }));
+        }
+        on_picture
+    }
+
+    pub(super) fn is_on_picture(&self) -> bool {
+        self.pointer
+            .is_some_and(|at| !self.interface.covers(self.to_points(at)))
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "window pixels are small")]
+    pub(super) fn to_points(&self, at: DVec2) -> Pos2 {
+        pos2(at.x as f32, at.y as f32) / self.scale
+    }
+}

@@ -39,6 +39,8 @@ pub(super) struct ExplanationPanel {
     pixel: Option<[u32; 2]>,
     /// Whether it also has what belongs to a comparison: where the panel for that is not to be seen.
     pub(super) has_comparison: bool,
+    /// Whether it is a page of a lesson's panel, whose tabs lead away from it.
+    pub(super) is_page: bool,
 }
 
 /// What the pointer is over.
@@ -56,7 +58,7 @@ impl ExplanationPanel {
     /// Fills the panel; what the pointer is over.
     pub(super) fn show(&mut self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) -> Hovered {
         let mut hovered = Hovered::default();
-        title(ui, viewer, commands);
+        title(ui, viewer, self.is_page, commands);
         if self.has_comparison {
             compare::controls(ui, viewer, commands);
             ui.add_space(2.0);
@@ -67,6 +69,7 @@ impl ExplanationPanel {
             *self = Self {
                 pixel: Some(explanation.pixel),
                 has_comparison: self.has_comparison,
+                is_page: self.is_page,
                 ..Self::default()
             };
             area = area.vertical_scroll_offset(0.0);
@@ -260,14 +263,17 @@ fn against(ui: &mut Ui, viewer: &Viewer, explanation: &Explanation) {
         return;
     };
     let differences = explanation.differences(other);
-    section(ui, "against", "A  |  B", true, |ui| {
+    // The one in front first, as the titles of the comparison have it.
+    let heading = if viewer.is_swapped() { "B  |  A" } else { "A  |  B" };
+    section(ui, "against", heading, true, |ui| {
         if differences.is_empty() {
             lines(ui, &["A and B tell the same of this pixel.".to_owned()]);
             return;
         }
         let told = differences.iter().map(|difference| {
             let Difference { what, a, b } = difference;
-            format!("{what}  {a}  |  {b}")
+            let [front, back] = if viewer.is_swapped() { [b, a] } else { [a, b] };
+            format!("{what}  {front}  |  {back}")
         });
         lines(ui, &told.collect::<Vec<_>>());
     });
@@ -279,7 +285,7 @@ fn is_topmost(explanation: &Explanation, paint: usize) -> bool {
     explanation.paints.iter().rposition(seen) == Some(paint)
 }
 
-fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+fn title(ui: &mut Ui, viewer: &Viewer, is_page: bool, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         let [x, y] = viewer.inspected_pixel().unwrap_or_default();
         if let Some(color) = viewer.explanation().map(|explanation| explanation.color) {
@@ -294,7 +300,7 @@ fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         }
         ui.label(RichText::new(format!("Pixel {x}, {y}")).strong().size(14.0));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if command_button(ui, "explanation", "Close").clicked() {
+            if !is_page && command_button(ui, "explanation", "Close").clicked() {
                 commands.push(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
             }
             if command_button(ui, "copy-explanation", "Copy").clicked() {

@@ -42,7 +42,9 @@ pub(super) fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             if command_button(ui, "close-lesson", "Close").clicked() {
                 commands.push(Command::Lesson(LessonCommand::Close));
             }
-            if command_button(ui, "next-scene", "Next").clicked() {
+            let is_last = at + 1 == lesson.steps.len();
+            let next = ui.add_enabled_ui(!is_last, |ui| command_button(ui, "next-scene", "Next"));
+            if next.inner.clicked() {
                 commands.push(Command::Scenes(SceneCommand::Next));
             }
             let back = ui.add_enabled_ui(at > 0, |ui| command_button(ui, "previous-scene", "Back"));

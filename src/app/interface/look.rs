@@ -20,6 +20,8 @@ struct Palette {
     control: Color32,
     control_hovered: Color32,
     control_pressed: Color32,
+    /// Boxes to tick, which have no text that tells them from the panel.
+    tick_box: Color32,
     line: Color32,
     text: Color32,
     weak: Color32,
@@ -37,6 +39,7 @@ const DARK: Palette = Palette {
     control: Color32::from_rgb(46, 49, 55),
     control_hovered: Color32::from_rgb(60, 64, 72),
     control_pressed: Color32::from_rgb(38, 40, 45),
+    tick_box: Color32::from_rgb(84, 89, 99),
     line: Color32::from_rgb(56, 59, 66),
     text: Color32::from_rgb(208, 211, 216),
     weak: Color32::from_rgb(152, 157, 166),
@@ -54,6 +57,7 @@ const LIGHT: Palette = Palette {
     control: Color32::from_rgb(228, 228, 225),
     control_hovered: Color32::from_rgb(216, 216, 213),
     control_pressed: Color32::from_rgb(204, 204, 201),
+    tick_box: Color32::from_rgb(190, 190, 186),
     line: Color32::from_rgb(208, 208, 204),
     text: Color32::from_rgb(46, 48, 52),
     weak: Color32::from_rgb(96, 99, 105),
@@ -175,6 +179,8 @@ fn paint(visuals: &mut egui::Visuals, palette: &Palette) {
         state.corner_radius = CornerRadius::same(4);
         state.expansion = 0.0;
     }
+    widgets.inactive.bg_fill = palette.tick_box;
+    widgets.hovered.bg_fill = palette.tick_box;
 }
 
 /// The smallest extent that a control for a finger or a mouse has, in points.

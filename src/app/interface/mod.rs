@@ -326,7 +326,7 @@ impl Interface {
                 if shares && viewer.pinned_pixel().is_some() {
                     lesson::pages(ui, viewer, commands);
                     if lesson::is_turned(viewer) {
-                        memory.has_comparison = viewer.other().is_some();
+                        (memory.has_comparison, memory.is_page) = (viewer.other().is_some(), true);
                         return memory.show(ui, viewer, commands);
                     }
                 }
@@ -393,6 +393,7 @@ impl Interface {
             Panel::right("explanation on the right")
         };
         let memory = &mut self.explanation;
+        memory.is_page = false;
         let panel = panel
             .resizable(false)
             .exact_size(explanation::WIDTH)

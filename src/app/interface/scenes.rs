@@ -90,8 +90,11 @@ pub(super) fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         ui.vertical(|ui| heading(ui, "Scenes"));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
+            // The only scene has no neighbours; a lesson's steps are many on one scene, too.
+            let leads_on = viewer.scenes().len() > 1 || viewer.lesson().is_some();
             for (id, text) in [("next-scene", "›"), ("previous-scene", "‹")] {
-                if command_button(ui, id, text).clicked() {
+                let button = ui.add_enabled_ui(leads_on, |ui| command_button(ui, id, text));
+                if button.inner.clicked() {
                     commands.extend(crate::viewer::commands::find(id).and_then(crate::viewer::CommandSpec::command));
                 }
             }

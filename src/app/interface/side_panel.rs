@@ -4,6 +4,7 @@
 //! Which of both follows from the window's height and from what is known before anything is laid out, never from heights
 //! that the last pass measured: those follow from the layout, and the panel would alternate between both for ever.
 
+use egui::containers::scroll_area::ScrollSource;
 use egui::style::ScrollStyle;
 use egui::{Panel, ScrollArea, Ui};
 
@@ -69,7 +70,14 @@ impl Interface {
                 let height = ui.available_height();
                 let before = std::mem::replace(&mut self.panel.height, height);
                 if !self.list_scrolls(height, viewer) {
+                    // A list that hangs open keeps its place: scrolled under it, it would flip above its button.
+                    let source = if self.list_is_open() {
+                        ScrollSource::NONE
+                    } else {
+                        ScrollSource::ALL
+                    };
                     let area = ScrollArea::vertical().id_salt("panel").auto_shrink(false);
+                    let area = area.scroll_source(source);
                     area.show_viewport(ui, |ui, seen| {
                         self.settings(ui, viewer, asked);
                         // Scrolling to the scene would scroll the settings away.

@@ -88,7 +88,7 @@ impl Viewer {
         match button {
             PointerButton::Primary => {
                 let on_line = self.take_line();
-                self.pointer.dragging = self.pointer.at.is_some() && !on_line && !self.pointer_over_inset();
+                self.pointer.dragging = self.pointer.at.is_some() && !on_line;
             }
             PointerButton::Secondary => self.pin_under_pointer(),
         }

@@ -181,7 +181,7 @@ impl Stroke {
                 .elements()
                 .iter()
                 .filter_map(PathEl::end_point)
-                .any(|end| !(reach(end) <= LONGEST))
+                .any(|end| reach(end).is_nan() || reach(end) > LONGEST)
         {
             return Vec::new();
         }

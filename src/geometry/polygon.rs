@@ -91,8 +91,8 @@ impl Polygon {
         let bulge = DVec2::splat(if curves.is_some() { TOLERANCE / scale } else { 0.0 });
         let bounds = [flat.bounds[0] - bulge, flat.bounds[1] + bulge];
         Self {
-            curves,
             bounds,
+            curves,
             is_stroke,
             ..flat
         }

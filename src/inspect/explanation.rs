@@ -96,6 +96,14 @@ impl Explanation {
     }
 }
 
+/// The geometry of a paint.
+struct Shaped {
+    shape: Shape,
+    /// What each sample saw of it.
+    views: Vec<View>,
+    texture: Option<Texture>,
+}
+
 impl Question<'_> {
     /// `op` comes with its place in the document.
     fn paint(
@@ -105,6 +113,38 @@ impl Question<'_> {
         seen: &[bool],
         explainer: &Explainer<'_>,
     ) -> Paint {
+        let Shaped { shape, views, texture } = self.shape(op, source.is_none(), piece);
+        Paint {
+            area: (op.kind == PaintedKind::Primitive)
+                .then(|| explainer.area(op.source))
+                .flatten(),
+            shape,
+            source,
+            primitive: op.source,
+            layers: op.layers,
+            in_mask: false,
+            fragments: op
+                .fragments
+                .iter()
+                .zip(seen)
+                .map(|(fragment, seen)| Fragment {
+                    sample: fragment.sample,
+                    color: levels(fragment.color),
+                    before: levels(fragment.before),
+                    after: levels(fragment.after),
+                    seen: *seen,
+                })
+                .collect(),
+            views,
+            texture,
+            gradient: self.gradient(op.source),
+            pattern: self.pattern(op.source),
+        }
+    }
+
+    /// The geometry of a paint, and what each of its samples saw of it. What has no place in the document is the canvas's
+    /// outline.
+    fn shape(&self, op: &PaintedCommand, is_nowhere: bool, piece: Option<Piece>) -> Shaped {
         let rules = self.subject.settings.rules;
         let polygon = match self
             .subject
@@ -157,35 +197,10 @@ impl Question<'_> {
                     stroke: polygon.is_some_and(|polygon| polygon.is_stroke()),
                 }
             }
-            (PaintedKind::Primitive, _) if source.is_none() => Shape::CanvasOutline,
+            (PaintedKind::Primitive, _) if is_nowhere => Shape::CanvasOutline,
             (PaintedKind::Primitive, _) => Shape::WholePixel,
         };
-        Paint {
-            area: (op.kind == PaintedKind::Primitive)
-                .then(|| explainer.area(op.source))
-                .flatten(),
-            shape,
-            source,
-            primitive: op.source,
-            layers: op.layers,
-            in_mask: false,
-            fragments: op
-                .fragments
-                .iter()
-                .zip(seen)
-                .map(|(fragment, seen)| Fragment {
-                    sample: fragment.sample,
-                    color: levels(fragment.color),
-                    before: levels(fragment.before),
-                    after: levels(fragment.after),
-                    seen: *seen,
-                })
-                .collect(),
-            views,
-            texture,
-            gradient: self.gradient(op.source),
-            pattern: self.pattern(op.source),
-        }
+        Shaped { shape, views, texture }
     }
 
     /// What the end of a layer does.

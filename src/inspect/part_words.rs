@@ -1,6 +1,6 @@
 //! The parts of a report in words: what painted a sample, where its edges are, what it read of a texture.
 
-use super::model::{Edge, Fragment, Interpolated, Paint, RampStop, Shape, Source, Verdict};
+use super::model::{Edge, Fragment, GradientUse, Interpolated, Paint, RampStop, Shape, Source, Texture, Verdict};
 use super::numbers::{cut, number, percent, significant};
 use crate::color::BlendMode;
 use crate::plain;
@@ -98,6 +98,34 @@ impl Edge {
         } else {
             format!(", exactly {:+}", self.value)
         }
+    }
+}
+
+impl Paint {
+    /// The texture, pattern or gradient that it is filled by.
+    pub(super) fn server_lines(&self) -> Vec<String> {
+        let mut lines: Vec<String> = self.texture.iter().flat_map(Texture::lines).collect();
+        if let Some(pattern) = &self.pattern {
+            let [width, height] = pattern.tile.map(number);
+            lines.push(format!(
+                "filled by {}, line {}: tiles of {width} x {height} units",
+                pattern.source.name(),
+                pattern.source.line
+            ));
+            if pattern.opacity < 1.0 {
+                lines.push(format!("opacity  {}", number(pattern.opacity)));
+            }
+        }
+        if let Some(gradient) = &self.gradient {
+            let GradientUse { source, spread, stops } = gradient;
+            let plural = if *stops == 1 { "" } else { "s" };
+            lines.push(format!(
+                "filled by {}, line {}: {stops} stop{plural}, spread {spread}",
+                source.name(),
+                source.line
+            ));
+        }
+        lines
     }
 }
 
@@ -222,6 +250,19 @@ impl super::model::Texture {
     }
 }
 
+/// How much of each of two stops a mix holds.
+fn mix_of_stops(first: &RampStop, second: &RampStop, weight: f64) -> String {
+    let stop = |stop: &RampStop| {
+        let hex = super::explanation::hex(stop.color);
+        format!("stop {} ({hex} at {})", stop.number + 1, number(f64::from(stop.offset)))
+    };
+    if first.number == second.number {
+        return format!("{} alone", stop(first));
+    }
+    let (rest, weight) = (percent(1.0 - weight), percent(weight));
+    format!("{rest} of {}, {weight} of {}", stop(first), stop(second))
+}
+
 impl Interpolated {
     pub(super) fn lines(&self) -> Vec<String> {
         match self {
@@ -249,28 +290,15 @@ impl Interpolated {
                 stops: [first, second],
                 weight,
                 rgba: [r, g, b, a],
-            } => {
-                let folded = if (t - at).abs() > 1e-9 {
-                    format!(", on the ramp {at:.5}")
+            } => vec![
+                if (t - at).abs() > 1e-9 {
+                    format!("t         {t:.5}, on the ramp {at:.5}")
                 } else {
-                    String::new()
-                };
-                let stop = |stop: &RampStop| {
-                    let hex = super::explanation::hex(stop.color);
-                    format!("stop {} ({hex} at {})", stop.number + 1, number(f64::from(stop.offset)))
-                };
-                let mix = if first.number == second.number {
-                    format!("{} alone", stop(first))
-                } else {
-                    let (rest, weight) = (percent(1.0 - weight), percent(*weight));
-                    format!("{rest} of {}, {weight} of {}", stop(first), stop(second))
-                };
-                vec![
-                    format!("t         {t:.5}{folded}"),
-                    format!("ramp      {mix}"),
-                    format!("mixed     red {r:.4}, green {g:.4}, blue {b:.4}, alpha {a:.4}"),
-                ]
-            }
+                    format!("t         {t:.5}")
+                },
+                format!("ramp      {}", mix_of_stops(first, second, *weight)),
+                format!("mixed     red {r:.4}, green {g:.4}, blue {b:.4}, alpha {a:.4}"),
+            ],
             Self::Texture {
                 uv: [u, v],
                 texels,

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use super::model::{Explanation, Fragment, GradientUse, Paint, Resolve, Rounding, Shape, Source, View};
+use super::model::{Explanation, Fragment, Paint, Resolve, Rounding, Shape, Source, View};
 use super::numbers::{number, percent, runs};
 use super::part_words::color;
 use crate::color::{ResolveSpace, encoded};
@@ -242,10 +242,28 @@ impl Explanation {
             return Vec::new();
         };
         let mut lines: Vec<String> = found.source.iter().flat_map(Source::lines).collect();
+        lines.push(self.painted_line(found));
+        if let Some(area) = found.area {
+            lines.push(format!(
+                "covers {} of the pixel in truth, {} by its samples",
+                percent(area),
+                percent(self.covered_part(found))
+            ));
+        }
+        if let Shape::Triangle { corners } = &found.shape {
+            let corners = corners.map(|[x, y]| format!("({}, {})", number(x), number(y)));
+            lines.push(format!("corners A {}  B {}  C {}", corners[0], corners[1], corners[2]));
+        }
+        lines.extend(found.server_lines());
+        lines
+    }
+
+    /// What a paint does to the pixel's samples.
+    fn painted_line(&self, found: &Paint) -> String {
         let all = self.samples.len();
         let count = found.fragments.len();
         let seen = found.fragments.iter().filter(|fragment| fragment.seen).count();
-        let painted = match &found.shape {
+        match &found.shape {
             Shape::BeginLayer => "what follows is painted on a transparent layer".to_owned(),
             Shape::EndLayer { opacity, blend: None } => {
                 format!(
@@ -289,43 +307,7 @@ impl Explanation {
                 };
                 format!("paints {count} of {all} samples{hidden}: {}", runs(&found.samples()))
             }
-        };
-        lines.push(painted);
-        if let Some(area) = found.area {
-            lines.push(format!(
-                "covers {} of the pixel in truth, {} by its samples",
-                percent(area),
-                percent(self.covered_part(found))
-            ));
         }
-        if let Shape::Triangle { corners } = &found.shape {
-            let corners = corners.map(|[x, y]| format!("({}, {})", number(x), number(y)));
-            lines.push(format!("corners A {}  B {}  C {}", corners[0], corners[1], corners[2]));
-        }
-        if let Some(texture) = &found.texture {
-            lines.extend(texture.lines());
-        }
-        if let Some(pattern) = &found.pattern {
-            let [width, height] = pattern.tile.map(number);
-            lines.push(format!(
-                "filled by {}, line {}: tiles of {width} x {height} units",
-                pattern.source.name(),
-                pattern.source.line
-            ));
-            if pattern.opacity < 1.0 {
-                lines.push(format!("opacity  {}", number(pattern.opacity)));
-            }
-        }
-        if let Some(gradient) = &found.gradient {
-            let GradientUse { source, spread, stops } = gradient;
-            let plural = if *stops == 1 { "" } else { "s" };
-            lines.push(format!(
-                "filled by {}, line {}: {stops} stop{plural}, spread {spread}",
-                source.name(),
-                source.line
-            ));
-        }
-        lines
     }
 
     /// Which samples a clip path or mask leaves something of, in words.

@@ -123,6 +123,8 @@ pub fn is_of_course(document: &[u8]) -> bool {
 struct Traits {
     /// It uses what only the course has.
     own: bool,
+    /// It has rects without a size, which the course draws as points; other programs leave such, too.
+    points: bool,
     /// It uses elements that the course's reader skips, colours that it misreads, or `style`.
     foreign: bool,
     /// It uses more of SVG than lines, polygons and round shapes: nobody writes that for the course's reader.
@@ -142,6 +144,7 @@ impl Traits {
             sized: has_number(root, "width") && has_number(root, "height"),
             measured: begins_with_number(root, "width") && begins_with_number(root, "height"),
             differs: has_view_box(root),
+            foreign: is_styled_root(root),
             ..Self::default()
         };
         let mut open = vec![root.children()];
@@ -165,7 +168,8 @@ impl Traits {
     fn add(&mut self, node: Node<'_, '_>) {
         let name = node.tag_name().name();
         let is_known = course::ELEMENTS.contains(&name);
-        self.own |= matches!(name, "colortri" | "textri" | "texture") || is_point(node);
+        self.own |= matches!(name, "colortri" | "textri" | "texture");
+        self.points |= is_point(node);
         self.foreign |= !is_known || is_styled_as_svg(node) || is_only_svg(node);
         self.rich |= !is_known && !matches!(name, "circle" | "ellipse");
         self.drawn |= is_known && name != "g";
@@ -176,7 +180,7 @@ impl Traits {
     /// colours that it reads as SVG does (named ones and `#fff` are others to it), no `style`, no attribute
     /// or unit of which the course's reader knows nothing, and a size in plain numbers.
     fn dialect(self) -> Dialect {
-        if self.own || (self.sized && !self.foreign) {
+        if self.own || (self.points && self.measured && !self.rich) || (self.sized && !self.foreign) {
             Dialect::Course
         } else {
             Dialect::Svg
@@ -184,8 +188,14 @@ impl Traits {
     }
 
     fn may_be_either(self) -> bool {
-        !self.own && !self.rich && self.drawn && self.measured && self.differs
+        !self.own && !self.points && !self.rich && self.drawn && self.measured && self.differs
     }
+}
+
+/// Whether the root says how its shapes look, of which the course's reader knows nothing: sets of icons do.
+fn is_styled_root(root: Node<'_, '_>) -> bool {
+    let names = ["class", "color", "fill", "stroke", "stroke-width", "style"];
+    names.into_iter().any(|name| root.has_attribute(name))
 }
 
 /// Whether a `viewBox` says something else than width and height do.

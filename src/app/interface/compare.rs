@@ -46,8 +46,7 @@ pub(super) fn offer(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             let size = vec2(width, CONTROL.y);
             let button = ui.add_sized(size, Button::new(text)).on_hover_text(tip(id));
             let name = commands::find(id).map_or(id, |spec| spec.name);
-            let clicked = button.accessible_name(name).clicked();
-            if clicked && !(id == "swap" && was_just_kept(ui, is_open)) {
+            if button.accessible_name(name).clicked() {
                 run(id, commands);
             }
         }
@@ -57,20 +56,6 @@ pub(super) fn offer(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             commands.push(Command::Ab(AbCommand::Compare(Against::Nothing)));
         }
     });
-}
-
-/// Whether a click belongs to the double click whose first half kept A as B: the button that kept says "swap" by then.
-fn was_just_kept(ui: &Ui, is_open: bool) -> bool {
-    /// The longest that a hand takes between both halves of a double click, in seconds.
-    const DOUBLE: f64 = 0.4;
-    let (key, now) = (ui.id().with("kept"), ui.input(|input| input.time));
-    ui.data_mut(|data| {
-        if !is_open {
-            data.insert_temp(key, now);
-            return false;
-        }
-        data.get_temp(key).is_some_and(|kept: f64| now - kept < DOUBLE)
-    })
 }
 
 /// What can be done with A and B, in three rows.

@@ -25,7 +25,7 @@ const GAP: f32 = 6.0;
 /// Height of a row of thumbnails with the gap below it, in points.
 const ROW: f32 = PICTURE_HEIGHT + NAME_HEIGHT + GAP;
 /// Height of a folder's name with the gap below it, in points.
-const FOLDER: f32 = 14.0 + GAP;
+const FOLDER: f32 = 13.0 + GAP;
 
 /// Thumbnails as textures of exactly the size in which they are shown.
 #[derive(Debug, Default)]

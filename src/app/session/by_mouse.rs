@@ -400,3 +400,40 @@ fn second_click_in_the_inset_unpins_what_the_first_one_pinned() {
     }
     assert!(moved, "the inset left the pointer once");
 }
+
+#[test]
+fn drag_that_begins_in_the_magnifier_moves_the_picture() {
+    let mut session = session(Vec::new(), [1366, 768]);
+    right_click(&mut session, [570.0, 300.0]);
+    let inset = session.viewer.inset().expect("a magnifier").rect;
+    let middle = |from: i64, size: u32| from as f64 + f64::from(size) / 2.0;
+    let at = dvec2(middle(inset.x, inset.width), middle(inset.y, inset.height));
+    session.pointer(Some(at));
+    assert!(session.viewer.pointer_over_inset(), "the pointer is in the magnifier");
+    let before = session.viewer.view_numbers().expect("a view").center;
+    session.button(PointerButton::Primary, true);
+    session.pointer(Some(at + dvec2(40.0, 0.0)));
+    session.button(PointerButton::Primary, false);
+    let after = session.viewer.view_numbers().expect("a view").center;
+    assert!(after.x < before.x, "{after} from {before}: the picture follows the hand");
+}
+
+#[test]
+fn arrows_that_lead_nowhere_are_grey() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let document = r#"<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>"#;
+    for name in ["a.svg", "b.svg"] {
+        std::fs::write(folder.path().join(name), document).expect("a file");
+    }
+    for count in [1, 2] {
+        let files = ["a.svg", "b.svg"].map(|name| folder.path().join(name));
+        let mut session = session(files[..count].to_vec(), [1600, 1300]);
+        session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+        session.settle();
+        for name in ["Next scene", "Previous scene"] {
+            let nodes = nodes(&mut session);
+            let arrow = nodes.iter().find(|node| node.label() == Some(name)).expect("an arrow");
+            assert_eq!(arrow.is_disabled(), count == 1, "{name} of {count}");
+        }
+    }
+}

@@ -82,6 +82,7 @@ pub(super) fn add_clip((builder, screen): Target<'_, '_>, kind: &PrimitiveKind) 
 mod tests {
     use glam::DVec2;
 
+    use super::Role::{Clip, LeftOut, Shown};
     use super::*;
     use crate::scene::{Dialect, MaskKind, Primitive, ShapeId};
 
@@ -116,7 +117,6 @@ mod tests {
             end(Composite::over(0.5)),
         ];
         of(&mut scene, clipped);
-        use Role::{Clip, LeftOut, Shown};
         let expected = [
             Clip, LeftOut, Shown, LeftOut, Clip, Clip, Clip, LeftOut, LeftOut, LeftOut, Clip,
         ];

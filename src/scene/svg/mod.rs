@@ -44,7 +44,7 @@ pub use fonts::{Fonts, set_fonts};
 const STACK: usize = 256 << 20;
 
 /// Most elements that usvg reads, those that a `use` repeats counted again.
-const MAX_ELEMENTS: usize = 1_000_000;
+const MAX_ELEMENTS: usize = 600_000;
 
 /// Samples along the longer side of the canvas for which the edges of curves are fine enough from the start.
 const FINE_FOR: f64 = 4096.0;

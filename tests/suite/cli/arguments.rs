@@ -253,13 +253,13 @@ fn cli_view_answers_mistakes_too() {
 
 #[test]
 fn cli_reports_what_it_skips() {
-    let text = SCENE.replace("<polygon", "\n  <circle r='3'/><polygon");
+    let text = SCENE.replace("<polygon", "\n  <foreignObject width='3' height='3'/><polygon");
     let folder = folder_with(&[("a.svg", &text)]);
     let output = run(folder.path(), &["render", "a.svg", "-o", "b.png", "--size", "20x20"]);
     assert!(output.status.success(), "a picture all the same: {output:?}");
     let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(
-        stderr.contains("a.svg:2:3: <circle>"),
+        stderr.contains("a.svg:2:3: <foreignObject>"),
         "file, line, column, name: {stderr}"
     );
 }

@@ -531,7 +531,8 @@ fn deep_stacks_of_one_line_stay_small() {
 fn deep_stacks_keep_what_is_seen_at_the_bottom() {
     let covers = "<rect width='4' height='8' fill='#102030' fill-opacity='.5'/>".repeat(2000);
     let document = format!(
-        "<svg width='8' height='8'><g opacity='.5'><rect width='8' height='8' fill='#ff0000'/></g>{covers}</svg>"
+        "<svg width='8' height='8'><g opacity='.5'><rect width='8' height='8' fill='#ff0000'/>\
+         <rect x='7' width='1' height='1'/></g>{covers}</svg>"
     );
     let options = ReadOptions {
         dialect: DialectChoice::Svg,

@@ -365,6 +365,14 @@ fn auto_finds_the_dialect() {
         (size, "<polygon fill='red'/><rect/>", Dialect::Course),
         (size, "<g fill='#fff'><polygon/></g>", Dialect::Svg),
         (size, "<line style='stroke: #123456'/>", Dialect::Svg),
+        // As other programs write: rects without a size, and icons whose root says how lines look.
+        (size, "<path d='M0 0h1v1'/><rect fill='none'/>", Dialect::Svg),
+        ("viewBox='0 0 1 1'", "<polygon/><rect fill='none'/>", Dialect::Svg),
+        (
+            "width='24' height='24' fill='none' stroke='currentColor' class='icon'",
+            "<line x1='19' y1='4' x2='10' y2='4'/>",
+            Dialect::Svg,
+        ),
     ] {
         let scene = read(&svg(attributes, body), DialectChoice::Auto);
         assert_eq!(scene.dialect, expected, "<svg {attributes}>{body}");

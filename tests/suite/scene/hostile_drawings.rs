@@ -184,7 +184,7 @@ fn depth_has_an_end() {
         for count in [900, 1100, 100_000] {
             let line = outcome(open, &nested(count, open, close));
             assert!(
-                count < 1000 || line.contains("inside each other"),
+                count < 1000 || line.contains("inside each other") || line.contains("in one text"),
                 "{count} x {open}: {line}"
             );
             assert!(line.is_empty() || line.starts_with("test.svg:1:"), "{line}");
@@ -216,7 +216,7 @@ fn strokes_and_gradients_of_any_size_end() {
         ("a thin stroke", "<path d='M0 0H100V100C0 0 1 2 3 4' stroke='red' stroke-width='1e-30' stroke-linecap='round'/>".to_owned()),
         ("far away", "<path d='M-1e30 0H1e30V1e30C0 0 1 2 3 4' stroke='red' stroke-dasharray='5'/>".to_owned()),
         ("many stops", format!("<linearGradient id='g'>{}</linearGradient><rect width='9' height='9' fill='url(#g)'/>", "<stop offset='.5'/>".repeat(1_000_000))),
-        ("as many as may be", format!("<linearGradient id='g'>{}</linearGradient><rect width='9' height='9' fill='url(#g)'/>", (0..300_000).map(|i| format!("<stop offset='{}'/>", f64::from(i) / 3e5)).collect::<String>())),
+        ("as many as may be", format!("<linearGradient id='g'>{}</linearGradient><rect width='9' height='9' fill='url(#g)'/>", (0..300_000).map(|i| format!("<stop offset='{}'/>", f64::from(i) / 3e5)).collect::<Vec<_>>().concat())),
         ("a tiny tile", "<pattern id='p' width='1e-20' height='1e-20'><rect width='1' height='1'/></pattern><rect width='9' height='9' fill='url(#p)'/>".to_owned()),
         ("much text", format!("<text>{}</text>", "word ".repeat(20_000))),
         ("a selector", format!("<style>{}x{{fill:red}}</style>{}<rect/>{}", "g ".repeat(30), "<g>".repeat(500), "</g>".repeat(500))),

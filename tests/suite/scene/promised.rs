@@ -27,7 +27,7 @@ const DRAWN: &[(&str, &str)] = &[
     ("`opacity`", "<g opacity='.5'><rect width='9' height='9'/></g>"),
     ("clip paths", "<clipPath id='c'><circle cx='5' cy='5' r='4'/></clipPath><rect width='9' height='9' clip-path='url(#c)'/>"),
     ("masks", "<mask id='k'><rect width='9' height='5' fill='#fff'/></mask><rect width='9' height='9' mask='url(#k)'/>"),
-    ("blend modes", "<rect width='9' height='9' style='mix-blend-mode:color-burn'/>"),
+    ("blend modes", "<rect width='9' height='9' style='mix-blend-mode:multiply'/>"),
     ("`use`", "<defs><rect id='r' width='9' height='9'/></defs><use href='#r' x='3'/>"),
     ("`symbol`", "<symbol id='s' viewBox='0 0 2 2'><rect width='1' height='1'/></symbol><use href='#s' width='9' height='9'/>"),
     ("`switch`", "<switch><rect systemLanguage='xx' width='9' height='9' fill='none'/><rect width='9' height='9'/></switch>"),

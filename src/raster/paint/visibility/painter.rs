@@ -126,14 +126,23 @@ impl<'a> VisibilityPainter<'a> {
         };
         let surfaces = &mut self.surfaces;
         let mut composited = HashMap::new();
+        // Most samples are like their neighbours: the table is asked where that changes.
+        let mut last = None;
         below.composite(layer, |below, above| {
+            if let Some((alike, result)) = last
+                && alike == (below, above)
+            {
+                return result;
+            }
             let sample = surfaces.get(above).flat;
             if sample == Premultiplied16::TRANSPARENT && compositing.keeps_below() {
                 return below;
             }
-            *composited
+            let result = *composited
                 .entry((below, above))
-                .or_insert_with(|| surfaces.composited(below, sample, compositing))
+                .or_insert_with(|| surfaces.composited(below, sample, compositing));
+            last = Some(((below, above), result));
+            result
         });
     }
 

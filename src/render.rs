@@ -373,7 +373,7 @@ fn add(builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, kind: &PrimitiveKind
         }
         PrimitiveKind::Polygon { polygon, fill } => screen.with_edges(polygon, |polygon| {
             let paint = fill_paint(*fill);
-            match polygon.triangles().filter(|_| screen.rules.cut_polygons()) {
+            match screen.rules.cut_polygons().then(|| polygon.triangles()).flatten() {
                 // The course knows triangles only, whose edges it counts twice; first drafts leave them to nobody.
                 Some(triangles) => {
                     for points in triangles {

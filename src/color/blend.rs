@@ -284,7 +284,10 @@ mod tests {
             (saturation(saturated) - saturation(above)).abs() < 1e-5,
             "its saturation"
         );
-        assert!(with_saturation([0.3; 3], 0.5) <= [0.0; 3], "grey has no hue to saturate");
+        assert!(
+            with_saturation([0.3; 3], 0.5) <= [0.0; 3],
+            "grey has no hue to saturate"
+        );
     }
 
     #[test]

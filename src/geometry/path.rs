@@ -139,14 +139,27 @@ impl CurvedArea {
     /// About how many points the contours have at a tolerance in the path's own units; rather too many than too few.
     fn points_at(&self, tolerance: f64) -> f64 {
         let segments = self.path.segments() as f64;
-        let curves: f64 = self.path.0.segments().map(|segment| points_of(&segment, tolerance)).sum();
+        let curves: f64 = self
+            .path
+            .0
+            .segments()
+            .map(|segment| points_of(&segment, tolerance))
+            .sum();
         let Some(stroke) = &self.stroke else {
             return segments + curves;
         };
         let round = stroke.style.cap == LineCap::Round || stroke.style.join == LineJoin::Round;
         // A half circle at each end and corner.
-        let arc = if round { arc_points(stroke.style.width / 2.0, tolerance) } else { 0.0 };
-        let dashes = if stroke.dashes.is_empty() { 0.0 } else { stroke.dash_count(&self.path).min(MAX_DASHES) };
+        let arc = if round {
+            arc_points(stroke.style.width / 2.0, tolerance)
+        } else {
+            0.0
+        };
+        let dashes = if stroke.dashes.is_empty() {
+            0.0
+        } else {
+            stroke.dash_count(&self.path).min(MAX_DASHES)
+        };
         2.0 * curves + (segments + 2.0 * dashes) * (4.0 + arc)
     }
 }
@@ -451,7 +464,10 @@ mod tests {
         far.cubic_to([DVec2::splat(1e30), DVec2::new(-1e30, 1e30)], DVec2::new(1e30, 0.0));
         for area in [filled(far.clone()), stroked(far, STYLE, &[])] {
             let count: usize = area.flattened(1e-6).iter().map(Vec::len).sum();
-            assert!(count as f64 <= 2.0 * MAX_POINTS, "{count} points of a curve without end");
+            assert!(
+                count as f64 <= 2.0 * MAX_POINTS,
+                "{count} points of a curve without end"
+            );
         }
         let fine = stroked(line(&[[0.0, 0.0], [1000.0, 0.0]]), STYLE, &[1e-9, 1e-9]);
         assert!(

@@ -199,7 +199,7 @@ impl Fragment {
     }
 }
 
-impl super::model::Texture {
+impl Texture {
     pub(super) fn lines(&self) -> Vec<String> {
         let vector = |[x, y]: [f64; 2]| format!("({}, {})", significant(x), significant(y));
         let [width, height] = self.size;
@@ -251,8 +251,8 @@ impl super::model::Texture {
 }
 
 /// How much of each of two stops a mix holds.
-fn mix_of_stops(first: &RampStop, second: &RampStop, weight: f64) -> String {
-    let stop = |stop: &RampStop| {
+fn mix_of_stops(first: RampStop, second: RampStop, weight: f64) -> String {
+    let stop = |stop: RampStop| {
         let hex = super::explanation::hex(stop.color);
         format!("stop {} ({hex} at {})", stop.number + 1, number(f64::from(stop.offset)))
     };
@@ -296,7 +296,7 @@ impl Interpolated {
                 } else {
                     format!("t         {t:.5}")
                 },
-                format!("ramp      {}", mix_of_stops(first, second, *weight)),
+                format!("ramp      {}", mix_of_stops(*first, *second, *weight)),
                 format!("mixed     red {r:.4}, green {g:.4}, blue {b:.4}, alpha {a:.4}"),
             ],
             Self::Texture {

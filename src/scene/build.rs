@@ -107,6 +107,11 @@ impl<'doc> Builder<'doc> {
         ShapeId(u32::try_from(self.shapes.len() - 1).unwrap_or(u32::MAX))
     }
 
+    /// The name of the element that a shape stands for.
+    pub(super) fn element(&self, shape: ShapeId) -> &str {
+        self.shapes.get(shape.0 as usize).map_or("", |shape| &*shape.element)
+    }
+
     /// Adds a primitive whose coordinates lie in user space.
     pub(super) fn push(&mut self, shape: ShapeId, kind: PrimitiveKind) -> Result<(), Fault> {
         // Counted down, so that the tiles of patterns count too.

@@ -415,7 +415,10 @@ fn drag_that_begins_in_the_magnifier_moves_the_picture() {
     session.pointer(Some(at + dvec2(40.0, 0.0)));
     session.button(PointerButton::Primary, false);
     let after = session.viewer.view_numbers().expect("a view").center;
-    assert!(after.x < before.x, "{after} from {before}: the picture follows the hand");
+    assert!(
+        after.x < before.x,
+        "{after} from {before}: the picture follows the hand"
+    );
 }
 
 #[test]

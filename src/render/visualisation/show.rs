@@ -128,5 +128,5 @@ pub(super) fn repaint((builder, screen): Target<'_, '_>, kind: &PrimitiveKind, c
 
 /// The triangles that a polygon is painted as, where it is.
 pub(super) fn triangles_of<'p>(polygon: &'p Polygon, screen: &Screen<'_>) -> Option<&'p [[DVec2; 3]]> {
-    polygon.triangles().filter(|_| screen.rules.cut_polygons())
+    screen.rules.cut_polygons().then(|| polygon.triangles()).flatten()
 }

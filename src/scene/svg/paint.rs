@@ -167,7 +167,7 @@ impl<'doc> Painter<'_, 'doc> {
             usvg::FillRule::EvenOdd => FillRule::EvenOdd,
         };
         let area = CurvedArea {
-            path: shapes::path(path.data()),
+            path: shapes::path(path.data(), self.builder.element(place.shape)),
             stroke: None,
             to_user: place.to_user,
         };
@@ -185,7 +185,7 @@ impl<'doc> Painter<'_, 'doc> {
         };
         // In the shape's own coordinates, so that its transform acts on the stroke too.
         let area = CurvedArea {
-            path: shapes::path(path.data()),
+            path: shapes::path(path.data(), self.builder.element(place.shape)),
             stroke: Some(shapes::stroke(stroke)),
             to_user: place.to_user,
         };

@@ -8,7 +8,7 @@ use rasterscope::inspect::{Explanation, Interpolated, Question, Texture as ReadT
 use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{LegendKey, RenderSettings, Subject, Visualisation, draw, replay};
 use rasterscope::rules::Rules;
-use rasterscope::scene::{DialectChoice, Scene};
+use rasterscope::scene::{Composite, DialectChoice, PrimitiveKind, Scene};
 use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 use rayon::prelude::*;
@@ -110,6 +110,19 @@ fn visualised_coverage_and_overdraw_count_the_fragments_of_every_scene() {
     };
     SCENES.par_iter().for_each(|own| {
         let scene = read_own(own.name, own.document);
+        let is_clip = |kind: &PrimitiveKind| {
+            matches!(
+                kind,
+                PrimitiveKind::EndLayer {
+                    composite: Composite::Clip
+                }
+            )
+        };
+        if scene.primitives.iter().any(|primitive| is_clip(&primitive.kind)) {
+            // What clip paths take away is not counted: `clip_paths_take_fragments_away`.
+            return;
+        }
+        let masks = scene.parts_of_masks().unwrap_or_default();
         for settings in samplings() {
             let view = View::Default.transform(scene.canvas, size);
             let subject = Subject {
@@ -130,7 +143,8 @@ fn visualised_coverage_and_overdraw_count_the_fragments_of_every_scene() {
                 let count = found.samples.len();
                 let mut fragments = vec![0_u32; count];
                 for op in &found.painted {
-                    if op.kind == rasterscope::raster::PaintedKind::Primitive {
+                    let in_mask = masks.get(op.source as usize).is_some_and(|part| *part);
+                    if op.kind == rasterscope::raster::PaintedKind::Primitive && !in_mask {
                         for fragment in &op.fragments {
                             fragments[fragment.sample] += 1;
                         }
@@ -493,4 +507,27 @@ fn golden_visualisations() {
         problems.extend(check(&name, &frame, TOLERANCE).err());
     }
     assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
+
+#[test]
+fn clip_paths_take_fragments_away() {
+    let document = "<svg xmlns='http://www.w3.org/2000/svg' width='20' height='10'>\
+        <clipPath id='left'><rect width='10' height='10'/></clipPath>\
+        <g clip-path='url(#left)' opacity='.5'><rect width='20' height='5'/><rect width='20' height='10'/></g></svg>";
+    let scene = read(document, DialectChoice::Svg);
+    let settings = RenderSettings {
+        visualisation: Visualisation::Overdraw,
+        outline: false,
+        ..RenderSettings::default()
+    };
+    let LegendKey::Scale(colors, _) = Visualisation::Overdraw.legend(&scene).unwrap().key else {
+        panic!("a scale");
+    };
+    let shown = picture(&scene, &settings, View::Canvas, [20, 10]);
+    for (at, count) in [([5, 2], 2.0_f64), ([5, 7], 1.0), ([15, 2], 0.0), ([15, 7], 0.0)] {
+        let step = ((count + 1.0).log2() / 5.0 * 255.0).round();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+        let expected = colors[step as usize];
+        assert_eq!(pixel(&shown, at[0], at[1]), expected, "{count} fragments at {at:?}");
+    }
 }

@@ -60,7 +60,8 @@ fn curves_stay_curves() {
         assert!(polygon.at_scale(40.0).is_none(), "fine enough for 4000 samples");
     }
     let circle = svg_scene("<circle r='10'/>");
-    assert!((area(&circle) - 314.159).abs() < 0.01, "{}", area(&circle));
+    // A tenth of a sample along its border: 0.0024 units of 62.8.
+    assert!((area(&circle) - 314.159).abs() < 0.1, "{}", area(&circle));
 }
 
 #[test]

@@ -156,14 +156,12 @@ fn what_multiplies_is_counted_first() {
     }
     let stops = "<stop/>".repeat(1000);
     let shapes = "<rect width='1' height='1' fill='url(#g)'/>".repeat(10_000);
+    // Shapes share them.
     let line = outcome(
         "stops",
         &format!("<linearGradient id='g'>{stops}</linearGradient>{shapes}"),
     );
-    assert!(
-        line.contains("more than"),
-        "a thousand stops, ten thousand times: {line}"
-    );
+    assert!(line.is_empty(), "a thousand stops, ten thousand times: {line}");
 }
 
 #[test]

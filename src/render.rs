@@ -455,6 +455,18 @@ impl<'a> Screen<'a> {
         draw(finer.as_deref().unwrap_or(polygon))
     }
 
+    /// The same with edges so much finer that its area is known to four digits; of many points they are the picture's.
+    fn with_true_edges<T>(&self, polygon: &Polygon, measure: impl FnOnce(&Polygon) -> T) -> T {
+        const FINER: f64 = 64.0;
+        /// They become eight times as many, and are cut into triangles.
+        const MOST_POINTS: usize = 5_000;
+        if polygon.points().len() > MOST_POINTS {
+            return self.with_edges(polygon, measure);
+        }
+        let finer = polygon.curves().and_then(|_| polygon.at_scale(self.scale * FINER));
+        measure(finer.as_deref().unwrap_or(polygon))
+    }
+
     /// Whether any of a polygon may lie in the frame.
     fn shows(&self, polygon: &Polygon) -> bool {
         let [low, high] = polygon.bounds();

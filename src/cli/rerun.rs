@@ -7,7 +7,7 @@ use super::failure::{Failure, print, print_error};
 use super::options::rerun::RerunOptions;
 use super::picture::{Picture, on_threads};
 use super::render::{name_for_png, unwritable};
-use super::restore::{read_arguments, scene_path, verb_of};
+use super::restore::{missing_fonts, read_arguments, scene_path, verb_of};
 use super::{diff, lesson, sheet};
 use crate::compare;
 use crate::figure::{Guard, Named, Record, save_picture};
@@ -47,6 +47,9 @@ pub(super) fn run(options: &RerunOptions) -> Result<(), Failure> {
             )));
         }
         print_error(&line);
+    }
+    if let Some(fonts) = missing_fonts(&record) {
+        print_error(&format!("{}: {fonts}", shot.display()));
     }
     let verb = verb_of(&record.arguments).map_err(|error| at_fault(shot, &error))?;
     let again = on_threads(options.threads, || draw(options, verb, &record))??;

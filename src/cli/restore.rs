@@ -8,6 +8,7 @@ use super::arguments::{self, Arguments, Verb};
 use super::failure::Failure;
 use super::picture::spec_of_render;
 use crate::figure::Record;
+use crate::scene;
 use crate::viewer::{Grammar, PictureSpec, Restored, SheetRequest};
 
 /// Longest side of a window that comes back from a picture, in pixels.
@@ -47,10 +48,24 @@ pub(super) fn read_arguments(record: &Record) -> Result<PictureSpec, String> {
 
 /// The command that arguments name, such as a record tells.
 pub(super) fn verb_of(arguments: &[String]) -> Result<Verb, String> {
+    Ok(arguments_of(arguments)?.verb)
+}
+
+/// What tells that a picture was drawn with typefaces that were not chosen now. They are not taken from a record, which may
+/// name any folder of the disk.
+pub(super) fn missing_fonts(record: &Record) -> Option<String> {
+    let mut fonts = arguments_of(&record.arguments).ok()?.fonts;
+    let chosen = scene::more_fonts();
+    fonts.retain(|font| !chosen.contains(font));
+    let options: Vec<String> = fonts.iter().map(|font| format!("--font {}", font.display())).collect();
+    (!options.is_empty()).then(|| format!("drawn with {}; give it for the same letters", options.join(" ")))
+}
+
+fn arguments_of(arguments: &[String]) -> Result<Arguments, String> {
     // A name without a command would open the window.
     let words = ["rasterscope"].into_iter().chain(arguments.iter().map(String::as_str));
     match arguments::parse_words(words.map(OsString::from).collect(), false) {
-        Ok(Arguments { verb, .. }) => Ok(verb),
+        Ok(arguments) => Ok(arguments),
         Err(Failure::Input(problem) | Failure::Other(problem)) => Err(problem),
         Err(Failure::Text(_) | Failure::Different) => Err("it asks for help".to_owned()),
     }

@@ -30,9 +30,15 @@ impl Paint {
             Shape::CanvasOutline => "outline of the canvas".to_owned(),
             Shape::BeginLayer => of("layer"),
             Shape::EndLayer { .. } => of("end of the layer"),
-            Shape::EndClip => of("clip"),
+            Shape::EndClip if self.is_clip_path() => of("clip"),
+            Shape::EndClip => of("viewport"),
             Shape::EndMask { .. } => of("mask"),
         }
+    }
+
+    /// Whether it belongs to a `clipPath`, and not to the edge of a viewport, symbol, marker, mask or image.
+    pub(super) fn is_clip_path(&self) -> bool {
+        self.source.as_ref().is_some_and(|source| source.element == "clipPath")
     }
 
     /// The samples that it painted.
@@ -55,7 +61,12 @@ impl Source {
         // An excerpt already.
         let quoted = self.text.iter().map(|text| text.replace('\t', " "));
         lines.extend(quoted.map(|text| format!("{} | {}", self.line, plain::line(&text))));
-        lines.extend(self.used.map(|line| format!("put here by the use in line {line}")));
+        let by = if self.element == "marker" {
+            "as a mark of the line"
+        } else {
+            "by the use"
+        };
+        lines.extend(self.used.map(|line| format!("put here {by} in line {line}")));
         lines
     }
 }
@@ -178,12 +189,7 @@ impl Fragment {
             );
         }
         lines.push(format!("gives     {}", color(self.after)));
-        lines.extend(self.hidden_line());
         lines
-    }
-
-    fn hidden_line(&self) -> Option<String> {
-        (!self.seen).then(|| "and is hidden by what is painted later".to_owned())
     }
 
     fn over_lines(&self) -> Vec<String> {
@@ -194,7 +200,6 @@ impl Fragment {
             lines.push(format!("over      {}", color(self.before)));
             lines.push(format!("gives     {}", color(self.after)));
         }
-        lines.extend(self.hidden_line());
         lines
     }
 }

@@ -11,6 +11,17 @@ use crate::color::{ResolveSpace, encoded};
 /// Different colours that a sum is written out for at most.
 const MOST_TERMS: usize = 4;
 
+/// Why a fragment is not seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Unseen {
+    /// A clip path or mask, the paint of this number, leaves nothing of it.
+    TakenBy(usize),
+    /// It has no opacity.
+    Transparent,
+    /// Something is painted over it.
+    Hidden,
+}
+
 impl Explanation {
     /// Where the pixel is, and its colour.
     pub fn pixel_lines(&self) -> Vec<String> {
@@ -210,9 +221,13 @@ impl Explanation {
             .iter()
             .rev()
             .map(|paint| {
-                let fragment = self.fragment(*paint, sample);
-                let hidden = fragment.is_some_and(|fragment| !fragment.seen);
-                format!("{}{}", paint + 1, if hidden { " (hidden)" } else { "" })
+                let note = match self.unseen(*paint, sample) {
+                    None => "",
+                    Some(Unseen::TakenBy(_)) => " (taken away)",
+                    Some(Unseen::Transparent) => " (transparent)",
+                    Some(Unseen::Hidden) => " (hidden)",
+                };
+                format!("{}{note}", paint + 1)
             })
             .collect();
         if found.unlisted > 0 {
@@ -220,6 +235,35 @@ impl Explanation {
         }
         words.push("the background".to_owned());
         words.join(" over ")
+    }
+
+    /// Why a fragment is not seen; `None` where it is, and where there is none.
+    fn unseen(&self, paint: usize, sample: usize) -> Option<Unseen> {
+        let fragment = self.fragment(paint, sample).filter(|fragment| !fragment.seen)?;
+        if self.paints[paint].in_mask {
+            return None;
+        }
+        // How many layers are open that began later: what ends one of them does not act on this paint.
+        let mut later = 0_usize;
+        for (number, found) in self.paints.iter().enumerate().skip(paint + 1) {
+            match found.shape {
+                Shape::BeginLayer => later += 1,
+                Shape::EndLayer { .. } => later = later.saturating_sub(1),
+                Shape::EndClip | Shape::EndMask { .. } => {
+                    later = later.saturating_sub(1);
+                    let keeps = |fragment: &Fragment| fragment.color[3] > 0.0;
+                    if later == 0 && !self.fragment(number, sample).is_some_and(keeps) {
+                        return Some(Unseen::TakenBy(number));
+                    }
+                }
+                _ => {}
+            }
+        }
+        Some(if fragment.color[3] <= 0.0 {
+            Unseen::Transparent
+        } else {
+            Unseen::Hidden
+        })
     }
 
     /// The fragment that a paint left on a sample.
@@ -242,7 +286,7 @@ impl Explanation {
             return Vec::new();
         };
         let mut lines: Vec<String> = found.source.iter().flat_map(Source::lines).collect();
-        lines.push(self.painted_line(found));
+        lines.push(self.painted_line(paint, found));
         if let Some(area) = found.area {
             lines.push(format!(
                 "covers {} of the pixel in truth, {} by its samples",
@@ -259,11 +303,14 @@ impl Explanation {
     }
 
     /// What a paint does to the pixel's samples.
-    fn painted_line(&self, found: &Paint) -> String {
+    fn painted_line(&self, paint: usize, found: &Paint) -> String {
         let all = self.samples.len();
         let count = found.fragments.len();
         let seen = found.fragments.iter().filter(|fragment| fragment.seen).count();
         match &found.shape {
+            Shape::BeginLayer if found.in_mask => {
+                "what follows is the shape of a clip path or mask: it takes away, and is not seen itself".to_owned()
+            }
             Shape::BeginLayer => "what follows is painted on a transparent layer".to_owned(),
             Shape::EndLayer { opacity, blend: None } => {
                 format!(
@@ -280,10 +327,10 @@ impl Explanation {
                     number(*opacity)
                 )
             }
-            Shape::EndClip => format!(
-                "what is below stays where the clip path covers it: {}",
-                self.kept(found)
-            ),
+            Shape::EndClip => {
+                let by = if found.is_clip_path() { "clip path" } else { "viewport" };
+                format!("what is below stays where the {by} covers it: {}", self.kept(found))
+            }
             Shape::EndMask { by } => {
                 format!(
                     "what is below stays as far as the mask's {by} lets it: {}",
@@ -300,12 +347,17 @@ impl Explanation {
                 )
             }
             Shape::Triangle { .. } | Shape::Polygon { .. } => {
-                let hidden = if seen < count {
-                    format!(", {} of them hidden", count - seen)
-                } else {
-                    String::new()
+                let taken = found
+                    .fragments
+                    .iter()
+                    .filter(|fragment| matches!(self.unseen(paint, fragment.sample), Some(Unseen::TakenBy(_))));
+                let taken = taken.count();
+                let of_them = |count: usize, what: &str| match count {
+                    0 => String::new(),
+                    count => format!(", {count} of them {what}"),
                 };
-                format!("paints {count} of {all} samples{hidden}: {}", runs(&found.samples()))
+                let lost = of_them(taken, "taken away again") + &of_them(count - seen - taken, "hidden");
+                format!("paints {count} of {all} samples{lost}: {}", runs(&found.samples()))
             }
         }
     }
@@ -314,11 +366,15 @@ impl Explanation {
     fn kept(&self, mask: &Paint) -> String {
         let kept = mask.fragments.iter().filter(|fragment| fragment.color[3] > 0.0);
         let kept: Vec<usize> = kept.map(|fragment| fragment.sample).collect();
+        let whole = |fragment: &&Fragment| fragment.color[3] >= 255.0;
+        let in_part = kept.len() - mask.fragments.iter().filter(whole).count();
         let all = self.samples.len();
-        match kept.len() {
-            0 => "it takes away all samples".to_owned(),
-            count if count == all => "it takes away none".to_owned(),
-            count => format!("{count} of {all} samples stay: {}", runs(&kept)),
+        match (kept.len(), in_part) {
+            (0, _) => "it takes away all samples".to_owned(),
+            (count, 0) if count == all => "it takes away none".to_owned(),
+            (count, 0) => format!("{count} of {all} samples stay: {}", runs(&kept)),
+            (count, part) if count == all => format!("it takes a part of {part} of {all} samples"),
+            (count, part) => format!("{count} of {all} samples stay, {part} of them in part: {}", runs(&kept)),
         }
     }
 
@@ -350,7 +406,17 @@ impl Explanation {
             None => {}
         }
         match self.fragment(paint, sample) {
-            Some(fragment) => lines.extend(fragment.lines(found)),
+            Some(fragment) => {
+                lines.extend(fragment.lines(found));
+                lines.extend(self.unseen(paint, sample).map(|why| match why {
+                    Unseen::TakenBy(mask) => format!("and is taken away by {}", self.paint_title(mask)),
+                    Unseen::Transparent => "and shows nothing of itself".to_owned(),
+                    Unseen::Hidden => "and is hidden by what is painted later".to_owned(),
+                }));
+            }
+            None if found.in_mask && !found.shape.is_layer_mark() => {
+                lines.push("does not lie on this sample".to_owned());
+            }
             None => lines.push("leaves this sample as it was".to_owned()),
         }
         lines

@@ -137,11 +137,19 @@ fn drop_what_paints_nothing(painted: &mut Vec<PaintedCommand>) {
                 false
             }
             PaintedKind::EndLayer(compositing) => match open.pop() {
-                Some((begin, used)) => {
-                    // A clip path that is not there takes away all that was painted in the layer around it.
-                    let felt = !compositing.keeps_below() && open.last().is_some_and(|(_, any)| *any);
-                    (kept[begin], kept[i]) = (used || felt, used || felt);
-                    used && compositing.keeps_below()
+                Some((begin, used)) if compositing.keeps_below() => {
+                    (kept[begin], kept[i]) = (used, used);
+                    used
+                }
+                Some((begin, _)) => {
+                    // Clip paths and masks act on what was painted in the layer around them; without a shape they take it
+                    // all away.
+                    if open.last().is_some_and(|(_, any)| *any) {
+                        (kept[begin], kept[i]) = (true, true);
+                    } else {
+                        kept[begin..=i].fill(false);
+                    }
+                    false
                 }
                 None => false,
             },
@@ -272,7 +280,7 @@ impl<'a> Explainer<'a> {
             PrimitiveKind::Polygon { polygon, .. } => {
                 // Each part is rounded; together they cannot be more than all of it.
                 let measured = |polygon: &Polygon| Some(polygon.triangles()?.iter().map(area).sum::<f64>().min(1.0));
-                screen.with_edges(polygon, measured)
+                screen.with_true_edges(polygon, measured)
             }
             PrimitiveKind::Hairline { .. }
             | PrimitiveKind::Point { .. }

@@ -43,7 +43,7 @@ pub use model::{
 pub use quotes::Quotes;
 pub use report::{Report, Skipped, SkippedKind, Warning};
 pub use resources::{FolderResources, NoResources, ResourceError, Resources};
-pub use svg::{Fonts, set_fonts};
+pub use svg::{Fonts, more_fonts, set_fonts};
 
 /// Largest scene file, in bytes.
 const MAX_DOCUMENT_BYTES: u64 = 256 << 20;

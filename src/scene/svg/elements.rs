@@ -74,6 +74,11 @@ impl<'doc> Elements<'doc> {
         }
     }
 
+    /// The element that has this id itself.
+    pub(super) fn own(&self, id: &str) -> Option<Node<'doc, 'doc>> {
+        self.own.get(id).copied()
+    }
+
     /// The element that a `use` shows, if it is in this document.
     pub(super) fn target(&self, node: Node<'doc, 'doc>) -> Option<Node<'doc, 'doc>> {
         let id = attributes::href(node)?.trim().strip_prefix('#')?;

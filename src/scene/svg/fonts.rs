@@ -34,6 +34,12 @@ pub fn set_fonts(fonts: Fonts) -> Result<(), PathBuf> {
     Ok(())
 }
 
+/// The files and folders of typefaces that were chosen besides the system's.
+pub fn more_fonts() -> Vec<PathBuf> {
+    let chosen = CHOSEN.lock().unwrap_or_else(PoisonError::into_inner);
+    chosen.0.as_ref().map_or_else(Vec::new, |fonts| fonts.more.clone())
+}
+
 /// The typefaces, which are looked for when the first document has text.
 pub(super) fn database() -> Arc<Database> {
     let mut chosen = CHOSEN.lock().unwrap_or_else(PoisonError::into_inner);

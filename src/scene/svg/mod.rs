@@ -38,7 +38,7 @@ use super::error::Fault;
 use super::{Problem, numbers};
 use crate::memory::OutOfMemory;
 
-pub use fonts::{Fonts, set_fonts};
+pub use fonts::{Fonts, more_fonts, set_fonts};
 
 /// Stack for documents that are as deep as they may be: usvg and what follows it recurse. Only what is used is taken.
 const STACK: usize = 256 << 20;

@@ -83,16 +83,23 @@ impl<'doc> Painter<'_, 'doc> {
 
     pub(super) fn children(&mut self, group: &Group, place: Place) -> Result<(), Fault> {
         let mut place = place;
+        let around = place.shape;
+        // The marks of the path before, which follow it.
+        let mut marks = None;
         for node in group.children() {
             match node {
-                usvg::Node::Group(group) => self.group(group, place)?,
+                usvg::Node::Group(group) => {
+                    let shape = marks.filter(|_| group.id().is_empty()).unwrap_or(place.shape);
+                    self.group(group, Place { shape, ..place })?;
+                }
                 usvg::Node::Text(text) => {
                     let shape = self.leaf(text.id(), place.shape);
                     self.group(text.flattened(), Place { shape, ..place })?;
                 }
                 usvg::Node::Path(path) => {
-                    // Markers follow their path, and have nothing else that says whose they are.
-                    place.shape = self.leaf(path.id(), place.shape);
+                    place.shape = self.leaf(path.id(), around);
+                    self.painting = self.elements.find(path.id());
+                    marks = self.painting.and_then(|node| self.shape_of_marks(node));
                     self.path(path, place)?;
                 }
                 usvg::Node::Image(image) => self.image(image, place)?,

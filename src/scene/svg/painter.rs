@@ -27,6 +27,8 @@ pub(super) struct Painter<'a, 'doc> {
     pub(super) inside: Option<ShapeId>,
     /// The `use` elements that are being shown, innermost last.
     pub(super) used: Vec<Used<'doc>>,
+    /// The path that is being painted.
+    pub(super) painting: Option<Node<'doc, 'doc>>,
     /// The shapes of elements that have one.
     pub(super) known: HashMap<roxmltree::NodeId, ShapeId>,
 }
@@ -80,6 +82,7 @@ impl<'a, 'doc> Painter<'a, 'doc> {
             texture_files: TextureFiles::below(root),
             inside: None,
             used: Vec::new(),
+            painting: None,
             known: HashMap::new(),
         }
     }

@@ -241,3 +241,21 @@ impl Found {
         self.depth = self.depth.max(inside.depth + 1);
     }
 }
+
+/// The id that a property refers to, written on the element or handed down to it; style sheets are not looked at.
+pub(super) fn inherited<'doc>(node: Node<'doc, 'doc>, property: &str) -> Option<&'doc str> {
+    node.ancestors().find_map(|node| {
+        let style = node.attribute("style").unwrap_or("");
+        let declared = simplecss::DeclarationTokenizer::from(style)
+            .find(|declaration| declaration.name == property)
+            .map(|declaration| declaration.value);
+        let value = declared.or_else(|| node.attribute(property))?;
+        // The nearest value counts, whatever it is.
+        Some(
+            value
+                .trim()
+                .strip_prefix("url(#")
+                .and_then(|rest| Some(rest.split_once(')')?.0)),
+        )
+    })?
+}

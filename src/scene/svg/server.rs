@@ -4,10 +4,12 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
+use roxmltree::Node;
 use usvg::{BaseGradient, LinearGradient, Paint, RadialGradient};
 
 use super::elements::Elements;
 use super::painter::{Key, Painter, Place, Servers, affine, color};
+use super::references;
 use crate::color::{Ramp, Spread, Stop};
 use crate::geometry::GradientShape;
 use crate::scene::error::Fault;
@@ -28,7 +30,7 @@ impl Servers {
     }
 }
 
-impl Painter<'_, '_> {
+impl<'doc> Painter<'_, 'doc> {
     /// What fills a shape; `None` where nothing does.
     pub(super) fn server(&mut self, paint: &Paint, place: Place) -> Result<Option<Fill>, Fault> {
         if place.opacity <= 0.0 {
@@ -106,7 +108,16 @@ impl Painter<'_, '_> {
     fn shape_of_gradient(&mut self, id: &str, look: &Vec<u32>, around: ShapeId) -> ShapeId {
         let named = self.servers.names.get(look).map_or("", String::as_str);
         let node = self.elements.find(id).or_else(|| self.elements.find(named));
-        node.map_or(around, |node| self.shape(node))
+        node.or_else(|| self.gradient_of_element())
+            .map_or(around, |node| self.shape(node))
+    }
+
+    /// The gradient that the path being painted refers to, if it is one: usvg does not tell which are inside masks.
+    fn gradient_of_element(&self) -> Option<Node<'doc, 'doc>> {
+        let referred = |property| self.elements.own(references::inherited(self.painting?, property)?);
+        let is_gradient = |node: &Node<'_, '_>| node.tag_name().name().ends_with("Gradient");
+        let [fill, stroke] = ["fill", "stroke"].map(|property| referred(property).filter(is_gradient));
+        fill.xor(stroke)
     }
 
     fn pattern(&mut self, pattern: &Arc<usvg::Pattern>, place: Place) -> Result<Option<PatternId>, Fault> {

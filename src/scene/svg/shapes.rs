@@ -9,6 +9,7 @@ use usvg::Group;
 use usvg::tiny_skia_path::{Path as TheirPath, PathSegment, Point};
 
 use super::painter::{Painter, Used};
+use super::references;
 use crate::geometry::{LineCap, LineJoin, Path, Stroke, StrokeStyle};
 use crate::scene::{ShapeId, attributes};
 
@@ -50,6 +51,24 @@ impl<'doc> Painter<'_, 'doc> {
             Some(node) => self.builder.shape_used(node, Some(location)),
             None => around,
         }
+    }
+
+    /// Whose the marks on an element's line are, which usvg tells nothing of: its marker, if it has but one.
+    pub(super) fn shape_of_marks(&mut self, node: Node<'doc, 'doc>) -> Option<ShapeId> {
+        const NAMES: [&str; 4] = ["marker", "marker-start", "marker-mid", "marker-end"];
+        let mut found = None;
+        for name in NAMES {
+            let Some(marker) = references::inherited(node, name).and_then(|id| self.elements.own(id)) else {
+                continue;
+            };
+            if found.is_some_and(|found| found != marker) {
+                return None;
+            }
+            found = Some(marker);
+        }
+        let marker = found.filter(|marker| self.inside.is_none() && marker.tag_name().name() == "marker")?;
+        let location = self.builder.locate(node);
+        Some(self.builder.shape_used(marker, Some(location)))
     }
 
     /// Whose a definition is, by its id, or by what is inside.

@@ -6,7 +6,7 @@ use crate::figure::{InsetSpec, Record, RecordedFile};
 use crate::geometry::View;
 use crate::plain;
 use crate::render::RenderSettings;
-use crate::scene::{DialectChoice, FileDigest, Scene};
+use crate::scene::{self, DialectChoice, FileDigest, Scene};
 use crate::viewer::library::SceneSource;
 use crate::viewer::settings::{Settings, picture};
 
@@ -42,6 +42,9 @@ impl PictureSpec {
         words.extend(self.options());
         words.extend(self.inset_options());
         words.extend(self.legend_option());
+        for path in scene::more_fonts() {
+            words.extend(["--font".to_owned(), as_path(&path.display().to_string())]);
+        }
         words
     }
 

@@ -104,6 +104,27 @@ fn rerun_finds_every_pixel_again_from_anywhere() {
 }
 
 #[test]
+fn rerun_names_the_typefaces_that_a_picture_was_drawn_with() {
+    let folder = tempfile::tempdir().unwrap();
+    let letters = "<svg xmlns='http://www.w3.org/2000/svg' width='30' height='20'><text y='15'>Ab</text></svg>";
+    fs::write(folder.path().join("t.svg"), letters).unwrap();
+    fs::write(folder.path().join("f.ttf"), epaint_default_fonts::HACK_REGULAR).unwrap();
+    done(
+        folder.path(),
+        &["render", "t.svg", "-o", "t.png", "--size", "30x20", "--font", "f.ttf"],
+    );
+    let told = record(&folder.path().join("t.png"));
+    assert!(told.command_line.ends_with("--font f.ttf"), "{}", told.command_line);
+    let note = "t.png: drawn with --font f.ttf; give it for the same letters";
+    let told = |arguments: &[&str]| String::from_utf8_lossy(&run(folder.path(), arguments).stderr).contains(note);
+    assert!(told(&["rerun", "t.png", "--check"]), "records choose no typefaces");
+    assert!(
+        !told(&["rerun", "t.png", "--check", "--font", "f.ttf"]),
+        "they were given"
+    );
+}
+
+#[test]
 fn rerun_tells_how_much_differs_and_why() {
     let work = workplace();
     done(work.path(), &RENDER);

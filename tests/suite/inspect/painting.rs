@@ -3,7 +3,7 @@
 use rasterscope::geometry::View;
 use rasterscope::inspect::{Explanation, Interpolated, Shape, View as Seen};
 use rasterscope::raster::{Framebuffer, SamplePattern};
-use rasterscope::render::{RenderSettings, Subject, draw, replay};
+use rasterscope::render::{Explainer, RenderSettings, Subject, draw, replay};
 use rasterscope::scene::{DialectChoice, Scene};
 
 use crate::support::documents::read;
@@ -89,6 +89,63 @@ fn clips_tell_which_path_took_samples_away() {
     let (outside, text) = told([5, 26], &at_rate(4));
     assert_eq!(outside.color, [255; 4]);
     assert!(text.contains("it takes away all samples"), "{text}");
+    assert!(text.contains("paints 4 of 4 samples, 4 of them taken away again"), "{text}");
+    assert!(text.contains("and is taken away by"), "{text}");
+    assert!(!text.contains("hidden"), "nothing lies over it: {text}");
+}
+
+/// A mark on a line, a gradient in a mask, a mask whose region is the canvas, and a symbol.
+const PARTS: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 30" width="40" height="30">
+<marker id="arrow" markerUnits="userSpaceOnUse" markerWidth="6" markerHeight="6"><rect width="6" height="6" fill="#f00"/></marker>
+<linearGradient id="fade"><stop stop-color="#fff"/><stop offset="1" stop-color="#000"/></linearGradient>
+<mask id="half" maskUnits="userSpaceOnUse" x="0" y="0" width="40" height="30"><rect y="10" width="20" height="10" fill="url(#fade)"/></mask>
+<symbol id="box" viewBox="0 0 10 10"><rect width="10" height="10" fill="#00f"/></symbol>
+<path d="M2 4H20" stroke="#000" marker-end="url(#arrow)"/>
+<rect y="10" width="20" height="10" fill="#080" mask="url(#half)"/>
+<use href="#box" x="30" y="20" width="10" height="10"/>
+</svg>"##;
+
+#[test]
+fn parts_name_what_they_are() {
+    let scene = read(PARTS, DialectChoice::Svg);
+    let told = |pixel| advised(&scene, &at_rate(4), SIZE, pixel).to_string();
+    let mark = told([46, 14]);
+    assert!(mark.contains("of marker \"arrow\", line 2"), "{mark}");
+    assert!(mark.contains("put here as a mark of the line in line 6"), "{mark}");
+    let masked = told([11, 30]);
+    assert!(
+        masked.contains("filled by linearGradient \"fade\", line 3: 2 stops"),
+        "in a mask: {masked}"
+    );
+    assert!(masked.contains("it takes a part of 4 of 4 samples"), "{masked}");
+    assert!(!masked.contains("takes away none"), "{masked}");
+    let beside = told([70, 10]);
+    assert!(beside.contains("Nothing paints this pixel"), "no mask of others: {beside}");
+    let symbol = told([65, 45]);
+    assert!(!symbol.contains("clip path covers it"), "there is none: {symbol}");
+}
+
+#[test]
+fn curves_cover_what_they_cover_in_truth() {
+    let document = "<svg xmlns='http://www.w3.org/2000/svg' width='200' height='200'><circle cx='100' cy='100' r='90.3'/></svg>";
+    let scene = read(document, DialectChoice::Svg);
+    let view = View::Canvas.transform(scene.canvas, [200, 200]);
+    let settings = at_rate(4);
+    let subject = Subject {
+        scene: &scene,
+        view: &view,
+        settings: &settings,
+    };
+    for pixel in [[10_u32, 90_u32], [40, 32], [100, 9], [163, 164]] {
+        let mut inside = 0_u32;
+        for (i, j) in (0..1000).flat_map(|i| (0..1000).map(move |j| (i, j))) {
+            let at = |of: u32, part: i32| f64::from(of) + (f64::from(part) + 0.5) / 1000.0 - 100.0;
+            inside += u32::from(at(pixel[0], i).hypot(at(pixel[1], j)) < 90.3);
+        }
+        let found = Explainer::new(subject, [200, 200], pixel).area(0).expect("an area");
+        let expected = f64::from(inside) / 1e6;
+        assert!((found - expected).abs() < 2e-3, "{found}, not {expected}, at {pixel:?}");
+    }
 }
 
 #[test]

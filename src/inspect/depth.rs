@@ -1,9 +1,11 @@
-//! Deep stacks: which paints of a pixel are listed one by one.
+//! Which paints of a pixel are listed one by one: of deep stacks some, and no viewport that takes nothing away.
 
 use std::collections::HashSet;
 
 use super::seen::seen_fragments;
-use crate::raster::{PaintedKind, PixelReplay};
+use crate::color::Premultiplied16;
+use crate::raster::{PaintedCommand, PaintedKind, PixelReplay};
+use crate::scene::{Composite, PrimitiveKind, Scene};
 
 /// Paints that are listed, from the last; what samples show is listed besides.
 const MOST_PAINTS: usize = 300;
@@ -22,6 +24,43 @@ pub(super) fn list(replay: &mut PixelReplay) -> (Vec<Vec<bool>>, usize) {
     seen.retain(|_| also.next().unwrap_or(true));
     let left = replay.painted.len();
     (seen, all - left)
+}
+
+/// Leaves out the edges of viewports that keep all samples: documents do not name them, and symbols, marks and masks have one
+/// each.
+pub(super) fn drop_idle_viewports(replay: &mut PixelReplay, scene: &Scene) {
+    let all = replay.samples.len();
+    let is_idle = |op: &PaintedCommand| {
+        let whole = |alpha: u16| alpha == Premultiplied16::ONE;
+        let keeps_all = op.fragments.len() == all && op.fragments.iter().all(|fragment| whole(fragment.color.0[3]));
+        keeps_all
+            && scene.primitives.get(op.source as usize).is_some_and(|primitive| {
+                let is_clip = matches!(
+                    primitive.kind,
+                    PrimitiveKind::EndLayer {
+                        composite: Composite::Clip
+                    }
+                );
+                let shape = scene.shapes.get(primitive.shape.0 as usize);
+                is_clip && shape.is_none_or(|shape| &*shape.element != "clipPath")
+            })
+    };
+    let mut kept = vec![true; replay.painted.len()];
+    let mut open = Vec::new();
+    for (i, op) in replay.painted.iter().enumerate() {
+        match op.kind {
+            PaintedKind::BeginLayer => open.push(i),
+            PaintedKind::EndLayer(_) => {
+                let begin = open.pop().unwrap_or(i);
+                if is_idle(op) {
+                    kept[begin..=i].fill(false);
+                }
+            }
+            PaintedKind::Primitive => {}
+        }
+    }
+    let mut kept = kept.into_iter();
+    replay.painted.retain(|_| kept.next().unwrap_or(true));
 }
 
 /// For each op whether it is listed. All ops of one primitive are, or none.

@@ -4,20 +4,18 @@ use glam::DVec2;
 
 use super::depth;
 use super::model::{
-    Edge, Explanation, Fragment, GradientUse, Interpolated, Level, Missed, Paint, PatternUse, Pinhole, RampStop,
-    Resolve, Rounding, Sample, Shape, Source, Tap, Texel, Texture, TileTexel, VERSION, Verdict, View,
+    Edge, Explanation, Fragment, Interpolated, Missed, Paint, Pinhole, RampStop, Resolve, Rounding, Sample, Shape,
+    Source, Tap, Texel, Texture, TileTexel, VERSION, Verdict, View,
 };
 use super::numbers::one_line;
 use super::samples::{SampleHit, shape_of, straight};
 use crate::color::{BlendMode, Premultiplied16, ResolveSpace, Rgba};
 use crate::geometry::FillRule;
 use crate::geometry::edge::{EdgeKind, EdgeTest};
-use crate::raster::{
-    Attributes, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay, SampleOfTriangle, TextureUse,
-};
-use crate::render::{self, Explainer, OpenSample, RenderSettings, Subject};
+use crate::raster::{Attributes, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay, SampleOfTriangle};
+use crate::render::{self, Explainer, OpenSample, Subject};
 use crate::rules::Rules;
-use crate::scene::{self, Composite, Fill, MaskKind, PrimitiveKind, Quotes};
+use crate::scene::{self, Composite, MaskKind, PrimitiveKind, Quotes};
 
 /// How far beside the pixel primitives are measured, in distances of samples: far enough that the corner of something
 /// large is not taken for something thin.
@@ -48,6 +46,7 @@ impl Explanation {
         let explainer = Explainer::new(subject, size, pixel);
         let mut missed = explainer.missed(&replay.painted, MOST_MISSED);
         let quotes = subject.scene.quotes();
+        depth::drop_idle_viewports(&mut replay, subject.scene);
         let (seen, unlisted) = depth::list(&mut replay);
         let pieces = explainer.pieces(&replay.painted);
         let rules = subject.settings.rules;
@@ -64,7 +63,10 @@ impl Explanation {
         mark_masks(&mut paints);
         let [a, r, g, b] = replay.pixel.to_be_bytes();
         let center = DVec2::new(f64::from(pixel[0]), f64::from(pixel[1])) + 0.5;
-        let samples = samples(&replay, &paints, rules);
+        let mut samples = samples(&replay, &paints, rules);
+        if unlisted > 0 {
+            count_unlisted(&mut samples, &replay, &paints);
+        }
         let pinholes = question.pinholes(&samples, &paints, (&explainer, quotes.as_ref()));
         missed.retain(|(primitive, _)| pinholes.iter().all(|pinhole| pinhole.primitive != *primitive));
         let around = BESIDE / (replay.samples.len() as f64).sqrt();
@@ -233,44 +235,6 @@ impl Question<'_> {
         }
     }
 
-    /// The pattern that fills a primitive.
-    fn pattern(&self, primitive: u32) -> Option<PatternUse> {
-        let scene = self.subject.scene;
-        let PrimitiveKind::Polygon {
-            fill: Fill::Pattern(pattern),
-            ..
-        } = scene.primitives.get(primitive as usize)?.kind
-        else {
-            return None;
-        };
-        let pattern = scene.patterns.get(pattern.0 as usize)?;
-        let shape = scene.shapes.get(pattern.shape.0 as usize)?;
-        Some(PatternUse {
-            source: self.source_of(shape, None),
-            tile: pattern.tile.canvas.to_array(),
-            opacity: f64::from(pattern.opacity),
-        })
-    }
-
-    /// The gradient that fills a primitive.
-    fn gradient(&self, primitive: u32) -> Option<GradientUse> {
-        let scene = self.subject.scene;
-        let PrimitiveKind::Polygon {
-            fill: Fill::Gradient(gradient),
-            ..
-        } = scene.primitives.get(primitive as usize)?.kind
-        else {
-            return None;
-        };
-        let gradient = scene.gradients.get(gradient.0 as usize)?;
-        let shape = scene.shapes.get(gradient.shape.0 as usize)?;
-        Some(GradientUse {
-            source: self.source_of(shape, None),
-            spread: gradient.ramp.spread().name(),
-            stops: gradient.ramp.stops().len(),
-        })
-    }
-
     /// The samples that the float rules leave open, though a triangle above what is seen there is theirs.
     fn pinholes(
         &self,
@@ -304,7 +268,7 @@ impl Question<'_> {
         Some(self.source_of(shape, quotes))
     }
 
-    fn source_of(&self, shape: &scene::Shape, quotes: Option<&Quotes<'_>>) -> Source {
+    pub(super) fn source_of(&self, shape: &scene::Shape, quotes: Option<&Quotes<'_>>) -> Source {
         Source {
             element: shape.element.to_string(),
             id: shape.id.as_deref().map(one_line),
@@ -313,50 +277,6 @@ impl Question<'_> {
             column: shape.location.column,
             used: shape.used.map(|place| place.line),
             text: quotes.and_then(|quotes| quotes.excerpt(shape.location)),
-        }
-    }
-
-    fn texture(&self, usage: &TextureUse) -> Texture {
-        let RenderSettings {
-            pixel_sampling,
-            level_sampling,
-            detail,
-            ..
-        } = self.subject.settings;
-        let texture = &self.subject.scene.textures[usage.texture as usize];
-        let levels = texture.pyramid.levels();
-        let size = [levels[0].width(), levels[0].height()];
-        let texels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
-        let reading = &usage.reading;
-        let (right, down) = (reading.footprint.dx * texels, reading.footprint.dy * texels);
-        let next = f64::from(reading.levels.next_weight);
-        let level = |number: usize, weight| {
-            levels.get(number).filter(|_| weight > 0.0).map(|level| Level {
-                number,
-                size: [level.width(), level.height()],
-                weight,
-            })
-        };
-        let read = [
-            level(reading.levels.level, 1.0 - next),
-            level(reading.levels.level + 1, next),
-        ];
-        Texture {
-            name: texture.name.clone(),
-            index: usage.texture,
-            size,
-            pixel_sampling: pixel_sampling.name(),
-            level_sampling: level_sampling.name(),
-            right: right.to_array(),
-            down: down.to_array(),
-            step: detail.derivatives.name(),
-            major: right.length().max(down.length()),
-            minor: right.length().min(down.length()),
-            taps: reading.taps.count,
-            level_of_detail: Some(reading.lod).filter(|lod| lod.is_finite()),
-            clamped: reading.lod.clamp(0.0, texture.pyramid.last_level() as f64),
-            levels: read.into_iter().flatten().collect(),
-            opacity: f64::from(usage.opacity),
         }
     }
 }
@@ -374,14 +294,9 @@ fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> 
             seen: None,
         })
         .collect();
-    let mut in_masks = vec![0; samples.len()];
-    for (number, paint) in paints.iter().enumerate() {
+    for (number, paint) in paints.iter().enumerate().filter(|(_, paint)| !paint.in_mask) {
         let is_primitive = !paint.shape.is_layer_mark();
         for fragment in &paint.fragments {
-            if paint.in_mask {
-                in_masks[fragment.sample] += 1;
-                continue;
-            }
             let sample = &mut samples[fragment.sample];
             sample.stack.push(number);
             if fragment.seen && is_primitive {
@@ -389,10 +304,22 @@ fn samples(replay: &PixelReplay, paints: &[Paint], rules: Rules) -> Vec<Sample> 
             }
         }
     }
+    samples
+}
+
+/// Counts what painted each sample and is not listed.
+fn count_unlisted(samples: &mut [Sample], replay: &PixelReplay, paints: &[Paint]) {
+    let mut in_masks = vec![0; samples.len()];
+    for fragment in paints
+        .iter()
+        .filter(|paint| paint.in_mask)
+        .flat_map(|paint| &paint.fragments)
+    {
+        in_masks[fragment.sample] += 1;
+    }
     for ((sample, replayed), in_masks) in samples.iter_mut().zip(&replay.samples).zip(in_masks) {
         sample.unlisted = replayed.fragments.saturating_sub(sample.stack.len() + in_masks);
     }
-    samples
 }
 
 /// Marks what is part of a clip path or mask, which lies on no sample itself.

@@ -17,6 +17,7 @@ mod pinholes;
 mod samples;
 mod seams;
 mod seen;
+mod servers;
 mod text;
 mod truth;
 mod words;

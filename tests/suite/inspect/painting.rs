@@ -89,7 +89,10 @@ fn clips_tell_which_path_took_samples_away() {
     let (outside, text) = told([5, 26], &at_rate(4));
     assert_eq!(outside.color, [255; 4]);
     assert!(text.contains("it takes away all samples"), "{text}");
-    assert!(text.contains("paints 4 of 4 samples, 4 of them taken away again"), "{text}");
+    assert!(
+        text.contains("paints 4 of 4 samples, 4 of them taken away again"),
+        "{text}"
+    );
     assert!(text.contains("and is taken away by"), "{text}");
     assert!(!text.contains("hidden"), "nothing lies over it: {text}");
 }
@@ -120,14 +123,18 @@ fn parts_name_what_they_are() {
     assert!(masked.contains("it takes a part of 4 of 4 samples"), "{masked}");
     assert!(!masked.contains("takes away none"), "{masked}");
     let beside = told([70, 10]);
-    assert!(beside.contains("Nothing paints this pixel"), "no mask of others: {beside}");
+    assert!(
+        beside.contains("Nothing paints this pixel"),
+        "no mask of others: {beside}"
+    );
     let symbol = told([65, 45]);
     assert!(!symbol.contains("clip path covers it"), "there is none: {symbol}");
 }
 
 #[test]
 fn curves_cover_what_they_cover_in_truth() {
-    let document = "<svg xmlns='http://www.w3.org/2000/svg' width='200' height='200'><circle cx='100' cy='100' r='90.3'/></svg>";
+    let document =
+        "<svg xmlns='http://www.w3.org/2000/svg' width='200' height='200'><circle cx='100' cy='100' r='90.3'/></svg>";
     let scene = read(document, DialectChoice::Svg);
     let view = View::Canvas.transform(scene.canvas, [200, 200]);
     let settings = at_rate(4);

@@ -1,0 +1,94 @@
+//! What fills a primitive: a pattern, a gradient, a texture.
+
+use glam::DVec2;
+
+use super::explanation::Question;
+use super::model::{GradientUse, Level, PatternUse, Texture};
+use crate::raster::TextureUse;
+use crate::render::RenderSettings;
+use crate::scene::{Fill, PrimitiveKind};
+
+impl Question<'_> {
+    /// The pattern that fills a primitive.
+    pub(super) fn pattern(&self, primitive: u32) -> Option<PatternUse> {
+        let scene = self.subject.scene;
+        let PrimitiveKind::Polygon {
+            fill: Fill::Pattern(pattern),
+            ..
+        } = scene.primitives.get(primitive as usize)?.kind
+        else {
+            return None;
+        };
+        let pattern = scene.patterns.get(pattern.0 as usize)?;
+        let shape = scene.shapes.get(pattern.shape.0 as usize)?;
+        Some(PatternUse {
+            source: self.source_of(shape, None),
+            tile: pattern.tile.canvas.to_array(),
+            opacity: f64::from(pattern.opacity),
+        })
+    }
+
+    /// The gradient that fills a primitive.
+    pub(super) fn gradient(&self, primitive: u32) -> Option<GradientUse> {
+        let scene = self.subject.scene;
+        let PrimitiveKind::Polygon {
+            fill: Fill::Gradient(gradient),
+            ..
+        } = scene.primitives.get(primitive as usize)?.kind
+        else {
+            return None;
+        };
+        let gradient = scene.gradients.get(gradient.0 as usize)?;
+        let shape = scene.shapes.get(gradient.shape.0 as usize)?;
+        Some(GradientUse {
+            source: self.source_of(shape, None),
+            spread: gradient.ramp.spread().name(),
+            stops: gradient.ramp.stops().len(),
+        })
+    }
+
+    /// How a texture is read.
+    pub(super) fn texture(&self, usage: &TextureUse) -> Texture {
+        let RenderSettings {
+            pixel_sampling,
+            level_sampling,
+            detail,
+            ..
+        } = self.subject.settings;
+        let texture = &self.subject.scene.textures[usage.texture as usize];
+        let levels = texture.pyramid.levels();
+        let size = [levels[0].width(), levels[0].height()];
+        let texels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
+        let reading = &usage.reading;
+        let (right, down) = (reading.footprint.dx * texels, reading.footprint.dy * texels);
+        let next = f64::from(reading.levels.next_weight);
+        let level = |number: usize, weight| {
+            levels.get(number).filter(|_| weight > 0.0).map(|level| Level {
+                number,
+                size: [level.width(), level.height()],
+                weight,
+            })
+        };
+        let read = [
+            level(reading.levels.level, 1.0 - next),
+            level(reading.levels.level + 1, next),
+        ];
+        Texture {
+            name: texture.name.clone(),
+            index: usage.texture,
+            size,
+            pixel_sampling: pixel_sampling.name(),
+            level_sampling: level_sampling.name(),
+            right: right.to_array(),
+            down: down.to_array(),
+            step: detail.derivatives.name(),
+            major: right.length().max(down.length()),
+            minor: right.length().min(down.length()),
+            taps: reading.taps.count,
+            level_of_detail: Some(reading.lod).filter(|lod| lod.is_finite()),
+            clamped: reading.lod.clamp(0.0, texture.pyramid.last_level() as f64),
+            levels: read.into_iter().flatten().collect(),
+            opacity: f64::from(usage.opacity),
+        }
+    }
+}

@@ -1,9 +1,10 @@
 //! What a frame costs, ours and the peers': `cargo bench --bench frames -- [PART ...]`.
 //!
-//! Parts: `parts`, `stages`, `flat`, `course`, `slivers`, `textured`, `million`, `points`, `memory`; all of them without an
+//! Parts: `parts`, `stages`, `flat`, `drawings`, `course`, `slivers`, `textured`, `million`, `points`, `memory`; all of them without an
 //! argument. The last lines are the table of the README. `--export FOLDER` instead times us and writes what `benches/llvmpipe` draws.
 
 mod course;
+mod drawings;
 mod export;
 mod flat;
 mod memory;
@@ -47,6 +48,9 @@ fn main() {
     say("\nmilliseconds, median (minimum); /1: one thread; @16: sixteen samples per pixel");
     if wanted("flat") {
         rows.extend(flat::flat(BUDGET));
+    }
+    if wanted("drawings") {
+        rows.extend(drawings::drawings(BUDGET));
     }
     if wanted("course") {
         rows.extend(course::course(BUDGET));

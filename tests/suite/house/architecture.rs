@@ -271,8 +271,8 @@ const BENCHES: Room = Room {
     rooms: &[
         "inspect", "render", "scene", "raster", "texture", "color", "geometry", "rules", "simd", "plain", "memory",
     ],
-    // usvg is the peers' reader too.
-    crates: &["serde_json", "sha2", "usvg"],
+    // usvg is the peers' reader too, and they get the typefaces that we have.
+    crates: &["epaint_default_fonts", "serde_json", "sha2", "usvg"],
 };
 
 #[test]

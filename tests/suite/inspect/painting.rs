@@ -111,7 +111,11 @@ const PARTS: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 
 #[test]
 fn parts_name_what_they_are() {
     let scene = read(PARTS, DialectChoice::Svg);
-    let told = |pixel| advised(&scene, &at_rate(4), SIZE, pixel).to_string();
+    let told = |pixel| {
+        let text = advised(&scene, &at_rate(4), SIZE, pixel).to_string();
+        // However lines are wrapped.
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
     let mark = told([46, 14]);
     assert!(mark.contains("of marker \"arrow\", line 2"), "{mark}");
     assert!(mark.contains("put here as a mark of the line in line 6"), "{mark}");

@@ -128,7 +128,7 @@ fn readme_shows_pictures_that_its_commands_make() {
         );
         count += 1;
     }
-    assert_eq!(count, 4, "all pictures");
+    assert_eq!(count, 5, "all pictures");
     // Flat colours are the same bytes on every machine.
     let again = Command::new(env!("CARGO_BIN_EXE_rasterscope"))
         .current_dir(root)

@@ -447,7 +447,7 @@ impl<'a> Screen<'a> {
 
     /// Calls `draw` with a polygon whose edges are fine enough for this view.
     fn with_edges<T>(&self, polygon: &Polygon, draw: impl FnOnce(&Polygon) -> T) -> T {
-        let finer = if self.shows(polygon) {
+        let finer = if polygon.curves().is_some() && self.shows(polygon) {
             polygon.at_scale(self.scale)
         } else {
             None

@@ -188,6 +188,8 @@ impl<'a> FilterLevel<'a> {
 }
 
 /// See [`super::Filter::points`] and [`super::Filter::pixels`].
+// Inlined into its callers its loops take 3 % more instructions.
+#[inline(never)]
 fn filter_samples<C: FromColors>(level: Level, plan: &Plan<'_>, points: &[[u16; 2]], out: &mut [C]) {
     if plan.line.taps.count == 1 {
         dispatch!(level, simd => sample_filter::filter_with(simd, plan, points, out));

@@ -21,7 +21,7 @@ pub(super) struct GradientPaint(u32);
 /// A gradient, ready to be asked.
 #[derive(Debug)]
 pub(super) struct GradientShader<'a> {
-    gradient: PlacedGradient<'a>,
+    gradient: &'a PlacedGradient<'a>,
     rules: Rules,
 }
 
@@ -44,7 +44,7 @@ impl PaintKind for GradientPaint {
 
     fn shader<'a>(&self, context: &ShadeContext<'a>, _: &[GridPoint; 3]) -> GradientShader<'a> {
         GradientShader {
-            gradient: context.sources.gradients[self.0 as usize],
+            gradient: &context.sources.gradients[self.0 as usize],
             rules: context.sampling.rules,
         }
     }
@@ -94,7 +94,7 @@ mod tests {
         let stop = |offset, color| Stop { offset, color };
         let ramp = Ramp::new(vec![stop(0.0, Rgba::BLACK), stop(1.0, Rgba::WHITE)], Spread::Pad).expect("two stops");
         let shader = GradientShader {
-            gradient: PlacedGradient {
+            gradient: &PlacedGradient {
                 geometry: GradientShape::Linear {
                     from: DVec2::ZERO,
                     to: DVec2::X,
@@ -137,7 +137,7 @@ mod tests {
         };
         assert!(!cone.is_opaque(), "it lets something through somewhere");
         let shader = GradientShader {
-            gradient: cone,
+            gradient: &cone,
             rules: Rules::Standard,
         };
         assert_eq!(

@@ -115,11 +115,16 @@ impl Edge {
 impl Paint {
     /// The texture, pattern or gradient that it is filled by.
     pub(super) fn server_lines(&self) -> Vec<String> {
+        let how = if matches!(self.shape, Shape::Polygon { stroke: true, .. }) {
+            "stroked with"
+        } else {
+            "filled by"
+        };
         let mut lines: Vec<String> = self.texture.iter().flat_map(Texture::lines).collect();
         if let Some(pattern) = &self.pattern {
             let [width, height] = pattern.tile.map(number);
             lines.push(format!(
-                "filled by {}, line {}: tiles of {width} x {height} units",
+                "{how} {}, line {}: tiles of {width} x {height} units",
                 pattern.source.name(),
                 pattern.source.line
             ));
@@ -131,7 +136,7 @@ impl Paint {
             let GradientUse { source, spread, stops } = gradient;
             let plural = if *stops == 1 { "" } else { "s" };
             lines.push(format!(
-                "filled by {}, line {}: {stops} stop{plural}, spread {spread}",
+                "{how} {}, line {}: {stops} stop{plural}, spread {spread}",
                 source.name(),
                 source.line
             ));
@@ -148,10 +153,23 @@ impl Fragment {
                 format!("colour    {}", color(self.color)),
                 "counts for the mask, and is not seen itself".to_owned(),
             ],
+            Shape::EndMask { by: "luminance" } => {
+                let mut lines = self.mask_lines();
+                if (1..255).contains(&self.kept_level()) {
+                    lines.push("weighed   0.2125 red + 0.7154 green + 0.0721 blue of the mask".to_owned());
+                }
+                lines
+            }
             Shape::EndClip | Shape::EndMask { .. } => self.mask_lines(),
             Shape::EndLayer { blend: Some(blend), .. } => self.blend_lines(blend),
             _ => self.over_lines(),
         }
+    }
+
+    /// How much a clip path or mask leaves, in levels of 255.
+    #[expect(clippy::cast_possible_truncation, reason = "0 to 255")]
+    fn kept_level(&self) -> i32 {
+        self.color[3].round() as i32
     }
 
     /// What a clip path or mask leaves of the sample.
@@ -182,6 +200,15 @@ impl Fragment {
             let straight = |[r, g, b, a]: [f64; 4]| [r, g, b].map(|channel| unit(channel / a));
             let mixed = mode.mixed(straight(self.before), straight(self.color));
             let [r, g, b] = mixed.map(|channel| format!("{channel:.4}"));
+            if self.color[3] < 255.0 || self.before[3] < 255.0 {
+                let told = |[r, g, b]: [f32; 3]| format!("{r:.4}, {g:.4}, {b:.4}");
+                let (above, below) = (straight(self.color), straight(self.before));
+                lines.push(format!(
+                    "divided   by their alpha: above {}, below {}, each 0 to 1",
+                    told(above),
+                    told(below)
+                ));
+            }
             lines.push(format!("{name}: {}", mode.formula()));
             lines.push(format!("mixed     red {r}, green {g}, blue {b}, each 0 to 1"));
             lines.push(

@@ -1,4 +1,5 @@
-//! Tiles of patterns, drawn for the view that shows them: a texel for each pixel.
+//! Tiles of patterns, drawn for the view that shows them: a texel for each sample, so that edges in a tile lie where they
+//! would without it, however the tile is turned.
 
 use std::sync::Arc;
 
@@ -7,12 +8,16 @@ use glam::{DAffine2, DVec2};
 use super::{RenderSettings, Visualisation, draw};
 use crate::color::Rgba;
 use crate::geometry::ViewTransform;
-use crate::raster::{Framebuffer, PlacedPattern};
+use crate::raster::{Framebuffer, PlacedPattern, SampleRate};
 use crate::scene::Pattern;
 use crate::texture::Tile;
 
 /// Largest side of a tile in texels; one that is shown larger is stretched.
 const MAX_SIDE: f64 = 4096.0;
+/// Texels of a tile that has one for each sample, at most: 32 MB. Larger ones have one for each pixel.
+const MOST_TEXELS: f64 = 4_194_304.0;
+/// Least side of a tile whose texels show one sample each: of fewer the colour of the whole would depend on where they lie.
+const LEAST_SIDE: f64 = 8.0;
 
 /// A pattern as it lies in a view.
 pub(super) fn placed(pattern: &Pattern, view: &ViewTransform, settings: &RenderSettings) -> PlacedPattern {
@@ -31,8 +36,18 @@ fn pattern_tile(pattern: &Pattern, to_pixels: DAffine2, settings: &RenderSetting
     if !to_pixels.inverse().is_finite() || !sides.is_finite() {
         return None;
     }
-    let size = sides.ceil().clamp(DVec2::ONE, DVec2::splat(MAX_SIDE));
+    let samples = sides * f64::from(settings.sample_rate.side());
+    let is_small = samples.max_element() <= MAX_SIDE && samples.element_product() <= MOST_TEXELS;
+    let size = if is_small { samples } else { sides };
+    let size = size.ceil().clamp(DVec2::ONE, DVec2::splat(MAX_SIDE));
+    // One sample is enough for a texel that is one; not where the tile has hardly any, and not for one that is a pixel.
+    let sample_rate = if is_small && samples.min_element() >= LEAST_SIDE {
+        SampleRate::ONE
+    } else {
+        settings.sample_rate
+    };
     let settings = RenderSettings {
+        sample_rate,
         visualisation: Visualisation::Color,
         background: Rgba::TRANSPARENT,
         outline: false,

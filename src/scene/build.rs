@@ -143,7 +143,7 @@ impl<'doc> Builder<'doc> {
     pub(super) fn begin_layer(&mut self, shape: ShapeId) -> Result<(), Fault> {
         self.open_layers += 1;
         if self.open_layers > MAX_LAYERS {
-            let what = "layers of opacity inside each other";
+            let what = "layers (opacity, blend modes, clip paths, masks) inside each other";
             return Err(self.fault(
                 shape,
                 Problem::TooMany {

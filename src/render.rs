@@ -423,6 +423,12 @@ fn paint(paint: &Paint) -> raster::Paint {
     }
 }
 
+/// Pixels per user unit, in the direction in which there are most.
+fn pixels_per_unit(view: &ViewTransform) -> f64 {
+    let matrix = view.scene_to_pixels.matrix2;
+    matrix.x_axis.length().max(matrix.y_axis.length())
+}
+
 /// User space to screen space, by whose rules.
 struct Screen<'a> {
     view: &'a ViewTransform,
@@ -435,12 +441,10 @@ struct Screen<'a> {
 
 impl<'a> Screen<'a> {
     fn new(view: &'a ViewTransform, settings: &RenderSettings, size: [u32; 2]) -> Self {
-        let matrix = view.scene_to_pixels.matrix2;
-        let pixels = matrix.x_axis.length().max(matrix.y_axis.length());
         Self {
             view,
             rules: settings.rules,
-            scale: pixels * f64::from(settings.sample_rate.side()),
+            scale: pixels_per_unit(view) * f64::from(settings.sample_rate.side()),
             size,
         }
     }
@@ -455,16 +459,21 @@ impl<'a> Screen<'a> {
         draw(finer.as_deref().unwrap_or(polygon))
     }
 
-    /// The same with edges so much finer that its area is known to four digits; of many points they are the picture's.
+    /// The same with edges so much finer that the area in a pixel is known to three digits; those of many points stay the
+    /// picture's.
     fn with_true_edges<T>(&self, polygon: &Polygon, measure: impl FnOnce(&Polygon) -> T) -> T {
-        const FINER: f64 = 64.0;
-        /// They become eight times as many, and are cut into triangles.
-        const MOST_POINTS: usize = 5_000;
-        if polygon.points().len() > MOST_POINTS {
-            return self.with_edges(polygon, measure);
+        /// Of a pixel's side.
+        const TOLERANCE: f64 = 5e-4;
+        /// They become several times as many, and are cut into triangles.
+        const MOST_POINTS: usize = 2_000;
+        match polygon.curves().filter(|_| polygon.points().len() <= MOST_POINTS) {
+            // Not remembered by the polygon: frames would have to find theirs again.
+            Some(curves) => {
+                let tolerance = TOLERANCE / pixels_per_unit(self.view);
+                measure(&Polygon::new(curves.flattened(tolerance), polygon.rule()))
+            }
+            None => self.with_edges(polygon, measure),
         }
-        let finer = polygon.curves().and_then(|_| polygon.at_scale(self.scale * FINER));
-        measure(finer.as_deref().unwrap_or(polygon))
     }
 
     /// Whether any of a polygon may lie in the frame.

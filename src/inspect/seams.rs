@@ -65,7 +65,13 @@ impl Explanation {
 
     /// The edges of a triangle that is seen: parts of a mask have none that anybody could see a seam at.
     fn edges(&self, paint: usize, sample: usize) -> Option<&[Edge; 3]> {
-        match self.paints.get(paint).filter(|paint| !paint.in_mask)?.views.get(sample)? {
+        match self
+            .paints
+            .get(paint)
+            .filter(|paint| !paint.in_mask)?
+            .views
+            .get(sample)?
+        {
             View::Triangle { edges, .. } => Some(edges),
             View::Polygon { .. } => None,
         }

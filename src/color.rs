@@ -1,6 +1,7 @@
 //! Colours: straight and premultiplied, floats and bytes. The only file that knows gamma.
 
 mod blend;
+mod blend_all;
 mod colormap;
 mod ramp;
 mod resolve;
@@ -9,7 +10,7 @@ use crate::rules::Rules;
 
 pub use blend::BlendMode;
 pub use colormap::Colormap;
-pub use ramp::{Mix, Ramp, Spread, Stop};
+pub use ramp::{Mix, Ramp, Spread, Stop, Stretch};
 pub use resolve::{ResolveSpace, encoded};
 
 /// A straight (not premultiplied) sRGB-encoded colour; each channel and alpha in `0.0..=1.0`.
@@ -139,6 +140,25 @@ impl Premultiplied16 {
         Self(channels.map(Into16::into_16))
     }
 
+    /// As one number, red in its lowest 16 bits.
+    #[inline]
+    pub fn to_word(self) -> u64 {
+        let [r, g, b, a] = self.0.map(u64::from);
+        r | g << 16 | b << 32 | a << 48
+    }
+
+    /// From one number that holds the channels, red in its lowest 16 bits.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "the lowest bits are meant")]
+    pub fn from_word(word: u64) -> Self {
+        Self([
+            word as u16,
+            (word >> 16) as u16,
+            (word >> 32) as u16,
+            (word >> 48) as u16,
+        ])
+    }
+
     /// From premultiplied channels in `0.0..=255.0`, such as filtered texels; rounded to nearest, or truncated to bytes
     /// under the course's rules.
     #[inline]
@@ -159,6 +179,13 @@ impl Premultiplied16 {
         }))
     }
 
+    /// The same colour with every channel cut to a byte.
+    #[inline]
+    #[must_use]
+    pub fn truncated(self) -> Self {
+        Self(self.0.map(|channel| channel / Self::PER_BYTE * Self::PER_BYTE))
+    }
+
     /// Whether it hides what is below it.
     #[inline]
     pub fn is_opaque(self) -> bool {
@@ -177,7 +204,7 @@ impl Premultiplied16 {
         });
         match rules {
             Rules::Standard | Rules::Float => Self(mixed),
-            Rules::Course => Self(mixed.map(|channel| channel / Self::PER_BYTE * Self::PER_BYTE)),
+            Rules::Course => Self(mixed).truncated(),
         }
     }
 
@@ -205,6 +232,9 @@ impl Premultiplied16 {
     #[inline]
     #[must_use]
     pub fn faded(self, opacity: u16) -> Self {
+        if opacity == Self::ONE {
+            return self;
+        }
         Self(self.0.map(|channel| {
             let scaled = div_one(u32::from(channel) * u32::from(opacity));
             u16::try_from(scaled).unwrap_or(u16::MAX)

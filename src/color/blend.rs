@@ -119,10 +119,11 @@ impl BlendMode {
         if self == Self::Normal || above.0[3] == 0 || below.0[3] == 0 {
             return above.over(below, rules);
         }
+        let levels = [above, below].map(|color| color.0.map(f32::from));
+        let [above, below] = levels.map(|[r, g, b, a]| [r / a, g / a, b / a]);
+        let mixed = self.mixed(below, above);
         let one = f32::from(Premultiplied16::ONE);
-        let [upper, lower] = [above, below].map(|color| color.0.map(|channel| f32::from(channel) / one));
-        let straight = |[r, g, b, a]: [f32; 4]| [r / a, g / a, b / a];
-        let mixed = self.mixed(straight(lower), straight(upper));
+        let [upper, lower] = levels.map(|color| color.map(|level| level / one));
         let (upper_alpha, lower_alpha) = (upper[3], lower[3]);
         let channel = |i: usize| {
             upper[i] * (1.0 - lower_alpha) + lower[i] * (1.0 - upper_alpha) + upper_alpha * lower_alpha * mixed[i]

@@ -9,7 +9,11 @@
 //!
 //! SVG 2, sections 14.2.2 and 14.2.3; the canvas element's `createRadialGradient` for circles that are not inside each other.
 
-use glam::DVec2;
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch, f64x8};
+use glam::{DAffine2, DVec2};
+
+use crate::simd;
 
 /// The geometry of a gradient, in its own coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,58 +52,145 @@ impl GradientShape {
         }
     }
 
-    /// The place on the ramp, before spreading; `None` where no circle of the gradient goes through the point.
-    #[inline]
-    pub fn at(&self, point: DVec2) -> Option<f64> {
+    /// The same gradient asked in other coordinates, which `to_own` takes to its own.
+    pub fn placed(&self, to_own: DAffine2) -> PlacedShape {
         match *self {
             Self::Linear { from, to } => {
                 let along = to - from;
                 let length = along.length_squared();
                 // A line without length shows its last stop.
-                Some(if length > 0.0 {
-                    (point - from).dot(along) / length
+                let [right, down, start] = if length > 0.0 {
+                    let [x, y, start] = [to_own.matrix2.x_axis, to_own.matrix2.y_axis, to_own.translation - from];
+                    [x, y, start].map(|vector| vector.dot(along) / length)
                 } else {
-                    1.0
-                })
+                    [0.0, 0.0, 1.0]
+                };
+                PlacedShape::Linear { right, down, start }
             }
             Self::Radial {
                 center,
                 radius,
                 focus,
                 focal_radius,
-            } => circle_through(point - focus, center - focus, [focal_radius, radius]),
+            } => {
+                let to_focus = DAffine2::from_translation(-focus) * to_own;
+                PlacedShape::Radial(Circles::new(to_focus, center - focus, [focal_radius, radius]))
+            }
         }
     }
 }
 
-/// The largest `t` for which the circle around `t` times `center` goes through `point`, whose radius is mixed from both and
-/// must not be negative.
-#[inline]
-fn circle_through(point: DVec2, center: DVec2, [first, last]: [f64; 2]) -> Option<f64> {
-    // |point - t center|^2 = (first + t growth)^2, as a t^2 - 2 b t + c = 0.
-    let growth = last - first;
-    let a = center.length_squared() - growth * growth;
-    let b = point.dot(center) + first * growth;
-    let c = point.length_squared() - first * first;
-    let has_radius = |t: &f64| first + t * growth >= 0.0;
-    // Where both circles touch from inside, one of the two solutions goes to infinity.
-    if a.abs() <= 1e-12 * (growth * growth).max(f64::MIN_POSITIVE) {
-        return Some(c / (2.0 * b)).filter(|t| t.is_finite()).filter(has_radius);
+/// A gradient's shape as it lies in other coordinates than its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PlacedShape {
+    /// Along a line: the place on the ramp is an affine function.
+    Linear {
+        /// Change of the place along `x`.
+        right: f64,
+        /// And along `y`.
+        down: f64,
+        /// The place at the origin.
+        start: f64,
+    },
+    /// Between two circles.
+    Radial(Circles),
+}
+
+/// The circles of a radial gradient, around its focus.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Circles {
+    /// To coordinates of the gradient whose origin is the focus.
+    to_focus: DAffine2,
+    /// The middle of the last circle there.
+    center: DVec2,
+    /// The radius of the first one, and what the last one has more.
+    first: f64,
+    growth: f64,
+    /// Of `a t^2 - 2 b t + c = 0`, and one over it.
+    a: f64,
+    inverse: f64,
+    /// Whether `a` vanishes: both circles touch from inside, and one of the two solutions goes to infinity.
+    touch: bool,
+}
+
+#[expect(
+    clippy::inline_always,
+    reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
+)]
+impl PlacedShape {
+    /// The places on the ramp, before spreading, of eight points; no number where no circle of the gradient goes through one.
+    /// Each depends on its own point only, to the last bit, whichever vector instructions compute it.
+    #[inline(always)]
+    pub fn places<S: Simd>(&self, simd: S, [x, y]: [f64x8<S>; 2]) -> f64x8<S> {
+        match self {
+            Self::Linear { right, down, start } => x * *right + y * *down + *start,
+            Self::Radial(circles) => circles.places(simd, [x, y]),
+        }
     }
-    let discriminant = b * b - a * c;
-    if discriminant < 0.0 {
-        return None;
+
+    /// The place on the ramp of one point, before spreading; no number where no circle of the gradient goes through it.
+    pub fn place(&self, point: DVec2) -> f64 {
+        dispatch!(simd::level(), simd => {
+            let point = [f64x8::splat(simd, point.x), f64x8::splat(simd, point.y)];
+            <[f64; 8]>::from(self.places(simd, point))[0]
+        })
     }
-    let root = discriminant.sqrt();
-    let (one, other) = ((b + root) / a, (b - root) / a);
-    Some(one.max(other))
-        .filter(has_radius)
-        .or(Some(one.min(other)).filter(has_radius))
+}
+
+// The circle around `t` times `center` goes through a point: |point - t center|^2 = (first + t growth)^2, which is
+// a t^2 - 2 b t + c = 0. Its radius must not be negative.
+#[expect(
+    clippy::inline_always,
+    reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
+)]
+impl Circles {
+    fn new(to_focus: DAffine2, center: DVec2, [first, last]: [f64; 2]) -> Self {
+        let growth = last - first;
+        let a = center.length_squared() - growth * growth;
+        Self {
+            to_focus,
+            center,
+            first,
+            growth,
+            a,
+            inverse: a.recip(),
+            touch: a.abs() <= 1e-12 * (growth * growth).max(f64::MIN_POSITIVE),
+        }
+    }
+
+    #[inline(always)]
+    fn places<S: Simd>(&self, simd: S, [x, y]: [f64x8<S>; 2]) -> f64x8<S> {
+        let none = f64x8::splat(simd, f64::NAN);
+        let zero = f64x8::splat(simd, 0.0);
+        let has_radius = |t: f64x8<S>| (t * self.growth + self.first).simd_ge(zero);
+        let DAffine2 { matrix2, translation } = self.to_focus;
+        let right = x * matrix2.x_axis.x + y * matrix2.y_axis.x + translation.x;
+        let down = x * matrix2.x_axis.y + y * matrix2.y_axis.y + translation.y;
+        let b = right * self.center.x + down * self.center.y + self.first * self.growth;
+        let c = right * right + down * down - self.first * self.first;
+        if self.touch {
+            let t = c / (b + b);
+            let finite = t.abs().simd_lt(f64x8::splat(simd, f64::INFINITY));
+            return (has_radius(t) & finite).select(t, none);
+        }
+        // Where there is no solution, the root is no number, nor is what follows from it.
+        let root = (b * b - c * self.a).sqrt();
+        let (one, other) = ((b + root) * self.inverse, (b - root) * self.inverse);
+        let larger = one.simd_gt(other).select(one, other);
+        let smaller = one.simd_gt(other).select(other, one);
+        has_radius(larger).select(larger, has_radius(smaller).select(smaller, none))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The place of a point of the gradient's own coordinates.
+    fn place(shape: GradientShape, point: [f64; 2]) -> Option<f64> {
+        let place = shape.placed(DAffine2::IDENTITY).place(DVec2::from(point));
+        (!place.is_nan()).then_some(place)
+    }
 
     #[test]
     fn linear_gradients_measure_along_their_line() {
@@ -108,13 +199,13 @@ mod tests {
             to: DVec2::new(20.0, 0.0),
         };
         for (x, t) in [(10.0, 0.0), (15.0, 0.5), (20.0, 1.0), (0.0, -1.0)] {
-            assert_eq!(shape.at(DVec2::new(x, 77.0)), Some(t), "at {x}");
+            assert_eq!(place(shape, [x, 77.0]), Some(t), "at {x}");
         }
         let point = GradientShape::Linear {
             from: DVec2::ONE,
             to: DVec2::ONE,
         };
-        assert_eq!(point.at(DVec2::ZERO), Some(1.0), "without length: the last stop");
+        assert_eq!(place(point, [0.0; 2]), Some(1.0), "without length: the last stop");
     }
 
     #[test]
@@ -126,19 +217,19 @@ mod tests {
             focal_radius,
         };
         let near = |t: Option<f64>, expected: f64| assert!((t.expect("a circle") - expected).abs() < 1e-12);
-        near(around(DVec2::ZERO, 0.0).at(DVec2::new(3.0, 4.0)), 0.5);
-        near(around(DVec2::ZERO, 5.0).at(DVec2::new(0.0, 7.5)), 0.5);
+        near(place(around(DVec2::ZERO, 0.0), [3.0, 4.0]), 0.5);
+        near(place(around(DVec2::ZERO, 5.0), [0.0, 7.5]), 0.5);
         // Half way the circle has its middle half way to the centre, at (-3, 0), and the radius 5.
-        near(around(DVec2::new(-6.0, 0.0), 0.0).at(DVec2::new(2.0, 0.0)), 0.5);
-        near(around(DVec2::new(-6.0, 0.0), 0.0).at(DVec2::new(-8.0, 0.0)), 0.5);
-        near(around(DVec2::new(-10.0, 0.0), 0.0).at(DVec2::new(0.0, 0.0)), 0.5);
+        near(place(around(DVec2::new(-6.0, 0.0), 0.0), [2.0, 0.0]), 0.5);
+        near(place(around(DVec2::new(-6.0, 0.0), 0.0), [-8.0, 0.0]), 0.5);
+        near(place(around(DVec2::new(-10.0, 0.0), 0.0), [0.0, 0.0]), 0.5);
         assert_eq!(
-            around(DVec2::new(-10.0, 0.0), 0.0).at(DVec2::new(-11.0, 0.0)),
+            place(around(DVec2::new(-10.0, 0.0), 0.0), [-11.0, 0.0]),
             None,
             "behind a focus on the circle there is nothing"
         );
         assert_eq!(
-            around(DVec2::new(-20.0, 0.0), 0.0).at(DVec2::new(-30.0, 0.0)),
+            place(around(DVec2::new(-20.0, 0.0), 0.0), [-30.0, 0.0]),
             None,
             "nor behind a cone's tip"
         );
@@ -160,7 +251,7 @@ mod tests {
                 focus,
                 focal_radius,
             };
-            if let Some(t) = shape.at(point) {
+            if let Some(t) = place(shape, point.to_array()) {
                 let middle = focus + (center - focus) * t;
                 let expected = focal_radius + (radius - focal_radius) * t;
                 let error = (point.distance(middle) - expected).abs();

@@ -16,7 +16,7 @@ mod view;
 mod width;
 
 pub use area::area_in_pixel;
-pub use gradient::GradientShape;
+pub use gradient::{Circles, GradientShape, PlacedShape};
 pub use path::{CurvedArea, Path, Stroke};
 pub use polygon::Polygon;
 pub use stroke::{LineCap, LineJoin, StrokeStyle};

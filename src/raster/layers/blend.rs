@@ -4,6 +4,9 @@ use crate::color::{BlendMode, Premultiplied16, unit_to_16};
 use crate::raster::layers::composite::Composite;
 use crate::rules::Rules;
 
+/// Samples that are faded together.
+const TOGETHER: usize = 64;
+
 /// The mode, and the layer's opacity, of [`Premultiplied16::ONE`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Blend {
@@ -27,6 +30,21 @@ impl Composite for Blend {
 
     fn over(self, fragment: Premultiplied16, below: Premultiplied16, rules: Rules) -> Premultiplied16 {
         self.mode.blend(fragment, below, rules)
+    }
+
+    fn composite(self, layer: &[Premultiplied16], below: &mut [Premultiplied16], rules: Rules) {
+        if self.opacity == Premultiplied16::ONE {
+            self.mode.blend_all(layer, below, rules);
+            return;
+        }
+        let mut faded = [Premultiplied16::TRANSPARENT; TOGETHER];
+        for (layer, below) in layer.chunks(TOGETHER).zip(below.chunks_mut(TOGETHER)) {
+            let faded = &mut faded[..layer.len()];
+            for (faded, sample) in faded.iter_mut().zip(layer) {
+                *faded = self.fragment(*sample);
+            }
+            self.mode.blend_all(faded, below, rules);
+        }
     }
 
     fn hides(self, fragment: Premultiplied16) -> bool {

@@ -9,8 +9,26 @@ pub(super) trait Composite: Copy {
     fn fragment(self, sample: Premultiplied16) -> Premultiplied16;
 
     /// What a sample shows once a fragment is painted over it.
+    #[inline]
     fn over(self, fragment: Premultiplied16, below: Premultiplied16, rules: Rules) -> Premultiplied16 {
-        fragment.over(below, rules)
+        // Nothing shows through what is opaque, and most of a layer is.
+        if fragment.is_opaque() && rules != Rules::Course {
+            fragment
+        } else {
+            fragment.over(below, rules)
+        }
+    }
+
+    /// Composites many samples of the layer with those below it.
+    #[inline]
+    fn composite(self, layer: &[Premultiplied16], below: &mut [Premultiplied16], rules: Rules) {
+        for (below, sample) in below.iter_mut().zip(layer) {
+            // Most samples are where the layer is not. Under the course's rules painting nothing truncates, too.
+            let nothing = sample.0[3] == 0 && self.keeps_below() && rules != Rules::Course;
+            if !nothing {
+                *below = self.over(self.fragment(*sample), *below, rules);
+            }
+        }
     }
 
     /// Whether samples at which the layer is transparent leave what is below them as it is.

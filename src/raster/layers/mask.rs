@@ -27,6 +27,7 @@ impl Mask {
 
 impl Composite for Mask {
     /// White, as opaque as what lies below stays.
+    #[inline]
     fn fragment(self, sample: Premultiplied16) -> Premultiplied16 {
         let kept = match self {
             Self::Alpha => sample.0[3],
@@ -38,6 +39,7 @@ impl Composite for Mask {
         Premultiplied16([kept.min(Premultiplied16::ONE); 4])
     }
 
+    #[inline]
     fn over(self, fragment: Premultiplied16, below: Premultiplied16, _: Rules) -> Premultiplied16 {
         below.faded(fragment.0[3])
     }

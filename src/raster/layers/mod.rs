@@ -43,6 +43,12 @@ macro_rules! composites {
                 }
             }
 
+            fn composite(self, layer: &[Premultiplied16], below: &mut [Premultiplied16], rules: Rules) {
+                match self {
+                    $(Self::$kind(own) => own.composite(layer, below, rules),)+
+                }
+            }
+
             fn keeps_below(self) -> bool {
                 match self {
                     $(Self::$kind(own) => own.keeps_below(),)+
@@ -94,16 +100,16 @@ impl Compositing {
         self.0.fragment(sample)
     }
 
-    /// What a sample shows once a fragment is painted over it.
-    #[inline]
-    pub(crate) fn over(self, fragment: Premultiplied16, below: Premultiplied16, rules: Rules) -> Premultiplied16 {
-        self.0.over(fragment, below, rules)
-    }
-
     /// What a sample shows once the layer's is composited with it.
     #[inline]
     pub(crate) fn composited(self, sample: Premultiplied16, below: Premultiplied16, rules: Rules) -> Premultiplied16 {
-        self.over(self.fragment(sample), below, rules)
+        self.0.over(self.0.fragment(sample), below, rules)
+    }
+
+    /// Composites many samples of the layer with those below it.
+    #[inline]
+    pub(crate) fn composite(self, layer: &[Premultiplied16], below: &mut [Premultiplied16], rules: Rules) {
+        self.0.composite(layer, below, rules);
     }
 
     /// Whether samples at which the layer is transparent leave what is below them as it is.

@@ -14,6 +14,9 @@ use crate::raster::sampling::mask::SampleMask;
 use crate::raster::span::{PixelRect, Span};
 use crate::rules::Rules;
 
+/// Samples of one pixel with which one colour is composited together.
+const ALIKE: usize = 16;
+
 /// The samples of a rectangle of pixels.
 #[derive(Debug)]
 pub(crate) struct SampleColors {
@@ -188,25 +191,31 @@ impl SampleColors {
 
     /// Composites another tile of the same rectangle with this one.
     pub(crate) fn composite(&mut self, layer: &Self, compositing: Compositing) {
-        let keeps_below = compositing.keeps_below();
+        let (count, keeps_below) = (self.whole.len(), compositing.keeps_below());
         self.opaque &= keeps_below;
-        for pixel in 0..self.whole.len() {
-            if layer.split[pixel] {
-                self.ensure_split(pixel);
-                let range = pixel * self.per_pixel..(pixel + 1) * self.per_pixel;
-                for (below, above) in self.samples[range.clone()].iter_mut().zip(&layer.samples[range]) {
-                    *below = compositing.composited(*above, *below, self.rules);
+        let mut first = 0;
+        while first < count {
+            // Pixels side by side that are alike, so that their samples lie side by side.
+            let kind = |pixel: usize| (layer.split[pixel], self.split[pixel] && !layer.split[pixel]);
+            let last = (first + 1..count)
+                .find(|pixel| kind(*pixel) != kind(first))
+                .unwrap_or(count);
+            let (samples, whole) = (first * self.per_pixel..last * self.per_pixel, &layer.whole[first..last]);
+            if layer.split[first] {
+                (first..last).for_each(|pixel| self.ensure_split(pixel));
+                compositing.composite(&layer.samples[samples.clone()], &mut self.samples[samples], self.rules);
+            } else if keeps_below && whole.iter().all(|color| *color == Premultiplied16::TRANSPARENT) {
+                // Nothing changes.
+            } else if self.split[first] {
+                for (below, color) in self.samples[samples].chunks_mut(self.per_pixel).zip(whole) {
+                    below
+                        .chunks_mut(ALIKE)
+                        .for_each(|below| compositing.composite(&[*color; ALIKE][..below.len()], below, self.rules));
                 }
-            } else if !keeps_below || layer.whole[pixel] != Premultiplied16::TRANSPARENT {
-                let fragment = compositing.fragment(layer.whole[pixel]);
-                if self.split[pixel] {
-                    for below in &mut self.samples[pixel * self.per_pixel..][..self.per_pixel] {
-                        *below = compositing.over(fragment, *below, self.rules);
-                    }
-                } else {
-                    self.whole[pixel] = compositing.over(fragment, self.whole[pixel], self.rules);
-                }
+            } else {
+                compositing.composite(whole, &mut self.whole[first..last], self.rules);
             }
+            first = last;
         }
     }
 

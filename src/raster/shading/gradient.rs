@@ -2,26 +2,39 @@
 //!
 //! There is no table: each sample asks the gradient's geometry for its place and mixes the two stops around it.
 
-use glam::DVec2;
+#![expect(
+    clippy::inline_always,
+    reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
+)]
 
-use crate::color::Premultiplied16;
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f64x8, u64x8};
+use glam::{DAffine2, DVec2};
+
+use crate::color::{Premultiplied16, Ramp, Stretch};
+use crate::geometry::PlacedShape;
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::shading::context::{ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::Attributes;
+use crate::raster::shading::kernel::{LANES, ONE, WHOLE, places_of};
 use crate::raster::shading::kind::{PaintKind, Shade};
 use crate::raster::shading::sources::{PaintSources, PlacedGradient};
 use crate::rules::Rules;
+use crate::simd;
 use crate::texture::SampleGrid;
 
 /// The number of a gradient of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct GradientPaint(u32);
 
-/// A gradient, ready to be asked.
+/// A gradient, ready to be asked at samples.
 #[derive(Debug)]
 pub(super) struct GradientShader<'a> {
-    gradient: &'a PlacedGradient<'a>,
+    shape: PlacedShape,
+    ramp: &'a Ramp,
+    /// Whether every sample has a place on the ramp.
+    everywhere: bool,
     rules: Rules,
 }
 
@@ -43,40 +56,108 @@ impl PaintKind for GradientPaint {
     }
 
     fn shader<'a>(&self, context: &ShadeContext<'a>, _: &[GridPoint; 3]) -> GradientShader<'a> {
+        let gradient = &context.sources.gradients[self.0 as usize];
+        GradientShader::new(gradient, context.grid.side(), context.sampling.rules)
+    }
+}
+
+impl<'a> GradientShader<'a> {
+    /// For frames with `side` samples along the side of a pixel.
+    fn new(gradient: &PlacedGradient<'a>, side: i32, rules: Rules) -> Self {
+        let to_pixels = DAffine2::from_scale(DVec2::splat(f64::from(side).recip()));
         GradientShader {
-            gradient: &context.sources.gradients[self.0 as usize],
-            rules: context.sampling.rules,
+            shape: gradient.geometry.placed(gradient.from_pixels * to_pixels),
+            ramp: gradient.ramp,
+            everywhere: gradient.geometry.is_everywhere(),
+            rules,
+        }
+    }
+
+    fn colors(&self, simd: Level, grid: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
+        dispatch!(simd, simd => kernel(simd, self, grid, points, colors));
+    }
+
+    /// Colours from their levels, as they lie in memory.
+    #[inline(always)]
+    fn rounded<S: Simd>(&self, levels: [f64x8<S>; 4]) -> u64x8<S> {
+        let [r, g, b, a] = levels;
+        let colors = whole(r) | whole(g) << 16 | whole(b) << 32 | whole(a) << 48;
+        if self.rules == Rules::Course {
+            // To bytes, as [`Premultiplied16::truncated`].
+            colors & 0xFF00_FF00_FF00_FF00
+        } else {
+            colors
+        }
+    }
+
+    /// The colours of eight samples, which all lie on one stretch of the ramp mostly; `stretch` is the one of those before.
+    #[inline(always)]
+    fn eight<S: Simd>(&self, simd: S, places: [f64x8<S>; 2], stretch: &mut Stretch) -> u64x8<S> {
+        let places = self.shape.places(simd, places);
+        let at = self.ramp.spread().fold(places);
+        let mut done = stretch.holds(at);
+        let mut colors = self.rounded(stretch.levels(at));
+        if !done.all_true() {
+            let each = <[f64; LANES]>::from(at);
+            while !done.all_true() {
+                let next = (!done).to_bitmask().trailing_zeros() as usize;
+                *stretch = self.ramp.stretch(each[next]);
+                let held = stretch.holds(at);
+                colors = held.select(self.rounded(stretch.levels(at)), colors);
+                done |= held;
+            }
+        }
+        if self.everywhere {
+            colors
+        } else {
+            places.simd_eq(places).select(colors, u64x8::splat(simd, 0))
         }
     }
 }
 
-impl GradientShader<'_> {
-    #[inline]
-    fn color(&self, pixel: DVec2) -> Premultiplied16 {
-        let Some(t) = self.gradient.at(pixel) else {
-            return Premultiplied16::TRANSPARENT;
-        };
-        let color = self.gradient.ramp.color(t);
-        let alpha = color.a * 255.0;
-        Premultiplied16::from_byte_range([color.r * alpha, color.g * alpha, color.b * alpha, alpha], self.rules)
+/// Whole numbers of `0..=65280` nearest to `levels`.
+#[inline(always)]
+fn whole<S: Simd>(levels: f64x8<S>) -> u64x8<S> {
+    // Rounding may have carried a level a little beyond the ends.
+    let inside = levels
+        .max(f64x8::splat(levels.simd, 0.0))
+        .min(f64x8::splat(levels.simd, ONE));
+    (inside + WHOLE).bitcast::<u64x8<S>>() & 0xFFFF
+}
+
+/// The colours of samples.
+#[inline(always)]
+fn kernel<S: Simd>(
+    simd: S,
+    shader: &GradientShader<'_>,
+    grid: SampleGrid,
+    points: &[[u16; 2]],
+    colors: &mut [Premultiplied16],
+) {
+    let mut stretch = shader.ramp.stretch(0.0);
+    for (points, colors) in points.chunks(LANES).zip(colors.chunks_mut(LANES)) {
+        let [x, y] = places_of(grid, points);
+        let places = [f64x8::simd_from(simd, x), f64x8::simd_from(simd, y)];
+        let found = <[u64; LANES]>::from(shader.eight(simd, places, &mut stretch));
+        for (color, found) in colors.iter_mut().zip(found) {
+            *color = Premultiplied16::from_word(found);
+        }
     }
 }
 
 impl Shade for GradientShader<'_> {
     fn points(&self, grid: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
-        let origin = DVec2::from(grid.origin.map(f64::from));
-        let side = f64::from(grid.side);
-        for (point, color) in points.iter().zip(colors) {
-            let inside = DVec2::from(point.map(f64::from)) + 0.5;
-            *color = self.color(origin + inside / side);
-        }
+        self.colors(simd::level(), grid, points, colors);
     }
 
     fn interpolated(&self, sample: ShadedSample) -> Attributes {
-        let pixel = DVec2::from(sample.position()) / f64::from(sample.grid.side);
-        match self.gradient.mix(pixel) {
-            Some((place, mix)) => Attributes::Gradient { place, mix },
-            None => Attributes::None,
+        let place = self.shape.place(DVec2::from(sample.position()));
+        if place.is_nan() && !self.everywhere {
+            return Attributes::None;
+        }
+        Attributes::Gradient {
+            place,
+            mix: self.ramp.mix(place),
         }
     }
 }
@@ -89,22 +170,25 @@ mod tests {
     use crate::color::{Ramp, Rgba, Spread, Stop};
     use crate::geometry::GradientShape;
 
+    type Found<T> = arbtest::arbitrary::Result<T>;
+
+    fn stop(offset: f32, color: Rgba) -> Stop {
+        Stop { offset, color }
+    }
+
     #[test]
     fn every_sample_has_the_colour_of_its_own_place() {
-        let stop = |offset, color| Stop { offset, color };
         let ramp = Ramp::new(vec![stop(0.0, Rgba::BLACK), stop(1.0, Rgba::WHITE)], Spread::Pad).expect("two stops");
-        let shader = GradientShader {
-            gradient: &PlacedGradient {
-                geometry: GradientShape::Linear {
-                    from: DVec2::ZERO,
-                    to: DVec2::X,
-                },
-                ramp: &ramp,
-                // Sixteen pixels are the whole ramp.
-                from_pixels: DAffine2::from_scale(DVec2::splat(1.0 / 16.0)),
+        let gradient = PlacedGradient {
+            geometry: GradientShape::Linear {
+                from: DVec2::ZERO,
+                to: DVec2::X,
             },
-            rules: Rules::Standard,
+            ramp: &ramp,
+            // Sixteen pixels are the whole ramp.
+            from_pixels: DAffine2::from_scale(DVec2::splat(1.0 / 16.0)),
         };
+        let shader = GradientShader::new(&gradient, 4, Rules::Standard);
         let grid = SampleGrid {
             side: 4,
             origin: [8, 3],
@@ -136,15 +220,81 @@ mod tests {
             from_pixels: DAffine2::IDENTITY,
         };
         assert!(!cone.is_opaque(), "it lets something through somewhere");
-        let shader = GradientShader {
-            gradient: &cone,
-            rules: Rules::Standard,
+        let shader = GradientShader::new(&cone, 1, Rules::Standard);
+        let grid = SampleGrid {
+            side: 1,
+            origin: [-10, 0],
         };
-        assert_eq!(
-            shader.color(DVec2::new(-9.0, 0.0)),
-            Premultiplied16::TRANSPARENT,
-            "behind its tip"
-        );
-        assert!(shader.color(DVec2::new(20.0, 0.0)).is_opaque(), "inside");
+        let mut colors = [Premultiplied16::TRANSPARENT; 2];
+        shader.points(grid, &[[0, 0], [29, 0]], &mut colors);
+        assert_eq!(colors[0], Premultiplied16::TRANSPARENT, "behind its tip");
+        assert!(colors[1].is_opaque(), "inside");
+    }
+    /// Any gradient: circles in any position, hard edges, half-transparent stops, all spreads.
+    fn any_gradient<'r>(u: &mut arbtest::arbitrary::Unstructured<'_>, ramp: &'r Ramp) -> Found<PlacedGradient<'r>> {
+        let mut at = || -> Found<f64> { Ok(f64::from(u.int_in_range(-64..=64)?) / 2.0) };
+        let mut point = || -> Found<DVec2> { Ok(DVec2::new(at()?, at()?)) };
+        let (first, second, turned) = (point()?, point()?, point()? / 32.0);
+        let [radius, focal_radius] = [at()?.abs(), at()?.abs().min(8.0)];
+        let linear = u.ratio(1, 3)?;
+        Ok(PlacedGradient {
+            geometry: if linear {
+                GradientShape::Linear {
+                    from: first,
+                    to: second,
+                }
+            } else {
+                GradientShape::Radial {
+                    center: first,
+                    radius,
+                    focus: second,
+                    focal_radius,
+                }
+            },
+            ramp,
+            from_pixels: DAffine2::from_cols(turned, turned.perp(), DVec2::ONE),
+        })
+    }
+
+    #[test]
+    fn samples_have_the_colour_that_is_told_of_them_at_every_level() {
+        arbtest::arbtest(|u| {
+            let stops = (0..u.int_in_range(1..=5)?)
+                .map(|_| {
+                    let offset = f32::from(u.int_in_range(0..=4_u8)?) / 4.0;
+                    let [r, g, b, a] = u.arbitrary()?;
+                    let alpha = if u.ratio(1, 2)? { a } else { 255 };
+                    Ok(stop(offset, Rgba::from_bytes([r, g, b, alpha])))
+                })
+                .collect::<Found<_>>()?;
+            let spread = *u.choose(&[Spread::Pad, Spread::Reflect, Spread::Repeat])?;
+            let ramp = Ramp::new(stops, spread).expect("a stop");
+            let gradient = any_gradient(u, &ramp)?;
+            let shader = GradientShader::new(&gradient, 4, Rules::Standard);
+            let grid = SampleGrid {
+                side: 4,
+                origin: [-3, 5],
+            };
+            let points: Vec<[u16; 2]> = (0..21).map(|i| [i * 7 % 32, i]).collect();
+            let mut first = None;
+            for (name, level) in simd::tested() {
+                let mut colors = vec![Premultiplied16::TRANSPARENT; points.len()];
+                shader.colors(level, grid, &points, &mut colors);
+                let first = first.get_or_insert_with(|| colors.clone());
+                assert_eq!(*first, colors, "{name} gives the colours of every other level");
+            }
+            for (point, color) in points.iter().zip(first.expect("some level")) {
+                let told = shader.interpolated(ShadedSample { grid, place: *point });
+                let expected = match told {
+                    Attributes::Gradient { mix, .. } => Premultiplied16::from_straight(mix.color, Rules::Standard),
+                    _ => Premultiplied16::TRANSPARENT,
+                };
+                let near = color.0.iter().zip(expected.0).all(|(a, b)| a.abs_diff(b) <= 1);
+                assert!(near, "{gradient:?} at {point:?}: {color:?}, told {told:?}");
+                assert!(!gradient.is_opaque() || color.is_opaque(), "{gradient:?} at {point:?}");
+            }
+            Ok(())
+        })
+        .budget_ms(400);
     }
 }

@@ -15,6 +15,7 @@
 pub(in crate::raster) mod context;
 mod gradient;
 pub(in crate::raster) mod interpolated;
+mod kernel;
 mod kind;
 mod pattern;
 mod solid;

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine2, DVec2};
+use glam::DAffine2;
 
-use crate::color::{Mix, Ramp};
+use crate::color::Ramp;
 use crate::geometry::GradientShape;
 use crate::texture::{Texture, Tile};
 
@@ -51,18 +51,6 @@ impl<'a> From<Vec<&'a Texture>> for PaintSources<'a> {
 }
 
 impl PlacedGradient<'_> {
-    /// The place on the ramp, before spreading, of a point of the frame; `None` where the gradient shows nothing.
-    #[inline]
-    pub(in crate::raster) fn at(&self, pixel: DVec2) -> Option<f64> {
-        self.geometry.at(self.from_pixels.transform_point2(pixel))
-    }
-
-    /// What the ramp shows at that point, with its place before spreading.
-    pub(in crate::raster) fn mix(&self, pixel: DVec2) -> Option<(f64, Mix)> {
-        let t = self.at(pixel)?;
-        Some((t, self.ramp.mix(t)))
-    }
-
     /// Whether every point has a colour that lets nothing shine through.
     pub(in crate::raster) fn is_opaque(&self) -> bool {
         self.geometry.is_everywhere() && self.ramp.is_opaque()

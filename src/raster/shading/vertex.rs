@@ -13,17 +13,12 @@ use crate::geometry::subpixel::GridPoint;
 use crate::raster::attributes::Planes;
 use crate::raster::shading::context::{MaskedPixels, Pixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::Attributes;
+use crate::raster::shading::kernel::{LANES, ONE, first_sample, low_half, places_of, rounded};
 use crate::raster::shading::kind::{PaintKind, Shade, at_corner, pixels_by_points};
 use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
 use crate::simd;
 use crate::texture::SampleGrid;
-
-/// Samples that are shaded together.
-const LANES: usize = 8;
-
-/// The largest value of a channel.
-const ONE: f64 = Premultiplied16::ONE as f64;
 
 /// Straight red, green, blue and alpha at a triangle's corners, `0.0..=1.0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -152,12 +147,6 @@ impl Shade for VertexShader {
     }
 }
 
-/// The place of the first sample of a grid's origin, in samples.
-#[inline(always)]
-fn first_sample(grid: SampleGrid) -> [f64; 2] {
-    grid.origin.map(|pixel| f64::from(pixel) * f64::from(grid.side) + 0.5)
-}
-
 /// An interpolated straight colour as samples store it.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "colours are 32-bit floats")]
@@ -165,26 +154,6 @@ fn straight_color(color: [f64; 4], rules: Rules) -> Premultiplied16 {
     // Rounding may carry an attribute a little beyond the colours at the corners.
     let [r, g, b, a] = color.map(|channel| (channel as f32).clamp(0.0, 1.0));
     Premultiplied16::from_byte_range([r * a * 255.0, g * a * 255.0, b * a * 255.0, a * 255.0], rules)
-}
-
-/// A number of `0.0..=limit` (clamped, at most `2^32`) rounded to a whole one.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "the lower half is meant")]
-fn rounded(value: f64, limit: f64) -> u32 {
-    /// At `2^52` a float holds whole numbers only, which then stand in its lower bits: cheaper than a conversion, which
-    /// must also care for numbers out of range.
-    const WHOLE: f64 = 4_503_599_627_370_496.0;
-    // In this order what is no number becomes 0.
-    let value = if value > 0.0 { value } else { 0.0 };
-    let value = if value < limit { value } else { limit };
-    (value + WHOLE).to_bits() as u32
-}
-
-/// The lower half of a number that has no upper one.
-#[inline(always)]
-fn low_half(value: u32) -> u16 {
-    let [low, high, ..] = value.to_le_bytes();
-    u16::from_le_bytes([low, high])
 }
 
 /// `count` times a colour.
@@ -236,14 +205,8 @@ fn point_kernel<S: Simd>(
     points: &[[u16; 2]],
     colors: &mut [Premultiplied16],
 ) {
-    let first = first_sample(grid);
     for (points, colors) in points.chunks(LANES).zip(colors.chunks_mut(LANES)) {
-        let mut places = [[0.0; LANES]; 2];
-        for (i, [x, y]) in points.iter().enumerate() {
-            places[0][i] = first[0] + f64::from(*x);
-            places[1][i] = first[1] + f64::from(*y);
-        }
-        let [r, g, b] = channels(planes, &places, 1.0);
+        let [r, g, b] = channels(planes, &places_of(grid, points), 1.0);
         for (i, color) in colors.iter_mut().enumerate() {
             let [r, g, b] = [r[i], g[i], b[i]].map(low_half);
             *color = Premultiplied16([r, g, b, Premultiplied16::ONE]);

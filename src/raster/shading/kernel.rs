@@ -1,0 +1,61 @@
+//! What kernels that shade several samples at once share.
+
+#![expect(
+    clippy::inline_always,
+    reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
+)]
+
+use crate::color::Premultiplied16;
+use crate::texture::SampleGrid;
+
+/// Samples that are shaded together.
+pub(super) const LANES: usize = 8;
+
+/// The largest value of a channel.
+pub(super) const ONE: f64 = Premultiplied16::ONE as f64;
+
+/// At `2^52` a float holds whole numbers only, which then stand in its lower bits: cheaper than a conversion, which must
+/// also care for numbers out of range.
+pub(super) const WHOLE: f64 = 4_503_599_627_370_496.0;
+
+/// The place of the first sample of a grid's origin, in samples.
+#[inline(always)]
+pub(super) fn first_sample(grid: SampleGrid) -> [f64; 2] {
+    grid.origin.map(|pixel| f64::from(pixel) * f64::from(grid.side) + 0.5)
+}
+
+/// Where up to [`LANES`] samples lie, at least one, in samples of the frame; what is left over repeats the first of them.
+#[inline(always)]
+pub(super) fn places_of(grid: SampleGrid, points: &[[u16; 2]]) -> [[f64; LANES]; 2] {
+    let first = first_sample(grid);
+    let place = |[x, y]: [u16; 2]| [first[0] + f64::from(x), first[1] + f64::from(y)];
+    let mut places = [[0.0; LANES]; 2];
+    // A number of lanes that is known makes vector code of the loop.
+    if let Some(all) = points.first_chunk::<LANES>() {
+        for (i, point) in all.iter().enumerate() {
+            [places[0][i], places[1][i]] = place(*point);
+        }
+    } else {
+        for i in 0..LANES {
+            [places[0][i], places[1][i]] = place(*points.get(i).unwrap_or(&points[0]));
+        }
+    }
+    places
+}
+
+/// A number of `0.0..=limit` (clamped, at most `2^32`) rounded to a whole one.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the lower half is meant")]
+pub(super) fn rounded(value: f64, limit: f64) -> u32 {
+    // In this order what is no number becomes 0.
+    let value = if value > 0.0 { value } else { 0.0 };
+    let value = if value < limit { value } else { limit };
+    (value + WHOLE).to_bits() as u32
+}
+
+/// The lower half of a number that has no upper one.
+#[inline(always)]
+pub(super) fn low_half(value: u32) -> u16 {
+    let [low, high, ..] = value.to_le_bytes();
+    u16::from_le_bytes([low, high])
+}

@@ -52,6 +52,29 @@ impl GradientShape {
         }
     }
 
+    /// The place on the ramp, before spreading; `None` where no circle of the gradient goes through the point. The simple form of
+    /// [`PlacedShape::places`], which may differ by rounding.
+    pub fn at(&self, point: DVec2) -> Option<f64> {
+        match *self {
+            Self::Linear { from, to } => {
+                let along = to - from;
+                let length = along.length_squared();
+                // A line without length shows its last stop.
+                Some(if length > 0.0 {
+                    (point - from).dot(along) / length
+                } else {
+                    1.0
+                })
+            }
+            Self::Radial {
+                center,
+                radius,
+                focus,
+                focal_radius,
+            } => circle_through(point - focus, center - focus, [focal_radius, radius]),
+        }
+    }
+
     /// The same gradient asked in other coordinates, which `to_own` takes to its own.
     pub fn placed(&self, to_own: DAffine2) -> PlacedShape {
         match *self {
@@ -182,6 +205,30 @@ impl Circles {
     }
 }
 
+/// The largest `t` for which the circle around `t` times `center` goes through `point`, whose radius is mixed from both and
+/// must not be negative.
+fn circle_through(point: DVec2, center: DVec2, [first, last]: [f64; 2]) -> Option<f64> {
+    // |point - t center|^2 = (first + t growth)^2, as a t^2 - 2 b t + c = 0.
+    let growth = last - first;
+    let a = center.length_squared() - growth * growth;
+    let b = point.dot(center) + first * growth;
+    let c = point.length_squared() - first * first;
+    let has_radius = |t: &f64| first + t * growth >= 0.0;
+    // Where both circles touch from inside, one of the two solutions goes to infinity.
+    if a.abs() <= 1e-12 * (growth * growth).max(f64::MIN_POSITIVE) {
+        return Some(c / (2.0 * b)).filter(|t| t.is_finite()).filter(has_radius);
+    }
+    let discriminant = b * b - a * c;
+    if discriminant < 0.0 {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    let (one, other) = ((b + root) / a, (b - root) / a);
+    Some(one.max(other))
+        .filter(has_radius)
+        .or(Some(one.min(other)).filter(has_radius))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -251,7 +298,15 @@ mod tests {
                 focus,
                 focal_radius,
             };
-            if let Some(t) = place(shape, point.to_array()) {
+            let found = place(shape, point.to_array());
+            // Close to a cone's edge rounding decides whether there is a circle at all.
+            if let (Some(one), Some(other)) = (found, shape.at(point)) {
+                assert!(
+                    (one - other).abs() <= 1e-6 * (1.0 + one.abs()),
+                    "{shape:?} at {point}: {one} and {other}"
+                );
+            }
+            if let Some(t) = found {
                 let middle = focus + (center - focus) * t;
                 let expected = focal_radius + (radius - focal_radius) * t;
                 let error = (point.distance(middle) - expected).abs();

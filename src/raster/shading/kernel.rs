@@ -36,8 +36,13 @@ pub(super) fn places_of(grid: SampleGrid, points: &[[u16; 2]]) -> [[f64; LANES];
             [places[0][i], places[1][i]] = place(*point);
         }
     } else {
-        for i in 0..LANES {
-            [places[0][i], places[1][i]] = place(*points.get(i).unwrap_or(&points[0]));
+        for (i, point) in points
+            .iter()
+            .chain(std::iter::repeat(&points[0]))
+            .take(LANES)
+            .enumerate()
+        {
+            [places[0][i], places[1][i]] = place(*point);
         }
     }
     places

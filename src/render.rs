@@ -371,8 +371,11 @@ fn add(builder: &mut ChunkBuilder<'_>, screen: &Screen<'_>, kind: &PrimitiveKind
         PrimitiveKind::Triangle { points, paint: own } => {
             builder.triangle(points.map(|p| screen.place(p)), &paint(own));
         }
-        PrimitiveKind::Polygon { polygon, fill } => screen.with_edges(polygon, |polygon| {
+        PrimitiveKind::Polygon { polygon: own, fill } => screen.with_edges(own, |polygon| {
             let paint = fill_paint(*fill);
+            if own.is_crisp() {
+                return builder.crisp_polygon(polygon, |p| screen.place(p), &paint);
+            }
             match screen.rules.cut_polygons().then(|| polygon.triangles()).flatten() {
                 // The course knows triangles only, whose edges it counts twice; first drafts leave them to nobody.
                 Some(triangles) => {

@@ -5,6 +5,8 @@
 
 use glam::DVec2;
 
+use super::{FillRule, Polygon};
+
 /// The area that a triangle and pixel `[x, y]` have in common, `0.0..=1.0`; corners in pixels, anything else than a finite
 /// number counts as no triangle.
 pub fn area_in_pixel(corners: [DVec2; 3], pixel: [u32; 2]) -> f64 {
@@ -20,7 +22,31 @@ pub fn area_in_pixel(corners: [DVec2; 3], pixel: [u32; 2]) -> f64 {
     area(&polygon).clamp(0.0, 1.0)
 }
 
-/// The part of a convex polygon where `distance` is not below zero; `distance` is an affine function.
+/// What closed contours and a window have in common; the window is given by its least and its greatest corner.
+///
+/// Contours are cut before anything else is done with them, so that those that reach far beyond any pixel, or have many
+/// points elsewhere, are measured as well as small ones.
+pub fn cut_to_window(
+    contours: impl Iterator<Item = impl Iterator<Item = DVec2>>,
+    rule: FillRule,
+    [low, high]: [DVec2; 2],
+) -> Polygon {
+    let inside = contours.map(|contour| {
+        let mut polygon: Vec<DVec2> = contour.collect();
+        if !polygon.iter().all(|corner| corner.is_finite()) {
+            return Vec::new();
+        }
+        for axis in [0, 1] {
+            polygon = cut(&polygon, |point| point[axis] - low[axis]);
+            polygon = cut(&polygon, |point| high[axis] - point[axis]);
+        }
+        polygon
+    });
+    Polygon::new(inside, rule)
+}
+
+/// The part of a closed contour where `distance` is not below zero; `distance` is an affine function. Parts of one that is not
+/// convex stay joined along the border, back and forth.
 pub(super) fn cut(polygon: &[DVec2], distance: impl Fn(DVec2) -> f64) -> Vec<DVec2> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     let next = polygon.iter().cycle().skip(1);
@@ -75,6 +101,40 @@ mod tests {
             let found = area_in_pixel(corners, [3, 4]);
             assert!((found - expected).abs() < 1e-6, "{what}: {found}");
         }
+    }
+
+    #[test]
+    fn contours_are_cut_before_they_are_measured() {
+        let at = |x: f64, y: f64| DVec2::new(x, y);
+        let window = [at(3.0, 4.0), at(4.0, 5.0)];
+        let area = |contours: &[&[DVec2]], rule| {
+            let contours = contours.iter().map(|contour| contour.iter().copied());
+            cut_to_window(contours, rule, window).area().expect("few crossings")
+        };
+        let far = [at(-1e30, -1e30), at(1e30, -1e30), at(1e30, 1e30), at(-1e30, 1e30)];
+        let hole = [at(3.25, 4.25), at(3.75, 4.25), at(3.75, 4.75), at(3.25, 4.75)];
+        for (contours, rule, expected) in [
+            (&[&far[..]][..], FillRule::NonZero, 1.0),
+            (&[&far[..], &hole], FillRule::EvenOdd, 0.75),
+            (&[&far[..], &hole], FillRule::NonZero, 1.0),
+            (&[&far[..], &far], FillRule::EvenOdd, 0.0),
+            (&[&hole[..]], FillRule::EvenOdd, 0.25),
+        ] {
+            let found = area(contours, rule);
+            assert!((found - expected).abs() < 1e-6, "{contours:?} by {rule:?}: {found}");
+        }
+        // Two teeth of a comb reach into the window; what joins them lies below it.
+        let comb = [
+            at(3.0, 9.0),
+            at(3.0, 4.5),
+            at(3.25, 4.5),
+            at(3.25, 8.0),
+            at(3.75, 8.0),
+            at(3.75, 4.5),
+            at(4.0, 4.5),
+            at(4.0, 9.0),
+        ];
+        assert!((area(&[&comb], FillRule::NonZero) - 0.25).abs() < 1e-6, "two teeth");
     }
 
     #[test]

@@ -15,7 +15,7 @@ mod triangulate;
 mod view;
 mod width;
 
-pub use area::area_in_pixel;
+pub use area::{area_in_pixel, cut_to_window};
 pub use gradient::{Circles, GradientShape, PlacedShape};
 pub use path::{CurvedArea, Path, Stroke};
 pub use polygon::Polygon;

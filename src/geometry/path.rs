@@ -71,6 +71,12 @@ impl Path {
         self.0.close_path();
     }
 
+    /// The same path in other coordinates.
+    #[must_use]
+    pub fn transformed(&self, to: DAffine2) -> Self {
+        Self(kurbo::Affine::new(to.to_cols_array()) * &self.0)
+    }
+
     /// Whether it has no segments.
     pub fn is_empty(&self) -> bool {
         self.0.segments().next().is_none()

@@ -32,6 +32,7 @@ pub struct Polygon {
     triangles: OnceLock<Option<Vec<[DVec2; 3]>>>,
     curves: Option<Box<Curves>>,
     is_stroke: bool,
+    is_crisp: bool,
 }
 
 /// The curves that contours stand for.
@@ -71,6 +72,7 @@ impl Polygon {
             triangles: OnceLock::new(),
             curves: None,
             is_stroke: false,
+            is_crisp: false,
         }
     }
 
@@ -123,10 +125,29 @@ impl Polygon {
         if let Some(curves) = &self.curves {
             let mut area = curves.area.clone();
             area.to_user = DAffine2::from_translation(by) * area.to_user;
-            return Self::curved(area, self.rule, curves.scale);
+            let moved = Self::curved(area, self.rule, curves.scale);
+            return Self {
+                is_crisp: self.is_crisp,
+                ..moved
+            };
         }
         let contours = self.contours().map(|contour| contour.iter().map(|point| *point + by));
-        Self::new(contours, self.rule)
+        Self {
+            is_crisp: self.is_crisp,
+            is_stroke: self.is_stroke,
+            ..Self::new(contours, self.rule)
+        }
+    }
+
+    /// The same area, to be drawn with crisp edges.
+    #[must_use]
+    pub fn with_crisp_edges(self) -> Self {
+        Self { is_crisp: true, ..self }
+    }
+
+    /// Whether it covers whole pixels, those whose middles it holds (`shape-rendering: crispEdges` of SVG).
+    pub fn is_crisp(&self) -> bool {
+        self.is_crisp
     }
 
     /// Whether it is the stroke of a path.

@@ -95,7 +95,7 @@ impl Explanation {
 
     fn wrong_coverage(&self) -> Option<String> {
         let paint = self.topmost()?;
-        let (part, area) = (self.covered_part(paint), paint.area?);
+        let (part, area) = (self.covered_part(paint), paint.area.filter(|_| !paint.is_crisp())?);
         ((part - area).abs() > WRONG).then(|| {
             format!(
                 "The samples say that {} covers {} of the pixel; in truth it is {}.",
@@ -254,6 +254,7 @@ mod tests {
             index: 0,
             size: [64, 64],
             pixel_sampling,
+            asked: false,
             level_sampling,
             right: [major, 0.0],
             down: [0.0, minor],

@@ -191,12 +191,14 @@ impl Question<'_> {
                 };
                 views = windings.into_iter().zip(&attributes).map(view).collect();
                 Shape::Polygon {
-                    rule: match rule {
+                    // What is drawn of a crisp shape are pixels.
+                    rule: match polygon.map_or(rule, |polygon| polygon.rule()) {
                         FillRule::NonZero => "nonzero",
                         FillRule::EvenOdd => "evenodd",
                     },
                     curved: polygon.is_some_and(|polygon| polygon.curves().is_some()),
                     stroke: polygon.is_some_and(|polygon| polygon.is_stroke()),
+                    crisp: polygon.is_some_and(|polygon| polygon.is_crisp()),
                 }
             }
             (PaintedKind::Primitive, _) if is_nowhere => Shape::CanvasOutline,

@@ -199,6 +199,9 @@ pub enum Shape {
         /// Whether it is the stroke of a path.
         #[serde(skip_serializing_if = "std::ops::Not::not")]
         stroke: bool,
+        /// Whether it covers whole pixels, those whose middles it holds (`shape-rendering`).
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        crisp: bool,
     },
     /// A line one pixel wide, or a point: whole pixels, whatever the samples.
     WholePixel,
@@ -434,6 +437,9 @@ pub struct Texture {
     pub size: [u32; 2],
     /// How it is read inside a level: `nearest` or `bilinear`.
     pub pixel_sampling: &'static str,
+    /// Whether the document asks for that (`image-rendering`), so that the setting has no effect.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub asked: bool,
     /// How levels are chosen: `zero`, `nearest` or `linear`.
     pub level_sampling: &'static str,
     /// The way in base texels of one step to the right; a pixel, or a sample.

@@ -36,6 +36,11 @@ impl Paint {
         }
     }
 
+    /// Whether it covers whole pixels, those whose middles it holds.
+    pub(super) fn is_crisp(&self) -> bool {
+        matches!(self.shape, Shape::Polygon { crisp: true, .. })
+    }
+
     /// Whether it belongs to a `clipPath`, and not to the edge of a viewport, symbol, marker, mask or image.
     pub(super) fn is_clip_path(&self) -> bool {
         self.source.as_ref().is_some_and(|source| source.element == "clipPath")
@@ -237,8 +242,10 @@ impl Texture {
         let [width, height] = self.size;
         let mut lines = vec![
             format!(
-                "texture {} of {width} x {height} texels, read {}",
-                self.name, self.pixel_sampling
+                "texture {} of {width} x {height} texels, read {}{}",
+                self.name,
+                self.pixel_sampling,
+                if self.asked { " as image-rendering asks" } else { "" }
             ),
             format!(
                 "one {} right is {} texels, down {}",

@@ -287,7 +287,13 @@ impl Explanation {
         };
         let mut lines: Vec<String> = found.source.iter().flat_map(Source::lines).collect();
         lines.push(self.painted_line(paint, found));
-        if let Some(area) = found.area {
+        if let Some(area) = found.area.filter(|_| found.is_crisp()) {
+            let whole = if self.covered_part(found) > 0.0 { "all" } else { "none" };
+            let area = percent(area);
+            lines.push(format!(
+                "covers {area} of the pixel in truth, and {whole} of it as drawn: shape-rendering asks for one sample per pixel"
+            ));
+        } else if let Some(area) = found.area {
             lines.push(format!(
                 "covers {} of the pixel in truth, {} by its samples",
                 percent(area),
@@ -400,7 +406,12 @@ impl Explanation {
                 };
                 let inside = self.fragment(paint, sample).is_some();
                 let verdict = if inside { "inside" } else { "outside" };
-                lines.push(format!("winding   {winding}: {verdict} by the rule {rule}"));
+                // What is scanned of a crisp shape are whole pixels.
+                lines.push(if found.is_crisp() {
+                    format!("crisp     the pixel's middle is {verdict} by the rule {rule}, and so are all its samples")
+                } else {
+                    format!("winding   {winding}: {verdict} by the rule {rule}")
+                });
                 lines.extend(value.lines());
             }
             None => {}

@@ -74,9 +74,5 @@ pub(in crate::raster) fn noise() -> Texture {
             ]
         })
         .collect();
-    let pyramid = MipPyramid::build(MipLevel::new(32, 32, texels));
-    Texture {
-        name: "noise".to_owned(),
-        pyramid,
-    }
+    Texture::new("noise", MipPyramid::build(MipLevel::new(32, 32, texels)))
 }

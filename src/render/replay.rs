@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Screen, Subject, add, number, picture_list, raster_settings, sources};
 use crate::color::Rgba;
-use crate::geometry::{Polygon, area_in_pixel, width_in_window};
+use crate::geometry::{Polygon, area_in_pixel, cut_to_window, width_in_window};
 use crate::raster::{
     ChunkBuilder, DisplayList, Hidden, ListContext, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay,
     RasterSettings, Region, SampleOfTriangle,
@@ -37,6 +37,15 @@ pub(super) fn shines_through(scene: &Scene, kind: &PrimitiveKind) -> bool {
         } => true,
         _ => false,
     }
+}
+
+/// The contours of a polygon in screen space.
+fn placed<'p>(
+    polygon: &'p Polygon,
+    screen: &'p Screen<'_>,
+) -> impl Iterator<Item = impl Iterator<Item = DVec2> + use<'p>> + use<'p> {
+    let contours = polygon.contours();
+    contours.map(|contour| contour.iter().map(|point| screen.place(*point)))
 }
 
 /// Draws pixel `(x, y)` of a frame of `size` pixels again, by the same code as the frame; `None` outside the frame.
@@ -278,9 +287,11 @@ impl<'a> Explainer<'a> {
         match kind {
             PrimitiveKind::Triangle { points, .. } => Some(area(points)),
             PrimitiveKind::Polygon { polygon, .. } => {
+                let corner = DVec2::from(self.pixel.map(f64::from));
+                let inside =
+                    |polygon: &Polygon| cut_to_window(placed(polygon, &screen), polygon.rule(), [corner, corner + 1.0]);
                 // Each part is rounded; together they cannot be more than all of it.
-                let measured = |polygon: &Polygon| Some(polygon.triangles()?.iter().map(area).sum::<f64>().min(1.0));
-                screen.with_true_edges(polygon, measured)
+                screen.with_true_edges(polygon, |polygon| Some(inside(polygon).area()?.min(1.0)))
             }
             PrimitiveKind::Hairline { .. }
             | PrimitiveKind::Point { .. }
@@ -299,7 +310,8 @@ impl<'a> Explainer<'a> {
         match &self.subject.scene.primitives.get(source as usize)?.kind {
             PrimitiveKind::Triangle { points, .. } => width_in_window([place(points)].into_iter(), window),
             PrimitiveKind::Polygon { polygon, .. } => screen.with_edges(polygon, |polygon| {
-                width_in_window(polygon.triangles()?.iter().map(place), window)
+                let inside = cut_to_window(placed(polygon, &screen), polygon.rule(), window);
+                width_in_window(inside.triangles()?.iter().copied(), window)
             }),
             _ => None,
         }

@@ -213,18 +213,24 @@ impl<'doc> Builder<'doc> {
         self.polygon(shape, polygon, Fill::Solid(color))
     }
 
-    /// Fills an area with curves, whose edges shall be fine enough for `scale` samples per user unit.
+    /// Fills an area with curves.
     pub(super) fn fill_curved(
         &mut self,
         shape: ShapeId,
         (area, rule): (CurvedArea, FillRule),
         fill: Fill,
-        scale: f64,
+        edges: Edges,
     ) -> Result<(), Fault> {
         if matches!(fill, Fill::Solid(color) if color.a <= 0.0) {
             return Ok(());
         }
-        self.polygon(shape, Polygon::curved(area, rule, scale), fill)
+        let polygon = Polygon::curved(area, rule, edges.scale);
+        let polygon = if edges.crisp {
+            polygon.with_crisp_edges()
+        } else {
+            polygon
+        };
+        self.polygon(shape, polygon, fill)
     }
 
     fn polygon(&mut self, shape: ShapeId, polygon: Polygon, fill: Fill) -> Result<(), Fault> {
@@ -300,6 +306,15 @@ impl<'doc> Builder<'doc> {
             None => problem.nowhere(),
         }
     }
+}
+
+/// What the edges of an area shall be like.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Edges {
+    /// Samples per user unit for which they are fine enough.
+    pub(super) scale: f64,
+    /// Whether whole pixels are covered: those whose middles are inside.
+    pub(super) crisp: bool,
 }
 
 /// What a fill covers.

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::report::{quote, shorten};
 use super::{FileDigest, Report, ResourceError, Resources, SourceLocation, TextureId};
 use crate::memory::{self, OutOfMemory};
-use crate::texture::{DecodeError, Memory, Texture};
+use crate::texture::{DecodeError, Memory, PixelSampling, Texture};
 
 /// Most bytes that all images of a scene may take together, encoded and as textures.
 const MAX_HELD: u64 = 1_200 << 20;
@@ -29,7 +29,7 @@ const MAX_TEXTURES: usize = 4_096;
 pub(super) struct TextureTable<'doc> {
     resources: &'doc dyn Resources,
     alpha: Alpha,
-    ids: HashMap<Cow<'doc, str>, TextureId>,
+    ids: HashMap<Key<'doc>, TextureId>,
     entries: Vec<Entry<'doc>>,
     bytes_left: u64,
     held_left: u64,
@@ -38,6 +38,9 @@ pub(super) struct TextureTable<'doc> {
     /// Files that are documents.
     documents: Vec<(String, FileDigest)>,
 }
+
+/// What tells textures apart: their address, and how they are to be read.
+type Key<'doc> = (Cow<'doc, str>, Option<PixelSampling>);
 
 /// Whether a texture's transparency counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,6 +55,8 @@ pub(super) enum Alpha {
 #[derive(Debug)]
 struct Entry<'doc> {
     address: Cow<'doc, str>,
+    /// How it is to be read, whatever the settings say.
+    asks: Option<PixelSampling>,
     /// Where it is first asked for.
     location: SourceLocation,
     /// Its file, or why there is none.
@@ -101,18 +106,32 @@ impl<'doc> TextureTable<'doc> {
         address: impl Into<Cow<'doc, str>>,
         location: SourceLocation,
     ) -> Option<TextureId> {
-        let address = address.into();
-        if let Some(&id) = self.ids.get(&address) {
+        self.request_as((address.into(), None), location)
+    }
+
+    /// The same texture, to be read by the nearest texel whatever the settings say; itself where there are too many.
+    pub(super) fn pixelated(&mut self, id: TextureId) -> TextureId {
+        let Some(entry) = self.entries.get(id.0 as usize) else {
+            return id;
+        };
+        let (key, location) = ((entry.address.clone(), Some(PixelSampling::Nearest)), entry.location);
+        self.request_as(key, location).unwrap_or(id)
+    }
+
+    fn request_as(&mut self, key: Key<'doc>, location: SourceLocation) -> Option<TextureId> {
+        if let Some(&id) = self.ids.get(&key) {
             return Some(id);
         }
         if self.entries.len() >= MAX_TEXTURES {
             return None;
         }
         let id = TextureId(u32::try_from(self.entries.len()).ok()?);
+        let (address, asks) = key.clone();
         let file = self.read(&address);
-        self.ids.insert(address.clone(), id);
+        self.ids.insert(key, id);
         self.entries.push(Entry {
             address,
+            asks,
             location,
             file,
         });
@@ -127,7 +146,9 @@ impl<'doc> TextureTable<'doc> {
 
     /// The addresses of the files that could be read, with their digests.
     pub(super) fn digests(&self) -> Vec<(String, FileDigest)> {
-        let files = self.entries.par_iter().filter(|entry| !is_data(&entry.address));
+        // What is read in two ways is one file.
+        let is_file = |entry: &&Entry<'_>| !is_data(&entry.address) && entry.asks.is_none();
+        let files = self.entries.par_iter().filter(is_file);
         let digest = |entry: &Entry<'_>| {
             let file = entry.file.as_ref().ok()?;
             Some((shorten(entry.address.trim(), MAX_ADDRESS), FileDigest::of(&file.bytes)))
@@ -154,7 +175,7 @@ impl<'doc> TextureTable<'doc> {
         let (places, files): (Vec<_>, Vec<_>) = self
             .entries
             .into_iter()
-            .map(|entry| ((name_of(&entry.address), entry.location), entry.file))
+            .map(|entry| ((name_of(&entry.address), entry.location, entry.asks), entry.file))
             .unzip();
         let mut textures = Vec::with_capacity(places.len());
         let mut places = places.into_iter();
@@ -164,7 +185,7 @@ impl<'doc> TextureTable<'doc> {
                 .into_par_iter()
                 .map(|(file, place)| (file.and_then(|file| decode(&place.0, &file.bytes, alpha)), place))
                 .collect();
-            for (result, (name, location)) in decoded {
+            for (result, (name, location, asks)) in decoded {
                 let (texture, dropped) = result.unwrap_or_else(|trouble| {
                     report.warn(location, format!("texture {name}: {trouble}; a checker is drawn"));
                     (Texture::missing(&name), false)
@@ -173,7 +194,7 @@ impl<'doc> TextureTable<'doc> {
                     let message = format!("texture {name}: its transparency has no effect; --dialect svg keeps it");
                     report.warn(location, message);
                 }
-                textures.push(Arc::new(texture));
+                textures.push(Arc::new(Texture { asks, ..texture }));
             }
         }
         textures

@@ -67,6 +67,8 @@ pub struct Texture {
     pub name: String,
     /// The image at every resolution.
     pub pyramid: MipPyramid,
+    /// How colours are to be found in its levels, whatever the settings say (`image-rendering` of SVG).
+    pub asks: Option<PixelSampling>,
 }
 
 impl PixelSampling {
@@ -97,16 +99,29 @@ impl LevelSampling {
 }
 
 impl Texture {
+    /// A texture that is read as the settings say.
+    pub fn new(name: &str, pyramid: MipPyramid) -> Self {
+        Self {
+            name: name.to_owned(),
+            pyramid,
+            asks: None,
+        }
+    }
+
+    /// The settings by which this texture is read.
+    pub fn sampling(&self, settings: &SamplingSettings) -> SamplingSettings {
+        SamplingSettings {
+            pixel: self.asks.unwrap_or(settings.pixel),
+            ..*settings
+        }
+    }
+
     /// Decodes a PNG or JPEG and builds its pyramid.
     ///
     /// # Errors
     /// When the bytes are no such image, are damaged, or are larger than 16 384 texels a side.
     pub fn decode(name: &str, bytes: &[u8]) -> Result<Self, DecodeError> {
-        let base = decode::decode(bytes)?;
-        Ok(Self {
-            name: name.to_owned(),
-            pyramid: MipPyramid::build(base),
-        })
+        Ok(Self::new(name, MipPyramid::build(decode::decode(bytes)?)))
     }
 
     /// As [`Texture::decode`], but every texel counts as opaque: the image's own alpha is dropped. Also says whether it had
@@ -116,11 +131,7 @@ impl Texture {
     /// As [`Texture::decode`].
     pub fn decode_opaque(name: &str, bytes: &[u8]) -> Result<(Self, bool), DecodeError> {
         let (base, dropped) = decode::decode_opaque(bytes)?;
-        let texture = Self {
-            name: name.to_owned(),
-            pyramid: MipPyramid::build(base),
-        };
-        Ok((texture, dropped))
+        Ok((Self::new(name, MipPyramid::build(base)), dropped))
     }
 
     /// Width and height of an image in texels, from its header alone.
@@ -146,9 +157,6 @@ impl Texture {
                 if odd { [255, 0, 255, 255] } else { [40, 0, 40, 255] }
             })
             .collect();
-        Self {
-            name: name.to_owned(),
-            pyramid: MipPyramid::build(MipLevel::new(SIDE, SIDE, texels)),
-        }
+        Self::new(name, MipPyramid::build(MipLevel::new(SIDE, SIDE, texels)))
     }
 }

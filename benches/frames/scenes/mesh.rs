@@ -79,10 +79,8 @@ pub(crate) fn texture() -> Arc<Texture> {
             255,
         ]
     });
-    Arc::new(Texture {
-        name: "noise".to_owned(),
-        pyramid: MipPyramid::build(MipLevel::new(TEXTURE_SIDE, TEXTURE_SIDE, texels.collect())),
-    })
+    let base = MipLevel::new(TEXTURE_SIDE, TEXTURE_SIDE, texels.collect());
+    Arc::new(Texture::new("noise", MipPyramid::build(base)))
 }
 
 fn canvas(size: [u32; 2]) -> DVec2 {

@@ -76,10 +76,11 @@ impl PaintKind for TexturePaint {
     }
 
     fn shader<'a>(&self, context: &ShadeContext<'a>, corners: &[GridPoint; 3]) -> TextureShader<'a> {
-        let pyramid = &context.sources.textures[self.texture as usize].pyramid;
+        let texture = context.sources.textures[self.texture as usize];
+        let pyramid = &texture.pyramid;
         let uv = Planes::new(context.grid, corners, self.uv);
         let map = uv_map(context.grid, &uv);
-        let sampling = &context.sampling;
+        let sampling = &texture.sampling(&context.sampling);
         TextureShader {
             texture: self.texture,
             uv,
@@ -150,11 +151,11 @@ impl Shade for TextureShader<'_> {
     }
 
     fn texture_use(&self, context: &ShadeContext<'_>) -> Option<TextureUse> {
-        let pyramid = &context.sources.textures[self.texture as usize].pyramid;
+        let texture = context.sources.textures[self.texture as usize];
         let footprint = uv_map(context.grid, &self.uv).footprint();
         Some(TextureUse {
             texture: self.texture,
-            reading: Reading::new(&footprint, pyramid, &context.sampling),
+            reading: Reading::new(&footprint, &texture.pyramid, &texture.sampling(&context.sampling)),
             opacity: self.opacity,
         })
     }

@@ -20,10 +20,8 @@ static RAMP: LazyLock<Texture> = LazyLock::new(|| {
         let part = |index: u32| index as f32 / (SIDE - 1) as f32;
         color(part(i % SIDE), part(i / SIDE))
     });
-    Texture {
-        name: "(u, v)".to_owned(),
-        pyramid: MipPyramid::build(MipLevel::new(SIDE, SIDE, texels.collect())),
-    }
+    let base = MipLevel::new(SIDE, SIDE, texels.collect());
+    Texture::new("(u, v)", MipPyramid::build(base))
 });
 
 pub(super) struct Uv;

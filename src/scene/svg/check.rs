@@ -10,14 +10,9 @@ use crate::scene::report::quote;
 use crate::scene::{SkippedKind, numbers};
 
 /// Properties that are read and not drawn, with the values that make no difference.
-const WITHOUT_EFFECT: [(&str, &[&str]); 4] = [
+const WITHOUT_EFFECT: [(&str, &[&str]); 2] = [
     ("filter", &["none"]),
-    ("vector-effect", &["none"]),
-    ("shape-rendering", &["auto", "geometricPrecision"]),
-    (
-        "image-rendering",
-        &["auto", "optimizeQuality", "smooth", "high-quality"],
-    ),
+    ("vector-effect", &["none", "non-scaling-stroke"]),
 ];
 
 /// Attributes that hold coordinates and lengths.

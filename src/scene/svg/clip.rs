@@ -6,6 +6,7 @@ use usvg::{ClipPath, Group, Mask};
 use super::painter::{Painter, Place, affine};
 use crate::color::{BlendMode, Rgba};
 use crate::geometry::{CurvedArea, FillRule, Path};
+use crate::scene::build::Edges;
 use crate::scene::error::Fault;
 use crate::scene::{Composite, Fill, MaskKind};
 
@@ -125,10 +126,13 @@ pub(super) fn to_box(painter: &mut Painter<'_, '_>, sides: [f32; 4], place: Plac
         to_user,
     };
     painter.builder.begin_layer(place.shape)?;
-    let scale = painter.scale;
+    let edges = Edges {
+        scale: painter.scale,
+        crisp: false,
+    };
     let opaque = Fill::Solid(Rgba::BLACK);
     painter
         .builder
-        .fill_curved(place.shape, (area, FillRule::NonZero), opaque, scale)?;
+        .fill_curved(place.shape, (area, FillRule::NonZero), opaque, edges)?;
     painter.builder.end_layer(place.shape, Composite::Clip)
 }

@@ -26,6 +26,7 @@ mod shapes;
 mod styles;
 mod values;
 
+use std::rc::Rc;
 use std::sync::{Mutex, PoisonError};
 
 use glam::DVec2;
@@ -33,6 +34,7 @@ use roxmltree::Node;
 
 use self::painter::Painter;
 use self::pictures::Loading;
+use self::styles::Effects;
 use super::build::Builder;
 use super::error::Fault;
 use super::{Problem, numbers};
@@ -79,7 +81,9 @@ fn read_here<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, text: &s
     let canvas = DVec2::new(tree.size().width().into(), tree.size().height().into());
     warn_of_size(builder, root, canvas);
     let scale = FINE_FOR / canvas.max_element();
-    Painter::new(builder, root, &prepared.elements, &pictures, scale).tree(&tree)?;
+    let mut painter = Painter::new(builder, root, &prepared.elements, &pictures, scale);
+    painter.effects = Rc::new(Effects::below(root));
+    painter.tree(&tree)?;
     Ok(canvas)
 }
 

@@ -2,14 +2,14 @@
 
 use glam::DAffine2;
 use roxmltree::Node;
-use usvg::{Group, Image, ImageKind, Path};
+use usvg::{Group, Image, ImageKind, ImageRendering, Path};
 
 use super::painter::{Painter, Place, affine};
 use super::pictures::{self, Picture};
 use super::{clip, prepare, shapes};
 use crate::color::BlendMode;
 use crate::geometry::{CurvedArea, FillRule};
-use crate::scene::build::unit_square;
+use crate::scene::build::{Edges, unit_square};
 use crate::scene::error::Fault;
 use crate::scene::triangles::{self, Element};
 use crate::scene::{Composite, Fill, Paint};
@@ -97,9 +97,10 @@ impl<'doc> Painter<'_, 'doc> {
                     self.group(text.flattened(), Place { shape, ..place })?;
                 }
                 usvg::Node::Path(path) => {
+                    let found = self.elements.find(path.id());
+                    self.painting = found.or_else(|| self.used.last()?.left.last().copied());
                     place.shape = self.leaf(path.id(), around);
-                    self.painting = self.elements.find(path.id());
-                    marks = self.painting.and_then(|node| self.shape_of_marks(node));
+                    marks = found.and_then(|node| self.shape_of_marks(node));
                     self.path(path, place)?;
                 }
                 usvg::Node::Image(image) => self.image(image, place)?,
@@ -162,7 +163,8 @@ impl<'doc> Painter<'_, 'doc> {
         if bounds.width() <= 0.0 || bounds.height() <= 0.0 {
             return Ok(());
         }
-        if let (Fill::Solid(color), Some(corners)) = (fill, shapes::triangle(path.data())) {
+        let edges = self.edges_for(path, place, 0.0);
+        if let (Fill::Solid(color), Some(corners)) = (fill, shapes::triangle(path.data()).filter(|_| !edges.crisp)) {
             if color.a <= 0.0 {
                 return Ok(());
             }
@@ -178,8 +180,7 @@ impl<'doc> Painter<'_, 'doc> {
             stroke: None,
             to_user: place.to_user,
         };
-        let scale = self.scale_for(path, place, 0.0);
-        self.builder.fill_curved(place.shape, (area, rule), fill, scale)
+        self.builder.fill_curved(place.shape, (area, rule), fill, edges)
     }
 
     fn stroke(&mut self, path: &Path, place: Place) -> Result<(), Fault> {
@@ -190,31 +191,44 @@ impl<'doc> Painter<'_, 'doc> {
         let Some(paint) = self.server(stroke.paint(), Place { opacity, ..place })? else {
             return Ok(());
         };
-        // In the shape's own coordinates, so that its transform acts on the stroke too.
+        let line = shapes::path(path.data(), self.builder.element(place.shape));
+        // In the shape's own coordinates its transform acts on the stroke too.
+        let (line, to_user) = if self.is_stroked_in_place() {
+            (line.transformed(place.to_user), DAffine2::IDENTITY)
+        } else {
+            (line, place.to_user)
+        };
         let area = CurvedArea {
-            path: shapes::path(path.data(), self.builder.element(place.shape)),
+            path: line,
             stroke: Some(shapes::stroke(stroke)),
-            to_user: place.to_user,
+            to_user,
         };
         if let Some(stroke) = &area.stroke
             && stroke.is_too_fine(&area.path)
         {
             self.warn_once("more than 200000 dashes; the line is drawn without gaps");
         }
-        let scale = self.scale_for(path, place, stroke.width().get());
+        let edges = self.edges_for(path, place, stroke.width().get());
         self.builder
-            .fill_curved(place.shape, (area, FillRule::NonZero), paint, scale)
+            .fill_curved(place.shape, (area, FillRule::NonZero), paint, edges)
     }
 
-    /// Samples per user unit for which the edges of a path shall be fine enough: fewer where it is so large that they would
-    /// never end.
-    fn scale_for(&self, path: &Path, place: Place, width: f32) -> f64 {
+    /// Whether the path that is painted is stroked where it lies on the canvas, so that no transform widens its line.
+    fn is_stroked_in_place(&self) -> bool {
+        self.inside.is_none() && self.painting.is_some_and(|node| self.effects.is_non_scaling(node))
+    }
+
+    /// What the edges of a path shall be like. Those of one that is so large that they would never end are coarser.
+    fn edges_for(&self, path: &Path, place: Place, width: f32) -> Edges {
         let bounds = path.data().bounds();
         let sides = [bounds.left(), bounds.top(), bounds.right(), bounds.bottom(), width];
         let reach = sides.into_iter().map(|side| f64::from(side).abs()).fold(0.0, f64::max);
         let matrix = place.to_user.matrix2;
         let stretch = matrix.x_axis.length().max(matrix.y_axis.length());
-        self.scale.min(MOST_SAMPLES / (reach * stretch).max(f64::MIN_POSITIVE))
+        Edges {
+            scale: self.scale.min(MOST_SAMPLES / (reach * stretch).max(f64::MIN_POSITIVE)),
+            crisp: !path.rendering_mode().use_shape_antialiasing(),
+        }
     }
 
     fn warn_once(&mut self, message: &str) {
@@ -237,11 +251,16 @@ impl<'doc> Painter<'_, 'doc> {
         let pictures = self.pictures;
         match pictures::of(image, pictures) {
             Some(Picture::Texture(texture)) => {
+                let texture = if is_pixelated(image.rendering_mode()) {
+                    self.builder.textures.pixelated(*texture)
+                } else {
+                    *texture
+                };
                 let size = [image.size().width(), image.size().height()].map(f64::from);
                 let unit_to_user = place.to_user * DAffine2::from_scale(size.into());
                 for (points, uv) in unit_square(unit_to_user) {
                     let paint = Paint::Texture {
-                        texture: *texture,
+                        texture,
                         uv,
                         opacity: place.opacity,
                     };
@@ -281,6 +300,12 @@ impl<'doc> Painter<'_, 'doc> {
         };
         self.builder.end_layer(place.shape, composite)
     }
+}
+
+/// Whether texels shall be seen as they are, and not mixed.
+fn is_pixelated(rendering: ImageRendering) -> bool {
+    use ImageRendering::{CrispEdges, OptimizeSpeed, Pixelated};
+    matches!(rendering, CrispEdges | OptimizeSpeed | Pixelated)
 }
 
 /// Whether a group does nothing but move, and fade, what is inside. What its filters would do is not done.

@@ -1,6 +1,7 @@
 //! What is needed to paint one document, and where it is painted.
 
 use std::collections::HashMap;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use glam::DAffine2;
@@ -8,6 +9,7 @@ use roxmltree::Node;
 
 use super::elements::Elements;
 use super::pictures::Picture;
+use super::styles::Effects;
 use crate::color::Rgba;
 use crate::scene::build::Builder;
 use crate::scene::triangles::TextureFiles;
@@ -19,6 +21,7 @@ pub(super) struct Painter<'a, 'doc> {
     pub(super) root: Node<'doc, 'doc>,
     pub(super) elements: &'a Elements<'doc>,
     pub(super) pictures: &'a [Picture],
+    pub(super) effects: Rc<Effects>,
     /// Samples per user unit for which edges of curves are fine enough.
     pub(super) scale: f64,
     pub(super) servers: Servers,
@@ -77,6 +80,7 @@ impl<'a, 'doc> Painter<'a, 'doc> {
             root,
             elements,
             pictures,
+            effects: Rc::default(),
             scale,
             servers: Servers::default(),
             texture_files: TextureFiles::below(root),

@@ -1,6 +1,7 @@
 //! Paint servers: gradients and patterns, each once however many shapes it fills.
 
 use std::collections::HashMap;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
@@ -161,10 +162,12 @@ impl<'doc> Painter<'_, 'doc> {
             .inside
             .and_then(|image| builder.shapes.get(image.0 as usize).cloned());
         let names = std::mem::take(&mut self.servers.names);
+        let effects = Rc::clone(&self.effects);
         let mut names_back = HashMap::new();
         let drawn = builder.apart(size, |builder| {
             let mut painter = Painter::new(builder, root, elements, pictures, scale);
             painter.servers.names = names;
+            painter.effects = effects;
             let shape = match image {
                 Some(image) => {
                     painter.builder.shapes.push(image);

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::collections::HashMap;
 
-use roxmltree::Node;
+use roxmltree::{Node, NodeId};
 use simplecss::{AttributeOperator, PseudoClass, Selector, StyleSheet};
 
 use super::listener::Listener;
@@ -118,6 +118,48 @@ impl<'doc> Styles<'doc> {
             }
         }
         paints
+    }
+}
+
+/// Elements that keep the width of their lines, whatever their transforms (`vector-effect: non-scaling-stroke`).
+#[derive(Debug, Default)]
+pub(super) struct Effects(HashMap<NodeId, bool>);
+
+impl Effects {
+    /// Those below `root`, in whose style sheets [`Styles::below`] found nothing wrong.
+    pub(super) fn below(root: Node<'_, '_>) -> Self {
+        let mut sheet = StyleSheet::new();
+        for node in root.descendants().filter(|node| node.tag_name().name() == "style") {
+            sheet.parse_more(node.text().unwrap_or(""));
+        }
+        let is_effect = |declaration: &&simplecss::Declaration<'_>| declaration.name == "vector-effect";
+        let rules: Vec<_> = (sheet.rules.iter())
+            .filter_map(|rule| Some((&rule.selector, rule.declarations.iter().rfind(is_effect)?.value)))
+            .collect();
+        let steps = Cell::new(0);
+        let mut effects = HashMap::new();
+        for node in root.descendants().filter(Node::is_element) {
+            let mut effect = node.attribute("vector-effect");
+            for (selector, value) in &rules {
+                if selector.matches(&Counted { node, steps: &steps }) {
+                    effect = Some(value);
+                }
+            }
+            for declaration in simplecss::DeclarationTokenizer::from(node.attribute("style").unwrap_or("")) {
+                if declaration.name == "vector-effect" {
+                    effect = Some(declaration.value);
+                }
+            }
+            if let Some(effect) = effect {
+                effects.insert(node.id(), effect.trim() == "non-scaling-stroke");
+            }
+        }
+        Self(effects)
+    }
+
+    /// Whether an element's line has the same width on the canvas, however large the element is shown.
+    pub(super) fn is_non_scaling(&self, node: Node<'_, '_>) -> bool {
+        self.0.get(&node.id()).is_some_and(|is| *is)
     }
 }
 

@@ -46,7 +46,17 @@ fn kind(name: &str) -> Option<Kind> {
         "stroke-linejoin" => Kind::Words(&["miter", "miter-clip", "arcs", "round", "bevel"]),
         "fill-rule" | "clip-rule" => Kind::Words(&["nonzero", "evenodd"]),
         "visibility" => Kind::Words(&["visible", "hidden", "collapse"]),
-        "filter" | "vector-effect" | "shape-rendering" | "image-rendering" => Kind::Words(&[]),
+        "filter" | "vector-effect" => Kind::Words(&[]),
+        "shape-rendering" => Kind::Words(&["auto", "geometricPrecision", "crispEdges", "optimizeSpeed"]),
+        "image-rendering" => Kind::Words(&[
+            "auto",
+            "optimizeQuality",
+            "smooth",
+            "high-quality",
+            "optimizeSpeed",
+            "crisp-edges",
+            "pixelated",
+        ]),
         _ => return None,
     })
 }

@@ -1,6 +1,7 @@
 //! What is said about a pixel.
 
 mod advice;
+mod asked_rendering;
 mod contributions;
 mod painting;
 mod pixels;

@@ -506,7 +506,13 @@ fn tapped(texture: &Texture, uv: DVec2, lod: f64, settings: &RenderSettings) -> 
     let levels = texture.pyramid.levels();
     let last = levels.len() - 1;
     let lod = lod.clamp(0.0, last as f64);
-    let read = |level: usize| read_level(&levels[level.min(last)], uv, settings.pixel_sampling);
+    let read = |level: usize| {
+        read_level(
+            &levels[level.min(last)],
+            uv,
+            texture.asks.unwrap_or(settings.pixel_sampling),
+        )
+    };
     match settings.level_sampling {
         LevelSampling::Zero if settings.detail.fixed.is_none() => read(0),
         LevelSampling::Zero | LevelSampling::Nearest => read((lod + 0.5).floor() as usize),

@@ -83,10 +83,7 @@ pub(crate) fn busy_texture(width: u32, height: u32, translucent: bool) -> Textur
             [byte(x * 37 + y * 11), byte(y * 53 + x * 5), byte((x ^ y) * 29), 255].map(|channel| channel.min(alpha))
         })
         .collect();
-    Texture {
-        name: "busy".to_owned(),
-        pyramid: MipPyramid::build(MipLevel::new(width, height, texels)),
-    }
+    Texture::new("busy", MipPyramid::build(MipLevel::new(width, height, texels)))
 }
 
 /// A number on a lattice of half pixels, so that ties are common, or anywhere.

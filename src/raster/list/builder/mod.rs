@@ -1,13 +1,14 @@
 //! Screen-space primitives to the commands of a chunk: clipped, snapped, and left out where no sample is covered.
 
+mod crisp;
 mod triangle;
 
 use glam::DVec2;
 
 use crate::color::{Premultiplied16, Rgba};
-use crate::geometry::Polygon;
 use crate::geometry::clip::in_guard;
 use crate::geometry::subpixel::{GridPoint, floor_to_i32};
+use crate::geometry::{FillRule, Polygon};
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::mask8x8_simd::{LANES, TriangleBatch};
 use crate::raster::coverage::polygon::OutlineBuilder;
@@ -132,15 +133,32 @@ impl<'a> ChunkBuilder<'a> {
     /// Adds a polygon, its points brought to screen space by `place`; nothing where any of them is not finite there. Its
     /// paint must be one that needs no corners to interpolate between.
     pub fn polygon(&mut self, polygon: &Polygon, place: impl Fn(DVec2) -> DVec2, paint: &Paint) {
+        let place = &place;
+        let contours = polygon.contours();
+        let contours = contours.map(|contour| contour.iter().map(|point| place(*point)));
+        let hidden = self.outline(contours, polygon.rule(), paint);
+        if let Some(samples) = hidden.filter(|_| polygon.points().len() <= MOST_CORNERS) {
+            // So few are one contour.
+            let points = polygon.points().iter().map(|point| place(*point));
+            self.drop_below_polygon(points, samples);
+        }
+    }
+
+    /// Adds closed contours in screen space. The box of the samples that they hide from what lies below, if their paint is opaque
+    /// and they are not small.
+    fn outline(
+        &mut self,
+        contours: impl Iterator<Item = impl Iterator<Item = DVec2>>,
+        rule: FillRule,
+        paint: &Paint,
+    ) -> Option<SampleBox> {
         self.add_waiting();
         let (grid, frame) = (self.context.grid, self.frame);
         let mut builder = OutlineBuilder::new(grid, frame, &mut self.chunk.outline_edges);
-        for contour in polygon.contours() {
-            builder.contour(contour.iter().map(|point| place(*point)));
+        for contour in contours {
+            builder.contour(contour);
         }
-        let Some(outline) = builder.finish(polygon.rule()) else {
-            return;
-        };
+        let outline = builder.finish(rule)?;
         if self.stamps
             && let Some(color) = paint.constant()
             && let Some(coverage) = outline.coverage_mask(&self.chunk.outline_edges, grid, &mut self.scanner)
@@ -150,7 +168,7 @@ impl<'a> ChunkBuilder<'a> {
                 self.stamp(coverage, color, DrawCommand::Samples);
                 self.chunk.triangle_count += 1;
             }
-            return;
+            return None;
         }
         let index = index(self.chunk.outlines.len());
         let (paint, samples) = (self.paint(paint), outline.samples);
@@ -161,11 +179,7 @@ impl<'a> ChunkBuilder<'a> {
         self.chunk.outline_paints.push(paint);
         self.push(DrawCommand::Outline(index));
         self.chunk.triangle_count += 1;
-        if hides && polygon.points().len() <= MOST_CORNERS {
-            // So few are one contour.
-            let points = polygon.points().iter().map(|point| place(*point));
-            self.drop_below_polygon(points, samples);
-        }
+        hides.then_some(samples)
     }
 
     /// Drops what a polygon of few corners hides that came last and holds `samples`.

@@ -40,7 +40,8 @@ pub fn cut_to_window(
             polygon = cut(&polygon, |point| point[axis] - low[axis]);
             polygon = cut(&polygon, |point| high[axis] - point[axis]);
         }
-        polygon
+        // Where an edge is far longer than the window, floats miss its border.
+        polygon.iter().map(|point| point.clamp(low, high)).collect()
     });
     Polygon::new(inside, rule)
 }

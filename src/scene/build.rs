@@ -2,8 +2,10 @@
 
 use std::collections::HashMap;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DAffine2, DVec2, Vec2};
+use rayon::prelude::*;
 use roxmltree::Node;
 
 use super::document::{LineIndex, Source};
@@ -21,6 +23,11 @@ use crate::texture::Texture;
 const MAX_PRIMITIVES: usize = 4_000_000;
 /// Most points of all polygons together, about 400 MB with the frame's copy.
 const MAX_POINTS: usize = 10_000_000;
+/// What is said where there would be more.
+const TOO_MANY_POINTS: Problem = Problem::TooMany {
+    what: "points of polygons",
+    limit: MAX_POINTS,
+};
 /// Most layers inside each other, those of clips and masks included: each takes memory in every tile.
 const MAX_LAYERS: usize = 64;
 
@@ -38,6 +45,19 @@ pub(super) struct Builder<'doc> {
     primitives_left: usize,
     points_left: usize,
     open_layers: usize,
+    /// Areas of primitives whose edges are yet to be found, all together and on all threads; in the order of primitives.
+    waiting: Vec<Waiting>,
+    /// Whether areas wait: those of scenes apart do not.
+    waits: bool,
+}
+
+/// An area with curves, and the primitive that it is for.
+#[derive(Debug)]
+struct Waiting {
+    primitive: usize,
+    area: CurvedArea,
+    rule: FillRule,
+    edges: Edges,
 }
 
 /// A state of a growing scene, to return to.
@@ -61,6 +81,8 @@ impl<'doc> Builder<'doc> {
             primitives_left: MAX_PRIMITIVES,
             points_left: MAX_POINTS,
             open_layers: 0,
+            waiting: Vec::new(),
+            waits: true,
         }
     }
 
@@ -181,6 +203,10 @@ impl<'doc> Builder<'doc> {
     /// Takes back all primitives since `mark`.
     pub(super) fn take_back(&mut self, mark: Mark) {
         self.primitives.truncate(mark.primitives);
+        let kept = self
+            .waiting
+            .partition_point(|waiting| waiting.primitive < mark.primitives);
+        self.waiting.truncate(kept);
         self.open_layers = mark.open_layers;
     }
 
@@ -224,13 +250,40 @@ impl<'doc> Builder<'doc> {
         if matches!(fill, Fill::Solid(color) if color.a <= 0.0) {
             return Ok(());
         }
-        let polygon = Polygon::curved(area, rule, edges.scale);
-        let polygon = if edges.crisp {
-            polygon.with_crisp_edges()
-        } else {
-            polygon
-        };
-        self.polygon(shape, polygon, fill)
+        if !self.waits {
+            return self.polygon(shape, edges.polygon(area, rule), fill);
+        }
+        self.waiting.push(Waiting {
+            primitive: self.primitives.len(),
+            area,
+            rule,
+            edges,
+        });
+        let polygon = Arc::new(Polygon::new([[]; 0], rule));
+        self.push(shape, PrimitiveKind::Polygon { polygon, fill })
+    }
+
+    /// Finds the edges of all areas that wait; what turns out to cover nothing is dropped.
+    pub(super) fn find_edges(&mut self) -> Result<(), Fault> {
+        let left = AtomicUsize::new(self.points_left);
+        let found: Vec<(usize, Result<Polygon, Problem>)> = std::mem::take(&mut self.waiting)
+            .into_par_iter()
+            .map(|waiting| (waiting.primitive, waiting.polygon(&left)))
+            .collect();
+        self.points_left = left.into_inner();
+        let mut is_any_empty = false;
+        for (index, polygon) in found {
+            let polygon = polygon.map_err(|problem| self.fault(self.primitives[index].shape, problem))?;
+            is_any_empty |= polygon.points().is_empty();
+            if let PrimitiveKind::Polygon { polygon: empty, .. } = &mut self.primitives[index].kind {
+                *empty = Arc::new(polygon);
+            }
+        }
+        if is_any_empty {
+            let covers = |primitive: &Primitive| !matches!(&primitive.kind, PrimitiveKind::Polygon { polygon, .. } if polygon.points().is_empty());
+            self.primitives.retain(covers);
+        }
+        Ok(())
     }
 
     fn polygon(&mut self, shape: ShapeId, polygon: Polygon, fill: Fill) -> Result<(), Fault> {
@@ -238,14 +291,7 @@ impl<'doc> Builder<'doc> {
             return Ok(());
         }
         let Some(left) = self.points_left.checked_sub(polygon.points().len()) else {
-            let what = "points of polygons";
-            return Err(self.fault(
-                shape,
-                Problem::TooMany {
-                    what,
-                    limit: MAX_POINTS,
-                },
-            ));
+            return Err(self.fault(shape, TOO_MANY_POINTS));
         };
         self.points_left = left;
         let polygon = Arc::new(polygon);
@@ -260,10 +306,11 @@ impl<'doc> Builder<'doc> {
     ) -> Result<Scene, Fault> {
         let mut scene = Scene::empty(canvas, Dialect::Svg);
         let layers = std::mem::take(&mut self.open_layers);
+        let waits = std::mem::take(&mut self.waits);
         self.exchange(&mut scene);
         let drawn = draw(self);
         self.exchange(&mut scene);
-        self.open_layers = layers;
+        (self.open_layers, self.waits) = (layers, waits);
         drawn.map(|()| scene)
     }
 
@@ -315,6 +362,39 @@ pub(super) struct Edges {
     pub(super) scale: f64,
     /// Whether whole pixels are covered: those whose middles are inside.
     pub(super) crisp: bool,
+}
+
+impl Edges {
+    /// The polygon that an area with curves becomes.
+    fn polygon(self, area: CurvedArea, rule: FillRule) -> Polygon {
+        let polygon = Polygon::curved(area, rule, self.scale);
+        if self.crisp {
+            polygon.with_crisp_edges()
+        } else {
+            polygon
+        }
+    }
+}
+
+impl Waiting {
+    /// Its polygon, whose points are taken from what is `left`; once that is too little, no more is looked for.
+    fn polygon(self, left: &AtomicUsize) -> Result<Polygon, Problem> {
+        if left.load(Ordering::Relaxed) == 0 {
+            return Err(TOO_MANY_POINTS);
+        }
+        let polygon = self.edges.polygon(self.area, self.rule);
+        let count = polygon.points().len();
+        let taken = left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(count));
+        if taken.is_err() {
+            left.store(0, Ordering::Relaxed);
+            return Err(TOO_MANY_POINTS);
+        }
+        if polygon.points().iter().all(|point| within_reach(*point)) {
+            Ok(polygon)
+        } else {
+            Err(Problem::TooFar)
+        }
+    }
 }
 
 /// What a fill covers.

@@ -130,6 +130,7 @@ fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> 
         let (width, height) = (canvas.x, canvas.y);
         return Err(Problem::Canvas { width, height }.at(builder.locate(root)));
     }
+    builder.find_edges()?;
     let room = builder.textures.ask_for_room();
     room.map_err(|error| Problem::from(error).nowhere())?;
     let mut scene = builder.finish(dialect, canvas);

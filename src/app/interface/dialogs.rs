@@ -22,6 +22,8 @@ pub(super) struct Dialogs {
     text: String,
     problem: Option<String>,
     chosen: usize,
+    /// The path of a picture that was typed last: where it was wrong, it need not be typed again.
+    path: String,
     /// The text was replaced: its line puts the caret behind it.
     caret_to_end: bool,
     sheet: SheetDialog,
@@ -47,8 +49,13 @@ impl Dialogs {
     pub(super) fn show(&mut self, ctx: &Context, viewer: &Viewer, commands: &mut Vec<Command>) {
         let just_opened = self.open != viewer.dialog();
         if just_opened {
+            let path = std::mem::take(&mut self.path);
+            let is_path = viewer.dialog() == Some(Dialog::ComparePicture) && !path.is_empty();
             *self = Self {
                 open: viewer.dialog(),
+                text: if is_path { path.clone() } else { String::new() },
+                caret_to_end: is_path,
+                path,
                 ..Self::default()
             };
         }
@@ -77,6 +84,7 @@ impl Dialogs {
                     command: "against",
                 };
                 self.ask(ctx, &question, just_opened, commands);
+                self.path.clone_from(&self.text);
             }
             Some(Dialog::Sheet) => self.sheet.show(ctx, viewer, commands),
             None => {}

@@ -198,7 +198,8 @@ impl ExplanationPanel {
             .or(self.chosen)
             .or_else(|| explanation.telling_sample(number));
         let header = CollapsingHeader::new(text)
-            .id_salt(("paint", number))
+            // Of each pixel: what was folded for one is not for the next.
+            .id_salt(("paint", explanation.pixel, number))
             .default_open(is_topmost(explanation, number))
             .show(ui, |ui| {
                 lines(ui, &explanation.paint_lines(number));

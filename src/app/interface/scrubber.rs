@@ -15,13 +15,13 @@ pub(super) fn show(ui: &mut Ui, explanation: &Explanation, accumulated: &mut Opt
     ui.horizontal(|ui| {
         ui.spacing_mut().slider_width = 180.0;
         let slider = ui.add(Slider::new(&mut count, 1..=all).text("samples"));
-        if slider
-            .on_hover_text("The mean of the first so many samples, in the order of the pattern")
-            .changed()
-        {
+        if slider.changed() {
             *accumulated = Some(count);
         }
     });
+    // Not a tip, which would lie over what the slider shows.
+    let words = "The mean of the first samples, in the order of the pattern";
+    ui.label(RichText::new(words).size(11.0).weak());
     let mean = explanation.mean_of_first(count);
     ui.horizontal(|ui| {
         let (rect, _) = ui.allocate_exact_size(vec2(28.0, 18.0), Sense::hover());

@@ -63,7 +63,8 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
             .iter()
             .filter(|texel| texel.level == level.number && texel.at == at)
             .map(|texel| texel.weight)
-            .sum();
+            // An empty sum of floats is minus zero.
+            .fold(0.0, |sum, weight| sum + weight);
         let [r, g, b, a] = image.texel(at[0].cast_signed(), at[1].cast_signed());
         window.mark(ui, at);
         let contributed = contributed_words(viewer, place).unwrap_or_default();
@@ -91,10 +92,11 @@ fn contributed_words(viewer: &Viewer, texel: Option<TexelPlace>) -> Option<Strin
     let Region { width, height, .. } = viewer
         .contributions_region()
         .filter(|_| texel == viewer.pointed_texel())?;
-    let count = viewer.contributed_pixels().len();
-    Some(format!(
-        "\ncontributes to {count} of the {width} x {height} pixels around the pinned one, lit in the picture"
-    ))
+    let around = format!("of the {width} x {height} pixels around the pinned one");
+    Some(match viewer.contributed_pixels().len() {
+        0 => format!("\ncontributes to none {around}"),
+        count => format!("\ncontributes to {count} {around}, lit in the picture"),
+    })
 }
 
 /// The last part of a texture's address.

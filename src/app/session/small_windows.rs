@@ -299,3 +299,58 @@ fn panel_that_is_closed_leaves_the_picture() {
     session.settle();
     assert!(session.viewer.explains(), "asked for, it comes");
 }
+
+#[test]
+fn escape_asks_anew_after_anything_else() {
+    let mut session = session(Vec::new(), [800, 600]);
+    key(&mut session, "Escape");
+    assert!(says(&mut session, "Esc again ends the program"), "asked");
+    key(&mut session, "?");
+    session.settle();
+    click(&mut session, dvec2(3.0, 3.0));
+    assert_eq!(session.viewer.dialog(), None, "a click beside the help closes it");
+    key(&mut session, "Escape");
+    assert!(!session.has_quit(), "hours of work later");
+    key(&mut session, "Escape");
+    assert!(session.has_quit(), "twice in a row");
+}
+
+#[test]
+fn reset_shows_the_canvas_beside_the_panel() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("square.svg");
+    let document = "<svg xmlns='http://www.w3.org/2000/svg' width='100' height='100'><circle r='50'/></svg>";
+    std::fs::write(&path, document).expect("a file");
+    for window in [[800, 600], [1000, 600], [1280, 800]] {
+        let mut session = session(vec![path.clone()], window);
+        session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+        session.settle();
+        click_on(&mut session, "Reset view");
+        let free = session.free_area.expect("there is room");
+        let view = session.viewer.view_numbers().expect("a scene");
+        let middle = f64::from(window[0]) / 2.0;
+        let [left, right] = [0.0, 100.0].map(|x| middle + (x - view.center.x) * view.scale);
+        assert!(
+            left >= free.x as f64 && right <= free.right() as f64,
+            "{window:?}: {left} to {right} in {free:?}"
+        );
+    }
+}
+
+#[test]
+fn what_is_folded_for_one_pixel_is_not_for_the_next() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("two.svg");
+    let document = r##"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100"><rect width="100" height="100" fill="#1f6feb"/><rect width="50" height="100" fill="#eee"/></svg>"##;
+    std::fs::write(&path, document).expect("a file");
+    let mut session = session(vec![path], [800, 1400]);
+    // On the left the lower rect is hidden, and folded; on the right it is what one sees.
+    right_click(&mut session, [250.0, 700.0]);
+    let paints = |session: &mut Session| {
+        let told = |node: &Node| node.value().is_some_and(|value| value.starts_with("paints "));
+        nodes(session).iter().filter(|node| told(node)).count()
+    };
+    assert_eq!(paints(&mut session), 1, "the upper one is unfolded");
+    right_click(&mut session, [550.0, 700.0]);
+    assert_eq!(paints(&mut session), 1, "and so is the only one of another pixel");
+}

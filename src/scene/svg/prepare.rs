@@ -166,6 +166,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         let heard = heard && look.displayed;
         self.count(node)?;
         self.identify(node);
+        self.pixelate(node);
         match name {
             "image" => self.image(node, heard),
             "colortri" | "textri" => self.triangle(node)?,
@@ -208,6 +209,17 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
     fn identify(&mut self, node: Node<'doc, 'doc>) {
         if let Some(id) = self.elements.give(node) {
             self.edits.insert(self.name_end(node), format!(" id=\"{id}\""));
+        }
+    }
+
+    /// Some values of `image-rendering` are known to usvg in styles only; as attributes they mean what an older one does.
+    fn pixelate(&mut self, node: Node<'doc, 'doc>) {
+        let attribute = node
+            .attributes()
+            .find(|attribute| attribute.name() == "image-rendering");
+        if let Some(attribute) = attribute.filter(|attribute| matches!(attribute.value(), "pixelated" | "crisp-edges"))
+        {
+            self.edits.replace(attribute.range_value(), "optimizeSpeed".to_owned());
         }
     }
 

@@ -24,6 +24,9 @@ impl Viewer {
         if self.is_so_already(&command) {
             return Vec::new();
         }
+        if !is_passing(&command) {
+            self.chrome.ending.forget();
+        }
         let effects = self.dispatch(command);
         self.update();
         effects
@@ -230,4 +233,15 @@ impl Viewer {
             || self.escape_comparison()
             || self.close_lesson()
     }
+}
+
+/// Whether a command leaves the question of Esc standing: Esc itself, and what windows tell by themselves.
+fn is_passing(command: &Command) -> bool {
+    matches!(
+        command,
+        Command::Pointer(PointerCommand::Moved { .. } | PointerCommand::Left)
+            | Command::Window(WindowCommand::Resize(_) | WindowCommand::SetFreeArea(_) | WindowCommand::Escape)
+            | Command::Sheet(SheetCommand::SetRoom(_))
+            | Command::Inspector(InspectorCommand::PointAtTexel(_))
+    )
 }

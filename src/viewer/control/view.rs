@@ -42,24 +42,31 @@ impl Viewer {
 
     /// Into the part of the window that no panel covers.
     pub(in crate::viewer) fn fit_view(&mut self) {
-        let zoom = f64::from(self.settings.pixel_zoom.factor());
-        let window = PixelRect::of_size(self.chrome.window);
-        let free = self.chrome.free_area.map_or(window, |free| free.intersection(&window));
-        let panes = self.panes();
-        let (corner, size) = if panes.second.is_some() || self.fixed_size().is_some() {
-            (DVec2::ZERO, DVec2::from(panes.frame.map(f64::from)))
-        } else {
-            let corner = DVec2::new(free.x as f64, free.y as f64) / zoom;
-            (corner, DVec2::new(f64::from(free.width), f64::from(free.height)) / zoom)
-        };
-        self.look(|camera, context| camera.fit([corner, size], context));
+        let part = self.free_part();
+        self.look(|camera, context| camera.fit(part, context));
     }
 
+    /// The default view, or where a panel covers some of the canvas then, the like in the part of the window that is free.
     pub(in crate::viewer) fn reset_view(&mut self) {
         if let Some(entry) = self.scene_list.scenes.get_mut(self.scene_list.current) {
             entry.camera = Camera::default();
         }
+        let part = self.free_part();
+        self.look(|camera, context| camera.show_canvas(part, context));
         self.center_fixed();
+    }
+
+    /// The part of the frame that no panel covers: its corner and size in frame pixels.
+    fn free_part(&self) -> [DVec2; 2] {
+        let zoom = f64::from(self.settings.pixel_zoom.factor());
+        let window = PixelRect::of_size(self.chrome.window);
+        let free = self.chrome.free_area.map_or(window, |free| free.intersection(&window));
+        let panes = self.panes();
+        if panes.second.is_some() || self.fixed_size().is_some() {
+            return [DVec2::ZERO, DVec2::from(panes.frame.map(f64::from))];
+        }
+        let corner = DVec2::new(free.x as f64, free.y as f64) / zoom;
+        [corner, DVec2::new(f64::from(free.width), f64::from(free.height)) / zoom]
     }
 
     /// By window pixels.

@@ -191,6 +191,27 @@ impl Camera {
         self.set(fitted, context);
     }
 
+    /// If some of the canvas lies outside of a part of the frame, given by its corner and size in frame pixels: the whole
+    /// canvas in the middle of that part, upright, with the margin of the default view.
+    pub fn show_canvas(&mut self, [corner, size]: [DVec2; 2], context: &ViewContext) {
+        let to_pixels = self.transform(context);
+        let is_inside = [DVec2::ZERO, context.canvas].into_iter().all(|end| {
+            let end = to_pixels.to_pixels(end);
+            end.cmpge(corner).all() && end.cmple(corner + size).all()
+        });
+        if is_inside {
+            return;
+        }
+        let scale = View::default_scale(context.canvas, [size.x, size.y].map(whole));
+        let aside = (corner + size / 2.0 - context.size() / 2.0) / scale;
+        let shown = ViewNumbers {
+            center: context.canvas / 2.0 - aside,
+            scale,
+            rotation: 0.0,
+        };
+        self.set(shown, context);
+    }
+
     /// One user unit is one frame pixel; the middle of the frame stays.
     pub fn actual_size(&mut self, context: &ViewContext) {
         let numbers = self.numbers(context);
@@ -216,6 +237,16 @@ fn unturned(vector: DVec2, rotation: f64) -> DVec2 {
 fn half_turn(degrees: f64) -> f64 {
     let turned = degrees.rem_euclid(360.0);
     if turned > 180.0 { turned - 360.0 } else { turned }
+}
+
+/// Whole pixels of a length, at least one.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a frame's sides are far smaller, and what is no number becomes 1"
+)]
+fn whole(length: f64) -> u32 {
+    length.max(1.0) as u32
 }
 
 #[cfg(test)]
@@ -257,6 +288,33 @@ mod tests {
             Ok(())
         })
         .budget_ms(300);
+    }
+
+    #[test]
+    fn show_canvas_moves_it_only_where_it_is_covered() {
+        let context = ViewContext {
+            canvas: dvec2(400.0, 200.0),
+            frame: [800, 600],
+        };
+        let mut camera = Camera::default();
+        camera.show_canvas([DVec2::ZERO, dvec2(800.0, 600.0)], &context);
+        assert!(camera.is_default(), "nothing covers it");
+        let (corner, size) = (dvec2(0.0, 20.0), dvec2(500.0, 560.0));
+        camera.show_canvas([corner, size], &context);
+        let view = camera.transform(&context);
+        let [low, high] = [DVec2::ZERO, context.canvas].map(|end| view.to_pixels(end));
+        assert!(
+            low.cmpge(corner).all() && high.cmple(corner + size).all(),
+            "{low} {high}"
+        );
+        assert!(
+            ((low + high) / 2.0).distance(corner + size / 2.0) < 1e-9,
+            "in the middle"
+        );
+        assert!(high.x - low.x > 400.0, "as large as there");
+        let found = camera;
+        camera.show_canvas([corner, size], &context);
+        assert_eq!(camera, found, "and there it stays");
     }
 
     #[test]

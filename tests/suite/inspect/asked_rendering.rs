@@ -29,7 +29,7 @@ fn frame(scene: &Scene, settings: &RenderSettings) -> Vec<u32> {
 /// A disc, and a line over it.
 fn shapes(rendering: &str) -> Scene {
     scene(&format!(
-        "<g {rendering}><circle cx='14.3' cy='11.6' r='9.2' fill='#08a'/>\
+        "<g {rendering}><circle cx='14.6' cy='11.6' r='9.2' fill='#08a'/>\
          <path d='M2.2 3.1 28.7 19.4' stroke='#800' stroke-width='1.3'/></g>"
     ))
 }

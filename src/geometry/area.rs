@@ -11,15 +11,11 @@ use super::{FillRule, Polygon};
 /// number counts as no triangle.
 pub fn area_in_pixel(corners: [DVec2; 3], pixel: [u32; 2]) -> f64 {
     let origin = DVec2::new(f64::from(pixel[0]), f64::from(pixel[1]));
-    let mut polygon: Vec<DVec2> = corners.iter().map(|corner| *corner - origin).collect();
+    let polygon: Vec<DVec2> = corners.iter().map(|corner| *corner - origin).collect();
     if !polygon.iter().all(|corner| corner.is_finite()) {
         return 0.0;
     }
-    for axis in [0, 1] {
-        polygon = cut(&polygon, |point| point[axis]);
-        polygon = cut(&polygon, |point| 1.0 - point[axis]);
-    }
-    area(&polygon).clamp(0.0, 1.0)
+    area(&cut(&polygon, [DVec2::ZERO, DVec2::ONE])).clamp(0.0, 1.0)
 }
 
 /// What closed contours and a window have in common; the window is given by its least and its greatest corner.
@@ -29,35 +25,41 @@ pub fn area_in_pixel(corners: [DVec2; 3], pixel: [u32; 2]) -> f64 {
 pub fn cut_to_window(
     contours: impl Iterator<Item = impl Iterator<Item = DVec2>>,
     rule: FillRule,
-    [low, high]: [DVec2; 2],
+    window: [DVec2; 2],
 ) -> Polygon {
     let inside = contours.map(|contour| {
-        let mut polygon: Vec<DVec2> = contour.collect();
-        if !polygon.iter().all(|corner| corner.is_finite()) {
-            return Vec::new();
-        }
-        for axis in [0, 1] {
-            polygon = cut(&polygon, |point| point[axis] - low[axis]);
-            polygon = cut(&polygon, |point| high[axis] - point[axis]);
-        }
-        // Where an edge is far longer than the window, floats miss its border.
-        polygon.iter().map(|point| point.clamp(low, high)).collect()
+        let contour: Vec<DVec2> = contour.collect();
+        let is_finite = contour.iter().all(|corner| corner.is_finite());
+        if is_finite { cut(&contour, window) } else { Vec::new() }
     });
     Polygon::new(inside, rule)
 }
 
-/// The part of a closed contour where `distance` is not below zero; `distance` is an affine function. Parts of one that is not
-/// convex stay joined along the border, back and forth.
-pub(super) fn cut(polygon: &[DVec2], distance: impl Fn(DVec2) -> f64) -> Vec<DVec2> {
-    let mut kept = Vec::with_capacity(polygon.len() + 1);
-    let next = polygon.iter().cycle().skip(1);
-    for (from, to) in polygon.iter().zip(next) {
-        let (here, there) = (distance(*from), distance(*to));
-        if here >= 0.0 {
+/// The part of a closed contour in a window, which is given by its least and its greatest corner. Parts of one that is not convex
+/// stay joined along the window's border, back and forth.
+pub(super) fn cut(contour: &[DVec2], [low, high]: [DVec2; 2]) -> Vec<DVec2> {
+    let mut kept = contour.to_vec();
+    for axis in [0, 1] {
+        kept = cut_side(&kept, axis, (low[axis], |distance| distance >= 0.0));
+        kept = cut_side(&kept, axis, (high[axis], |distance| distance <= 0.0));
+    }
+    kept
+}
+
+/// The part of a closed contour on one side of the line where a coordinate has the value `line`.
+fn cut_side(contour: &[DVec2], axis: usize, (line, is_kept): (f64, fn(f64) -> bool)) -> Vec<DVec2> {
+    let mut kept = Vec::with_capacity(contour.len() + 1);
+    let next = contour.iter().cycle().skip(1);
+    for (from, to) in contour.iter().zip(next) {
+        let (here, there) = (from[axis] - line, to[axis] - line);
+        if is_kept(here) {
             kept.push(*from);
         }
-        if (here < 0.0) != (there < 0.0) {
-            kept.push(from.lerp(*to, here / (here - there)));
+        if is_kept(here) != is_kept(there) {
+            let mut crossing = from.lerp(*to, here / (here - there));
+            // Where the edge is far longer than the window, floats would miss its border.
+            crossing[axis] = line;
+            kept.push(crossing);
         }
     }
     kept

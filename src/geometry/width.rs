@@ -11,17 +11,10 @@ const DIRECTIONS: u32 = 64;
 ///
 /// The window is given by its least and its greatest corner. Only so many directions are tried: what is found is never less
 /// than the width, and more by a few hundredths of the window's side at most.
-pub fn width_in_window(triangles: impl Iterator<Item = [DVec2; 3]>, [low, high]: [DVec2; 2]) -> Option<f64> {
+pub fn width_in_window(triangles: impl Iterator<Item = [DVec2; 3]>, window: [DVec2; 2]) -> Option<f64> {
     let inside: Vec<DVec2> = triangles
         .filter(|corners| corners.iter().all(|corner| corner.is_finite()))
-        .flat_map(|corners| {
-            let mut polygon = corners.to_vec();
-            for axis in [0, 1] {
-                polygon = cut(&polygon, |point| point[axis] - low[axis]);
-                polygon = cut(&polygon, |point| high[axis] - point[axis]);
-            }
-            polygon
-        })
+        .flat_map(|corners| cut(&corners, window))
         .collect();
     let extent = |direction: DVec2| {
         let along = inside.iter().map(|point| direction.dot(*point));

@@ -1,7 +1,7 @@
 //! What stays in reach of the mouse where there is little room: panels make way for each other and for the pinned pixel,
 //! and controls stay under the pointer that clicks them.
 
-use crate::viewer::{AbCommand, InspectorCommand, WindowCommand};
+use crate::viewer::{AbCommand, InspectorCommand, ViewCommand, WindowCommand};
 use std::collections::BTreeMap;
 
 use egui::accesskit::{Node, Rect};
@@ -325,7 +325,8 @@ fn reset_shows_the_canvas_beside_the_panel() {
         let mut session = session(vec![path.clone()], window);
         session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
         session.settle();
-        click_on(&mut session, "Reset view");
+        session.command(Command::View(ViewCommand::Reset));
+        session.settle();
         let free = session.free_area.expect("there is room");
         let view = session.viewer.view_numbers().expect("a scene");
         let middle = f64::from(window[0]) / 2.0;
@@ -347,7 +348,7 @@ fn what_is_folded_for_one_pixel_is_not_for_the_next() {
     // On the left the lower rect is hidden, and folded; on the right it is what one sees.
     right_click(&mut session, [250.0, 700.0]);
     let paints = |session: &mut Session| {
-        let told = |node: &Node| node.value().is_some_and(|value| value.starts_with("paints "));
+        let told = |node: &Node| node.value().is_some_and(|value| value.contains("paints "));
         nodes(session).iter().filter(|node| told(node)).count()
     };
     assert_eq!(paints(&mut session), 1, "the upper one is unfolded");

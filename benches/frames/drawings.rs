@@ -13,9 +13,10 @@ use resvg::usvg::tiny_skia_path::PathSegment;
 use vello_cpu::kurbo::{Affine, BezPath, Cap, Join, Shape as _, Stroke};
 use vello_cpu::peniko::color::{AlphaColor, DynamicColor, Srgb};
 use vello_cpu::peniko::{BlendMode, ColorStop, Compose, Extend, Fill, Gradient, Mix};
-use vello_cpu::{PaintType, RasterizerSettings, RenderContext, RenderSettings, Resources, TargetInit};
+use vello_cpu::{PaintType, RenderContext};
 
 use crate::ours::{Ours, pool, settings};
+use crate::peers::vello_by;
 use crate::race::{Budget, Rival, Timing, race};
 use crate::table::{Row, ratio, say_times, times};
 
@@ -124,28 +125,13 @@ fn resvg(tree: &usvg::Tree) -> Rival<'_> {
 
 /// `vello_cpu`; its commands are made before the clock starts, as our scene is.
 fn vello(tree: &usvg::Tree, workers: u16) -> Rival<'_> {
-    let [width, height] = SIZE.map(|side| u16::try_from(side).expect("a small frame"));
-    let settings = RenderSettings {
-        num_threads: workers,
-        ..RenderSettings::default()
-    };
-    let mut context = RenderContext::new_with(width, height, settings);
-    let mut resources = Resources::new();
-    let mut frame = vello_cpu::Pixmap::new(width, height);
     let [x, y] = scale(tree).map(f64::from);
     let mut steps = Vec::new();
     group(tree.root(), Affine::scale_non_uniform(x, y), &mut steps);
-    Rival::new(move || {
-        context.reset();
+    vello_by(SIZE, workers, move |context| {
         for step in &steps {
-            step.run(&mut context);
+            step.run(context);
         }
-        context.flush();
-        let onto_white = RasterizerSettings {
-            target_init: TargetInit::Clear(AlphaColor::WHITE),
-            ..RasterizerSettings::default()
-        };
-        context.render_with(&mut frame, &mut resources, onto_white);
     })
 }
 

@@ -93,6 +93,18 @@ pub(crate) fn vello(scene: &FlatScene, size: [u32; 2], workers: u16) -> Rival<'s
             (path, AlphaColor::from_rgba8(r, g, b, a))
         })
         .collect();
+    let [x, y] = scale(scene, size);
+    vello_by(size, workers, move |context| {
+        context.set_transform(Affine::scale_non_uniform(x, y));
+        for (path, color) in &shapes {
+            context.set_paint(*color);
+            context.fill_path(path);
+        }
+    })
+}
+
+/// `vello_cpu`, which draws what `draw` tells it, over white.
+pub(crate) fn vello_by<'s>(size: [u32; 2], workers: u16, mut draw: impl FnMut(&mut RenderContext) + 's) -> Rival<'s> {
     let [width, height] = size.map(|side| u16::try_from(side).expect("a small frame"));
     let settings = RenderSettings {
         num_threads: workers,
@@ -101,14 +113,9 @@ pub(crate) fn vello(scene: &FlatScene, size: [u32; 2], workers: u16) -> Rival<'s
     let mut context = RenderContext::new_with(width, height, settings);
     let mut resources = Resources::new();
     let mut frame = vello_cpu::Pixmap::new(width, height);
-    let [x, y] = scale(scene, size);
     Rival::new(move || {
         context.reset();
-        context.set_transform(Affine::scale_non_uniform(x, y));
-        for (path, color) in &shapes {
-            context.set_paint(*color);
-            context.fill_path(path);
-        }
+        draw(&mut context);
         context.flush();
         let onto_white = RasterizerSettings {
             target_init: TargetInit::Clear(AlphaColor::WHITE),

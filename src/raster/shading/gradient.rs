@@ -80,14 +80,14 @@ impl<'a> GradientShader<'a> {
     /// Colours from their levels, as they lie in memory.
     #[inline(always)]
     fn rounded<S: Simd>(&self, levels: [f64x8<S>; 4]) -> u64x8<S> {
-        let [r, g, b, a] = levels;
-        let colors = whole(r) | whole(g) << 16 | whole(b) << 32 | whole(a) << 48;
+        let [mut r, mut g, mut b, mut a] = levels;
         if self.rules == Rules::Course {
-            // To bytes, as [`Premultiplied16::truncated`].
-            colors & 0xFF00_FF00_FF00_FF00
-        } else {
-            colors
+            r = truncated(r);
+            g = truncated(g);
+            b = truncated(b);
+            a = truncated(a);
         }
+        whole(r) | whole(g) << 16 | whole(b) << 32 | whole(a) << 48
     }
 
     /// The colours of eight samples, which all lie on one stretch of the ramp mostly; `stretch` is the one of those before.
@@ -113,6 +113,13 @@ impl<'a> GradientShader<'a> {
             places.simd_eq(places).select(colors, u64x8::splat(simd, 0))
         }
     }
+}
+
+/// Levels cut to bytes. Those of a stop are whole but for the rounding of 32-bit floats, which must not cost a byte.
+#[inline(always)]
+fn truncated<S: Simd>(levels: f64x8<S>) -> f64x8<S> {
+    let per_byte = f64::from(Premultiplied16::PER_BYTE);
+    ((levels + 1.0 / 64.0) * per_byte.recip()).floor() * per_byte
 }
 
 /// Whole numbers of `0..=65280` nearest to `levels`.

@@ -108,12 +108,10 @@ impl Texture {
         }
     }
 
-    /// The settings by which this texture is read.
-    pub fn sampling(&self, settings: &SamplingSettings) -> SamplingSettings {
-        SamplingSettings {
-            pixel: self.asks.unwrap_or(settings.pixel),
-            ..*settings
-        }
+    /// The settings by which this texture is read, where they are others than these.
+    #[inline]
+    pub fn own_sampling(&self, settings: &SamplingSettings) -> Option<SamplingSettings> {
+        self.asks.map(|pixel| SamplingSettings { pixel, ..*settings })
     }
 
     /// Decodes a PNG or JPEG and builds its pyramid.

@@ -80,7 +80,8 @@ impl PaintKind for TexturePaint {
         let pyramid = &texture.pyramid;
         let uv = Planes::new(context.grid, corners, self.uv);
         let map = uv_map(context.grid, &uv);
-        let sampling = &texture.sampling(&context.sampling);
+        let own = texture.own_sampling(&context.sampling);
+        let sampling = own.as_ref().unwrap_or(&context.sampling);
         TextureShader {
             texture: self.texture,
             uv,
@@ -152,10 +153,12 @@ impl Shade for TextureShader<'_> {
 
     fn texture_use(&self, context: &ShadeContext<'_>) -> Option<TextureUse> {
         let texture = context.sources.textures[self.texture as usize];
+        let own = texture.own_sampling(&context.sampling);
+        let sampling = own.as_ref().unwrap_or(&context.sampling);
         let footprint = uv_map(context.grid, &self.uv).footprint();
         Some(TextureUse {
             texture: self.texture,
-            reading: Reading::new(&footprint, &texture.pyramid, &texture.sampling(&context.sampling)),
+            reading: Reading::new(&footprint, &texture.pyramid, sampling),
             opacity: self.opacity,
         })
     }

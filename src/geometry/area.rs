@@ -56,8 +56,12 @@ fn cut_side(contour: &[DVec2], axis: usize, (line, is_kept): (f64, fn(f64) -> bo
             kept.push(*from);
         }
         if is_kept(here) != is_kept(there) {
-            let mut crossing = from.lerp(*to, here / (here - there));
-            // Where the edge is far longer than the window, floats would miss its border.
+            // From the nearer end: the other one may be so far away that floats there know no pixels.
+            let mut crossing = if here.abs() <= there.abs() {
+                *from + (*to - *from) * (here / (here - there))
+            } else {
+                *to + (*from - *to) * (there / (there - here))
+            };
             crossing[axis] = line;
             kept.push(crossing);
         }
@@ -97,6 +101,21 @@ mod tests {
             ([at(3.25, 4.25), at(3.25, 4.75), at(3.75, 4.25)], 0.125, "inside"),
             ([at(5.0, 4.0), at(6.0, 4.0), at(5.0, 5.0)], 0.0, "beside it"),
             ([at(3.5, -1e9), at(3.5, 1e9), at(1e9, 0.0)], 0.5, "the right half"),
+            (
+                [at(3.0, 4.0), at(9e29, 1e30), at(1e30, 0.0)],
+                0.55,
+                "half way round the sky",
+            ),
+            (
+                [at(0.0, 0.0), at(1e30, 0.0), at(0.0, 1e30)],
+                1.0,
+                "all, from the corner of the frame",
+            ),
+            (
+                [at(0.0, 0.0), at(-1e30, 0.0), at(0.0, -1e30)],
+                0.0,
+                "the other side of it",
+            ),
             ([at(3.0, 4.0), at(9.0, 10.0), at(6.0, 7.0)], 0.0, "a line"),
             ([at(f64::NAN, 4.0), at(9.0, 10.0), at(6.0, 7.0)], 0.0, "no triangle"),
         ];

@@ -10,7 +10,7 @@ use crate::raster::binning::tile_command::TileCommand;
 use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
-use crate::raster::list::chunk::{Chunk, DrawCommand};
+use crate::raster::list::chunk::{Chunk, DrawCommand, LayerMark};
 use crate::raster::list::context::ListContext;
 use crate::raster::shading::sources::PaintSources;
 use crate::raster::span::{PixelRect, Reach, SampleBox, Span, to_index};
@@ -83,8 +83,71 @@ impl<'a> Binner<'a> {
     }
 
     /// Calls `visit` with every entry of the chunk and the number of its tile, counted from the first row's first.
+    #[inline]
     pub(crate) fn each(&self, sources: &PaintSources<'_>, mut visit: impl FnMut(usize, TileCommand)) {
-        let mut depth = self.chunk.layers_open;
+        if !self.chunk.is_limited() {
+            return self.everywhere(sources, visit);
+        }
+        let (limits, columns) = (self.limits(), self.context.tiles.columns as usize);
+        self.everywhere(sources, |tile, entry| {
+            let PixelRect { x, y } = limits[entry.command()];
+            let (column, row) = (tile % columns, tile / columns + to_index(self.rows.start));
+            let holds = |span: Span, at: usize| i32::try_from(at).is_ok_and(|at| (span.start..span.end).contains(&at));
+            if holds(x, column) && holds(y, row) {
+                visit(tile, entry);
+            }
+        });
+    }
+
+    /// For each command the tiles in which it counts: those that the masks around it may change. What a mask holds elsewhere
+    /// would cost time there, though it takes away from nothing.
+    fn limits(&self) -> Vec<PixelRect> {
+        let tiles = self.context.tiles;
+        let all = PixelRect {
+            x: Span {
+                start: 0,
+                end: tiles.columns.cast_signed(),
+            },
+            y: Span {
+                start: 0,
+                end: tiles.rows.cast_signed(),
+            },
+        };
+        let inside = |around: PixelRect, layer: &LayerMark| {
+            let PixelRect { x, y } = layer.area;
+            if !layer.limits {
+                around
+            } else if x.is_empty() || y.is_empty() {
+                PixelRect::EMPTY
+            } else {
+                let own = tiles.tiles_of(layer.area);
+                PixelRect {
+                    x: own.x.intersection(around.x),
+                    y: own.y.intersection(around.y),
+                }
+            }
+        };
+        let mut around = vec![all];
+        for layer in &self.chunk.layers_open {
+            around.extend(around.last().map(|last| inside(*last, layer)));
+        }
+        let of_command = |command: &DrawCommand| {
+            match command {
+                DrawCommand::EndLayer(_) if around.len() > 1 => drop(around.pop()),
+                _ => {}
+            }
+            let limit = around.last().copied().unwrap_or(all);
+            if let DrawCommand::BeginLayer(index) = command {
+                around.push(inside(limit, &self.chunk.layers[*index as usize]));
+            }
+            limit
+        };
+        self.chunk.commands.iter().map(of_command).collect()
+    }
+
+    /// As [`Binner::each`], as if nothing lay in a mask.
+    fn everywhere(&self, sources: &PaintSources<'_>, mut visit: impl FnMut(usize, TileCommand)) {
+        let mut depth = self.chunk.layers_open.len();
         let mut tiles = OutlineTiles::default();
         for (i, command) in self.chunk.commands.iter().enumerate() {
             match *command {
@@ -381,10 +444,13 @@ mod tests {
 
     use super::*;
     use crate::color::{ResolveSpace, Rgba};
+    use crate::geometry::{FillRule, Polygon};
     use crate::raster::binning::tile_command::Work;
     use crate::raster::coverage::shape::Shape;
     use crate::raster::coverage::shape_coverage::ShapeCoverage;
+    use crate::raster::layers::Compositing;
     use crate::raster::list::builder::ChunkBuilder;
+    use crate::raster::list::chunk::measure_layers;
     use crate::raster::random::{fill, noise};
     use crate::raster::shading::Paint;
     use crate::raster::tile_layout::TileLayout;
@@ -438,6 +504,58 @@ mod tests {
             rows.each(shape, rect, |_, covered| count += covered.count(per_pixel));
         }
         count
+    }
+
+    #[test]
+    fn masks_are_only_in_the_tiles_that_they_may_change() {
+        let settings = RasterSettings {
+            rate: SampleRate::ONE,
+            pattern: SamplePattern::Grid,
+            sampling: SamplingSettings::default(),
+            space: ResolveSpace::Stored,
+            background: Rgba::WHITE,
+            palette: None,
+        };
+        let context = ListContext::new([1000, 1000], &settings);
+        let square = |from: f64, to: f64| {
+            let corner = |x: f64, y: f64| DVec2::new(x, y);
+            Polygon::new(
+                [[corner(from, from), corner(to, from), corner(to, to), corner(from, to)]],
+                FillRule::NonZero,
+            )
+        };
+        let black = Paint::solid(Rgba::BLACK);
+        // A small square, clipped to nearly all of the frame; the clip's layer begins in one chunk and ends in the next.
+        let mut first = ChunkBuilder::new(&context, 9);
+        first.begin_layer();
+        first.polygon(&square(5.0, 15.0), |point| point, &black);
+        first.begin_layer();
+        let mut second = ChunkBuilder::new(&context, 9);
+        second.polygon(&square(1.0, 999.0), |point| point, &black);
+        second.end_layer(Compositing::mask(false));
+        second.end_layer(Compositing::with_opacity(1.0));
+        second.polygon(&square(1.0, 999.0), |point| point, &black);
+        let mut chunks = [first.finish(), second.finish()];
+        measure_layers(&mut chunks, &context);
+        let rows = Span {
+            start: 0,
+            end: context.tiles.rows.cast_signed(),
+        };
+        let tiles = (context.tiles.columns * context.tiles.rows) as usize;
+        let counts = chunks.map(|chunk| {
+            let mut counts = vec![0; tiles];
+            Binner::new(&chunk, &context, rows).each(&Vec::new().into(), |tile, _| counts[tile] += 1);
+            counts
+        });
+        assert!(tiles > 9, "many tiles");
+        assert_eq!([counts[0][0], counts[1][0]], [3, 4], "where the small square is");
+        for tile in 1..tiles {
+            assert_eq!(
+                [counts[0][tile], counts[1][tile]],
+                [0, 1],
+                "tile {tile} has what is painted last"
+            );
+        }
     }
 
     #[test]

@@ -45,8 +45,10 @@ pub(crate) struct Stamp {
 /// Where a layer begins or ends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LayerMark {
-    /// The pixels that anything in the layer touches.
+    /// The pixels that the layer may change.
     pub(crate) area: PixelRect,
+    /// At the begin of the layer, whether what is in it counts in that area only: a mask's does.
+    pub(crate) limits: bool,
     /// At the end of the layer, how it is composited.
     pub(crate) compositing: Option<Compositing>,
 }
@@ -88,7 +90,7 @@ pub struct Chunk {
     /// How many triangles and polygons became commands.
     pub(crate) triangle_count: u64,
     /// Layers that earlier chunks have left open.
-    pub(crate) layers_open: u32,
+    pub(crate) layers_open: Vec<LayerMark>,
     /// Whether a colour lets what is below it shine through; textures are not looked at.
     pub(crate) translucent: bool,
 }
@@ -108,6 +110,11 @@ impl Chunk {
             edges: &self.outline_edges,
             number: self.first_outline + index as usize,
         }
+    }
+
+    /// Whether some commands lie in a mask, and so count in some tiles only.
+    pub(crate) fn is_limited(&self) -> bool {
+        self.layers.iter().chain(&self.layers_open).any(|layer| layer.limits)
     }
 
     /// Whether any command begins or ends a layer.
@@ -188,8 +195,10 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
         },
     };
     let mut open: Vec<(usize, usize, PixelRect)> = Vec::new();
+    let mut open_before = Vec::with_capacity(chunks.len());
     for at in 0..chunks.len() {
-        chunks[at].layers_open = u32::try_from(open.len()).unwrap_or(u32::MAX);
+        let marks = open.iter().map(|(chunk, begin, _)| (*chunk, *begin));
+        open_before.push(marks.collect::<Vec<_>>());
         for command in 0..chunks[at].commands.len() {
             match chunks[at].commands[command] {
                 DrawCommand::BeginLayer(begin) => open.push((at, begin as usize, PixelRect::EMPTY)),
@@ -199,8 +208,9 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
                     };
                     let compositing = chunks[at].layers[end as usize].compositing;
                     if !compositing.is_none_or(Compositing::keeps_below) {
-                        // It is felt wherever there is anything below it.
-                        area = area.union(open.last().map_or(frame, |(_, _, outer)| *outer));
+                        // It is felt wherever there is anything below it, and nowhere else.
+                        area = open.last().map_or(frame, |(_, _, outer)| *outer);
+                        chunks[begin_chunk].layers[begin].limits = true;
                     }
                     chunks[begin_chunk].layers[begin].area = area;
                     chunks[at].layers[end as usize].area = area;
@@ -217,6 +227,10 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
                 }
             }
         }
+    }
+    for (at, marks) in open_before.into_iter().enumerate() {
+        let marks = marks.into_iter().map(|(chunk, begin)| chunks[chunk].layers[begin]);
+        chunks[at].layers_open = marks.collect();
     }
 }
 

@@ -1,7 +1,7 @@
 //! Clip paths and masks: layers that take away from the layer below them.
 
 use glam::{DAffine2, DVec2};
-use usvg::{ClipPath, Group, Mask};
+use usvg::{ClipPath, Group, Mask, filter};
 
 use super::painter::{Painter, Place, affine};
 use crate::color::{BlendMode, Rgba};
@@ -86,6 +86,25 @@ fn silhouettes_of_group(painter: &mut Painter<'_, '_>, group: &Group, place: Pla
     painter.builder.end_layer(place.shape, composite)
 }
 
+/// Whether a mask is one group that a filter makes white, so that its luminance is its opacity: as cairo writes all its masks.
+fn is_whitened(mask: &Group) -> bool {
+    let [usvg::Node::Group(group)] = mask.children() else {
+        return false;
+    };
+    let [filter] = group.filters() else {
+        return false;
+    };
+    let [primitive] = filter.primitives() else {
+        return false;
+    };
+    match primitive.kind() {
+        filter::Kind::ColorMatrix(matrix) => {
+            matches!(matrix.kind(), filter::ColorMatrixKind::Matrix(values) if values.as_slice() == WHITENS)
+        }
+        _ => false,
+    }
+}
+
 /// Masks the layer that was begun last; `false` where nothing of it is left.
 pub(super) fn mask(painter: &mut Painter<'_, '_>, mask: &Mask, place: Place) -> Result<bool, Fault> {
     if let Some(outer) = mask.mask()
@@ -103,12 +122,18 @@ pub(super) fn mask(painter: &mut Painter<'_, '_>, mask: &Mask, place: Place) -> 
     let rect = mask.rect();
     to_box(painter, [rect.left(), rect.top(), rect.right(), rect.bottom()], inside)?;
     let kind = match mask.kind() {
+        usvg::MaskType::Luminance if is_whitened(mask.root()) => MaskKind::Alpha,
         usvg::MaskType::Luminance => MaskKind::Luminance,
         usvg::MaskType::Alpha => MaskKind::Alpha,
     };
     painter.builder.end_layer(shape, Composite::Mask(kind))?;
     Ok(true)
 }
+
+/// The numbers of a colour matrix that makes everything white and keeps its opacity.
+pub(super) const WHITENS: [f32; 20] = [
+    0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0,
+];
 
 /// Clips the layer that was begun last to a box: left, top, right, bottom.
 pub(super) fn to_box(painter: &mut Painter<'_, '_>, sides: [f32; 4], place: Place) -> Result<(), Fault> {

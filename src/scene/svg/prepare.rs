@@ -4,6 +4,7 @@
 use roxmltree::{Attribute, Node};
 
 use super::check;
+use super::clip::WHITENS;
 use super::edits::Edits;
 use super::elements::Elements;
 use super::listener::Listener;
@@ -158,7 +159,7 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
             }
             return Ok(None);
         }
-        let look = check::look(self.listener, node, heard)?;
+        let look = check::look(self.listener, node, heard && !self.is_whitened(node))?;
         let stretch = stretch * look.stretch;
         if look.reach * stretch > f64::from(f32::MAX) {
             return Err(self.listener.fault(Problem::TooFar, node, ""));
@@ -210,6 +211,29 @@ impl<'doc, L: Listener> Preparation<'_, 'doc, L> {
         if let Some(id) = self.elements.give(node) {
             self.edits.insert(self.name_end(node), format!(" id=\"{id}\""));
         }
+    }
+
+    /// Whether an element is all of a mask and made white by its filter, which then has the effect that it shall have.
+    fn is_whitened(&self, node: Node<'doc, 'doc>) -> bool {
+        let Some(filter) = node.attribute("filter") else {
+            return false;
+        };
+        let is_all = node.parent_element().is_some_and(|parent| {
+            parent.tag_name().name() == "mask" && parent.children().filter(Node::is_element).count() == 1
+        });
+        let id = filter.trim().strip_prefix("url(#").and_then(|id| id.strip_suffix(')'));
+        let effects = id
+            .filter(|_| is_all)
+            .and_then(|id| self.elements.own(id))
+            .map(|filter| filter.children().filter(Node::is_element));
+        effects.is_some_and(|mut effects| {
+            let first = effects
+                .next()
+                .filter(|effect| effect.tag_name().name() == "feColorMatrix");
+            let values = first.and_then(|effect| effect.attribute("values"));
+            let numbers = values.and_then(|values| numbers::all("values", values).ok());
+            effects.next().is_none() && numbers.is_some_and(|numbers| numbers == WHITENS)
+        })
     }
 
     /// Some values of `image-rendering` are known to usvg in styles only; as attributes they mean what an older one does.

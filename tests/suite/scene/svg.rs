@@ -2,7 +2,7 @@
 
 use glam::{DVec2, Vec2};
 use rasterscope::color::Rgba;
-use rasterscope::scene::{Composite, DialectChoice, Fill, Paint, PrimitiveKind, Scene};
+use rasterscope::scene::{Composite, DialectChoice, Fill, MaskKind, Paint, PrimitiveKind, Scene};
 
 use crate::support::documents::{area, kinds, lines, read, svg, try_read};
 
@@ -265,6 +265,32 @@ fn svg_reports_what_it_does_not_draw() {
     );
     let elsewhere = svg_scene("<use href='other.svg#a'/><use href='#nobody'/><use href='#a'/><g id='a'/>");
     assert_eq!(lines(&elsewhere).len(), 2, "{:?}", lines(&elsewhere));
+}
+
+#[test]
+fn svg_masks_that_a_filter_whitens_count_by_their_opacity() {
+    let mask = |values: &str| {
+        svg_scene(&format!(
+            "<filter id='f' x='0%' y='0%' width='100%' height='100%'>\
+             <feColorMatrix type='matrix' in='SourceGraphic' values='{values}'/></filter>\
+             <mask id='m'><g filter='url(#f)'><rect width='60' height='60' style='fill-opacity:0.5'/></g></mask>\
+             <g mask='url(#m)'><circle cx='30' cy='30' r='25' fill='red'/></g>"
+        ))
+    };
+    let kind = |scene: &Scene| {
+        kinds(scene).iter().find_map(|kind| match kind {
+            PrimitiveKind::EndLayer {
+                composite: Composite::Mask(kind),
+            } => Some(*kind),
+            _ => None,
+        })
+    };
+    let of_cairo = mask("0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0");
+    assert_eq!(kind(&of_cairo), Some(MaskKind::Alpha), "black, but whitened");
+    assert!(of_cairo.report.is_empty(), "{:?}", lines(&of_cairo));
+    let other = mask("0 0 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 0 1 0");
+    assert_eq!(kind(&other), Some(MaskKind::Luminance), "another colour");
+    assert_eq!(lines(&other).len(), 1, "a filter without effect is told");
 }
 
 #[test]

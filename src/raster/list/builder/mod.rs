@@ -235,7 +235,11 @@ impl<'a> ChunkBuilder<'a> {
         self.add_waiting();
         let index = index(self.chunk.layers.len());
         let area = PixelRect::EMPTY;
-        self.chunk.layers.push(LayerMark { area, compositing });
+        self.chunk.layers.push(LayerMark {
+            area,
+            limits: false,
+            compositing,
+        });
         self.push(command(index));
     }
 

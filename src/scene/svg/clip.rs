@@ -4,6 +4,7 @@ use glam::{DAffine2, DVec2};
 use usvg::{ClipPath, Group, Mask, filter};
 
 use super::painter::{Painter, Place, affine};
+use super::values::WHITENS;
 use crate::color::{BlendMode, Rgba};
 use crate::geometry::{CurvedArea, FillRule, Path};
 use crate::scene::build::Edges;
@@ -129,11 +130,6 @@ pub(super) fn mask(painter: &mut Painter<'_, '_>, mask: &Mask, place: Place) -> 
     painter.builder.end_layer(shape, Composite::Mask(kind))?;
     Ok(true)
 }
-
-/// The numbers of a colour matrix that makes everything white and keeps its opacity.
-pub(super) const WHITENS: [f32; 20] = [
-    0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0,
-];
 
 /// Clips the layer that was begun last to a box: left, top, right, bottom.
 pub(super) fn to_box(painter: &mut Painter<'_, '_>, sides: [f32; 4], place: Place) -> Result<(), Fault> {

@@ -4,10 +4,10 @@
 use roxmltree::{Attribute, Node};
 
 use super::check;
-use super::clip::WHITENS;
 use super::edits::Edits;
 use super::elements::Elements;
 use super::listener::Listener;
+use super::values::WHITENS;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, SkippedKind, attributes, numbers};
 

@@ -23,6 +23,11 @@ enum Kind {
     Words(&'static [&'static str]),
 }
 
+/// The numbers of a colour matrix that makes everything white and keeps its opacity.
+pub(super) const WHITENS: [f32; 20] = [
+    0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0,
+];
+
 /// Words that stand for a length, or for what the parent has.
 const KEYWORDS: [&str; 16] = [
     "auto", "inherit", "initial", "unset", "none", "normal", "xx-small", "x-small", "small", "medium", "large",

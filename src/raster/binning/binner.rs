@@ -549,12 +549,8 @@ mod tests {
         });
         assert!(tiles > 9, "many tiles");
         assert_eq!([counts[0][0], counts[1][0]], [3, 4], "where the small square is");
-        for tile in 1..tiles {
-            assert_eq!(
-                [counts[0][tile], counts[1][tile]],
-                [0, 1],
-                "tile {tile} has what is painted last"
-            );
+        for (tile, (first, second)) in counts[0].iter().zip(&counts[1]).enumerate().skip(1) {
+            assert_eq!([*first, *second], [0, 1], "tile {tile} has what is painted last");
         }
     }
 

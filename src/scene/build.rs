@@ -307,10 +307,12 @@ impl<'doc> Builder<'doc> {
         let mut scene = Scene::empty(canvas, Dialect::Svg);
         let layers = std::mem::take(&mut self.open_layers);
         let waits = std::mem::take(&mut self.waits);
+        // Numbers of primitives are those of one scene.
+        let waiting = std::mem::take(&mut self.waiting);
         self.exchange(&mut scene);
         let drawn = draw(self);
         self.exchange(&mut scene);
-        (self.open_layers, self.waits) = (layers, waits);
+        (self.open_layers, self.waits, self.waiting) = (layers, waits, waiting);
         drawn.map(|()| scene)
     }
 

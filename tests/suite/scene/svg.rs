@@ -268,6 +268,18 @@ fn svg_reports_what_it_does_not_draw() {
 }
 
 #[test]
+fn svg_patterns_take_nothing_from_what_is_around_them() {
+    // In the tile a layer that turns out to hold nothing is taken back.
+    let scene = svg_scene(
+        "<clipPath id='c'/><pattern id='p' width='4' height='4' patternUnits='userSpaceOnUse'>\
+         <g clip-path='url(#c)'><circle r='2'/></g><circle r='3'/></pattern>\
+         <circle cx='20' cy='20' r='9' fill='red'/><circle cx='60' cy='60' r='9' fill='url(#p)'/>",
+    );
+    assert_eq!(kinds(&scene).len(), 2, "both discs");
+    assert_near(&bounds(&scene), &[11.0, 11.0, 69.0, 69.0], "with their edges");
+}
+
+#[test]
 fn svg_masks_that_a_filter_whitens_count_by_their_opacity() {
     let mask = |values: &str| {
         svg_scene(&format!(

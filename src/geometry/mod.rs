@@ -10,6 +10,7 @@ mod gradient;
 mod path;
 mod polygon;
 mod stroke;
+mod stroke_outline;
 pub mod subpixel;
 mod triangulate;
 mod view;

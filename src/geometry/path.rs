@@ -1,18 +1,22 @@
 //! Paths of lines and curves: what a shape's outline is before it is flattened for a view.
 //!
 //! A path is filled, or its stroke is ([`Stroke`]). Both end as contours of straight edges that are as near to the curve as
-//! the view asks for ([`CurvedArea::flattened`]). The offset curves of strokes and the flattening are `kurbo`'s.
+//! the view asks for ([`CurvedArea::flattened`]). Flattening and dashes are `kurbo`'s, outlines of strokes
+//! [`super::stroke_outline`]'s.
 
 use glam::{DAffine2, DVec2};
-use kurbo::{BezPath, Cap, Join, PathEl, PathSeg, Point, Shape, StrokeOpts};
+use kurbo::{BezPath, PathEl, PathSeg, Point, Shape as _};
 
-use super::{LineCap, LineJoin, StrokeStyle};
+use super::{LineCap, LineJoin, StrokeStyle, stroke_outline};
 
 /// Longest path that has a stroke, in its widths: beyond, floats no longer tell its sides apart.
 const LONGEST: f64 = 1e12;
 
 /// Most dashes of a path; with more of them it is drawn without gaps.
 const MAX_DASHES: f64 = 200_000.0;
+
+/// Length of a dash that is to be a dot, in widths.
+const SHORTEST_DASH: f64 = 1e-6;
 
 /// About the most points of a flattened area; what would have more is flattened more coarsely.
 const MAX_POINTS: f64 = 4_000_000.0;
@@ -145,28 +149,21 @@ impl CurvedArea {
     /// About how many points the contours have at a tolerance in the path's own units; rather too many than too few.
     fn points_at(&self, tolerance: f64) -> f64 {
         let segments = self.path.segments() as f64;
-        let curves: f64 = self
-            .path
-            .0
-            .segments()
-            .map(|segment| points_of(&segment, tolerance))
-            .sum();
+        let sum = |each: &dyn Fn(PathSeg) -> f64| self.path.0.segments().map(each).sum::<f64>();
+        let curves = sum(&|segment| points_of(&segment, tolerance));
         let Some(stroke) = &self.stroke else {
             return segments + curves;
         };
+        let half_circle = stroke_outline::edges_of_half_circle(tolerance / stroke.style.width);
         let round = stroke.style.cap == LineCap::Round || stroke.style.join == LineJoin::Round;
         // A half circle at each end and corner.
-        let arc = if round {
-            arc_points(stroke.style.width / 2.0, tolerance)
-        } else {
-            0.0
-        };
+        let arc = if round { half_circle } else { 0.0 };
         let dashes = if stroke.dashes.is_empty() {
             0.0
         } else {
             stroke.dash_count(&self.path).min(MAX_DASHES)
         };
-        2.0 * curves + (segments + 2.0 * dashes) * (4.0 + arc)
+        2.0 * (curves + half_circle * sum(&|segment| turn_of(&segment))) + (segments + 2.0 * dashes) * (4.0 + arc)
     }
 }
 
@@ -204,9 +201,7 @@ impl Stroke {
         {
             return Vec::new();
         }
-        // A quarter of it for the offset curve, the rest for its flattening.
         let tolerance = (tolerance / width).clamp(1e-9, 0.25);
-        let stroke = self.in_widths(path);
         let mut contours = Vec::new();
         let mut lines = BezPath::new();
         for subpath in subpaths(&path_in_widths) {
@@ -215,44 +210,34 @@ impl Stroke {
                 None => lines.extend(subpath.iter().copied()),
             }
         }
-        let outline = kurbo::stroke(lines, &stroke, &StrokeOpts::default(), tolerance / 4.0);
-        contours.extend(Path(outline).contours(tolerance * 0.75));
+        match self.dashes_in_widths(path) {
+            Some((offset, pattern)) => {
+                let dashes = kurbo::dash(lines.into_iter(), offset, &pattern);
+                stroke_outline::append(dashes, &self.style, tolerance, &mut contours);
+            }
+            None => stroke_outline::append(lines, &self.style, tolerance, &mut contours),
+        }
         for point in contours.iter_mut().flatten() {
             *point = DVec2::new(origin.x, origin.y) + *point * width;
         }
         contours
     }
 
-    fn in_widths(&self, path: &Path) -> kurbo::Stroke {
-        let StrokeStyle {
-            width,
-            cap,
-            join,
-            miter_limit,
-        } = self.style;
-        let stroke = kurbo::Stroke::new(1.0)
-            .with_caps(match cap {
-                LineCap::Butt => Cap::Butt,
-                LineCap::Round => Cap::Round,
-                LineCap::Square => Cap::Square,
-            })
-            .with_join(match join {
-                LineJoin::Miter => Join::Miter,
-                LineJoin::Round => Join::Round,
-                LineJoin::Bevel => Join::Bevel,
-            })
-            .with_miter_limit(miter_limit);
+    /// How far into the pattern of dashes and gaps the line begins, and the pattern, unless the line has no gaps.
+    fn dashes_in_widths(&self, path: &Path) -> Option<(f64, Vec<f64>)> {
         if self.dashes.is_empty() || self.is_too_fine(path) {
-            return stroke;
+            return None;
         }
         // An odd number of lengths is gone through twice.
         let twice = if self.dashes.len() % 2 == 1 { 2 } else { 1 };
+        let width = self.style.width;
+        // A dash without length has caps, and a direction for them.
         let pattern: Vec<f64> = (0..twice)
             .flat_map(|_| &self.dashes)
-            .map(|length| length / width)
+            .map(|length| (length / width).max(SHORTEST_DASH))
             .collect();
         let period: f64 = pattern.iter().sum();
-        stroke.with_dashes((self.dash_offset / width).rem_euclid(period), pattern)
+        Some(((self.dash_offset / width).rem_euclid(period), pattern))
     }
 
     /// A subpath without length, in widths.
@@ -264,10 +249,7 @@ impl Stroke {
                 let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
                 Some(corners.map(|corner| center + DVec2::from(corner)).to_vec())
             }
-            LineCap::Round => {
-                let circle = kurbo::Circle::new(point(center), 0.5).to_path(tolerance / 4.0);
-                Path(circle).contours(tolerance * 0.75).pop()
-            }
+            LineCap::Round => Some(stroke_outline::circle(center, tolerance)),
         }
     }
 }
@@ -284,9 +266,16 @@ fn points_of(segment: &PathSeg, tolerance: f64) -> f64 {
     (second / (8.0 * tolerance)).sqrt().ceil()
 }
 
-/// How many points a half circle needs.
-fn arc_points(radius: f64, tolerance: f64) -> f64 {
-    std::f64::consts::PI * (radius / (8.0 * tolerance)).sqrt().max(1.0)
+/// By how much a segment turns at most, in half circles.
+fn turn_of(segment: &PathSeg) -> f64 {
+    let curve = match segment {
+        PathSeg::Line(_) => return 0.0,
+        PathSeg::Quad(curve) => curve.raise(),
+        PathSeg::Cubic(curve) => *curve,
+    };
+    let legs = [curve.p1 - curve.p0, curve.p2 - curve.p1, curve.p3 - curve.p2];
+    let angle = |a: kurbo::Vec2, b: kurbo::Vec2| a.cross(b).atan2(a.dot(b)).abs();
+    (angle(legs[0], legs[1]) + angle(legs[1], legs[2])) / std::f64::consts::PI
 }
 
 /// The length of the lines between a segment's control points.
@@ -409,6 +398,7 @@ mod tests {
                 &[1.0, 4.0],
                 4.0 + 2.0 * PI,
             ),
+            ("dots", &straight, cap(LineCap::Round), &[0.0, 4.0], 3.0 * PI),
             ("no length, butt", &spot, STYLE, &[], 0.0),
             ("no length, round", &spot, cap(LineCap::Round), &[], PI),
             ("no length, square", &spot, cap(LineCap::Square), &[], 4.0),

@@ -5,7 +5,7 @@
 //! [`super::stroke_outline`]'s.
 
 use glam::{DAffine2, DVec2};
-use kurbo::{BezPath, PathEl, PathSeg, Point, Shape as _};
+use kurbo::{BezPath, PathEl, PathSeg, Point};
 
 use super::{LineCap, LineJoin, StrokeStyle, stroke_outline};
 

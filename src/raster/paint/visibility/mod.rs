@@ -6,6 +6,7 @@
 pub(in crate::raster) mod buffer;
 pub(in crate::raster) mod flat_resolve;
 mod fragments;
+mod layer_end;
 pub(in crate::raster) mod packed;
 pub(in crate::raster) mod painter;
 mod resolve;

@@ -4,8 +4,6 @@
 //! its sum over the samples is taken before anything is rounded. Translucent flat colours are mixed once for all
 //! samples that show the same. The second step is in `resolve`.
 
-use std::collections::HashMap;
-
 use fearless_simd::{Simd, dispatch};
 
 use crate::color::{Premultiplied16, Resolver};
@@ -18,6 +16,7 @@ use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
 use crate::raster::paint::visibility::buffer::VisibilityBuffer;
 use crate::raster::paint::visibility::fragments::FragmentSums;
+use crate::raster::paint::visibility::layer_end::LayerEnd;
 use crate::raster::paint::visibility::shading_queue::ShadingQueue;
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::shading::context::ShadeContext;
@@ -121,29 +120,9 @@ impl<'a> VisibilityPainter<'a> {
     }
 
     fn end_layer(&mut self, compositing: Compositing) {
-        let Some((below, layer)) = self.layers.pop() else {
-            return;
-        };
-        let surfaces = &mut self.surfaces;
-        let mut composited = HashMap::new();
-        // Most samples are like their neighbours: the table is asked where that changes.
-        let mut last = None;
-        below.composite(layer, |below, above| {
-            if let Some((alike, result)) = last
-                && alike == (below, above)
-            {
-                return result;
-            }
-            let sample = surfaces.get(above).flat;
-            if sample == Premultiplied16::TRANSPARENT && compositing.keeps_below() {
-                return below;
-            }
-            let result = *composited
-                .entry((below, above))
-                .or_insert_with(|| surfaces.composited(below, sample, compositing));
-            last = Some(((below, above), result));
-            result
-        });
+        if let Some((below, layer)) = self.layers.pop() {
+            below.composite(layer, &mut LayerEnd::new(&mut self.surfaces, compositing));
+        }
     }
 
     /// Makes sure that every surface may be mixed with the next paint. There are twice as many numbers as samples in a

@@ -9,6 +9,15 @@ use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::surface_id::{SPLIT, SurfaceId, TWO_SURFACES};
 
+/// What samples show when a layer ends.
+pub(crate) trait Composer {
+    /// Whether samples keep what they show where the layer shows this.
+    fn keeps_below(&self, above: SurfaceId) -> bool;
+
+    /// What a sample shows, by what it shows below the layer and in it.
+    fn composited(&mut self, below: SurfaceId, above: SurfaceId) -> SurfaceId;
+}
+
 impl VisibilityBuffer {
     /// Lets covered samples in row `y` of pixels show what `change` makes of what they show.
     #[inline(always)]
@@ -106,32 +115,49 @@ impl VisibilityBuffer {
         }
     }
 
-    /// Lets each sample show what `mix` makes of its surface here and in a `layer` of the same rectangle.
-    pub(crate) fn composite(&mut self, layer: &Self, mut mix: impl FnMut(SurfaceId, SurfaceId) -> SurfaceId) {
-        let per_pixel = self.side * self.words;
-        for pixel in self.places() {
-            if let (Some(below), Some(above)) = (self.one_or_two(pixel), layer.one_or_two(pixel))
-                && (below.mask == 0 || above.mask == 0 || below.mask == above.mask)
-            {
-                let two = TwoSurfaces {
-                    mask: below.mask | above.mask,
-                    first: mix(below.first, above.first),
-                    second: mix(below.second, above.second),
-                };
-                self.set_two(pixel, two);
-                continue;
+    /// Lets each sample show what `composer` makes of its surface here and in a `layer` of the same rectangle.
+    pub(crate) fn composite(&mut self, layer: &Self, composer: &mut impl Composer) {
+        for (y, line) in layer.whole.iter().enumerate() {
+            let line = &line[..layer.width];
+            let mut start = 0;
+            while start < line.len() {
+                let above = line[start];
+                let end = start + run_length(&line[start..], above);
+                if above == SPLIT || above == TWO_SURFACES {
+                    for x in start..end {
+                        self.composite_pixel((y, x), layer, composer);
+                    }
+                } else if !composer.keeps_below(above) {
+                    self.change_whole(y, start..end, &mut |below| composer.composited(below, above));
+                }
+                start = end;
             }
-            self.split(pixel);
-            let first = self.first_packed(pixel);
-            for i in 0..per_pixel {
-                let above = match layer.one_or_two(pixel) {
-                    None => layer.samples[first + i],
-                    Some(two) => layer.word(two, i),
-                };
-                let (below, above) = (lanes(self.samples[first + i]), lanes(above));
-                let mixed = [0, 1, 2, 3].map(|i| mix(below[i], above[i]));
-                self.samples[first + i] = joined(mixed);
-            }
+        }
+    }
+
+    fn composite_pixel(&mut self, pixel: PixelIndex, layer: &Self, composer: &mut impl Composer) {
+        let above = layer.one_or_two(pixel);
+        if let (Some(below), Some(above)) = (self.one_or_two(pixel), above)
+            && (below.mask == 0 || below.mask == above.mask)
+        {
+            let two = TwoSurfaces {
+                mask: above.mask,
+                first: composer.composited(below.first, above.first),
+                second: composer.composited(below.second, above.second),
+            };
+            self.set_two(pixel, two);
+            return;
+        }
+        self.split(pixel);
+        let first = self.first_packed(pixel);
+        for i in 0..self.side * self.words {
+            let above = match above {
+                None => layer.samples[first + i],
+                Some(two) => layer.word(two, i),
+            };
+            let (below, above) = (lanes(self.samples[first + i]), lanes(above));
+            let mixed = [0, 1, 2, 3].map(|i| composer.composited(below[i], above[i]));
+            self.samples[first + i] = joined(mixed);
         }
     }
 

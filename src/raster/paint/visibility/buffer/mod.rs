@@ -16,6 +16,8 @@ mod rows_4x4;
 
 use std::ops::Range;
 
+pub(crate) use change::Composer;
+
 use crate::raster::paint::visibility::packed::{PER_WORD, lanes, of_two, splat};
 use crate::raster::paint::visibility::two_surfaces::{TwoSurfacePixels, TwoSurfaceRow, TwoSurfaces};
 use crate::raster::span::{PixelRect, Span};
@@ -328,6 +330,23 @@ mod tests {
         y: Span { start: 5, end: 12 },
     };
 
+    /// A way to composite that keeps what is below some surfaces.
+    struct Sums;
+
+    impl Composer for Sums {
+        fn keeps_below(&self, above: SurfaceId) -> bool {
+            above.is_multiple_of(3)
+        }
+
+        fn composited(&mut self, below: SurfaceId, above: SurfaceId) -> SurfaceId {
+            if self.keeps_below(above) {
+                below
+            } else {
+                (below * 3 + above * 7) % 1000
+            }
+        }
+    }
+
     /// What each sample shows, one by one: pixels row by row, and in each its samples row by row.
     #[derive(Clone, Debug, PartialEq)]
     struct Plain(Vec<Vec<SurfaceId>>);
@@ -463,10 +482,9 @@ mod tests {
                 split += runs().filter(|run| *run == Run::Split).count();
                 shared += runs().filter(|run| *run == Run::TwoSurfacePixels).count();
             }
-            let mix = |below: SurfaceId, above: SurfaceId| (below * 3 + above * 7) % 1000;
-            tile.composite(&layer, mix);
+            tile.composite(&layer, &mut Sums);
             for (below, above) in plain.0.iter_mut().flatten().zip(plain_layer.0.iter().flatten()) {
-                *below = mix(*below, *above);
+                *below = Sums.composited(*below, *above);
             }
             assert_eq!(Plain::of(&tile), plain, "a layer over {side} x {side} samples");
             Ok(())

@@ -315,6 +315,8 @@ fn point(at: DVec2) -> Point {
 
 #[cfg(test)]
 mod tests {
+    use kurbo::Shape as _;
+
     use super::*;
     use crate::geometry::{FillRule, triangulate};
 

@@ -36,6 +36,11 @@ pub(super) trait Composite: Copy {
         true
     }
 
+    /// Whether such a sample leaves what is below it as it is.
+    fn keeps_under(self, sample: Premultiplied16) -> bool {
+        self.keeps_below() && sample == Premultiplied16::TRANSPARENT
+    }
+
     /// Whether nothing of what is below is left under such a fragment.
     fn hides(self, fragment: Premultiplied16) -> bool {
         fragment.is_opaque()

@@ -55,6 +55,10 @@ impl Composite for Mask {
     fn keeps_below(self) -> bool {
         false
     }
+
+    fn keeps_under(self, sample: Premultiplied16) -> bool {
+        self.fragment(sample).is_opaque()
+    }
 }
 
 #[cfg(test)]
@@ -70,6 +74,12 @@ mod tests {
             mask.composited(Premultiplied16::from_bytes(layer), below, Rules::Standard)
         };
         let nothing = Premultiplied16::TRANSPARENT;
+        for layer in [[0, 0, 0, 255], [255; 4], [254; 4], [0; 4]].map(Premultiplied16::from_bytes) {
+            for mask in [alpha, luminance] {
+                let kept = mask.composited(layer, below, Rules::Standard) == below;
+                assert_eq!(mask.keeps_under(layer), kept, "{mask:?} of {layer:?}");
+            }
+        }
         assert_eq!(masked(alpha, [0, 0, 0, 255]), below, "whatever its colour");
         assert_eq!(masked(alpha, [0; 4]), nothing);
         assert_eq!(masked(luminance, [255; 4]), below, "white lets all through");

@@ -55,6 +55,12 @@ macro_rules! composites {
                 }
             }
 
+            fn keeps_under(self, sample: Premultiplied16) -> bool {
+                match self {
+                    $(Self::$kind(own) => own.keeps_under(sample),)+
+                }
+            }
+
             fn hides(self, fragment: Premultiplied16) -> bool {
                 match self {
                     $(Self::$kind(own) => own.hides(fragment),)+
@@ -116,6 +122,12 @@ impl Compositing {
     #[inline]
     pub fn keeps_below(self) -> bool {
         self.0.keeps_below()
+    }
+
+    /// Whether such a sample of the layer leaves what is below it as it is.
+    #[inline]
+    pub(crate) fn keeps_under(self, sample: Premultiplied16) -> bool {
+        self.0.keeps_under(sample)
     }
 
     /// Whether nothing of what is below is left under such a fragment.

@@ -191,8 +191,8 @@ impl SampleColors {
 
     /// Composites another tile of the same rectangle with this one.
     pub(crate) fn composite(&mut self, layer: &Self, compositing: Compositing) {
-        let (count, keeps_below) = (self.whole.len(), compositing.keeps_below());
-        self.opaque &= keeps_below;
+        let count = self.whole.len();
+        self.opaque &= compositing.keeps_below();
         let mut first = 0;
         while first < count {
             // Pixels side by side that are alike, so that their samples lie side by side.
@@ -204,7 +204,7 @@ impl SampleColors {
             if layer.split[first] {
                 (first..last).for_each(|pixel| self.ensure_split(pixel));
                 compositing.composite(&layer.samples[samples.clone()], &mut self.samples[samples], self.rules);
-            } else if keeps_below && whole.iter().all(|color| *color == Premultiplied16::TRANSPARENT) {
+            } else if whole.iter().all(|color| compositing.keeps_under(*color)) {
                 // Nothing changes.
             } else if self.split[first] {
                 for (below, color) in self.samples[samples].chunks_mut(self.per_pixel).zip(whole) {

@@ -20,6 +20,7 @@ mod paint;
 mod painter;
 mod pictures;
 mod prepare;
+mod reach;
 mod references;
 mod server;
 mod shapes;

@@ -2,11 +2,11 @@
 
 use glam::DAffine2;
 use roxmltree::Node;
-use usvg::{Group, Image, ImageKind, ImageRendering, Path};
+use usvg::{ClipPath, Group, Image, ImageKind, ImageRendering, Path};
 
 use super::painter::{Painter, Place, affine};
 use super::pictures::{self, Picture};
-use super::{clip, prepare, shapes};
+use super::{clip, prepare, reach, shapes};
 use crate::color::BlendMode;
 use crate::geometry::{CurvedArea, FillRule};
 use crate::scene::build::{Edges, unit_square};
@@ -49,14 +49,15 @@ impl<'doc> Painter<'_, 'doc> {
     }
 
     fn layered(&mut self, group: &Group, place: Place) -> Result<(), Fault> {
-        if is_plain(group) && (place.opacity >= 1.0 || is_single(group)) {
+        let clip = group.clip_path().filter(|clip| !self.is_idle(clip, group));
+        if is_plain(group, clip) && (place.opacity >= 1.0 || is_single(group)) {
             return self.children(group, place);
         }
         let mark = self.builder.mark();
         self.builder.begin_layer(place.shape)?;
         let opaque = Place { opacity: 1.0, ..place };
         self.children(group, opaque)?;
-        let is_seen = !self.builder.is_empty_layer() && self.cut(group, opaque)?;
+        let is_seen = !self.builder.is_empty_layer() && self.cut(clip, group, opaque)?;
         if !is_seen {
             self.builder.take_back(mark);
             return Ok(());
@@ -68,9 +69,14 @@ impl<'doc> Painter<'_, 'doc> {
         self.builder.end_layer(place.shape, composite)
     }
 
-    /// Cuts the layer that was begun last by the group's clip path and mask; whether anything is left.
-    fn cut(&mut self, group: &Group, place: Place) -> Result<bool, Fault> {
-        if let Some(path) = group.clip_path()
+    /// Whether a group's clip path takes nothing away, so that the group needs no layer for it.
+    fn is_idle(&self, clip: &ClipPath, group: &Group) -> bool {
+        self.effects.is_empty() && reach::is_idle(clip, group)
+    }
+
+    /// Cuts the layer that was begun last by a clip path and the group's mask; whether anything is left.
+    fn cut(&mut self, clip: Option<&ClipPath>, group: &Group, place: Place) -> Result<bool, Fault> {
+        if let Some(path) = clip
             && !clip::clip(self, path, place)?
         {
             return Ok(false);
@@ -309,9 +315,9 @@ fn is_pixelated(rendering: ImageRendering) -> bool {
 }
 
 /// Whether a group does nothing but move, and fade, what is inside. What its filters would do is not done.
-fn is_plain(group: &Group) -> bool {
+fn is_plain(group: &Group, clip: Option<&ClipPath>) -> bool {
     let blends = group.blend_mode() != usvg::BlendMode::Normal;
-    !blends && !group.isolate() && group.clip_path().is_none() && group.mask().is_none()
+    !blends && !group.isolate() && clip.is_none() && group.mask().is_none()
 }
 
 /// Whether one thing is painted at most, so that it may be faded itself.
@@ -320,7 +326,7 @@ fn is_single(group: &Group) -> bool {
         return group.children().is_empty();
     };
     match child {
-        usvg::Node::Group(group) => is_plain(group) && is_single(group),
+        usvg::Node::Group(group) => is_plain(group, group.clip_path()) && is_single(group),
         usvg::Node::Path(path) => path.fill().is_none() || path.stroke().is_none(),
         usvg::Node::Text(text) => is_single(text.flattened()),
         usvg::Node::Image(image) => !matches!(image.kind(), ImageKind::SVG(_)),

@@ -157,6 +157,11 @@ impl Effects {
         Self(effects)
     }
 
+    /// Whether no element does.
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// Whether an element's line has the same width on the canvas, however large the element is shown.
     pub(super) fn is_non_scaling(&self, node: Node<'_, '_>) -> bool {
         self.0.get(&node.id()).is_some_and(|is| *is)

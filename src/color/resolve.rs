@@ -74,6 +74,26 @@ impl ResolveSpace {
 }
 
 impl Premultiplied16 {
+    /// The sum of each channel of at most 256 colours.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    #[expect(clippy::cast_possible_truncation, reason = "halves of numbers")]
+    pub fn sums(colors: &[Self]) -> [u32; 4] {
+        const EVERY_OTHER: u64 = 0x0000_FFFF_0000_FFFF;
+        let (mut red_blue, mut green_alpha) = (0, 0);
+        for color in colors {
+            let word = color.to_word();
+            red_blue += word & EVERY_OTHER;
+            green_alpha += word >> 16 & EVERY_OTHER;
+        }
+        [
+            red_blue as u32,
+            green_alpha as u32,
+            (red_blue >> 32) as u32,
+            (green_alpha >> 32) as u32,
+        ]
+    }
+
     /// The linear light of red, green and blue, weighted by alpha, and alpha; each in `0.0..=255.0`: what
     /// [`ResolveSpace::Linear`] averages.
     pub fn light(self) -> [f64; 4] {
@@ -97,13 +117,11 @@ pub fn encoded(light: f64) -> f64 {
 
 #[inline]
 fn stored_mean(samples: &[Premultiplied16], rules: Rules) -> u32 {
-    let mut sums = [0; 4];
-    for sample in samples {
-        for (sum, channel) in sums.iter_mut().zip(sample.0) {
-            *sum += u32::from(channel);
-        }
-    }
-    Premultiplied16::resolve(sums, u32::try_from(samples.len()).unwrap_or(u32::MAX), rules)
+    Premultiplied16::resolve(
+        Premultiplied16::sums(samples),
+        u32::try_from(samples.len()).unwrap_or(u32::MAX),
+        rules,
+    )
 }
 
 /// Alpha is no light: its mean is that of the stored values. Each sample's light counts by its alpha.

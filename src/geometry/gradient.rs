@@ -151,6 +151,11 @@ impl PlacedShape {
         }
     }
 
+    /// Whether the place is the same for all points of a line from left to right.
+    pub fn is_level(&self) -> bool {
+        matches!(self, Self::Linear { right, .. } if *right == 0.0)
+    }
+
     /// The place on the ramp of one point, before spreading; no number where no circle of the gradient goes through it.
     pub fn place(&self, point: DVec2) -> f64 {
         dispatch!(simd::level(), simd => {

@@ -156,7 +156,7 @@ impl<'a> PerSamplePainter<'a> {
             let shader = prepared.get_or_insert_with(|| shader(&self.context));
             match shader.constant() {
                 Some(color) => self.fill(y, covered, color),
-                None => self.gather(y, covered),
+                None => self.gather(y, covered, shader.is_level()),
             }
         });
         if let Some(shader) = prepared {
@@ -176,8 +176,9 @@ impl<'a> PerSamplePainter<'a> {
         }
     }
 
-    /// Notes samples of row `y` of pixels that are to be shaded.
-    fn gather(&mut self, y: i32, covered: Covered) {
+    /// Notes samples of row `y` of pixels that are to be shaded: of the first pixel only, where all those beside it get the same
+    /// colours, as along a level gradient.
+    fn gather(&mut self, y: i32, covered: Covered, is_level: bool) {
         let side = self.context.grid.side();
         let rect = self.layers.base().rect;
         // No tile has more than `2^14` points of a lattice along a side.
@@ -187,7 +188,12 @@ impl<'a> PerSamplePainter<'a> {
             |left: u16, [column, row]: Position| [left.saturating_add(column.into()), top.saturating_add(row.into())];
         match covered {
             Covered::Whole(xs) => {
-                for x in xs.start..xs.end {
+                let end = if is_level && self.positions.are_same() {
+                    xs.start + 1
+                } else {
+                    xs.end
+                };
+                for x in xs.start..end {
                     let left = inside(x - rect.x.start);
                     let places = self.positions.of_pixel([x, y], &mut self.memory);
                     self.points.extend(places.iter().map(|place| point(left, *place)));
@@ -214,11 +220,17 @@ impl<'a> PerSamplePainter<'a> {
         shader.points(grid, &self.points, &mut self.colors[..count]);
         self.points.clear();
         let per_pixel = self.samples_per_pixel();
+        let repeats = shader.is_level() && self.positions.are_same();
         let mut rest = &self.colors[..count];
         for (y, covered) in self.covered.drain(..) {
-            let (colors, others) = rest.split_at(covered.count(per_pixel));
+            let count = match covered {
+                Covered::Whole(_) if repeats => per_pixel,
+                covered => covered.count(per_pixel),
+            };
+            let (colors, others) = rest.split_at(count);
             rest = others;
             match covered {
+                Covered::Whole(xs) if repeats => self.layers.top().repeat(xs, y, colors, shader.opaque),
                 Covered::Whole(xs) => self.layers.top().write(xs, y, colors, shader.opaque),
                 Covered::Part(x, mask) => self.layers.top().write_mask(x, y, mask, (colors, shader.opaque)),
             }

@@ -6,13 +6,18 @@
 //! into one colour per sample; an opaque primitive that covers it wholly makes it one colour again. So flat areas cost
 //! one store per pixel at every sample rate, and memory is touched only where samples differ.
 
-use crate::color::{Premultiplied16, ResolveSpace};
+use std::ops::Range;
+
+use fearless_simd::{Simd, dispatch};
+
+use crate::color::{Premultiplied16, ResolveSpace, Resolver};
 use crate::raster::SampleRate;
 use crate::raster::layers::Compositing;
 use crate::raster::resolve::ResolveFilter;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::span::{PixelRect, Span};
 use crate::rules::Rules;
+use crate::simd;
 
 /// Samples of one pixel with which one colour is composited together.
 const ALIKE: usize = 16;
@@ -26,6 +31,8 @@ pub(crate) struct SampleColors {
     per_pixel: usize,
     rules: Rules,
     filter: ResolveFilter,
+    /// For means of stored values.
+    resolver: Resolver,
     space: ResolveSpace,
     /// One colour per pixel; valid where the pixel is not split.
     whole: Vec<Premultiplied16>,
@@ -45,6 +52,7 @@ impl SampleColors {
             per_pixel: rate.samples() as usize,
             rules,
             filter,
+            resolver: filter.resolver(rate.samples(), rules),
             space,
             whole: Vec::new(),
             split: Vec::new(),
@@ -115,16 +123,34 @@ impl SampleColors {
         let last = first + offset(xs.end - xs.start);
         if self.per_pixel == 1 {
             paint(&mut self.whole[first..last], colors, opaque, rules);
-            return;
-        }
-        if opaque {
-            self.ensure_samples();
-            self.split[first..last].fill(true);
         } else {
-            (first..last).for_each(|pixel| self.ensure_split(pixel));
+            paint(self.split_pixels(first..last, opaque), colors, opaque, rules);
         }
-        let samples = &mut self.samples[first * self.per_pixel..last * self.per_pixel];
-        paint(samples, colors, opaque, rules);
+    }
+
+    /// Paints all samples of each of the pixels `xs` of row `y` with the same colours; `opaque` says that all of these are.
+    pub(crate) fn repeat(&mut self, xs: Span, y: i32, colors: &[Premultiplied16], opaque: bool) {
+        let (first, rules) = (self.index(xs.start, y), self.rules);
+        let last = first + offset(xs.end - xs.start);
+        let samples = if self.per_pixel == 1 {
+            &mut self.whole[first..last]
+        } else {
+            self.split_pixels(first..last, opaque)
+        };
+        for samples in samples.chunks_exact_mut(colors.len().max(1)) {
+            paint(samples, colors, opaque, rules);
+        }
+    }
+
+    /// The samples of pixels, which are split; undefined where all of them are about to be `replaced`.
+    fn split_pixels(&mut self, pixels: Range<usize>, replaced: bool) -> &mut [Premultiplied16] {
+        if replaced {
+            self.ensure_samples();
+            self.split[pixels.clone()].fill(true);
+        } else {
+            pixels.clone().for_each(|pixel| self.ensure_split(pixel));
+        }
+        &mut self.samples[pixels.start * self.per_pixel..pixels.end * self.per_pixel]
     }
 
     /// Paints some samples of pixel `x` in row `y` with one colour.
@@ -244,12 +270,43 @@ impl SampleColors {
         if self.samples.is_empty() {
             return;
         }
-        for (i, pixel) in pixels.iter_mut().enumerate() {
-            if self.split[first + i] {
-                let samples = &self.samples[(first + i) * self.per_pixel..][..self.per_pixel];
-                *pixel = self.filter.pixel(samples, (self.space, self.rules));
+        match self.space {
+            ResolveSpace::Stored => dispatch!(simd::level(), simd => self.resolve_stored(simd, first, pixels)),
+            ResolveSpace::Linear => {
+                for (i, samples) in self.split_from(first) {
+                    let Some(pixel) = pixels.get_mut(i) else {
+                        break;
+                    };
+                    *pixel = self.filter.pixel(samples, (self.space, self.rules));
+                }
             }
         }
+    }
+
+    /// The split pixels from one on, counted from it, and their samples.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn split_from(&self, first: usize) -> impl Iterator<Item = (usize, &[Premultiplied16])> {
+        let samples = self.samples[first * self.per_pixel..].chunks_exact(self.per_pixel);
+        let all = self.split[first..].iter().zip(samples).enumerate();
+        all.filter_map(|(i, (split, samples))| split.then_some((i, samples)))
+    }
+
+    /// Resolves split pixels into the mean of what their samples store.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn resolve_stored<S: Simd>(&self, simd: S, first: usize, pixels: &mut [u32]) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                for (i, samples) in self.split_from(first) {
+                    let Some(pixel) = pixels.get_mut(i) else {
+                        break;
+                    };
+                    *pixel = self.resolver.pixel(Premultiplied16::sums(samples));
+                }
+            },
+        );
     }
 }
 

@@ -15,7 +15,7 @@ use crate::color::{Premultiplied16, Ramp, Stretch};
 use crate::geometry::PlacedShape;
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
-use crate::raster::shading::context::{ShadeContext, ShadedSample};
+use crate::raster::shading::context::{Pixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::Attributes;
 use crate::raster::shading::kernel::{LANES, ONE, WHOLE, places_of};
 use crate::raster::shading::kind::{PaintKind, Shade};
@@ -23,6 +23,9 @@ use crate::raster::shading::sources::{PaintSources, PlacedGradient};
 use crate::rules::Rules;
 use crate::simd;
 use crate::texture::SampleGrid;
+
+/// About how many samples are shaded together where whole pixels are summed up.
+const BATCH: usize = 1024;
 
 /// The number of a gradient of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -157,6 +160,43 @@ impl Shade for GradientShader<'_> {
         self.colors(simd::level(), grid, points, colors);
     }
 
+    fn is_level(&self) -> bool {
+        self.shape.is_level()
+    }
+
+    fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {
+        let side = pixels.grid.side;
+        let per_pixel = (side * side) as usize;
+        // The same row of pixels again has the same sums along a level gradient.
+        let is_again = |i: usize| i > 0 && self.is_level() && pixels.places[i][1] == pixels.places[i - 1][1];
+        let mut points = Vec::with_capacity(BATCH.max(per_pixel));
+        let mut colors = vec![Premultiplied16::TRANSPARENT; BATCH.max(per_pixel)];
+        let mut next = 0;
+        while next < pixels.places.len() {
+            points.clear();
+            let first = next;
+            while next < pixels.places.len() && (points.len() + per_pixel <= BATCH || points.is_empty()) {
+                if !is_again(next) {
+                    let [x, y] = pixels.places[next].map(|place| u32::from(place) * side);
+                    let sample = |i: u32| [x + i % side, y + i / side];
+                    let inside = |place: u32| u16::try_from(place).unwrap_or(u16::MAX);
+                    points.extend((0..side * side).map(|i| sample(i).map(inside)));
+                }
+                next += 1;
+            }
+            let colors = &mut colors[..points.len()];
+            self.points(pixels.grid, &points, colors);
+            let mut each = colors.chunks_exact(per_pixel);
+            for i in first..next {
+                sums[i] = if is_again(i) {
+                    sums[i - 1]
+                } else {
+                    each.next().map_or([0; 4], Premultiplied16::sums)
+                };
+            }
+        }
+    }
+
     fn interpolated(&self, sample: ShadedSample) -> Attributes {
         let place = self.shape.place(DVec2::from(sample.position()));
         if place.is_nan() && !self.everywhere {
@@ -206,6 +246,43 @@ mod tests {
             let expected = (pixel / 16.0 * f64::from(Premultiplied16::ONE)).round();
             assert!((f64::from(color.0[0]) - expected).abs() <= 1.0, "{color:?} at {pixel}");
             assert!(color.is_opaque());
+        }
+    }
+
+    #[test]
+    fn sums_of_pixels_are_those_of_their_samples() {
+        let ramp = Ramp::new(vec![stop(0.1, Rgba::BLACK), stop(0.8, Rgba::WHITE)], Spread::Reflect).expect("two stops");
+        for (side, to, is_level) in [
+            (4, DVec2::Y, true),
+            (4, DVec2::new(1.0, 0.3), false),
+            (16, DVec2::Y, true),
+        ] {
+            let gradient = PlacedGradient {
+                geometry: GradientShape::Linear { from: DVec2::ZERO, to },
+                ramp: &ramp,
+                from_pixels: DAffine2::from_scale(DVec2::splat(1.0 / 7.0)),
+            };
+            let shader = GradientShader::new(&gradient, side, Rules::Standard);
+            assert_eq!(shader.is_level(), is_level, "{to}");
+            let grid = SampleGrid {
+                side: side.cast_unsigned(),
+                origin: [8 * side, 3 * side],
+            };
+            let places: Vec<_> = (0..300_u16).map(|i| [i % 23, i / 46]).collect();
+            let pixels = Pixels { grid, places: &places };
+            let mut sums = vec![[0; 4]; places.len()];
+            shader.pixel_sums(pixels, &mut sums);
+            let count = usize::try_from(side * side).expect("a small number");
+            for (place, sum) in places.iter().zip(sums) {
+                let side = u16::try_from(side).expect("a small number");
+                let sample = |i: u16| [place[0] * side + i % side, place[1] * side + i / side];
+                let points: Vec<_> = (0..side * side).map(sample).collect();
+                let mut colors = vec![Premultiplied16::TRANSPARENT; count];
+                shader.points(grid, &points, &mut colors);
+                let expected: [u32; 4] =
+                    std::array::from_fn(|i| colors.iter().map(|color| u32::from(color.0[i])).sum());
+                assert_eq!(sum, expected, "{place:?} along {to}, {side} x {side}");
+            }
         }
     }
 

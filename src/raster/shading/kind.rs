@@ -40,6 +40,11 @@ pub(super) trait Shade {
         None
     }
 
+    /// Whether all samples of a line from left to right get the same colour.
+    fn is_level(&self) -> bool {
+        false
+    }
+
     /// The colours of samples, counted from the first sample of the grid's origin.
     fn points(&self, grid: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]);
 

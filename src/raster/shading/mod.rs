@@ -159,6 +159,11 @@ impl<'a> Shader<'a> {
         ask!(&self.any, AnyShader, shader => shader.constant())
     }
 
+    /// Whether all samples of a line from left to right get the same colour.
+    pub(crate) fn is_level(&self) -> bool {
+        ask!(&self.any, AnyShader, shader => shader.is_level())
+    }
+
     /// The colours of samples, counted from the first sample of the grid's origin.
     pub(crate) fn points(&self, grid: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
         ask!(&self.any, AnyShader, shader => shader.points(grid, points, colors));

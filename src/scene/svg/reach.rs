@@ -3,7 +3,7 @@
 //! Programs clip without need: plots to their axes, drawings to their page, symbols to their view box. A layer for each would
 //! cost more than what is in it.
 
-use usvg::tiny_skia_path::{PathSegment, Rect, Transform};
+use usvg::tiny_skia_path::{PathSegment, Point, Rect, Transform};
 use usvg::{ClipPath, Group, LineCap, LineJoin, Node, Path};
 
 /// Most nodes that are looked at for one clip path; what holds more is clipped.
@@ -99,7 +99,7 @@ fn reach(path: &Path) -> Option<Rect> {
         return Some(bounds);
     };
     let miter = match stroke.linejoin() {
-        LineJoin::Miter | LineJoin::MiterClip => stroke.miterlimit().get(),
+        LineJoin::Miter | LineJoin::MiterClip => longest_miter(path).min(stroke.miterlimit().get()),
         LineJoin::Round | LineJoin::Bevel => 1.0,
     };
     let cap = if stroke.linecap() == LineCap::Square {
@@ -110,6 +110,49 @@ fn reach(path: &Path) -> Option<Rect> {
     // A little more than half a width, for what single floats cannot tell.
     let margin = stroke.width().get() * 0.5001 * miter.max(cap);
     bounds.outset(margin, margin)
+}
+
+/// How many widths long the miter at the sharpest corner of a path would be.
+fn longest_miter(path: &Path) -> f32 {
+    let mut longest = 1.0_f32;
+    let (mut start, mut at) = (Point::zero(), Point::zero());
+    // Directions: that of the subpath's first segment, and that in which the last one arrived.
+    let (mut first, mut last) = (None, None);
+    for segment in path.data().segments() {
+        let stops = match segment {
+            PathSegment::MoveTo(to) => {
+                (start, at, first, last) = (to, to, None, None);
+                continue;
+            }
+            PathSegment::LineTo(to) => vec![to],
+            PathSegment::QuadTo(control, to) => vec![control, to],
+            PathSegment::CubicTo(a, b, to) => vec![a, b, to],
+            PathSegment::Close => vec![start],
+        };
+        let mut directions = stops.iter().scan(at, |from, to| {
+            let mut direction = *to - *from;
+            *from = *to;
+            Some(direction.normalize().then_some(direction))
+        });
+        let leaves = directions.find_map(|direction| direction);
+        let arrives = directions.flatten().last().or(leaves);
+        if let (Some(last), Some(leaves)) = (last, leaves) {
+            longest = longest.max(miter(last, leaves));
+        }
+        first = first.or(leaves);
+        last = arrives.or(last);
+        if let (PathSegment::Close, Some(last), Some(first)) = (segment, last, first) {
+            longest = longest.max(miter(last, first));
+        }
+        at = stops.last().copied().unwrap_or(at);
+    }
+    longest
+}
+
+/// How many widths long a miter is, between unit directions (SVG 2, section 13.5.5).
+fn miter(from: Point, to: Point) -> f32 {
+    let cosine = from.x * to.x + from.y * to.y;
+    (2.0 / (1.0 + cosine).max(f32::MIN_POSITIVE)).sqrt()
 }
 
 /// Whether nothing to be seen of a rectangle lies outside of the window.

@@ -287,7 +287,9 @@ impl SampleColors {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     fn split_from(&self, first: usize) -> impl Iterator<Item = (usize, &[Premultiplied16])> {
-        let samples = self.samples[first * self.per_pixel..].chunks_exact(self.per_pixel);
+        // There may be room for the samples of some pixels only, as long as none of the others is split.
+        let samples = self.samples.get(first * self.per_pixel..).unwrap_or_default();
+        let samples = samples.chunks_exact(self.per_pixel);
         let all = self.split[first..].iter().zip(samples).enumerate();
         all.filter_map(|(i, (split, samples))| split.then_some((i, samples)))
     }

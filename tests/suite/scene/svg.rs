@@ -96,12 +96,18 @@ fn svg_canvas_and_view_box() {
 
 #[test]
 fn svg_nested_viewport() {
-    let scene =
-        svg_scene("<svg x='10' y='20' width='50%' height='40' viewBox='0 0 5 4'><rect width='100%' height='1'/></svg>");
-    assert_near(&bounds(&scene), &[10.0, 20.0, 60.0, 60.0], "the port clips");
+    let port = "<svg x='10' y='20' width='50%' height='40' viewBox='0 0 5 4'>";
+    let scene = svg_scene(&format!("{port}<rect width='100%' height='1'/></svg>"));
+    assert_near(
+        &bounds(&scene),
+        &[10.0, 20.0, 60.0, 30.0],
+        "the inner viewBox counts, and nothing is to be clipped",
+    );
+    let scene = svg_scene(&format!("{port}<rect width='100%' height='1'/><circle r='1'/></svg>"));
+    let circle = std::f64::consts::PI * 100.0;
     assert!(
-        (area(&scene) - 500.0 - 2000.0).abs() < 1e-2,
-        "the inner viewBox counts: {}",
+        (area(&scene) - 500.0 - circle - 2000.0).abs() < 1.0,
+        "the port clips: {}",
         area(&scene)
     );
 }

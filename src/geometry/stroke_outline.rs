@@ -248,8 +248,11 @@ impl Pen<'_> {
     fn join(&mut self, next: Piece, join: LineJoin) {
         let [from, to] = [self.tangent, next.tangent];
         let (sine, cosine) = (from.perp_dot(to), from.dot(to));
-        // What a bevel would cut off is too small to matter: as if the path were smooth.
-        if HALF * (1.0 - cosine) <= self.tolerance / 4.0 {
+        // Where what a bevel would cut off is too small to matter, it is as if the path were smooth. Corners between lines are
+        // the same at every tolerance, unless they are round.
+        let is_between_lines = self.line > 0.0 && next.line > 0.0 && join != LineJoin::Round;
+        let least = if is_between_lines { 1e-12 } else { self.tolerance / 4.0 };
+        if HALF * (1.0 - cosine) <= least {
             return;
         }
         let inner = usize::from(sine <= 0.0);
@@ -553,6 +556,21 @@ mod tests {
                 steps >= fewest * 0.9 && steps <= fewest + 8.0,
                 "{steps}, at least {fewest}"
             );
+        }
+    }
+
+    /// Contours that are kept for all views must not depend on the first one's.
+    #[test]
+    fn corners_between_lines_are_the_same_at_every_tolerance() {
+        let at = |x: f64, y: f64| PathEl::LineTo(Point::new(x, y));
+        let line = [PathEl::MoveTo(Point::ZERO), at(10.0, 0.0), at(20.0, 1.0), at(30.0, 0.5)];
+        for join in [LineJoin::Miter, LineJoin::Bevel] {
+            let style = StrokeStyle {
+                cap: LineCap::Butt,
+                join,
+                ..STYLE
+            };
+            assert_eq!(outline(&line, style, 0.25), outline(&line, style, 1e-6), "{join:?}");
         }
     }
 

@@ -76,7 +76,6 @@ impl ResolveSpace {
 impl Premultiplied16 {
     /// The sum of each channel of at most 256 colours.
     #[inline(always)]
-    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     #[expect(clippy::cast_possible_truncation, reason = "halves of numbers")]
     pub fn sums(colors: &[Self]) -> [u32; 4] {
         const EVERY_OTHER: u64 = 0x0000_FFFF_0000_FFFF;

@@ -193,9 +193,9 @@ impl Pen<'_> {
             f64::midpoint(densities[0], densities[1]) / 2.0,
             f64::midpoint(densities[1], densities[2]) / 2.0,
         ];
-        let steps = (front + back).ceil().clamp(1.0, 1e6);
-        for step in 1..steps as usize {
-            let done = (front + back) * step as f64 / steps;
+        let steps = whole_steps(front + back);
+        for step in 1..steps {
+            let done = (front + back) * f64::from(step) / f64::from(steps);
             let t = if done < front {
                 0.5 * share_of_trapezoid(densities[0], densities[1], done / front)
             } else {
@@ -351,13 +351,23 @@ impl Pen<'_> {
 /// Appends points on an arc around `center`, from `center + from` on, without its ends; `angle` is in radians, in the sense of
 /// [`DVec2::perp`].
 fn arc(center: DVec2, from: DVec2, angle: f64, tolerance: f64, points: &mut Vec<DVec2>) {
-    let steps = (angle.abs() / arc_step(tolerance)).ceil().clamp(1.0, 1e6);
-    let turn = DVec2::from_angle(angle / steps);
+    let steps = whole_steps(angle.abs() / arc_step(tolerance));
+    let turn = DVec2::from_angle(angle / f64::from(steps));
     let mut arm = from;
-    for _ in 1..steps as usize {
+    for _ in 1..steps {
         arm = turn.rotate(arm);
         points.push(center + arm);
     }
+}
+
+/// At least so many steps, and not more than a million.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "between one and a million"
+)]
+fn whole_steps(steps: f64) -> u32 {
+    steps.ceil().clamp(1.0, 1e6) as u32
 }
 
 /// The angle at which the middle of a chord is `tolerance` away from a circle of one unit's diameter.

@@ -245,11 +245,8 @@ impl Stroke {
         let center = DVec2::new(center.x, center.y);
         match self.style.cap {
             LineCap::Butt => None,
-            LineCap::Square => {
-                let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
-                Some(corners.map(|corner| center + DVec2::from(corner)).to_vec())
-            }
-            LineCap::Round => Some(stroke_outline::circle(center, tolerance)),
+            LineCap::Square => Some(stroke_outline::square_dot(center)),
+            LineCap::Round => Some(stroke_outline::round_dot(center, tolerance)),
         }
     }
 }
@@ -376,6 +373,10 @@ mod tests {
         let mut square = line(&[[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]]);
         square.close();
         let spot = line(&[[3.0, 3.0], [3.0, 3.0]]);
+        // A subpath without length, at the end of a line.
+        let mut dotted = straight.clone();
+        dotted.move_to(DVec2::new(10.0, 0.0));
+        dotted.line_to(DVec2::new(10.0, 0.0));
         let cap = |cap| StrokeStyle { cap, ..STYLE };
         let join = |join| StrokeStyle { join, ..STYLE };
         let short_miter = StrokeStyle {
@@ -404,6 +405,8 @@ mod tests {
             ("no length, butt", &spot, STYLE, &[], 0.0),
             ("no length, round", &spot, cap(LineCap::Round), &[], PI),
             ("no length, square", &spot, cap(LineCap::Square), &[], 4.0),
+            ("a dot on a round cap", &dotted, cap(LineCap::Round), &[], 20.0 + PI),
+            ("a dot on a square cap", &dotted, cap(LineCap::Square), &[], 24.0),
             ("a ring", &circle(10.0), STYLE, &[], 40.0 * PI),
         ] {
             let found = measured(&stroked(path.clone(), style, dashes), 1e-3);

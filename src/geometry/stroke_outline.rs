@@ -68,18 +68,18 @@ pub(super) fn append(
     pen.end();
 }
 
-/// The polygon for a circle of one unit's diameter.
-pub(super) fn circle(center: DVec2, tolerance: f64) -> Vec<DVec2> {
-    let mut points = Vec::new();
-    arc(
-        center,
-        DVec2::new(HALF, 0.0),
-        std::f64::consts::TAU,
-        tolerance,
-        &mut points,
-    );
-    points.push(center + DVec2::new(HALF, 0.0));
+/// The outline of a dot: a circle of one unit's diameter.
+pub(super) fn round_dot(center: DVec2, tolerance: f64) -> Vec<DVec2> {
+    let right = DVec2::new(HALF, 0.0);
+    let mut points = vec![center + right];
+    arc(center, right, -std::f64::consts::TAU, tolerance, &mut points);
     points
+}
+
+/// The outline of a dot: a square of one unit's side.
+pub(super) fn square_dot(center: DVec2) -> Vec<DVec2> {
+    let corners = [[-HALF, -HALF], [-HALF, HALF], [HALF, HALF], [HALF, -HALF]];
+    corners.map(|corner| center + DVec2::from(corner)).to_vec()
 }
 
 /// About how many edges half a circle has.

@@ -232,7 +232,7 @@ impl<'a, 'doc> CourseReader<'a, 'doc> {
         let color = course_values::color(text);
         if !color.as_svg {
             let message = format!(
-                "{name}=\"{}\" is read as #{:06x}; --dialect svg reads it as SVG",
+                "{name}=\"{}\" is read as #{:06x}; the dialect svg reads it as SVG does (--dialect svg)",
                 quote(text),
                 color.rgb
             );

@@ -81,6 +81,15 @@ impl DialectChoice {
         }
     }
 
+    /// Whether a document may be read in `dialect` then.
+    pub const fn allows(self, dialect: Dialect) -> bool {
+        match self {
+            Self::Auto => true,
+            Self::Course => matches!(dialect, Dialect::Course),
+            Self::Svg => matches!(dialect, Dialect::Svg),
+        }
+    }
+
     /// The dialect in which to read the document with this root; and the other, where the document may be meant in it and
     /// is another picture then.
     pub(super) fn resolve(self, root: Node<'_, '_>) -> (Dialect, Option<Dialect>) {

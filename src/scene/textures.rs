@@ -191,7 +191,9 @@ impl<'doc> TextureTable<'doc> {
                     (Texture::missing(&name), false)
                 });
                 if dropped {
-                    let message = format!("texture {name}: its transparency has no effect; --dialect svg keeps it");
+                    let message = format!(
+                        "texture {name}: its transparency has no effect; the dialect svg keeps it (--dialect svg)"
+                    );
                     report.warn(location, message);
                 }
                 textures.push(Arc::new(Texture { asks, ..texture }));

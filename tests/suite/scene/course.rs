@@ -240,7 +240,7 @@ fn course_forgets_the_alpha_of_textures_and_says_so() {
     let bytes: Vec<String> = png.iter().map(|byte| format!("%{byte:02x}")).collect();
     let bytes = bytes.concat();
     let body = format!("<image width='9' height='9' href='data:image/png,{bytes}'/>");
-    let told = "transparency has no effect; --dialect svg keeps it";
+    let told = "transparency has no effect; the dialect svg keeps it (--dialect svg)";
     let course = course(&body);
     assert!(
         matches!(lines(&course).as_slice(), [line] if line.ends_with(told)),

@@ -42,6 +42,7 @@ impl Hand {
         }
         let mut child = command
             .env("DISPLAY", &desktop.name)
+            .env("XDG_CONFIG_HOME", folder.path())
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
             .env_remove("WINIT_X11_SCALE_FACTOR")

@@ -6,6 +6,10 @@ use crate::geometry::View;
 use crate::viewer::{Against, Grammar, NameTemplate, Restored, Settings, Theme};
 
 /// How a session starts.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "three things that are wanted or not, each on its own"
+)]
 #[derive(Clone, Debug, Default)]
 pub struct ViewOptions {
     /// Files and folders to open; none means the built-in gallery.
@@ -16,9 +20,10 @@ pub struct ViewOptions {
     pub view: View,
     /// What the picture is compared with at the start.
     pub against: Option<Against>,
-    /// The window's inner size in device pixels; `None` is 1280x800 points.
+    /// The window's inner size in device pixels; `None` is 1280x800 points, as far as
+    /// the monitor has room.
     pub size: Option<[u32; 2]>,
-    /// Device pixels per point of the panels, without a window only; `None` is 1.
+    /// Device pixels per point of the panels; `None` is the monitor's own scale, or 1 without a window.
     pub scale: Option<f32>,
     /// Light or dark panels; `None` follows the desktop, or is dark where that is unknown.
     pub theme: Option<Theme>,
@@ -32,6 +37,8 @@ pub struct ViewOptions {
     pub headless: bool,
     /// The file that gets a line for each picture that the window shows.
     pub frame_log: Option<PathBuf>,
+    /// Whether nothing is remembered from one session to the next, and nothing of the last one is taken up.
+    pub no_config: bool,
     /// Whether that file may replace one of another making.
     pub force: bool,
     /// Reads command lines.

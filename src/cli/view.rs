@@ -52,6 +52,7 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
         script: file.or(options.commands.clone().map(ScriptSource::Text)),
         headless: options.headless,
         frame_log: options.frame_log.clone(),
+        no_config: options.no_config,
         force: options.force,
         grammar: Some(super::restore::GRAMMAR),
         restored: restored.cloned(),

@@ -12,6 +12,7 @@ use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::measuring::{Measured, Measuring};
 use crate::viewer::ab::other::Against;
 use crate::viewer::ab::outside::ReadPicture;
+use crate::viewer::chrome::interface_scale::InterfaceScale;
 use crate::viewer::chrome::messages::Message;
 use crate::viewer::chrome::{Chrome, Dialog};
 use crate::viewer::export::naming::NameTemplate;
@@ -280,6 +281,16 @@ impl Viewer {
     /// Light or dark panels.
     pub fn theme(&self) -> Theme {
         self.chrome.theme
+    }
+
+    /// How large panels and their letters are.
+    pub fn interface_scale(&self) -> InterfaceScale {
+        self.chrome.interface_scale
+    }
+
+    /// Whether the ways on for newcomers lie over the picture.
+    pub fn start_card(&self) -> bool {
+        self.chrome.start_card
     }
 
     /// What the user is to be told, oldest first. Whoever shows a message dismisses it after a while.

@@ -14,6 +14,45 @@ fn close_ends_with_success() {
 }
 
 #[test]
+fn next_session_begins_as_the_last_one_ended() {
+    /// Inside the card that greets newcomers, beside its words, and what the pixel there is in the dark theme.
+    const CARD: [u16; 4] = [72, 200, 1, 1];
+    const DARK: [u8; 3] = [36, 32, 30];
+    const LIGHT: [u8; 3] = [244, 246, 246];
+    /// Inside the line at the foot.
+    const FOOT: [u16; 4] = [3, 397, 1, 1];
+    let part = |program: &Program, at| program.desktop.part(program.window, at);
+    let mut program = Program::open(&[], &["--theme", "dark"]);
+    until("the card", || part(&program, CARD).starts_with(&DARK).then_some(()));
+    program.desktop.press('='.into(), &[keysym::CONTROL]);
+    until("no card after a key", || {
+        (!part(&program, CARD).starts_with(&DARK)).then_some(())
+    });
+    program.close();
+    assert!(program.ended().success(), "the first session");
+    let file = "config/rasterscope/session.toml";
+    let text = |program: &Program| std::fs::read_to_string(program.folder.path().join(file)).unwrap();
+    let first = text(&program);
+    assert!(
+        first.contains("greeted = true") && first.contains("interface-scale = 110"),
+        "{first}"
+    );
+    let written = first.replace("greeted", "theme = \"light\"\ngreeted");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join(file);
+    std::fs::create_dir_all(file.parent().unwrap()).unwrap();
+    std::fs::write(&file, &written).unwrap();
+    let mut program = Program::open_in(folder, &[], &[]);
+    until("the theme that was chosen", || {
+        part(&program, FOOT).starts_with(&LIGHT).then_some(())
+    });
+    assert!(!part(&program, CARD).starts_with(&LIGHT), "nobody is greeted twice");
+    program.close();
+    assert!(program.ended().success(), "the second session");
+    assert_eq!(text(&program), written, "nothing was changed");
+}
+
+#[test]
 fn escape_twice_ends_when_nothing_is_open() {
     let mut program = Program::start_bare(&flat());
     program.shows(&viewed(&flat(), &[]), "the first picture");

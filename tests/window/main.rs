@@ -10,6 +10,7 @@ mod clipboard;
 mod compare;
 mod desktop;
 mod drop;
+mod follow;
 mod keyboard;
 mod life;
 mod pacing;

@@ -51,8 +51,12 @@ impl Program {
 
     /// Opens `paths`, without any the gallery.
     pub(crate) fn open(paths: &[&Path], arguments: &[&str]) -> Self {
+        Self::open_in(tempfile::tempdir().unwrap(), paths, arguments)
+    }
+
+    /// As [`Program::open`], in a folder that also holds what it remembers.
+    pub(crate) fn open_in(folder: tempfile::TempDir, paths: &[&Path], arguments: &[&str]) -> Self {
         let desktop = Desktop::start();
-        let folder = tempfile::tempdir().unwrap();
         let [width, height] = SIZE;
         let child = Process::new(env!("CARGO_BIN_EXE_rasterscope"))
             .arg("view")
@@ -60,6 +64,7 @@ impl Program {
             .args(["--size", &format!("{width}x{height}")])
             .args(arguments)
             .env("DISPLAY", &desktop.name)
+            .env("XDG_CONFIG_HOME", folder.path().join("config"))
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
             .env_remove("WINIT_X11_SCALE_FACTOR")

@@ -2,31 +2,34 @@
 
 use crate::viewer::WindowCommand;
 use egui::text::{CCursor, CCursorRange};
-use egui::{Align, Align2, Area, AtomExt as _, Button, Context, Id, Key, Layout, Modal, Order, RichText, ScrollArea};
+use egui::{Align, Align2, Area, Button, Context, Id, Key, Layout, Modal, Order, RichText, ScrollArea};
 use egui::{TextEdit, Ui, vec2};
 
-use super::look::CONTROL;
+use super::chooser::Chooser;
+use super::look::{self, CONTROL};
 use super::modal::{BACKDROP, modal};
+use super::palette::{self, BETWEEN_ENTRIES, Does, ENTRY};
 use super::sheet::SheetDialog;
+use super::start;
 use crate::viewer::commands::{self, GESTURES};
 use crate::viewer::{Action, Command, CommandSpec, Dialog, Group, Viewer};
-
-/// Height of a command in the palette, and of the gap below it, in points.
-const ENTRY: f32 = CONTROL.y + 2.0;
-const BETWEEN_ENTRIES: f32 = 1.0;
 
 /// What was typed into the dialogs.
 #[derive(Debug, Default)]
 pub(super) struct Dialogs {
     open: Option<Dialog>,
-    text: String,
-    problem: Option<String>,
-    chosen: usize,
+    pub(super) text: String,
+    pub(super) problem: Option<String>,
+    pub(super) chosen: usize,
     /// The path of a picture that was typed last: where it was wrong, it need not be typed again.
     path: String,
     /// The text was replaced: its line puts the caret behind it.
     caret_to_end: bool,
     sheet: SheetDialog,
+    /// The folder to open files from: it is listed where it was left.
+    pub(super) chooser: Chooser,
+    /// The command that the palette opens with, to ask for its argument.
+    begins_with: Option<&'static CommandSpec>,
 }
 
 /// A question for the argument of a command.
@@ -45,10 +48,17 @@ struct Question {
 }
 
 impl Dialogs {
+    /// Opens the palette where it asks for the argument of a command.
+    pub(super) fn ask_for(&mut self, spec: &'static CommandSpec, commands: &mut Vec<Command>) {
+        self.begins_with = Some(spec);
+        commands.push(Command::Window(WindowCommand::ToggleDialog(Dialog::Palette)));
+    }
+
     /// Shows the dialog that is open.
     pub(super) fn show(&mut self, ctx: &Context, viewer: &Viewer, commands: &mut Vec<Command>) {
         let just_opened = self.open != viewer.dialog();
         if just_opened {
+            let begins_with = self.begins_with.take();
             let path = std::mem::take(&mut self.path);
             let is_path = viewer.dialog() == Some(Dialog::ComparePicture) && !path.is_empty();
             *self = Self {
@@ -56,12 +66,22 @@ impl Dialogs {
                 text: if is_path { path.clone() } else { String::new() },
                 caret_to_end: is_path,
                 path,
+                chooser: std::mem::take(&mut self.chooser),
                 ..Self::default()
             };
+            if let Some(spec) = begins_with.filter(|_| viewer.dialog() == Some(Dialog::Palette)) {
+                self.go_on(spec);
+            }
         }
         match viewer.dialog() {
-            Some(Dialog::Help) => help(ctx, commands),
-            Some(Dialog::Palette) => self.palette(ctx, just_opened, commands),
+            Some(Dialog::Help) => help(ctx, viewer, commands),
+            Some(Dialog::Open) => {
+                if just_opened {
+                    self.chooser.begin(viewer);
+                }
+                self.choose(ctx, just_opened, commands);
+            }
+            Some(Dialog::Palette) => self.palette(ctx, viewer, just_opened, commands),
             Some(Dialog::GoToPixel) => {
                 let [width, height] = viewer.frame_size();
                 let question = Question {
@@ -92,7 +112,7 @@ impl Dialogs {
     }
 
     /// A line of text that has the keyboard. True when Enter was pressed.
-    fn line(&mut self, ui: &mut Ui, name: &str, hint: &str, just_opened: bool) -> bool {
+    pub(super) fn line(&mut self, ui: &mut Ui, name: &str, hint: &str, just_opened: bool) -> bool {
         let id = ui.unique_id().with(name);
         if std::mem::take(&mut self.caret_to_end) {
             let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
@@ -151,11 +171,7 @@ impl Dialogs {
                 commands.extend([Command::Window(WindowCommand::CloseDialog), command.clone()]);
                 return;
             }
-            // The palette goes on with the argument.
-            self.text = format!("{} ", spec.id);
-            self.caret_to_end = true;
-            self.chosen = 0;
-            self.problem = spec.argument.map(|argument| format!("type {}", argument.usage()));
+            self.go_on(spec);
             return;
         }
         match spec.argument.map(|kind| kind.parse(argument)) {
@@ -165,18 +181,22 @@ impl Dialogs {
         }
     }
 
-    fn problem_line(&self, ui: &mut Ui) {
+    /// The palette goes on with the argument of a command.
+    fn go_on(&mut self, spec: &CommandSpec) {
+        self.text = format!("{} ", spec.id);
+        self.caret_to_end = true;
+        self.chosen = 0;
+        self.problem = spec.argument.map(|argument| format!("type {}", argument.usage()));
+    }
+
+    pub(super) fn problem_line(&self, ui: &mut Ui) {
         if let Some(problem) = &self.problem {
             ui.label(RichText::new(problem).color(ui.visuals().warn_fg_color).small());
         }
     }
 
-    fn palette(&mut self, ctx: &Context, just_opened: bool, commands: &mut Vec<Command>) {
-        // Taken before the line of text sees them.
-        let (up, down) = ctx.input_mut(|input| {
-            let mut pressed = |key| input.consume_key(egui::Modifiers::NONE, key);
-            (pressed(Key::ArrowUp), pressed(Key::ArrowDown))
-        });
+    fn palette(&mut self, ctx: &Context, viewer: &Viewer, just_opened: bool, commands: &mut Vec<Command>) {
+        let (up, down) = arrows(ctx);
         let screen = ctx.content_rect();
         let area = Area::new(Id::unique("palette area"))
             .order(Order::Foreground)
@@ -187,94 +207,75 @@ impl Dialogs {
             .backdrop_color(BACKDROP)
             .show(ctx, |ui| {
                 ui.set_width((screen.width() - 60.0).min(480.0));
-                let enter = self.line(ui, "Command", "type a command", just_opened);
+                let hint = "type a command, a value or a scene";
+                let enter = self.line(ui, "Command", hint, just_opened);
                 self.problem_line(ui);
-                let (argument, found) = self.found();
-                self.chosen = (self.chosen + usize::from(down)).saturating_sub(usize::from(up));
-                self.chosen = self.chosen.min(found.len().saturating_sub(1));
-                let mut run = found.get(self.chosen).copied().filter(|_| enter);
-                super::look::bars_beside(ui);
-                // An area keeps the height that it had: without a least height, a list that a filter made short stays so.
+                let (argument, found) = palette::find(&self.text, viewer);
+                self.chosen = step(self.chosen, (up, down), found.len());
+                let mut run = found.get(self.chosen).filter(|_| enter);
                 // It ends below a row, so that what is cut off is not taken for all.
                 let row = ENTRY + BETWEEN_ENTRIES;
                 let height = (screen.height() * 0.6 / row).floor().max(1.0) * row - BETWEEN_ENTRIES;
-                let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
-                area.show(ui, |ui| {
-                    ui.spacing_mut().item_spacing.y = BETWEEN_ENTRIES;
-                    for (index, spec) in found.iter().enumerate() {
-                        let chosen = index == self.chosen;
-                        let response = entry(ui, spec, chosen);
-                        if chosen && (up || down) {
-                            response.scroll_to_me(None);
-                        }
-                        if response.clicked() {
-                            run = Some(*spec);
-                        }
-                    }
-                    if found.is_empty() {
-                        ui.label(RichText::new("no such command").weak());
-                    }
+                let pressed = list_of(ui, &found, (self.chosen, up || down, height), |ui, entry, chosen| {
+                    entry.show(ui, chosen)
                 });
-                if run.is_some() {
-                    self.run(run, &argument, commands);
-                    ui.ctx().request_repaint();
+                run = pressed.and_then(|index| found.get(index)).or(run);
+                if found.is_empty() {
+                    ui.label(RichText::new("nothing of that name").weak());
                 }
+                match run.map(|entry| &entry.does) {
+                    Some(Does::Command(spec)) => self.run(Some(spec), &argument, commands),
+                    Some(Does::Run(command)) => {
+                        commands.extend([Command::Window(WindowCommand::CloseDialog), command.clone()]);
+                    }
+                    None => return,
+                }
+                ui.ctx().request_repaint();
             });
         if modal.backdrop_response.clicked() {
             commands.push(Command::Window(WindowCommand::CloseDialog));
         }
     }
+}
 
-    /// The commands that the text may mean, best first, and what follows the command's word.
-    fn found(&self) -> (String, Vec<&'static CommandSpec>) {
-        let text = self.text.trim_start();
-        if let Some((word, argument)) = text.split_once(char::is_whitespace)
-            && let Some(spec) = commands::find(word)
-            && spec.argument.is_some()
-        {
-            return (argument.to_owned(), vec![spec]);
+/// Whether the arrows up and down were pressed: taken before the line of text sees them.
+pub(super) fn arrows(ctx: &Context) -> (bool, bool) {
+    ctx.input_mut(|input| {
+        let mut pressed = |key| input.consume_key(egui::Modifiers::NONE, key);
+        (pressed(Key::ArrowUp), pressed(Key::ArrowDown))
+    })
+}
+
+/// The chosen line of `count` after these arrows.
+pub(super) fn step(chosen: usize, (up, down): (bool, bool), count: usize) -> usize {
+    let next = (chosen + usize::from(down)).saturating_sub(usize::from(up));
+    next.min(count.saturating_sub(1))
+}
+
+/// A list of lines to choose from, of which one is `chosen`, scrolled to where it `moves`; which was pressed.
+pub(super) fn list_of<T>(
+    ui: &mut Ui,
+    lines: &[T],
+    (chosen, moves, height): (usize, bool, f32),
+    show: impl Fn(&mut Ui, &T, bool) -> egui::Response,
+) -> Option<usize> {
+    let mut pressed = None;
+    look::bars_beside(ui);
+    // An area keeps the height that it had: without a least height, a list that a filter made short stays so.
+    let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
+    area.show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = BETWEEN_ENTRIES;
+        for (index, line) in lines.iter().enumerate() {
+            let response = show(ui, line, index == chosen);
+            if index == chosen && moves {
+                response.scroll_to_me(None);
+            }
+            if response.clicked() {
+                pressed = Some(index);
+            }
         }
-        let wanted = text.trim_end().to_lowercase();
-        let mut found: Vec<(usize, &CommandSpec)> = commands::all()
-            .iter()
-            .filter_map(|spec| Some((rank(spec, &wanted)?, spec)))
-            .collect();
-        found.sort_by_key(|(rank, _)| *rank);
-        (String::new(), found.into_iter().map(|(_, spec)| spec).collect())
-    }
-}
-
-/// How well a command fits what was typed: the lower the better, `None` not at all.
-fn rank(spec: &CommandSpec, wanted: &str) -> Option<usize> {
-    let name = spec.name.to_lowercase();
-    if name.starts_with(wanted) || spec.id.starts_with(wanted) {
-        return Some(0);
-    }
-    if name.contains(wanted) || spec.id.contains(wanted) {
-        return Some(1);
-    }
-    if spec.help.to_lowercase().contains(wanted) {
-        return Some(2);
-    }
-    // The letters in their order, with others between them.
-    let mut letters = name.chars();
-    wanted
-        .chars()
-        .all(|letter| letters.any(|other| other == letter))
-        .then_some(3)
-}
-
-/// One command in the palette.
-fn entry(ui: &mut Ui, spec: &CommandSpec, chosen: bool) -> egui::Response {
-    let keys = match spec.argument {
-        Some(argument) if spec.keys.is_empty() => argument.usage().into_owned(),
-        _ => spec.keys_text(),
-    };
-    // Where both do not fit, the end of what may follow gives way; the name is always whole.
-    let keys = RichText::new(keys).small().atom_shrink(true);
-    let button = Button::selectable(chosen, spec.name).right_text(keys).truncate();
-    ui.add_sized([ui.available_width(), ENTRY], button)
-        .accessible_name(spec.name)
+    });
+    pressed
 }
 
 /// OK and cancel; which was pressed. OK does nothing while something is `missing`.
@@ -289,10 +290,11 @@ fn buttons(ui: &mut Ui, ok: &str, missing: Option<&str>) -> Option<bool> {
     .inner
 }
 
-/// All keys and gestures, from the one table.
-fn help(ctx: &Context, commands: &mut Vec<Command>) {
+/// Ways on for newcomers, and all keys and gestures from the one table.
+fn help(ctx: &Context, viewer: &Viewer, commands: &mut Vec<Command>) {
     let screen = ctx.content_rect();
     let columns = if screen.width() >= 760.0 { 2 } else { 1 };
+    let mut way = None;
     let modal = modal("help").show(ctx, |ui| {
         ui.set_width((screen.width() - 60.0).min(if columns == 2 { 780.0 } else { 430.0 }));
         ui.horizontal(|ui| {
@@ -303,9 +305,12 @@ fn help(ctx: &Context, commands: &mut Vec<Command>) {
         .inner
             | {
                 ui.add_space(4.0);
+                look::bars_beside(ui);
                 ScrollArea::vertical()
                     .max_height(screen.height() - 120.0)
                     .show(ui, |ui| {
+                        way = start::ways(ui, viewer, columns);
+                        ui.add_space(8.0);
                         let (left, right) = Group::ALL.split_at(if columns == 2 { 3 } else { Group::ALL.len() });
                         ui.columns(columns, |columns| {
                             for group in left {
@@ -324,9 +329,10 @@ fn help(ctx: &Context, commands: &mut Vec<Command>) {
                 false
             }
     });
-    if modal.inner || modal.backdrop_response.clicked() {
+    if modal.inner || modal.backdrop_response.clicked() || way.is_some() {
         commands.push(Command::Window(WindowCommand::CloseDialog));
     }
+    commands.extend(way);
 }
 
 fn help_group(ui: &mut Ui, group: Group) {
@@ -355,30 +361,4 @@ fn help_line(ui: &mut Ui, keys: &str, help: &str) {
         });
         ui.add(egui::Label::new(RichText::new(help).small()).wrap());
     });
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn palette_breaks_no_name() {
-        let ctx = Context::default();
-        for width in [480.0, 320.0] {
-            for spec in commands::all() {
-                let mut output = ctx.run_ui(egui::RawInput::default(), |ui| {
-                    ui.set_width(width);
-                    entry(ui, spec, false);
-                });
-                let named = output.shapes.iter().any(|clipped| match &clipped.shape {
-                    egui::Shape::Text(text) => {
-                        text.galley.text() == spec.name && text.galley.rows.len() == 1 && !text.galley.elided
-                    }
-                    _ => false,
-                });
-                output.textures_delta.clear();
-                assert!(named, "{} in one line of {width} points", spec.name);
-            }
-        }
-    }
 }

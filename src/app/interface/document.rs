@@ -11,6 +11,9 @@ use crate::viewer::{Command, SceneEntry, Viewer};
 /// Lines of the reader's report that are shown at once.
 const MAX_LINES: usize = 200;
 
+/// What is said of a picture whose file cannot be read any more.
+pub(super) const AS_BEFORE: &str = "shown as it was read last";
+
 /// Whether [`report`] has something to say.
 pub(super) fn has_report(viewer: &Viewer) -> bool {
     let noted = |entry: &SceneEntry| entry.scene().is_some_and(|scene| !scene.report.is_empty());
@@ -86,6 +89,9 @@ pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
     if let Some(message) = entry.failure() {
         heading(ui, "Not read");
         ui.label(RichText::new(message).color(ui.visuals().error_fg_color));
+        if entry.scene().is_some() {
+            ui.label(RichText::new(AS_BEFORE).small());
+        }
         return;
     }
     let Some(scene) = entry.scene() else {

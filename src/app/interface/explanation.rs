@@ -8,8 +8,8 @@ use egui::{
 };
 
 use super::controls::{command_button, tip};
-use super::look::CONTROL;
 use super::look::opaque;
+use super::look::{self, CONTROL};
 use super::places::{around, points};
 use super::{compare, scrubber, texture_view};
 use crate::inspect::{Difference, Explanation, Paint, TexelPlace};
@@ -58,11 +58,13 @@ impl ExplanationPanel {
     /// Fills the panel; what the pointer is over.
     pub(super) fn show(&mut self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) -> Hovered {
         let mut hovered = Hovered::default();
-        title(ui, viewer, self.is_page, commands);
-        if self.has_comparison {
-            compare::controls(ui, viewer, commands);
-            ui.add_space(2.0);
-        }
+        look::beside_bar(ui, |ui| {
+            title(ui, viewer, self.is_page, commands);
+            if self.has_comparison {
+                compare::controls(ui, viewer, commands);
+                ui.add_space(2.0);
+            }
+        });
         let explanation = viewer.explanation();
         let mut area = ScrollArea::vertical().id_salt("explanation").auto_shrink(false);
         if let Some(explanation) = explanation.filter(|explanation| self.pixel != Some(explanation.pixel)) {

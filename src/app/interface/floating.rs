@@ -1,11 +1,13 @@
 //! What floats over the picture without taking part in the layout: overlay text, pixel numbers in the inspector's
 //! inset, progress.
 
-use crate::viewer::InspectorCommand;
+use crate::viewer::{InspectorCommand, ViewCommand};
 
-use egui::{Align2, Area, Button, Color32, FontId, Id, Order, Pos2, Rect, Ui, Vec2};
+use egui::{Align2, Area, Button, Color32, FontId, Frame, Id, Order, Pos2, Rect, RichText, Ui, Vec2};
 use egui::{pos2, vec2};
 
+use super::controls::command_button;
+use super::document::AS_BEFORE;
 use super::look::CONTROL;
 use super::pin;
 use super::places::{insets, points};
@@ -18,6 +20,10 @@ const REST: f32 = 5.0;
 
 /// Height of the progress bar, in points.
 const BAR_HEIGHT: f32 = 3.0;
+/// Width of the way back, in points.
+const WAY_BACK_WIDTH: f32 = 230.0;
+/// Width of what is said over an outdated picture at most, in points.
+const OUTDATED_WIDTH: f32 = 520.0;
 /// Free space around the text over the picture, in points.
 const TEXT_MARGIN: f32 = 10.0;
 
@@ -98,6 +104,50 @@ pub(super) fn progress(ui: &Ui, viewer: &Viewer, free: Rect) {
     let bar = Rect::from_min_size(free.min, vec2(free.width() * done, BAR_HEIGHT));
     ui.painter().rect_filled(track, 0.0, Color32::from_black_alpha(60));
     ui.painter().rect_filled(bar, 0.0, ui.visuals().selection.bg_fill);
+}
+
+/// Where nothing of the canvas is in sight: how to come back to it.
+pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) {
+    if viewer.canvas_in_sight() {
+        return;
+    }
+    Area::new(Id::unique("way back"))
+        .order(Order::Middle)
+        .fixed_pos(free.center())
+        .pivot(Align2::CENTER_CENTER)
+        .fade_in(false)
+        .show(ui.ctx(), |ui| {
+            Frame::popup(ui.style()).show(ui, |ui| {
+                ui.vertical_centered(|ui| {
+                    ui.set_max_width(WAY_BACK_WIDTH.min(free.width() - 2.0 * TEXT_MARGIN));
+                    ui.label("Nothing to see here: the canvas lies outside of the window.");
+                    if command_button(ui, "reset-view", "Show the canvas (Space)").clicked() {
+                        commands.push(Command::View(ViewCommand::Reset));
+                    }
+                });
+            });
+        });
+}
+
+/// Over a picture whose file cannot be read any more: why, for as long as that is so.
+pub(super) fn outdated(ui: &Ui, viewer: &Viewer, free: Rect) {
+    let entry = viewer.current().filter(|entry| entry.scene().is_some());
+    let Some(problem) = entry.and_then(|entry| entry.failure()) else {
+        return;
+    };
+    Area::new(Id::unique("outdated"))
+        .order(Order::Middle)
+        .fixed_pos(free.center_top() + vec2(0.0, TEXT_MARGIN))
+        .pivot(Align2::CENTER_TOP)
+        .interactable(false)
+        .fade_in(false)
+        .show(ui.ctx(), |ui| {
+            Frame::popup(ui.style()).show(ui, |ui| {
+                ui.set_max_width(OUTDATED_WIDTH.min(free.width() - 4.0 * TEXT_MARGIN));
+                ui.label(RichText::new(problem).color(ui.visuals().error_fg_color));
+                ui.label(RichText::new(AS_BEFORE).small());
+            });
+        });
 }
 
 /// Where a box of `size` goes: the first corner of `area` where nothing is `taken`.

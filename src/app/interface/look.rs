@@ -131,6 +131,15 @@ pub(super) fn bars_beside(ui: &mut Ui) {
     };
 }
 
+/// Contents above what scrolls, as wide as that is: the bar's room stays free.
+pub(super) fn beside_bar<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    ui.scope(|ui| {
+        ui.set_max_width(ui.available_width() - f32::from(BAR_ROOM));
+        contents(ui)
+    })
+    .inner
+}
+
 /// Chooses the theme.
 pub(super) fn set_theme(ctx: &Context, theme: Theme) {
     ctx.set_theme(match theme {

@@ -5,6 +5,7 @@
 //! depends on panels. The panels lie over it. Lest they hide the canvas unasked, the side panel starts folded where
 //! it would reach into the canvas of the default view, and the inspector's inset is told what area is free.
 
+mod chooser;
 mod compare;
 mod compare_marks;
 mod compare_numbers;
@@ -18,8 +19,11 @@ mod floating;
 mod hits;
 mod lesson;
 mod look;
+mod menu;
 mod messages;
 mod modal;
+mod open_dialog;
+mod palette;
 mod pin;
 mod places;
 mod sampling;
@@ -27,12 +31,13 @@ mod scenes;
 mod scrubber;
 mod sheet;
 mod side_panel;
+mod start;
 mod status;
 mod texture_view;
 mod view_numbers;
 
 use crate::viewer::WindowCommand;
-use egui::{Context, Frame, Margin, Panel, Pos2, Rect, ScrollArea, Ui};
+use egui::{Area, Context, Frame, Id, Margin, Order, Panel, Pos2, Rect, ScrollArea, Sense, Ui};
 use glam::DVec2;
 
 use crate::viewer::{Arrangement, Command, PixelRect, Theme, ViewNumbers, Viewer};
@@ -131,7 +136,7 @@ impl Interface {
         let above = self
             .ctx
             .layer_id_at(at)
-            .is_some_and(|layer| layer.order != egui::Order::Background);
+            .is_some_and(|layer| layer.order != Order::Background);
         above || self.covered.iter().any(|rect| rect.contains(at))
     }
 
@@ -240,6 +245,9 @@ impl Interface {
                 .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 4)))
                 .show(ui, |ui| status::show(ui, viewer, &mut asked.commands));
             self.covered.push(line.response.rect);
+            if let Some(spec) = line.inner {
+                self.dialogs.ask_for(spec, &mut asked.commands);
+            }
             if viewer.lesson().is_some() && ui.available_width() >= lesson::WIDTH + LEAST_PICTURE {
                 page = self.lesson_panel(ui, viewer, asked);
             }
@@ -277,19 +285,42 @@ impl Interface {
                 free,
                 ui.pixels_per_point(),
             )))));
+        self.float(ui, viewer, free, asked);
+        self.words(ui, viewer, (free, &words), asked);
+        self.hold_clicks();
+        let ctx = self.ctx.clone();
+        self.dialogs.show(&ctx, viewer, &mut asked.commands);
+    }
+
+    /// What floats over the picture, but for words.
+    fn float(&mut self, ui: &Ui, viewer: &Viewer, free: Rect, asked: &mut Asked) {
+        let hidden = viewer.everything_hidden();
         if !hidden {
             floating::progress(ui, viewer, free);
-        }
-        if !hidden {
             pin::show(ui, viewer, free);
         }
         floating::pixel_labels(ui, viewer);
+        if !hidden {
+            floating::outdated(ui, viewer, free);
+            floating::way_back(ui, viewer, free, &mut asked.commands);
+            start::card(ui, viewer, free, &mut asked.commands);
+        }
         contributions::show(ui, viewer, free);
         hits::hits(ui, viewer);
         self.close_of_inset.show(ui, viewer, &mut asked.commands);
-        self.words(ui, viewer, (free, &words), asked);
-        let ctx = self.ctx.clone();
-        self.dialogs.show(&ctx, viewer, &mut asked.commands);
+    }
+
+    /// A click beside an open list closes it, and presses nothing that lies below.
+    fn hold_clicks(&self) {
+        if !self.list_is_open() {
+            return;
+        }
+        let whole = self.ctx.content_rect();
+        Area::new(Id::unique("beside an open list"))
+            .order(Order::Middle)
+            .fixed_pos(whole.min)
+            .fade_in(false)
+            .show(&self.ctx, |ui| ui.allocate_response(whole.size(), Sense::click()));
     }
 
     /// Messages, tags and the text over the picture, each where nothing else lies; `before` are the words of the last pass.
@@ -303,7 +334,8 @@ impl Interface {
             let Marks { labels, line, handle } = compare_marks::show(ui, viewer, free, &messages);
             let taken: Vec<Rect> = labels.iter().chain(&messages).chain(&line).copied().collect();
             (self.labels, self.line, self.handle) = (labels, line, handle);
-            if viewer.overlay_text() {
+            // The card would cover it in a small window.
+            if viewer.overlay_text() && !viewer.start_card() {
                 self.labels.extend(floating::overlay_text(ui, viewer, free, &taken));
             }
         }
@@ -320,11 +352,12 @@ impl Interface {
         let panel = Panel::left("lesson panel")
             .resizable(false)
             .exact_size(lesson::WIDTH)
-            .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 8)))
+            .frame(panel_frame(ui, look::scrolling_margin(8)))
             .show(ui, |ui| {
-                lesson::head(ui, viewer, commands);
+                look::bars_beside(ui);
+                look::beside_bar(ui, |ui| lesson::head(ui, viewer, commands));
                 if shares && viewer.pinned_pixel().is_some() {
-                    lesson::pages(ui, viewer, commands);
+                    look::beside_bar(ui, |ui| lesson::pages(ui, viewer, commands));
                     if lesson::is_turned(viewer) {
                         (memory.has_comparison, memory.is_page) = (viewer.other().is_some(), true);
                         return memory.show(ui, viewer, commands);
@@ -397,8 +430,11 @@ impl Interface {
         let panel = panel
             .resizable(false)
             .exact_size(explanation::WIDTH)
-            .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 8)))
-            .show(ui, |ui| memory.show(ui, viewer, &mut asked.commands));
+            .frame(panel_frame(ui, look::scrolling_margin(8)))
+            .show(ui, |ui| {
+                look::bars_beside(ui);
+                memory.show(ui, viewer, &mut asked.commands)
+            });
         self.covered.push(panel.response.rect);
         panel.inner
     }

@@ -12,7 +12,7 @@ use crate::figure::{Ground, PAGE_WIDTH};
 use crate::viewer::{
     Axis, Command, CommandSpec, PanelSize, PictureSetting, SheetChange, SheetPreview, SheetSide, Viewer,
 };
-use crate::viewer::{commands, picture};
+use crate::viewer::{SceneEntry, commands, picture};
 
 /// Width of the controls, in points.
 const CONTROLS: f32 = 272.0;
@@ -248,7 +248,7 @@ impl SheetDialog {
             };
             let line = match viewer.sheet_preview() {
                 None => {
-                    let failed = viewer.current().is_none_or(|entry| entry.failure().is_some());
+                    let failed = viewer.current().is_none_or(SceneEntry::has_no_picture);
                     told(ui, if failed { "no scene to draw" } else { "drawing …" }, weak);
                     String::new()
                 }

@@ -90,10 +90,7 @@ impl Interface {
                     });
                     return;
                 }
-                ui.scope(|ui| {
-                    ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
-                    self.settings(ui, viewer, asked);
-                });
+                look::beside_bar(ui, |ui| self.settings(ui, viewer, asked));
                 self.scenes(ui, viewer, true, asked);
             });
         self.covered.push(panel.response.rect);
@@ -225,8 +222,7 @@ mod tests {
     fn side_panel_knows_the_height_of_its_settings() {
         let mut viewer = viewer(&["svg/basic/test4.svg"]);
         let settings = |interface: &mut Interface, ui: &mut Ui, viewer: &Viewer| {
-            ui.set_max_width(ui.available_width() - f32::from(look::BAR_ROOM));
-            interface.settings(ui, viewer, &mut Asked::default())
+            look::beside_bar(ui, |ui| interface.settings(ui, viewer, &mut Asked::default()))
         };
         let whole = measured(|interface, ui| settings(interface, ui, &viewer));
         assert!(

@@ -5,14 +5,16 @@ use crate::viewer::WindowCommand;
 use egui::{Align, Color32, CornerRadius, FontId, Layout, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::controls::tip;
+use super::menu;
 use crate::viewer::picture::{About, changed_words};
-use crate::viewer::{Command, Status, Toggle, Viewer};
+use crate::viewer::{Command, CommandSpec, Status, Toggle, Viewer};
 
 /// Height of the line's contents, in points.
 const HEIGHT: f32 = 18.0;
 
-/// Fills the line. Where there is little room the switch of the panel stays, then the pixel; the rest gives way.
-pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+/// Fills the line. Where there is little room the menu and the switch of the panel stay, then the pixel; the rest gives way.
+/// Returns the command of the menu whose argument is to be asked for.
+pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) -> Option<&'static CommandSpec> {
     ui.set_height(HEIGHT);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
@@ -20,18 +22,23 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         close_of_inspector(ui, viewer, commands);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             ui.shrink_clip_rect(ui.max_rect());
+            let asks = menu::show(ui, viewer, commands);
+            ui.add_space(4.0);
             match viewer.status() {
                 Some(status) => pixel(ui, viewer, &status),
                 None => word(
                     ui,
-                    "point at a pixel; Z magnifies it, ? shows all keys",
+                    "point at a pixel; right click explains it, ? shows all keys",
                     FontId::proportional(13.0),
                     true,
                 ),
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| picture(ui, viewer));
-        });
-    });
+            asks
+        })
+        .inner
+    })
+    .inner
 }
 
 /// A word, unless there is no room for all of it.

@@ -369,3 +369,42 @@ fn lesson_explains_a_pixel_on_an_edge_in_every_window() {
         assert!(colors.len() > 1, "only {colors:?} in {window:?}");
     }
 }
+
+#[test]
+fn explanation_leaves_a_picture_from_outside_where_it_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("other.png");
+    let other = Framebuffer::new(640, 400);
+    crate::figure::save_png(&other, &path).expect("a file");
+    for window in [[800, 600], [1280, 800], [1366, 768], [1920, 1080]] {
+        for arrangement in [Arrangement::Wipe, Arrangement::SideBySide] {
+            let mut session = session(Vec::new(), window);
+            session.command(Command::Ab(AbCommand::Compare(Against::File(path.clone()))));
+            session.settle();
+            session.command(Command::Ab(AbCommand::Arrange(arrangement)));
+            session.settle();
+            let free = session.free_area.expect("there is room");
+            let [x, y] = [free.x + i64::from(free.width / 3), i64::from(window[1] / 2)].map(|at| at as f64);
+            session.pointer(Some(dvec2(x, y)));
+            let hovered = session.viewer().status().expect("a pixel").pixel;
+            let place = |session: &Session| session.viewer().pinned_places().first().map(|place| (place.x, place.y));
+            right_click(&mut session, [x, y]);
+            assert_eq!(
+                session.viewer().pinned_pixel(),
+                Some(hovered),
+                "what was clicked in {window:?}"
+            );
+            if arrangement == Arrangement::Wipe {
+                let under = (x as i64, y as i64);
+                assert_eq!(place(&session), Some(under), "it stays under the pointer in {window:?}");
+            }
+            right_click(&mut session, [x, y]);
+            assert_eq!(session.viewer().pinned_pixel(), None, "a second click unpins");
+            assert_eq!(
+                session.viewer().status().map(|status| status.pixel),
+                Some(hovered),
+                "and the picture is where it was, {arrangement:?} in {window:?}"
+            );
+        }
+    }
+}

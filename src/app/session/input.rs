@@ -16,7 +16,7 @@ impl Session {
         let typing = self.interface.has_keyboard();
         let asks = matches!(
             self.viewer.dialog(),
-            Some(Dialog::Palette | Dialog::GoToPixel | Dialog::ComparePicture)
+            Some(Dialog::Palette | Dialog::Open | Dialog::GoToPixel | Dialog::ComparePicture)
         );
         let passes = match press.logical {
             _ if !typing && !asks => true,
@@ -81,6 +81,6 @@ impl Session {
 
     #[expect(clippy::cast_possible_truncation, reason = "window pixels are small")]
     pub(super) fn to_points(&self, at: DVec2) -> Pos2 {
-        pos2(at.x as f32, at.y as f32) / self.scale
+        pos2(at.x as f32, at.y as f32) / self.scale()
     }
 }

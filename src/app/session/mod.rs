@@ -7,10 +7,14 @@ mod by_mouse;
 mod comparing;
 mod damage;
 #[cfg(test)]
+mod first_minute;
+#[cfg(test)]
 mod hands;
 mod input;
 #[cfg(test)]
 mod lessons;
+#[cfg(test)]
+mod menus;
 #[cfg(test)]
 mod overlaps;
 mod room;
@@ -39,6 +43,8 @@ use room::{PanelRoom, Wanted};
 
 /// Passes of the panels for one change: a command of a panel changes what the panels show.
 const MAX_PASSES: u32 = 4;
+/// The least window in points that panels make sense in: a larger interface stops there.
+const LEAST_WINDOW: [f32; 2] = [320.0, 240.0];
 /// Surfaces have two or three buffers; one that was shown longer ago is written whole.
 const LONGEST_AGE: usize = 3;
 
@@ -89,8 +95,8 @@ pub(super) struct Session {
     interface: Interface,
     overlay: Overlay,
     clock: Clock,
-    /// Device pixels per point.
-    scale: f32,
+    /// Device pixels per point of the monitor's own scale.
+    native_scale: f32,
     /// What of the panels changed since [`Session::compose`], and what it wrote, the latest first.
     damage: Damage,
     composed: VecDeque<Damage>,
@@ -129,7 +135,7 @@ impl Session {
             interface: Interface::new(timed),
             overlay: Overlay::default(),
             clock,
-            scale,
+            native_scale: scale,
             damage: Damage::default(),
             composed: VecDeque::new(),
             free_area: None,
@@ -162,6 +168,16 @@ impl Session {
         if matches!(self.clock, Clock::Real(_)) {
             self.tell_failure();
         }
+    }
+
+    /// Tells the user what went wrong around the viewer.
+    pub(super) fn tell_problem(&mut self, problem: String) {
+        self.viewer.tell_problem(problem);
+    }
+
+    /// Whether the side panel is open, where the user said so.
+    pub(super) fn panel_choice(&self) -> Option<bool> {
+        self.room.choice(self.viewer.panel())
     }
 
     /// Says on stderr, once, why the scene that should be shown is not.
@@ -214,7 +230,7 @@ impl Session {
 
     /// Another size of the window, in device pixels, or another scale of the panels.
     pub(super) fn set_size(&mut self, size: [u32; 2], scale: f32) {
-        self.scale = scale;
+        self.native_scale = scale;
         if self.viewer.window_size() != size {
             self.run(Command::Window(WindowCommand::Resize(size)));
         }
@@ -222,17 +238,25 @@ impl Session {
         self.share_room(Wanted::Explanation);
     }
 
+    /// Device pixels per point: as large as the user wants panels, as far as they fit.
+    fn scale(&self) -> f32 {
+        let [width, height] = self.viewer.window_size().map(|side| side as f32);
+        let largest = (width / LEAST_WINDOW[0]).min(height / LEAST_WINDOW[1]);
+        let wanted = self.native_scale * self.viewer.interface_scale().factor();
+        wanted.min(largest.max(self.native_scale))
+    }
+
     /// Runs a command and carries out its effects.
     pub(super) fn run(&mut self, command: Command) {
         let (wanted, command) = self.wanted(command);
-        let before = self.viewer.lesson().is_some();
+        let before = (self.viewer.lesson().is_some(), self.viewer.interface_scale());
         let asks_by_hand = matches!(
             command,
-            Command::Inspector(InspectorCommand::PinUnderPointer)
+            Command::Inspector(InspectorCommand::PinUnderPointer | InspectorCommand::PinEdge)
                 | Command::Pointer(PointerCommand::Pressed(PointerButton::Secondary))
         );
         self.apply(command);
-        if before != self.viewer.lesson().is_some() {
+        if before != (self.viewer.lesson().is_some(), self.viewer.interface_scale()) {
             self.fold_panel();
         }
         self.share_room(wanted);
@@ -271,14 +295,16 @@ impl Session {
         input.events.append(&mut self.events);
         for _ in 0..MAX_PASSES {
             input.time = Some(self.now());
-            let points = vec2(size[0] as f32, size[1] as f32) / self.scale;
+            let scale = self.scale();
+            let points = vec2(size[0] as f32, size[1] as f32) / scale;
             input.screen_rect = Some(Rect::from_min_size(Pos2::ZERO, points));
             let viewport = input.viewports.entry(ViewportId::ROOT).or_default();
-            viewport.native_pixels_per_point = Some(self.scale);
+            viewport.native_pixels_per_point = Some(self.native_scale);
             let mut asked = Asked::default();
             let (interface, viewer) = (&mut self.interface, &self.viewer);
             interface.follow_theme(viewer.theme());
             let ctx = interface.ctx().clone();
+            ctx.options_mut(|options| options.zoom_factor = scale / self.native_scale);
             let start = Instant::now();
             let mut output = ctx.run_ui(input.take(), |ui| {
                 asked = Asked::default();

@@ -15,7 +15,7 @@ use crate::viewer::{Arrangement, Toggle};
 
 /// Everything over the picture, by name.
 fn things(session: &Session) -> Vec<(&'static str, Rect)> {
-    let (viewer, scale) = (&session.viewer, session.scale);
+    let (viewer, scale) = (&session.viewer, session.scale());
     let interface = &session.interface;
     let rect = |place: &PixelRect| {
         let corner = pos2(place.x as f32, place.y as f32) / scale;

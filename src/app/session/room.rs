@@ -38,13 +38,23 @@ impl Default for PanelRoom {
     }
 }
 
+impl PanelRoom {
+    /// Whether the user wants a panel that is `open` or made way; `None` while it folds by itself.
+    pub(super) fn choice(self, open: bool) -> Option<bool> {
+        (!self.follows).then_some(open || self.gave_way)
+    }
+}
+
 impl Wanted {
     /// Jumps to another pixel do not ask why it has its colour: who steps through differences wants the panel to stay.
     fn of(command: &Command) -> Self {
         match command {
             Command::Window(WindowCommand::Panel(_)) => Self::Panel,
             Command::Inspector(
-                InspectorCommand::PinUnderPointer | InspectorCommand::Pin(_) | InspectorCommand::Explanation(_),
+                InspectorCommand::PinUnderPointer
+                | InspectorCommand::PinEdge
+                | InspectorCommand::Pin(_)
+                | InspectorCommand::Explanation(_),
             )
             | Command::Pointer(PointerCommand::Pressed(PointerButton::Secondary)) => Self::Explanation,
             _ => Self::Neither,
@@ -56,7 +66,7 @@ impl Session {
     /// Folds the side panel where it would reach into the default view's canvas, and while a lesson is open, which has what
     /// is needed in its text; until the user decides.
     pub(super) fn fold_panel(&mut self) {
-        let size = self.viewer.window_size().map(|side| side as f32 / self.scale);
+        let size = self.viewer.window_size().map(|side| side as f32 / self.scale());
         let fits = Interface::panel_fits(size) && self.viewer.lesson().is_none();
         if self.room.follows && fits != self.viewer.panel() {
             let to = if fits { Toggle::On } else { Toggle::Off };
@@ -98,8 +108,8 @@ impl Session {
                 self.apply(Command::Window(WindowCommand::Panel(Toggle::Off)));
             }
             _ if self.room.gave_way && !self.viewer.is_dragging() && !self.viewer.everything_hidden() => {
-                let width = self.viewer.window_size()[0] as f32 / self.scale;
-                let is_free = !explains && Interface::panel_leaves_pin(&self.viewer, width, self.scale);
+                let width = self.viewer.window_size()[0] as f32 / self.scale();
+                let is_free = !explains && Interface::panel_leaves_pin(&self.viewer, width, self.scale());
                 if is_free || !is_narrow {
                     self.room.gave_way = false;
                     self.apply(Command::Window(WindowCommand::Panel(Toggle::On)));
@@ -111,7 +121,7 @@ impl Session {
 
     /// Tells whoever asked why a pixel has its colour that there is no room for the answer.
     pub(super) fn tell_no_room(&mut self, wanted: Wanted) {
-        let width = self.viewer.window_size()[0] as f32 / self.scale;
+        let width = self.viewer.window_size()[0] as f32 / self.scale();
         let asks = wanted == Wanted::Explanation && self.viewer.explains();
         if asks && !Interface::has_room_to_explain(&self.viewer, width) {
             self.viewer.say_no_room();
@@ -120,7 +130,7 @@ impl Session {
 
     /// Whether a lesson's text is open where the explanation is the other page of its panel.
     fn is_page_not_turned(&self) -> bool {
-        let width = self.viewer.window_size()[0] as f32 / self.scale;
+        let width = self.viewer.window_size()[0] as f32 / self.scale();
         let is_shared = Interface::lesson_shares_panel(&self.viewer, width);
         is_shared && self.viewer.explains() && !self.viewer.asks_about_pixel()
     }
@@ -128,7 +138,7 @@ impl Session {
     /// Whether the window has room for the explanation only without the side panel.
     fn is_narrow(&self) -> bool {
         let [width, _] = self.viewer.window_size();
-        let width = Interface::beside_lesson(&self.viewer, width as f32 / self.scale);
+        let width = Interface::beside_lesson(&self.viewer, width as f32 / self.scale());
         Interface::explanation_needs_panel(width)
     }
 }

@@ -122,7 +122,7 @@ impl Stage for Session {
     }
 
     fn resize(&mut self, size: [u32; 2]) {
-        self.set_size(size, self.scale);
+        self.set_size(size, self.native_scale);
         self.quiet_turn();
     }
 

@@ -1,6 +1,7 @@
 //! winit's events to what the session understands.
 
 use crate::viewer::{SceneCommand, WindowCommand};
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -11,6 +12,7 @@ use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::keyboard::ModifiersState;
+use winit::monitor::MonitorHandle;
 use winit::window::{Window, WindowId};
 
 use super::super::headless::{self, NamedScript};
@@ -19,11 +21,14 @@ use super::super::{AppError, ViewOptions};
 use super::frame_log::FrameLog;
 use super::opened::Opened;
 use super::player::Player;
+use super::remembered::Remembered;
 use super::startup::Wake;
+use super::watch::Watch;
 use super::winit_keys;
 use crate::figure::Guard;
+use crate::raster::Framebuffer;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Command, PointerButton, Theme, Viewer, Waker};
+use crate::viewer::{Command, InterfaceScale, PointerButton, Theme, Toggle, Viewer, Waker};
 
 /// Device pixels of a touch pad's motion that count as a click of the wheel, at scale 1.
 const PIXELS_PER_CLICK: f64 = 40.0;
@@ -37,34 +42,60 @@ pub(super) struct Handler {
     proxy: EventLoopProxy<Wake>,
     opened: Option<Opened>,
     player: Option<Player>,
+    /// Follows the files that are shown; `None` where the system watches none.
+    watch: Option<Watch>,
     held: ModifiersState,
     /// Files that were dropped together.
     dropped: Vec<PathBuf>,
+    /// What the session before left, and where; a script's window neither reads nor writes that.
+    remembered: Remembered,
+    remembered_in: Option<PathBuf>,
+    /// The theme at the start.
+    first_theme: Option<Theme>,
     pub(super) failure: Option<AppError>,
 }
 
 impl Handler {
     pub(super) fn new(options: ViewOptions, script: Option<NamedScript>, proxy: EventLoopProxy<Wake>) -> Self {
+        let remembers = !options.no_config && options.script.is_none();
         Self {
             options,
             proxy,
             opened: None,
             player: script.map(Player::new),
+            watch: None,
             held: ModifiersState::empty(),
             dropped: Vec::new(),
+            remembered: Remembered::default(),
+            remembered_in: remembers.then(Remembered::file).flatten(),
+            first_theme: None,
             failure: None,
         }
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "a scale is a small number")]
-    fn open(&self, event_loop: &ActiveEventLoop) -> Result<Opened, AppError> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a scale is a small number above zero"
+    )]
+    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Opened, AppError> {
+        let mut problem = None;
+        if let Some(file) = &self.remembered_in {
+            (self.remembered, problem) = Remembered::read(file);
+        }
         let guard = Guard::new(self.options.force);
         let log = self.options.frame_log.as_deref();
         let log = log.map(|path| FrameLog::create(path, &guard)).transpose()?;
-        let scale = event_loop
+        let monitor = event_loop
             .primary_monitor()
-            .map_or(1.0, |monitor| monitor.scale_factor());
-        let [width, height] = headless::window_size(&self.options, scale as f32);
+            .or_else(|| event_loop.available_monitors().next());
+        let scale = monitor.as_ref().map_or(1.0, MonitorHandle::scale_factor);
+        let size = self.remembered.size.filter(|_| self.options.size.is_none());
+        let mut size = size.unwrap_or_else(|| headless::window_size(&self.options, scale as f32));
+        if let Some(monitor) = monitor.filter(|_| self.options.size.is_none()) {
+            size = within(size, monitor.size());
+        }
+        let [width, height] = size;
         let attributes = Window::default_attributes()
             .with_title("Rasterscope")
             .with_inner_size(PhysicalSize::new(width, height))
@@ -72,19 +103,89 @@ impl Handler {
         let failed = |what: &dyn std::fmt::Display| AppError::Window(format!("cannot open a window: {what}"));
         let window = Arc::new(event_loop.create_window(attributes).map_err(|error| failed(&error))?);
         let PhysicalSize { width, height } = window.inner_size();
-        let proxy = self.proxy.clone();
-        let waker: Waker = Arc::new(move || {
-            // The event loop has ended: nobody is to be woken.
-            let _ = proxy.send_event(Wake);
-        });
-        let theme = window.theme().map(theme);
-        let viewer_options = headless::viewer_options(&self.options, [width, height], theme, waker);
+        let theme = self.remembered.theme().or(window.theme().map(theme));
+        let viewer_options = headless::viewer_options(&self.options, [width, height], theme, self.waker());
         let viewer = Viewer::new(viewer_options).map_err(AppError::Threads)?;
-        let session = Session::new(viewer, window.scale_factor() as f32, Clock::Real(Instant::now()));
+        let scale = window.scale_factor() as f32;
+        let mut session = Session::new(viewer, scale, Clock::Real(Instant::now()));
+        self.first_theme = Some(session.viewer().theme());
+        let interface = self.options.scale.map_or(self.remembered.interface_scale(), |wanted| {
+            InterfaceScale::from_percent((wanted / scale * 100.0).round().clamp(0.0, 1000.0) as u32)
+        });
+        session.run(Command::Window(WindowCommand::SetInterfaceScale(interface)));
+        session.run(Command::Scenes(SceneCommand::RememberOpened(
+            self.remembered.recent.clone(),
+        )));
+        if let Some(open) = self.remembered.panel {
+            session.run(Command::Window(WindowCommand::Panel(if open {
+                Toggle::On
+            } else {
+                Toggle::Off
+            })));
+        }
+        if self.is_bare() && !self.remembered.greeted {
+            session.run(Command::Window(WindowCommand::StartCard(Toggle::On)));
+        }
+        if let Some(problem) = problem {
+            session.tell_problem(problem);
+        }
         let mut opened =
             Opened::new(event_loop.owned_display_handle(), window, session).map_err(|error| failed(&error))?;
         opened.log_to(log);
         Ok(opened)
+    }
+
+    /// Wakes the event loop from other threads.
+    fn waker(&self) -> Waker {
+        let proxy = self.proxy.clone();
+        Arc::new(move || {
+            // The event loop has ended: nobody is to be woken.
+            let _ = proxy.send_event(Wake);
+        })
+    }
+
+    /// Whether the program was started without saying what to show: by a newcomer, perhaps.
+    fn is_bare(&self) -> bool {
+        let ViewOptions {
+            paths,
+            against,
+            script,
+            restored,
+            ..
+        } = &self.options;
+        paths.is_empty() && against.is_none() && script.is_none() && restored.is_none()
+    }
+
+    /// Writes down what the next session begins with; where that cannot be, one line says so.
+    pub(super) fn remember(&self) {
+        let (Some(opened), Some(file)) = (&self.opened, &self.remembered_in) else {
+            return;
+        };
+        let viewer = opened.session.viewer();
+        let mut now = self.remembered.clone();
+        now.greeted |= self.is_bare();
+        if self.first_theme != Some(viewer.theme()) {
+            now.set_theme(viewer.theme());
+        }
+        if self.options.scale.is_none() {
+            now.set_interface_scale(viewer.interface_scale());
+        }
+        now.panel = opened.session.panel_choice().or(now.panel);
+        if self.options.size.is_none() && !viewer.window_size().contains(&0) {
+            now.size = Some(viewer.window_size());
+        }
+        now.set_recent(viewer.opened());
+        if now == self.remembered {
+            return;
+        }
+        if let Err(error) = now.write(file) {
+            // Whoever closed stderr does not want to read it.
+            let _ = writeln!(
+                std::io::stderr().lock(),
+                "rasterscope: {}: cannot remember this session: {error}; --no-config remembers none",
+                file.display()
+            );
+        }
     }
 
     fn fail(&mut self, event_loop: &ActiveEventLoop, error: AppError) {
@@ -99,7 +200,10 @@ impl ApplicationHandler<Wake> for Handler {
             return;
         }
         match self.open(event_loop) {
-            Ok(opened) => self.opened = Some(opened),
+            Ok(opened) => {
+                self.opened = Some(opened);
+                self.watch = watch(self.waker());
+            }
             Err(error) => self.fail(event_loop, error),
         }
     }
@@ -146,7 +250,7 @@ impl ApplicationHandler<Wake> for Handler {
                     opened.tell_panels(&event);
                 }
             }
-            WindowEvent::ThemeChanged(to) if self.options.theme.is_none() => {
+            WindowEvent::ThemeChanged(to) if self.options.theme.or(self.remembered.theme()).is_none() => {
                 opened.session.run(Command::Window(WindowCommand::SetTheme(theme(to))));
             }
             event => opened.pointer_event(&event),
@@ -169,10 +273,24 @@ impl ApplicationHandler<Wake> for Handler {
                 Err(error) => return self.fail(event_loop, error),
             }
         }
+        let mut watched = None;
+        if let Some(watch) = &mut self.watch {
+            let viewer = opened.session.viewer();
+            let files = if viewer.follows_files() {
+                viewer.files()
+            } else {
+                Vec::new()
+            };
+            let changed = watch.turn(files);
+            watched = watch.due();
+            if !changed.is_empty() {
+                opened.session.run(Command::Scenes(SceneCommand::FilesChanged(changed)));
+            }
+        }
         if opened.session.has_quit() {
             return event_loop.exit();
         }
-        let next = [opened.schedule(), again].into_iter().flatten().min();
+        let next = [opened.schedule(), again, watched].into_iter().flatten().min();
         event_loop.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 }
@@ -232,6 +350,33 @@ impl Opened {
     }
 }
 
+/// A window's size, made smaller where its frame, with bars of the desktop beside it, would not fit into a monitor.
+fn within(size: [u32; 2], monitor: PhysicalSize<u32>) -> [u32; 2] {
+    /// What of a monitor a window may take, in percent: its title and the desktop's bars need the rest.
+    const MOST: [u32; 2] = [96, 88];
+    let largest = [monitor.width, monitor.height].map(u64::from);
+    std::array::from_fn(|axis| {
+        let most = largest[axis] * u64::from(MOST[axis]) / 100;
+        let most = u32::try_from(most).unwrap_or(u32::MAX);
+        // A monitor that tells no size counts as large.
+        let most = if most == 0 { Framebuffer::MAX_SIDE } else { most };
+        size[axis].min(most).max([SMALLEST.width, SMALLEST.height][axis])
+    })
+}
+
+/// Follows files; where the system watches none, one line says so.
+fn watch(waker: Waker) -> Option<Watch> {
+    let watch = Watch::new(waker);
+    if let Err(error) = &watch {
+        // Whoever closed stderr does not want to read it.
+        let _ = writeln!(
+            std::io::stderr().lock(),
+            "rasterscope: files that change are not read again by themselves: {error}; F5 reads the scene again"
+        );
+    }
+    watch.ok()
+}
+
 fn pointer_button(button: MouseButton) -> Option<PointerButton> {
     match button {
         MouseButton::Left => Some(PointerButton::Primary),
@@ -252,5 +397,19 @@ fn theme(theme: winit::window::Theme) -> Theme {
     match theme {
         winit::window::Theme::Dark => Theme::Dark,
         winit::window::Theme::Light => Theme::Light,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_fit_their_monitor() {
+        let on = |width, height| PhysicalSize::new(width, height);
+        assert_eq!(within([1280, 800], on(1920, 1080)), [1280, 800], "room for all");
+        assert_eq!(within([1280, 800], on(1366, 768)), [1280, 675], "a small one");
+        assert_eq!(within([1920, 1200], on(1920, 1080)), [1843, 950], "scale 1.5");
+        assert_eq!(within([1280, 800], on(0, 0)), [1280, 800], "no size is told");
     }
 }

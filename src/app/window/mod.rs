@@ -4,8 +4,10 @@ mod frame_log;
 mod handler;
 mod opened;
 mod player;
+mod remembered;
 mod rhythm;
 mod startup;
+mod watch;
 mod winit_keys;
 
 use super::{AppError, ViewOptions, headless};
@@ -30,6 +32,7 @@ pub(super) fn run(options: ViewOptions) -> Result<Option<String>, AppError> {
     };
     let mut handler = Handler::new(options, script, event_loop.create_proxy());
     let ended = event_loop.run_app(&mut handler);
+    handler.remember();
     match handler.failure {
         Some(failure) => Err(failure),
         None => ended

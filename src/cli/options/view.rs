@@ -9,6 +9,10 @@ use super::sampling::SamplingOptions;
 use crate::cli::size::FrameSize;
 use crate::viewer::{Against, NameTemplate, Theme};
 
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "three things that are wanted or not, each on its own"
+)]
 #[derive(Clone, Debug, Args)]
 pub(in crate::cli) struct ViewerOptions {
     /// SVG files and folders of them, or a PNG of this program: its scene, view and settings
@@ -45,11 +49,14 @@ pub(in crate::cli) struct ViewerOptions {
     /// Write a line of CSV for each picture that the window shows: what it shows, milliseconds per stage
     #[arg(long, value_name = "FILE", conflicts_with = "headless")]
     pub(in crate::cli) frame_log: Option<PathBuf>,
+    /// Neither take up what the last window left (size, theme, opened files) nor remember it for the next
+    #[arg(long)]
+    pub(in crate::cli) no_config: bool,
     /// Replace files of another making too: the frame log, slides; never what is read
     #[arg(long)]
     pub(in crate::cli) force: bool,
-    /// Device pixels per point of the panels, with --headless only
-    #[arg(long, value_name = "FACTOR", value_parser = scale, requires = "headless")]
+    /// Device pixels per point of the panels; without it the monitor's own scale, or 1 with --headless
+    #[arg(long, value_name = "FACTOR", value_parser = scale)]
     pub(in crate::cli) scale: Option<f32>,
 }
 

@@ -1,10 +1,12 @@
 //! What of the window is to be seen besides the picture: panels, dialogs, messages.
 
 pub(in crate::viewer) mod ending;
+pub(in crate::viewer) mod interface_scale;
 pub(in crate::viewer) mod messages;
 
 use crate::figure::PixelRect;
 use crate::viewer::chrome::ending::Ending;
+use crate::viewer::chrome::interface_scale::InterfaceScale;
 use crate::viewer::chrome::messages::Messages;
 use crate::viewer::settings::Theme;
 
@@ -15,6 +17,8 @@ pub enum Dialog {
     Help,
     /// The command palette.
     Palette,
+    /// Chooses a file or a folder to open.
+    Open,
     /// Asks for a pixel.
     GoToPixel,
     /// Asks for a picture's path.
@@ -33,6 +37,9 @@ pub(in crate::viewer) struct Chrome {
     /// Only the picture is to be seen; what is shown besides comes back as it was.
     pub(in crate::viewer) hidden: bool,
     pub(in crate::viewer) shown: Shown,
+    /// Whether the ways on for newcomers lie over the picture.
+    pub(in crate::viewer) start_card: bool,
+    pub(in crate::viewer) interface_scale: InterfaceScale,
     pub(in crate::viewer) messages: Messages,
     pub(in crate::viewer) ending: Ending,
 }
@@ -50,6 +57,8 @@ impl Chrome {
                 panel: true,
                 explanation: true,
             },
+            start_card: false,
+            interface_scale: InterfaceScale::default(),
             messages: Messages::default(),
             ending: Ending::default(),
         }

@@ -9,6 +9,7 @@ use crate::color::ResolveSpace;
 use crate::compare::Measure;
 use crate::figure::Ground;
 use crate::viewer::ab::other::{Against, Arrangement};
+use crate::viewer::chrome::interface_scale::InterfaceScale;
 use crate::viewer::command::Command;
 use crate::viewer::export::sheet::axes::Axis;
 use crate::viewer::export::sheet::draft::{PanelSize, SheetChange, SheetSide};
@@ -150,6 +151,10 @@ pub(in crate::viewer) const LESSON_STEP: Argument = argument("a step's number, f
     Some(Command::Lesson(LessonCommand::Step(index)))
 });
 
+pub(in crate::viewer) const FOLLOW_FILES: Argument = argument(Toggle::FORM, |text| {
+    toggle(text).map(SceneCommand::FollowFiles).map(Command::Scenes)
+});
+
 pub(in crate::viewer) const OPEN: Argument = argument("a path", |text| {
     (!text.is_empty()).then(|| Command::Scenes(SceneCommand::Open(vec![path(text)])))
 });
@@ -182,6 +187,18 @@ pub(in crate::viewer) const OVERLAY: Argument = argument(Toggle::FORM, |text| {
 
 pub(in crate::viewer) const HIDE: Argument = argument(Toggle::FORM, |text| {
     toggle(text).map(WindowCommand::HideEverything).map(Command::Window)
+});
+
+pub(in crate::viewer) const START_CARD: Argument = argument(Toggle::FORM, |text| {
+    toggle(text).map(WindowCommand::StartCard).map(Command::Window)
+});
+
+pub(in crate::viewer) const INTERFACE_SCALE: Argument = argument("a percentage from 50 to 300", |text| {
+    whole(text.trim_end_matches(['%', ' ']))
+        .filter(|percent| (50..=300).contains(percent))
+        .map(InterfaceScale::from_percent)
+        .map(WindowCommand::SetInterfaceScale)
+        .map(Command::Window)
 });
 
 pub(in crate::viewer) const EXPLANATION: Argument = argument(Toggle::FORM, |text| {

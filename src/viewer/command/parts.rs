@@ -9,6 +9,7 @@ use crate::figure::PixelRect;
 use crate::inspect::TexelPlace;
 use crate::viewer::ab::other::{Against, Arrangement};
 use crate::viewer::chrome::Dialog;
+use crate::viewer::chrome::interface_scale::InterfaceScale;
 use crate::viewer::export::sheet::draft::SheetChange;
 use crate::viewer::lesson::source::LessonSource;
 use crate::viewer::settings::{PixelZoom, Theme, Toggle};
@@ -122,6 +123,12 @@ pub enum SceneCommand {
     OpenGallery,
     /// Reads the current scene again from where it came from.
     Reload,
+    /// These were opened in earlier sessions, the latest first.
+    RememberOpened(Vec<PathBuf>),
+    /// These files changed on the disk: what is shown of them is read again.
+    FilesChanged(Vec<PathBuf>),
+    /// Whether files are read again when they change on the disk.
+    FollowFiles(Toggle),
 }
 
 /// Walking through a lesson.
@@ -150,6 +157,8 @@ pub enum InspectorCommand {
     PinUnderPointer,
     /// Pins this frame pixel, moved into the frame, and opens the inspector.
     Pin([i64; 2]),
+    /// Pins the pixel nearest to the middle of the free picture where two colours meet.
+    PinEdge,
     /// Moves the pin by so many frame pixels within the frame; pins first what the open inspector shows.
     Nudge([i64; 2]),
     /// The inspector follows the pointer again.
@@ -213,6 +222,15 @@ pub enum WindowCommand {
     SetTheme(Theme),
     /// The other theme.
     NextTheme,
+    /// Shows or hides the ways on for newcomers.
+    StartCard(Toggle),
+    /// Panels and letters of this size.
+    SetInterfaceScale(InterfaceScale),
+    /// The next larger size of panels and letters, or with `up` false the next smaller one.
+    StepInterfaceScale {
+        /// Larger, not smaller.
+        up: bool,
+    },
     /// Removes a message from the screen.
     DismissMessage(u64),
     /// Closes or unpins what is open, the latest first; quits when nothing is.

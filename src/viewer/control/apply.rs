@@ -26,6 +26,13 @@ impl Viewer {
         }
         if !is_passing(&command) {
             self.chrome.ending.forget();
+            // A theme may be the desktop's.
+            if !matches!(
+                command,
+                Command::Window(WindowCommand::StartCard(_) | WindowCommand::SetTheme(_))
+            ) {
+                self.chrome.start_card = false;
+            }
         }
         let effects = self.dispatch(command);
         self.update();
@@ -119,6 +126,11 @@ impl Viewer {
             SceneCommand::Open(paths) => self.open(&paths),
             SceneCommand::OpenGallery => self.replace_scenes(library::gallery_entries()),
             SceneCommand::Reload => self.read_current(),
+            SceneCommand::RememberOpened(earlier) => self.remember_opened(&earlier),
+            SceneCommand::FilesChanged(files) => self.files_changed(&files),
+            SceneCommand::FollowFiles(toggle) => {
+                self.scene_list.follows_files = toggle.of(self.scene_list.follows_files);
+            }
             SceneCommand::OtherReading => self.choose_other_reading(),
         }
     }
@@ -143,6 +155,7 @@ impl Viewer {
             InspectorCommand::StepMagnification(steps) => self.inspector.magnifier.step(steps),
             InspectorCommand::PinUnderPointer => self.pin_under_pointer(),
             InspectorCommand::Pin(pixel) => self.pin(pixel),
+            InspectorCommand::PinEdge => self.pin_edge(),
             InspectorCommand::Nudge(by) => self.nudge(by),
             InspectorCommand::Unpin => self.inspector.magnifier.pin = None,
             InspectorCommand::PointAtTexel(texel) => self.inspector.pointed_texel = texel,
@@ -192,6 +205,9 @@ impl Viewer {
             WindowCommand::CloseDialog => screen.dialog = None,
             WindowCommand::SetTheme(theme) => screen.theme = theme,
             WindowCommand::NextTheme => screen.theme = next_of(&Theme::ALL, screen.theme, 1.0),
+            WindowCommand::StartCard(toggle) => screen.start_card = toggle.of(screen.start_card),
+            WindowCommand::SetInterfaceScale(scale) => screen.interface_scale = scale,
+            WindowCommand::StepInterfaceScale { up } => screen.interface_scale = screen.interface_scale.step(up),
             WindowCommand::DismissMessage(id) => self.chrome.messages.dismiss(id),
             WindowCommand::Escape => return self.escape(),
             WindowCommand::Quit => return vec![Effect::Quit],
@@ -226,6 +242,7 @@ impl Viewer {
     /// Closes or unpins one thing; false when nothing is open.
     fn close_latest(&mut self) -> bool {
         self.chrome.dialog.take().is_some()
+            || std::mem::take(&mut self.chrome.start_card)
             || std::mem::take(&mut self.chrome.hidden)
             || self.escape_arrangement()
             || self.inspector.magnifier.pin.take().is_some()
@@ -242,6 +259,7 @@ fn is_passing(command: &Command) -> bool {
         Command::Pointer(PointerCommand::Moved { .. } | PointerCommand::Left)
             | Command::Window(WindowCommand::Resize(_) | WindowCommand::SetFreeArea(_) | WindowCommand::Escape)
             | Command::Sheet(SheetCommand::SetRoom(_))
+            | Command::Scenes(SceneCommand::FilesChanged(_))
             | Command::Inspector(InspectorCommand::PointAtTexel(_))
     )
 }

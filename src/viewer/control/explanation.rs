@@ -5,6 +5,7 @@ use crate::scene::PrimitiveKind;
 use crate::viewer::command::Effect;
 use crate::viewer::inspector::explanation::Asked;
 use crate::viewer::inspector::samples::Target;
+use crate::viewer::library::SceneEntry;
 use crate::viewer::settings::Toggle;
 use crate::viewer::state::Viewer;
 
@@ -61,7 +62,7 @@ impl Viewer {
 
     /// Whether the current scene could not be read, so that there is nothing to look at.
     pub fn has_no_picture(&self) -> bool {
-        self.current().is_some_and(|entry| entry.failure().is_some())
+        self.current().is_some_and(SceneEntry::has_no_picture)
     }
 
     /// Tells whoever asks about a pixel that there is no picture; false where there is one.
@@ -71,6 +72,12 @@ impl Viewer {
             self.chrome.messages.error(NO_PICTURE.to_owned());
         }
         has_none
+    }
+
+    /// Tells the user what went wrong around the viewer, in one line.
+    pub fn tell_problem(&mut self, problem: String) {
+        self.chrome.messages.error(problem);
+        self.revision += 1;
     }
 
     /// Tells the user that what he asked for is not to be seen.

@@ -68,7 +68,7 @@ impl Viewer {
         let Some(entry) = self.scene_list.scenes.get(self.scene_list.current) else {
             return self.clear_frames();
         };
-        if entry.failure().is_some() {
+        if entry.has_no_picture() {
             return self.clear_frames();
         }
         let Some((scene, context)) = entry.scene().cloned().zip(self.view_context()) else {

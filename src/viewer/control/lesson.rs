@@ -1,5 +1,7 @@
 //! Walking through a lesson: every step sets scene, settings, view, pin and comparison, whatever was changed before.
 
+use std::path::{Path, PathBuf};
+
 use crate::geometry::View;
 use crate::render::RenderSettings;
 use crate::scene::DialectChoice;
@@ -10,7 +12,7 @@ use crate::viewer::lesson::model::{Lesson, LessonStep};
 use crate::viewer::lesson::source::LessonSource;
 use crate::viewer::lesson::walk::{Before, Walk};
 use crate::viewer::library;
-use crate::viewer::library::{SceneEntry, SceneState};
+use crate::viewer::library::{SceneEntry, SceneSource, SceneState};
 use crate::viewer::state::Viewer;
 use crate::viewer::view::camera::Camera;
 
@@ -23,18 +25,87 @@ impl Viewer {
     /// Opens a lesson at its first step; where it cannot be read, the user is told.
     pub(in crate::viewer) fn open_lesson(&mut self, source: &LessonSource) {
         match source.read() {
-            Ok(lesson) => self.begin(lesson),
+            Ok(lesson) => self.begin(lesson, Some(source.clone())),
             Err(error) => self.chrome.messages.error(error.to_string()),
         }
     }
 
     /// The same of a lesson that was read already.
     pub(in crate::viewer) fn show_lesson(&mut self, lesson: Lesson) {
-        self.begin(lesson);
+        self.begin(lesson, None);
         self.update();
     }
 
-    fn begin(&mut self, lesson: Lesson) {
+    /// The file of the open lesson.
+    fn lesson_file(&self) -> Option<&Path> {
+        match self.lesson.as_ref()?.source.as_ref()? {
+            LessonSource::File(path) => Some(path),
+            LessonSource::BuiltIn(_) => None,
+        }
+    }
+
+    /// The files that what is shown was read from: the scene's, those of its textures, the lesson's.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let mut files = Vec::new();
+        if let Some((entry, SceneSource::File(document))) = self.current().map(|entry| (entry, &entry.source)) {
+            let folder = document.parent().unwrap_or(Path::new(""));
+            let textures = entry.scene().map(|scene| scene.files.textures.as_slice());
+            files.push(document.clone());
+            files.extend(
+                textures
+                    .unwrap_or_default()
+                    .iter()
+                    .map(|(address, _)| folder.join(address)),
+            );
+        }
+        files.extend(self.lesson_file().map(Path::to_owned));
+        files
+    }
+
+    /// Whether files are to be read again when they change on the disk.
+    pub fn follows_files(&self) -> bool {
+        self.scene_list.follows_files
+    }
+
+    /// Reads again what is shown of these files, unless the user does not want that.
+    pub(in crate::viewer) fn files_changed(&mut self, files: &[PathBuf]) {
+        if !self.follows_files() || files.is_empty() {
+            return;
+        }
+        let is_lesson = |file: &PathBuf| self.lesson_file() == Some(file);
+        let (lesson, others) = (files.iter().any(is_lesson), !files.iter().all(is_lesson));
+        if lesson {
+            self.reload_lesson();
+        }
+        if others {
+            self.read_current();
+        }
+    }
+
+    /// Reads the open lesson again and stays at its step; where it cannot be read any more, it stays as it is and the user is
+    /// told.
+    fn reload_lesson(&mut self) {
+        let Some(Walk {
+            at,
+            source: Some(source),
+            ..
+        }) = &self.lesson
+        else {
+            return;
+        };
+        let (at, source) = (*at, source.clone());
+        match source.read() {
+            Ok(lesson) => {
+                let last = lesson.steps.len().saturating_sub(1);
+                self.chrome.messages.forget_problems_of(&source.address());
+                self.begin(lesson, Some(source));
+                self.take_step(at.min(last));
+            }
+            Err(error) => self.chrome.messages.error(error.to_string()),
+        }
+    }
+
+    fn begin(&mut self, lesson: Lesson, source: Option<LessonSource>) {
         let before = match self.lesson.take() {
             Some(walk) => walk.before,
             None => Before {
@@ -56,6 +127,7 @@ impl Viewer {
         self.replace_scenes(entries);
         self.lesson = Some(Walk {
             lesson,
+            source,
             at: 0,
             scenes,
             view_pending: false,

@@ -1,6 +1,6 @@
 //! Files and folders become the list of scenes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::viewer::ab::other::Against;
 use crate::viewer::ab::outside::is_picture;
@@ -11,9 +11,22 @@ use crate::viewer::state::Viewer;
 use crate::viewer::view::camera::Camera;
 
 impl Viewer {
+    /// What opening a file of this name gives: a `scene`, a `picture` or a `lesson`; `None` where it is none of these.
+    pub fn kind_of_file(path: &Path) -> Option<&'static str> {
+        if crate::scene::is_document(path) {
+            return Some("scene");
+        }
+        if is_picture(path) {
+            return Some("picture");
+        }
+        LessonSource::from_address(path).map(|_| "lesson")
+    }
+
     /// Adds the scenes in `paths` to the list and shows the first of them; at the start they are the list, or the
     /// gallery is where they hold none. A PNG with a record brings its state back; another picture becomes B.
     pub(in crate::viewer) fn open(&mut self, paths: &[PathBuf]) {
+        let there: Vec<PathBuf> = paths.iter().filter(|path| path.exists()).cloned().collect();
+        self.scene_list.note_opened(&there);
         let lesson = paths.iter().find_map(|path| LessonSource::from_address(path));
         if let Some(lesson) = lesson {
             self.open_lesson(&lesson);
@@ -43,6 +56,18 @@ impl Viewer {
         } else if !scenes.is_empty() {
             self.add_scenes(scenes);
         }
+    }
+
+    /// Files and folders that were opened, in this session or in earlier ones, the latest first.
+    pub fn opened(&self) -> &[PathBuf] {
+        &self.scene_list.opened
+    }
+
+    /// Takes up what earlier sessions opened.
+    pub(in crate::viewer) fn remember_opened(&mut self, earlier: &[PathBuf]) {
+        let now = std::mem::take(&mut self.scene_list.opened);
+        self.scene_list.note_opened(earlier);
+        self.scene_list.note_opened(&now);
     }
 
     /// A picture whose scene is gone leaves a list with something to look at too.

@@ -14,6 +14,9 @@ use crate::viewer::view::pointer::window_pixel;
 pub(in crate::viewer) const PIN_OUTSIDE: &str =
     "the pinned pixel is outside the window now: it comes back with the view, or pin another one";
 
+/// Levels by which two pixels differ at least where two colours meet.
+const EDGE: u8 = 48;
+
 /// Frame pixels that stay free beside a pinned one in a frame that becomes smaller.
 const PIN_ROOM: i64 = 24;
 
@@ -101,6 +104,7 @@ impl Viewer {
             // Its line gives way to panels.
             self.ab.touch();
         }
+        self.keep_fixed_in_place(&panes, asks);
         let contexts = before.zip(self.view_context());
         if let Some((before, context)) = contexts.filter(|(before, context)| asks && before.frame != context.frame) {
             self.keep_view_of_pin((&before, &panes), &context);
@@ -111,6 +115,28 @@ impl Viewer {
                     *camera = first;
                 }
             });
+        }
+    }
+
+    /// Keeps pictures with a size of their own where they were `before`, while a hand asks about a pixel of theirs that is to be
+    /// seen there; afterwards they go back to where they belong.
+    fn keep_fixed_in_place(&mut self, before: &Panes, asks: bool) {
+        let Some(frame) = self.fixed_size() else { return };
+        if !asks {
+            self.ab.moved.let_go();
+            return;
+        }
+        let in_second = self.inspector.magnifier.asked_at.is_some_and(|asked| asked.in_second);
+        let pane = |panes: &Panes| panes.second.filter(|_| in_second).unwrap_or(panes.first);
+        let (old, now) = (pane(before), pane(&self.panes()));
+        let seen = |[x, y]: [u32; 2]| {
+            now.area
+                .contains([i64::from(x) + old.corner[0], i64::from(y) + old.corner[1]])
+        };
+        if self.pinned_pixel().is_some_and(seen) {
+            let by = DVec2::from([0, 1].map(|axis| (old.corner[axis] - now.corner[axis]) as f64));
+            self.ab.moved.keep(by, &now.area, frame);
+            self.ab.touch();
         }
     }
 
@@ -188,6 +214,37 @@ impl Viewer {
             self.inspector.magnifier.open = true;
             self.chrome.hidden = false;
         }
+    }
+
+    /// Pins the pixel nearest to the middle of the free picture that its right or lower neighbour differs from, and explains
+    /// it; the one in the middle where there is none.
+    pub(in crate::viewer) fn pin_edge(&mut self) {
+        if self.refuses_to_explain() {
+            return;
+        }
+        let [corner, size] = self.free_part();
+        let middle = corner + size / 2.0;
+        let inside = |[x, y]: [u32; 2]| {
+            let at = DVec2::new(f64::from(x), f64::from(y));
+            at.cmpge(corner).all() && at.cmplt(corner + size).all()
+        };
+        let edge = self.frame().and_then(|frame| {
+            let differs = |[x, y]: [u32; 2], [u, v]: [u32; 2]| {
+                let colors = frame.final_rgba(x, y).zip(frame.final_rgba(u, v));
+                colors.is_some_and(|(a, b)| a.iter().zip(b).any(|(a, b)| a.abs_diff(b) >= EDGE))
+            };
+            let (width, height) = (frame.pixels.width(), frame.pixels.height());
+            let pixels = (0..height)
+                .flat_map(|y| (0..width).map(move |x| [x, y]))
+                .filter(|pixel| inside(*pixel));
+            let edges = pixels.filter(|&[x, y]| differs([x, y], [x + 1, y]) || differs([x, y], [x, y + 1]));
+            let distance = |[x, y]: [u32; 2]| DVec2::new(f64::from(x), f64::from(y)).distance_squared(middle);
+            edges.min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+        });
+        let pixel = edge.map_or_else(|| window_pixel(middle), |edge| edge.map(i64::from));
+        self.chrome.shown.explanation = true;
+        self.inspector.magnifier.asked = true;
+        self.pin(pixel);
     }
 
     pub(in crate::viewer) fn nudge(&mut self, by: [i64; 2]) {

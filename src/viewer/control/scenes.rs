@@ -112,20 +112,27 @@ impl Viewer {
         let draws_again = is_stale && entry.thumbnail.is_some() && read.result.is_ok();
         if side == Side::A {
             entry.thumbnail_asked &= !was_read && !draws_again;
-            if read.result.is_err() {
-                entry.thumbnail = None;
-            }
+        }
+        let before = side.state(entry).scene().cloned();
+        // A picture in one dialect says nothing of a document that cannot be read in the other.
+        let before = before.filter(|scene| side == Side::A && dialect.allows(scene.dialect));
+        if side == Side::A && read.result.is_err() && before.is_none() {
+            entry.thumbnail = None;
+        }
+        if is_current || read.result.is_ok() {
+            self.chrome.messages.forget_problems_of(&entry.source.address());
         }
         *side.state(entry) = match read.result {
-            Ok(scene) => {
-                self.chrome.messages.forget_problems_of(&entry.source.address());
-                SceneState::Ready { scene, dialect }
-            }
+            Ok(scene) => SceneState::Ready { scene, dialect },
             Err(message) => {
                 if is_current {
                     self.chrome.messages.error(message.clone());
                 }
-                SceneState::Failed { message, dialect }
+                SceneState::Failed {
+                    message,
+                    dialect,
+                    before,
+                }
             }
         };
         if draws_again {

@@ -56,8 +56,18 @@ impl Viewer {
         self.center_fixed();
     }
 
+    /// Whether something of the canvas lies in the part of the window that no panel covers; true where there is no scene, or
+    /// no canvas that a view could lose.
+    pub fn canvas_in_sight(&self) -> bool {
+        let camera = self.current().map(|entry| &entry.camera);
+        let Some((context, camera)) = self.view_context().zip(camera) else {
+            return true;
+        };
+        self.fixed_size().is_some() || camera.sees_canvas(self.free_part(), &context)
+    }
+
     /// The part of the frame that no panel covers: its corner and size in frame pixels.
-    fn free_part(&self) -> [DVec2; 2] {
+    pub(in crate::viewer) fn free_part(&self) -> [DVec2; 2] {
         let zoom = f64::from(self.settings.pixel_zoom.factor());
         let window = PixelRect::of_size(self.chrome.window);
         let free = self.chrome.free_area.map_or(window, |free| free.intersection(&window));

@@ -1,6 +1,7 @@
 //! A lesson that is open, and what comes back when it is closed.
 
 use crate::viewer::lesson::model::Lesson;
+use crate::viewer::lesson::source::LessonSource;
 use crate::viewer::library::SceneEntry;
 use crate::viewer::settings::Settings;
 use crate::viewer::view::camera::Camera;
@@ -9,6 +10,8 @@ use crate::viewer::view::camera::Camera;
 #[derive(Debug)]
 pub(in crate::viewer) struct Walk {
     pub(in crate::viewer) lesson: Lesson,
+    /// Where it was read from, if from anywhere.
+    pub(in crate::viewer) source: Option<LessonSource>,
     /// The step that is shown.
     pub(in crate::viewer) at: usize,
     /// For each step its place in the list of scenes.

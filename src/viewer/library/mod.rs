@@ -82,6 +82,8 @@ pub enum SceneState {
         message: String,
         /// The choice it was read with.
         dialect: DialectChoice,
+        /// What it was when it could be read last, in the same dialect: shown until it can be read again.
+        before: Option<Arc<Scene>>,
     },
 }
 
@@ -100,7 +102,7 @@ impl SceneEntry {
         }
     }
 
-    /// The scene, once it was read; while it is read again, as it was before.
+    /// The scene, once it was read; while it is read again, or cannot be read any more, as it was before.
     pub fn scene(&self) -> Option<&Arc<Scene>> {
         self.state.scene()
     }
@@ -111,6 +113,11 @@ impl SceneEntry {
             SceneState::Failed { message, .. } => Some(message),
             _ => None,
         }
+    }
+
+    /// Whether it can be read neither now nor before: there is nothing to show of it.
+    pub fn has_no_picture(&self) -> bool {
+        self.failure().is_some() && self.scene().is_none()
     }
 
     /// Whether it is a file, not a scene of the gallery.
@@ -130,12 +137,12 @@ impl SceneEntry {
 }
 
 impl SceneState {
-    /// The scene, once it was read; while it is read again, as it was before.
+    /// The scene, once it was read; while it is read again, or cannot be read any more, as it was before.
     pub(in crate::viewer) fn scene(&self) -> Option<&Arc<Scene>> {
         match self {
             Self::Ready { scene, .. } => Some(scene),
-            Self::Reading { before, .. } => before.as_ref(),
-            Self::Unread | Self::Failed { .. } => None,
+            Self::Reading { before, .. } | Self::Failed { before, .. } => before.as_ref(),
+            Self::Unread => None,
         }
     }
 
@@ -301,7 +308,7 @@ fn any_of_course(files: &[PathBuf]) -> bool {
 }
 
 /// Order of names for people: `test2` comes before `test10`.
-fn natural_order(a: &str, b: &str) -> Ordering {
+pub fn natural_order(a: &str, b: &str) -> Ordering {
     let (mut a, mut b) = (a, b);
     loop {
         let (digits_a, digits_b) = (digits(a), digits(b));

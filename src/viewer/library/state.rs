@@ -8,6 +8,9 @@ use crate::scene::Dialect;
 use crate::viewer::library::SceneEntry;
 use crate::viewer::library::readers::Readers;
 
+/// Files that are kept as opened.
+const MOST_OPENED: usize = 12;
+
 /// The list of scenes, and what reads them.
 #[derive(Debug)]
 pub(in crate::viewer) struct SceneList {
@@ -22,6 +25,10 @@ pub(in crate::viewer) struct SceneList {
     pub(in crate::viewer) documents: u64,
     /// The scenes shown last, latest last: the others are let go to save memory.
     pub(in crate::viewer) recent: Vec<usize>,
+    /// Files and folders that were opened, the latest first.
+    pub(in crate::viewer) opened: Vec<PathBuf>,
+    /// Whether files are read again when they change on the disk.
+    pub(in crate::viewer) follows_files: bool,
     /// The view that every scene begins with.
     pub(in crate::viewer) start_view: View,
     pub(in crate::viewer) readers: Readers,
@@ -37,6 +44,8 @@ impl SceneList {
             generation: 0,
             documents: 0,
             recent: Vec::new(),
+            opened: Vec::new(),
+            follows_files: true,
             start_view,
             readers,
         }
@@ -45,6 +54,17 @@ impl SceneList {
     /// The scene that is shown; `None` only while the list is empty.
     pub(in crate::viewer) fn current(&self) -> Option<&SceneEntry> {
         self.scenes.get(self.current)
+    }
+
+    /// Notes that these were opened, the first as the latest.
+    pub(in crate::viewer) fn note_opened(&mut self, paths: &[PathBuf]) {
+        for path in paths.iter().rev() {
+            // Another session starts in another folder.
+            let Ok(path) = std::path::absolute(path) else { continue };
+            self.opened.retain(|before| *before != path);
+            self.opened.insert(0, path);
+        }
+        self.opened.truncate(MOST_OPENED);
     }
 
     /// Shows the scene at `index`; nothing happens where there is none.

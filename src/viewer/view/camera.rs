@@ -191,6 +191,21 @@ impl Camera {
         self.set(fitted, context);
     }
 
+    /// Whether the canvas and a part of the frame, given by its corner and size in frame pixels, have a point in common: two
+    /// rectangles, one of them turned, have none if a side of either parts them.
+    pub fn sees_canvas(&self, [corner, size]: [DVec2; 2], context: &ViewContext) -> bool {
+        let map = self.transform(context);
+        let corners = |low: DVec2, high: DVec2| [low, high, dvec2(low.x, high.y), dvec2(high.x, low.y)];
+        let meet = |points: [DVec2; 4], low: DVec2, high: DVec2| {
+            let least = points.into_iter().fold(DVec2::MAX, DVec2::min);
+            let most = points.into_iter().fold(DVec2::MIN, DVec2::max);
+            least.cmple(high).all() && most.cmpge(low).all()
+        };
+        let canvas = corners(DVec2::ZERO, context.canvas).map(|point| map.to_pixels(point));
+        let part = corners(corner, corner + size).map(|pixel| map.to_scene(pixel));
+        meet(canvas, corner, corner + size) && meet(part, DVec2::ZERO, context.canvas)
+    }
+
     /// If some of the canvas lies outside of a part of the frame, given by its corner and size in frame pixels: the whole
     /// canvas in the middle of that part, upright, with the margin of the default view.
     pub fn show_canvas(&mut self, [corner, size]: [DVec2; 2], context: &ViewContext) {
@@ -288,6 +303,35 @@ mod tests {
             Ok(())
         })
         .budget_ms(300);
+    }
+
+    #[test]
+    fn canvas_is_seen_where_its_points_are() {
+        arbtest::arbtest(|u| {
+            let camera = arbitrary_camera(u)?;
+            let part = [dvec2(0.0, 0.0), SIGHT.size() / 2.0];
+            let map = camera.transform(&SIGHT);
+            let inside = |pixel: DVec2| pixel.cmpge(part[0]).all() && pixel.cmple(part[1]).all();
+            let steps = (0..=20).flat_map(|y| (0..=20).map(move |x| dvec2(f64::from(x), f64::from(y)) / 20.0));
+            let hit = steps.into_iter().any(|at| inside(map.to_pixels(at * SIGHT.canvas)));
+            assert!(!hit || camera.sees_canvas(part, &SIGHT), "{:?}", camera.numbers(&SIGHT));
+            Ok(())
+        });
+        let look_at = |center: DVec2, rotation: f64| {
+            let mut camera = Camera::default();
+            let numbers = ViewNumbers {
+                center,
+                scale: 1.0,
+                rotation,
+            };
+            camera.set(numbers, &SIGHT);
+            camera.sees_canvas([DVec2::ZERO, SIGHT.size()], &SIGHT)
+        };
+        assert!(look_at(SIGHT.canvas / 2.0, 30.0), "in the middle");
+        assert!(!look_at(SIGHT.canvas * 40.0, 30.0), "far off");
+        let beside = SIGHT.canvas + SIGHT.size() * 0.45;
+        assert!(look_at(beside, 0.0), "a corner of both");
+        assert!(!look_at(beside, 45.0), "parted by a slanted side");
     }
 
     #[test]

@@ -41,6 +41,8 @@ const LEAST_IN_SIGHT: i64 = 16;
 pub(in crate::viewer) struct Moved {
     /// Screen pixels from the middle of the pane.
     by: DVec2,
+    /// What of it keeps an explained pixel where it was, until the explanation is closed.
+    kept: DVec2,
     /// What is left of a zoom that did not reach the next step.
     pub(in crate::viewer) rest: f64,
 }
@@ -55,6 +57,18 @@ impl Moved {
             middle(area.x, area.width, size[0]) + x,
             middle(area.y, area.height, size[1]) + y,
         ]
+    }
+
+    /// Moves on for as long as a pixel is explained.
+    pub(in crate::viewer) fn keep(&mut self, by: DVec2, area: &PixelRect, size: [u32; 2]) {
+        let before = self.by;
+        self.add(by, area, size);
+        self.kept += self.by - before;
+    }
+
+    /// Takes back what an explanation moved.
+    pub(in crate::viewer) fn let_go(&mut self) {
+        self.by -= std::mem::take(&mut self.kept);
     }
 
     /// Moves on; some of the picture stays in sight.

@@ -2,6 +2,7 @@
 
 mod comparison;
 mod dialects;
+mod follow;
 mod inspector;
 mod random;
 mod replay;

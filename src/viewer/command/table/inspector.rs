@@ -37,6 +37,13 @@ pub(super) static INSPECTOR: &[CommandSpec] = &[
     .run(&Command::Inspector(InspectorCommand::PinUnderPointer))
     .argument(arguments::PIN),
     spec(
+        "pin-edge",
+        "Pin an edge",
+        "Pins a pixel near the middle where two colours meet, and tells why it has its colour",
+        Group::Inspector,
+    )
+    .run(&Command::Inspector(InspectorCommand::PinEdge)),
+    spec(
         "unpin",
         "Unpin",
         "Lets the inspector follow the pointer again",

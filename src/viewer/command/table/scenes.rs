@@ -1,15 +1,18 @@
 //! Commands under "Scenes".
 
+use crate::viewer::chrome::Dialog;
 use crate::viewer::command::Command;
 use crate::viewer::command::arguments;
 use crate::viewer::command::parts::LessonCommand;
 use crate::viewer::command::parts::SceneCommand;
+use crate::viewer::command::parts::WindowCommand;
 use crate::viewer::command::spec::CommandSpec;
 use crate::viewer::command::spec::Group;
 use crate::viewer::command::spec::spec;
 use crate::viewer::key_chords::Chord;
 use crate::viewer::key_chords::Key;
 use crate::viewer::lesson::source::LessonSource;
+use crate::viewer::settings::Toggle;
 
 /// The lines under this heading, in the order of help and menus.
 pub(super) static SCENES: &[CommandSpec] = &[
@@ -49,6 +52,8 @@ pub(super) static SCENES: &[CommandSpec] = &[
         "Opens a file, or every scene in a folder",
         Group::Scenes,
     )
+    .keys(&[Chord::ctrl('o')])
+    .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::Open)))
     .argument(arguments::OPEN),
     spec(
         "gallery",
@@ -98,6 +103,14 @@ pub(super) static SCENES: &[CommandSpec] = &[
     spec("reload", "Reload", "Reads the scene again", Group::Scenes)
         .keys(&[Chord::ctrl('r'), Chord::named(Key::F(5))])
         .run(&Command::Scenes(SceneCommand::Reload)),
+    spec(
+        "follow-files",
+        "Follow files",
+        "Reads scenes, textures and lessons again when another program saves them, or no more",
+        Group::Scenes,
+    )
+    .run(&Command::Scenes(SceneCommand::FollowFiles(Toggle::Flip)))
+    .argument(arguments::FOLLOW_FILES),
     spec(
         "other-reading",
         "Read in the other dialect",

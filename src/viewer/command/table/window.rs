@@ -1,6 +1,7 @@
 //! Commands under "Window".
 
 use crate::viewer::chrome::Dialog;
+use crate::viewer::chrome::interface_scale::InterfaceScale;
 use crate::viewer::command::Command;
 use crate::viewer::command::arguments;
 use crate::viewer::command::parts::WindowCommand;
@@ -42,13 +43,47 @@ pub(super) static WINDOW: &[CommandSpec] = &[
     )
     .run(&Command::Window(WindowCommand::NextTheme))
     .argument(arguments::THEME),
+    spec(
+        "interface-larger",
+        "Larger interface",
+        "Makes panels and letters larger; the picture stays as it is",
+        Group::Window,
+    )
+    .keys(&[Chord::ctrl('='), Chord::ctrl('+')])
+    .run(&Command::Window(WindowCommand::StepInterfaceScale { up: true })),
+    spec(
+        "interface-smaller",
+        "Smaller interface",
+        "Makes panels and letters smaller; the picture stays as it is",
+        Group::Window,
+    )
+    .keys(&[Chord::ctrl('-')])
+    .run(&Command::Window(WindowCommand::StepInterfaceScale { up: false })),
+    spec(
+        "interface-scale",
+        "Interface at 100 %",
+        "Panels and letters as large as the monitor has them",
+        Group::Window,
+    )
+    .run(&Command::Window(WindowCommand::SetInterfaceScale(
+        InterfaceScale::ORIGINAL,
+    )))
+    .argument(arguments::INTERFACE_SCALE),
+    spec(
+        "start-card",
+        "Start card",
+        "Shows what this is for, and ways on for newcomers",
+        Group::Window,
+    )
+    .run(&Command::Window(WindowCommand::StartCard(Toggle::Flip)))
+    .argument(arguments::START_CARD),
     spec("help", "Help", "Shows all keys", Group::Window)
         .keys(&[Chord::shifted('?', '/'), Chord::named(Key::F(1))])
         .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::Help))),
     spec(
         "palette",
         "Command palette",
-        "Finds a command by its name",
+        "Finds a command, a value of a setting or a scene by its name",
         Group::Window,
     )
     .keys(&[Chord::ctrl_shift('p')])

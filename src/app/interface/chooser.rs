@@ -1,0 +1,164 @@
+//! Choosing a file with the mouse: the folders and files of one folder, of which only those are listed that can be opened.
+
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+use egui::{AtomExt as _, Button, Response, RichText, Ui};
+
+use super::palette::ENTRY;
+use crate::viewer::{SceneSource, Viewer, natural_order};
+
+/// Files and folders that are listed of a folder: more than a hand goes through.
+const MOST: usize = 10_000;
+
+/// The folder that is listed.
+#[derive(Debug, Default)]
+pub(super) struct Chooser {
+    folder: PathBuf,
+    items: Vec<Item>,
+    /// Why the folder cannot be listed.
+    problem: Option<String>,
+}
+
+/// A file or a folder of the list.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Item {
+    /// Where it is.
+    pub(super) path: PathBuf,
+    /// Its name for people.
+    pub(super) name: String,
+    /// What it is, such as `folder` or `scene`.
+    kind: &'static str,
+}
+
+/// What a folder is called in the list.
+const FOLDER: &str = "folder";
+
+impl Item {
+    /// Whether it is a folder to go into.
+    pub(super) fn is_folder(&self) -> bool {
+        self.kind == FOLDER
+    }
+
+    /// Its line.
+    pub(super) fn show(&self, ui: &mut Ui, chosen: bool) -> Response {
+        let kind = RichText::new(self.kind).small().atom_shrink(true);
+        let name = if self.is_folder() {
+            format!("{}/", self.name)
+        } else {
+            self.name.clone()
+        };
+        let button = Button::selectable(chosen, name).right_text(kind).truncate();
+        ui.add_sized([ui.available_width(), ENTRY], button)
+            .accessible_name(&self.name)
+    }
+}
+
+impl Chooser {
+    /// Lists the folder where it was left, at first that of the scene that is shown.
+    pub(super) fn begin(&mut self, viewer: &Viewer) {
+        if self.folder.as_os_str().is_empty() {
+            let of_scene = match viewer.current().map(|entry| &entry.source) {
+                Some(SceneSource::File(path)) => path.parent().map(Path::to_owned),
+                _ => None,
+            };
+            self.folder = of_scene
+                .and_then(|folder| fs::canonicalize(folder).ok())
+                .or_else(|| std::env::current_dir().ok())
+                .or_else(std::env::home_dir)
+                .unwrap_or_else(|| PathBuf::from("."));
+        }
+        self.list();
+    }
+
+    /// Lists another folder.
+    pub(super) fn go_to(&mut self, folder: &Path) {
+        self.folder = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+        self.list();
+    }
+
+    /// The folder that is listed.
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Why it cannot be listed.
+    pub(super) fn problem(&self) -> Option<&str> {
+        self.problem.as_deref()
+    }
+
+    /// The items whose names hold this text.
+    pub(super) fn shown(&self, text: &str) -> Vec<Item> {
+        let wanted = text.trim().to_lowercase();
+        let fits = |item: &&Item| item.name.to_lowercase().contains(&wanted);
+        self.items.iter().filter(fits).cloned().collect()
+    }
+
+    fn list(&mut self) {
+        match items(&self.folder) {
+            Ok(items) => (self.items, self.problem) = (items, None),
+            Err(error) => {
+                self.items.clear();
+                self.problem = Some(format!("cannot list this folder: {error}; go to another"));
+            }
+        }
+    }
+}
+
+/// What can be opened of a folder, folders first, by name; what is hidden is left out.
+fn items(folder: &Path) -> io::Result<Vec<Item>> {
+    let mut items = Vec::new();
+    for found in fs::read_dir(folder)?.take(MOST) {
+        let path = found?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let kind = if path.is_dir() {
+            Some(FOLDER)
+        } else {
+            Viewer::kind_of_file(&path)
+        };
+        if let Some(kind) = kind.filter(|_| !name.starts_with('.')) {
+            items.push(Item {
+                path,
+                name: crate::plain::into_line(name),
+                kind,
+            });
+        }
+    }
+    items.sort_by(|a, b| (b.is_folder().cmp(&a.is_folder())).then_with(|| natural_order(&a.name, &b.name)));
+    Ok(items)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_come_first_and_only_what_opens_is_listed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::create_dir(folder.path().join("zoo")).expect("a folder");
+        fs::create_dir(folder.path().join(".hidden")).expect("a folder");
+        for name in ["b10.svg", "b9.SVG", "c.png", "l.toml", "notes.txt", ".x.svg"] {
+            fs::write(folder.path().join(name), "").expect("a file");
+        }
+        let items = items(folder.path()).expect("listed");
+        let lines: Vec<(&str, &str)> = items.iter().map(|item| (item.name.as_str(), item.kind)).collect();
+        let expected = [
+            ("zoo", FOLDER),
+            ("b9.SVG", "scene"),
+            ("b10.svg", "scene"),
+            ("c.png", "picture"),
+            ("l.toml", "lesson"),
+        ];
+        assert_eq!(lines, expected, "in their order");
+    }
+
+    #[test]
+    fn folder_that_cannot_be_listed_is_told() {
+        let mut chooser = Chooser::default();
+        chooser.go_to(Path::new("/no such folder"));
+        assert!(
+            chooser.problem().is_some() && chooser.shown("").is_empty(),
+            "{chooser:?}"
+        );
+    }
+}

@@ -1,0 +1,151 @@
+//! The menu: every command of the table under its heading, with its keys, for hands that know none of them.
+//!
+//! Settings stand as lists of their values, and below these what steps through them. A command that needs an argument asks
+//! for it in the palette.
+
+use egui::{Button, ScrollArea, Ui};
+
+use super::look;
+use crate::plain;
+use crate::viewer::{
+    Action, Argument, Command, CommandSpec, Group, PictureSetting, SceneCommand, Viewer, WindowCommand, commands,
+};
+
+/// Least width of a list, in points, so that names and keys stay apart.
+const WIDTH: f32 = 150.0;
+/// Points of the window's height that a list leaves free.
+const FREE: f32 = 40.0;
+/// The commands that stand below the headings, too: what a newcomer looks for.
+const FIRST_HELP: [&str; 2] = ["help", "palette"];
+
+/// The button. Returns the command whose argument is to be asked for.
+pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) -> Option<&'static CommandSpec> {
+    let mut asks = None;
+    let button = ui.menu_button("Menu", |ui| {
+        ui.set_min_width(WIDTH);
+        for group in Group::ALL {
+            ui.menu_button(group.name(), |ui| {
+                asks = list(ui, |ui| of_group(ui, viewer, group, commands)).or(asks.take());
+            });
+        }
+        ui.separator();
+        for spec in FIRST_HELP.into_iter().filter_map(commands::find) {
+            entry(ui, spec, commands);
+        }
+    });
+    button.response.accessible_name("Menu");
+    asks
+}
+
+/// What may be longer than the window is high.
+fn list<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    ui.set_min_width(WIDTH);
+    look::bars_beside(ui);
+    let height = ui.ctx().content_rect().height() - FREE;
+    let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
+    area.show(ui, contents).inner
+}
+
+/// The lines under a heading. Returns the command whose argument is to be asked for.
+fn of_group(ui: &mut Ui, viewer: &Viewer, group: Group, commands: &mut Vec<Command>) -> Option<&'static CommandSpec> {
+    let mut asks = None;
+    let specs: Vec<&'static CommandSpec> = commands::all().iter().filter(|spec| spec.group == group).collect();
+    for lines in specs.chunk_by(|a, b| setting_of(a).is_some() && setting_of(a) == setting_of(b)) {
+        let setting = lines.first().copied().and_then(setting_of);
+        let mut lines_of = |ui: &mut Ui| {
+            for spec in lines {
+                if entry(ui, spec, commands) {
+                    asks = Some(*spec);
+                }
+                if spec.id == "open" {
+                    recent(ui, viewer, commands);
+                }
+            }
+        };
+        let Some(setting) = setting else {
+            lines_of(ui);
+            continue;
+        };
+        let mut chosen = None;
+        ui.menu_button(capitalized(setting.label), |ui| {
+            list(ui, |ui| {
+                chosen = values(ui, viewer, setting);
+                lines_of(ui);
+            });
+        });
+        commands.extend(chosen);
+    }
+    asks
+}
+
+/// What was opened before, if anything was.
+fn recent(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    if viewer.opened().is_empty() {
+        return;
+    }
+    ui.menu_button("Open again", |ui| {
+        list(ui, |ui| {
+            for path in viewer.opened() {
+                let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+                let button = ui.button(plain::line(&name));
+                if button.on_hover_text(plain::line(&path.display().to_string())).clicked() {
+                    ui.close();
+                    commands.push(Command::Scenes(SceneCommand::Open(vec![path.clone()])));
+                }
+            }
+        });
+    });
+}
+
+/// The setting that a command is about.
+fn setting_of(spec: &CommandSpec) -> Option<&'static PictureSetting> {
+    match (spec.action, spec.argument) {
+        (Action::Step(setting, _), _) | (_, Some(Argument::Value(setting))) => Some(setting),
+        _ => None,
+    }
+}
+
+/// The values that can be listed; what was chosen.
+fn values(ui: &mut Ui, viewer: &Viewer, setting: &'static PictureSetting) -> Option<Command> {
+    let now = setting.value(viewer.settings());
+    let mut chosen = None;
+    let offered = setting.offered(viewer.settings());
+    for value in &offered {
+        let response = ui.selectable_label(*value == now, value);
+        let response = response.accessible_name(format!("{}: {value}", setting.label));
+        if response.clicked() {
+            chosen = setting.to(value).ok().map(Command::Set);
+            ui.close();
+        }
+    }
+    if !offered.is_empty() {
+        ui.separator();
+    }
+    chosen
+}
+
+/// A command with its keys. True if it was chosen and needs an argument first; commands that only keys or scripts can give
+/// have no line.
+fn entry(ui: &mut Ui, spec: &'static CommandSpec, commands: &mut Vec<Command>) -> bool {
+    let command = spec.command();
+    if command == Some(Command::Window(WindowCommand::Escape)) || (command.is_none() && spec.argument.is_none()) {
+        return false;
+    }
+    let dots = if command.is_none() { " \u{2026}" } else { "" };
+    let button = Button::new(format!("{}{dots}", spec.name)).shortcut_text(spec.keys_text());
+    let response = ui.add(button).on_hover_text(spec.help).accessible_name(spec.name);
+    if !response.clicked() {
+        return false;
+    }
+    ui.close();
+    let asks = command.is_none();
+    commands.extend(command);
+    asks
+}
+
+/// With a capital at the start, as names in menus have it.
+pub(super) fn capitalized(label: &str) -> String {
+    let mut letters = label.chars();
+    let first = letters.next().map(|letter| letter.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}

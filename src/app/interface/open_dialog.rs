@@ -1,0 +1,140 @@
+//! The dialog that opens files: a list of a folder, a line to type into, and buttons to other folders.
+
+use std::path::Path;
+
+use egui::{Align, Button, Context, Label, Layout, RichText, Ui, vec2};
+
+use super::dialogs::{Dialogs, arrows, list_of, step};
+use super::look::CONTROL;
+use super::modal::modal;
+use super::palette::{BETWEEN_ENTRIES, ENTRY};
+use crate::viewer::{Command, SceneCommand, WindowCommand, commands};
+
+/// Height of what the dialog has besides its list, in points.
+const REST: f32 = 130.0;
+/// Its width at most, in points.
+const WIDTH: f32 = 480.0;
+
+impl Dialogs {
+    /// Chooses a file to open: by the mouse, by the arrows, or by typing what its name holds or its whole path.
+    pub(super) fn choose(&mut self, ctx: &Context, just_opened: bool, commands: &mut Vec<Command>) {
+        let (up, down) = arrows(ctx);
+        let screen = ctx.content_rect();
+        let modal = modal("open").show(ctx, |ui| {
+            ui.set_width((screen.width() - 60.0).min(WIDTH));
+            ui.heading("Open");
+            let folder = self.chooser.folder().to_owned();
+            ui.add(Label::new(RichText::new(folder.display().to_string()).weak().small()).truncate());
+            let hint = "part of a name, or a path";
+            let enter = self.line(ui, "File", hint, just_opened);
+            self.problem_line(ui);
+            let found = self.chooser.shown(if is_path(&self.text) { "" } else { &self.text });
+            self.chosen = step(self.chosen, (up, down), found.len());
+            let mut taken = found
+                .get(self.chosen)
+                .filter(|_| enter && !is_path(&self.text))
+                .map(|item| item.path.clone());
+            ui.scope(|ui| {
+                let row = ENTRY + BETWEEN_ENTRIES;
+                let height = ((screen.height() * 0.8 - REST) / row).floor().max(1.0) * row - BETWEEN_ENTRIES;
+                list_of(ui, &found, (self.chosen, up || down, height), |ui, item, chosen| {
+                    item.show(ui, chosen)
+                })
+                .inspect(|index| taken = found.get(*index).map(|item| item.path.clone()));
+                if let Some(problem) = self.chooser.problem() {
+                    ui.label(RichText::new(problem).color(ui.visuals().warn_fg_color));
+                } else if found.is_empty() {
+                    ui.label(RichText::new("nothing here that can be opened").weak());
+                }
+            });
+            ui.add_space(4.0);
+            let pressed = foot(ui, folder.parent().is_some());
+            match (pressed, taken) {
+                (Some(Foot::Cancel), _) => return true,
+                (Some(Foot::Up), _) => self.enter(folder.parent()),
+                (Some(Foot::Home), _) => self.enter(std::env::home_dir().as_deref()),
+                (Some(Foot::Folder), _) => open(&folder, commands),
+                (None, Some(path)) if path.is_dir() => self.enter(Some(&path)),
+                (None, Some(path)) => open(&path, commands),
+                (None, None) if enter && is_path(&self.text) => self.go(&self.text.clone(), commands),
+                (None, None) => {}
+            }
+            false
+        });
+        if modal.inner || modal.backdrop_response.clicked() {
+            commands.push(Command::Window(WindowCommand::CloseDialog));
+        }
+    }
+
+    /// Lists another folder.
+    fn enter(&mut self, folder: Option<&Path>) {
+        if let Some(folder) = folder {
+            self.chooser.go_to(folder);
+            (self.text, self.chosen, self.problem) = (String::new(), 0, None);
+        }
+    }
+
+    /// Opens the file of a typed path, or lists its folder.
+    fn go(&mut self, text: &str, commands: &mut Vec<Command>) {
+        let argument = commands::find("open").and_then(|spec| spec.argument);
+        let Some(Ok(Command::Scenes(SceneCommand::Open(paths)))) = argument.map(|argument| argument.parse(text)) else {
+            return;
+        };
+        let Some(path) = paths.first() else { return };
+        let path = self.chooser.folder().join(path);
+        if path.is_dir() {
+            self.enter(Some(&path));
+        } else if path.exists() {
+            open(&path, commands);
+        } else {
+            self.problem = Some("no such file; choose one below, or mend the path".to_owned());
+        }
+    }
+}
+
+/// Opens a file, or every scene in a folder.
+fn open(path: &Path, commands: &mut Vec<Command>) {
+    let open = Command::Scenes(SceneCommand::Open(vec![path.to_owned()]));
+    commands.extend([Command::Window(WindowCommand::CloseDialog), open]);
+}
+
+/// Whether a text is meant to be a path, and not a part of a name.
+fn is_path(text: &str) -> bool {
+    text.starts_with('~') || text.contains(std::path::is_separator)
+}
+
+/// The buttons below the list of files.
+#[derive(Clone, Copy, Debug)]
+enum Foot {
+    Up,
+    Home,
+    Folder,
+    Cancel,
+}
+
+/// Those buttons; which was pressed.
+fn foot(ui: &mut Ui, has_parent: bool) -> Option<Foot> {
+    let mut pressed = None;
+    ui.horizontal(|ui| {
+        for (foot, text, tip) in [
+            (Foot::Up, "Up", "The folder that this one is in"),
+            (Foot::Home, "Home", "Your own folder"),
+        ] {
+            let enabled = has_parent || matches!(foot, Foot::Home);
+            let button = ui.add_enabled(enabled, Button::new(text).min_size(vec2(44.0, CONTROL.y)));
+            if button.on_hover_text(tip).clicked() {
+                pressed = Some(foot);
+            }
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let folder = ui.add(Button::new("Open this folder").min_size(CONTROL));
+            if folder.on_hover_text("Opens every scene in it").clicked() {
+                pressed = Some(Foot::Folder);
+            }
+            if ui.add(Button::new("Cancel").min_size(vec2(64.0, CONTROL.y))).clicked() {
+                pressed = Some(Foot::Cancel);
+            }
+        });
+    });
+    pressed
+}

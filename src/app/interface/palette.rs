@@ -1,0 +1,198 @@
+//! What the command palette finds: commands, values of settings, and scenes.
+
+use egui::{AtomExt as _, Button, Response, RichText, Ui};
+
+use super::look::CONTROL;
+use super::menu::capitalized;
+use crate::viewer::{Command, CommandSpec, PictureSetting, SceneCommand, Viewer, commands, picture};
+
+/// Height of an entry, and of the gap below it, in points.
+pub(super) const ENTRY: f32 = CONTROL.y + 2.0;
+pub(super) const BETWEEN_ENTRIES: f32 = 1.0;
+/// Below this many letters only commands are found: nearly everything has them in its name.
+const LEAST_LETTERS: usize = 2;
+
+/// A line of the palette.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Entry {
+    /// What stands on the left.
+    pub(super) name: String,
+    /// Its keys, the form of its argument, or of what kind it is.
+    note: String,
+    /// What it does.
+    pub(super) does: Does,
+}
+
+/// What choosing a line does.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Does {
+    /// A command of the table, perhaps with an argument still to be typed.
+    Command(&'static CommandSpec),
+    /// This at once.
+    Run(Command),
+}
+
+impl PartialEq for CommandSpec {
+    /// No two of the table have the same word.
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id
+    }
+}
+
+impl Entry {
+    fn of_command(spec: &'static CommandSpec) -> Self {
+        let note = match spec.argument {
+            Some(argument) if spec.keys.is_empty() => argument.usage().into_owned(),
+            _ => spec.keys_text(),
+        };
+        Self {
+            name: spec.name.to_owned(),
+            note,
+            does: Does::Command(spec),
+        }
+    }
+
+    /// The line itself.
+    pub(super) fn show(&self, ui: &mut Ui, chosen: bool) -> Response {
+        // Where both do not fit, the end of what may follow gives way; the name is always whole.
+        let note = RichText::new(&self.note).small().atom_shrink(true);
+        let button = Button::selectable(chosen, &self.name).right_text(note).truncate();
+        ui.add_sized([ui.available_width(), ENTRY], button)
+            .accessible_name(&self.name)
+    }
+}
+
+/// What the typed text may mean, best first, and what follows a command's word.
+pub(super) fn find(text: &str, viewer: &Viewer) -> (String, Vec<Entry>) {
+    let text = text.trim_start();
+    if let Some((word, argument)) = text.split_once(char::is_whitespace)
+        && let Some(spec) = commands::find(word)
+        && spec.argument.is_some()
+    {
+        return (argument.to_owned(), vec![Entry::of_command(spec)]);
+    }
+    let wanted = text.trim_end().to_lowercase();
+    let mut found: Vec<(usize, Entry)> = commands::all()
+        .iter()
+        .filter_map(|spec| Some((rank(spec, &wanted)?, Entry::of_command(spec))))
+        .collect();
+    if wanted.chars().count() >= LEAST_LETTERS {
+        let others = picture::all()
+            .iter()
+            .flat_map(|setting| values(setting, viewer))
+            .chain(scenes(viewer));
+        found.extend(others.filter_map(|entry| Some((rank_of_name(&entry.name, &wanted)?, entry))));
+    }
+    found.sort_by_key(|(rank, _)| *rank);
+    (String::new(), found.into_iter().map(|(_, entry)| entry).collect())
+}
+
+/// The values of a setting that can be listed.
+fn values(setting: &'static PictureSetting, viewer: &Viewer) -> impl Iterator<Item = Entry> {
+    let now = setting.value(viewer.settings());
+    let offered = setting.offered(viewer.settings());
+    offered.into_iter().filter_map(move |value| {
+        let change = setting.to(&value).ok()?;
+        Some(Entry {
+            name: format!("{}: {value}", capitalized(setting.label)),
+            note: if value == now { "set" } else { "setting" }.to_owned(),
+            does: Does::Run(Command::Set(change)),
+        })
+    })
+}
+
+fn scenes(viewer: &Viewer) -> impl Iterator<Item = Entry> {
+    let shown = viewer.current_index();
+    let scenes = viewer.scenes().iter().enumerate();
+    scenes.map(move |(index, entry)| Entry {
+        name: format!("Scene {}", entry.label),
+        note: if index == shown { "shown" } else { "scene" }.to_owned(),
+        does: Does::Run(Command::Scenes(SceneCommand::Show(index))),
+    })
+}
+
+/// How well a command fits what was typed: the lower the better, `None` not at all.
+fn rank(spec: &CommandSpec, wanted: &str) -> Option<usize> {
+    let name = spec.name.to_lowercase();
+    if name.starts_with(wanted) || spec.id.starts_with(wanted) {
+        return Some(0);
+    }
+    if name.contains(wanted) || spec.id.contains(wanted) {
+        return Some(1);
+    }
+    if spec.help.to_lowercase().contains(wanted) {
+        return Some(3);
+    }
+    // The letters in their order, with others between them.
+    let mut letters = name.chars();
+    wanted
+        .chars()
+        .all(|letter| letters.any(|other| other == letter))
+        .then_some(4)
+}
+
+/// How well a name fits what was typed: all its words are there, best where the name has them as they were typed.
+fn rank_of_name(name: &str, wanted: &str) -> Option<usize> {
+    let name = name.to_lowercase();
+    if name.contains(wanted) {
+        return Some(1);
+    }
+    wanted.split_whitespace().all(|word| name.contains(word)).then_some(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::Context;
+
+    use super::*;
+    use crate::viewer::ViewerOptions;
+
+    #[test]
+    fn palette_breaks_no_name() {
+        let ctx = Context::default();
+        for width in [480.0, 320.0] {
+            for spec in commands::all() {
+                let mut output = ctx.run_ui(egui::RawInput::default(), |ui| {
+                    ui.set_width(width);
+                    Entry::of_command(spec).show(ui, false);
+                });
+                let named = output.shapes.iter().any(|clipped| match &clipped.shape {
+                    egui::Shape::Text(text) => {
+                        text.galley.text() == spec.name && text.galley.rows.len() == 1 && !text.galley.elided
+                    }
+                    _ => false,
+                });
+                output.textures_delta.clear();
+                assert!(named, "{} in one line of {width} points", spec.name);
+            }
+        }
+    }
+
+    #[test]
+    fn palette_finds_more_than_commands() {
+        let viewer = Viewer::new(ViewerOptions::default()).expect("threads");
+        let names = |text: &str| -> Vec<String> {
+            let (_, found) = find(text, &viewer);
+            found.into_iter().map(|entry| entry.name).collect()
+        };
+        for (text, first) in [
+            ("seam", "Scene study/05_seams.svg"),
+            ("bilinear", "Pixel sampling: bilinear"),
+            ("halton", "Pattern: halton"),
+            ("six tasks", "Lesson: six tasks"),
+            ("checker fan", "Scene study/08_checker_fan.svg"),
+        ] {
+            let found = names(text);
+            assert_eq!(found.first().map(String::as_str), Some(first), "{text}: {found:?}");
+        }
+        let all = names("");
+        assert_eq!(all.len(), commands::all().len(), "untyped, the commands only");
+        let (argument, found) = find("rate 16", &viewer);
+        assert_eq!(
+            (argument.as_str(), found.len()),
+            ("16", 1),
+            "a command with its argument"
+        );
+        assert!(names("no such thing at all").is_empty(), "nothing");
+    }
+}

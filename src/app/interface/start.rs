@@ -1,0 +1,137 @@
+//! The first minute: what the program is for in one sentence, and four ways on. A card over the first scene has them, and
+//! the help.
+
+use egui::{Align, Align2, Area, Button, Frame, Id, Layout, Margin, Order, Rect, RichText, Ui, vec2};
+
+use crate::viewer::{
+    Command, Dialog, InspectorCommand, LessonCommand, LessonSource, SceneCommand, SceneSource, Viewer,
+};
+use crate::viewer::{WindowCommand, gallery};
+
+/// What the program is for.
+const PURPOSE: &str = "See how a picture is sampled: put any pixel under a microscope and learn why it has its colour.";
+/// Widest card, in points, its margin included.
+const WIDTH: f32 = 372.0;
+/// Free space inside, in points.
+const MARGIN: i8 = 16;
+/// Height of a way, in points.
+const HEIGHT: f32 = 40.0;
+/// The scene that shows what too few samples do.
+const STUDY: &str = "study/01_zone_plate.svg";
+
+/// A way on: its name, what to expect, and what it does.
+struct Way {
+    name: &'static str,
+    words: &'static str,
+    does: Command,
+}
+
+/// The card, while it is to be seen.
+pub(super) fn card(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) {
+    if !viewer.start_card() || viewer.dialog().is_some() {
+        return;
+    }
+    let width = WIDTH.min(free.width() - 16.0);
+    let way = Area::new(Id::unique("start card"))
+        .order(Order::Middle)
+        .fixed_pos(free.center())
+        .pivot(Align2::CENTER_CENTER)
+        .constrain_to(free)
+        .fade_in(false)
+        .show(ui.ctx(), |ui| {
+            let frame = Frame::popup(ui.style()).inner_margin(Margin::same(MARGIN));
+            frame
+                .show(ui, |ui| {
+                    ui.set_width(width - 2.0 * f32::from(MARGIN));
+                    ui.label(RichText::new("Rasterscope").heading().strong());
+                    ui.add_space(2.0);
+                    ui.label(PURPOSE);
+                    ui.add_space(8.0);
+                    let way = ways(ui, viewer, 1);
+                    ui.add_space(6.0);
+                    ui.label(
+                        RichText::new("Any key or click closes this card; ? brings the ways back.")
+                            .weak()
+                            .small(),
+                    );
+                    way
+                })
+                .inner
+        })
+        .inner;
+    commands.extend(way);
+}
+
+/// The ways side by side in so many columns; which was taken.
+pub(super) fn ways(ui: &mut Ui, viewer: &Viewer, columns: usize) -> Option<Command> {
+    let mut taken = None;
+    let gap = ui.spacing().item_spacing.x;
+    let width = ((ui.available_width() - gap * (columns - 1) as f32) / columns as f32).floor();
+    let ways = ways_of(viewer);
+    for row in ways.chunks(columns) {
+        ui.horizontal(|ui| {
+            for way in row {
+                if button(ui, way, width) {
+                    taken = Some(way.does.clone());
+                }
+            }
+        });
+    }
+    taken
+}
+
+/// One way, with what to expect below its name. True when it was pressed.
+fn button(ui: &mut Ui, way: &Way, width: f32) -> bool {
+    let size = vec2(width, HEIGHT);
+    let button = ui.add(Button::new("").min_size(size)).accessible_name(way.name);
+    let room = button.rect.shrink2(vec2(10.0, 3.0));
+    let mut inside = ui.new_child(
+        egui::UiBuilder::new()
+            .max_rect(room)
+            .layout(Layout::top_down(Align::Min)),
+    );
+    inside.spacing_mut().item_spacing.y = 1.0;
+    inside.add(
+        egui::Label::new(RichText::new(way.name).strong())
+            .truncate()
+            .sense(egui::Sense::empty()),
+    );
+    inside.add(
+        egui::Label::new(RichText::new(way.words).weak().small())
+            .truncate()
+            .sense(egui::Sense::empty()),
+    );
+    button.clicked()
+}
+
+/// The ways that are open: the study is one of the gallery.
+fn ways_of(viewer: &Viewer) -> Vec<Way> {
+    let lesson = LessonCommand::Open(LessonSource::BuiltIn(0));
+    let mut ways = vec![Way {
+        name: "Follow a lesson",
+        words: "six tasks of a rasterizer, from edges to filters",
+        does: Command::Lesson(lesson),
+    }];
+    ways.push(Way {
+        name: "Open your file",
+        words: "an SVG or a folder of them; or drop it on the window",
+        does: Command::Window(WindowCommand::ToggleDialog(Dialog::Open)),
+    });
+    let is_study = |source: &SceneSource| match source {
+        SceneSource::Gallery(index) => gallery::SCENES.get(*index).is_some_and(|scene| scene.name == STUDY),
+        SceneSource::File(_) => false,
+    };
+    if let Some(index) = viewer.scenes().iter().position(|entry| is_study(&entry.source)) {
+        ways.push(Way {
+            name: "Look at a study of aliasing",
+            words: "rings finer than the pixels, and what becomes of them",
+            does: Command::Scenes(SceneCommand::Show(index)),
+        });
+    }
+    ways.push(Way {
+        name: "Explain a pixel",
+        words: "one at an edge; a right click explains any other",
+        does: Command::Inspector(InspectorCommand::PinEdge),
+    });
+    ways
+}

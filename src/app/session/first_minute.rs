@@ -1,0 +1,225 @@
+//! The first minute by mouse and keys: the card with the ways on, files to open, and letters large enough to read.
+
+use glam::dvec2;
+
+use super::hands::{click, key, place_of, session};
+use super::small_windows::{click_on, says};
+use super::*;
+use crate::viewer::script::Stage as _;
+use crate::viewer::{Dialog, Toggle, ViewCommand};
+
+const WINDOWS: [[u32; 2]; 4] = [[480, 360], [800, 600], [1280, 800], [1920, 1080]];
+const WAYS: [&str; 4] = [
+    "Follow a lesson",
+    "Open your file",
+    "Look at a study of aliasing",
+    "Explain a pixel",
+];
+
+/// What a hand does, in words and deed.
+type Act = (&'static str, fn(&mut Session));
+
+/// A session that shows the card.
+fn greeted(window: [u32; 2]) -> Session {
+    let mut session = session(Vec::new(), window);
+    session.command(Command::Window(WindowCommand::StartCard(Toggle::On)));
+    session.settle();
+    session
+}
+
+#[test]
+fn start_card_leads_on() {
+    for window in WINDOWS {
+        for way in WAYS {
+            let mut session = greeted(window);
+            let at = place_of(&mut session, way);
+            let [width, height] = window.map(f64::from);
+            assert!(
+                at.x > 0.0 && at.x < width && at.y < height,
+                "{way} at {at} of {window:?}"
+            );
+            click(&mut session, at);
+            session.settle();
+            let viewer = session.viewer();
+            assert!(!viewer.start_card(), "{way} closes the card");
+            let done = match way {
+                "Follow a lesson" => viewer.lesson().is_some(),
+                "Open your file" => viewer.dialog() == Some(Dialog::Open),
+                "Explain a pixel" => viewer.pinned_pixel().is_some() && viewer.explains(),
+                _ => viewer.current().is_some_and(|entry| entry.label.contains("zone_plate")),
+            };
+            assert!(done, "{way} in {window:?}");
+        }
+    }
+}
+
+#[test]
+fn explained_pixel_lies_on_an_edge() {
+    for window in WINDOWS {
+        let mut session = greeted(window);
+        click_on(&mut session, "Explain a pixel");
+        let viewer = session.viewer();
+        let [x, y] = viewer.pinned_pixel().expect("a pin");
+        let frame = viewer.frame().expect("a frame");
+        let differs = |u, v| frame.final_rgba(x, y) != frame.final_rgba(u, v);
+        assert!(differs(x + 1, y) || differs(x, y + 1), "{x}, {y} of {window:?}");
+    }
+}
+
+#[test]
+fn start_card_goes_with_the_first_key_or_click() {
+    let acts: [Act; 4] = [
+        ("a key", |session| key(session, "2")),
+        ("Esc", |session| key(session, "Escape")),
+        ("a click on the picture", |session| click(session, dvec2(20.0, 300.0))),
+        ("the wheel", |session| {
+            session.pointer(Some(dvec2(20.0, 300.0)));
+            session.wheel(1.0);
+        }),
+    ];
+    for (what, act) in acts {
+        let mut session = greeted([800, 600]);
+        session.pointer(Some(dvec2(20.0, 300.0)));
+        session.resize([810, 600]);
+        assert!(
+            session.viewer().start_card(),
+            "the pointer and the window's size leave it"
+        );
+        act(&mut session);
+        session.settle();
+        assert!(!session.viewer().start_card(), "{what} closes it");
+        assert!(session.viewer().messages().is_empty(), "{what} asks nothing");
+    }
+    let mut session = greeted([800, 600]);
+    key(&mut session, "F1");
+    session.settle();
+    for way in WAYS {
+        assert!(
+            says(&mut session, way) || place_of(&mut session, way).x > 0.0,
+            "the help has {way}"
+        );
+    }
+    click_on(&mut session, "Explain a pixel");
+    assert_eq!(session.viewer().dialog(), None, "the help closes");
+    assert!(session.viewer().pinned_pixel().is_some(), "and its way is taken");
+}
+
+#[test]
+fn interface_scale_leaves_the_picture() {
+    let mut session = session(Vec::new(), [1600, 1200]);
+    session.command(Command::Inspector(InspectorCommand::Show(Toggle::Off)));
+    session.command(Command::View(ViewCommand::Fit));
+    session.settle();
+    let menu = place_of(&mut session, "Menu");
+    let numbers = session.viewer().view_numbers();
+    for _ in 0..3 {
+        key(&mut session, "Ctrl+=");
+    }
+    session.settle();
+    assert_eq!(session.viewer().interface_scale().percent(), 150, "three steps");
+    assert!((session.ctx().pixels_per_point() - 1.5).abs() < 1e-6, "egui follows");
+    assert_eq!(session.viewer().view_numbers(), numbers, "the picture stays");
+    let points = place_of(&mut session, "Menu");
+    let larger = 1200.0 - points.y * 1.5;
+    let before = 1200.0 - menu.y;
+    assert!(
+        (larger / before - 1.5).abs() < 0.1,
+        "the line at the foot: {before} to {larger} pixels"
+    );
+    // The pointer still finds what is drawn.
+    click(&mut session, points * 1.5);
+    session.settle();
+    assert!(session.interface.list_is_open(), "a click opens the menu");
+    key(&mut session, "Escape");
+    key(&mut session, "Ctrl+-");
+    assert_eq!(session.viewer().interface_scale().percent(), 125, "one back");
+    session.command(Command::Window(WindowCommand::SetInterfaceScale(
+        crate::viewer::InterfaceScale::from_percent(300),
+    )));
+    session.resize([800, 600]);
+    session.settle();
+    let scale = session.ctx().pixels_per_point();
+    assert!((scale - 2.5).abs() < 1e-6, "{scale}: 320 points at least");
+}
+
+/// A folder with scenes, one of them in a folder inside.
+fn folder_of_scenes() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir(folder.path().join("inside")).expect("a folder");
+    for name in ["one.svg", "two.svg", "inside/three.svg"] {
+        let document =
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100"><rect width="50" height="50"/></svg>"#;
+        std::fs::write(folder.path().join(name), document).expect("a file");
+    }
+    std::fs::write(folder.path().join("notes.txt"), "no scene").expect("a file");
+    folder
+}
+
+/// The label of the scene that is shown.
+fn shown(session: &Session) -> String {
+    session
+        .viewer()
+        .current()
+        .map_or(String::new(), |entry| entry.label.clone())
+}
+
+#[test]
+fn files_are_opened_by_mouse() {
+    for window in WINDOWS {
+        let folder = folder_of_scenes();
+        let mut session = session(vec![folder.path().join("one.svg")], window);
+        key(&mut session, "Ctrl+O");
+        session.settle();
+        assert!(
+            says(&mut session, "one.svg") || place_of(&mut session, "one.svg").x > 0.0,
+            "beside the scene"
+        );
+        click_on(&mut session, "inside");
+        assert_eq!(session.viewer().dialog(), Some(Dialog::Open), "a folder is gone into");
+        click_on(&mut session, "Up");
+        click_on(&mut session, "two.svg");
+        assert_eq!(session.viewer().dialog(), None, "a file closes the dialog");
+        assert_eq!(shown(&session), "two.svg", "and is shown, in {window:?}");
+        key(&mut session, "Ctrl+O");
+        click_on(&mut session, "inside");
+        click_on(&mut session, "Open this folder");
+        assert_eq!(shown(&session), "three.svg", "all of a folder");
+        key(&mut session, "Ctrl+O");
+        click_on(&mut session, "Cancel");
+        assert_eq!(session.viewer().dialog(), None, "or nothing");
+    }
+}
+
+#[test]
+fn files_are_opened_by_keys() {
+    let folder = folder_of_scenes();
+    let mut session = session(vec![folder.path().join("one.svg")], [800, 600]);
+    let type_and_enter = |session: &mut Session, text: &str| {
+        key(session, "Ctrl+A");
+        session.type_text(text);
+        session.settle();
+        key(session, "Enter");
+        session.settle();
+    };
+    key(&mut session, "Ctrl+O");
+    session.settle();
+    type_and_enter(&mut session, "tw");
+    assert_eq!(shown(&session), "two.svg", "part of a name");
+    key(&mut session, "Ctrl+O");
+    session.settle();
+    type_and_enter(&mut session, "no such/file.svg");
+    assert!(says(&mut session, "no such file"), "a wrong path");
+    type_and_enter(&mut session, "insi");
+    assert_eq!(session.viewer().dialog(), Some(Dialog::Open), "a folder");
+    key(&mut session, "Enter");
+    session.settle();
+    assert_eq!(shown(&session), "three.svg", "the first of it");
+    key(&mut session, "Ctrl+O");
+    session.settle();
+    let path = folder.path().join("one.svg");
+    type_and_enter(&mut session, &path.display().to_string());
+    assert_eq!(shown(&session), "one.svg", "a whole path");
+    key(&mut session, "Ctrl+O");
+    key(&mut session, "Escape");
+    assert_eq!(session.viewer().dialog(), None, "Esc closes it");
+}

@@ -1,0 +1,140 @@
+//! The menu by mouse: every command is in it, lists stay in the window, and a click beside them presses nothing else.
+
+use crate::viewer::{Action, CommandSpec, Group, InspectorCommand, ViewCommand, WindowCommand, commands};
+use egui::accesskit::Node;
+use glam::{DVec2, dvec2};
+
+use super::hands::{click, key, nodes, place_of, session};
+use super::small_windows::{click_on, says};
+use super::*;
+use crate::viewer::script::Stage as _;
+use crate::viewer::{Dialog, Toggle, picture};
+
+/// The names of everything that can be pressed.
+fn names(session: &mut Session) -> Vec<String> {
+    let nodes = nodes(session);
+    nodes.iter().filter_map(Node::label).map(str::to_owned).collect()
+}
+
+/// Opens the menu and the lists below each other with these names.
+fn open(session: &mut Session, lists: &[&str]) {
+    click_on(session, "Menu");
+    for name in lists {
+        click_on(session, name);
+    }
+}
+
+#[test]
+fn menu_has_every_command_in_every_window() {
+    for window in [[480, 360], [800, 600], [1280, 800]] {
+        let mut session = session(Vec::new(), window);
+        for group in Group::ALL {
+            open(&mut session, &[group.name()]);
+            let [width, height] = window.map(f64::from);
+            let mut seen = names(&mut session);
+            let lists: Vec<String> = picture::all()
+                .iter()
+                .map(|setting| capital(setting.label))
+                .filter(|name| seen.contains(name))
+                .collect();
+            for name in &lists {
+                if window[1] >= 600 {
+                    let at = place_of(&mut session, name);
+                    assert!(at.x < width && at.y < height, "{name} at {at} of {window:?}");
+                    click_on(&mut session, name);
+                    seen.extend(names(&mut session));
+                }
+            }
+            for _ in 0..3 {
+                if session.interface.list_is_open() {
+                    key(&mut session, "Escape");
+                    session.settle();
+                }
+            }
+            assert!(!session.interface.list_is_open(), "Esc closes all lists of {group:?}");
+            let missing = commands::all()
+                .iter()
+                .filter(|spec| spec.group == group)
+                .filter(|spec| {
+                    let is_setting = matches!(spec.action, Action::Step(..)) || spec.argument.is_some();
+                    let is_given = spec.command().is_some() || spec.argument.is_some();
+                    let is_shown = window[1] >= 600 || !is_setting;
+                    is_given && is_shown && spec.id != "escape" && !seen.iter().any(|name| name == spec.name)
+                });
+            let missing: Vec<&str> = missing.map(|spec: &CommandSpec| spec.name).collect();
+            assert_eq!(missing, [""; 0], "{group:?} in {window:?}");
+        }
+    }
+}
+
+/// As menus write it.
+fn capital(label: &str) -> String {
+    label[..1].to_uppercase() + &label[1..]
+}
+
+#[test]
+fn menu_does_what_keys_do() {
+    let mut session = session(Vec::new(), [800, 600]);
+    open(&mut session, &["Help"]);
+    assert_eq!(session.viewer.dialog(), Some(Dialog::Help), "a command");
+    key(&mut session, "Escape");
+    open(&mut session, &[Group::Sampling.name(), "Sample rate"]);
+    click_on(&mut session, "sample rate: 16");
+    assert_eq!(session.viewer.settings().render.sample_rate.samples(), 16, "a value");
+    assert!(!session.interface.list_is_open(), "which closes the lists");
+    open(&mut session, &[Group::Inspector.name(), "Pin pixel"]);
+    assert_eq!(session.viewer.dialog(), None, "it needs no argument");
+    open(&mut session, &[Group::Scenes.name(), "Step of the lesson"]);
+    assert_eq!(session.viewer.dialog(), Some(Dialog::Palette), "it asks for the number");
+    assert!(says(&mut session, "type a step's number"), "and says so");
+    key(&mut session, "Escape");
+    open(&mut session, &[Group::Scenes.name(), "Open"]);
+    assert_eq!(
+        session.viewer.dialog(),
+        Some(Dialog::Open),
+        "it has a dialog of its own"
+    );
+}
+
+#[test]
+fn click_beside_a_list_presses_nothing_else() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    session.command(Command::Inspector(InspectorCommand::Show(Toggle::Off)));
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.settle();
+    let before = session.viewer.view_numbers();
+    let beside: [(&str, DVec2); 2] = [
+        ("the panel's switch", place_of(&mut session, "Side panel")),
+        ("the picture", dvec2(500.0, 300.0)),
+    ];
+    for list in ["Menu", "Visualisation"] {
+        for (what, at) in beside {
+            click_on(&mut session, list);
+            assert!(session.interface.list_is_open(), "{list} hangs open");
+            click(&mut session, at);
+            session.settle();
+            assert!(
+                !session.interface.list_is_open(),
+                "{list} is closed by a click on {what}"
+            );
+            assert!(session.viewer.panel(), "and {what} is not pressed");
+            assert_eq!(session.viewer.view_numbers(), before, "nor moved");
+        }
+    }
+    click(&mut session, beside[0].1);
+    session.settle();
+    assert!(!session.viewer.panel(), "the next click counts");
+}
+
+#[test]
+fn lost_canvas_has_a_way_back() {
+    let mut session = session(Vec::new(), [800, 600]);
+    let nothing = "Nothing to see here";
+    assert!(!says(&mut session, nothing), "at first");
+    session.command(Command::View(ViewCommand::PanBy { by: dvec2(5000.0, 0.0) }));
+    session.settle();
+    assert!(says(&mut session, nothing), "far off");
+    click_on(&mut session, "Reset view");
+    assert!(!says(&mut session, nothing), "back again");
+    assert!(session.viewer.canvas_in_sight(), "and to be seen");
+}

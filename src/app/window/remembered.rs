@@ -1,0 +1,205 @@
+//! What is remembered from one session to the next: a small TOML file in the platform's folder for settings.
+//!
+//! It may have been edited by hand or cut off by a full disk: what cannot be understood never stops the start.
+
+use std::fs;
+use std::io::{self, Read as _};
+use std::path::{Path, PathBuf};
+
+use etcetera::BaseStrategy as _;
+use serde::{Deserialize, Serialize};
+
+use crate::plain;
+use crate::viewer::{InterfaceScale, Theme};
+
+/// Largest file that is read, in bytes: ours have some hundred.
+const MOST_BYTES: u64 = 1 << 20;
+/// Files that are remembered at most.
+const MOST_RECENT: usize = 12;
+/// What stands at the head of the file.
+const HEAD: &str =
+    "# What Rasterscope remembers: written when its window closes, read when one opens (--no-config: neither).\n\n";
+
+/// What is remembered. What the file leaves out is as in the first session.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, rename_all = "kebab-case")]
+pub(super) struct Remembered {
+    /// Whether a newcomer was greeted already.
+    pub(super) greeted: bool,
+    /// Light or dark, where the user chose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    theme: Option<String>,
+    /// Size of panels and letters in percent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    interface_scale: Option<u32>,
+    /// Whether the side panel is open, where the user chose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) panel: Option<bool>,
+    /// The window's inner size in device pixels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) size: Option<[u32; 2]>,
+    /// Files and folders that were opened, the latest first.
+    pub(super) recent: Vec<PathBuf>,
+}
+
+impl Remembered {
+    /// The file; `None` where the system names no folder for it.
+    pub(super) fn file() -> Option<PathBuf> {
+        let folders = etcetera::choose_base_strategy().ok()?;
+        Some(folders.config_dir().join("rasterscope").join("session.toml"))
+    }
+
+    /// Reads the file. One that cannot be understood is kept under another name; then a line tells that.
+    pub(super) fn read(file: &Path) -> (Self, Option<String>) {
+        let text = match text_of(file) {
+            Ok(text) => text,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return (Self::default(), None),
+            Err(error) => return (Self::default(), Some(set_aside(file, &error.to_string()))),
+        };
+        match toml::from_str::<Self>(&text) {
+            Ok(remembered) => (remembered, None),
+            Err(error) => (Self::default(), Some(set_aside(file, error.message()))),
+        }
+    }
+
+    /// Writes the file, all of it or nothing.
+    ///
+    /// # Errors
+    /// When the folder or the file cannot be written.
+    pub(super) fn write(&self, file: &Path) -> io::Result<()> {
+        let folder = file.parent().unwrap_or(Path::new("."));
+        fs::create_dir_all(folder)?;
+        let text = toml::to_string(self).map_err(io::Error::other)?;
+        let draft = folder.join(format!(".session.toml.{}", std::process::id()));
+        fs::write(&draft, format!("{HEAD}{text}"))?;
+        fs::rename(&draft, file).inspect_err(|_| {
+            // What could not be put in place is of no use.
+            let _ = fs::remove_file(&draft);
+        })
+    }
+
+    /// The theme, where the user chose one.
+    pub(super) fn theme(&self) -> Option<Theme> {
+        let name = self.theme.as_deref()?;
+        Theme::ALL.into_iter().find(|theme| theme.name() == name)
+    }
+
+    /// Remembers a theme.
+    pub(super) fn set_theme(&mut self, theme: Theme) {
+        self.theme = Some(theme.name().to_owned());
+    }
+
+    /// The size of the interface.
+    pub(super) fn interface_scale(&self) -> InterfaceScale {
+        self.interface_scale
+            .map_or(InterfaceScale::ORIGINAL, InterfaceScale::from_percent)
+    }
+
+    /// Remembers a size of the interface.
+    pub(super) fn set_interface_scale(&mut self, scale: InterfaceScale) {
+        self.interface_scale = (scale != InterfaceScale::ORIGINAL).then(|| scale.percent().into());
+    }
+
+    /// Remembers files and folders that were opened, the latest first.
+    pub(super) fn set_recent(&mut self, files: &[PathBuf]) {
+        // TOML is text.
+        let files = files.iter().filter(|file| file.to_str().is_some());
+        self.recent = files.take(MOST_RECENT).cloned().collect();
+    }
+}
+
+/// The file's text, unless it is larger than ours ever are.
+fn text_of(file: &Path) -> io::Result<String> {
+    if !fs::metadata(file)?.is_file() {
+        return Err(io::Error::other("it is no file"));
+    }
+    let mut text = String::new();
+    fs::File::open(file)?.take(MOST_BYTES + 1).read_to_string(&mut text)?;
+    if text.len() as u64 > MOST_BYTES {
+        return Err(io::Error::other("it is larger than 1 MiB"));
+    }
+    Ok(text)
+}
+
+/// Keeps a file that is not understood under another name. The line that tells it.
+fn set_aside(file: &Path, why: &str) -> String {
+    let kept = file.with_extension("toml.bad");
+    let why = plain::line(why);
+    match fs::rename(file, &kept) {
+        Ok(()) => format!(
+            "{}: what was remembered cannot be read: {why}; it is kept as {}, and all is as in the first session",
+            file.display(),
+            kept.display()
+        ),
+        Err(error) => format!(
+            "{}: what was remembered cannot be read: {why}; nor can it be set aside: {error}; remove it",
+            file.display()
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("new/session.toml");
+        assert_eq!(
+            Remembered::read(&file),
+            (Remembered::default(), None),
+            "the first session"
+        );
+        let mut remembered = Remembered {
+            greeted: true,
+            panel: Some(false),
+            size: Some([900, 700]),
+            ..Remembered::default()
+        };
+        remembered.set_theme(Theme::Light);
+        remembered.set_interface_scale(InterfaceScale::from_percent(150));
+        let many: Vec<PathBuf> = (0..40)
+            .map(|i| PathBuf::from(format!("/scenes/a \"b\" {i}.svg")))
+            .collect();
+        remembered.set_recent(&many);
+        remembered.write(&file).expect("written");
+        assert_eq!(Remembered::read(&file), (remembered.clone(), None), "all of it");
+        assert_eq!(remembered.recent, many[..MOST_RECENT], "the latest");
+        assert_eq!(remembered.theme(), Some(Theme::Light));
+        let text = fs::read_to_string(&file).expect("text");
+        assert!(
+            text.starts_with('#') && text.contains("interface-scale = 150"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn corrupt_file_is_set_aside() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("session.toml");
+        let large = vec![b'#'; 2 << 20];
+        for text in [&b"theme = "[..], b"size = 'large'", b"\xff\xfe", &large] {
+            fs::write(&file, text).expect("a file");
+            let (remembered, told) = Remembered::read(&file);
+            assert_eq!(remembered, Remembered::default(), "as in the first session");
+            let told = told.expect("it is told");
+            assert!(told.contains("session.toml") && !told.contains('\n'), "{told}");
+            assert!(!file.exists(), "it is out of the way");
+            let kept = fs::read(folder.path().join("session.toml.bad")).expect("kept");
+            assert!(kept == text, "as it was");
+        }
+        for text in [
+            "unknown = 1",
+            "theme = 'pink'",
+            "interface-scale = 7",
+            "size = [0, 4000000000]",
+        ] {
+            fs::write(&file, text).expect("a file");
+            let (remembered, told) = Remembered::read(&file);
+            assert_eq!(told, None, "{text}: understood");
+            assert_eq!(remembered.theme(), None, "no such theme");
+            assert!(remembered.interface_scale().percent() >= 50, "in its range");
+        }
+    }
+}

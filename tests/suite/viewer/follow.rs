@@ -1,0 +1,120 @@
+//! Files that change while they are shown.
+
+use std::fs;
+
+use glam::dvec2;
+use rasterscope::viewer::{Command, InspectorCommand, LessonCommand, LessonSource, MessageKind, SceneCommand, Toggle};
+use rasterscope::viewer::{ViewCommand, ViewNumbers};
+
+use crate::support::session::{SQUARE, Session, TRIANGLES};
+
+/// Tells the viewer that the files it shows were saved.
+fn saved(session: &mut Session) {
+    let files = session.viewer.files();
+    session.run(Command::Scenes(SceneCommand::FilesChanged(files)));
+}
+
+fn errors(session: &Session) -> Vec<String> {
+    let messages = session.viewer.messages().iter();
+    let errors = messages.filter(|message| message.kind == MessageKind::Error);
+    errors.map(|message| message.text.clone()).collect()
+}
+
+#[test]
+fn broken_file_keeps_the_picture_until_it_is_mended() {
+    let mut session = Session::open(&[TRIANGLES], [200, 150]);
+    let file = session.folder.path().join("1.svg");
+    assert_eq!(session.viewer.files(), std::slice::from_ref(&file), "what is shown");
+    session.run(Command::View(ViewCommand::Set(ViewNumbers {
+        center: dvec2(20.0, 20.0),
+        scale: 3.0,
+        rotation: 10.0,
+    })));
+    session.run(Command::Inspector(InspectorCommand::Pin([100, 75])));
+    session.viewer.request_thumbnail(0);
+    session.viewer.finish_thumbnails();
+    let (picture, view) = (session.pixels().clone(), session.viewer.view_numbers());
+    for half in ["", "<svg", &TRIANGLES[..TRIANGLES.len() / 2]] {
+        fs::write(&file, half).unwrap();
+        saved(&mut session);
+        assert!(*session.pixels() == picture, "as it was read last");
+        assert_eq!(session.viewer.view_numbers(), view, "from the same place");
+        assert!(session.viewer.explanation().is_some(), "a pixel can still be explained");
+        let entry = session.viewer.current().unwrap();
+        assert!(entry.thumbnail.is_some(), "and it keeps its thumbnail");
+        let failure = entry.failure().expect("it is told").to_owned();
+        assert!(failure.contains("1.svg"), "{failure}");
+        assert_eq!(errors(&session), [failure], "once");
+    }
+    fs::write(&file, SQUARE).unwrap();
+    saved(&mut session);
+    assert!(*session.pixels() != picture, "the new document");
+    session.assert_frame_is_current();
+    assert_eq!(session.viewer.view_numbers(), view, "from the same place");
+    assert_eq!(session.viewer.pinned_pixel(), Some([100, 75]), "the pin stays");
+    assert_eq!(errors(&session), [""; 0], "nothing is wrong any more");
+    fs::remove_file(&file).unwrap();
+    saved(&mut session);
+    assert!(session.viewer.frame().is_some(), "a file that is gone is shown on");
+    fs::write(&file, TRIANGLES).unwrap();
+    saved(&mut session);
+    assert!(*session.pixels() == picture, "and back");
+}
+
+#[test]
+fn files_are_followed_unless_that_is_not_wanted() {
+    let mut session = Session::open(&[TRIANGLES], [100, 80]);
+    let file = session.folder.path().join("1.svg");
+    let picture = session.pixels().clone();
+    session.run(Command::Scenes(SceneCommand::FollowFiles(Toggle::Off)));
+    fs::write(&file, SQUARE).unwrap();
+    saved(&mut session);
+    assert!(*session.pixels() == picture, "not wanted");
+    session.run(Command::Scenes(SceneCommand::FollowFiles(Toggle::On)));
+    saved(&mut session);
+    assert!(*session.pixels() != picture, "wanted");
+}
+
+#[test]
+fn textures_are_among_the_files() {
+    let mut session = Session::open(&[SQUARE], [100, 80]);
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let scene = root.join("svg/texmap/test4.svg");
+    session.run(Command::Scenes(SceneCommand::Open(vec![scene.clone()])));
+    let files = session.viewer.files();
+    assert_eq!(files[0], scene, "the document comes first");
+    assert!(
+        files.len() > 1 && files[1..].iter().all(|file| file.is_file()),
+        "{files:?}"
+    );
+}
+
+#[test]
+fn lesson_is_read_again_at_its_step() {
+    let mut session = Session::open(&[TRIANGLES], [600, 400]);
+    let file = session.folder.path().join("lesson.toml");
+    let lesson = |words: &str| {
+        format!(
+            "title = 'Two'\n[[step]]\nscene = '1.svg'\ntext = 'one'\n[[step]]\ntitle = '{words}'\nscene = '1.svg'\ntext = 'two'\n"
+        )
+    };
+    fs::write(&file, lesson("before")).unwrap();
+    session.run(Command::Lesson(LessonCommand::Open(LessonSource::File(file.clone()))));
+    session.run(Command::Lesson(LessonCommand::Step(1)));
+    assert!(session.viewer.files().contains(&file), "it is among the files");
+    let title = |session: &Session| {
+        let (lesson, at) = session.viewer.lesson().expect("a lesson");
+        (at, lesson.steps[at].title.clone())
+    };
+    fs::write(&file, lesson("after")).unwrap();
+    session.run(Command::Scenes(SceneCommand::FilesChanged(vec![file.clone()])));
+    assert_eq!(title(&session), (1, "after".to_owned()), "its new words");
+    fs::write(&file, "title = ").unwrap();
+    session.run(Command::Scenes(SceneCommand::FilesChanged(vec![file.clone()])));
+    assert_eq!(title(&session), (1, "after".to_owned()), "it stays");
+    assert_eq!(errors(&session).len(), 1, "and what is wrong is told");
+    fs::write(&file, "title = 'One'\n[[step]]\nscene = '1.svg'\ntext = 'one'\n").unwrap();
+    session.run(Command::Scenes(SceneCommand::FilesChanged(vec![file])));
+    assert_eq!(title(&session), (0, String::new()), "the step is gone");
+    assert_eq!(errors(&session), [""; 0], "nothing is wrong any more");
+}

@@ -338,6 +338,7 @@ impl<'doc> Builder<'doc> {
             canvas,
             dialect,
             other_reading: None,
+            words: None,
             shapes: self.shapes,
             primitives: self.primitives,
             textures,

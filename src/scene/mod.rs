@@ -21,6 +21,7 @@ mod resources;
 mod svg;
 mod textures;
 mod triangles;
+mod words;
 
 use std::path::Path;
 
@@ -135,6 +136,7 @@ fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> 
     room.map_err(|error| Problem::from(error).nowhere())?;
     let mut scene = builder.finish(dialect, canvas);
     scene.other_reading = other;
+    scene.words = words::of(&tree);
     scene.files.document = Some(FileDigest::of(packed));
     scene.document = (text.len() <= MAX_KEPT_DOCUMENT).then(|| text.as_ref().into());
     Ok(scene)

@@ -29,6 +29,9 @@ pub struct Scene {
     pub dialect: Dialect,
     /// The other dialect, where the document may be meant in it and is another picture then.
     pub other_reading: Option<Dialect>,
+    /// What the document says about itself, for people: title and description, or the comment at its start; a paragraph a line,
+    /// at most 2000 characters.
+    pub words: Option<Arc<str>>,
     /// The document's shapes, in document order; [`Primitive::shape`] points here.
     pub shapes: Vec<Shape>,
     /// What to paint, first to last.
@@ -56,6 +59,7 @@ impl Scene {
             canvas,
             dialect,
             other_reading: None,
+            words: None,
             shapes: Vec::new(),
             primitives: Vec::new(),
             textures: Vec::new(),

@@ -288,6 +288,12 @@ impl Viewer {
         self.chrome.interface_scale
     }
 
+    /// What the scene says about itself, where that is to be seen.
+    pub fn words(&self) -> Option<&str> {
+        let scene = self.current()?.scene()?;
+        scene.words.as_deref().filter(|_| self.chrome.shown.words)
+    }
+
     /// Whether the ways on for newcomers lie over the picture.
     pub fn start_card(&self) -> bool {
         self.chrome.start_card

@@ -294,7 +294,7 @@ fn buttons(ui: &mut Ui, ok: &str, missing: Option<&str>) -> Option<bool> {
 fn help(ctx: &Context, viewer: &Viewer, commands: &mut Vec<Command>) {
     let screen = ctx.content_rect();
     let columns = if screen.width() >= 760.0 { 2 } else { 1 };
-    let mut way = None;
+    let mut way = Vec::new();
     let modal = modal("help").show(ctx, |ui| {
         ui.set_width((screen.width() - 60.0).min(if columns == 2 { 780.0 } else { 430.0 }));
         ui.horizontal(|ui| {
@@ -329,7 +329,7 @@ fn help(ctx: &Context, viewer: &Viewer, commands: &mut Vec<Command>) {
                 false
             }
     });
-    if modal.inner || modal.backdrop_response.clicked() || way.is_some() {
+    if modal.inner || modal.backdrop_response.clicked() || !way.is_empty() {
         commands.push(Command::Window(WindowCommand::CloseDialog));
     }
     commands.extend(way);

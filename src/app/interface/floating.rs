@@ -1,14 +1,16 @@
 //! What floats over the picture without taking part in the layout: overlay text, pixel numbers in the inspector's
 //! inset, progress.
 
-use crate::viewer::{InspectorCommand, ViewCommand};
+use crate::viewer::{InspectorCommand, ViewCommand, WindowCommand};
 
-use egui::{Align2, Area, Button, Color32, FontId, Frame, Id, Order, Pos2, Rect, RichText, Ui, Vec2};
+use egui::{
+    Align2, Area, Button, Color32, FontId, Frame, Id, Label, Order, Pos2, Rect, RichText, ScrollArea, Ui, Vec2,
+};
 use egui::{pos2, vec2};
 
-use super::controls::command_button;
+use super::controls::{command_button, tip};
 use super::document::AS_BEFORE;
-use super::look::CONTROL;
+use super::look::{self, CONTROL};
 use super::pin;
 use super::places::{insets, points};
 use crate::raster::SamplePattern;
@@ -22,6 +24,8 @@ const REST: f32 = 5.0;
 const BAR_HEIGHT: f32 = 3.0;
 /// Width of the way back, in points.
 const WAY_BACK_WIDTH: f32 = 230.0;
+/// Width of a scene's own words at most, in points.
+const WORDS_WIDTH: f32 = 320.0;
 /// Width of what is said over an outdated picture at most, in points.
 const OUTDATED_WIDTH: f32 = 520.0;
 /// Free space around the text over the picture, in points.
@@ -127,6 +131,43 @@ pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<
                 });
             });
         });
+}
+
+/// What the scene says about itself, until it is closed. Returns where it stands.
+pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Option<Rect> {
+    let text = viewer.words()?;
+    let area = Area::new(Id::unique("words"))
+        .order(Order::Middle)
+        .fixed_pos(free.left_bottom() + vec2(TEXT_MARGIN, -TEXT_MARGIN))
+        .pivot(Align2::LEFT_BOTTOM)
+        .constrain_to(free)
+        .fade_in(false)
+        .show(ui.ctx(), |ui| {
+            Frame::popup(ui.style()).show(ui, |ui| {
+                ui.set_width(WORDS_WIDTH.min(free.width() - 4.0 * TEXT_MARGIN));
+                ui.horizontal(|ui| {
+                    let name = viewer.current().map_or("", |entry| entry.label.as_str());
+                    ui.add(Label::new(RichText::new(name).small().weak()).truncate());
+                });
+                look::bars_beside(ui);
+                let height = (free.height() * 0.5).max(60.0);
+                // Another scene's words begin at their beginning.
+                let area = ScrollArea::vertical().id_salt(("words", viewer.current_index()));
+                area.max_height(height).show(ui, |ui| {
+                    for paragraph in text.lines() {
+                        ui.label(paragraph);
+                    }
+                });
+                ui.add_space(2.0);
+                let close = ui
+                    .add(Button::new("Close").min_size(CONTROL))
+                    .on_hover_text(tip("about"));
+                if close.accessible_name("Close the scene's words").clicked() {
+                    commands.push(Command::Window(WindowCommand::About(Toggle::Off)));
+                }
+            });
+        });
+    Some(area.response.rect)
 }
 
 /// Over a picture whose file cannot be read any more: why, for as long as that is so.

@@ -3,6 +3,7 @@
 //! Settings stand as lists of their values, and below these what steps through them. A command that needs an argument asks
 //! for it in the palette.
 
+use egui::containers::menu::MenuButton;
 use egui::{Button, ScrollArea, Ui};
 
 use super::look;
@@ -21,7 +22,8 @@ const FIRST_HELP: [&str; 2] = ["help", "palette"];
 /// The button. Returns the command whose argument is to be asked for.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) -> Option<&'static CommandSpec> {
     let mut asks = None;
-    let button = ui.menu_button("Menu", |ui| {
+    let button = MenuButton::from_button(Button::new("Menu").small());
+    let (response, _) = button.ui(ui, |ui| {
         ui.set_min_width(WIDTH);
         for group in Group::ALL {
             ui.menu_button(group.name(), |ui| {
@@ -33,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) ->
             entry(ui, spec, commands);
         }
     });
-    button.response.accessible_name("Menu");
+    response.accessible_name("Menu");
     asks
 }
 

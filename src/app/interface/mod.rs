@@ -325,14 +325,28 @@ impl Interface {
 
     /// Messages, tags and the text over the picture, each where nothing else lies; `before` are the words of the last pass.
     fn words(&mut self, ui: &Ui, viewer: &Viewer, (free, before): (Rect, &[Rect]), asked: &mut Asked) {
+        let hidden = viewer.everything_hidden();
+        let about = if hidden {
+            None
+        } else {
+            floating::words(ui, viewer, free, &mut asked.commands)
+        };
+        let things = floating::things(viewer, ui.pixels_per_point());
+        let things: Vec<Rect> = things.into_iter().chain(about).collect();
         let taken = Taken {
-            things: &floating::things(viewer, ui.pixels_per_point()),
+            things: &things,
             words: before,
         };
         let messages = self.messages.show(ui, viewer, (free, taken), &mut asked.commands);
-        if !viewer.everything_hidden() {
+        if !hidden {
             let Marks { labels, line, handle } = compare_marks::show(ui, viewer, free, &messages);
-            let taken: Vec<Rect> = labels.iter().chain(&messages).chain(&line).copied().collect();
+            let taken: Vec<Rect> = labels
+                .iter()
+                .chain(&messages)
+                .chain(&line)
+                .copied()
+                .chain(about)
+                .collect();
             (self.labels, self.line, self.handle) = (labels, line, handle);
             // The card would cover it in a small window.
             if viewer.overlay_text() && !viewer.start_card() {

@@ -12,6 +12,8 @@ use crate::viewer::{Command, SceneCommand, WindowCommand, commands};
 
 /// Height of what the dialog has besides its list, in points.
 const REST: f32 = 130.0;
+/// Lines of the list that are to be seen at most.
+const MOST_ROWS: f32 = 14.0;
 /// Its width at most, in points.
 const WIDTH: f32 = 480.0;
 
@@ -36,7 +38,10 @@ impl Dialogs {
                 .map(|item| item.path.clone());
             ui.scope(|ui| {
                 let row = ENTRY + BETWEEN_ENTRIES;
-                let height = ((screen.height() * 0.8 - REST) / row).floor().max(1.0) * row - BETWEEN_ENTRIES;
+                let rows = ((screen.height() * 0.8 - REST) / row).floor().clamp(1.0, MOST_ROWS);
+                let height = rows * row - BETWEEN_ENTRIES;
+                // As high for every folder: the buttons stay under the pointer.
+                ui.set_min_height(height);
                 list_of(ui, &found, (self.chosen, up || down, height), |ui, item, chosen| {
                     item.show(ui, chosen)
                 })

@@ -12,7 +12,7 @@ use egui::{TextureOptions, Ui, Vec2, pos2, vec2};
 use super::controls::{command_button, heading};
 use crate::figure::shrunk;
 use crate::raster::Framebuffer;
-use crate::viewer::{Command, SceneEntry, SceneSource, Viewer};
+use crate::viewer::{Command, SceneEntry, SceneSource, Toggle, Viewer, WindowCommand};
 
 /// Thumbnails side by side.
 const COLUMNS: usize = 3;
@@ -88,6 +88,11 @@ pub(super) struct Wishes {
 pub(super) fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.vertical(|ui| heading(ui, "Scenes"));
+        let words = viewer.current().and_then(|entry| entry.scene()?.words.as_ref());
+        let about = ui.add_enabled_ui(words.is_some(), |ui| command_button(ui, "about", "About"));
+        if about.inner.clicked() {
+            commands.push(Command::Window(WindowCommand::About(Toggle::Flip)));
+        }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
             // The only scene has no neighbours; a lesson's steps are many on one scene, too.

@@ -4,7 +4,7 @@
 use egui::{Align, Align2, Area, Button, Frame, Id, Layout, Margin, Order, Rect, RichText, Ui, vec2};
 
 use crate::viewer::{
-    Command, Dialog, InspectorCommand, LessonCommand, LessonSource, SceneCommand, SceneSource, Viewer,
+    Command, Dialog, InspectorCommand, LessonCommand, LessonSource, SceneCommand, SceneSource, Toggle, Viewer,
 };
 use crate::viewer::{WindowCommand, gallery};
 
@@ -23,7 +23,7 @@ const STUDY: &str = "study/01_zone_plate.svg";
 struct Way {
     name: &'static str,
     words: &'static str,
-    does: Command,
+    does: Vec<Command>,
 }
 
 /// The card, while it is to be seen.
@@ -63,8 +63,8 @@ pub(super) fn card(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Comm
 }
 
 /// The ways side by side in so many columns; which was taken.
-pub(super) fn ways(ui: &mut Ui, viewer: &Viewer, columns: usize) -> Option<Command> {
-    let mut taken = None;
+pub(super) fn ways(ui: &mut Ui, viewer: &Viewer, columns: usize) -> Vec<Command> {
+    let mut taken = Vec::new();
     let gap = ui.spacing().item_spacing.x;
     let width = ((ui.available_width() - gap * (columns - 1) as f32) / columns as f32).floor();
     let ways = ways_of(viewer);
@@ -72,7 +72,7 @@ pub(super) fn ways(ui: &mut Ui, viewer: &Viewer, columns: usize) -> Option<Comma
         ui.horizontal(|ui| {
             for way in row {
                 if button(ui, way, width) {
-                    taken = Some(way.does.clone());
+                    taken.clone_from(&way.does);
                 }
             }
         });
@@ -110,12 +110,12 @@ fn ways_of(viewer: &Viewer) -> Vec<Way> {
     let mut ways = vec![Way {
         name: "Follow a lesson",
         words: "six tasks of a rasterizer, from edges to filters",
-        does: Command::Lesson(lesson),
+        does: vec![Command::Lesson(lesson)],
     }];
     ways.push(Way {
         name: "Open your file",
         words: "an SVG or a folder of them; or drop it on the window",
-        does: Command::Window(WindowCommand::ToggleDialog(Dialog::Open)),
+        does: vec![Command::Window(WindowCommand::ToggleDialog(Dialog::Open))],
     });
     let is_study = |source: &SceneSource| match source {
         SceneSource::Gallery(index) => gallery::SCENES.get(*index).is_some_and(|scene| scene.name == STUDY),
@@ -125,13 +125,16 @@ fn ways_of(viewer: &Viewer) -> Vec<Way> {
         ways.push(Way {
             name: "Look at a study of aliasing",
             words: "rings finer than the pixels, and what becomes of them",
-            does: Command::Scenes(SceneCommand::Show(index)),
+            does: vec![
+                Command::Scenes(SceneCommand::Show(index)),
+                Command::Window(WindowCommand::About(Toggle::On)),
+            ],
         });
     }
     ways.push(Way {
         name: "Explain a pixel",
         words: "one at an edge; a right click explains any other",
-        does: Command::Inspector(InspectorCommand::PinEdge),
+        does: vec![Command::Inspector(InspectorCommand::PinEdge)],
     });
     ways
 }

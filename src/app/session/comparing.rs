@@ -399,7 +399,11 @@ fn explanation_leaves_a_picture_from_outside_where_it_is() {
                 assert_eq!(place(&session), Some(under), "it stays under the pointer in {window:?}");
             }
             right_click(&mut session, [x, y]);
-            assert_eq!(session.viewer().pinned_pixel(), None, "a second click unpins");
+            assert_eq!(
+                session.viewer().pinned_pixel(),
+                None,
+                "a second click unpins, {arrangement:?} in {window:?}"
+            );
             assert_eq!(
                 session.viewer().status().map(|status| status.pixel),
                 Some(hovered),

@@ -174,8 +174,14 @@ fn files_are_opened_by_mouse() {
             says(&mut session, "one.svg") || place_of(&mut session, "one.svg").x > 0.0,
             "beside the scene"
         );
+        let up = place_of(&mut session, "Up");
         click_on(&mut session, "inside");
         assert_eq!(session.viewer().dialog(), Some(Dialog::Open), "a folder is gone into");
+        assert_eq!(
+            place_of(&mut session, "Up"),
+            up,
+            "and its buttons stay under the pointer"
+        );
         click_on(&mut session, "Up");
         click_on(&mut session, "two.svg");
         assert_eq!(session.viewer().dialog(), None, "a file closes the dialog");
@@ -222,4 +228,23 @@ fn files_are_opened_by_keys() {
     key(&mut session, "Ctrl+O");
     key(&mut session, "Escape");
     assert_eq!(session.viewer().dialog(), None, "Esc closes it");
+}
+
+#[test]
+fn scene_tells_what_to_look_at() {
+    for window in WINDOWS {
+        let mut session = session(Vec::new(), window);
+        let words = "A lighthouse at dusk.";
+        assert!(!says(&mut session, words), "unasked");
+        key(&mut session, "I");
+        session.settle();
+        assert!(says(&mut session, words), "in {window:?}");
+        key(&mut session, "PageDown");
+        session.settle();
+        assert!(!says(&mut session, words), "another scene has other words");
+        key(&mut session, "PageUp");
+        session.settle();
+        click_on(&mut session, "Close the scene's words");
+        assert!(!says(&mut session, words), "the button closes them");
+    }
 }

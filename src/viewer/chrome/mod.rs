@@ -56,6 +56,7 @@ impl Chrome {
                 text: true,
                 panel: true,
                 explanation: true,
+                words: false,
             },
             start_card: false,
             interface_scale: InterfaceScale::default(),
@@ -68,7 +69,7 @@ impl Chrome {
 /// What of the overlay is shown.
 #[expect(
     clippy::struct_excessive_bools,
-    reason = "three things that are shown or not, each on its own"
+    reason = "four things that are shown or not, each on its own"
 )]
 #[derive(Clone, Copy, Debug)]
 pub(in crate::viewer) struct Shown {
@@ -76,4 +77,6 @@ pub(in crate::viewer) struct Shown {
     pub(in crate::viewer) panel: bool,
     /// Why the pinned pixel has its colour.
     pub(in crate::viewer) explanation: bool,
+    /// What the scene says about itself.
+    pub(in crate::viewer) words: bool,
 }

@@ -189,6 +189,10 @@ pub(in crate::viewer) const HIDE: Argument = argument(Toggle::FORM, |text| {
     toggle(text).map(WindowCommand::HideEverything).map(Command::Window)
 });
 
+pub(in crate::viewer) const ABOUT: Argument = argument(Toggle::FORM, |text| {
+    toggle(text).map(WindowCommand::About).map(Command::Window)
+});
+
 pub(in crate::viewer) const START_CARD: Argument = argument(Toggle::FORM, |text| {
     toggle(text).map(WindowCommand::StartCard).map(Command::Window)
 });

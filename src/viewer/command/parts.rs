@@ -222,6 +222,8 @@ pub enum WindowCommand {
     SetTheme(Theme),
     /// The other theme.
     NextTheme,
+    /// Shows or hides what the scene says about itself.
+    About(Toggle),
     /// Shows or hides the ways on for newcomers.
     StartCard(Toggle),
     /// Panels and letters of this size.

@@ -205,6 +205,7 @@ impl Viewer {
             WindowCommand::CloseDialog => screen.dialog = None,
             WindowCommand::SetTheme(theme) => screen.theme = theme,
             WindowCommand::NextTheme => screen.theme = next_of(&Theme::ALL, screen.theme, 1.0),
+            WindowCommand::About(toggle) => screen.shown.words = toggle.of(screen.shown.words),
             WindowCommand::StartCard(toggle) => screen.start_card = toggle.of(screen.start_card),
             WindowCommand::SetInterfaceScale(scale) => screen.interface_scale = scale,
             WindowCommand::StepInterfaceScale { up } => screen.interface_scale = screen.interface_scale.step(up),

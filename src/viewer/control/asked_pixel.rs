@@ -34,6 +34,7 @@ impl Viewer {
             .magnifier
             .kept_view
             .is_some_and(|[_, set]| Some(set) == camera);
+        let has_slid = has_slid || (self.fixed_size().is_some() && self.ab.moved.has_slid());
         has_slid && asked.at == window_pixel(at)
     }
 

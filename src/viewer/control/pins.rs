@@ -137,6 +137,8 @@ impl Viewer {
             let by = DVec2::from([0, 1].map(|axis| (old.corner[axis] - now.corner[axis]) as f64));
             self.ab.moved.keep(by, &now.area, frame);
             self.ab.touch();
+        } else if old.corner != now.corner {
+            self.ab.moved.slide();
         }
     }
 

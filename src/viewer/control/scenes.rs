@@ -125,7 +125,8 @@ impl Viewer {
         *side.state(entry) = match read.result {
             Ok(scene) => SceneState::Ready { scene, dialect },
             Err(message) => {
-                if is_current {
+                // Over a picture that stays it is to be seen for as long as it is so.
+                if is_current && (before.is_none() || self.chrome.hidden) {
                     self.chrome.messages.error(message.clone());
                 }
                 SceneState::Failed {

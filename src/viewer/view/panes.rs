@@ -43,6 +43,8 @@ pub(in crate::viewer) struct Moved {
     by: DVec2,
     /// What of it keeps an explained pixel where it was, until the explanation is closed.
     kept: DVec2,
+    /// Where pictures were moved to when the room for an explanation took its pixel away from under the pointer.
+    slid: Option<DVec2>,
     /// What is left of a zoom that did not reach the next step.
     pub(in crate::viewer) rest: f64,
 }
@@ -69,6 +71,17 @@ impl Moved {
     /// Takes back what an explanation moved.
     pub(in crate::viewer) fn let_go(&mut self) {
         self.by -= std::mem::take(&mut self.kept);
+        self.slid = None;
+    }
+
+    /// The room for an explanation takes its pixel away from under the pointer.
+    pub(in crate::viewer) fn slide(&mut self) {
+        self.slid = Some(self.by);
+    }
+
+    /// Whether it did, and no hand has moved the pictures since.
+    pub(in crate::viewer) fn has_slid(&self) -> bool {
+        self.slid == Some(self.by)
     }
 
     /// Moves on; some of the picture stays in sight.

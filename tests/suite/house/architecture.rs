@@ -47,7 +47,17 @@ const ROOMS: &[Room] = &[
             "viewer", "figure", "compare", "inspect", "render", "scene", "raster", "texture", "color", "geometry",
             "rules", "simd", "plain", "memory",
         ],
-        crates: &["winit", "softbuffer", "egui", "egui_winit", "fearless_simd"],
+        crates: &[
+            "winit",
+            "softbuffer",
+            "egui",
+            "egui_winit",
+            "fearless_simd",
+            "notify",
+            "etcetera",
+            "serde",
+            "toml",
+        ],
     },
     Room {
         name: "viewer",
@@ -178,6 +188,8 @@ const GUARDED: &[&str] = &[
     "jiff",
     "pulldown_cmark",
     "fearless_simd",
+    "notify",
+    "etcetera",
 ];
 
 /// What is wrong with one line of a room's code.

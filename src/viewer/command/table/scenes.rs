@@ -56,6 +56,15 @@ pub(super) static SCENES: &[CommandSpec] = &[
     .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::Open)))
     .argument(arguments::OPEN),
     spec(
+        "about",
+        "About the scene",
+        "Shows or hides the scene's own words: what to look at in it",
+        Group::Scenes,
+    )
+    .keys(&[Chord::char('i')])
+    .run(&Command::Window(WindowCommand::About(Toggle::Flip)))
+    .argument(arguments::ABOUT),
+    spec(
         "gallery",
         "Built-in gallery",
         "Opens the scenes that come with the program",

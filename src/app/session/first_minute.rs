@@ -77,6 +77,13 @@ fn start_card_goes_with_the_first_key_or_click() {
             session.wheel(1.0);
         }),
     ];
+    // Desktops that give windows their sizes do so at once: the panel folds.
+    let mut session = greeted([1280, 800]);
+    assert!(session.viewer().panel(), "it has room");
+    session.resize([1043, 717]);
+    session.settle();
+    assert!(!session.viewer().panel(), "it has none");
+    assert!(session.viewer().start_card(), "another size leaves the card");
     for (what, act) in acts {
         let mut session = greeted([800, 600]);
         session.pointer(Some(dvec2(20.0, 300.0)));

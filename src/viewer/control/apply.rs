@@ -26,13 +26,7 @@ impl Viewer {
         }
         if !is_passing(&command) {
             self.chrome.ending.forget();
-            // A theme may be the desktop's.
-            if !matches!(
-                command,
-                Command::Window(WindowCommand::StartCard(_) | WindowCommand::SetTheme(_))
-            ) {
-                self.chrome.start_card = false;
-            }
+            self.chrome.start_card &= comes_from_outside(&command);
         }
         let effects = self.dispatch(command);
         self.update();
@@ -262,5 +256,16 @@ fn is_passing(command: &Command) -> bool {
             | Command::Sheet(SheetCommand::SetRoom(_))
             | Command::Scenes(SceneCommand::FilesChanged(_))
             | Command::Inspector(InspectorCommand::PointAtTexel(_))
+    )
+}
+
+/// Whether a command may come without a hand, and leaves the start card: themes follow the desktop, and the side panel folds
+/// with the window's size; a hand flips it.
+fn comes_from_outside(command: &Command) -> bool {
+    matches!(
+        command,
+        Command::Window(
+            WindowCommand::StartCard(_) | WindowCommand::SetTheme(_) | WindowCommand::Panel(Toggle::On | Toggle::Off)
+        )
     )
 }

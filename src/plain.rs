@@ -47,16 +47,35 @@ pub fn into_lines(text: String) -> String {
     lines(&text).into_owned()
 }
 
-/// As [`line()`], with at most about `limit` characters: the middle of a longer text is left out.
+/// As [`line()`], with at most about `limit` characters as they are shown: the middle of a longer text is left out.
 pub fn short_line(text: &str, limit: usize) -> String {
-    let count = text.chars().count();
-    if count <= limit {
+    if text.chars().map(shown_width).sum::<usize>() <= limit {
         return line(text).into_owned();
     }
     let (head, tail) = (limit - limit / 4, limit / 4);
-    let start: String = text.chars().take(head).collect();
-    let end: String = text.chars().skip(count - tail).collect();
-    format!("{} ... {}", line(&start), line(&end))
+    let start = &text[..bytes_within(text.chars(), head)];
+    let rest = &text[start.len()..];
+    let end = &rest[rest.len() - bytes_within(rest.chars().rev(), tail)..];
+    format!("{} ... {}", line(start), line(end))
+}
+
+/// Bytes of the first of `characters` that are shown within `width` characters.
+fn bytes_within(characters: impl Iterator<Item = char>, mut width: usize) -> usize {
+    characters
+        .map_while(|character| {
+            width = width.checked_sub(shown_width(character))?;
+            Some(character.len_utf8())
+        })
+        .sum()
+}
+
+/// Characters that [`line()`] shows for one.
+fn shown_width(character: char) -> usize {
+    if is_plain(character) {
+        1
+    } else {
+        character.escape_unicode().len()
+    }
 }
 
 /// JSON whose strings hold no character that is not plain: they are written as JSON's own escapes, which mean the same.
@@ -143,6 +162,31 @@ mod tests {
         assert!(
             matches!(json("{\n  \"a\": \"\u{e9}\"}"), Cow::Borrowed(_)),
             "what needs nothing"
+        );
+    }
+
+    /// Found by libFuzzer: a word of 200 zeros was short as it was read and 1000 characters as it was shown.
+    #[test]
+    fn short_line_is_short_as_it_is_shown() {
+        for text in [
+            "\0".repeat(200),
+            "ä".repeat(400),
+            format!("head{}tail", "\u{202e}b".repeat(90)),
+        ] {
+            let short = short_line(&text, 100);
+            let count = short.chars().count();
+            assert!((80..=105).contains(&count), "{count} characters: {short}");
+            assert!(short.contains(" ... "), "{short}");
+            assert!(
+                !short.replace("\\u{0}", "").contains(['\\', '{']) || !text.starts_with('\0'),
+                "whole escapes: {short}"
+            );
+        }
+        assert_eq!(short_line("\0\0", 10), "\\u{0}\\u{0}", "what fits stays");
+        assert_eq!(
+            short_line("abcdefghijklmnop", 8),
+            "abcdef ... op",
+            "its start and its end"
         );
     }
 }

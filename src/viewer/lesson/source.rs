@@ -32,13 +32,17 @@ impl LessonSource {
     /// The lesson that a person writes as an address: `lesson:NAME` or the path of a TOML file; `None` for other paths.
     pub fn from_address(address: &Path) -> Option<Self> {
         if let Some(name) = address.to_str().and_then(|text| text.strip_prefix(PREFIX)) {
-            let known = BUILT_IN.iter().position(|(known, _)| *known == name);
-            return known.map(Self::BuiltIn);
+            return Self::named(name);
         }
         let ending = address.extension()?;
         ending
             .eq_ignore_ascii_case("toml")
             .then(|| Self::File(address.to_owned()))
+    }
+
+    /// The built-in lesson of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        BUILT_IN.iter().position(|(known, _)| *known == name).map(Self::BuiltIn)
     }
 
     /// The lesson's address on a command line.

@@ -273,8 +273,8 @@ fn wait(text: &str) -> Option<Step> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::InspectorCommand;
     use crate::viewer::Key;
+    use crate::viewer::{BUILT_IN, InspectorCommand, LessonCommand, LessonSource};
 
     fn steps(text: &str) -> Vec<Step> {
         let script = Script::parse(text, "test").unwrap_or_else(|error| panic!("{error}"));
@@ -302,6 +302,18 @@ mod tests {
         assert_eq!(parsed.len(), 7, "{parsed:?}");
         assert_eq!(parsed[5], Step::Shot("a; b.png".into()), "quoted");
         assert_eq!(parsed[3], Step::Wait(Some(Duration::from_millis(20))), "milliseconds");
+    }
+
+    #[test]
+    fn script_opens_lessons_by_name() {
+        for (index, (name, _)) in BUILT_IN.iter().enumerate() {
+            let opened = Step::Run(Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(index))));
+            for text in [format!("lesson {name}"), format!("lesson lesson:{name}")] {
+                assert_eq!(steps(&text), std::slice::from_ref(&opened), "{text}");
+            }
+            let error = Script::parse("lesson seven-tasks", "s").expect_err("there is none");
+            assert!(error.to_string().contains(name), "{error}");
+        }
     }
 
     #[test]

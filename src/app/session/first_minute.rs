@@ -54,15 +54,24 @@ fn start_card_leads_on() {
 }
 
 #[test]
-fn explained_pixel_lies_on_an_edge() {
+fn explained_pixel_is_one_that_an_edge_makes_wrong() {
     for window in WINDOWS {
         let mut session = greeted(window);
         click_on(&mut session, "Explain a pixel");
         let viewer = session.viewer();
         let [x, y] = viewer.pinned_pixel().expect("a pin");
         let frame = viewer.frame().expect("a frame");
-        let differs = |u, v| frame.final_rgba(x, y) != frame.final_rgba(u, v);
-        assert!(differs(x + 1, y) || differs(x, y + 1), "{x}, {y} of {window:?}");
+        let around = [[x + 1, y], [x, y + 1], [x - 1, y], [x, y - 1]];
+        let differs = around
+            .iter()
+            .any(|[u, v]| frame.final_rgba(x, y) != frame.final_rgba(*u, *v));
+        assert!(differs, "{x}, {y} of {window:?}");
+        let truth = viewer.explanation().and_then(|explanation| explanation.truth.as_ref());
+        let truth = truth.expect("a small scene");
+        assert!(
+            truth.distance >= 24.0 && !truth.cures.is_empty(),
+            "{x}, {y} of {window:?}: {truth:?}"
+        );
     }
 }
 

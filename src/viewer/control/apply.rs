@@ -185,7 +185,12 @@ impl Viewer {
     fn apply_window(&mut self, command: WindowCommand) -> Vec<Effect> {
         let screen = &mut self.chrome;
         match command {
-            WindowCommand::Resize(size) => screen.window = size,
+            WindowCommand::Resize(size) => {
+                screen.window = size;
+                // Panels may cover more of a smaller window.
+                let magnifier = &mut self.inspector.magnifier;
+                magnifier.revealed |= magnifier.pin.is_some();
+            }
             WindowCommand::SetFreeArea(area) => {
                 self.set_free_area(area);
                 self.reveal_pin();

@@ -39,7 +39,7 @@ pub(super) static INSPECTOR: &[CommandSpec] = &[
     spec(
         "pin-edge",
         "Pin an edge",
-        "Pins a pixel near the middle where two colours meet, and tells why it has its colour",
+        "Pins a pixel near the middle that an edge makes wrong, and tells why it has its colour",
         Group::Inspector,
     )
     .run(&Command::Inspector(InspectorCommand::PinEdge)),

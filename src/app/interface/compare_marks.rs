@@ -128,7 +128,8 @@ fn letters(ui: &Ui, viewer: &Viewer, free: Rect) -> Vec<Rect> {
         ];
         let sides = sides.map(|corner| Rect::from_min_size(corner, size));
         let inside = |place: &&Rect| home.contains_rect(**place);
-        let is_free = |place: &&Rect| taken.iter().all(|other| !other.intersects(**place));
+        // Its own inset touches it.
+        let is_free = |place: &&Rect| taken.iter().all(|other| !other.shrink(0.5).intersects(**place));
         let place = sides.iter().filter(inside).find(is_free);
         let place = place.or_else(|| sides.iter().find(inside)).copied().unwrap_or(sides[1]);
         ui.painter().rect_filled(place, 0.0, Color32::from_black_alpha(190));

@@ -16,8 +16,12 @@ use crate::inspect::{Difference, Explanation, Paint, TexelPlace};
 use crate::render::Visualisation;
 use crate::viewer::{Arrangement, Command, Toggle, Viewer};
 
-/// Width of the panel, in points, frame included.
-pub(super) const WIDTH: f32 = 348.0;
+/// Width of the panel where no hand gave it another, in points, frame included.
+pub(super) const WIDTH: f32 = 312.0;
+/// Width that it needs.
+pub(super) const LEAST_WIDTH: f32 = 300.0;
+/// What of the picture must stay free beside the panel, in points.
+const LEAST_REST: f32 = 300.0;
 /// Side of the magnified pixel with its samples, in points.
 const PIXEL_SIDE: f32 = 132.0;
 /// Letters of the report, in points.
@@ -428,9 +432,12 @@ impl Hovered {
 
 /// Whether there is room for the panel beside what must stay free of the picture, in `width` points.
 pub(super) fn fits(width: f32) -> bool {
-    /// What of the picture must stay free beside the panel, in points.
-    const LEAST_REST: f32 = 300.0;
     width >= WIDTH + LEAST_REST
+}
+
+/// How wide a panel is that would be `width` points wide, in a room that it [fits].
+pub(super) fn fitted(width: f32, room: f32) -> f32 {
+    width.min(room - LEAST_REST).max(LEAST_WIDTH)
 }
 
 /// Whether there is a pixel to explain, and room for the panel in `width` points.

@@ -2,7 +2,6 @@
 
 use egui::{Rangef, Rect};
 
-use super::explanation::WIDTH;
 use super::places::points;
 use super::{look, pin};
 use crate::viewer::{Arrangement, AskedAt, Viewer};
@@ -15,24 +14,46 @@ pub(super) struct Side {
     pub(super) is_left: bool,
     /// The pin that it was chosen for.
     pins: u64,
-    /// The room's width then, in points.
+    /// The window's width then, in points.
     width: f32,
+}
+
+/// Where the panel goes, in points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Room {
+    /// What other panels leave.
+    pub(super) free: Rect,
+    /// The panel's width.
+    pub(super) panel: f32,
+    /// The window's.
+    pub(super) window: f32,
+}
+
+impl Room {
+    /// What the panel leaves.
+    fn beside(&self, is_left: bool) -> Rect {
+        if is_left {
+            self.free.with_min_x(self.free.left() + self.panel)
+        } else {
+            self.free.with_max_x(self.free.right() - self.panel)
+        }
+    }
 }
 
 impl Side {
     /// The side `before`, unless that will not do for another pin or another window of `width` points.
-    pub(super) fn choose(before: Option<Self>, viewer: &Viewer, (free, width): (Rect, f32), scale: f32) -> Self {
-        let pins = viewer.pins();
+    pub(super) fn choose(before: Option<Self>, viewer: &Viewer, room: Room, scale: f32) -> Self {
+        let (pins, width) = (viewer.pins(), room.window);
         #[expect(clippy::float_cmp, reason = "the same window")]
-        let stays = |side: &Self| (side.pins == pins && side.width == width) || !side.covers_pin(viewer, free, scale);
+        let stays = |side: &Self| (side.pins == pins && side.width == width) || !side.covers_pin(viewer, room, scale);
         let is_left = before
             .filter(stays)
-            .map_or_else(|| opens_left(viewer, free, scale), |side| side.is_left);
+            .map_or_else(|| opens_left(viewer, room, scale), |side| side.is_left);
         Self { is_left, pins, width }
     }
 
-    fn covers_pin(self, viewer: &Viewer, free: Rect, scale: f32) -> bool {
-        let rest = beside(free, self.is_left).shrink(pin::ROOM);
+    fn covers_pin(self, viewer: &Viewer, room: Room, scale: f32) -> bool {
+        let rest = room.beside(self.is_left).shrink(pin::ROOM);
         let places = viewer.pinned_places();
         places
             .iter()
@@ -40,25 +61,16 @@ impl Side {
     }
 }
 
-/// What the panel leaves of the room.
-fn beside(free: Rect, is_left: bool) -> Rect {
-    if is_left {
-        free.with_min_x(free.left() + WIDTH)
-    } else {
-        free.with_max_x(free.right() - WIDTH)
-    }
-}
-
 /// Whether the panel opens on the left: unless the pinned pixel lies there. Side by side the place that was clicked is to
 /// stay in its own half.
-fn opens_left(viewer: &Viewer, free: Rect, scale: f32) -> bool {
+fn opens_left(viewer: &Viewer, room: Room, scale: f32) -> bool {
     let asked = viewer
         .asked_at()
         .filter(|_| viewer.arrangement() == Arrangement::SideBySide);
     if let Some(AskedAt { at: [x, _], in_second }) = asked {
         let x = i32::try_from(x).unwrap_or_default() as f32 / scale;
         let fitness = |is_left: bool| {
-            let rest = beside(free, is_left);
+            let rest = room.beside(is_left);
             let middle = rest.center().x;
             let half = if in_second {
                 Rangef::new(middle, rest.right())
@@ -71,5 +83,5 @@ fn opens_left(viewer: &Viewer, free: Rect, scale: f32) -> bool {
     }
     let places = viewer.pinned_places();
     let x = places.first().map(|place| points(place, scale).left());
-    x.is_none_or(|x| x > free.left() + WIDTH + look::PANEL_WIDTH / 8.0)
+    x.is_none_or(|x| x > room.free.left() + room.panel + look::PANEL_WIDTH / 8.0)
 }

@@ -3,7 +3,8 @@
 //!
 //! The frame of the scene fills the whole window in device pixels, as in the course, so that a picture's size never
 //! depends on panels. The panels lie over it. Lest they hide the canvas unasked, the side panel starts folded where
-//! it would reach into the canvas of the default view, and the inspector's inset is told what area is free.
+//! it would reach into the canvas of the default view; the viewer is told what area is free, and brings a canvas that no
+//! hand has moved there.
 
 mod chooser;
 mod compare;
@@ -35,6 +36,7 @@ mod start;
 mod status;
 mod texture_view;
 mod view_numbers;
+mod widths;
 
 use crate::viewer::WindowCommand;
 use egui::{Area, Context, Frame, Id, Margin, Order, Panel, Pos2, Rect, ScrollArea, Sense, Ui};
@@ -44,11 +46,13 @@ use crate::viewer::{Arrangement, Command, PixelRect, Theme, ViewNumbers, Viewer}
 use compare_marks::Marks;
 use dialogs::Dialogs;
 use explanation::{ExplanationPanel, Hovered};
-use explanation_side::Side;
+use explanation_side::{Room, Side};
 use floating::CloseOfInset;
 use messages::{Messages, Taken};
 use scenes::Thumbnails;
 use side_panel::PanelMemory;
+pub(super) use widths::PanelWidths;
+use widths::SizedPanel;
 
 /// Width of the picture that two panels leave at least, in points.
 const LEAST_PICTURE: f32 = 160.0;
@@ -69,6 +73,8 @@ pub(super) struct Interface {
     explanation: ExplanationPanel,
     messages: Messages,
     close_of_inset: CloseOfInset,
+    /// How wide panels are.
+    pub(super) widths: PanelWidths,
     /// What the side panel remembers.
     panel: PanelMemory,
     /// Whether the panel of the comparison is on the right, while there is one.
@@ -115,6 +121,7 @@ impl Interface {
             explanation: ExplanationPanel::default(),
             messages: Messages::default(),
             close_of_inset: CloseOfInset::default(),
+            widths: PanelWidths::default(),
             panel: PanelMemory::default(),
             comparison_on_right: None,
             explanation_side: None,
@@ -183,39 +190,45 @@ impl Interface {
     /// Whether a side panel beside the canvas of the default view leaves all of it free, in a window of `size` points.
     pub(super) fn panel_fits(size: [f32; 2]) -> bool {
         let canvas = size[0].min(size[1]) / 1.2;
-        (size[0] - canvas) / 2.0 >= look::PANEL_WIDTH
+        (size[0] - canvas) / 2.0 >= SizedPanel::Side.first()
     }
 
     /// Whether the explanation of a pixel has room in a window of that many points in width only without the side panel.
-    pub(super) fn explanation_needs_panel(width: f32) -> bool {
-        explanation::fits(width) && !explanation::fits(width - look::PANEL_WIDTH)
+    pub(super) fn explanation_needs_panel(&self, viewer: &Viewer, window: f32) -> bool {
+        let width = self.beside_lesson(viewer, window);
+        explanation::fits(width) && !explanation::fits(width - self.widths.of(SizedPanel::Side, window))
     }
 
-    /// What a lesson leaves of that many points in width.
-    pub(super) fn beside_lesson(viewer: &Viewer, width: f32) -> f32 {
-        let has_panel = viewer.lesson().is_some() && width >= lesson::WIDTH + LEAST_PICTURE;
-        if has_panel { width - lesson::WIDTH } else { width }
+    /// What a lesson leaves of a window of that many points in width.
+    fn beside_lesson(&self, viewer: &Viewer, window: f32) -> f32 {
+        let lesson = self.widths.of(SizedPanel::Lesson, window);
+        let has_panel = viewer.lesson().is_some() && window >= lesson + LEAST_PICTURE;
+        if has_panel { window - lesson } else { window }
     }
 
     /// Whether a lesson leaves no room for the explanation of a pixel in a window of that many points in width: then both
     /// are pages of one panel.
-    pub(super) fn lesson_shares_panel(viewer: &Viewer, width: f32) -> bool {
-        let beside = Self::beside_lesson(viewer, width);
-        beside < width && !explanation::fits(beside)
+    pub(super) fn lesson_shares_panel(&self, viewer: &Viewer, window: f32) -> bool {
+        let beside = self.beside_lesson(viewer, window);
+        beside < window && !explanation::fits(beside)
     }
 
     /// Whether the explanation of a pixel has room in a window of that many points in width.
-    pub(super) fn has_room_to_explain(viewer: &Viewer, width: f32) -> bool {
-        if Self::lesson_shares_panel(viewer, width) {
+    pub(super) fn has_room_to_explain(&self, viewer: &Viewer, window: f32) -> bool {
+        if self.lesson_shares_panel(viewer, window) {
             return true;
         }
-        let panel = if viewer.panel() { look::PANEL_WIDTH } else { 0.0 };
-        explanation::fits(Self::beside_lesson(viewer, width) - panel)
+        let panel = if viewer.panel() {
+            self.widths.of(SizedPanel::Side, window)
+        } else {
+            0.0
+        };
+        explanation::fits(self.beside_lesson(viewer, window) - panel)
     }
 
     /// Whether the side panel of a window of that many points in width leaves the pinned pixel in sight.
-    pub(super) fn panel_leaves_pin(viewer: &Viewer, width: f32, pixels_per_point: f32) -> bool {
-        let left = width - look::PANEL_WIDTH - pin::ROOM;
+    pub(super) fn panel_leaves_pin(&self, viewer: &Viewer, window: f32, pixels_per_point: f32) -> bool {
+        let left = window - self.widths.of(SizedPanel::Side, window) - pin::ROOM;
         let places = viewer.pinned_places();
         places
             .iter()
@@ -248,11 +261,11 @@ impl Interface {
             if let Some(spec) = line.inner {
                 self.dialogs.ask_for(spec, &mut asked.commands);
             }
-            if viewer.lesson().is_some() && ui.available_width() >= lesson::WIDTH + LEAST_PICTURE {
-                page = self.lesson_panel(ui, viewer, asked);
+            if self.beside_lesson(viewer, whole.width()) < whole.width() {
+                page = self.lesson_panel(ui, viewer, (whole.width(), asked));
             }
             if viewer.panel() {
-                self.side_panel(ui, viewer, asked);
+                self.side_panel(ui, viewer, (whole.width(), asked));
                 // Why a pixel has its colour tells the same of A and B, for that pixel: it goes first where there is not room
                 // for both.
                 let room = ui.available_rect_before_wrap();
@@ -261,10 +274,10 @@ impl Interface {
                 } else {
                     LEAST_PICTURE
                 };
-                let fits = ui.available_width() >= look::PANEL_WIDTH + beside;
+                let fits = ui.available_width() >= self.widths.of(SizedPanel::Comparison, whole.width()) + beside;
                 has_comparison = viewer.other().is_some() && fits;
                 if has_comparison {
-                    self.compare_panel(ui, viewer, asked);
+                    self.compare_panel(ui, viewer, (whole.width(), asked));
                 }
             }
         }
@@ -359,13 +372,13 @@ impl Interface {
 
     /// The lesson beside the picture. Where it leaves no room for the explanation of a pixel, that is a page of its panel,
     /// and what the pointer is over there is returned.
-    fn lesson_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) -> Option<Hovered> {
-        let shares = Self::lesson_shares_panel(viewer, ui.available_width());
+    fn lesson_panel(&mut self, ui: &mut Ui, viewer: &Viewer, (window, asked): (f32, &mut Asked)) -> Option<Hovered> {
+        let shares = self.lesson_shares_panel(viewer, window);
         let commands = &mut asked.commands;
         let memory = &mut self.explanation;
         let panel = Panel::left("lesson panel")
             .resizable(false)
-            .exact_size(lesson::WIDTH)
+            .exact_size(self.widths.of(SizedPanel::Lesson, window))
             .frame(panel_frame(ui, look::scrolling_margin(8)))
             .show(ui, |ui| {
                 look::bars_beside(ui);
@@ -380,13 +393,14 @@ impl Interface {
                 lesson::text(ui, viewer);
                 Hovered::default()
             });
-        self.covered.push(panel.response.rect);
+        self.cover(ui, (SizedPanel::Lesson, true), panel.response.rect);
         shares.then_some(panel.inner)
     }
 
     /// On the left, unless that would cover the pinned pixel. The panel keeps its side as long as it is to be seen, so that
     /// its buttons stay under the pointer.
-    fn compare_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
+    fn compare_panel(&mut self, ui: &mut Ui, viewer: &Viewer, (window, asked): (f32, &mut Asked)) {
+        let width = self.widths.of(SizedPanel::Comparison, window);
         let room = ui.available_rect_before_wrap();
         let scale = ui.pixels_per_point();
         let on_right = *self.comparison_on_right.get_or_insert_with(|| {
@@ -397,8 +411,8 @@ impl Interface {
             let places = viewer.pinned_places();
             let pin = places.first().map(|place| places::points(place, scale).center().x);
             pin.is_some_and(|x| {
-                let beside_left = x - room.left() - look::PANEL_WIDTH;
-                let beside_right = room.right() - look::PANEL_WIDTH - x;
+                let beside_left = x - room.left() - width;
+                let beside_right = room.right() - width - x;
                 beside_left < pin::ROOM && beside_left < beside_right
             })
         });
@@ -409,14 +423,20 @@ impl Interface {
         };
         let panel = panel
             .resizable(false)
-            .exact_size(look::PANEL_WIDTH)
+            .exact_size(width)
             .frame(panel_frame(ui, look::scrolling_margin(4)))
             .show(ui, |ui| {
                 look::bars_beside(ui);
                 let area = ScrollArea::vertical().id_salt("compare").auto_shrink(false);
                 area.show(ui, |ui| compare::show(ui, viewer, &mut asked.commands));
             });
-        self.covered.push(panel.response.rect);
+        self.cover(ui, (SizedPanel::Comparison, !on_right), panel.response.rect);
+    }
+
+    /// Notes that a panel covers the picture, and lets its edge be dragged.
+    fn cover(&mut self, ui: &Ui, (panel, is_left): (SizedPanel, bool), rect: Rect) {
+        let grip = self.widths.edge(ui, (panel, is_left), rect);
+        self.covered.extend([rect, grip]);
     }
 
     /// Why the pinned pixel has its colour, beside the picture.
@@ -426,12 +446,14 @@ impl Interface {
             self.explanation_side = None;
             return Hovered::default();
         }
-        let side = Side::choose(
-            self.explanation_side,
-            viewer,
-            (free, whole.width()),
-            ui.pixels_per_point(),
-        );
+        let width = self.widths.of(SizedPanel::Explanation, whole.width());
+        let width = explanation::fitted(width, free.width());
+        let room = Room {
+            free,
+            panel: width,
+            window: whole.width(),
+        };
+        let side = Side::choose(self.explanation_side, viewer, room, ui.pixels_per_point());
         // The place of a pin is not known before its scene is.
         self.explanation_side = Some(side).filter(|_| viewer.view_numbers().is_some());
         let panel = if side.is_left {
@@ -443,13 +465,13 @@ impl Interface {
         memory.is_page = false;
         let panel = panel
             .resizable(false)
-            .exact_size(explanation::WIDTH)
+            .exact_size(width)
             .frame(panel_frame(ui, look::scrolling_margin(8)))
             .show(ui, |ui| {
                 look::bars_beside(ui);
                 memory.show(ui, viewer, &mut asked.commands)
             });
-        self.covered.push(panel.response.rect);
+        self.cover(ui, (SizedPanel::Explanation, side.is_left), panel.response.rect);
         panel.inner
     }
 }

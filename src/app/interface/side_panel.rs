@@ -10,7 +10,7 @@ use egui::{Panel, ScrollArea, Ui};
 
 use super::document::Readings;
 use super::scenes::{self, Wishes};
-use super::{Asked, Interface, compare, document, look, panel_frame, sampling, view_numbers};
+use super::{Asked, Interface, SizedPanel, compare, document, look, panel_frame, sampling, view_numbers};
 use crate::viewer::{SceneEntry, SceneSource, Viewer};
 
 /// Height of everything above the scenes but the report where all of it is shown, in points.
@@ -59,10 +59,10 @@ impl PanelMemory {
 }
 
 impl Interface {
-    pub(super) fn side_panel(&mut self, ui: &mut Ui, viewer: &Viewer, asked: &mut Asked) {
+    pub(super) fn side_panel(&mut self, ui: &mut Ui, viewer: &Viewer, (window, asked): (f32, &mut Asked)) {
         let panel = Panel::right("side panel")
             .resizable(false)
-            .exact_size(look::PANEL_WIDTH)
+            .exact_size(self.widths.of(SizedPanel::Side, window))
             .frame(panel_frame(ui, look::scrolling_margin(4)))
             .show(ui, |ui| {
                 look::bars_beside(ui);
@@ -93,7 +93,7 @@ impl Interface {
                 look::beside_bar(ui, |ui| self.settings(ui, viewer, asked));
                 self.scenes(ui, viewer, true, asked);
             });
-        self.covered.push(panel.response.rect);
+        self.cover(ui, (SizedPanel::Side, false), panel.response.rect);
     }
 
     /// Whether a panel of `height` points is so high that the list of scenes scrolls by itself.

@@ -25,7 +25,7 @@ pub(super) fn at_step(step: usize, window: [u32; 2]) -> Session {
 
 #[test]
 fn explanation_that_a_lesson_speaks_of_is_a_click_away() {
-    for window in [[480, 480], [640, 480], [800, 600], [940, 700]] {
+    for window in [[480, 480], [640, 480], [800, 600], [900, 700]] {
         let mut session = at_step(EXPLAINED, window);
         let text = |session: &mut Session| says(session, "sixteen");
         let explained = |session: &mut Session| says(session, "Sample by sample") || says(session, "user units");

@@ -17,6 +17,8 @@ mod lessons;
 mod menus;
 #[cfg(test)]
 mod overlaps;
+#[cfg(test)]
+mod panel_edges;
 mod room;
 #[cfg(test)]
 mod small_windows;
@@ -33,7 +35,7 @@ use std::time::{Duration, Instant};
 use egui::{Event, PlatformOutput, Pos2, RawInput, Rect, ViewportId, vec2};
 use glam::DVec2;
 
-use super::interface::{Asked, Interface};
+use super::interface::{Asked, Interface, PanelWidths};
 use super::overlay::{CanvasRect, Output, Overlay};
 use crate::plain;
 use crate::raster::Framebuffer;
@@ -178,6 +180,16 @@ impl Session {
     /// Whether the side panel is open, where the user said so.
     pub(super) fn panel_choice(&self) -> Option<bool> {
         self.room.choice(self.viewer.panel())
+    }
+
+    /// How wide panels are.
+    pub(super) fn panel_widths(&self) -> PanelWidths {
+        self.interface.widths
+    }
+
+    /// Makes panels as wide as in another session.
+    pub(super) fn set_panel_widths(&mut self, widths: PanelWidths) {
+        self.interface.widths = widths;
     }
 
     /// Says on stderr, once, why the scene that should be shown is not.

@@ -109,7 +109,7 @@ impl Session {
             }
             _ if self.room.gave_way && !self.viewer.is_dragging() && !self.viewer.everything_hidden() => {
                 let width = self.viewer.window_size()[0] as f32 / self.scale();
-                let is_free = !explains && Interface::panel_leaves_pin(&self.viewer, width, self.scale());
+                let is_free = !explains && self.interface.panel_leaves_pin(&self.viewer, width, self.scale());
                 if is_free || !is_narrow {
                     self.room.gave_way = false;
                     self.apply(Command::Window(WindowCommand::Panel(Toggle::On)));
@@ -123,7 +123,7 @@ impl Session {
     pub(super) fn tell_no_room(&mut self, wanted: Wanted) {
         let width = self.viewer.window_size()[0] as f32 / self.scale();
         let asks = wanted == Wanted::Explanation && self.viewer.explains();
-        if asks && !Interface::has_room_to_explain(&self.viewer, width) {
+        if asks && !self.interface.has_room_to_explain(&self.viewer, width) {
             self.viewer.say_no_room();
         }
     }
@@ -131,14 +131,14 @@ impl Session {
     /// Whether a lesson's text is open where the explanation is the other page of its panel.
     fn is_page_not_turned(&self) -> bool {
         let width = self.viewer.window_size()[0] as f32 / self.scale();
-        let is_shared = Interface::lesson_shares_panel(&self.viewer, width);
+        let is_shared = self.interface.lesson_shares_panel(&self.viewer, width);
         is_shared && self.viewer.explains() && !self.viewer.asks_about_pixel()
     }
 
     /// Whether the window has room for the explanation only without the side panel.
     fn is_narrow(&self) -> bool {
         let [width, _] = self.viewer.window_size();
-        let width = Interface::beside_lesson(&self.viewer, width as f32 / self.scale());
-        Interface::explanation_needs_panel(width)
+        self.interface
+            .explanation_needs_panel(&self.viewer, width as f32 / self.scale())
     }
 }

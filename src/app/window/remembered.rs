@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use etcetera::BaseStrategy as _;
 use serde::{Deserialize, Serialize};
 
+use crate::app::interface::PanelWidths;
 use crate::plain;
 use crate::viewer::{InterfaceScale, Theme};
 
@@ -40,6 +41,14 @@ pub(super) struct Remembered {
     pub(super) size: Option<[u32; 2]>,
     /// Files and folders that were opened, the latest first.
     pub(super) recent: Vec<PathBuf>,
+    /// How wide the user made panels, in points: a table, which stands last in the file.
+    #[serde(skip_serializing_if = "is_first")]
+    pub(super) panel_widths: PanelWidths,
+}
+
+/// Whether nothing was chosen.
+fn is_first<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 impl Remembered {

@@ -126,6 +126,7 @@ impl Viewer {
         self.want_scene();
         self.complete_restored();
         self.follow_lesson();
+        self.follow_free_part();
         self.keep_pin_in_place();
         self.place_inset();
         self.want_frame();

@@ -56,6 +56,18 @@ impl Viewer {
         self.center_fixed();
     }
 
+    /// Keeps a canvas that no hand has moved where panels leave room for it. A pinned pixel is to stay what it is: while there
+    /// is one, no other scale comes.
+    pub(in crate::viewer) fn follow_free_part(&mut self) {
+        let is_pinned = self.inspector.magnifier.pin.is_some();
+        // A lesson has views of its own.
+        if is_pinned || self.lesson.is_some() {
+            return;
+        }
+        let part = self.free_part();
+        self.look(|camera, context| camera.follow(part, context));
+    }
+
     /// Whether something of the canvas lies in the part of the window that no panel covers; true where there is no scene, or
     /// no canvas that a view could lose.
     pub fn canvas_in_sight(&self) -> bool {

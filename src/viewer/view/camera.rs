@@ -11,6 +11,9 @@ use crate::viewer::settings::values;
 /// a user-space number has 53 bits, of which this leaves 8 below the pixel.
 const REACH: f64 = (1_u64 << 45) as f64;
 
+/// What the scale of the default view may be multiplied with, so that the canvas lies in a part of the frame.
+const LEAST_FOLLOWED: f64 = 0.6;
+
 /// Smallest size of the canvas, in pixels: far below it nothing could be seen, and numbers stay finite.
 const SMALLEST_CANVAS: f64 = 1.0 / (1_u64 << 30) as f64;
 
@@ -18,6 +21,8 @@ const SMALLEST_CANVAS: f64 = 1.0 / (1_u64 << 30) as f64;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Camera {
     view: View,
+    /// Whether the view only brings the canvas to where panels leave room for it.
+    is_fitted: bool,
 }
 
 /// What a camera looks at and through.
@@ -72,7 +77,7 @@ impl ViewNumbers {
 impl Camera {
     /// A camera with this view.
     pub fn new(view: View) -> Self {
-        Self { view }
+        Self { view, is_fitted: false }
     }
 
     /// The view, as `--view` would take it.
@@ -83,6 +88,11 @@ impl Camera {
     /// Whether no hand has moved the default view.
     pub fn is_default(&self) -> bool {
         self.view == View::Default
+    }
+
+    /// Whether no hand has moved the view since it was the default one: at most it was brought to where there is room.
+    pub fn is_untouched(&self) -> bool {
+        self.is_default() || self.is_fitted
     }
 
     /// The map from user space to frame pixels.
@@ -127,6 +137,7 @@ impl Camera {
         let highest = REACH / extent;
         let scale = numbers.scale.clamp(lowest, highest);
         let limit = DVec2::splat(REACH / scale);
+        self.is_fitted = false;
         self.view = View::At {
             center: numbers.center.clamp(-limit, limit),
             scale,
@@ -224,7 +235,23 @@ impl Camera {
             scale,
             rotation: 0.0,
         };
+        let was_default = self.is_default();
         self.set(shown, context);
+        self.is_fitted = was_default;
+    }
+
+    /// A view that no hand has moved: the default one, or where some of the canvas would lie outside of a part of the frame,
+    /// the like in that part, unless that is so small that little of the scene would be left to look at.
+    pub fn follow(&mut self, part: [DVec2; 2], context: &ViewContext) {
+        if !self.is_untouched() {
+            return;
+        }
+        let first = Self::default();
+        *self = first;
+        self.show_canvas(part, context);
+        if self.numbers(context).scale < first.numbers(context).scale * LEAST_FOLLOWED {
+            *self = first;
+        }
     }
 
     /// One user unit is one frame pixel; the middle of the frame stays.
@@ -235,7 +262,7 @@ impl Camera {
 
     /// The same part of the scene when frame pixels become `factor` times as many along each side.
     pub fn rescale(&mut self, factor: f64, context: &ViewContext) {
-        if !self.is_default() {
+        if !self.is_untouched() {
             let numbers = self.numbers(context);
             let scale = numbers.scale * factor;
             self.set(ViewNumbers { scale, ..numbers }, context);
@@ -437,5 +464,35 @@ mod tests {
             let turned = half_turn(given);
             assert!((turned - kept).abs() < 1e-12, "{given} degrees became {turned}");
         }
+    }
+
+    #[test]
+    fn follow_moves_only_what_no_hand_has_moved() {
+        let context = ViewContext {
+            canvas: dvec2(400.0, 200.0),
+            frame: [800, 600],
+        };
+        let whole = [DVec2::ZERO, dvec2(800.0, 600.0)];
+        let [left, right] = [0.0, 300.0].map(|x| [dvec2(x, 0.0), dvec2(500.0, 600.0)]);
+        let mut camera = Camera::default();
+        camera.follow(left, &context);
+        let first = camera;
+        assert!(!camera.is_default() && camera.is_untouched(), "it made room");
+        camera.follow(right, &context);
+        let by = camera.numbers(&context).center.x - first.numbers(&context).center.x;
+        assert!(
+            by < 0.0,
+            "the canvas moved to the right: its middle of the frame by {by}"
+        );
+        camera.follow(whole, &context);
+        assert!(camera.is_default(), "all is free again");
+        camera.follow([DVec2::ZERO, dvec2(200.0, 600.0)], &context);
+        assert!(camera.is_default(), "nothing could be seen in so little room");
+        camera.follow(left, &context);
+        camera.pan(DVec2::ONE, &context);
+        let moved = camera;
+        camera.follow(whole, &context);
+        assert_eq!(camera, moved, "a hand moved it");
+        assert!(!camera.is_untouched());
     }
 }

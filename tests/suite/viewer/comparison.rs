@@ -406,6 +406,8 @@ fn comparison_flips_in_time() {
 #[test]
 fn comparison_jumps_to_what_can_be_seen() {
     let mut session = sixteen_against_one(WINDOW);
+    // A view that no hand has moved makes room for panels by itself.
+    session.run(Command::View(ViewCommand::PanBy { by: dvec2(1.0, 0.0) }));
     session.run(Command::Ab(AbCommand::NextDifference));
     let first = session.viewer.pinned_pixel().expect("the largest difference");
     session.run(Command::Inspector(InspectorCommand::Unpin));

@@ -25,6 +25,9 @@ pub enum AppError {
     /// The window could not be opened or drawn.
     #[error("{0}")]
     Window(String),
+    /// The system asked the program to end, and what was to be remembered is.
+    #[error("ended by the system")]
+    Ended,
 }
 
 impl AppError {

@@ -14,7 +14,7 @@ mod window;
 use std::io::Write as _;
 
 pub use error::AppError;
-pub use options::{ScriptSource, ViewOptions};
+pub use options::{AwaitEnd, ScriptSource, ViewOptions};
 
 /// Opens the window, or plays a session without one, until the user quits. Where no display can be reached, the
 /// window's first frame is saved as PNG instead, and a line on stdout says so.

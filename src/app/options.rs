@@ -45,7 +45,12 @@ pub struct ViewOptions {
     pub grammar: Option<Grammar>,
     /// The picture that scene and settings come from.
     pub restored: Option<Restored>,
+    /// Takes what is to be done when the system asks the program to end.
+    pub await_end: Option<AwaitEnd>,
 }
+
+/// Takes what another thread is to do once, when the system asks the program to end.
+pub type AwaitEnd = fn(Box<dyn Fn() + Send>);
 
 /// Where a script comes from.
 #[derive(Clone, Debug)]

@@ -16,6 +16,14 @@ pub(super) enum Failure {
     Other(String),
     /// Not a failure: a text that was asked for, such as the help.
     Text(String),
+    /// A signal asked the program to end: what is said, and the exit status.
+    #[cfg(feature = "window")]
+    Stopped {
+        /// Which signal.
+        line: String,
+        /// 128 and the signal's number, as shells tell it.
+        status: u8,
+    },
     /// Not a failure either: pictures that were compared differ, which the exit status says.
     Different,
 }
@@ -44,6 +52,8 @@ impl Failure {
     pub(super) fn into_line(self) -> String {
         match self {
             Self::Input(line) | Self::Other(line) | Self::Text(line) => line,
+            #[cfg(feature = "window")]
+            Self::Stopped { line, .. } => line,
             Self::Different => String::new(),
         }
     }
@@ -58,6 +68,11 @@ impl Failure {
             Self::Other(line) => {
                 print_error(line);
                 ExitCode::from(1)
+            }
+            #[cfg(feature = "window")]
+            Self::Stopped { line, status } => {
+                print_error(line);
+                ExitCode::from(*status)
             }
             Self::Different => ExitCode::from(1),
             Self::Text(text) => match print(text.trim_end()) {

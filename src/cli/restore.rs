@@ -67,7 +67,7 @@ fn arguments_of(arguments: &[String]) -> Result<Arguments, String> {
     match arguments::parse_words(words.map(OsString::from).collect(), false) {
         Ok(arguments) => Ok(arguments),
         Err(Failure::Input(problem) | Failure::Other(problem)) => Err(problem),
-        Err(Failure::Text(_) | Failure::Different) => Err("it asks for help".to_owned()),
+        Err(_) => Err("it asks for help".to_owned()),
     }
 }
 

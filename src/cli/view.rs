@@ -7,9 +7,9 @@ use crate::viewer::Restored;
 /// Opens the window, or plays a session without one.
 #[cfg(feature = "window")]
 pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Result<(), Failure> {
-    use super::memory;
     use super::picture::no_threads;
-    use crate::app::{self, ScriptSource, ViewOptions};
+    use super::{interrupt, memory};
+    use crate::app::{self, AppError, ScriptSource, ViewOptions};
     use crate::viewer::LessonSource;
 
     let lessons: Vec<LessonSource> = options
@@ -56,13 +56,12 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
         force: options.force,
         grammar: Some(super::restore::GRAMMAR),
         restored: restored.cloned(),
+        await_end: Some(interrupt::instead),
     };
-    app::run(view_options).map_err(|error| {
-        if error.is_input() {
-            Failure::input(error)
-        } else {
-            Failure::other(error)
-        }
+    app::run(view_options).map_err(|error| match error {
+        AppError::Ended => interrupt::ended(),
+        error if error.is_input() => Failure::input(error),
+        error => Failure::other(error),
     })
 }
 

@@ -5,7 +5,7 @@ use std::process::{Child, Command, Stdio};
 
 use x11rb::connection::Connection as _;
 use x11rb::protocol::xproto::{
-    BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ConnectionExt as _, ImageFormat, InputFocus, KEY_PRESS_EVENT,
+    AtomEnum, BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ConnectionExt as _, ImageFormat, InputFocus, KEY_PRESS_EVENT,
     KEY_RELEASE_EVENT, MOTION_NOTIFY_EVENT, MapState, Window,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
@@ -73,6 +73,22 @@ impl Desktop {
             let size = self.x.get_geometry(*window).ok().and_then(|cookie| cookie.reply().ok());
             shown.is_some_and(|shown| shown.map_state == MapState::VIEWABLE) && size.is_some_and(|size| size.width > 50)
         })
+    }
+
+    /// The bytes of a window's property.
+    pub(crate) fn property(&self, window: Window, name: &str) -> Vec<u8> {
+        let atom = self
+            .x
+            .intern_atom(false, name.as_bytes())
+            .unwrap()
+            .reply()
+            .unwrap()
+            .atom;
+        let all = self
+            .x
+            .get_property(false, window, atom, AtomEnum::ANY, 0, u32::MAX / 4)
+            .unwrap();
+        all.reply().unwrap().value
     }
 
     /// Gives the keyboard to `window`: there is no window manager to do so.

@@ -53,6 +53,60 @@ fn next_session_begins_as_the_last_one_ended() {
 }
 
 #[test]
+#[cfg(unix)]
+fn signals_end_with_one_line_and_nothing_is_forgotten() {
+    for (number, name) in [(15, "SIGTERM"), (1, "SIGHUP"), (2, "Ctrl+C")] {
+        let mut program = Program::open(&[], &[]);
+        program.desktop.press('='.into(), &[keysym::CONTROL]);
+        // The key has no other effect that could be waited for.
+        std::thread::sleep(Duration::from_millis(700));
+        let id = program.id().to_string();
+        let sent = Process::new("kill")
+            .args([&format!("-{number}"), &id])
+            .status()
+            .unwrap();
+        assert!(sent.success(), "{name} is sent");
+        assert_eq!(program.ended().code(), Some(128 + number), "as shells tell {name}");
+        let line = program.errors();
+        assert!(
+            line.starts_with(&format!("rasterscope: stopped by {name}")) && line.lines().count() == 1,
+            "{line}"
+        );
+        let session = program.folder.path().join("config/rasterscope/session.toml");
+        let session = std::fs::read_to_string(session).unwrap();
+        assert!(session.contains("interface-scale = 110"), "{name}: {session}");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn compositor_that_has_ended_leaves_x11() {
+    let folder = tempfile::tempdir().unwrap();
+    let runtime = folder.path().display().to_string();
+    let variables = [("WAYLAND_DISPLAY", "wayland-9"), ("XDG_RUNTIME_DIR", runtime.as_str())];
+    let mut program = Program::open_where(folder, &[&flat()], &[], &variables);
+    program.close();
+    assert!(program.ended().success(), "a window was opened and closed");
+}
+
+#[test]
+fn desktop_finds_name_and_icon() {
+    let mut program = Program::start(&flat());
+    let class = program.desktop.property(program.window, "WM_CLASS");
+    assert_eq!(class, b"rasterscope\0rasterscope\0", "as in the desktop file");
+    let icon = program.desktop.property(program.window, "_NET_WM_ICON");
+    assert_eq!(icon.len(), (2 + 64 * 64) * 4, "width, height, pixels");
+    let middle = 4 * (2 + 36 * 64 + 37);
+    assert_eq!(
+        icon[middle..middle + 4],
+        [10, 214, 255, 255],
+        "the lens's yellow dot, B G R A"
+    );
+    program.close();
+    assert!(program.ended().success());
+}
+
+#[test]
 fn escape_twice_ends_when_nothing_is_open() {
     let mut program = Program::start_bare(&flat());
     program.shows(&viewed(&flat(), &[]), "the first picture");

@@ -1,6 +1,7 @@
 //! The program in its window, and what it should show.
 
 use rasterscope::viewer::InspectorCommand;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command as Process, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
@@ -19,6 +20,9 @@ use super::desktop::Desktop;
 const PATIENCE: Duration = Duration::from_secs(20);
 /// Width and height of the window at the start.
 pub(crate) const SIZE: [u32; 2] = [500, 400];
+
+/// What has its words on stderr, in its folder.
+const ERRORS: &str = "stderr";
 
 /// A scene of ours with textures.
 pub(crate) fn textured() -> PathBuf {
@@ -56,8 +60,19 @@ impl Program {
 
     /// As [`Program::open`], in a folder that also holds what it remembers.
     pub(crate) fn open_in(folder: tempfile::TempDir, paths: &[&Path], arguments: &[&str]) -> Self {
+        Self::open_where(folder, paths, arguments, &[])
+    }
+
+    /// As [`Program::open_in`], with more variables of the environment.
+    pub(crate) fn open_where(
+        folder: tempfile::TempDir,
+        paths: &[&Path],
+        arguments: &[&str],
+        variables: &[(&str, &str)],
+    ) -> Self {
         let desktop = Desktop::start();
         let [width, height] = SIZE;
+        let errors = std::fs::File::create(folder.path().join(ERRORS)).unwrap();
         let child = Process::new(env!("CARGO_BIN_EXE_rasterscope"))
             .arg("view")
             .args(paths)
@@ -68,8 +83,10 @@ impl Program {
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
             .env_remove("WINIT_X11_SCALE_FACTOR")
+            .envs(variables.iter().copied())
             .current_dir(folder.path())
             .stdout(Stdio::null())
+            .stderr(errors)
             .spawn()
             .unwrap();
         let window = until("the window", || desktop.find_window());
@@ -173,6 +190,11 @@ impl Program {
         x.flush().unwrap();
     }
 
+    /// What it said on stderr.
+    pub(crate) fn errors(&self) -> String {
+        std::fs::read_to_string(self.folder.path().join(ERRORS)).unwrap()
+    }
+
     /// Waits for the program's end.
     pub(crate) fn ended(&mut self) -> ExitStatus {
         until("the end of the program", || self.child.try_wait().unwrap())
@@ -184,6 +206,10 @@ impl Drop for Program {
         // It may have ended already.
         let _ = self.child.kill();
         let _ = self.child.wait();
+        if std::thread::panicking() {
+            // Beside what the test says.
+            let _ = std::io::stderr().write_all(self.errors().as_bytes());
+        }
     }
 }
 

@@ -19,10 +19,11 @@ use super::super::headless::{self, NamedScript};
 use super::super::session::{Clock, Session};
 use super::super::{AppError, ViewOptions};
 use super::frame_log::FrameLog;
+use super::icon;
 use super::opened::Opened;
 use super::player::Player;
 use super::remembered::Remembered;
-use super::startup::Wake;
+use super::startup::{self, Wake};
 use super::watch::Watch;
 use super::winit_keys;
 use crate::figure::Guard;
@@ -99,7 +100,9 @@ impl Handler {
         let attributes = Window::default_attributes()
             .with_title("Rasterscope")
             .with_inner_size(PhysicalSize::new(width, height))
+            .with_window_icon(icon::icon())
             .with_min_inner_size(SMALLEST);
+        let attributes = startup::named(attributes);
         let failed = |what: &dyn std::fmt::Display| AppError::Window(format!("cannot open a window: {what}"));
         let window = Arc::new(event_loop.create_window(attributes).map_err(|error| failed(&error))?);
         let PhysicalSize { width, height } = window.inner_size();
@@ -116,6 +119,7 @@ impl Handler {
         session.run(Command::Scenes(SceneCommand::RememberOpened(
             self.remembered.recent.clone(),
         )));
+        session.set_panel_widths(self.remembered.panel_widths);
         if let Some(open) = self.remembered.panel {
             session.run(Command::Window(WindowCommand::Panel(if open {
                 Toggle::On
@@ -140,7 +144,7 @@ impl Handler {
         let proxy = self.proxy.clone();
         Arc::new(move || {
             // The event loop has ended: nobody is to be woken.
-            let _ = proxy.send_event(Wake);
+            let _ = proxy.send_event(Wake::Work);
         })
     }
 
@@ -171,6 +175,7 @@ impl Handler {
             now.set_interface_scale(viewer.interface_scale());
         }
         now.panel = opened.session.panel_choice().or(now.panel);
+        now.panel_widths = opened.session.panel_widths();
         if self.options.size.is_none() && !viewer.window_size().contains(&0) {
             now.size = Some(viewer.window_size());
         }
@@ -208,9 +213,11 @@ impl ApplicationHandler<Wake> for Handler {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, _: Wake) {
-        if let Some(opened) = &mut self.opened {
-            opened.session.poll();
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, wake: Wake) {
+        match (wake, &mut self.opened) {
+            (Wake::Work, Some(opened)) => opened.session.poll(),
+            (Wake::Work, None) => {}
+            (Wake::End, _) => self.fail(event_loop, AppError::Ended),
         }
     }
 

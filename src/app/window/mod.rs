@@ -2,6 +2,7 @@
 
 mod frame_log;
 mod handler;
+mod icon;
 mod opened;
 mod player;
 mod remembered;
@@ -12,7 +13,7 @@ mod winit_keys;
 
 use super::{AppError, ViewOptions, headless};
 use handler::Handler;
-use startup::NoWindow;
+use startup::{NoWindow, Wake};
 
 /// Runs the window until it is closed. Without a display the session is played without one, and the line that comes
 /// back says so.
@@ -30,6 +31,13 @@ pub(super) fn run(options: ViewOptions) -> Result<Option<String>, AppError> {
             return Ok(Some(format!("no display, since {why}: {done}; {cure}")));
         }
     };
+    if let Some(await_end) = options.await_end {
+        let proxy = event_loop.create_proxy();
+        // The event loop may have ended already.
+        await_end(Box::new(move || {
+            let _ = proxy.send_event(Wake::End);
+        }));
+    }
     let mut handler = Handler::new(options, script, event_loop.create_proxy());
     let ended = event_loop.run_app(&mut handler);
     handler.remember();

@@ -3,11 +3,17 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use winit::event_loop::EventLoop;
+use winit::event_loop::{EventLoop, EventLoopBuilder};
+use winit::window::WindowAttributes;
 
-/// Sent from other threads: the viewer has something to take in.
+/// Sent from other threads.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wake;
+pub(super) enum Wake {
+    /// The viewer has something to take in.
+    Work,
+    /// The system asks the program to end.
+    End,
+}
 
 /// Why there is no window.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,10 +47,60 @@ pub(super) fn event_loop() -> Result<EventLoop<Wake>, NoWindow> {
             "neither DISPLAY nor WAYLAND_DISPLAY is set".to_owned(),
         ));
     }
-    match quietly(|| EventLoop::with_user_event().build()) {
+    match quietly(|| builder().build()) {
         Ok(Ok(event_loop)) => Ok(event_loop),
         Ok(Err(error)) => Err(explain(&format!("{error}"), &format!("{error:?}"))),
         Err(panic) => Err(explain(&panic, "")),
+    }
+}
+
+/// An event loop to be: on Wayland where that answers, else on X11 where there is one, as after a compositor that has ended.
+fn builder() -> EventLoopBuilder<Wake> {
+    #[cfg_attr(not(target_os = "linux"), expect(unused_mut, reason = "there is one window system"))]
+    let mut builder = EventLoop::with_user_event();
+    #[cfg(target_os = "linux")]
+    if let Some(socket) = linux::wayland_socket(|name| std::env::var_os(name).filter(|value| !value.is_empty()))
+        && std::os::unix::net::UnixStream::connect(socket).is_err()
+    {
+        use winit::platform::x11::EventLoopBuilderExtX11 as _;
+
+        builder.with_x11();
+    }
+    builder
+}
+
+/// A window with the name by which desktops find its icon: that of the desktop file.
+pub(super) fn named(attributes: WindowAttributes) -> WindowAttributes {
+    #[cfg(target_os = "linux")]
+    let attributes = linux::named(attributes);
+    attributes
+}
+
+#[cfg(target_os = "linux")]
+mod linux {
+    use std::ffi::OsString;
+    use std::path::{Path, PathBuf};
+
+    use winit::platform::{wayland, x11};
+    use winit::window::WindowAttributes;
+
+    const NAME: &str = "rasterscope";
+
+    /// Where the compositor should answer; `None` where only it may, or none is asked for.
+    pub(super) fn wayland_socket(value: impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> {
+        value("DISPLAY")?;
+        if value("WAYLAND_SOCKET").is_some() {
+            return None;
+        }
+        // A name with a root is the path itself (wl_display_connect).
+        let name = value("WAYLAND_DISPLAY")?;
+        let folder = value("XDG_RUNTIME_DIR").unwrap_or_default();
+        Some(Path::new(&folder).join(name))
+    }
+
+    pub(super) fn named(attributes: WindowAttributes) -> WindowAttributes {
+        let attributes = x11::WindowAttributesExtX11::with_name(attributes, NAME, NAME);
+        wayland::WindowAttributesExtWayland::with_name(attributes, NAME, NAME)
     }
 }
 
@@ -156,5 +212,34 @@ mod tests {
     fn startup_looks_for_any_display() {
         assert!(any_display(|name| name == "WAYLAND_DISPLAY"), "Wayland alone");
         assert!(!any_display(|_| false), "none");
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn compositor_is_only_asked_for_where_x11_could_take_its_place() {
+        let socket = |set: &[(&str, &str)]| {
+            let value = |name: &str| {
+                set.iter()
+                    .find(|(known, _)| *known == name)
+                    .map(|(_, value)| value.into())
+            };
+            linux::wayland_socket(value)
+        };
+        let both = [
+            ("DISPLAY", ":0"),
+            ("XDG_RUNTIME_DIR", "/run/user/1"),
+            ("WAYLAND_DISPLAY", "wayland-0"),
+        ];
+        assert_eq!(socket(&both), Some("/run/user/1/wayland-0".into()));
+        assert_eq!(socket(&both[1..]), None, "no X11");
+        assert_eq!(socket(&both[..2]), None, "no Wayland");
+        let rooted = [("DISPLAY", ":0"), ("WAYLAND_DISPLAY", "/tmp/wayland-7")];
+        assert_eq!(socket(&rooted), Some("/tmp/wayland-7".into()));
+        let given = [
+            ("DISPLAY", ":0"),
+            ("WAYLAND_DISPLAY", "wayland-0"),
+            ("WAYLAND_SOCKET", "4"),
+        ];
+        assert_eq!(socket(&given), None, "a connection that is open already");
     }
 }

@@ -412,3 +412,24 @@ fn explanation_leaves_a_picture_from_outside_where_it_is() {
         }
     }
 }
+
+#[test]
+fn line_that_nobody_moved_leaves_both_pictures_room() {
+    for window in [[1280, 800], [1366, 768], [1920, 1080]] {
+        for x in [0.24, 0.6] {
+            let mut session = comparing(window);
+            session.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
+            session.settle();
+            right_click(&mut session, [x * f64::from(window[0]), 90.0]);
+            let free = session.free_area.expect("room");
+            let line = session.viewer.wipe_line().expect("a line") - free.x as f64;
+            let part = line / f64::from(free.width);
+            assert!((0.29..0.71).contains(&part), "{part} of {free:?} in {window:?}");
+            // A hand may put it nearer.
+            session.command(Command::Ab(AbCommand::SetWipe(0.0)));
+            session.settle();
+            let line = session.viewer.wipe_line().expect("a line") - free.x as f64;
+            assert!(line < 49.0, "{line} in {free:?}");
+        }
+    }
+}

@@ -20,7 +20,7 @@ impl Comparison {
             arrangement: Arrangement::Alone,
             style: DifferenceStyle::default(),
             gain: 1.0,
-            wipe: 0.5,
+            wipe: None,
             drags_line: false,
             flip: None,
             drawn,
@@ -49,8 +49,8 @@ pub(in crate::viewer) struct Comparison {
     pub(in crate::viewer) style: DifferenceStyle,
     /// The gain that normalising goes back to.
     pub(in crate::viewer) gain: f32,
-    /// Where the line of the wipe is: the part of the frame's width that is A's, `0.0..=1.0`.
-    pub(in crate::viewer) wipe: f64,
+    /// Where somebody put the line of the wipe: the part of the frame's width that is A's, `0.0..=1.0`.
+    pub(in crate::viewer) wipe: Option<f64>,
     /// Whether the pointer drags that line.
     pub(in crate::viewer) drags_line: bool,
     /// When both change places next (never by themselves where a hand flips them), and whether the one in the back is to

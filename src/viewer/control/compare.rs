@@ -61,7 +61,7 @@ impl Viewer {
             AbCommand::SetWipe(part) if !part.is_finite() => {}
             AbCommand::SetGain(gain) if !gain.is_finite() => {}
             AbCommand::SetWipe(part) => {
-                self.ab.wipe = part.clamp(0.0, 1.0);
+                self.ab.wipe = Some(part.clamp(0.0, 1.0));
                 self.arrange(Arrangement::Wipe);
             }
             AbCommand::SetMeasure(measure) => {

@@ -10,6 +10,9 @@ const GRIP: f64 = 6.0;
 /// Window pixels between the line of a wipe and a panel at least.
 const LINE_ROOM: f64 = 48.0;
 
+/// Part of the room between panels that A and B each have at least, until somebody moves the line.
+const LEAST_PART: f64 = 0.3;
+
 impl Viewer {
     /// Takes hold of the line of the wipe where the pointer is on it.
     pub(in crate::viewer) fn take_line(&mut self) -> bool {
@@ -31,7 +34,7 @@ impl Viewer {
         let panes = self.panes();
         let corner = panes.first.corner[0] as f64;
         let part = (x / zoom - corner) / f64::from(panes.frame[0].max(1));
-        self.ab.wipe = part.clamp(0.0, 1.0);
+        self.ab.wipe = Some(part.clamp(0.0, 1.0));
         self.ab.touch();
     }
 
@@ -45,23 +48,28 @@ impl Viewer {
         let width = f64::from(frame.width());
         let zoom = f64::from(self.settings.pixel_zoom.factor());
         let corner = self.panes().first.corner[0] as f64;
-        let wanted = (self.ab.wipe.clamp(0.0, 1.0) * width).round();
+        let part = self.ab.wipe.unwrap_or(0.5);
+        let wanted = (part.clamp(0.0, 1.0) * width).round();
         let free = self.in_sight_of_line((wanted + corner) * zoom) / zoom - corner;
         free.round().clamp(0.0, width) as u32
     }
 
     /// The nearest place for the line of the wipe that no panel covers, in window pixels from the left: its grip and its
-    /// letters are to be seen beside panels. Without panels any place will do.
-    pub(in crate::viewer) fn in_sight_of_line(&self, x: f64) -> f64 {
+    /// letters are to be seen beside panels. A line that nobody moved leaves room for both pictures. Without panels any place
+    /// will do.
+    fn in_sight_of_line(&self, x: f64) -> f64 {
         let Some(free) = self.chrome.free_area else { return x };
-        let low = if free.x > 0 { free.x as f64 + LINE_ROOM } else { x };
+        let is_moved = self.ab.wipe.is_some() || self.ab.drags_line;
+        let part = if is_moved { 0.0 } else { LEAST_PART };
+        let room = LINE_ROOM.max(f64::from(free.width) * part);
+        let low = if free.x > 0 { free.x as f64 + room } else { x };
         let window = i64::from(self.chrome.window[0]);
         let high = if free.right() < window {
-            free.right() as f64 - LINE_ROOM
+            free.right() as f64 - room
         } else {
             x
         };
-        let has_room = f64::from(free.width) > 2.0 * LINE_ROOM;
+        let has_room = f64::from(free.width) > 2.0 * room;
         if has_room { x.max(low).min(high.max(low)) } else { x }
     }
 

@@ -5,7 +5,9 @@ use std::process::exit;
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::failure::{Failure, print_error};
+#[cfg(feature = "window")]
+use super::failure::Failure;
+use super::failure::print_error;
 use super::progress;
 use crate::figure::writing;
 use crate::render::CancelToken;

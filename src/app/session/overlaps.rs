@@ -99,7 +99,10 @@ fn messages_lie_beside_magnifiers_words_and_legends() {
 
 #[test]
 fn words_of_a_wipe_in_a_lesson_are_whole() {
-    let session = at_step(9, [800, 600]);
+    let mut session = at_step(9, [800, 600]);
+    // A hand left A little room.
+    session.command(Command::Ab(AbCommand::SetWipe(0.5)));
+    session.settle();
     let first = session.interface.labels().first().copied().expect("words about A");
     // "A: sample rate 1, level sampling linear" takes five lines there.
     assert!(first.height() > 70.0, "{first:?}");

@@ -62,15 +62,15 @@ impl Viewer {
         let is_moved = self.ab.wipe.is_some() || self.ab.drags_line;
         let part = if is_moved { 0.0 } else { LEAST_PART };
         let room = LINE_ROOM.max(f64::from(free.width) * part);
-        let low = if free.x > 0 { free.x as f64 + room } else { x };
+        let low = if free.x > 0 { free.x as f64 + room } else { 0.0 };
         let window = i64::from(self.chrome.window[0]);
         let high = if free.right() < window {
             free.right() as f64 - room
         } else {
-            x
+            window as f64
         };
         let has_room = f64::from(free.width) > 2.0 * room;
-        if has_room { x.max(low).min(high.max(low)) } else { x }
+        if has_room { x.max(low).min(high) } else { x }
     }
 
     /// Where the line of the wipe is, in window pixels from the left; `None` where there is none.

@@ -35,7 +35,7 @@
 //! | room | turns | into |
 //! |---|---|---|
 //! | `api` | a file and settings | a picture, and why a pixel has its colour: the front door |
-//! | [`cli`] | arguments | a command and its exit status |
+//! | `cli` (feature `cli`) | arguments | a command and its exit status |
 //! | `app` (feature `window`) | window events | [`viewer::Command`]s, and a frame into a presented surface |
 //! | [`viewer`] | commands | state, a finished frame, saved files |
 //! | [`figure`] | frames | insets and figures |
@@ -63,6 +63,7 @@
 mod api;
 #[cfg(feature = "window")]
 pub mod app;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod color;
 pub mod compare;

@@ -1,6 +1,7 @@
 //! Whether the system has as much memory as a piece of work will take.
 //!
-//! Who asks before the work can say what is wrong; the work itself ends the program where a single vector cannot grow.
+//! Who asks before the work can say what is wrong; the work itself ends the program, with status 1, where a single vector
+//! cannot grow.
 
 /// The system gives less memory than was asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::error::ErrorKind;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
+use super::examples::with_examples;
 use super::failure::{Failure, one_line};
 use super::help;
 use super::options::bench::BenchOptions;
@@ -115,12 +116,13 @@ pub(super) fn parse_words(words: Vec<OsString>, repeated: bool) -> Result<Argume
     if let Some(page) = help::page(&words) {
         return Err(Failure::Text(page));
     }
-    if let Some(page) = help::man_page(&words, &Arguments::command()) {
-        return Err(page.map_or_else(Failure::Input, Failure::Text));
+    let program = with_examples(Arguments::command());
+    for made in [help::man_page, help::completions] {
+        if let Some(page) = made(&words, &program) {
+            return Err(page.map_or_else(Failure::Input, Failure::Text));
+        }
     }
-    let matches = Arguments::command()
-        .args_override_self(repeated)
-        .try_get_matches_from(words);
+    let matches = program.args_override_self(repeated).try_get_matches_from(words);
     let read = matches.and_then(|matches| Arguments::from_arg_matches(&matches));
     let arguments = read.map_err(|error| match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {

@@ -2,7 +2,8 @@
 
 use std::ffi::OsString;
 
-use clap::Command;
+use clap::{Command, ValueEnum as _};
+use clap_complete::Shell;
 use clap_mangen::Man;
 
 use crate::plain;
@@ -38,7 +39,7 @@ const PAGES: [(&str, &str); 8] = [
 /// Names all pages, at the end of the program's help.
 pub(super) const LIST: &str = "Without a command, `rasterscope [PATH...]` opens the window: see `rasterscope view --help`.\n\
     The reference: `rasterscope help options`, `keys`, `pixels`, `figures`, `records`, `lessons`, `scripts`, `json`.\n\
-    Man pages: `rasterscope help man [COMMAND] | man -l -`.";
+    Man pages: `rasterscope help man [COMMAND] | man -l -`; completions: `rasterscope help completions SHELL`.";
 
 /// The page that the words of a command line ask for, if they ask for one.
 pub(super) fn page(words: &[OsString]) -> Option<String> {
@@ -81,6 +82,30 @@ pub(super) fn man_page(words: &[OsString], program: &Command) -> Option<Result<S
     // Writing to memory cannot fail.
     let _ = Man::new(command).render(&mut page);
     Some(Ok(String::from_utf8_lossy(&page).into_owned()))
+}
+
+/// What completes the program's words in a shell, where the words of a command line ask for it.
+///
+/// # Errors
+/// One line where there is none for that shell.
+pub(super) fn completions(words: &[OsString], program: &Command) -> Option<Result<String, String>> {
+    let [_, help, completions, name] = words else {
+        return None;
+    };
+    if help != "help" || completions != "completions" {
+        return None;
+    }
+    let name = name.to_string_lossy();
+    let Ok(shell) = Shell::from_str(&name, true) else {
+        let shells: Vec<_> = Shell::value_variants().iter().map(ToString::to_string).collect();
+        let (name, shells) = (plain::line(&name), shells.join(", "));
+        return Some(Err(format!(
+            "{name}: no completions for this shell; there are some for {shells}"
+        )));
+    };
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut program.clone(), program.get_name(), &mut script);
+    Some(Ok(String::from_utf8_lossy(&script).into_owned()))
 }
 
 /// The picture settings as lines of a table in Markdown: option, values, default, what it means.

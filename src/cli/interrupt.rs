@@ -1,7 +1,9 @@
 //! Signals: Ctrl+C ends a command between files, as do the end of the session and of the terminal; a limit of a file's size
-//! is an error like a full disk.
+//! is an error like a full disk, and memory that runs out one like any other.
 
 use std::process::exit;
+#[cfg(unix)]
+use std::sync::atomic::AtomicBool;
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -28,6 +30,10 @@ pub(super) fn listen() {
         // Without a handler the signal ends the program before the error can be told.
         let flag = Arc::default();
         let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, flag);
+        // An allocation that fails ends the program by SIGABRT, after the standard library said so. For whoever called it
+        // that is a machine without room, as any other: status 1, and no core file.
+        let always = Arc::new(AtomicBool::new(true));
+        let _ = signal_hook::flag::register_conditional_shutdown(signal_hook::consts::SIGABRT, 1, always);
         for place in [1, 2] {
             let _ = unix::listen_to(place);
         }

@@ -6,6 +6,7 @@
 mod arguments;
 mod bench;
 mod diff;
+mod examples;
 mod failure;
 mod help;
 mod inspect;

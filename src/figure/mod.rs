@@ -7,6 +7,7 @@ mod lines;
 mod output;
 mod paint;
 mod placement;
+#[cfg(feature = "cli")]
 mod plot;
 mod png;
 mod record;
@@ -25,6 +26,7 @@ pub use legend::{add_legends, draw_legend, place_legends};
 pub use output::{Guard, Named, NewFile, Unwritable, open_log, save_files, write_new, writing};
 use placement::corners;
 pub use placement::{Corner, place};
+#[cfg(feature = "cli")]
 pub use plot::{Plot, PlotSeries, draw_plot};
 pub use record::{Record, RecordError, RecordedFile};
 pub use rect::PixelRect;

@@ -6,7 +6,7 @@ use egui::text::{LayoutJob, TextFormat};
 use egui::{FontFamily, FontId, RichText, ScrollArea, Ui};
 
 use super::controls::{choice, command_button, tip};
-use crate::viewer::{Block, Command, LessonStep, Look, Span, Viewer};
+use crate::viewer::{Block, Command, Lesson, LessonStep, Look, Span, Viewer};
 
 /// Width of the panel, in points, frame included.
 pub(super) const WIDTH: f32 = 300.0;
@@ -14,6 +14,10 @@ pub(super) const WIDTH: f32 = 300.0;
 const SIZE: f32 = 14.0;
 /// Letters of headings.
 const HEADING: f32 = 17.0;
+/// Height of the list of steps, in points.
+const LIST: f32 = 320.0;
+/// Free space between words and what stands in a box, in points: the box is larger than its words.
+const BESIDE_BOX: f32 = 2.5;
 /// What an item's words are moved to the right by, in points.
 const INDENT: f32 = 18.0;
 
@@ -36,8 +40,7 @@ pub(super) fn pages(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 pub(super) fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let Some((lesson, at)) = viewer.lesson() else { return };
     ui.horizontal(|ui| {
-        let of = format!("step {} of {}", at + 1, lesson.steps.len());
-        ui.label(RichText::new(of).size(12.0).weak());
+        steps(ui, lesson, at, commands);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if command_button(ui, "close-lesson", "Close").clicked() {
                 commands.push(Command::Lesson(LessonCommand::Close));
@@ -55,6 +58,24 @@ pub(super) fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     });
     ui.label(RichText::new(&lesson.title).size(12.0).weak());
     ui.add_space(4.0);
+}
+
+/// Where the reader is, as a button with a list of all steps.
+fn steps(ui: &mut Ui, lesson: &Lesson, at: usize, commands: &mut Vec<Command>) {
+    let of = format!("step {} of {}", at + 1, lesson.steps.len());
+    let button = egui::Button::new(RichText::new(format!("{of} \u{23F7}")).size(12.0)).small();
+    let (response, _) = egui::containers::menu::MenuButton::from_button(button).ui(ui, |ui| {
+        ScrollArea::vertical().max_height(LIST).show(ui, |ui| {
+            for (number, step) in lesson.steps.iter().enumerate() {
+                let name = format!("{}. {}", number + 1, step.title);
+                if ui.selectable_label(number == at, name.trim_end_matches(". ")).clicked() {
+                    commands.push(Command::Lesson(LessonCommand::Step(number)));
+                    ui.close();
+                }
+            }
+        });
+    });
+    response.on_hover_text("Goes to any step").accessible_name(&of);
 }
 
 /// The text of the step.
@@ -104,6 +125,7 @@ fn words(ui: &mut Ui, step: &LessonStep) {
 fn layout(ui: &Ui, spans: &[Span], size: f32, heading: bool) -> LayoutJob {
     let visuals = ui.visuals();
     let mut job = LayoutJob::default();
+    let mut after_box = false;
     for span in spans {
         let strong = span.look == Look::Bold || heading;
         let color = if strong {
@@ -124,7 +146,10 @@ fn layout(ui: &Ui, spans: &[Span], size: f32, heading: bool) -> LayoutJob {
         if span.look == Look::Code {
             format.background = visuals.code_bg_color;
         }
-        job.append(&span.text, 0.0, format);
+        let in_box = span.look == Look::Code;
+        let space = if in_box || after_box { BESIDE_BOX } else { 0.0 };
+        job.append(&span.text, if job.is_empty() { 0.0 } else { space }, format);
+        after_box = in_box;
     }
     job
 }

@@ -246,6 +246,55 @@ fn help_has_man_pages_of_the_program_and_of_every_command() {
 }
 
 #[test]
+fn help_has_completions_of_every_command_and_option() {
+    let program = env!("CARGO_BIN_EXE_rasterscope");
+    let print = |shell: &str| {
+        let printed = Command::new(program)
+            .args(["help", "completions", shell])
+            .output()
+            .unwrap();
+        assert!(printed.status.success(), "{shell}: {printed:?}");
+        String::from_utf8(printed.stdout).unwrap()
+    };
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let script = print(shell);
+        for command in commands_of_the_program() {
+            assert!(script.contains(&command), "{shell}: {command}");
+            for line in help_of(&[&command])
+                .lines()
+                .filter_map(|line| line.trim().strip_prefix("--"))
+            {
+                let option = line.split_whitespace().next().unwrap();
+                assert!(script.contains(option), "{shell}: {command} --{option}");
+            }
+        }
+    }
+    let refused = Command::new(program)
+        .args(["help", "completions", "tcsh"])
+        .output()
+        .unwrap();
+    let line = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(2), "{line}");
+    assert!(line.contains("tcsh") && line.contains("zsh"), "{line}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn completions_complete_in_a_shell() {
+    let ask = "source <(\"$0\" help completions bash); COMP_WORDS=(rasterscope render --patt); COMP_CWORD=2; \
+               _rasterscope rasterscope --patt render; echo \"${COMPREPLY[@]}\"";
+    let answer = Command::new("bash")
+        .args(["-c", ask, env!("CARGO_BIN_EXE_rasterscope")])
+        .output()
+        .unwrap();
+    assert_eq!(
+        String::from_utf8_lossy(&answer.stdout).trim(),
+        "--pattern",
+        "{answer:?}"
+    );
+}
+
+#[test]
 fn help_tells_every_setting_and_every_pattern() {
     let pages = pages();
     let page = |name: &str| &pages.iter().find(|(page, _)| page == name).unwrap().1;

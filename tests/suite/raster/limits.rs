@@ -4,10 +4,12 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Output;
+use std::process::{Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
 use crate::support::folder::names;
-use crate::support::program::{done, run_after};
+use crate::support::program::{command, done, run_after};
 
 /// One line, this exit status, nothing left.
 fn assert_told(output: &Output, status: i32, words: &[&str], folder: &Path) {
@@ -157,4 +159,28 @@ fn limits_of_time_zones_do_no_harm() {
         assert_eq!(saved.count(), 1, "{zone}: {output:?}");
         fs::remove_file(folder.path().join("fifo")).unwrap();
     }
+}
+
+/// What an allocation that fails does to the program, wherever it is.
+#[test]
+fn limits_of_small_allocations_end_the_program_as_others_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "gallery:basic/test4.svg";
+    let mut bench = command(folder.path(), &["bench", scene, "--frames=100000"]);
+    let mut running = bench.stdout(Stdio::null()).spawn().unwrap();
+    let status = format!("/proc/{}/status", running.id());
+    let listens = || {
+        let status = fs::read_to_string(&status).unwrap();
+        let mask = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
+        u64::from_str_radix(mask.trim(), 16).unwrap() >> (6 - 1) & 1 == 1
+    };
+    let start = Instant::now();
+    while !listens() {
+        assert!(start.elapsed() < Duration::from_secs(60), "it never listens");
+        sleep(Duration::from_millis(10));
+    }
+    let sent = Command::new("kill").args(["-ABRT", &running.id().to_string()]).status();
+    assert!(sent.unwrap().success(), "a signal");
+    assert_eq!(running.wait().unwrap().code(), Some(1), "no core, no signal's status");
+    assert_eq!(names(folder.path()), [""; 0], "nothing left");
 }

@@ -221,10 +221,11 @@ impl Texture {
     fn blurred_across(&self) -> Option<String> {
         // Neither fixed nor biased: the level is that of the longer side.
         let follows = (self.clamped - self.major.log2()).abs() < 0.01;
-        let is_long = self.taps == 1 && self.clamped > 0.0 && self.major > BLURS * self.minor;
+        let [long, wide] = self.footprint();
+        let is_long = self.taps == 1 && self.clamped > 0.0 && long > BLURS * wide;
         (self.level_sampling != "zero" && follows && is_long).then(|| {
-            let ratio = if self.minor > 0.0 {
-                number((self.major / self.minor).round())
+            let ratio = if wide > 0.0 {
+                number((long / wide).round())
             } else {
                 "many".to_owned()
             };

@@ -39,6 +39,7 @@ impl Explanation {
             percent(shown as f64 / of.samples.len().max(1) as f64)
         };
         compare("background", background(self), background(b));
+        let mut textures: Vec<(String, Difference)> = Vec::new();
         for paint in self
             .paints
             .iter()
@@ -54,13 +55,17 @@ impl Explanation {
                 covered(self, mine),
                 covered(b, other),
             );
-            let textures = [mine, other].map(|paint| paint.and_then(|paint| paint.texture.as_ref()));
-            if let [Some(mine), Some(other)] = textures {
-                for (what, words) in TEXTURE {
-                    compare(what, words(mine), words(other));
-                }
+            if let [Some(mine), Some(other)] = [mine, other].map(|paint| paint.and_then(|paint| paint.texture.as_ref()))
+            {
+                let of_paint = TEXTURE.iter().map(|(what, words)| Difference {
+                    what: (*what).to_owned(),
+                    a: words(mine),
+                    b: words(other),
+                });
+                textures.extend(of_paint.map(|difference| (paint.name(), difference)));
             }
         }
+        found.extend(by_what(textures));
         found
     }
 
@@ -72,6 +77,26 @@ impl Explanation {
         };
         self.paints.iter().rfind(same)
     }
+}
+
+/// What differs of textures, in the table's order: once where it is the same of all, else with the names of the primitives.
+fn by_what(textures: Vec<(String, Difference)>) -> Vec<Difference> {
+    let of_row = |(what, _): &(&str, InWords)| {
+        let rows: Vec<&(String, Difference)> = textures.iter().filter(|(_, row)| row.what == *what).collect();
+        let alike = rows.windows(2).all(|pair| pair[0].1 == pair[1].1);
+        let mut told: Vec<Difference> = Vec::new();
+        for (name, row) in rows.into_iter().filter(|(_, row)| row.a != row.b) {
+            let mut row = row.clone();
+            if !alike {
+                row.what = format!("{name}: {what}");
+            }
+            if !told.contains(&row) {
+                told.push(row);
+            }
+        }
+        told
+    };
+    TEXTURE.iter().flat_map(of_row).collect()
 }
 
 /// Something about a texture in words.

@@ -240,6 +240,8 @@ impl Texture {
     pub(super) fn lines(&self) -> Vec<String> {
         let vector = |[x, y]: [f64; 2]| format!("({}, {})", significant(x), significant(y));
         let [width, height] = self.size;
+        let length = |[x, y]: [f64; 2]| x.hypot(y);
+        let [long, wide] = self.footprint();
         let mut lines = vec![
             format!(
                 "texture {} of {width} x {height} texels, read {}{}",
@@ -254,9 +256,11 @@ impl Texture {
                 vector(self.down)
             ),
             format!(
-                "footprint  {} texels long, {} wide",
-                significant(self.major),
-                significant(self.minor)
+                "these steps are {} and {} texels long, the footprint {} by {}",
+                significant(length(self.right)),
+                significant(length(self.down)),
+                significant(long),
+                significant(wide)
             ),
         ];
         if self.taps > 1 {
@@ -286,6 +290,19 @@ impl Texture {
             lines.push(format!("opacity  {}", number(self.opacity)));
         }
         lines
+    }
+}
+
+impl Texture {
+    /// The axes of the ellipse that the circle in a pixel (or in what a sample stands for) is on the texture, the longer one
+    /// first, in texels: the singular values of the two steps. Levels and taps follow from the steps' lengths instead.
+    pub(super) fn footprint(&self) -> [f64; 2] {
+        let ([a, b], [c, d]) = (self.right, self.down);
+        let squares = a * a + b * b + c * c + d * d;
+        let area = (a * d - b * c).abs();
+        let apart = (squares * squares - 4.0 * area * area).max(0.0).sqrt();
+        let long = f64::midpoint(squares, apart).sqrt();
+        [long, if long > 0.0 { area / long } else { 0.0 }]
     }
 }
 

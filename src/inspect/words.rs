@@ -207,12 +207,30 @@ impl Explanation {
         };
         vec![
             format!("colour  {}", color(found.color)),
-            format!("shows   {}", self.stack(sample)),
+            format!("shows   {}", self.stack_from(sample, usize::MAX)),
+        ]
+    }
+
+    /// As [`Explanation::sample_lines`], of a stack but the topmost few.
+    pub fn short_sample_lines(&self, sample: usize) -> Vec<String> {
+        /// So many fit beside a picture of the pixel.
+        const MOST: usize = 3;
+        let Some(found) = self.samples.get(sample) else {
+            return Vec::new();
+        };
+        vec![
+            format!("colour  {}", color(found.color)),
+            format!("shows   {}", self.stack_from(sample, MOST)),
         ]
     }
 
     /// The stack of a sample, from the top down, such as `2 over 1 over the background`.
     pub fn stack(&self, sample: usize) -> String {
+        self.stack_from(sample, usize::MAX)
+    }
+
+    /// The same, of which only the topmost are named one by one.
+    fn stack_from(&self, sample: usize, most: usize) -> String {
         let Some(found) = self.samples.get(sample) else {
             return String::new();
         };
@@ -220,6 +238,7 @@ impl Explanation {
             .stack
             .iter()
             .rev()
+            .take(most)
             .map(|paint| {
                 let note = match self.unseen(*paint, sample) {
                     None => "",
@@ -230,8 +249,9 @@ impl Explanation {
                 format!("{}{note}", paint + 1)
             })
             .collect();
-        if found.unlisted > 0 {
-            words.push(format!("{} more", found.unlisted));
+        let others = found.unlisted + found.stack.len() - words.len();
+        if others > 0 {
+            words.push(format!("{others} more"));
         }
         words.push("the background".to_owned());
         words.join(" over ")

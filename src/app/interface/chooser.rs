@@ -31,6 +31,8 @@ pub(super) struct Item {
     kind: &'static str,
 }
 
+/// What a picture is called in the list.
+const PICTURE: &str = "picture";
 /// What a folder is called in the list.
 const FOLDER: &str = "folder";
 
@@ -91,6 +93,12 @@ impl Chooser {
     pub(super) fn shown(&self, text: &str) -> Vec<Item> {
         let wanted = text.trim().to_lowercase();
         let fits = |item: &&Item| item.name.to_lowercase().contains(&wanted);
+        self.items.iter().filter(fits).cloned().collect()
+    }
+
+    /// The folders and the pictures.
+    pub(super) fn pictures(&self) -> Vec<Item> {
+        let fits = |item: &&Item| item.is_folder() || item.kind == PICTURE;
         self.items.iter().filter(fits).cloned().collect()
     }
 

@@ -1,13 +1,13 @@
 //! What covers the picture until it is closed: help, the command palette, going to a pixel.
 
-use crate::viewer::WindowCommand;
+use crate::viewer::{AbCommand, Against, WindowCommand};
 use egui::text::{CCursor, CCursorRange};
 use egui::{Align, Align2, Area, Button, Context, Id, Key, Layout, Modal, Order, RichText, ScrollArea};
 use egui::{TextEdit, Ui, vec2};
 
 use super::chooser::Chooser;
 use super::look::{self, CONTROL};
-use super::modal::{BACKDROP, modal};
+use super::modal::{BACKDROP, beside, modal};
 use super::palette::{self, BETWEEN_ENTRIES, Does, ENTRY};
 use super::sheet::SheetDialog;
 use super::start;
@@ -45,6 +45,8 @@ struct Question {
     button: &'static str,
     /// The command that takes the answer.
     command: &'static str,
+    /// Whether the answer is a picture of the folder that is listed, too.
+    lists_pictures: bool,
 }
 
 impl Dialogs {
@@ -74,7 +76,7 @@ impl Dialogs {
             }
         }
         match viewer.dialog() {
-            Some(Dialog::Help) => help(ctx, viewer, commands),
+            Some(Dialog::Help) => help(ctx, viewer, just_opened, commands),
             Some(Dialog::Open) => {
                 if just_opened {
                     self.chooser.begin(viewer);
@@ -91,6 +93,7 @@ impl Dialogs {
                     missing: "type the pixel's column and row first",
                     button: "Pin",
                     command: "pin",
+                    lists_pictures: false,
                 };
                 self.ask(ctx, &question, just_opened, commands);
             }
@@ -98,11 +101,15 @@ impl Dialogs {
                 let question = Question {
                     title: "Compare with a picture",
                     name: "Path",
-                    hint: "path of a PNG or JPEG; or drop it on the window".to_owned(),
-                    missing: "type the path of a picture first",
+                    hint: "path of a PNG or JPEG; or choose one below".to_owned(),
+                    missing: "type the path of a picture first, or choose one",
                     button: "Compare",
                     command: "against",
+                    lists_pictures: true,
                 };
+                if just_opened {
+                    self.chooser.begin(viewer);
+                }
                 self.ask(ctx, &question, just_opened, commands);
                 self.path.clone_from(&self.text);
             }
@@ -143,10 +150,17 @@ impl Dialogs {
     /// Asks for the argument of a command.
     fn ask(&mut self, ctx: &Context, question: &Question, just_opened: bool, commands: &mut Vec<Command>) {
         let modal = modal(question.title).show(ctx, |ui| {
-            ui.set_width(300.0_f32.min(ctx.content_rect().width() - 40.0));
+            let width = if question.lists_pictures { 420.0 } else { 300.0_f32 };
+            ui.set_width(width.min(ctx.content_rect().width() - 40.0));
             ui.heading(question.title);
             let enter = self.line(ui, question.name, &question.hint, just_opened);
             self.problem_line(ui);
+            if question.lists_pictures
+                && let Some(path) = self.pictures(ui)
+            {
+                let compare = Command::Ab(AbCommand::Compare(Against::File(path)));
+                commands.extend([Command::Window(WindowCommand::CloseDialog), compare]);
+            }
             let is_empty = self.text.trim().is_empty();
             let pressed = buttons(ui, question.button, is_empty.then_some(question.missing));
             if enter && is_empty {
@@ -156,7 +170,7 @@ impl Dialogs {
             }
             pressed == Some(false)
         });
-        if modal.inner || modal.backdrop_response.clicked() {
+        if modal.inner || beside(&modal.backdrop_response) {
             commands.push(Command::Window(WindowCommand::CloseDialog));
         }
     }
@@ -232,7 +246,7 @@ impl Dialogs {
                 }
                 ui.ctx().request_repaint();
             });
-        if modal.backdrop_response.clicked() {
+        if beside(&modal.backdrop_response) {
             commands.push(Command::Window(WindowCommand::CloseDialog));
         }
     }
@@ -270,7 +284,8 @@ pub(super) fn list_of<T>(
             if index == chosen && moves {
                 response.scroll_to_me(None);
             }
-            if response.clicked() {
+            // The second half of a double click on a folder would choose what its list has there.
+            if response.clicked() && !response.double_clicked() && !response.triple_clicked() {
                 pressed = Some(index);
             }
         }
@@ -291,7 +306,7 @@ fn buttons(ui: &mut Ui, ok: &str, missing: Option<&str>) -> Option<bool> {
 }
 
 /// Ways on for newcomers, and all keys and gestures from the one table.
-fn help(ctx: &Context, viewer: &Viewer, commands: &mut Vec<Command>) {
+fn help(ctx: &Context, viewer: &Viewer, just_opened: bool, commands: &mut Vec<Command>) {
     let screen = ctx.content_rect();
     let columns = if screen.width() >= 760.0 { 2 } else { 1 };
     let mut way = Vec::new();
@@ -306,30 +321,33 @@ fn help(ctx: &Context, viewer: &Viewer, commands: &mut Vec<Command>) {
             | {
                 ui.add_space(4.0);
                 look::bars_beside(ui);
-                ScrollArea::vertical()
-                    .max_height(screen.height() - 120.0)
-                    .show(ui, |ui| {
-                        way = start::ways(ui, viewer, columns);
-                        ui.add_space(8.0);
-                        let (left, right) = Group::ALL.split_at(if columns == 2 { 3 } else { Group::ALL.len() });
-                        ui.columns(columns, |columns| {
-                            for group in left {
-                                help_group(&mut columns[0], *group);
+                let mut area = ScrollArea::vertical().max_height(screen.height() - 120.0);
+                if just_opened {
+                    // The ways on stand at the top.
+                    area = area.vertical_scroll_offset(0.0);
+                }
+                area.show(ui, |ui| {
+                    way = start::ways(ui, viewer, columns);
+                    ui.add_space(8.0);
+                    let (left, right) = Group::ALL.split_at(if columns == 2 { 3 } else { Group::ALL.len() });
+                    ui.columns(columns, |columns| {
+                        for group in left {
+                            help_group(&mut columns[0], *group);
+                        }
+                        if let Some(column) = columns.get_mut(1) {
+                            for group in right {
+                                help_group(column, *group);
                             }
-                            if let Some(column) = columns.get_mut(1) {
-                                for group in right {
-                                    help_group(column, *group);
-                                }
-                            }
-                            if let Some(column) = columns.last_mut() {
-                                help_gestures(column);
-                            }
-                        });
+                        }
+                        if let Some(column) = columns.last_mut() {
+                            help_gestures(column);
+                        }
                     });
+                });
                 false
             }
     });
-    if modal.inner || modal.backdrop_response.clicked() || !way.is_empty() {
+    if modal.inner || beside(&modal.backdrop_response) || !way.is_empty() {
         commands.push(Command::Window(WindowCommand::CloseDialog));
     }
     commands.extend(way);

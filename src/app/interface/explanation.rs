@@ -41,6 +41,8 @@ pub(super) struct ExplanationPanel {
     accumulated: Option<usize>,
     /// The pixel that these belong to.
     pixel: Option<[u32; 2]>,
+    /// How many samples it had.
+    count: usize,
     /// Whether it also has what belongs to a comparison: where the panel for that is not to be seen.
     pub(super) has_comparison: bool,
     /// Whether it is a page of a lesson's panel, whose tabs lead away from it.
@@ -79,6 +81,11 @@ impl ExplanationPanel {
                 ..Self::default()
             };
             area = area.vertical_scroll_offset(0.0);
+        }
+        // Sample 4 of 16 is not sample 4 of 9, and there may be none of that number.
+        let count = explanation.map_or(self.count, |explanation| explanation.samples.len());
+        if std::mem::replace(&mut self.count, count) != count {
+            (self.chosen, self.accumulated) = (None, None);
         }
         area.show(ui, |ui| {
             if let Some(explanation) = explanation {
@@ -169,16 +176,20 @@ impl ExplanationPanel {
             hovered.sample = nearest;
             let told = nearest.or(self.chosen);
             draw_samples(ui, explanation, rect, told);
-            response.on_hover_text("Click a sample to read its edges, weights and texels below");
             let words = match told {
                 Some(sample) => {
                     let mut words = vec![explanation.sample_title(sample)];
-                    words.extend(explanation.sample_lines(sample));
+                    words.extend(explanation.short_sample_lines(sample));
                     words
                 }
                 None => vec!["Point at a sample to light what it shows, click to choose it.".to_owned()],
             };
-            ui.vertical(|ui| lines(ui, &words));
+            // No words are higher than the pixel: what stands below stays under the pointer.
+            ui.vertical(|ui| {
+                ui.set_height(PIXEL_SIDE);
+                ui.set_clip_rect(ui.clip_rect().intersect(ui.max_rect()));
+                lines(ui, &words);
+            });
         });
     }
 
@@ -359,7 +370,8 @@ fn lines(ui: &mut Ui, lines: &[String]) -> Response {
 }
 
 fn draw_samples(ui: &Ui, explanation: &Explanation, rect: Rect, told: Option<usize>) {
-    let painter = ui.painter();
+    // Off the grid samples may lie at the border, and their discs reach over it.
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     painter.rect_filled(rect, 0.0, opaque(explanation.color));
     let side = (explanation.samples.len() as f32).sqrt().max(1.0);
     let radius = (PIXEL_SIDE / side * 0.32).clamp(2.0, 14.0);
@@ -376,7 +388,7 @@ fn draw_samples(ui: &Ui, explanation: &Explanation, rect: Rect, told: Option<usi
         };
         painter.circle_stroke(at, radius, Stroke::new(width, color));
     }
-    painter.rect_stroke(
+    ui.painter().rect_stroke(
         rect,
         0.0,
         Stroke::new(1.0, ui.visuals().weak_text_color()),

@@ -24,6 +24,8 @@ const REST: f32 = 5.0;
 const BAR_HEIGHT: f32 = 3.0;
 /// Width of the way back, in points.
 const WAY_BACK_WIDTH: f32 = 230.0;
+/// Its height, in points.
+const WAY_BACK_HEIGHT: f32 = 84.0;
 /// Width of a scene's own words at most, in points.
 const WORDS_WIDTH: f32 = 320.0;
 /// Width of what is said over an outdated picture at most, in points.
@@ -115,16 +117,24 @@ pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<
     if viewer.canvas_in_sight() {
         return;
     }
+    let insets = insets(viewer, ui.pixels_per_point());
+    let size = vec2(WAY_BACK_WIDTH + 2.0 * TEXT_MARGIN, WAY_BACK_HEIGHT);
+    let middle = Rect::from_center_size(free.center(), size);
+    let above = middle.translate(vec2(0.0, free.top() + TEXT_MARGIN - middle.top()));
+    let below = middle.translate(vec2(0.0, free.bottom() - TEXT_MARGIN - middle.bottom()));
+    let is_free = |place: &&Rect| insets.iter().all(|inset| !inset.intersects(**place));
+    let place = [middle, above, below];
+    let place = place.iter().find(is_free).unwrap_or(&middle);
     Area::new(Id::unique("way back"))
         .order(Order::Middle)
-        .fixed_pos(free.center())
+        .fixed_pos(place.center())
         .pivot(Align2::CENTER_CENTER)
         .fade_in(false)
         .show(ui.ctx(), |ui| {
             Frame::popup(ui.style()).show(ui, |ui| {
                 ui.vertical_centered(|ui| {
                     ui.set_max_width(WAY_BACK_WIDTH.min(free.width() - 2.0 * TEXT_MARGIN));
-                    ui.label("Nothing to see here: the canvas lies outside of the window.");
+                    ui.label("Nothing to see here: the canvas lies outside of what is free of the window.");
                     if command_button(ui, "reset-view", "Show the canvas (Space)").clicked() {
                         commands.push(Command::View(ViewCommand::Reset));
                     }
@@ -136,10 +146,12 @@ pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<
 /// What the scene says about itself, until it is closed. Returns where it stands.
 pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Option<Rect> {
     let text = viewer.words()?;
-    let area = Area::new(Id::unique("words"))
+    let id = Id::unique("words");
+    let corner = corner_of_words(ui, viewer, (id, free));
+    let area = Area::new(id)
         .order(Order::Middle)
-        .fixed_pos(free.left_bottom() + vec2(TEXT_MARGIN, -TEXT_MARGIN))
-        .pivot(Align2::LEFT_BOTTOM)
+        .fixed_pos(corner.pos_in_rect(&free.shrink(TEXT_MARGIN)))
+        .pivot(corner)
         .constrain_to(free)
         .fade_in(false)
         .show(ui.ctx(), |ui| {
@@ -168,6 +180,31 @@ pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Com
             });
         });
     Some(area.response.rect)
+}
+
+/// The corner in which a scene's words cover no pinned pixel and no magnifier of it, if there is one. What follows the
+/// pointer gives way by itself.
+fn corner_of_words(ui: &Ui, viewer: &Viewer, (id, free): (Id, Rect)) -> Align2 {
+    let before = ui.ctx().memory(|memory| memory.area_rect(id));
+    let Some(size) = before
+        .map(|rect| rect.size())
+        .filter(|_| viewer.pinned_pixel().is_some())
+    else {
+        return Align2::LEFT_BOTTOM;
+    };
+    let taken = things(viewer, ui.pixels_per_point());
+    let room = free.shrink(TEXT_MARGIN);
+    let is_free = |corner: &Align2| {
+        let place = corner.align_size_within_rect(size, room);
+        taken.iter().all(|other| !other.intersects(place))
+    };
+    let corners = [
+        Align2::LEFT_BOTTOM,
+        Align2::LEFT_TOP,
+        Align2::RIGHT_BOTTOM,
+        Align2::RIGHT_TOP,
+    ];
+    corners.into_iter().find(is_free).unwrap_or(Align2::LEFT_BOTTOM)
 }
 
 /// Over a picture whose file cannot be read any more: why, for as long as that is so.

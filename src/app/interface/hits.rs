@@ -1,8 +1,9 @@
 //! Words beside the inspector's large pixel: where it is, its colour, and what its samples hit.
 
+use std::cmp::Reverse;
 use std::sync::Arc;
 
-use egui::{Color32, FontId, Galley, Ui, pos2};
+use egui::{Color32, FontId, Galley, Ui, Vec2, pos2, vec2};
 
 use super::places::points;
 use crate::viewer::{Status, Viewer};
@@ -25,16 +26,18 @@ pub(super) fn hits(ui: &Ui, viewer: &Viewer) {
         return;
     };
     let rect = points(&area, ui.pixels_per_point());
-    let galleys = numbers(ui, &status, rect.width())
-        .into_iter()
-        .chain(shades(ui, viewer, rect.width()))
-        .chain(words(ui, viewer, rect.width()));
+    let height = |galleys: &[Arc<Galley>]| galleys.iter().map(|galley| galley.size().y).sum::<f32>();
+    let room = rect.height() + 1.0;
+    let mut galleys = numbers(ui, &status, rect.width());
+    galleys.extend(shades(ui, viewer, rect.width()));
+    while height(&galleys) > room {
+        galleys.pop();
+    }
+    let rest = vec2(rect.width(), room - height(&galleys));
+    galleys.extend(words(ui, viewer, rest));
     let mut top = rect.top();
     for galley in galleys {
         let next = top + galley.size().y;
-        if next > rect.bottom() + 1.0 {
-            break;
-        }
         ui.painter().galley(pos2(rect.left(), top), galley, INK);
         top = next;
     }
@@ -65,15 +68,49 @@ fn shades(ui: &Ui, viewer: &Viewer, width: f32) -> Option<Arc<Galley>> {
     (galley.size().x <= width).then_some(galley)
 }
 
-/// What the samples hit: long lines break between words.
-fn words(ui: &Ui, viewer: &Viewer, width: f32) -> Vec<Arc<Galley>> {
-    if width < LEAST_WIDTH {
+/// What the samples hit, what most of them do first: long lines break between words. Where there is not room for all, the
+/// last line counts the others.
+fn words(ui: &Ui, viewer: &Viewer, room: Vec2) -> Vec<Arc<Galley>> {
+    if room.x < LEAST_WIDTH {
         return Vec::new();
     }
     let count = viewer.pixel_samples().len();
-    let hits = viewer.hits();
-    let lines = hits.iter().map(|(hit, hits)| format!("{hits} of {count}: {hit}"));
+    let mut hits = viewer.hits();
+    hits.sort_by_key(|(_, hits)| Reverse(*hits));
+    let line = |text: String| ui.painter().layout(text, FontId::proportional(SIZE), INK, room.x);
+    let lines: Vec<_> = hits
+        .iter()
+        .map(|(hit, hits)| line(format!("{hits} of {count}: {hit}")))
+        .collect();
+    let heights: Vec<f32> = lines.iter().map(|line| line.size().y).collect();
+    let shown = lines_that_fit(&heights, room.y, line("1".to_owned()).size().y);
+    let others = lines.len() - shown;
+    let mut lines = lines;
+    lines.truncate(shown);
+    if others > 0 && (shown > 0 || room.y >= line("1".to_owned()).size().y) {
+        lines.push(line(format!("and {others} more")));
+    }
     lines
-        .map(|line| ui.painter().layout(line, FontId::proportional(SIZE), INK, width))
-        .collect()
+}
+
+/// How many lines of these heights are shown, where a line of height `last` tells of the others if there is not room for all.
+fn lines_that_fit(heights: &[f32], room: f32, last: f32) -> usize {
+    let fits = |count: usize, rest: f32| heights[..count].iter().sum::<f32>() + rest <= room;
+    if fits(heights.len(), 0.0) {
+        return heights.len();
+    }
+    (0..heights.len()).rev().find(|count| fits(*count, last)).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_that_do_not_fit_are_counted_in_one_that_does() {
+        let heights = [10.0, 20.0, 10.0, 10.0];
+        for (room, expected) in [(50.0, 4), (49.0, 2), (40.0, 2), (39.0, 1), (19.0, 0), (5.0, 0)] {
+            assert_eq!(lines_that_fit(&heights, room, 10.0), expected, "{room} points");
+        }
+    }
 }

@@ -3,8 +3,8 @@
 //! Settings stand as lists of their values, and below these what steps through them. A command that needs an argument asks
 //! for it in the palette.
 
-use egui::containers::menu::MenuButton;
-use egui::{Button, ScrollArea, Ui};
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{Button, PopupCloseBehavior, ScrollArea, Ui};
 
 use super::look;
 use crate::plain;
@@ -22,7 +22,9 @@ const FIRST_HELP: [&str; 2] = ["help", "palette"];
 /// The button. Returns the command whose argument is to be asked for.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) -> Option<&'static CommandSpec> {
     let mut asks = None;
-    let button = MenuButton::from_button(Button::new("Menu").small());
+    // A click between two lines closes nothing; lines close it themselves.
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let button = MenuButton::from_button(Button::new("Menu").small()).config(config);
     let (response, _) = button.ui(ui, |ui| {
         ui.set_min_width(WIDTH);
         for group in Group::ALL {

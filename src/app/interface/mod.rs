@@ -213,6 +213,12 @@ impl Interface {
         beside < window && !explanation::fits(beside)
     }
 
+    /// Whether a lesson and the side panel leave too little of the picture in a window of that many points in width.
+    pub(super) fn lesson_crowds_panel(&self, viewer: &Viewer, window: f32) -> bool {
+        let beside = self.beside_lesson(viewer, window);
+        beside < window && beside - self.widths.of(SizedPanel::Side, window) < USEFUL_PICTURE / 2.0
+    }
+
     /// Whether the explanation of a pixel has room in a window of that many points in width.
     pub(super) fn has_room_to_explain(&self, viewer: &Viewer, window: f32) -> bool {
         if self.lesson_shares_panel(viewer, window) {
@@ -352,7 +358,8 @@ impl Interface {
         };
         let messages = self.messages.show(ui, viewer, (free, taken), &mut asked.commands);
         if !hidden {
-            let Marks { labels, line, handle } = compare_marks::show(ui, viewer, free, &messages);
+            let told: Vec<Rect> = messages.iter().copied().chain(about).collect();
+            let Marks { labels, line, handle } = compare_marks::show(ui, viewer, free, &told);
             let taken: Vec<Rect> = labels
                 .iter()
                 .chain(&messages)

@@ -1,12 +1,12 @@
 //! The dialog that opens files: a list of a folder, a line to type into, and buttons to other folders.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use egui::{Align, Button, Context, Label, Layout, RichText, Ui, vec2};
 
 use super::dialogs::{Dialogs, arrows, list_of, step};
 use super::look::CONTROL;
-use super::modal::modal;
+use super::modal::{beside, modal};
 use super::palette::{BETWEEN_ENTRIES, ENTRY};
 use crate::viewer::{Command, SceneCommand, WindowCommand, commands};
 
@@ -14,6 +14,10 @@ use crate::viewer::{Command, SceneCommand, WindowCommand, commands};
 const REST: f32 = 130.0;
 /// Lines of the list that are to be seen at most.
 const MOST_ROWS: f32 = 14.0;
+/// The same where pictures to compare with are listed.
+const FEW_ROWS: f32 = 9.0;
+/// What the button to the folder above does.
+const UP: &str = "The folder that this one is in";
 /// Its width at most, in points.
 const WIDTH: f32 = 480.0;
 
@@ -66,8 +70,57 @@ impl Dialogs {
             }
             false
         });
-        if modal.inner || modal.backdrop_response.clicked() {
+        if modal.inner || beside(&modal.backdrop_response) {
             commands.push(Command::Window(WindowCommand::CloseDialog));
+        }
+    }
+
+    /// The pictures and folders of the folder that is listed, to compare with one of them; which was pressed.
+    pub(super) fn pictures(&mut self, ui: &mut Ui) -> Option<PathBuf> {
+        let folder = self.chooser.folder().to_owned();
+        ui.horizontal(|ui| {
+            let up = ui.add_enabled(
+                folder.parent().is_some(),
+                Button::new("Up").min_size(vec2(44.0, CONTROL.y)),
+            );
+            if up.on_hover_text(UP).clicked() {
+                self.list(folder.parent());
+            }
+            ui.add(Label::new(RichText::new(folder.display().to_string()).weak().small()).truncate());
+        });
+        let found = self.chooser.pictures();
+        let row = ENTRY + BETWEEN_ENTRIES;
+        let rows = ((ui.ctx().content_rect().height() * 0.8 - REST) / row)
+            .floor()
+            .clamp(1.0, FEW_ROWS);
+        let height = rows * row - BETWEEN_ENTRIES;
+        let pressed = ui
+            .scope(|ui| {
+                ui.set_min_height(height);
+                let pressed = list_of(ui, &found, (usize::MAX, false, height), |ui, item, chosen| {
+                    item.show(ui, chosen)
+                });
+                if found.is_empty() {
+                    ui.label(RichText::new("no pictures here").weak());
+                }
+                pressed
+            })
+            .inner;
+        ui.add_space(4.0);
+        let path = pressed
+            .and_then(|index| found.get(index))
+            .map(|item| item.path.clone())?;
+        if path.is_dir() {
+            self.list(Some(&path));
+            return None;
+        }
+        Some(path)
+    }
+
+    /// Lists another folder, and leaves what was typed.
+    fn list(&mut self, folder: Option<&Path>) {
+        if let Some(folder) = folder {
+            self.chooser.go_to(folder);
         }
     }
 
@@ -121,10 +174,7 @@ enum Foot {
 fn foot(ui: &mut Ui, has_parent: bool) -> Option<Foot> {
     let mut pressed = None;
     ui.horizontal(|ui| {
-        for (foot, text, tip) in [
-            (Foot::Up, "Up", "The folder that this one is in"),
-            (Foot::Home, "Home", "Your own folder"),
-        ] {
+        for (foot, text, tip) in [(Foot::Up, "Up", UP), (Foot::Home, "Home", "Your own folder")] {
             let enabled = has_parent || matches!(foot, Foot::Home);
             let button = ui.add_enabled(enabled, Button::new(text).min_size(vec2(44.0, CONTROL.y)));
             if button.on_hover_text(tip).clicked() {

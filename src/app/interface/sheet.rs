@@ -6,7 +6,7 @@ use egui::{TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2};
 
 use super::controls::{choice, given_up_text, heading, row, tip};
 use super::look::CONTROL;
-use super::modal::modal;
+use super::modal::{beside, modal};
 use super::scenes::image_of;
 use crate::figure::{Ground, PAGE_WIDTH};
 use crate::viewer::{
@@ -76,7 +76,7 @@ impl SheetDialog {
                 self.controls(ui, viewer, commands);
             }
         });
-        if modal.backdrop_response.clicked() {
+        if beside(&modal.backdrop_response) {
             commands.push(Command::Window(WindowCommand::CloseDialog));
         }
     }

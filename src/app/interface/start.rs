@@ -32,6 +32,20 @@ pub(super) fn card(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Comm
         return;
     }
     let width = WIDTH.min(free.width() - 16.0);
+    let card = ui.ctx().memory(|memory| memory.area_rect(Id::unique("start card")));
+    let pressed = ui.input(|input| {
+        input
+            .pointer
+            .any_pressed()
+            .then(|| input.pointer.latest_pos())
+            .flatten()
+    });
+    if let Some((card, at)) = card.zip(pressed)
+        && !card.contains(at)
+    {
+        // Panels take clicks that are no commands of their own, such as that on the menu.
+        commands.push(Command::Window(WindowCommand::StartCard(Toggle::Off)));
+    }
     let way = Area::new(Id::unique("start card"))
         .order(Order::Middle)
         .fixed_pos(free.center())

@@ -9,8 +9,10 @@ use crate::raster::Region;
 use crate::texture::MipLevel;
 use crate::viewer::Viewer;
 
-/// Sides of the view, in points.
-const SIZE: [f32; 2] = [290.0, 150.0];
+/// Width of the view at most, in points: a narrower panel has a narrower one.
+const WIDTH: f32 = 290.0;
+/// Its height, in points.
+const HEIGHT: f32 = 150.0;
 /// Texels that are shown across at least and at most.
 const TEXELS: (f64, f64) = (6.0, 64.0);
 const FOOTPRINT: Color32 = Color32::from_rgb(255, 214, 10);
@@ -39,7 +41,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
         .frame()
         .and_then(|frame| frame.picture.scene.textures.get(texture.index as usize))
         .and_then(|image| image.pyramid.levels().get(level.number))?;
-    let (rect, response) = ui.allocate_exact_size(vec2(SIZE[0], SIZE[1]), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(WIDTH.min(ui.available_width()), HEIGHT), Sense::hover());
     let scale = [0, 1].map(|i| f64::from(level.size[i]) / f64::from(texture.size[i]));
     let steps = [texture.right, texture.down].map(|step| [step[0] * scale[0], step[1] * scale[1]]);
     let centre = [uv[0] * f64::from(level.size[0]), uv[1] * f64::from(level.size[1])];
@@ -47,7 +49,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
     let window = Window {
         rect,
         middle: centre,
-        scale: f64::from(SIZE[0]) / across.clamp(TEXELS.0, TEXELS.1),
+        scale: f64::from(rect.width()) / across.clamp(TEXELS.0, TEXELS.1),
     };
     window.texels(ui, image);
     window.footprint(ui, centre, steps);
@@ -77,7 +79,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
         ));
     }
     let words = format!(
-        "level {} of {}: yellow the footprint of a {}, red the {}",
+        "level {} of {}: yellow the steps of a {} and the footprint in them, red the {}",
         level.number,
         short(&texture.name),
         texture.step,
@@ -121,8 +123,8 @@ impl Window {
             clamp((self.middle[axis] - half).floor())..clamp((self.middle[axis] + half).ceil())
         };
         let gap = if self.scale > 8.0 { 0.5 } else { 0.0 };
-        for y in range(1, SIZE[1], image.height()) {
-            for x in range(0, SIZE[0], image.width()) {
+        for y in range(1, self.rect.height(), image.height()) {
+            for x in range(0, self.rect.width(), image.width()) {
                 let corner = [f64::from(x), f64::from(y)];
                 let square = Rect::from_two_pos(self.place(corner), self.place([corner[0] + 1.0, corner[1] + 1.0]));
                 let color = opaque(image.texel(x.cast_signed(), y.cast_signed()));

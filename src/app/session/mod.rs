@@ -4,8 +4,12 @@
 #[cfg(test)]
 mod by_mouse;
 #[cfg(test)]
+mod choosing;
+#[cfg(test)]
 mod comparing;
 mod damage;
+#[cfg(test)]
+mod explaining;
 #[cfg(test)]
 mod first_minute;
 #[cfg(test)]

@@ -68,8 +68,10 @@ impl Session {
     pub(super) fn fold_panel(&mut self) {
         let size = self.viewer.window_size().map(|side| side as f32 / self.scale());
         let fits = Interface::panel_fits(size) && self.viewer.lesson().is_none();
-        if self.room.follows && fits != self.viewer.panel() {
-            let to = if fits { Toggle::On } else { Toggle::Off };
+        // Whoever opened the panel did so for a picture: beside a lesson there would be next to none of it.
+        let is_crowded = self.interface.lesson_crowds_panel(&self.viewer, size[0]);
+        if (self.room.follows && fits != self.viewer.panel()) || (is_crowded && self.viewer.panel()) {
+            let to = if fits && !is_crowded { Toggle::On } else { Toggle::Off };
             self.apply(Command::Window(WindowCommand::Panel(to)));
         }
     }

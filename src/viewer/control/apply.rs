@@ -15,6 +15,9 @@ use crate::viewer::state::Viewer;
 use crate::viewer::view::camera::Camera;
 use crate::viewer::view::pointer::PointerButton;
 
+/// What is said while everything but the picture is hidden.
+const WAY_BACK: &str = "Tab brings the panels back, and so does a right click";
+
 impl Viewer {
     /// Does what `command` says, without waiting for anything, and returns what the program around has to do.
     ///
@@ -123,7 +126,14 @@ impl Viewer {
             SceneCommand::RememberOpened(earlier) => self.remember_opened(&earlier),
             SceneCommand::FilesChanged(files) => self.files_changed(&files),
             SceneCommand::FollowFiles(toggle) => {
-                self.scene_list.follows_files = toggle.of(self.scene_list.follows_files);
+                let follows = toggle.of(self.scene_list.follows_files);
+                self.scene_list.follows_files = follows;
+                let words = if follows {
+                    "files are read again when they change"
+                } else {
+                    "files are not read again by themselves"
+                };
+                self.chrome.messages.done(words.to_owned());
             }
             SceneCommand::OtherReading => self.choose_other_reading(),
         }
@@ -197,7 +207,14 @@ impl Viewer {
             }
             WindowCommand::OverlayText(toggle) => screen.shown.text = toggle.of(screen.shown.text),
             WindowCommand::Panel(toggle) => screen.shown.panel = toggle.of(screen.shown.panel),
-            WindowCommand::HideEverything(toggle) => screen.hidden = toggle.of(screen.hidden),
+            WindowCommand::HideEverything(toggle) => {
+                screen.hidden = toggle.of(screen.hidden);
+                if screen.hidden {
+                    screen.messages.done(WAY_BACK.to_owned());
+                } else {
+                    screen.messages.retract(WAY_BACK);
+                }
+            }
             WindowCommand::ToggleDialog(dialog) => {
                 screen.dialog = Some(dialog).filter(|dialog| screen.dialog != Some(*dialog));
             }

@@ -223,8 +223,8 @@ impl Viewer {
         }
     }
 
-    /// Pins a pixel near the middle of the free picture that an edge makes wrong, and explains it; where none is, one that
-    /// differs from a neighbour, or the one in the middle.
+    /// Pins a pixel near the middle of the free picture that an edge makes wrong, and explains it; where none is, one that an
+    /// edge goes through, one that differs from a neighbour, or the one in the middle.
     pub(in crate::viewer) fn pin_edge(&mut self) {
         if self.refuses_to_explain() {
             return;
@@ -233,7 +233,8 @@ impl Viewer {
         let middle = corner + size / 2.0;
         let edges = self.edges_near(middle, [corner, corner + size]);
         let wrong = edges.iter().find(|pixel| self.is_wrong(**pixel));
-        let edge = wrong.or(edges.first());
+        let mixed = || edges.iter().find(|pixel| self.is_mixed(**pixel));
+        let edge = wrong.or_else(mixed).or(edges.first());
         let pixel = edge.map_or_else(|| window_pixel(middle), |edge| edge.map(i64::from));
         self.chrome.shown.explanation = true;
         self.inspector.magnifier.asked = true;
@@ -266,6 +267,20 @@ impl Viewer {
         edges.dedup();
         edges.truncate(MOST_EDGES);
         edges
+    }
+
+    /// Whether a pixel has another colour than the two beside it, or than those above and below: an edge that samples
+    /// resolve goes through it.
+    fn is_mixed(&self, [x, y]: [u32; 2]) -> bool {
+        let Some(frame) = self.frame() else { return false };
+        let beside = |dx: i64, dy: i64| {
+            let [x, y] = [i64::from(x) + dx, i64::from(y) + dy].map(|at| u32::try_from(at).ok());
+            frame.final_rgba(x?, y?)
+        };
+        let own = beside(0, 0);
+        let differs = |other: Option<[u8; 4]>| other.is_some() && other != own;
+        let between = |[dx, dy]: [i64; 2]| differs(beside(dx, dy)) && differs(beside(-dx, -dy));
+        between([1, 0]) || between([0, 1])
     }
 
     /// Whether a pixel is as far from the truth as can be seen.

@@ -1,0 +1,142 @@
+//! Lists, menus and dialogs under a quick or careless hand.
+
+use std::path::{Path, PathBuf};
+
+use glam::dvec2;
+
+use super::hands::{click, nodes, place_of, session};
+use super::small_windows::{click_on, says};
+use super::*;
+use crate::viewer::script::Stage as _;
+use crate::viewer::{Dialog, LessonCommand, LessonSource, Other, Toggle};
+
+/// Two clicks at one place, as fast as a hand makes them.
+fn double_click(session: &mut Session, name: &str) {
+    let at = place_of(session, name);
+    click(session, at);
+    click(session, at);
+    session.settle();
+}
+
+/// Whether there is a control of this name.
+fn has(session: &mut Session, name: &str) -> bool {
+    nodes(session).iter().any(|node| node.label() == Some(name))
+}
+
+fn open_dialog(session: &mut Session, dialog: Dialog) {
+    session.command(Command::Window(WindowCommand::ToggleDialog(dialog)));
+    session.settle();
+}
+
+/// Folders one in the other, the inner ones with a file at the place of the outer one's line.
+fn folders() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let inner = folder.path().join("outer/inner");
+    std::fs::create_dir_all(&inner).expect("folders");
+    let scene = "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'/>";
+    for place in [&folder.path().join("outer.svg"), &inner.join("first.svg")] {
+        std::fs::write(place, scene).expect("a file");
+    }
+    folder
+}
+
+#[test]
+fn double_click_on_a_folder_opens_the_folder_alone() {
+    let folder = folders();
+    for window in [[800, 600], [1280, 800]] {
+        let mut session = session(vec![folder.path().join("outer.svg")], window);
+        open_dialog(&mut session, Dialog::Open);
+        double_click(&mut session, "outer");
+        assert_eq!(session.viewer().dialog(), Some(Dialog::Open), "nothing is opened");
+        let lists = ["inner", "first.svg"].map(|name| has(&mut session, name));
+        assert_eq!(lists, [true, false], "one folder further in {window:?}");
+    }
+}
+
+#[test]
+fn double_click_on_what_opens_a_dialog_leaves_it_open() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    click_on(&mut session, "Menu");
+    double_click(&mut session, "Help");
+    assert_eq!(session.viewer().dialog(), Some(Dialog::Help), "the help");
+}
+
+#[test]
+fn picture_to_compare_with_is_chosen_by_mouse() {
+    let folder = folders();
+    let picture = folder.path().join("other.png");
+    let mut session = session(vec![folder.path().join("outer.svg")], [800, 600]);
+    let frame = session.viewer().frame().expect("a frame").pixels.clone();
+    crate::figure::save_png(&frame, &picture).expect("saved");
+    open_dialog(&mut session, Dialog::ComparePicture);
+    assert!(!has(&mut session, "outer.svg"), "no scenes");
+    click_on(&mut session, "other.png");
+    let viewer = session.viewer();
+    assert_eq!(viewer.dialog(), None, "chosen");
+    assert!(
+        matches!(viewer.other(), Some(Other::Picture(_))),
+        "{:?}",
+        viewer.other()
+    );
+}
+
+#[test]
+fn click_between_lines_of_the_menu_closes_nothing() {
+    let mut session = session(Vec::new(), [800, 600]);
+    click_on(&mut session, "Menu");
+    let [help, palette] = ["Help", "Command palette"].map(|name| place_of(&mut session, name));
+    click(&mut session, dvec2(help.x, f64::midpoint(help.y, palette.y)));
+    session.settle();
+    assert!(has(&mut session, "Command palette"), "still there");
+    click_on(&mut session, "Help");
+    assert_eq!(session.viewer().dialog(), Some(Dialog::Help), "a line closes it");
+    assert!(!has(&mut session, "Command palette"), "the menu is gone");
+}
+
+#[test]
+fn start_card_goes_when_the_menu_opens() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    session.command(Command::Window(WindowCommand::StartCard(Toggle::On)));
+    session.settle();
+    click_on(&mut session, "Menu");
+    assert!(!session.viewer().start_card(), "any click closes it");
+    assert!(has(&mut session, "Command palette"), "and the menu is open");
+}
+
+#[test]
+fn picture_alone_says_how_the_panels_come_back() {
+    let mut session = session(Vec::new(), [800, 600]);
+    session.command(Command::Window(WindowCommand::HideEverything(Toggle::On)));
+    session.settle();
+    assert!(says(&mut session, "brings the panels back"), "one line");
+    session.command(Command::Window(WindowCommand::HideEverything(Toggle::Off)));
+    session.settle();
+    assert!(!says(&mut session, "brings the panels back"), "they are back");
+}
+
+#[test]
+fn lesson_leaves_room_for_the_picture_in_small_windows() {
+    let mut session = session(Vec::new(), [800, 600]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.settle();
+    let lesson = LessonSource::from_address(Path::new("lesson:anisotropy")).expect("a lesson");
+    session.command(Command::Lesson(LessonCommand::Open(lesson)));
+    session.settle();
+    assert!(!session.viewer().panel(), "the panel makes way");
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.settle();
+    assert!(session.viewer().panel(), "asked for, it comes");
+}
+
+#[test]
+fn steps_of_a_lesson_are_a_list_to_choose_from() {
+    let mut session = session(vec![PathBuf::from("lesson:six-tasks")], [800, 600]);
+    click_on(&mut session, "step 1 of 10");
+    let title = {
+        let (lesson, _) = session.viewer().lesson().expect("a lesson");
+        format!("5. {}", lesson.steps[4].title)
+    };
+    click_on(&mut session, &title);
+    assert_eq!(session.viewer().lesson().map(|(_, at)| at), Some(4), "the fifth");
+    assert!(has(&mut session, "step 5 of 10"), "as the button says");
+}

@@ -109,7 +109,7 @@ pub(super) fn run(options: &ViewOptions) -> Result<Option<String>, AppError> {
         crate::viewer::ExportCommand::WindowScreenshot,
     ));
     session.settle();
-    match session.viewer().messages().last() {
+    match session.viewer().chrome().messages().last() {
         Some(Message {
             kind: MessageKind::Done,
             text,
@@ -124,8 +124,9 @@ pub(super) fn run(options: &ViewOptions) -> Result<Option<String>, AppError> {
 /// went wrong.
 fn untroubled(session: &Session) -> Result<(), AppError> {
     let viewer = session.viewer();
-    let failure = viewer.current().and_then(|entry| entry.failure());
+    let failure = viewer.scene_list().current().and_then(|entry| entry.failure());
     let error = viewer
+        .chrome()
         .messages()
         .iter()
         .find(|message| message.kind == MessageKind::Error);

@@ -36,13 +36,14 @@ mod slides;
 mod state;
 mod view;
 
+pub use ab::comparison::Comparison;
 pub use ab::measuring::{Measures, Seen};
 pub use ab::other::{Against, Arrangement, Other};
 pub use ab::outside::OutsidePicture;
-pub use chrome::Dialog;
 pub use chrome::ending::ASKS_FOR;
 pub use chrome::interface_scale::InterfaceScale;
-pub use chrome::messages::{Message, MessageKind};
+pub use chrome::messages::{Message, MessageKind, NO_ROOM};
+pub use chrome::{Chrome, Dialog};
 pub use command::arguments::Argument;
 pub use command::key_bindings as commands;
 pub use command::key_bindings::Gesture;
@@ -51,10 +52,16 @@ pub use command::{
     AbCommand, Command, Effect, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, SceneCommand,
     SheetCommand, ViewCommand, WindowCommand,
 };
+pub use control::both::Both;
+pub use control::open::kind_of_file;
+pub use control::pointing::Pointing;
+pub use control::recipes::Recipes;
+pub use control::window::WindowContent;
 pub use export::naming::NameTemplate;
 pub use export::restored::{Grammar, ReadArguments, Restored};
 pub use export::sheet::axes::{Axis, AxisLists, Choice};
 pub use export::sheet::captions::caption_of;
+pub use export::sheet::desk::SheetDesk;
 pub use export::sheet::draft::{PanelSize, SheetChange, SheetDraft, SheetSide};
 pub use export::sheet::drawing::{Panel, SceneReader, Sheet, SheetRequest};
 pub use export::sheet::preview::ReadSheet;
@@ -62,7 +69,9 @@ pub use export::sheet::preview::SheetPreview;
 pub use export::spec::{PictureSpec, as_path, plain_record, shell_line};
 pub use frames::frame::{Frame, Picture, Preview, PreviewQuality};
 pub use frames::present::WindowPixels;
+pub use frames::state::Frames;
 pub use inspector::samples::{Hit, ProbedSample};
+pub use inspector::state::Inspection;
 pub use inspector::status::Status;
 pub use inspector::{AskedAt, Inspector, PixelLabel, PlacedInset};
 pub use jobs::mailbox::Waker;
@@ -71,12 +80,14 @@ pub use lesson::markdown::{Block, Look, Span};
 pub use lesson::model::{Lesson, LessonError, LessonStep};
 pub use lesson::source::{BUILT_IN, LessonSource};
 pub use library::gallery;
+pub use library::state::SceneList;
 pub use library::{SceneEntry, SceneSource, SceneState, is_folder_of_course, list_scenes, natural_order};
 pub use settings::picture::{self, PictureSetting, SettingChange};
 pub use settings::{PixelZoom, Settings, Theme, Toggle};
 pub use slides::{SlideError, slides};
 pub use state::{Viewer, ViewerOptions};
 pub use view::camera::{Camera, ViewContext, ViewNumbers};
+pub use view::layout::WindowLayout;
 pub use view::pointer::PointerButton;
 
 pub use crate::figure::PixelRect;

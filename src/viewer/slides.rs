@@ -75,26 +75,26 @@ pub fn slides<E: From<SlideError>>(
         ..ViewerOptions::default()
     };
     let mut viewer = Viewer::new(options).map_err(SlideError::from)?;
-    viewer.show_lesson(lesson.clone());
+    viewer.opening().lessons().begin(lesson.clone(), None);
     for (number, step) in lesson.steps.iter().enumerate() {
         if !numbers.contains(&(number + 1)) {
             continue;
         }
         let _ = viewer.apply(Command::Lesson(LessonCommand::Step(number)));
         viewer.finish();
-        if let Some(problem) = viewer.current().and_then(|entry| entry.failure()) {
+        if let Some(problem) = viewer.scene_list().current().and_then(|entry| entry.failure()) {
             let problem = problem.to_owned();
             let step = number + 1;
             return Err(SlideError::Scene { step, problem }.into());
         }
         let mut slide = Framebuffer::new(size[0], size[1]);
         slide.pixels_mut().fill(PAPER);
-        let mut picture = viewer.window_picture();
-        if let Some(line) = viewer.wipe_line() {
+        let mut picture = viewer.window().picture();
+        if let Some(line) = viewer.both().wipe_line() {
             draw_line(line, &mut picture);
         }
         layout.paste(&picture, &mut slide);
-        if let Some([a, b]) = viewer.comparison_sides() {
+        if let Some([a, b]) = viewer.ab().sides(viewer.settings()) {
             layout.caption(&mut slide, &format!("{a}  |  {b}"));
         }
         let of = format!("{}  {} / {}", lesson.title, number + 1, lesson.steps.len());

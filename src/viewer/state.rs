@@ -1,20 +1,19 @@
 //! The viewer itself: what it keeps, how it starts, what can be asked of it.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use crate::geometry::View;
 use crate::inspect::Contributions;
-use crate::plain;
 use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::measuring::{Measured, Measuring};
 use crate::viewer::ab::other::Against;
 use crate::viewer::ab::outside::ReadPicture;
-use crate::viewer::chrome::interface_scale::InterfaceScale;
-use crate::viewer::chrome::messages::Message;
-use crate::viewer::chrome::{Chrome, Dialog};
+use crate::viewer::ab::requests::ComparisonContext;
+use crate::viewer::chrome::Chrome;
+use crate::viewer::chrome::messages::MessageKind;
 use crate::viewer::export::naming::NameTemplate;
 use crate::viewer::export::restored::{Grammar, Restored};
 use crate::viewer::export::saver::{Saved, Saver};
@@ -23,26 +22,21 @@ use crate::viewer::export::sheet::preview;
 use crate::viewer::export::sheet::preview::{SheetPreview, SheetQuestion};
 use crate::viewer::export::state::Export;
 use crate::viewer::frames::drawing::{Drawing, DrawingId};
-use crate::viewer::frames::frame::Frame;
 use crate::viewer::frames::job::Drawn;
 use crate::viewer::frames::legends::PlacedLegends;
 use crate::viewer::frames::state::Frames;
 use crate::viewer::inspector::explanation::{Asked, Explained};
 use crate::viewer::inspector::samples::{ProbedSample, Target};
 use crate::viewer::inspector::state::Inspection;
-use crate::viewer::inspector::{Inspector, PlacedInset, contributions, explanation, samples};
+use crate::viewer::inspector::{PlacedInset, contributions, explanation, samples};
 use crate::viewer::jobs::mailbox::{Mailbox, Waker};
+use crate::viewer::lesson::model::Lesson;
 use crate::viewer::lesson::walk::Walk;
-use crate::viewer::library::SceneEntry;
 use crate::viewer::library::readers::{ReadScene, Readers, Thumbnail};
 use crate::viewer::library::state::SceneList;
 use crate::viewer::settings::{PixelZoom, Settings, Theme};
-use crate::viewer::view::camera::{ViewContext, ViewNumbers};
 use crate::viewer::view::panes::Panes;
 use crate::viewer::view::pointer::Pointer;
-
-/// Longest title of the window, in characters.
-const MAX_TITLE: usize = 300;
 
 /// How a viewer starts.
 #[derive(Clone)]
@@ -95,7 +89,7 @@ pub struct Viewer {
     pub(in crate::viewer) last_shown: Option<DrawnState>,
 }
 
-/// What decides the pixels of [`Viewer::draw_window`]; a frame and probed samples by their numbers.
+/// What decides the window's pixels below the panels; a frame and probed samples by their numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::viewer) struct DrawnState {
     pub(in crate::viewer) frame: u64,
@@ -203,9 +197,13 @@ impl Viewer {
             last_shown: None,
         };
         viewer.frames.drawing.set_progressive(viewer.settings.progressive);
-        viewer.open(&options.paths);
+        viewer.opening().open(&options.paths);
         if let Some(against) = options.against {
-            viewer.compare_from_the_start(against);
+            let mut context = ComparisonContext {
+                settings: &viewer.settings,
+                messages: &mut viewer.chrome.messages,
+            };
+            viewer.ab.compare_from_the_start(against, &mut context);
         }
         viewer.update();
         Ok(viewer)
@@ -216,25 +214,10 @@ impl Viewer {
         self.revision
     }
 
-    /// Grows whenever [`Viewer::draw_window`] draws other pixels than before: not, for instance, when only the pointer
+    /// Grows whenever the window below the panels shows other pixels than before: not, for instance, when only the pointer
     /// moved.
     pub fn picture_revision(&self) -> u64 {
         self.picture_revision
-    }
-
-    /// All scenes, in the order of the list.
-    pub fn scenes(&self) -> &[SceneEntry] {
-        &self.scene_list.scenes
-    }
-
-    /// The place of the current scene in the list.
-    pub fn current_index(&self) -> usize {
-        self.scene_list.current
-    }
-
-    /// The current scene; `None` only while the list is empty.
-    pub fn current(&self) -> Option<&SceneEntry> {
-        self.scene_list.current()
     }
 
     /// Sampling, rules, dialect, pixel zoom.
@@ -242,97 +225,57 @@ impl Viewer {
         &self.settings
     }
 
-    /// The frame on the screen. It may show an older state, or be a preview; see [`Viewer::is_settled`].
-    pub fn frame(&self) -> Option<&Frame> {
-        self.frames.drawing.frame()
+    /// What is to be seen in the window besides the picture.
+    pub fn chrome(&self) -> &Chrome {
+        &self.chrome
     }
 
-    /// The numbers of the current view; `None` before the scene was read.
-    pub fn view_numbers(&self) -> Option<ViewNumbers> {
-        let entry = self.current()?;
-        Some(entry.camera.numbers(&self.view_context()?))
+    /// The list of scenes.
+    pub fn scene_list(&self) -> &SceneList {
+        &self.scene_list
     }
 
-    /// The window in device pixels.
-    pub fn window_size(&self) -> [u32; 2] {
-        self.chrome.window
+    /// A's frame.
+    pub fn frames(&self) -> &Frames {
+        &self.frames
     }
 
-    /// The size of A's frame, and of B's: that of the window divided by the pixel zoom, unless both lie side by side.
-    pub fn frame_size(&self) -> [u32; 2] {
-        self.panes().frame
+    /// What A is compared with.
+    pub fn ab(&self) -> &Comparison {
+        &self.ab
     }
 
-    /// The dialog that is open.
-    pub fn dialog(&self) -> Option<Dialog> {
-        self.chrome.dialog
+    /// The pixel inspector, and what was found out about its pixel.
+    pub fn inspector(&self) -> &Inspection {
+        &self.inspector
     }
 
-    /// Whether text lies over the picture.
-    pub fn overlay_text(&self) -> bool {
-        self.chrome.shown.text
+    /// The sheet that is being put together.
+    pub fn sheet(&self) -> &SheetDesk {
+        &self.sheet
     }
 
-    /// Whether the side panel is to be seen, unless everything is hidden.
-    pub fn panel(&self) -> bool {
-        self.chrome.shown.panel
+    /// The lesson that is open, and the number of its step, from 0.
+    pub fn lesson(&self) -> Option<(&Lesson, usize)> {
+        self.lesson.as_ref().map(|walk| (&walk.lesson, walk.at))
     }
 
-    /// Light or dark panels.
-    pub fn theme(&self) -> Theme {
-        self.chrome.theme
+    /// The files that what is shown was read from: the scene's, those of its textures, the lesson's.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let mut files = self.scene_list.files();
+        files.extend(self.lesson.as_ref().and_then(Walk::file).map(Path::to_owned));
+        files
     }
 
-    /// How large panels and their letters are.
-    pub fn interface_scale(&self) -> InterfaceScale {
-        self.chrome.interface_scale
+    /// Asks for the thumbnail of a scene in the list: it is read and drawn when nothing else is to be done. To be called for
+    /// the scenes that a panel shows.
+    pub fn request_thumbnail(&mut self, index: usize) {
+        self.scene_list.request_thumbnail(index, self.settings.dialect);
     }
 
-    /// What the scene says about itself, where that is to be seen.
-    pub fn words(&self) -> Option<&str> {
-        let scene = self.current()?.scene()?;
-        scene.words.as_deref().filter(|_| self.chrome.shown.words)
-    }
-
-    /// Whether the ways on for newcomers lie over the picture.
-    pub fn start_card(&self) -> bool {
-        self.chrome.start_card
-    }
-
-    /// What the user is to be told, oldest first. Whoever shows a message dismisses it after a while.
-    pub fn messages(&self) -> &[Message] {
-        self.chrome.messages.all()
-    }
-
-    /// The pixel inspector.
-    pub fn inspector(&self) -> &Inspector {
-        &self.inspector.magnifier
-    }
-
-    /// The inspector's inset in the window, where it is open and has room.
-    pub fn inset(&self) -> Option<PlacedInset> {
-        self.inspector.inset
-    }
-
-    /// The inset of the same pixel of B, where A and B share the window.
-    pub fn other_inset(&self) -> Option<PlacedInset> {
-        self.inspector.other_inset
-    }
-
-    /// The window's title: scene, settings or what of them differs between A and B, program.
-    pub fn title(&self) -> String {
-        let name = self.current().map_or("no scene", |entry| entry.label.as_str());
-        let words = self.comparison_title();
-        let words = words.unwrap_or_else(|| self.own_words().join(", "));
-        plain::short_line(&format!("{name} - {words} - Rasterscope"), MAX_TITLE)
-    }
-
-    /// What the current camera looks at; `None` before the scene was read.
-    pub(in crate::viewer) fn view_context(&self) -> Option<ViewContext> {
-        let scene = self.current()?.scene()?;
-        Some(ViewContext {
-            canvas: scene.canvas,
-            frame: self.frame_size(),
-        })
+    /// Tells the user something about the program around the viewer, in one line.
+    pub fn tell(&mut self, kind: MessageKind, text: String) {
+        self.chrome.messages.add(kind, text);
+        self.revision += 1;
     }
 }

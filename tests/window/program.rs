@@ -240,13 +240,13 @@ pub(crate) fn rendered(path: &Path, settings: &RenderSettings, size: [u32; 2]) -
 
 /// What the viewer without a window makes of the same commands.
 pub(crate) fn viewed(path: &Path, commands: &[Command]) -> Framebuffer {
-    viewer_after(path, commands).window_picture()
+    viewer_after(path, commands).window().picture()
 }
 
 /// The inspector's inset after the same commands.
 pub(crate) fn inset(path: &Path, commands: &[Command]) -> Framebuffer {
     let viewer = viewer_after(path, commands);
-    let (window, place) = (viewer.window_picture(), viewer.inset().unwrap().rect);
+    let (window, place) = (viewer.window().picture(), viewer.inspector().inset().unwrap().rect);
     let mut picture = Framebuffer::new(place.width, place.height);
     let width = window.width() as usize;
     let (left, top) = (usize::try_from(place.x).unwrap(), usize::try_from(place.y).unwrap());

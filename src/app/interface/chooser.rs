@@ -6,7 +6,7 @@ use std::{fs, io};
 use egui::{AtomExt as _, Button, Response, RichText, Ui};
 
 use super::palette::ENTRY;
-use crate::viewer::{SceneSource, Viewer, natural_order};
+use crate::viewer::{SceneSource, Viewer, kind_of_file, natural_order};
 
 /// Files and folders that are listed of a folder: more than a hand goes through.
 const MOST: usize = 10_000;
@@ -60,7 +60,7 @@ impl Chooser {
     /// Lists the folder where it was left, at first that of the scene that is shown.
     pub(super) fn begin(&mut self, viewer: &Viewer) {
         if self.folder.as_os_str().is_empty() {
-            let of_scene = match viewer.current().map(|entry| &entry.source) {
+            let of_scene = match viewer.scene_list().current().map(|entry| &entry.source) {
                 Some(SceneSource::File(path)) => path.parent().map(Path::to_owned),
                 _ => None,
             };
@@ -122,7 +122,7 @@ fn items(folder: &Path) -> io::Result<Vec<Item>> {
         let kind = if path.is_dir() {
             Some(FOLDER)
         } else {
-            Viewer::kind_of_file(&path)
+            kind_of_file(&path)
         };
         if let Some(kind) = kind.filter(|_| !name.starts_with('.')) {
             items.push(Item {

@@ -27,7 +27,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 
 /// Which of both is in front.
 pub(super) fn title(viewer: &Viewer) -> &'static str {
-    if viewer.is_swapped() {
+    if viewer.ab().is_swapped() {
         "B against A"
     } else {
         "A against B"
@@ -37,7 +37,7 @@ pub(super) fn title(viewer: &Viewer) -> &'static str {
 /// The ways to a comparison, and what is always at hand of one that is open: the row stays in its place.
 pub(super) fn offer(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     row(ui, "Compare", |ui| {
-        let is_open = viewer.other().is_some();
+        let is_open = viewer.ab().other().is_some();
         ui.spacing_mut().button_padding.x = 2.0;
         let width = ((ui.available_width() - CONTROL.x) / 3.0 - 4.0).floor();
         let keep = if is_open { "swap" } else { "keep" };
@@ -85,7 +85,7 @@ pub(super) fn controls(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>
 
 /// What A and B are, and how far they are apart.
 pub(super) fn details(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    if viewer.arrangement() == Arrangement::Difference {
+    if viewer.ab().arrangement() == Arrangement::Difference {
         difference(ui, viewer, commands);
     }
     what(ui, viewer, commands);
@@ -96,23 +96,30 @@ pub(super) fn details(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>)
 /// What A and B are, the one in front first.
 fn what(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     ui.add_space(2.0);
-    if let Some(Other::Truth(resolve)) = viewer.other() {
+    if let Some(Other::Truth(resolve)) = viewer.ab().other() {
         truth(ui, *resolve, commands);
     }
-    let mut sides = viewer.comparison_sides().unwrap_or_default();
-    if viewer.is_swapped() {
+    let mut sides = viewer.ab().sides(viewer.settings()).unwrap_or_default();
+    if viewer.ab().is_swapped() {
         sides.reverse();
     }
     // Without words there is nothing behind the letters.
-    let differ = viewer.comparison_words().is_none_or(|words| !words.is_empty());
+    let differ = viewer
+        .ab()
+        .words(viewer.settings())
+        .is_none_or(|words| !words.is_empty());
     for side in sides.into_iter().filter(|_| differ) {
         ui.label(RichText::new(side).small());
     }
-    if let Some(path) = viewer.loading_picture() {
+    if let Some(path) = viewer.ab().loading_picture() {
         let text = format!("reading {} …", path.display());
         ui.label(RichText::new(text).small().weak());
     }
-    if viewer.comparison_words().is_some_and(|words| words.is_empty()) {
+    if viewer
+        .ab()
+        .words(viewer.settings())
+        .is_some_and(|words| words.is_empty())
+    {
         let hint = "Both have the same settings: change A with its keys.";
         ui.label(RichText::new(hint).small().color(ui.visuals().warn_fg_color));
     }
@@ -139,7 +146,7 @@ fn run(id: &str, commands: &mut Vec<Command>) {
 fn arrangement(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let values = Arrangement::ALL.map(|value| {
         let name = match value {
-            Arrangement::Alone if viewer.is_swapped() => "B",
+            Arrangement::Alone if viewer.ab().is_swapped() => "B",
             Arrangement::Alone => "A",
             Arrangement::Difference => "diff",
             other => other.name(),
@@ -148,7 +155,7 @@ fn arrangement(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     });
     let tips = [tip("wipe"), tip("side"), tip("difference"), tip("flip")].join("\n");
     commands.extend(
-        choice(ui, "Show", &tips, viewer.arrangement(), &values)
+        choice(ui, "Show", &tips, viewer.ab().arrangement(), &values)
             .map(AbCommand::Arrange)
             .map(Command::Ab),
     );
@@ -157,11 +164,11 @@ fn arrangement(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 /// Which difference, how strong, and what its colours mean.
 fn difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     heading(ui, "Difference");
-    let style = viewer.difference_style();
+    let style = viewer.ab().difference_style();
     let values = Measure::ALL.map(|value| (value, value.name().to_owned()));
     let chosen = choice(ui, "Difference", &tip("difference"), style.measure, &values);
     commands.extend(chosen.map(AbCommand::SetMeasure).map(Command::Ab));
-    let gain = viewer.difference_gain().unwrap_or(1.0);
+    let gain = viewer.ab().difference_gain().unwrap_or(1.0);
     let normalized = style.gain == Gain::Normalize;
     row(ui, "Gain", |ui| {
         let mut value = gain;
@@ -202,7 +209,7 @@ fn difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     });
     legend(ui, style.measure, gain);
     if style.measure == Measure::Signed {
-        let other = if viewer.is_swapped() { "A" } else { "B" };
+        let other = if viewer.ab().is_swapped() { "A" } else { "B" };
         let text = format!("blue: {other} is darker; orange: {other} is lighter");
         ui.label(RichText::new(text).small().weak());
     }
@@ -277,14 +284,17 @@ fn short(value: f64) -> String {
 
 /// Pins the pixel that differs most, then the next.
 fn next_difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    let count = viewer.measures().map_or(0, |(measures, _)| measures.places.len());
+    let count = viewer
+        .both()
+        .measures()
+        .map_or(0, |(measures, _)| measures.places.len());
     ui.horizontal(|ui| {
         let button = ui.add_enabled(count > 0, Button::new("Next difference").min_size(CONTROL));
         let button = button.on_hover_text(tip("next-difference"));
         if button.accessible_name("Next difference").clicked() {
             commands.push(Command::Ab(AbCommand::NextDifference));
         }
-        if let Some(index) = viewer.pinned_place() {
+        if let Some(index) = viewer.pixels().pinned_difference() {
             let place = format!("{} of {count}", index + 1);
             ui.label(RichText::new(place).small().weak());
         }
@@ -293,10 +303,10 @@ fn next_difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 
 /// Why a picture from outside differs, as far as that can be told.
 fn guess(ui: &mut Ui, viewer: &Viewer) {
-    let Some((measures, is_current)) = viewer.measures() else {
+    let Some((measures, is_current)) = viewer.both().measures() else {
         return;
     };
-    let is_outside = matches!(viewer.other(), Some(Other::Picture(_)));
+    let is_outside = matches!(viewer.ab().other(), Some(Other::Picture(_)));
     if !is_outside || measures.levels.differing() == 0 {
         return;
     }

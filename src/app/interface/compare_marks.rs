@@ -36,20 +36,20 @@ pub(super) struct Marks {
 
 /// Draws line, letters and tags inside `free`, the tags where nothing is `taken`.
 pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Marks {
-    let Some([a, b]) = viewer.comparison_sides() else {
+    let Some([a, b]) = viewer.ab().sides(viewer.settings()) else {
         return Marks::default();
     };
-    let [front, back] = if viewer.is_swapped() { [b, a] } else { [a, b] };
+    let [front, back] = if viewer.ab().is_swapped() { [b, a] } else { [a, b] };
     let scale = ui.pixels_per_point();
     #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
-    let line = viewer.wipe_line().map(|line| line as f32 / scale);
+    let line = viewer.both().wipe_line().map(|line| line as f32 / scale);
     let letters = letters(ui, viewer, free);
     let (mut drawn, mut handle) = (Vec::new(), None);
     let taken = [taken, &letters, &things(viewer, scale)].concat();
     let left = free.left() + MARGIN;
     let half = (free.width() / 2.0 - 2.0 * MARGIN).max(40.0);
-    let places: Vec<(String, f32, Align2, f32)> = match viewer.arrangement() {
-        Arrangement::Alone if !viewer.is_swapped() => return Marks::default(),
+    let places: Vec<(String, f32, Align2, f32)> = match viewer.ab().arrangement() {
+        Arrangement::Alone if !viewer.ab().is_swapped() => return Marks::default(),
         Arrangement::Alone => vec![(front, left, Align2::LEFT_TOP, half)],
         Arrangement::Wipe => {
             let Some(line) = line else {
@@ -72,16 +72,16 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Mark
             ]
         }
         Arrangement::Difference => {
-            let order = if viewer.is_swapped() {
+            let order = if viewer.ab().is_swapped() {
                 "A \u{2212} B"
             } else {
                 "B \u{2212} A"
             };
-            let what = format!("{order}, {}", viewer.difference_style().measure.name());
+            let what = format!("{order}, {}", viewer.ab().difference_style().measure.name());
             vec![(what, left, Align2::LEFT_TOP, half)]
         }
         Arrangement::Flip => {
-            let is_front = viewer.shows_b() == viewer.is_swapped();
+            let is_front = viewer.ab().shows_b() == viewer.ab().is_swapped();
             let seen = if is_front { front } else { back };
             vec![(seen, left, Align2::LEFT_TOP, half)]
         }
@@ -99,19 +99,25 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Mark
 /// Which inset is whose: a letter outside, where no magnified pixel is, in the half of its picture, and beside the line and
 /// the ring of a pin where there is room. Returns where the letters are.
 fn letters(ui: &Ui, viewer: &Viewer, free: Rect) -> Vec<Rect> {
-    let Some(other) = viewer.other_inset() else {
+    let Some(other) = viewer.inspector().other_inset() else {
         return Vec::new();
     };
     let scale = ui.pixels_per_point();
     #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
-    let line = viewer.wipe_line().map(|line| line as f32 / scale);
+    let line = viewer.both().wipe_line().map(|line| line as f32 / scale);
     let line = line.map(|x| Rect::from_x_y_ranges(x - HANDLE..=x + HANDLE, free.y_range()));
     let taken: Vec<Rect> = things(viewer, scale).into_iter().chain(line).collect();
     let mut places = Vec::new();
-    for (letter, placed) in viewer.inset().map(|own| ("A", own)).into_iter().chain([("B", other)]) {
+    for (letter, placed) in viewer
+        .inspector()
+        .inset()
+        .map(|own| ("A", own))
+        .into_iter()
+        .chain([("B", other)])
+    {
         let inset = points(&placed.rect, ui.pixels_per_point());
         let middle = free.center().x;
-        let home = match viewer.arrangement() {
+        let home = match viewer.ab().arrangement() {
             Arrangement::SideBySide if inset.center().x < middle => free.with_max_x(middle),
             Arrangement::SideBySide => free.with_min_x(middle),
             _ => free,
@@ -144,7 +150,7 @@ fn letters(ui: &Ui, viewer: &Viewer, free: Rect) -> Vec<Rect> {
 /// The line with its handle; the pointer tells that it can be dragged. It passes behind the insets, where no hand can
 /// take it, and behind their letters. Returns what its parts take, and the handle.
 fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, (x, insets): (f32, &[Rect])) -> (Vec<Rect>, Option<Rect>) {
-    if viewer.pointer_over_line() {
+    if viewer.pixels().over_line() {
         ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
     }
     if !free.x_range().contains(x) {
@@ -296,7 +302,7 @@ mod tests {
         for part in [0.06, 0.1, 0.2, 0.5, 0.8, 0.94] {
             let _ = viewer.apply(Command::Ab(AbCommand::SetWipe(part)));
             viewer.finish();
-            let line = viewer.wipe_line().expect("a wipe");
+            let line = viewer.both().wipe_line().expect("a wipe");
             let mut places = Marks::default();
             let input = egui::RawInput {
                 screen_rect: Some(area),

@@ -7,14 +7,14 @@ use crate::viewer::{Measures, Viewer};
 
 /// The numbers; those of other pictures are marked.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer) {
-    let found = viewer.measures();
+    let found = viewer.both().measures();
     let title = match found {
         Some((_, true)) | None => "How far apart",
         Some((_, false)) => "How far apart (before the last change)",
     };
     heading(ui, title);
     let Some((measures, is_current)) = found else {
-        let words = if viewer.has_no_picture() {
+        let words = if viewer.scene_list().has_no_picture() {
             "There is no picture to measure: this scene could not be read."
         } else {
             "measuring …"

@@ -19,16 +19,16 @@ const AROUND: f32 = 4.0;
 
 /// Lights them, in the picture where no panel covers it.
 pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect) {
-    let fed = viewer.contributed_pixels();
+    let fed = viewer.inspector().contributed_pixels();
     let most = fed.iter().fold(0.0_f64, |most, fed| most.max(fed.weight));
     let scale = ui.pixels_per_point();
-    let inset = viewer.inset();
+    let inset = viewer.inspector().inset();
     let parts = around(free, inset.map(|placed| points(&placed.rect, scale)));
     let mut all = Rect::NOTHING;
     for fed in fed {
         #[expect(clippy::cast_possible_truncation, reason = "between 0 and 1")]
         let strength = (LEAST + (1.0 - LEAST) * fed.weight / most) as f32;
-        let place = points(&viewer.shown_at(fed.pixel), scale);
+        let place = points(&viewer.both().layout().shown_at(fed.pixel), scale);
         all |= place;
         for part in parts.iter().filter(|part| part.intersects(place)) {
             light(&ui.painter().with_clip_rect(*part), place, strength);

@@ -58,24 +58,24 @@ impl Dialogs {
 
     /// Shows the dialog that is open.
     pub(super) fn show(&mut self, ctx: &Context, viewer: &Viewer, commands: &mut Vec<Command>) {
-        let just_opened = self.open != viewer.dialog();
+        let just_opened = self.open != viewer.chrome().dialog();
         if just_opened {
             let begins_with = self.begins_with.take();
             let path = std::mem::take(&mut self.path);
-            let is_path = viewer.dialog() == Some(Dialog::ComparePicture) && !path.is_empty();
+            let is_path = viewer.chrome().dialog() == Some(Dialog::ComparePicture) && !path.is_empty();
             *self = Self {
-                open: viewer.dialog(),
+                open: viewer.chrome().dialog(),
                 text: if is_path { path.clone() } else { String::new() },
                 caret_to_end: is_path,
                 path,
                 chooser: std::mem::take(&mut self.chooser),
                 ..Self::default()
             };
-            if let Some(spec) = begins_with.filter(|_| viewer.dialog() == Some(Dialog::Palette)) {
+            if let Some(spec) = begins_with.filter(|_| viewer.chrome().dialog() == Some(Dialog::Palette)) {
                 self.go_on(spec);
             }
         }
-        match viewer.dialog() {
+        match viewer.chrome().dialog() {
             Some(Dialog::Help) => help(ctx, viewer, just_opened, commands),
             Some(Dialog::Open) => {
                 if just_opened {
@@ -85,7 +85,7 @@ impl Dialogs {
             }
             Some(Dialog::Palette) => self.palette(ctx, viewer, just_opened, commands),
             Some(Dialog::GoToPixel) => {
-                let [width, height] = viewer.frame_size();
+                let [width, height] = viewer.both().layout().frame_size();
                 let question = Question {
                     title: "Go to pixel",
                     name: "Pixel",

@@ -18,6 +18,7 @@ pub(super) const AS_BEFORE: &str = "shown as it was read last";
 pub(super) fn has_report(viewer: &Viewer) -> bool {
     let noted = |entry: &SceneEntry| entry.scene().is_some_and(|scene| !scene.report.is_empty());
     viewer
+        .scene_list()
         .current()
         .is_some_and(|entry| entry.failure().is_some() || noted(entry))
 }
@@ -44,8 +45,8 @@ impl Readings {
 
     /// Takes in the current scene.
     pub(super) fn follow(&mut self, viewer: &Viewer) {
-        if viewer.current().is_none_or(|entry| !entry.is_reading()) {
-            self.note = viewer.reading_note();
+        if viewer.scene_list().current().is_none_or(|entry| !entry.is_reading()) {
+            self.note = viewer.scene_list().reading_note(viewer.settings().dialect);
         }
         self.seen |= self.note.is_some();
     }
@@ -65,7 +66,7 @@ impl Readings {
 
     fn contents(&self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let Some(note) = &self.note else {
-            if let Some(scene) = viewer.current().and_then(SceneEntry::scene) {
+            if let Some(scene) = viewer.scene_list().current().and_then(SceneEntry::scene) {
                 heading(ui, "One reading");
                 let note = format!("read as {}", scene.dialect.name());
                 ui.label(RichText::new(note).small().weak());
@@ -83,7 +84,7 @@ impl Readings {
 
 /// The reader's report, and why a scene could not be read.
 pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
-    let Some(entry) = viewer.current() else {
+    let Some(entry) = viewer.scene_list().current() else {
         return;
     };
     if let Some(message) = entry.failure() {
@@ -115,10 +116,10 @@ pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
 /// much it filled.
 pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
     // A scene that could not be read has no frame: the lines stay, so that what is below does not move.
-    if viewer.frame().is_none() && !viewer.has_no_picture() {
+    if viewer.frames().frame().is_none() && !viewer.scene_list().has_no_picture() {
         return;
     }
-    let stats = viewer.frame().map(|frame| frame.stats).unwrap_or_default();
+    let stats = viewer.frames().frame().map(|frame| frame.stats).unwrap_or_default();
     if timed {
         heading(ui, &format!("Redraw  {}", milliseconds(stats.total())));
         let stages = [
@@ -134,7 +135,7 @@ pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
     }
     // Points and hairlines fill nothing; the line stays, so that what is below does not move from scene to scene.
     let text = filled(stats.triangles);
-    if timed || text.is_some() || viewer.has_no_picture() {
+    if timed || text.is_some() || viewer.scene_list().has_no_picture() {
         ui.label(RichText::new(text.unwrap_or_default()).small().weak());
     }
 }

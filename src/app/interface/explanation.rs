@@ -71,7 +71,7 @@ impl ExplanationPanel {
                 ui.add_space(2.0);
             }
         });
-        let explanation = viewer.explanation();
+        let explanation = viewer.inspector().explanation();
         let mut area = ScrollArea::vertical().id_salt("explanation").auto_shrink(false);
         if let Some(explanation) = explanation.filter(|explanation| self.pixel != Some(explanation.pixel)) {
             *self = Self {
@@ -277,12 +277,12 @@ fn missed(ui: &mut Ui, explanation: &Explanation, hovered: &mut Hovered) {
 
 /// What B tells differently.
 fn against(ui: &mut Ui, viewer: &Viewer, explanation: &Explanation) {
-    let Some(other) = viewer.other_explanation() else {
+    let Some(other) = viewer.inspector().other_explanation() else {
         return;
     };
     let differences = explanation.differences(other);
     // The one in front first, as the titles of the comparison have it.
-    let heading = if viewer.is_swapped() { "B  |  A" } else { "A  |  B" };
+    let heading = if viewer.ab().is_swapped() { "B  |  A" } else { "A  |  B" };
     section(ui, "against", heading, true, |ui| {
         if differences.is_empty() {
             lines(ui, &["A and B tell the same of this pixel.".to_owned()]);
@@ -290,7 +290,7 @@ fn against(ui: &mut Ui, viewer: &Viewer, explanation: &Explanation) {
         }
         let told = differences.iter().map(|difference| {
             let Difference { what, a, b } = difference;
-            let [front, back] = if viewer.is_swapped() { [b, a] } else { [a, b] };
+            let [front, back] = if viewer.ab().is_swapped() { [b, a] } else { [a, b] };
             format!("{what}  {front}  |  {back}")
         });
         lines(ui, &told.collect::<Vec<_>>());
@@ -305,8 +305,8 @@ fn is_topmost(explanation: &Explanation, paint: usize) -> bool {
 
 fn title(ui: &mut Ui, viewer: &Viewer, is_page: bool, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
-        let [x, y] = viewer.inspected_pixel().unwrap_or_default();
-        if let Some(color) = viewer.explanation().map(|explanation| explanation.color) {
+        let [x, y] = viewer.pixels().inspected().unwrap_or_default();
+        if let Some(color) = viewer.inspector().explanation().map(|explanation| explanation.color) {
             let (rect, _) = ui.allocate_exact_size(vec2(16.0, 16.0), Sense::hover());
             ui.painter().rect_filled(rect, 2.0, opaque(color));
             ui.painter().rect_stroke(
@@ -404,7 +404,7 @@ fn at_part(rect: Rect, [x, y]: [f64; 2]) -> Pos2 {
 impl Hovered {
     /// Tells the viewer which texel the pointer is over.
     pub(super) fn point_at_texel(&self, viewer: &Viewer, commands: &mut Vec<Command>) {
-        if self.texel != viewer.pointed_texel() {
+        if self.texel != viewer.inspector().pointed_texel() {
             commands.push(Command::Inspector(InspectorCommand::PointAtTexel(self.texel)));
         }
     }
@@ -422,12 +422,16 @@ impl Hovered {
             pos2(near(x), near(y))
         };
         let contours: Vec<Vec<Pos2>> = viewer
+            .both()
             .outline_of(primitive)
             .iter()
             .map(|contour| contour.iter().map(|at| point(*at)).collect())
             .collect();
-        let inset = viewer.inset().map(|placed| points(&placed.rect, ui.pixels_per_point()));
-        let shown = match viewer.arrangement() {
+        let inset = viewer
+            .inspector()
+            .inset()
+            .map(|placed| points(&placed.rect, ui.pixels_per_point()));
+        let shown = match viewer.ab().arrangement() {
             Arrangement::SideBySide => free.with_max_x(free.center().x),
             _ => free,
         };
@@ -454,5 +458,5 @@ pub(super) fn fitted(width: f32, room: f32) -> f32 {
 
 /// Whether there is a pixel to explain, and room for the panel in `width` points.
 pub(super) fn is_shown(viewer: &Viewer, width: f32) -> bool {
-    viewer.explains() && fits(width)
+    viewer.pixels().explains() && fits(width)
 }

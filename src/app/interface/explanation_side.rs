@@ -43,7 +43,7 @@ impl Room {
 impl Side {
     /// The side `before`, unless that will not do for another pin or another window of `width` points.
     pub(super) fn choose(before: Option<Self>, viewer: &Viewer, room: Room, scale: f32) -> Self {
-        let (pins, width) = (viewer.pins(), room.window);
+        let (pins, width) = (viewer.inspector().pins(), room.window);
         #[expect(clippy::float_cmp, reason = "the same window")]
         let stays = |side: &Self| (side.pins == pins && side.width == width) || !side.covers_pin(viewer, room, scale);
         let is_left = before
@@ -54,7 +54,7 @@ impl Side {
 
     fn covers_pin(self, viewer: &Viewer, room: Room, scale: f32) -> bool {
         let rest = room.beside(self.is_left).shrink(pin::ROOM);
-        let places = viewer.pinned_places();
+        let places = viewer.pixels().pinned_places();
         places
             .iter()
             .any(|place| !rest.x_range().contains(points(place, scale).center().x))
@@ -65,8 +65,9 @@ impl Side {
 /// stay in its own half.
 fn opens_left(viewer: &Viewer, room: Room, scale: f32) -> bool {
     let asked = viewer
+        .inspector()
         .asked_at()
-        .filter(|_| viewer.arrangement() == Arrangement::SideBySide);
+        .filter(|_| viewer.ab().arrangement() == Arrangement::SideBySide);
     if let Some(AskedAt { at: [x, _], in_second }) = asked {
         let x = i32::try_from(x).unwrap_or_default() as f32 / scale;
         let fitness = |is_left: bool| {
@@ -81,7 +82,7 @@ fn opens_left(viewer: &Viewer, room: Room, scale: f32) -> bool {
         };
         return fitness(true) >= fitness(false);
     }
-    let places = viewer.pinned_places();
+    let places = viewer.pixels().pinned_places();
     let x = places.first().map(|place| points(place, scale).left());
     x.is_none_or(|x| x > room.free.left() + room.panel + look::PANEL_WIDTH / 8.0)
 }

@@ -36,9 +36,9 @@ const TEXT_MARGIN: f32 = 10.0;
 /// The text over the picture: scene and settings. It gives way to the inspector's inset and to what is `taken`
 /// besides, and is left out where there is no room. Returns where it stands.
 pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Option<Rect> {
-    let entry = viewer.current()?;
+    let entry = viewer.scene_list().current()?;
     // Never across the line between two pictures.
-    let free = match viewer.arrangement() {
+    let free = match viewer.ab().arrangement() {
         Arrangement::SideBySide => free.with_max_x(free.center().x),
         _ => free,
     };
@@ -63,7 +63,7 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect])
 
 /// The settings; none while A and B share the window, where tags tell them.
 fn overlay_words(viewer: &Viewer) -> Vec<String> {
-    if viewer.arrangement() != Arrangement::Alone {
+    if viewer.ab().arrangement() != Arrangement::Alone {
         return Vec::new();
     }
     let render = &viewer.settings().render;
@@ -101,7 +101,7 @@ fn overlay_words(viewer: &Viewer) -> Vec<String> {
 
 /// A thin bar along the picture's upper edge: how far a refinement is that takes long.
 pub(super) fn progress(ui: &Ui, viewer: &Viewer, free: Rect) {
-    let Some(done) = viewer.long_refinement() else {
+    let Some(done) = viewer.frames().long_refinement() else {
         return;
     };
     #[expect(clippy::cast_possible_truncation, reason = "between 0 and 1")]
@@ -114,7 +114,7 @@ pub(super) fn progress(ui: &Ui, viewer: &Viewer, free: Rect) {
 
 /// Where nothing of the canvas is in sight: how to come back to it.
 pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) {
-    if viewer.canvas_in_sight() {
+    if viewer.scene_list().canvas_in_sight(&viewer.both().layout()) {
         return;
     }
     let insets = insets(viewer, ui.pixels_per_point());
@@ -145,7 +145,7 @@ pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<
 
 /// What the scene says about itself, until it is closed. Returns where it stands.
 pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Option<Rect> {
-    let text = viewer.words()?;
+    let text = viewer.scene_list().words().filter(|_| viewer.chrome().about())?;
     let id = Id::unique("words");
     let corner = corner_of_words(ui, viewer, (id, free));
     let area = Area::new(id)
@@ -158,13 +158,13 @@ pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Com
             Frame::popup(ui.style()).show(ui, |ui| {
                 ui.set_width(WORDS_WIDTH.min(free.width() - 4.0 * TEXT_MARGIN));
                 ui.horizontal(|ui| {
-                    let name = viewer.current().map_or("", |entry| entry.label.as_str());
+                    let name = viewer.scene_list().current().map_or("", |entry| entry.label.as_str());
                     ui.add(Label::new(RichText::new(name).small().weak()).truncate());
                 });
                 look::bars_beside(ui);
                 let height = (free.height() * 0.5).max(60.0);
                 // Another scene's words begin at their beginning.
-                let area = ScrollArea::vertical().id_salt(("words", viewer.current_index()));
+                let area = ScrollArea::vertical().id_salt(("words", viewer.scene_list().current_index()));
                 area.max_height(height).show(ui, |ui| {
                     for paragraph in text.lines() {
                         ui.label(paragraph);
@@ -188,7 +188,7 @@ fn corner_of_words(ui: &Ui, viewer: &Viewer, (id, free): (Id, Rect)) -> Align2 {
     let before = ui.ctx().memory(|memory| memory.area_rect(id));
     let Some(size) = before
         .map(|rect| rect.size())
-        .filter(|_| viewer.pinned_pixel().is_some())
+        .filter(|_| viewer.pixels().pinned().is_some())
     else {
         return Align2::LEFT_BOTTOM;
     };
@@ -209,7 +209,7 @@ fn corner_of_words(ui: &Ui, viewer: &Viewer, (id, free): (Id, Rect)) -> Align2 {
 
 /// Over a picture whose file cannot be read any more: why, for as long as that is so.
 pub(super) fn outdated(ui: &Ui, viewer: &Viewer, free: Rect) {
-    let entry = viewer.current().filter(|entry| entry.scene().is_some());
+    let entry = viewer.scene_list().current().filter(|entry| entry.scene().is_some());
     let Some(problem) = entry.and_then(|entry| entry.failure()) else {
         return;
     };
@@ -244,7 +244,7 @@ fn free_corner(area: Rect, size: Vec2, taken: &[Rect]) -> Option<Rect> {
 
 /// What words over the picture must not cover: insets, legends and the rings of pins, in points.
 pub(super) fn things(viewer: &Viewer, scale: f32) -> Vec<Rect> {
-    let legends = viewer.legend_places();
+    let legends = viewer.frames().legend_places();
     let legends = legends.iter().map(|place| points(place, scale));
     let things = insets(viewer, scale).into_iter().chain(legends);
     things.chain(pin::rings(viewer, scale)).collect()
@@ -258,7 +258,7 @@ pub(super) fn pixel_labels(ui: &Ui, viewer: &Viewer) {
         .painter()
         .layout_no_wrap("0".to_owned(), font.clone(), Color32::WHITE);
     let character = [sample.size().x * scale, 9.5 * scale];
-    for label in viewer.pixel_labels(character) {
+    for label in viewer.pixels().pixel_labels(character) {
         let center = pos2(
             middle(label.block.x, label.block.width) / scale,
             middle(label.block.y, label.block.height) / scale,
@@ -287,7 +287,10 @@ impl CloseOfInset {
     /// Shows it.
     pub(super) fn show(&mut self, ui: &Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         let scale = ui.pixels_per_point();
-        let pinned = viewer.inset().filter(|_| viewer.pinned_pixel().is_some());
+        let pinned = viewer
+            .inspector()
+            .inset()
+            .filter(|_| viewer.pixels().pinned().is_some());
         let inset = pinned.map_or(Rect::NOTHING, |placed| points(&placed.rect, scale));
         let pointer = ui.input(|input| input.pointer.latest_pos());
         let before = std::mem::replace(&mut self.last, pointer.map(|at| (inset, at)));

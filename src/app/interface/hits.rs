@@ -18,10 +18,15 @@ const LEAST_WIDTH: f32 = 64.0;
 
 /// Writes as many lines as fit, each wholly or not at all: half a number would be another number.
 pub(super) fn hits(ui: &Ui, viewer: &Viewer) {
-    let Some(placed) = viewer.inset() else { return };
+    let Some(placed) = viewer.inspector().inset() else {
+        return;
+    };
     let (Some(area), Some(status)) = (
         placed.text_area(),
-        viewer.inspected_pixel().and_then(|pixel| viewer.status_of(pixel)),
+        viewer
+            .pixels()
+            .inspected()
+            .and_then(|pixel| viewer.pixels().status_of(pixel)),
     ) else {
         return;
     };
@@ -62,7 +67,7 @@ fn numbers(ui: &Ui, status: &Status, width: f32) -> Vec<Arc<Galley>> {
 
 /// How many colours the region has: along an edge, how well it is sampled.
 fn shades(ui: &Ui, viewer: &Viewer, width: f32) -> Option<Arc<Galley>> {
-    let colors = viewer.region_colors()?;
+    let colors = viewer.pixels().region_colors()?;
     let text = format!("{colors} {} shown", if colors == 1 { "colour" } else { "colours" });
     let galley = ui.painter().layout_no_wrap(text, FontId::proportional(SIZE), INK);
     (galley.size().x <= width).then_some(galley)
@@ -74,8 +79,8 @@ fn words(ui: &Ui, viewer: &Viewer, room: Vec2) -> Vec<Arc<Galley>> {
     if room.x < LEAST_WIDTH {
         return Vec::new();
     }
-    let count = viewer.pixel_samples().len();
-    let mut hits = viewer.hits();
+    let count = viewer.inspector().pixel_samples().len();
+    let mut hits = viewer.inspector().hits();
     hits.sort_by_key(|(_, hits)| Reverse(*hits));
     let line = |text: String| ui.painter().layout(text, FontId::proportional(SIZE), INK, room.x);
     let lines: Vec<_> = hits

@@ -84,12 +84,12 @@ fn of_group(ui: &mut Ui, viewer: &Viewer, group: Group, commands: &mut Vec<Comma
 
 /// What was opened before, if anything was.
 fn recent(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    if viewer.opened().is_empty() {
+    if viewer.scene_list().opened().is_empty() {
         return;
     }
     ui.menu_button("Open again", |ui| {
         list(ui, |ui| {
-            for path in viewer.opened() {
+            for path in viewer.scene_list().opened() {
                 let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
                 let button = ui.button(plain::line(&name));
                 if button.on_hover_text(plain::line(&path.display().to_string())).clicked() {

@@ -46,9 +46,9 @@ impl Messages {
     ) -> Vec<Rect> {
         let now = ui.input(|input| input.time);
         self.shown
-            .retain(|id, _| viewer.messages().iter().any(|message| message.id == *id));
+            .retain(|id, _| viewer.chrome().messages().iter().any(|message| message.id == *id));
         let mut covered: Vec<Rect> = Vec::new();
-        for message in viewer.messages() {
+        for message in viewer.chrome().messages() {
             let seconds = match message.kind {
                 MessageKind::Done => DONE_SECONDS,
                 MessageKind::Error => ERROR_SECONDS,

@@ -224,7 +224,7 @@ impl Interface {
         if self.lesson_shares_panel(viewer, window) {
             return true;
         }
-        let panel = if viewer.panel() {
+        let panel = if viewer.chrome().panel() {
             self.widths.of(SizedPanel::Side, window)
         } else {
             0.0
@@ -235,7 +235,7 @@ impl Interface {
     /// Whether the side panel of a window of that many points in width leaves the pinned pixel in sight.
     pub(super) fn panel_leaves_pin(&self, viewer: &Viewer, window: f32, pixels_per_point: f32) -> bool {
         let left = window - self.widths.of(SizedPanel::Side, window) - pin::ROOM;
-        let places = viewer.pinned_places();
+        let places = viewer.pixels().pinned_places();
         places
             .iter()
             .all(|place| places::points(place, pixels_per_point).right() < left)
@@ -255,7 +255,7 @@ impl Interface {
         let words: Vec<Rect> = self.labels.drain(..).chain(self.handle.take()).collect();
         self.line.clear();
         let whole = ui.max_rect();
-        let hidden = viewer.everything_hidden();
+        let hidden = viewer.chrome().everything_hidden();
         let mut has_comparison = false;
         let mut page = None;
         if !hidden {
@@ -270,7 +270,7 @@ impl Interface {
             if self.beside_lesson(viewer, whole.width()) < whole.width() {
                 page = self.lesson_panel(ui, viewer, (whole.width(), asked));
             }
-            if viewer.panel() {
+            if viewer.chrome().panel() {
                 self.side_panel(ui, viewer, (whole.width(), asked));
                 // Why a pixel has its colour tells the same of A and B, for that pixel: it goes first where there is not room
                 // for both.
@@ -281,7 +281,7 @@ impl Interface {
                     LEAST_PICTURE
                 };
                 let fits = ui.available_width() >= self.widths.of(SizedPanel::Comparison, whole.width()) + beside;
-                has_comparison = viewer.other().is_some() && fits;
+                has_comparison = viewer.ab().other().is_some() && fits;
                 if has_comparison {
                     self.compare_panel(ui, viewer, (whole.width(), asked));
                 }
@@ -290,7 +290,7 @@ impl Interface {
         if !has_comparison {
             self.comparison_on_right = None;
         }
-        self.explanation.has_comparison = viewer.other().is_some() && !has_comparison;
+        self.explanation.has_comparison = viewer.ab().other().is_some() && !has_comparison;
         let hovered = match page {
             Some(hovered) => hovered,
             None => self.explanation(ui, viewer, whole, asked),
@@ -313,7 +313,7 @@ impl Interface {
 
     /// What floats over the picture, but for words.
     fn float(&mut self, ui: &Ui, viewer: &Viewer, free: Rect, asked: &mut Asked) {
-        let hidden = viewer.everything_hidden();
+        let hidden = viewer.chrome().everything_hidden();
         if !hidden {
             floating::progress(ui, viewer, free);
             pin::show(ui, viewer, free);
@@ -344,7 +344,7 @@ impl Interface {
 
     /// Messages, tags and the text over the picture, each where nothing else lies; `before` are the words of the last pass.
     fn words(&mut self, ui: &Ui, viewer: &Viewer, (free, before): (Rect, &[Rect]), asked: &mut Asked) {
-        let hidden = viewer.everything_hidden();
+        let hidden = viewer.chrome().everything_hidden();
         let about = if hidden {
             None
         } else {
@@ -369,7 +369,7 @@ impl Interface {
                 .collect();
             (self.labels, self.line, self.handle) = (labels, line, handle);
             // The card would cover it in a small window.
-            if viewer.overlay_text() && !viewer.start_card() {
+            if viewer.chrome().overlay_text() && !viewer.chrome().start_card() {
                 self.labels.extend(floating::overlay_text(ui, viewer, free, &taken));
             }
         }
@@ -390,10 +390,10 @@ impl Interface {
             .show(ui, |ui| {
                 look::bars_beside(ui);
                 look::beside_bar(ui, |ui| lesson::head(ui, viewer, commands));
-                if shares && viewer.pinned_pixel().is_some() {
+                if shares && viewer.pixels().pinned().is_some() {
                     look::beside_bar(ui, |ui| lesson::pages(ui, viewer, commands));
                     if lesson::is_turned(viewer) {
-                        (memory.has_comparison, memory.is_page) = (viewer.other().is_some(), true);
+                        (memory.has_comparison, memory.is_page) = (viewer.ab().other().is_some(), true);
                         return memory.show(ui, viewer, commands);
                     }
                 }
@@ -411,11 +411,11 @@ impl Interface {
         let room = ui.available_rect_before_wrap();
         let scale = ui.pixels_per_point();
         let on_right = *self.comparison_on_right.get_or_insert_with(|| {
-            if viewer.arrangement() == Arrangement::SideBySide {
+            if viewer.ab().arrangement() == Arrangement::SideBySide {
                 // Both halves lie beside it, wherever it is.
                 return false;
             }
-            let places = viewer.pinned_places();
+            let places = viewer.pixels().pinned_places();
             let pin = places.first().map(|place| places::points(place, scale).center().x);
             pin.is_some_and(|x| {
                 let beside_left = x - room.left() - width;
@@ -462,7 +462,7 @@ impl Interface {
         };
         let side = Side::choose(self.explanation_side, viewer, room, ui.pixels_per_point());
         // The place of a pin is not known before its scene is.
-        self.explanation_side = Some(side).filter(|_| viewer.view_numbers().is_some());
+        self.explanation_side = Some(side).filter(|_| viewer.both().view_numbers().is_some());
         let panel = if side.is_left {
             Panel::left("explanation")
         } else {

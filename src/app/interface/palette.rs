@@ -102,8 +102,8 @@ fn values(setting: &'static PictureSetting, viewer: &Viewer) -> impl Iterator<It
 }
 
 fn scenes(viewer: &Viewer) -> impl Iterator<Item = Entry> {
-    let shown = viewer.current_index();
-    let scenes = viewer.scenes().iter().enumerate();
+    let shown = viewer.scene_list().current_index();
+    let scenes = viewer.scene_list().scenes().iter().enumerate();
     scenes.map(move |(index, entry)| Entry {
         name: format!("Scene {}", entry.label),
         note: if index == shown { "shown" } else { "scene" }.to_owned(),

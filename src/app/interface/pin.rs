@@ -36,7 +36,7 @@ pub(super) fn rings(viewer: &Viewer, scale: f32) -> impl Iterator<Item = Rect> {
 
 /// Centres and radii of the rings, in points.
 fn circles(viewer: &Viewer, scale: f32) -> impl Iterator<Item = (Pos2, f32)> {
-    viewer.pinned_places().into_iter().map(move |place| {
+    viewer.pixels().pinned_places().into_iter().map(move |place| {
         let pixel = points(&place, scale);
         (pixel.center(), RADIUS + pixel.size().length() / 2.0)
     })

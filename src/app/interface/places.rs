@@ -6,7 +6,11 @@ use crate::viewer::{PixelRect, Viewer};
 
 /// Where the insets lie, in points.
 pub(super) fn insets(viewer: &Viewer, scale: f32) -> Vec<Rect> {
-    let insets = viewer.inset().into_iter().chain(viewer.other_inset());
+    let insets = viewer
+        .inspector()
+        .inset()
+        .into_iter()
+        .chain(viewer.inspector().other_inset());
     insets.map(|placed| points(&placed.rect, scale)).collect()
 }
 

@@ -199,7 +199,7 @@ fn reading(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 
 /// In which dialect the current scene was read.
 fn dialect_in_force(viewer: &Viewer) -> &'static str {
-    let entry = viewer.current();
+    let entry = viewer.scene_list().current();
     match entry.and_then(|entry| entry.scene()).map(|scene| scene.dialect) {
         Some(Dialect::Course) => "read as course",
         Some(Dialect::Svg) => "read as svg",

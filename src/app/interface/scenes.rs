@@ -88,7 +88,10 @@ pub(super) struct Wishes {
 pub(super) fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.vertical(|ui| heading(ui, "Scenes"));
-        let words = viewer.current().and_then(|entry| entry.scene()?.words.as_ref());
+        let words = viewer
+            .scene_list()
+            .current()
+            .and_then(|entry| entry.scene()?.words.as_ref());
         let about = ui.add_enabled_ui(words.is_some(), |ui| command_button(ui, "about", "About"));
         if about.inner.clicked() {
             commands.push(Command::Window(WindowCommand::About(Toggle::Flip)));
@@ -96,14 +99,18 @@ pub(super) fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
             // The only scene has no neighbours; a lesson's steps are many on one scene, too.
-            let leads_on = viewer.scenes().len() > 1 || viewer.lesson().is_some();
+            let leads_on = viewer.scene_list().scenes().len() > 1 || viewer.lesson().is_some();
             for (id, text) in [("next-scene", "›"), ("previous-scene", "‹")] {
                 let button = ui.add_enabled_ui(leads_on, |ui| command_button(ui, id, text));
                 if button.inner.clicked() {
                     commands.extend(crate::viewer::commands::find(id).and_then(crate::viewer::CommandSpec::command));
                 }
             }
-            let place = format!("{} of {}", viewer.current_index() + 1, viewer.scenes().len());
+            let place = format!(
+                "{} of {}",
+                viewer.scene_list().current_index() + 1,
+                viewer.scene_list().scenes().len()
+            );
             ui.label(RichText::new(place).weak().small());
         });
     });
@@ -118,11 +125,13 @@ pub(super) fn height(viewer: &Viewer) -> f32 {
 
 /// Height of the list without its heading, in points, with the gap below its last row.
 fn rows_height(viewer: &Viewer) -> f32 {
-    let heights = groups(viewer.scenes()).into_iter().map(|(heading, scenes)| {
-        let rows = scenes.len().div_ceil(COLUMNS) as f32;
-        let name = if heading.is_some() { FOLDER } else { 0.0 };
-        name + rows * ROW
-    });
+    let heights = groups(viewer.scene_list().scenes())
+        .into_iter()
+        .map(|(heading, scenes)| {
+            let rows = scenes.len().div_ceil(COLUMNS) as f32;
+            let name = if heading.is_some() { FOLDER } else { 0.0 };
+            name + rows * ROW
+        });
     heights.sum()
 }
 
@@ -135,7 +144,7 @@ pub(super) fn all_rows(viewer: &Viewer) -> f32 {
 pub(super) fn whole_rows(viewer: &Viewer, height: f32) -> f32 {
     let mut top = 0.0;
     let mut whole = None;
-    for (heading, scenes) in groups(viewer.scenes()) {
+    for (heading, scenes) in groups(viewer.scene_list().scenes()) {
         if heading.is_some() {
             top += FOLDER;
         }
@@ -159,7 +168,7 @@ pub(super) fn list(
     let width = ((ui.available_width() - GAP * (COLUMNS - 1) as f32) / COLUMNS as f32).floor();
     let cell = vec2(width, PICTURE_HEIGHT + NAME_HEIGHT);
     ui.spacing_mut().item_spacing = vec2(GAP, GAP);
-    for (heading, scenes) in groups(viewer.scenes()) {
+    for (heading, scenes) in groups(viewer.scene_list().scenes()) {
         if let Some(heading) = heading {
             ui.label(RichText::new(heading).weak().small());
         }
@@ -205,9 +214,9 @@ fn picture(
     cell: Vec2,
     (thumbnails, requests): (&mut Thumbnails, &mut Wishes),
 ) -> bool {
-    let entry = &viewer.scenes()[index];
+    let entry = &viewer.scene_list().scenes()[index];
     let (rect, response) = ui.allocate_exact_size(cell, Sense::click());
-    let current = index == viewer.current_index();
+    let current = index == viewer.scene_list().current_index();
     if current && requests.follow && thumbnails.shown != Some(index) {
         response.scroll_to_me(Some(egui::Align::Center));
         thumbnails.shown = Some(index);
@@ -239,8 +248,8 @@ fn paint(
     response: &egui::Response,
     (thumbnails, requests): (&mut Thumbnails, &mut Wishes),
 ) {
-    let entry = &viewer.scenes()[index];
-    let (rect, current) = (response.rect, index == viewer.current_index());
+    let entry = &viewer.scene_list().scenes()[index];
+    let (rect, current) = (response.rect, index == viewer.scene_list().current_index());
     let visuals = ui.visuals();
     let frame = Rect::from_min_size(rect.min, vec2(rect.width(), PICTURE_HEIGHT));
     ui.painter().rect_filled(frame, CornerRadius::same(4), Color32::WHITE);
@@ -340,7 +349,7 @@ mod tests {
     #[test]
     fn opened_files_stand_under_their_own_heading() {
         let viewer = Viewer::new(ViewerOptions::default()).expect("threads");
-        let gallery = viewer.scenes().to_vec();
+        let gallery = viewer.scene_list().scenes().to_vec();
         let opened = |path: &str| {
             let mut entry = gallery[0].clone();
             (entry.source, entry.label) = (SceneSource::File(path.into()), "mine.svg".to_owned());

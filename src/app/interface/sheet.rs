@@ -104,7 +104,7 @@ impl SheetDialog {
             SheetSide::Rows => ("Rows", "sheet-rows"),
         };
         heading(ui, title);
-        let current = viewer.sheet().axis(side);
+        let current = viewer.sheet().draft().axis(side);
         let name = current.map_or("nothing", |axis| axis.name.as_str());
         let mut chosen = None;
         ComboBox::from_id_salt(title)
@@ -180,9 +180,9 @@ impl SheetDialog {
     /// How large panels are, and what they magnify.
     fn panels(&mut self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         heading(ui, "Panels");
-        let draft = viewer.sheet();
+        let draft = viewer.sheet().draft();
         let change = |panels| Command::Sheet(SheetCommand::Change(SheetChange::Panels(panels)));
-        let [width, height] = viewer.frame_size();
+        let [width, height] = viewer.both().layout().frame_size();
         let exact = match draft.panels {
             PanelSize::Exact(size) => size,
             _ => [800, 600],
@@ -218,7 +218,7 @@ impl SheetDialog {
                 }
             });
         }
-        let can = viewer.sheet_has_inset();
+        let can = viewer.pixels().sheet_has_inset();
         let mut inset = draft.inset && can;
         let text = if can {
             "Inset of the pinned pixel"
@@ -246,9 +246,9 @@ impl SheetDialog {
                 let label = egui::Label::new(RichText::new(text).color(color)).wrap();
                 ui.put(area.shrink(12.0), label);
             };
-            let line = match viewer.sheet_preview() {
+            let line = match viewer.sheet().preview() {
                 None => {
-                    let failed = viewer.current().is_none_or(SceneEntry::has_no_picture);
+                    let failed = viewer.scene_list().current().is_none_or(SceneEntry::has_no_picture);
                     told(ui, if failed { "no scene to draw" } else { "drawing …" }, weak);
                     String::new()
                 }
@@ -257,7 +257,7 @@ impl SheetDialog {
                     String::new()
                 }
                 Some((Ok(preview), stale)) => {
-                    self.picture(ui, area, viewer.sheet_preview_number(), preview);
+                    self.picture(ui, area, viewer.sheet().preview_number(), preview);
                     size_words(preview, stale)
                 }
             };
@@ -315,7 +315,7 @@ fn ticked(ui: &mut Ui, axis: &Axis, counted: &[&'static str], side: SheetSide, c
 /// Ground and caption.
 fn words(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     heading(ui, "Ground");
-    let draft = viewer.sheet();
+    let draft = viewer.sheet().draft();
     let values = Ground::ALL.map(|ground| (ground, ground.name().to_owned()));
     let chosen = choice(ui, "Ground", &tip("sheet-theme"), draft.theme, &values);
     commands.extend(chosen.map(|theme| Command::Sheet(SheetCommand::Change(SheetChange::Theme(theme)))));

@@ -41,16 +41,17 @@ impl PanelMemory {
     /// Takes in the current scene.
     fn follow(&mut self, viewer: &Viewer) {
         let list = viewer
+            .scene_list()
             .scenes()
             .first()
-            .map(|first| (viewer.scenes().len(), &first.source));
+            .map(|first| (viewer.scene_list().scenes().len(), &first.source));
         if self.list.as_ref().map(|(count, first)| (*count, first)) != list {
             *self = Self {
                 list: list.map(|(count, first)| (count, first.clone())),
                 height: self.height,
-                readings: Readings::of_list(viewer.scenes()),
+                readings: Readings::of_list(viewer.scene_list().scenes()),
                 // Those of the gallery have nothing to report.
-                reports: viewer.scenes().iter().any(SceneEntry::is_file),
+                reports: viewer.scene_list().scenes().iter().any(SceneEntry::is_file),
             };
         }
         self.reports |= document::has_report(viewer);
@@ -128,7 +129,7 @@ impl Interface {
                 memory.readings.show(ui, viewer, &mut asked.commands);
             }
             if memory.reports {
-                let room = match viewer.scenes().len() {
+                let room = match viewer.scene_list().scenes().len() {
                     1 if own_scroll => (ui.available_height() - scenes::all_rows(viewer)).max(REPORT),
                     1 => LONG_REPORT,
                     _ => REPORT,
@@ -263,7 +264,7 @@ mod tests {
         let near = |a: f32, b: f32| (a - b).abs() < 0.5;
         let mut viewer = viewer(&["svg/basic"]);
         let before = settings(&viewer);
-        for _ in 0..viewer.scenes().len() {
+        for _ in 0..viewer.scene_list().scenes().len() {
             let _ = viewer.apply(Command::Scenes(SceneCommand::Next));
             let meanwhile = settings(&viewer);
             assert!(

@@ -28,7 +28,7 @@ struct Way {
 
 /// The card, while it is to be seen.
 pub(super) fn card(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) {
-    if !viewer.start_card() || viewer.dialog().is_some() {
+    if !viewer.chrome().start_card() || viewer.chrome().dialog().is_some() {
         return;
     }
     let width = WIDTH.min(free.width() - 16.0);
@@ -135,7 +135,12 @@ fn ways_of(viewer: &Viewer) -> Vec<Way> {
         SceneSource::Gallery(index) => gallery::SCENES.get(*index).is_some_and(|scene| scene.name == STUDY),
         SceneSource::File(_) => false,
     };
-    if let Some(index) = viewer.scenes().iter().position(|entry| is_study(&entry.source)) {
+    if let Some(index) = viewer
+        .scene_list()
+        .scenes()
+        .iter()
+        .position(|entry| is_study(&entry.source))
+    {
         ways.push(Way {
             name: "Look at a study of aliasing",
             words: "rings finer than the pixels, and what becomes of them",

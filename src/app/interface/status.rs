@@ -24,7 +24,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) ->
             ui.shrink_clip_rect(ui.max_rect());
             let asks = menu::show(ui, viewer, commands);
             ui.add_space(4.0);
-            match viewer.status() {
+            match viewer.pixels().status() {
                 Some(status) => pixel(ui, viewer, &status),
                 None => word(
                     ui,
@@ -56,7 +56,7 @@ fn word(ui: &mut Ui, text: &str, font: FontId, weak: bool) {
 
 /// Folds the side panel, or brings it back.
 fn panel_switch(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    let button = egui::Button::selectable(viewer.panel(), "Panel")
+    let button = egui::Button::selectable(viewer.chrome().panel(), "Panel")
         .frame_when_inactive(true)
         .small();
     if ui
@@ -72,7 +72,7 @@ fn panel_switch(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 
 /// Closes an inspector that follows the pointer: its inset gives way to whoever wants to click there.
 fn close_of_inspector(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    if !viewer.inspector().open || viewer.pinned_pixel().is_some() {
+    if !viewer.inspector().magnifier().open || viewer.pixels().pinned().is_some() {
         return;
     }
     let button = ui.add(egui::Button::new("Magnifier  \u{d7}").small());
@@ -85,7 +85,7 @@ fn close_of_inspector(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>)
 
 fn pixel(ui: &mut Ui, viewer: &Viewer, status: &Status) {
     let [x, y] = status.pixel;
-    let pinned = viewer.pinned_pixel() == Some(status.pixel);
+    let pinned = viewer.pixels().pinned() == Some(status.pixel);
     field(ui, if pinned { "pinned" } else { "pixel" }, &format!("{x}, {y}"));
     if let Some(([r, g, b, _], (decimal, hex))) = status.rgba.zip(status.decimal_text().zip(status.hex_text())) {
         let (swatch, response) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::hover());
@@ -97,6 +97,7 @@ fn pixel(ui: &mut Ui, viewer: &Viewer, status: &Status) {
         response.accessible_name(format!("Colour {hex}"));
         word(ui, &decimal, numbers(), false);
         match viewer
+            .pixels()
             .other_status_of(status.pixel)
             .and_then(|other| other.decimal_text())
         {
@@ -104,7 +105,7 @@ fn pixel(ui: &mut Ui, viewer: &Viewer, status: &Status) {
             None => word(ui, &hex, numbers(), false),
         }
         ui.add_space(4.0);
-    } else if viewer.preview().is_some() {
+    } else if viewer.frames().preview().is_some() {
         // No number comes from a pixel that is not final.
         word(ui, "…", numbers(), true);
         ui.add_space(4.0);
@@ -128,16 +129,16 @@ fn field(ui: &mut Ui, name: &str, value: &str) {
 
 /// Size, scale and settings in few words, as far as there is room.
 fn picture(ui: &mut Ui, viewer: &Viewer) {
-    let [width, height] = viewer.frame_size();
+    let [width, height] = viewer.both().layout().frame_size();
     let render = &viewer.settings().render;
-    if let Some(text) = viewer.preview_text() {
+    if let Some(text) = viewer.frames().preview_text() {
         ui.label(egui::RichText::new(text).size(11.0).color(ui.visuals().warn_fg_color));
         ui.add_space(4.0);
     }
     // First, so that it is the last to give way: the other reading is another picture.
-    let mut words: Vec<String> = viewer.reading_words().into_iter().collect();
+    let mut words: Vec<String> = viewer.scene_list().reading_words().into_iter().collect();
     words.push(format!("{width}×{height}"));
-    if let Some(numbers) = viewer.view_numbers() {
+    if let Some(numbers) = viewer.both().view_numbers() {
         words.push(format!("{} px/unit", short(numbers.scale)));
     }
     words.push(format!("{}×", render.sample_rate.samples()));

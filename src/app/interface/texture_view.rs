@@ -38,6 +38,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
     };
     let level = texture.levels.iter().max_by(|a, b| a.weight.total_cmp(&b.weight))?;
     let image = viewer
+        .frames()
         .frame()
         .and_then(|frame| frame.picture.scene.textures.get(texture.index as usize))
         .and_then(|image| image.pyramid.levels().get(level.number))?;
@@ -92,10 +93,11 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
 /// How many pixels a texel contributes to, once that was found out.
 fn contributed_words(viewer: &Viewer, texel: Option<TexelPlace>) -> Option<String> {
     let Region { width, height, .. } = viewer
+        .inspector()
         .contributions_region()
-        .filter(|_| texel == viewer.pointed_texel())?;
+        .filter(|_| texel == viewer.inspector().pointed_texel())?;
     let around = format!("of the {width} x {height} pixels around the pinned one");
-    Some(match viewer.contributed_pixels().len() {
+    Some(match viewer.inspector().contributed_pixels().len() {
         0 => format!("\ncontributes to none {around}"),
         count => format!("\ncontributes to {count} {around}, lit in the picture"),
     })

@@ -27,11 +27,11 @@ struct Number<'a> {
 /// meanwhile, so that nothing below moves under the pointer that goes from scene to scene.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, last: &mut ViewNumbers, commands: &mut Vec<Command>) {
     heading(ui, "View");
-    if let Some(numbers) = viewer.view_numbers() {
+    if let Some(numbers) = viewer.both().view_numbers() {
         *last = numbers;
         rows(ui, numbers, commands);
     } else {
-        let is_reading = viewer.current().is_some_and(SceneEntry::is_reading);
+        let is_reading = viewer.scene_list().current().is_some_and(SceneEntry::is_reading);
         ui.add_enabled_ui(is_reading, |ui| rows(ui, *last, &mut Vec::new()));
     }
 }

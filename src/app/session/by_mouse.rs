@@ -16,7 +16,7 @@ const CLOSE: &str = "Explanation";
 
 /// Colour and place of a frame pixel.
 fn content(session: &Session, pixel: [u32; 2]) -> ([u8; 4], DVec2) {
-    let status = session.viewer.status_of(pixel).expect("a scene");
+    let status = session.viewer.pixels().status_of(pixel).expect("a scene");
     (status.rgba.expect("a picture"), status.user)
 }
 
@@ -24,10 +24,10 @@ fn content(session: &Session, pixel: [u32; 2]) -> ([u8; 4], DVec2) {
 fn explains_what_is_clicked(session: &mut Session, at: [f64; 2]) {
     let window = session.window();
     session.pointer(Some(DVec2::from(at)));
-    let clicked = session.viewer.hovered_pixel().expect("the picture");
+    let clicked = session.viewer.pixels().hovered().expect("the picture");
     let (color, place) = content(session, clicked);
     right_click(session, at);
-    let explained = session.viewer.explanation().expect("an explanation");
+    let explained = session.viewer.inspector().explanation().expect("an explanation");
     assert_eq!(explained.color, color, "{clicked:?} at {at:?} of {window:?}");
     let pixel = explained.pixel;
     let off = (content(session, pixel).1 - place).length();
@@ -38,11 +38,11 @@ fn explains_what_is_clicked(session: &mut Session, at: [f64; 2]) {
 fn clicked_pixel_is_the_one_that_is_explained() {
     for at in [[585.0, 80.0], [586.0, 81.0], [700.0, 300.0], [900.0, 420.0]] {
         let mut session = session(vec![PathBuf::from("lesson:six-tasks")], [1280, 800]);
-        let before = session.viewer.view_numbers();
+        let before = session.viewer.both().view_numbers();
         explains_what_is_clicked(&mut session, at);
         explains_what_is_clicked(&mut session, [at[0] + 20.0, at[1] + 10.0]);
         click_on(&mut session, CLOSE);
-        assert_eq!(session.viewer.view_numbers(), before, "the view is fitted again");
+        assert_eq!(session.viewer.both().view_numbers(), before, "the view is fitted again");
     }
 }
 
@@ -54,10 +54,10 @@ fn clicked_pixel_is_the_one_that_is_explained_side_by_side() {
             session.command(Command::Window(WindowCommand::Panel(Toggle::Off)));
             session.command(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
             session.settle();
-            let before = session.viewer.view_numbers();
+            let before = session.viewer.both().view_numbers();
             explains_what_is_clicked(&mut session, at);
             click_on(&mut session, CLOSE);
-            assert_eq!(session.viewer.view_numbers(), before, "as before, in {window:?}");
+            assert_eq!(session.viewer.both().view_numbers(), before, "as before, in {window:?}");
         }
     }
 }
@@ -73,12 +73,18 @@ fn pinned_pixel_is_explained_again_after_close() {
     right_click(&mut session, at);
     assert!(says(&mut session, "Pixel 700, 300"), "explained again");
     right_click(&mut session, at);
-    assert_eq!(session.viewer.pinned_pixel(), None, "a second click unpins it");
-    assert!(session.viewer.inset().is_none(), "and closes what the first one opened");
+    assert_eq!(session.viewer.pixels().pinned(), None, "a second click unpins it");
+    assert!(
+        session.viewer.inspector().inset().is_none(),
+        "and closes what the first one opened"
+    );
     session.command(Command::Inspector(InspectorCommand::Show(Toggle::On)));
     right_click(&mut session, at);
     right_click(&mut session, at);
-    assert!(session.viewer.inset().is_some(), "but not what was open before");
+    assert!(
+        session.viewer.inspector().inset().is_some(),
+        "but not what was open before"
+    );
 }
 
 #[test]
@@ -86,7 +92,7 @@ fn magnifier_has_a_button_that_closes_it() {
     let mut session = session(Vec::new(), [1280, 800]);
     session.command(Command::Inspector(InspectorCommand::Show(Toggle::On)));
     right_click(&mut session, [700.0, 300.0]);
-    let inset = session.viewer.inset().expect("there is room").rect;
+    let inset = session.viewer.inspector().inset().expect("there is room").rect;
     session.pointer(Some(dvec2(inset.x as f64 + 20.0, inset.y as f64 + 20.0)));
     session.settle();
     let button = place_of(&mut session, "Close the inspector");
@@ -95,7 +101,7 @@ fn magnifier_has_a_button_that_closes_it() {
         "{button} on {inset:?}"
     );
     click_on(&mut session, "Close the inspector");
-    assert!(session.viewer.inset().is_none(), "closed");
+    assert!(session.viewer.inspector().inset().is_none(), "closed");
 }
 
 #[test]
@@ -104,7 +110,7 @@ fn line_of_a_wipe_stays_beside_panels() {
         let mut session = comparing(window);
         session.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
         session.settle();
-        let line = |session: &Session| session.viewer.wipe_line().expect("a wipe");
+        let line = |session: &Session| session.viewer.both().wipe_line().expect("a wipe");
         let in_sight = |session: &Session, what: &str| {
             let (line, free) = (line(session), session.free_area.expect("there is room"));
             let (left, right) = (free.x as f64, free.right() as f64);
@@ -167,11 +173,17 @@ fn arrows_of_the_scenes_stay_under_the_pointer() {
         session.settle();
         let before = place_of(&mut session, "Next scene");
         let mut noted = 0;
-        for _ in 0..session.viewer.scenes().len() {
+        for _ in 0..session.viewer.scene_list().scenes().len() {
             session.command(Command::Scenes(SceneCommand::Next));
             session.settle();
-            noted += usize::from(session.viewer.reading_note().is_some());
-            let scene = session.viewer.current_index();
+            noted += usize::from(
+                session
+                    .viewer
+                    .scene_list()
+                    .reading_note(session.viewer.settings().dialect)
+                    .is_some(),
+            );
+            let scene = session.viewer.scene_list().current_index();
             let now = place_of(&mut session, "Next scene");
             assert!((now - before).length() < 1.0, "{now}, not {before}, at scene {scene}");
         }
@@ -185,7 +197,7 @@ fn scene_without_a_picture_says_so() {
     let mut session = session(vec![folder.path().join("4.svg")], [1280, 800]);
     session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     right_click(&mut session, [500.0, 300.0]);
-    assert!(!session.viewer.explains(), "there is nothing to explain");
+    assert!(!session.viewer.pixels().explains(), "there is nothing to explain");
     assert!(says(&mut session, "no picture to explain"), "and it says why");
     assert!(!says(&mut session, "finding out"), "nothing is found out");
     session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
@@ -198,11 +210,14 @@ fn scene_without_a_picture_says_so() {
 fn missing_room_for_an_explanation_is_told() {
     let mut session = session(Vec::new(), [600, 400]);
     right_click(&mut session, [300.0, 200.0]);
-    assert!(session.viewer.pinned_pixel().is_some(), "pinned");
+    assert!(session.viewer.pixels().pinned().is_some(), "pinned");
     assert!(says(&mut session, "make the window wider"), "why there is no more");
     session.resize([1280, 800]);
     session.settle();
-    assert!(session.viewer.explanation().is_some(), "explained where there is room");
+    assert!(
+        session.viewer.inspector().explanation().is_some(),
+        "explained where there is room"
+    );
 }
 
 #[test]
@@ -246,7 +261,7 @@ fn other_reading_moves_nothing_and_draws_its_folder_anew() {
     session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     session.settle();
     let pictures = |session: &Session| {
-        let scenes = session.viewer.scenes().iter();
+        let scenes = session.viewer.scene_list().scenes().iter();
         scenes
             .map(|entry| entry.thumbnail.clone().expect("in sight"))
             .collect::<Vec<_>>()
@@ -279,7 +294,14 @@ fn thumbnails_stay_where_they_are_when_another_scene_has_two_readings() {
     let before = names.map(|name| place_of(&mut session, name));
     click_on(&mut session, names[1]);
     session.settle();
-    assert!(session.viewer.reading_note().is_some(), "it has two");
+    assert!(
+        session
+            .viewer
+            .scene_list()
+            .reading_note(session.viewer.settings().dialect)
+            .is_some(),
+        "it has two"
+    );
     assert_eq!(
         names.map(|name| place_of(&mut session, name)),
         before,
@@ -338,26 +360,30 @@ fn list_of_scenes_ends_below_a_row() {
 fn wheel_goes_on_turning_the_inset_that_it_moved_away() {
     let mut session = session(Vec::new(), [1280, 800]);
     right_click(&mut session, [570.0, 300.0]);
-    let view = session.viewer.view_numbers();
-    let inset = session.viewer.inset().expect("a magnifier").rect;
+    let view = session.viewer.both().view_numbers();
+    let inset = session.viewer.inspector().inset().expect("a magnifier").rect;
     let [x, y] = [
         inset.x + i64::from(inset.width) / 2,
         inset.y + i64::from(inset.height) / 2,
     ];
     let at = dvec2(x as f64, y as f64);
     session.pointer(Some(at));
-    assert!(session.viewer.pointer_over_inset(), "the pointer is in the magnifier");
+    assert!(session.viewer.pixels().over_inset(), "the pointer is in the magnifier");
     session.wheel(1.0);
-    assert_eq!(session.viewer.view_numbers(), view, "the magnifier took it");
+    assert_eq!(session.viewer.both().view_numbers(), view, "the magnifier took it");
     // A pin below it sends it away from the pointer, which rests.
     session.command(Command::Inspector(InspectorCommand::Pin([x, y])));
     session.settle();
-    assert!(!session.viewer.pointer_over_inset(), "it gave way");
+    assert!(!session.viewer.pixels().over_inset(), "it gave way");
     session.wheel(1.0);
-    assert_eq!(session.viewer.view_numbers(), view, "the magnifier takes it still");
+    assert_eq!(
+        session.viewer.both().view_numbers(),
+        view,
+        "the magnifier takes it still"
+    );
     session.pointer(Some(at + 1.0));
     session.wheel(1.0);
-    assert_ne!(session.viewer.view_numbers(), view, "the wheel zooms again");
+    assert_ne!(session.viewer.both().view_numbers(), view, "the wheel zooms again");
 }
 
 #[test]
@@ -368,7 +394,7 @@ fn message_about_a_pin_goes_with_it() {
         by: dvec2(-3000.0, 0.0),
     }));
     let tells = |session: &Session| {
-        let mut all = session.viewer.messages().iter();
+        let mut all = session.viewer.chrome().messages().iter();
         all.any(|message| message.text.contains("outside the window"))
     };
     assert!(tells(&session), "the pin is out of sight");
@@ -380,22 +406,22 @@ fn message_about_a_pin_goes_with_it() {
 fn second_click_in_the_inset_unpins_what_the_first_one_pinned() {
     let mut session = session(Vec::new(), [800, 600]);
     right_click(&mut session, [200.0, 300.0]);
-    let inset = session.viewer.inset().expect("a magnifier").rect;
+    let inset = session.viewer.inspector().inset().expect("a magnifier").rect;
     let mut moved = false;
     for part in [0.04, 0.2, 0.35, 0.65, 0.8, 0.96] {
         let across = |from: i64, size: u32| from as f64 + (f64::from(size) * part).floor();
         let at = [across(inset.x, inset.width), across(inset.y, inset.height)];
         session.pointer(Some(DVec2::from(at)));
-        let (hovered, before) = (session.viewer.hovered_pixel(), session.viewer.pinned_pixel());
-        if !session.viewer.pointer_over_inset() || hovered.is_none() || hovered == before {
+        let (hovered, before) = (session.viewer.pixels().hovered(), session.viewer.pixels().pinned());
+        if !session.viewer.pixels().over_inset() || hovered.is_none() || hovered == before {
             continue;
         }
         right_click(&mut session, at);
-        let pinned = session.viewer.pinned_pixel();
-        moved |= !session.viewer.pointer_over_inset();
+        let pinned = session.viewer.pixels().pinned();
+        moved |= !session.viewer.pixels().over_inset();
         assert!(pinned.is_some(), "a pixel of the inset");
         right_click(&mut session, at);
-        assert_eq!(session.viewer.pinned_pixel(), None, "{pinned:?} at {at:?}");
+        assert_eq!(session.viewer.pixels().pinned(), None, "{pinned:?} at {at:?}");
         right_click(&mut session, [200.0, 300.0]);
     }
     assert!(moved, "the inset left the pointer once");
@@ -405,16 +431,16 @@ fn second_click_in_the_inset_unpins_what_the_first_one_pinned() {
 fn drag_that_begins_in_the_magnifier_moves_the_picture() {
     let mut session = session(Vec::new(), [1366, 768]);
     right_click(&mut session, [570.0, 300.0]);
-    let inset = session.viewer.inset().expect("a magnifier").rect;
+    let inset = session.viewer.inspector().inset().expect("a magnifier").rect;
     let middle = |from: i64, size: u32| from as f64 + f64::from(size) / 2.0;
     let at = dvec2(middle(inset.x, inset.width), middle(inset.y, inset.height));
     session.pointer(Some(at));
-    assert!(session.viewer.pointer_over_inset(), "the pointer is in the magnifier");
-    let before = session.viewer.view_numbers().expect("a view").center;
+    assert!(session.viewer.pixels().over_inset(), "the pointer is in the magnifier");
+    let before = session.viewer.both().view_numbers().expect("a view").center;
     session.button(PointerButton::Primary, true);
     session.pointer(Some(at + dvec2(40.0, 0.0)));
     session.button(PointerButton::Primary, false);
-    let after = session.viewer.view_numbers().expect("a view").center;
+    let after = session.viewer.both().view_numbers().expect("a view").center;
     assert!(
         after.x < before.x,
         "{after} from {before}: the picture follows the hand"

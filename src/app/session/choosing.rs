@@ -47,7 +47,11 @@ fn double_click_on_a_folder_opens_the_folder_alone() {
         let mut session = session(vec![folder.path().join("outer.svg")], window);
         open_dialog(&mut session, Dialog::Open);
         double_click(&mut session, "outer");
-        assert_eq!(session.viewer().dialog(), Some(Dialog::Open), "nothing is opened");
+        assert_eq!(
+            session.viewer().chrome().dialog(),
+            Some(Dialog::Open),
+            "nothing is opened"
+        );
         let lists = ["inner", "first.svg"].map(|name| has(&mut session, name));
         assert_eq!(lists, [true, false], "one folder further in {window:?}");
     }
@@ -58,7 +62,7 @@ fn double_click_on_what_opens_a_dialog_leaves_it_open() {
     let mut session = session(Vec::new(), [1280, 800]);
     click_on(&mut session, "Menu");
     double_click(&mut session, "Help");
-    assert_eq!(session.viewer().dialog(), Some(Dialog::Help), "the help");
+    assert_eq!(session.viewer().chrome().dialog(), Some(Dialog::Help), "the help");
 }
 
 #[test]
@@ -66,17 +70,17 @@ fn picture_to_compare_with_is_chosen_by_mouse() {
     let folder = folders();
     let picture = folder.path().join("other.png");
     let mut session = session(vec![folder.path().join("outer.svg")], [800, 600]);
-    let frame = session.viewer().frame().expect("a frame").pixels.clone();
+    let frame = session.viewer().frames().frame().expect("a frame").pixels.clone();
     crate::figure::save_png(&frame, &picture).expect("saved");
     open_dialog(&mut session, Dialog::ComparePicture);
     assert!(!has(&mut session, "outer.svg"), "no scenes");
     click_on(&mut session, "other.png");
     let viewer = session.viewer();
-    assert_eq!(viewer.dialog(), None, "chosen");
+    assert_eq!(viewer.chrome().dialog(), None, "chosen");
     assert!(
-        matches!(viewer.other(), Some(Other::Picture(_))),
+        matches!(viewer.ab().other(), Some(Other::Picture(_))),
         "{:?}",
-        viewer.other()
+        viewer.ab().other()
     );
 }
 
@@ -89,7 +93,11 @@ fn click_between_lines_of_the_menu_closes_nothing() {
     session.settle();
     assert!(has(&mut session, "Command palette"), "still there");
     click_on(&mut session, "Help");
-    assert_eq!(session.viewer().dialog(), Some(Dialog::Help), "a line closes it");
+    assert_eq!(
+        session.viewer().chrome().dialog(),
+        Some(Dialog::Help),
+        "a line closes it"
+    );
     assert!(!has(&mut session, "Command palette"), "the menu is gone");
 }
 
@@ -99,7 +107,7 @@ fn start_card_goes_when_the_menu_opens() {
     session.command(Command::Window(WindowCommand::StartCard(Toggle::On)));
     session.settle();
     click_on(&mut session, "Menu");
-    assert!(!session.viewer().start_card(), "any click closes it");
+    assert!(!session.viewer().chrome().start_card(), "any click closes it");
     assert!(has(&mut session, "Command palette"), "and the menu is open");
 }
 
@@ -122,10 +130,10 @@ fn lesson_leaves_room_for_the_picture_in_small_windows() {
     let lesson = LessonSource::from_address(Path::new("lesson:anisotropy")).expect("a lesson");
     session.command(Command::Lesson(LessonCommand::Open(lesson)));
     session.settle();
-    assert!(!session.viewer().panel(), "the panel makes way");
+    assert!(!session.viewer().chrome().panel(), "the panel makes way");
     session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     session.settle();
-    assert!(session.viewer().panel(), "asked for, it comes");
+    assert!(session.viewer().chrome().panel(), "asked for, it comes");
 }
 
 #[test]

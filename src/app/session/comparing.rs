@@ -44,15 +44,15 @@ fn columns(session: &Session) -> Vec<f64> {
 fn second_click_on_the_same_spot_unpins_side_by_side() {
     for window in WINDOWS {
         let mut session = side_by_side(window);
-        let before = session.viewer.view_numbers();
+        let before = session.viewer.both().view_numbers();
         for x in columns(&session) {
             let at = [x, f64::from(window[1]) * 0.4];
             right_click(&mut session, at);
-            assert!(session.viewer.explains(), "explained at {at:?} of {window:?}");
+            assert!(session.viewer.pixels().explains(), "explained at {at:?} of {window:?}");
             right_click(&mut session, at);
-            let pinned = session.viewer.pinned_pixel();
+            let pinned = session.viewer.pixels().pinned();
             assert_eq!(pinned, None, "unpinned at {at:?} of {window:?}");
-            assert_eq!(session.viewer.view_numbers(), before, "{at:?} of {window:?}");
+            assert_eq!(session.viewer.both().view_numbers(), before, "{at:?} of {window:?}");
         }
     }
 }
@@ -68,13 +68,16 @@ fn clicked_pixel_stays_under_the_pointer_side_by_side() {
             let mut session = side_by_side(window);
             let at = [*x, 300.0];
             right_click(&mut session, at);
-            let (hovered, pinned) = (session.viewer.hovered_pixel(), session.viewer.pinned_pixel());
+            let (hovered, pinned) = (session.viewer.pixels().hovered(), session.viewer.pixels().pinned());
             assert!(
                 pinned.is_some() && hovered == pinned,
                 "{pinned:?} pinned, {hovered:?} under the pointer at {at:?} of {window:?}"
             );
             let under = |place: &PixelRect| place.x == at[0] as i64 && place.y == at[1] as i64;
-            assert!(session.viewer.pinned_places().iter().any(under), "{at:?} of {window:?}");
+            assert!(
+                session.viewer.pixels().pinned_places().iter().any(under),
+                "{at:?} of {window:?}"
+            );
         }
     }
 }
@@ -98,7 +101,7 @@ fn another_view_of_both_moves_no_panel() {
                     let now = places(&mut session);
                     assert_eq!(now, before, "{name} after {first:?} at {x} of {window:?}");
                     let free = session.free_area.expect("there is room");
-                    let pins = session.viewer.pinned_places();
+                    let pins = session.viewer.pixels().pinned_places();
                     let in_sight = |pin: &PixelRect| free.contains([pin.x, pin.y]);
                     assert!(
                         !pins.is_empty() && pins.iter().all(in_sight),
@@ -139,12 +142,19 @@ fn magnifiers_lie_beside_both_pictures() {
             let x = (free.x as f64 + f64::from(free.width) * part).round();
             right_click(&mut session, [x, f64::from(window[1]) * 0.45]);
             click_on(&mut session, CLOSE);
-            let insets = [session.viewer.inset(), session.viewer.other_inset()];
+            let insets = [
+                session.viewer.inspector().inset(),
+                session.viewer.inspector().other_inset(),
+            ];
             let insets = insets.map(|placed| placed.expect("there is room").rect);
             let free = session.free_area.expect("there is room");
             let half = free.width / 2;
             let corner = |place: DVec2| place.to_array().map(|at| at.floor() as i64);
-            let canvas = session.viewer.canvas_in_frame().expect("a scene");
+            let canvas = session
+                .viewer
+                .scene_list()
+                .canvas_in_frame(&session.viewer.both().layout())
+                .expect("a scene");
             let [low, high] = canvas.map(corner);
             for (index, inset) in insets.iter().enumerate() {
                 let left = free.x + i64::from(half + 2) * i64::try_from(index).expect("two");
@@ -181,8 +191,11 @@ fn magnifiers_follow_their_pictures_to_the_other_half() {
     for own_is_left in [true, false] {
         let free = session.free_area.expect("there is room");
         let middle = free.x + i64::from(free.width / 2);
-        let [own, other] =
-            [session.viewer.inset(), session.viewer.other_inset()].map(|placed| placed.expect("room").rect);
+        let [own, other] = [
+            session.viewer.inspector().inset(),
+            session.viewer.inspector().other_inset(),
+        ]
+        .map(|placed| placed.expect("room").rect);
         assert_eq!(
             own.right() <= middle,
             own_is_left,
@@ -202,9 +215,13 @@ fn magnifiers_follow_their_pictures_to_the_other_half() {
 fn outline_lies_over_the_first_of_both() {
     let session = side_by_side([1280, 800]);
     let free = session.free_area.expect("there is room");
-    let [low, _] = session.viewer.canvas_in_frame().expect("a scene");
+    let [low, _] = session
+        .viewer
+        .scene_list()
+        .canvas_in_frame(&session.viewer.both().layout())
+        .expect("a scene");
     // The ground of the scene: half of its canvas.
-    let outline = session.viewer.outline_of(0).concat();
+    let outline = session.viewer.both().outline_of(0).concat();
     let corner = outline.into_iter().map(DVec2::from).reduce(DVec2::min);
     let expected = low + dvec2(free.x as f64, free.y as f64);
     let off = corner.expect("a triangle") - expected;
@@ -222,14 +239,20 @@ fn magnifier_is_closed_with_a_pin_out_of_sight() {
     session.command(Command::Inspector(InspectorCommand::Pin([290, 300])));
     session.command(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
     session.settle();
-    assert!(session.viewer.inset().is_some(), "magnified while it is in sight");
+    assert!(
+        session.viewer.inspector().inset().is_some(),
+        "magnified while it is in sight"
+    );
     session.command(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
     session.settle();
-    assert_eq!(session.viewer.pinned_pixel(), None, "outside of both halves");
-    assert!(session.viewer.inset().is_none() && session.viewer.other_inset().is_none());
+    assert_eq!(session.viewer.pixels().pinned(), None, "outside of both halves");
+    assert!(session.viewer.inspector().inset().is_none() && session.viewer.inspector().other_inset().is_none());
     session.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
     session.settle();
-    assert!(session.viewer.inset().is_some(), "it comes back with the pin");
+    assert!(
+        session.viewer.inspector().inset().is_some(),
+        "it comes back with the pin"
+    );
 }
 
 #[test]
@@ -243,8 +266,8 @@ fn double_click_on_close_leaves_the_pin() {
                 click(&mut session, at);
                 session.settle();
             }
-            assert!(!session.viewer.explains(), "closed in {window:?}");
-            assert!(session.viewer.pinned_pixel().is_some(), "still pinned in {window:?}");
+            assert!(!session.viewer.pixels().explains(), "closed in {window:?}");
+            assert!(session.viewer.pixels().pinned().is_some(), "still pinned in {window:?}");
         }
     }
 }
@@ -256,9 +279,9 @@ fn magnifier_that_follows_the_pointer_has_a_button_that_closes_it() {
         session.command(Command::Inspector(InspectorCommand::Show(Toggle::On)));
         session.pointer(Some(dvec2(300.0, 300.0)));
         session.settle();
-        assert!(session.viewer.inset().is_some(), "open in {window:?}");
+        assert!(session.viewer.inspector().inset().is_some(), "open in {window:?}");
         click_on(&mut session, "Close the inspector");
-        assert!(session.viewer.inset().is_none(), "closed in {window:?}");
+        assert!(session.viewer.inspector().inset().is_none(), "closed in {window:?}");
     }
 }
 
@@ -276,7 +299,7 @@ fn text_over_the_picture_leaves_legends_free() {
             session.command(Command::Ab(AbCommand::Arrange(arrangement)));
         }
         right_click(&mut session, [500.0, 300.0]);
-        let legends = session.viewer.legend_places();
+        let legends = session.viewer.frames().legend_places();
         assert!(!legends.is_empty(), "a legend in {window:?}");
         let labels = session.interface.labels();
         let labels: Vec<PixelRect> = labels.iter().map(|label| device_rect(*label)).collect();
@@ -313,7 +336,7 @@ fn text_over_the_picture_leaves_the_line_of_a_wipe_free() {
         session.settle();
         nothing_across_the_line(&session);
         // Beside the magnifiers, where their letters stand.
-        let inset = session.viewer.inset().expect("there is room").rect;
+        let inset = session.viewer.inspector().inset().expect("there is room").rect;
         for x in [inset.x - 10, inset.right() + 10] {
             session.command(Command::Ab(AbCommand::SetWipe(x as f64 / 1280.0)));
             session.settle();
@@ -362,7 +385,7 @@ fn lesson_explains_a_pixel_on_an_edge_in_every_window() {
             session.command(Command::Scenes(SceneCommand::Next));
             session.settle();
         }
-        let explanation = session.viewer.explanation().expect("the step explains");
+        let explanation = session.viewer.inspector().explanation().expect("the step explains");
         let mut colors: Vec<[u8; 4]> = explanation.samples.iter().map(|sample| sample.bytes).collect();
         colors.sort_unstable();
         colors.dedup();
@@ -386,11 +409,18 @@ fn explanation_leaves_a_picture_from_outside_where_it_is() {
             let free = session.free_area.expect("there is room");
             let [x, y] = [free.x + i64::from(free.width / 3), i64::from(window[1] / 2)].map(|at| at as f64);
             session.pointer(Some(dvec2(x, y)));
-            let hovered = session.viewer().status().expect("a pixel").pixel;
-            let place = |session: &Session| session.viewer().pinned_places().first().map(|place| (place.x, place.y));
+            let hovered = session.viewer().pixels().status().expect("a pixel").pixel;
+            let place = |session: &Session| {
+                session
+                    .viewer()
+                    .pixels()
+                    .pinned_places()
+                    .first()
+                    .map(|place| (place.x, place.y))
+            };
             right_click(&mut session, [x, y]);
             assert_eq!(
-                session.viewer().pinned_pixel(),
+                session.viewer().pixels().pinned(),
                 Some(hovered),
                 "what was clicked in {window:?}"
             );
@@ -400,12 +430,12 @@ fn explanation_leaves_a_picture_from_outside_where_it_is() {
             }
             right_click(&mut session, [x, y]);
             assert_eq!(
-                session.viewer().pinned_pixel(),
+                session.viewer().pixels().pinned(),
                 None,
                 "a second click unpins, {arrangement:?} in {window:?}"
             );
             assert_eq!(
-                session.viewer().status().map(|status| status.pixel),
+                session.viewer().pixels().status().map(|status| status.pixel),
                 Some(hovered),
                 "and the picture is where it was, {arrangement:?} in {window:?}"
             );
@@ -422,13 +452,13 @@ fn line_that_nobody_moved_leaves_both_pictures_room() {
             session.settle();
             right_click(&mut session, [x * f64::from(window[0]), 90.0]);
             let free = session.free_area.expect("room");
-            let line = session.viewer.wipe_line().expect("a line") - free.x as f64;
+            let line = session.viewer.both().wipe_line().expect("a line") - free.x as f64;
             let part = line / f64::from(free.width);
             assert!((0.29..0.71).contains(&part), "{part} of {free:?} in {window:?}");
             // A hand may put it nearer.
             session.command(Command::Ab(AbCommand::SetWipe(0.0)));
             session.settle();
-            let line = session.viewer.wipe_line().expect("a line") - free.x as f64;
+            let line = session.viewer.both().wipe_line().expect("a line") - free.x as f64;
             assert!(line < 49.0, "{line} in {free:?}");
         }
     }

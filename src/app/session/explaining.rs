@@ -32,7 +32,7 @@ fn explained(file: &str, rate: &str) -> Session {
     session.command(Command::set("sample-rate", rate).expect("a rate"));
     session.settle();
     right_click(&mut session, [700.0, 300.0]);
-    assert!(session.viewer().explanation().is_some(), "explained");
+    assert!(session.viewer().inspector().explanation().is_some(), "explained");
     session
 }
 

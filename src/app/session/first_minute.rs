@@ -41,12 +41,15 @@ fn start_card_leads_on() {
             click(&mut session, at);
             session.settle();
             let viewer = session.viewer();
-            assert!(!viewer.start_card(), "{way} closes the card");
+            assert!(!viewer.chrome().start_card(), "{way} closes the card");
             let done = match way {
                 "Follow a lesson" => viewer.lesson().is_some(),
-                "Open your file" => viewer.dialog() == Some(Dialog::Open),
-                "Explain a pixel" => viewer.pinned_pixel().is_some() && viewer.explains(),
-                _ => viewer.current().is_some_and(|entry| entry.label.contains("zone_plate")),
+                "Open your file" => viewer.chrome().dialog() == Some(Dialog::Open),
+                "Explain a pixel" => viewer.pixels().pinned().is_some() && viewer.pixels().explains(),
+                _ => viewer
+                    .scene_list()
+                    .current()
+                    .is_some_and(|entry| entry.label.contains("zone_plate")),
             };
             assert!(done, "{way} in {window:?}");
         }
@@ -59,14 +62,17 @@ fn explained_pixel_is_one_that_an_edge_makes_wrong() {
         let mut session = greeted(window);
         click_on(&mut session, "Explain a pixel");
         let viewer = session.viewer();
-        let [x, y] = viewer.pinned_pixel().expect("a pin");
-        let frame = viewer.frame().expect("a frame");
+        let [x, y] = viewer.pixels().pinned().expect("a pin");
+        let frame = viewer.frames().frame().expect("a frame");
         let around = [[x + 1, y], [x, y + 1], [x - 1, y], [x, y - 1]];
         let differs = around
             .iter()
             .any(|[u, v]| frame.final_rgba(x, y) != frame.final_rgba(*u, *v));
         assert!(differs, "{x}, {y} of {window:?}");
-        let truth = viewer.explanation().and_then(|explanation| explanation.truth.as_ref());
+        let truth = viewer
+            .inspector()
+            .explanation()
+            .and_then(|explanation| explanation.truth.as_ref());
         let truth = truth.expect("a small scene");
         assert!(
             truth.distance >= 24.0 && !truth.cures.is_empty(),
@@ -88,23 +94,23 @@ fn start_card_goes_with_the_first_key_or_click() {
     ];
     // Desktops that give windows their sizes do so at once: the panel folds.
     let mut session = greeted([1280, 800]);
-    assert!(session.viewer().panel(), "it has room");
+    assert!(session.viewer().chrome().panel(), "it has room");
     session.resize([1043, 717]);
     session.settle();
-    assert!(!session.viewer().panel(), "it has none");
-    assert!(session.viewer().start_card(), "another size leaves the card");
+    assert!(!session.viewer().chrome().panel(), "it has none");
+    assert!(session.viewer().chrome().start_card(), "another size leaves the card");
     for (what, act) in acts {
         let mut session = greeted([800, 600]);
         session.pointer(Some(dvec2(20.0, 300.0)));
         session.resize([810, 600]);
         assert!(
-            session.viewer().start_card(),
+            session.viewer().chrome().start_card(),
             "the pointer and the window's size leave it"
         );
         act(&mut session);
         session.settle();
-        assert!(!session.viewer().start_card(), "{what} closes it");
-        assert!(session.viewer().messages().is_empty(), "{what} asks nothing");
+        assert!(!session.viewer().chrome().start_card(), "{what} closes it");
+        assert!(session.viewer().chrome().messages().is_empty(), "{what} asks nothing");
     }
     let mut session = greeted([800, 600]);
     key(&mut session, "F1");
@@ -116,8 +122,8 @@ fn start_card_goes_with_the_first_key_or_click() {
         );
     }
     click_on(&mut session, "Explain a pixel");
-    assert_eq!(session.viewer().dialog(), None, "the help closes");
-    assert!(session.viewer().pinned_pixel().is_some(), "and its way is taken");
+    assert_eq!(session.viewer().chrome().dialog(), None, "the help closes");
+    assert!(session.viewer().pixels().pinned().is_some(), "and its way is taken");
 }
 
 #[test]
@@ -127,14 +133,18 @@ fn interface_scale_leaves_the_picture() {
     session.command(Command::View(ViewCommand::Fit));
     session.settle();
     let menu = place_of(&mut session, "Menu");
-    let numbers = session.viewer().view_numbers();
+    let numbers = session.viewer().both().view_numbers();
     for _ in 0..3 {
         key(&mut session, "Ctrl+=");
     }
     session.settle();
-    assert_eq!(session.viewer().interface_scale().percent(), 150, "three steps");
+    assert_eq!(
+        session.viewer().chrome().interface_scale().percent(),
+        150,
+        "three steps"
+    );
     assert!((session.ctx().pixels_per_point() - 1.5).abs() < 1e-6, "egui follows");
-    assert_eq!(session.viewer().view_numbers(), numbers, "the picture stays");
+    assert_eq!(session.viewer().both().view_numbers(), numbers, "the picture stays");
     let points = place_of(&mut session, "Menu");
     let larger = 1200.0 - points.y * 1.5;
     let before = 1200.0 - menu.y;
@@ -148,7 +158,7 @@ fn interface_scale_leaves_the_picture() {
     assert!(session.interface.list_is_open(), "a click opens the menu");
     key(&mut session, "Escape");
     key(&mut session, "Ctrl+-");
-    assert_eq!(session.viewer().interface_scale().percent(), 125, "one back");
+    assert_eq!(session.viewer().chrome().interface_scale().percent(), 125, "one back");
     session.command(Command::Window(WindowCommand::SetInterfaceScale(
         crate::viewer::InterfaceScale::from_percent(300),
     )));
@@ -175,6 +185,7 @@ fn folder_of_scenes() -> tempfile::TempDir {
 fn shown(session: &Session) -> String {
     session
         .viewer()
+        .scene_list()
         .current()
         .map_or(String::new(), |entry| entry.label.clone())
 }
@@ -192,7 +203,11 @@ fn files_are_opened_by_mouse() {
         );
         let up = place_of(&mut session, "Up");
         click_on(&mut session, "inside");
-        assert_eq!(session.viewer().dialog(), Some(Dialog::Open), "a folder is gone into");
+        assert_eq!(
+            session.viewer().chrome().dialog(),
+            Some(Dialog::Open),
+            "a folder is gone into"
+        );
         assert_eq!(
             place_of(&mut session, "Up"),
             up,
@@ -200,7 +215,7 @@ fn files_are_opened_by_mouse() {
         );
         click_on(&mut session, "Up");
         click_on(&mut session, "two.svg");
-        assert_eq!(session.viewer().dialog(), None, "a file closes the dialog");
+        assert_eq!(session.viewer().chrome().dialog(), None, "a file closes the dialog");
         assert_eq!(shown(&session), "two.svg", "and is shown, in {window:?}");
         key(&mut session, "Ctrl+O");
         click_on(&mut session, "inside");
@@ -208,7 +223,7 @@ fn files_are_opened_by_mouse() {
         assert_eq!(shown(&session), "three.svg", "all of a folder");
         key(&mut session, "Ctrl+O");
         click_on(&mut session, "Cancel");
-        assert_eq!(session.viewer().dialog(), None, "or nothing");
+        assert_eq!(session.viewer().chrome().dialog(), None, "or nothing");
     }
 }
 
@@ -232,7 +247,7 @@ fn files_are_opened_by_keys() {
     type_and_enter(&mut session, "no such/file.svg");
     assert!(says(&mut session, "no such file"), "a wrong path");
     type_and_enter(&mut session, "insi");
-    assert_eq!(session.viewer().dialog(), Some(Dialog::Open), "a folder");
+    assert_eq!(session.viewer().chrome().dialog(), Some(Dialog::Open), "a folder");
     key(&mut session, "Enter");
     session.settle();
     assert_eq!(shown(&session), "three.svg", "the first of it");
@@ -243,7 +258,7 @@ fn files_are_opened_by_keys() {
     assert_eq!(shown(&session), "one.svg", "a whole path");
     key(&mut session, "Ctrl+O");
     key(&mut session, "Escape");
-    assert_eq!(session.viewer().dialog(), None, "Esc closes it");
+    assert_eq!(session.viewer().chrome().dialog(), None, "Esc closes it");
 }
 
 #[test]

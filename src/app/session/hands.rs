@@ -66,7 +66,11 @@ fn number_fields_keep_the_old_number_on_escape() {
     let state = |session: &Session| {
         let viewer = session.viewer();
         let render = viewer.settings().render;
-        (viewer.view_numbers(), render.detail, viewer.difference_gain())
+        (
+            viewer.both().view_numbers(),
+            render.detail,
+            viewer.ab().difference_gain(),
+        )
     };
     for name in [
         "Centre x",
@@ -94,7 +98,7 @@ fn lines_of_a_sheet_keep_the_old_text_on_escape() {
     let mut session = session(Vec::new(), [1000, 800]);
     session.command(Command::Window(WindowCommand::ToggleDialog(Dialog::Sheet)));
     session.settle();
-    let sheet = |session: &Session| format!("{:?}", session.viewer().sheet());
+    let sheet = |session: &Session| format!("{:?}", session.viewer().sheet().draft());
     for name in ["Values of the columns", "Caption"] {
         let before = sheet(&session);
         for (end, is_taken) in [("Escape", false), ("Tab", true)] {
@@ -165,7 +169,7 @@ fn pin_is_ringed_in_the_picture() {
         let pin = [300_i64, 200];
         session.command(Command::Inspector(InspectorCommand::Pin(pin)));
         session.settle();
-        let (shown, plain) = (session.picture(), session.viewer().window_picture());
+        let (shown, plain) = (session.picture(), session.viewer().window().picture());
         // How much a pixel of the window differs from the picture, in levels.
         let differs = |x: i64, y: i64| {
             let at = |frame: &Framebuffer| {
@@ -186,7 +190,7 @@ fn pin_is_ringed_in_the_picture() {
         session.command(Command::Inspector(InspectorCommand::Show(Toggle::Off)));
         session.settle();
         assert!(
-            session.picture().rgba(300, 191) == session.viewer().window_picture().rgba(300, 191),
+            session.picture().rgba(300, 191) == session.viewer().window().picture().rgba(300, 191),
             "no pin, no ring"
         );
     }

@@ -15,7 +15,7 @@ impl Session {
         let command = commands::for_key(press)?;
         let typing = self.interface.has_keyboard();
         let asks = matches!(
-            self.viewer.dialog(),
+            self.viewer.chrome().dialog(),
             Some(Dialog::Palette | Dialog::Open | Dialog::GoToPixel | Dialog::ComparePicture)
         );
         let passes = match press.logical {
@@ -34,7 +34,7 @@ impl Session {
         let on_picture = self.holds_picture || self.is_on_picture();
         match at {
             Some(at) if on_picture => self.run(Command::Pointer(PointerCommand::Moved { at })),
-            _ if self.viewer.pointer().is_some() => self.run(Command::Pointer(PointerCommand::Left)),
+            _ if self.viewer.pixels().pointer().is_some() => self.run(Command::Pointer(PointerCommand::Left)),
             _ => {}
         }
         on_picture

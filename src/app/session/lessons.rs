@@ -44,7 +44,7 @@ fn explanation_that_a_lesson_speaks_of_is_a_click_away() {
         );
         click_on(&mut session, PAGES[1]);
         assert!(text(&mut session), "back to the text in {window:?}");
-        assert!(!session.viewer.explains(), "and that is all");
+        assert!(!session.viewer.pixels().explains(), "and that is all");
         key(&mut session, "e");
         session.settle();
         assert!(explained(&mut session), "the key turns the page, too, in {window:?}");
@@ -86,11 +86,11 @@ fn pixel_that_is_clicked_in_a_lesson_is_explained_in_small_windows() {
     session.resize([1280, 800]);
     session.settle();
     assert!(
-        says(&mut session, "Groups move together") && session.viewer.explanation().is_some(),
+        says(&mut session, "Groups move together") && session.viewer.inspector().explanation().is_some(),
         "both"
     );
     session.command(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
     session.command(Command::Scenes(SceneCommand::Next));
     session.settle();
-    assert!(!session.viewer.explains(), "as the step says");
+    assert!(!session.viewer.pixels().explains(), "as the step says");
 }

@@ -76,21 +76,25 @@ fn capital(label: &str) -> String {
 fn menu_does_what_keys_do() {
     let mut session = session(Vec::new(), [800, 600]);
     open(&mut session, &["Help"]);
-    assert_eq!(session.viewer.dialog(), Some(Dialog::Help), "a command");
+    assert_eq!(session.viewer.chrome().dialog(), Some(Dialog::Help), "a command");
     key(&mut session, "Escape");
     open(&mut session, &[Group::Sampling.name(), "Sample rate"]);
     click_on(&mut session, "sample rate: 16");
     assert_eq!(session.viewer.settings().render.sample_rate.samples(), 16, "a value");
     assert!(!session.interface.list_is_open(), "which closes the lists");
     open(&mut session, &[Group::Inspector.name(), "Pin pixel"]);
-    assert_eq!(session.viewer.dialog(), None, "it needs no argument");
+    assert_eq!(session.viewer.chrome().dialog(), None, "it needs no argument");
     open(&mut session, &[Group::Scenes.name(), "Step of the lesson"]);
-    assert_eq!(session.viewer.dialog(), Some(Dialog::Palette), "it asks for the number");
+    assert_eq!(
+        session.viewer.chrome().dialog(),
+        Some(Dialog::Palette),
+        "it asks for the number"
+    );
     assert!(says(&mut session, "type a step's number"), "and says so");
     key(&mut session, "Escape");
     open(&mut session, &[Group::Scenes.name(), "Open"]);
     assert_eq!(
-        session.viewer.dialog(),
+        session.viewer.chrome().dialog(),
         Some(Dialog::Open),
         "it has a dialog of its own"
     );
@@ -102,7 +106,7 @@ fn click_beside_a_list_presses_nothing_else() {
     session.command(Command::Inspector(InspectorCommand::Show(Toggle::Off)));
     session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     session.settle();
-    let before = session.viewer.view_numbers();
+    let before = session.viewer.both().view_numbers();
     let beside: [(&str, DVec2); 2] = [
         ("the panel's switch", place_of(&mut session, "Side panel")),
         ("the picture", dvec2(500.0, 300.0)),
@@ -117,13 +121,13 @@ fn click_beside_a_list_presses_nothing_else() {
                 !session.interface.list_is_open(),
                 "{list} is closed by a click on {what}"
             );
-            assert!(session.viewer.panel(), "and {what} is not pressed");
-            assert_eq!(session.viewer.view_numbers(), before, "nor moved");
+            assert!(session.viewer.chrome().panel(), "and {what} is not pressed");
+            assert_eq!(session.viewer.both().view_numbers(), before, "nor moved");
         }
     }
     click(&mut session, beside[0].1);
     session.settle();
-    assert!(!session.viewer.panel(), "the next click counts");
+    assert!(!session.viewer.chrome().panel(), "the next click counts");
 }
 
 #[test]
@@ -136,5 +140,11 @@ fn lost_canvas_has_a_way_back() {
     assert!(says(&mut session, nothing), "far off");
     click_on(&mut session, "Reset view");
     assert!(!says(&mut session, nothing), "back again");
-    assert!(session.viewer.canvas_in_sight(), "and to be seen");
+    assert!(
+        session
+            .viewer
+            .scene_list()
+            .canvas_in_sight(&session.viewer.both().layout()),
+        "and to be seen"
+    );
 }

@@ -43,7 +43,7 @@ use super::interface::{Asked, Interface, PanelWidths};
 use super::overlay::{CanvasRect, Output, Overlay};
 use crate::plain;
 use crate::raster::Framebuffer;
-use crate::viewer::{Command, Effect, Modifiers, PixelRect, PointerButton, Viewer};
+use crate::viewer::{Command, Effect, MessageKind, Modifiers, PixelRect, PointerButton, Viewer};
 use damage::Damage;
 use room::{PanelRoom, Wanted};
 
@@ -178,12 +178,12 @@ impl Session {
 
     /// Tells the user what went wrong around the viewer.
     pub(super) fn tell_problem(&mut self, problem: String) {
-        self.viewer.tell_problem(problem);
+        self.viewer.tell(MessageKind::Error, problem);
     }
 
     /// Whether the side panel is open, where the user said so.
     pub(super) fn panel_choice(&self) -> Option<bool> {
-        self.room.choice(self.viewer.panel())
+        self.room.choice(self.viewer.chrome().panel())
     }
 
     /// How wide panels are.
@@ -198,7 +198,7 @@ impl Session {
 
     /// Says on stderr, once, why the scene that should be shown is not.
     fn tell_failure(&mut self) {
-        let failure = self.viewer.current().and_then(|entry| entry.failure());
+        let failure = self.viewer.scene_list().current().and_then(|entry| entry.failure());
         if let Some(failure) = failure.filter(|failure| self.told_failure.as_deref() != Some(*failure)) {
             // Whoever closed stderr does not want to read it.
             let _ = writeln!(std::io::stderr().lock(), "rasterscope: {}", plain::line(failure));
@@ -208,7 +208,12 @@ impl Session {
 
     /// Says on stderr, once for every scene that is shown, what its reader left out.
     fn tell_report(&mut self) {
-        let Some((entry, scene)) = self.viewer.current().and_then(|entry| Some((entry, entry.scene()?))) else {
+        let Some((entry, scene)) = self
+            .viewer
+            .scene_list()
+            .current()
+            .and_then(|entry| Some((entry, entry.scene()?)))
+        else {
             return;
         };
         if self
@@ -224,7 +229,7 @@ impl Session {
             let address = entry.source.address();
             let _ = writeln!(stderr, "{}: {}", plain::line(&address), plain::line(&line));
         }
-        if let Some(note) = self.viewer.reading_note() {
+        if let Some(note) = self.viewer.scene_list().reading_note(self.viewer.settings().dialect) {
             let _ = writeln!(
                 stderr,
                 "{}: {note}; the command other-reading shows it",
@@ -247,7 +252,7 @@ impl Session {
     /// Another size of the window, in device pixels, or another scale of the panels.
     pub(super) fn set_size(&mut self, size: [u32; 2], scale: f32) {
         self.native_scale = scale;
-        if self.viewer.window_size() != size {
+        if self.viewer.chrome().window_size() != size {
             self.run(Command::Window(WindowCommand::Resize(size)));
         }
         self.fold_panel();
@@ -256,23 +261,23 @@ impl Session {
 
     /// Device pixels per point: as large as the user wants panels, as far as they fit.
     fn scale(&self) -> f32 {
-        let [width, height] = self.viewer.window_size().map(|side| side as f32);
+        let [width, height] = self.viewer.chrome().window_size().map(|side| side as f32);
         let largest = (width / LEAST_WINDOW[0]).min(height / LEAST_WINDOW[1]);
-        let wanted = self.native_scale * self.viewer.interface_scale().factor();
+        let wanted = self.native_scale * self.viewer.chrome().interface_scale().factor();
         wanted.min(largest.max(self.native_scale))
     }
 
     /// Runs a command and carries out its effects.
     pub(super) fn run(&mut self, command: Command) {
         let (wanted, command) = self.wanted(command);
-        let before = (self.viewer.lesson().is_some(), self.viewer.interface_scale());
+        let before = (self.viewer.lesson().is_some(), self.viewer.chrome().interface_scale());
         let asks_by_hand = matches!(
             command,
             Command::Inspector(InspectorCommand::PinUnderPointer | InspectorCommand::PinEdge)
                 | Command::Pointer(PointerCommand::Pressed(PointerButton::Secondary))
         );
         self.apply(command);
-        if before != (self.viewer.lesson().is_some(), self.viewer.interface_scale()) {
+        if before != (self.viewer.lesson().is_some(), self.viewer.chrome().interface_scale()) {
             self.fold_panel();
         }
         self.share_room(wanted);
@@ -302,7 +307,7 @@ impl Session {
 
     /// Runs the panels on `input`, does what they ask for, and paints them.
     pub(super) fn turn(&mut self, mut input: RawInput) -> Turn {
-        let size = self.viewer.window_size();
+        let size = self.viewer.chrome().window_size();
         let mut turn = Turn::default();
         if size.contains(&0) {
             turn.next = Duration::MAX;
@@ -318,7 +323,7 @@ impl Session {
             viewport.native_pixels_per_point = Some(self.native_scale);
             let mut asked = Asked::default();
             let (interface, viewer) = (&mut self.interface, &self.viewer);
-            interface.follow_theme(viewer.theme());
+            interface.follow_theme(viewer.chrome().theme());
             let ctx = interface.ctx().clone();
             ctx.options_mut(|options| options.zoom_factor = scale / self.native_scale);
             let start = Instant::now();
@@ -370,7 +375,7 @@ impl Session {
         for command in asked.commands {
             // The layout of a sheet's dialog tells its room in every pass.
             if let Command::Sheet(SheetCommand::SetRoom(room)) = command
-                && !self.viewer.sheet_room_changes(room)
+                && !self.viewer.sheet().room_changes(room)
             {
                 continue;
             }

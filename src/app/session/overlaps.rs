@@ -11,7 +11,7 @@ use super::lessons::at_step;
 use super::small_windows::comparing;
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Arrangement, Toggle};
+use crate::viewer::{Arrangement, MessageKind, NO_ROOM, Toggle};
 
 /// Everything over the picture, by name.
 fn things(session: &Session) -> Vec<(&'static str, Rect)> {
@@ -22,9 +22,19 @@ fn things(session: &Session) -> Vec<(&'static str, Rect)> {
         Rect::from_min_size(corner, vec2(place.width as f32, place.height as f32) / scale)
     };
     let mut things = Vec::new();
-    let insets = viewer.inset().into_iter().chain(viewer.other_inset());
+    let insets = viewer
+        .inspector()
+        .inset()
+        .into_iter()
+        .chain(viewer.inspector().other_inset());
     things.extend(insets.map(|placed| ("inset", rect(&placed.rect))));
-    things.extend(viewer.legend_places().iter().map(|place| ("legend", rect(place))));
+    things.extend(
+        viewer
+            .frames()
+            .legend_places()
+            .iter()
+            .map(|place| ("legend", rect(place))),
+    );
     things.extend(interface.rings(viewer).into_iter().map(|ring| ("ring", ring)));
     things.extend(interface.labels().iter().map(|label| ("words", *label)));
     things.extend(interface.told().iter().map(|message| ("message", *message)));
@@ -85,7 +95,7 @@ fn nothing_lies_over_the_ring_of_a_pin_beside_panels() {
 fn messages_lie_beside_magnifiers_words_and_legends() {
     for step in 0..10 {
         let mut session = at_step(step, [800, 600]);
-        session.viewer.say_no_room();
+        session.viewer.tell(MessageKind::Done, NO_ROOM.to_owned());
         session.command(Command::Export(ExportCommand::CopyPixel));
         session.quiet_turn();
         session.quiet_turn();

@@ -40,7 +40,7 @@ fn dragged_edge_makes_a_panel_wider_and_leaves_the_picture_alone() {
     let mut session = session(Vec::new(), [1280, 800]);
     session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     session.settle();
-    let view = session.viewer.view_numbers();
+    let view = session.viewer.both().view_numbers();
     let revision = session.viewer.picture_revision();
     let from = dvec2(edge(&mut session, SIDE), 300.0);
     assert!((from.x - 1016.0).abs() < 1.0, "its first width: {from}");
@@ -49,21 +49,21 @@ fn dragged_edge_makes_a_panel_wider_and_leaves_the_picture_alone() {
         (edge(&mut session, SIDE) - 990.0).abs() < 1.0,
         "it followed the pointer"
     );
-    assert_eq!(session.viewer.view_numbers(), view, "the canvas has room yet");
+    assert_eq!(session.viewer.both().view_numbers(), view, "the canvas has room yet");
     assert_eq!(session.viewer.picture_revision(), revision, "and no drag moved it");
     drag(&mut session, dvec2(990.0, 300.0), dvec2(3.0, 300.0));
     assert!(
         (edge(&mut session, SIDE) - 704.0).abs() < 1.0,
         "no wider than 45 % of the window"
     );
-    assert_ne!(session.viewer.view_numbers(), view, "the canvas made room");
+    assert_ne!(session.viewer.both().view_numbers(), view, "the canvas made room");
     let at = dvec2(704.0, 300.0);
     drag(&mut session, at, dvec2(1279.0, 300.0));
     assert!(
         (edge(&mut session, SIDE) - 1016.0).abs() < 1.0,
         "all of it stays to be read"
     );
-    assert_eq!(session.viewer.view_numbers(), view, "the canvas is where it was");
+    assert_eq!(session.viewer.both().view_numbers(), view, "the canvas is where it was");
     drag(&mut session, dvec2(1016.0, 300.0), dvec2(900.0, 300.0));
     for _ in 0..2 {
         hands::click(&mut session, dvec2(900.0, 300.0));
@@ -85,7 +85,10 @@ fn comparison_and_explanation_leave_most_of_the_window_to_the_picture() {
             let (left, right) = free(&mut session, window);
             let part = (right - left) / f64::from(window[0]);
             assert!(part >= least, "{part} of {window:?} at {x}");
-            assert!(session.viewer.explanation().is_some(), "and the pixel is explained");
+            assert!(
+                session.viewer.inspector().explanation().is_some(),
+                "and the pixel is explained"
+            );
         }
     }
 }
@@ -112,9 +115,10 @@ fn canvas_goes_where_panels_leave_room() {
     let mut session = session(Vec::new(), window);
     let inside = |session: &mut Session| {
         let (left, right) = free(session, window);
-        let numbers = session.viewer.view_numbers().expect("a view");
+        let numbers = session.viewer.both().view_numbers().expect("a view");
         let canvas = session
             .viewer
+            .scene_list()
             .current()
             .and_then(|entry| entry.scene())
             .expect("a scene")
@@ -123,29 +127,30 @@ fn canvas_goes_where_panels_leave_room() {
         let middle = 500.0 + (canvas.x / 2.0 - numbers.center.x) * numbers.scale;
         middle - reach >= left && middle + reach <= right
     };
-    let first = session.viewer.view_numbers();
+    let first = session.viewer.both().view_numbers();
     session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     session.settle();
     assert!(inside(&mut session), "beside the side panel");
-    let beside = session.viewer.view_numbers();
+    let beside = session.viewer.both().view_numbers();
     assert_ne!(beside, first, "else it would be covered");
     // A pinned pixel stays what it is.
     session.command(Command::Window(WindowCommand::Panel(Toggle::Off)));
     session.settle();
-    assert_eq!(session.viewer.view_numbers(), first, "as without a panel");
+    assert_eq!(session.viewer.both().view_numbers(), first, "as without a panel");
     right_click(&mut session, [500.0, 300.0]);
     let pinned = session
         .viewer
+        .inspector()
         .explanation()
         .map(|explanation| (explanation.pixel, explanation.color));
     assert_eq!(
-        session.viewer.view_numbers(),
+        session.viewer.both().view_numbers(),
         first,
         "no other samples for the pixel that is explained"
     );
     session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     session.settle();
-    assert_eq!(session.viewer.view_numbers(), first, "nor with another panel");
+    assert_eq!(session.viewer.both().view_numbers(), first, "nor with another panel");
     session.command(Command::Window(WindowCommand::Panel(Toggle::Off)));
     session.settle();
     right_click(&mut session, [500.0, 300.0]);
@@ -153,16 +158,16 @@ fn canvas_goes_where_panels_leave_room() {
     // A view that a hand moved stays.
     session.command(Command::View(ViewCommand::PanBy { by: dvec2(7.0, 3.0) }));
     session.settle();
-    let moved = session.viewer.view_numbers();
+    let moved = session.viewer.both().view_numbers();
     session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     session.settle();
-    assert_eq!(session.viewer.view_numbers(), moved, "a hand moved it");
+    assert_eq!(session.viewer.both().view_numbers(), moved, "a hand moved it");
     session.command(Command::View(ViewCommand::Reset));
     session.settle();
     assert!(inside(&mut session), "until it is reset");
     session.command(Command::Window(WindowCommand::Panel(Toggle::Off)));
     session.settle();
-    assert_eq!(session.viewer.view_numbers(), first, "then it follows again");
+    assert_eq!(session.viewer.both().view_numbers(), first, "then it follows again");
 }
 
 #[test]
@@ -180,7 +185,7 @@ fn pinned_pixel_stays_in_sight_when_the_window_shrinks() {
             session.settle();
             session.settle();
             let free = session.free_area.expect("room");
-            let places = session.viewer.pinned_places();
+            let places = session.viewer.pixels().pinned_places();
             let seen = |place: &PixelRect| free.contains([place.x, place.y]);
             assert!(!places.is_empty(), "the pin is in {size:?}, lesson {lesson}");
             assert!(

@@ -2,7 +2,7 @@
 
 use super::Session;
 use crate::app::interface::Interface;
-use crate::viewer::{Command, PointerButton, Toggle};
+use crate::viewer::{Command, MessageKind, NO_ROOM, PointerButton, Toggle};
 use crate::viewer::{InspectorCommand, PointerCommand, WindowCommand};
 
 /// What the session does to the side panel by itself.
@@ -66,11 +66,15 @@ impl Session {
     /// Folds the side panel where it would reach into the default view's canvas, and while a lesson is open, which has what
     /// is needed in its text; until the user decides.
     pub(super) fn fold_panel(&mut self) {
-        let size = self.viewer.window_size().map(|side| side as f32 / self.scale());
+        let size = self
+            .viewer
+            .chrome()
+            .window_size()
+            .map(|side| side as f32 / self.scale());
         let fits = Interface::panel_fits(size) && self.viewer.lesson().is_none();
         // Whoever opened the panel did so for a picture: beside a lesson there would be next to none of it.
         let is_crowded = self.interface.lesson_crowds_panel(&self.viewer, size[0]);
-        if (self.room.follows && fits != self.viewer.panel()) || (is_crowded && self.viewer.panel()) {
+        if (self.room.follows && fits != self.viewer.chrome().panel()) || (is_crowded && self.viewer.chrome().panel()) {
             let to = if fits && !is_crowded { Toggle::On } else { Toggle::Off };
             self.apply(Command::Window(WindowCommand::Panel(to)));
         }
@@ -81,7 +85,7 @@ impl Session {
     pub(super) fn wanted(&mut self, command: Command) -> (Wanted, Command) {
         let wanted = Wanted::of(&command);
         self.room.follows &= wanted != Wanted::Panel;
-        let is_hidden = self.viewer.panel() && self.viewer.explains() && self.is_narrow();
+        let is_hidden = self.viewer.chrome().panel() && self.viewer.pixels().explains() && self.is_narrow();
         self.room.hid_explanation = is_hidden;
         let is_unseen = is_hidden || self.is_page_not_turned();
         match command {
@@ -95,7 +99,7 @@ impl Session {
     /// Lets the side panel and the explanation make way for each other where both have no room: what was wanted last is
     /// to be seen. A panel that made way comes back, unless it would cover the pinned pixel.
     pub(super) fn share_room(&mut self, wanted: Wanted) {
-        let (panel, explains) = (self.viewer.panel(), self.viewer.explains());
+        let (panel, explains) = (self.viewer.chrome().panel(), self.viewer.pixels().explains());
         let is_narrow = self.is_narrow();
         match wanted {
             Wanted::Panel => {
@@ -109,8 +113,11 @@ impl Session {
                 self.room.gave_way = true;
                 self.apply(Command::Window(WindowCommand::Panel(Toggle::Off)));
             }
-            _ if self.room.gave_way && !self.viewer.is_dragging() && !self.viewer.everything_hidden() => {
-                let width = self.viewer.window_size()[0] as f32 / self.scale();
+            _ if self.room.gave_way
+                && !self.viewer.pixels().is_dragging()
+                && !self.viewer.chrome().everything_hidden() =>
+            {
+                let width = self.viewer.chrome().window_size()[0] as f32 / self.scale();
                 let is_free = !explains && self.interface.panel_leaves_pin(&self.viewer, width, self.scale());
                 if is_free || !is_narrow {
                     self.room.gave_way = false;
@@ -123,23 +130,23 @@ impl Session {
 
     /// Tells whoever asked why a pixel has its colour that there is no room for the answer.
     pub(super) fn tell_no_room(&mut self, wanted: Wanted) {
-        let width = self.viewer.window_size()[0] as f32 / self.scale();
-        let asks = wanted == Wanted::Explanation && self.viewer.explains();
+        let width = self.viewer.chrome().window_size()[0] as f32 / self.scale();
+        let asks = wanted == Wanted::Explanation && self.viewer.pixels().explains();
         if asks && !self.interface.has_room_to_explain(&self.viewer, width) {
-            self.viewer.say_no_room();
+            self.viewer.tell(MessageKind::Done, NO_ROOM.to_owned());
         }
     }
 
     /// Whether a lesson's text is open where the explanation is the other page of its panel.
     fn is_page_not_turned(&self) -> bool {
-        let width = self.viewer.window_size()[0] as f32 / self.scale();
+        let width = self.viewer.chrome().window_size()[0] as f32 / self.scale();
         let is_shared = self.interface.lesson_shares_panel(&self.viewer, width);
-        is_shared && self.viewer.explains() && !self.viewer.asks_about_pixel()
+        is_shared && self.viewer.pixels().explains() && !self.viewer.inspector().asks_about_pixel()
     }
 
     /// Whether the window has room for the explanation only without the side panel.
     fn is_narrow(&self) -> bool {
-        let [width, _] = self.viewer.window_size();
+        let [width, _] = self.viewer.chrome().window_size();
         self.interface
             .explanation_needs_panel(&self.viewer, width as f32 / self.scale())
     }

@@ -80,7 +80,7 @@ fn comparison_stays_at_hand_beside_an_explained_pixel() {
         right_click(&mut session, [330.0, 300.0]);
         assert!(says(&mut session, "user units"), "the explanation at {window:?}");
         click_on(&mut session, "Show: wipe");
-        assert_eq!(session.viewer.arrangement(), Arrangement::Wipe, "{window:?}");
+        assert_eq!(session.viewer.ab().arrangement(), Arrangement::Wipe, "{window:?}");
         for name in ["Show: side", "Show: diff", "Show: flip", "Show: A", "Next difference"] {
             click_on(&mut session, name);
         }
@@ -88,7 +88,7 @@ fn comparison_stays_at_hand_beside_an_explained_pixel() {
         let rate = session.viewer.settings().render.sample_rate.samples();
         assert_eq!(rate, 1, "swapped at {window:?}");
         click_on(&mut session, "Close comparison");
-        assert!(session.viewer.other().is_none(), "closed at {window:?}");
+        assert!(session.viewer.ab().other().is_none(), "closed at {window:?}");
     }
 }
 
@@ -98,14 +98,17 @@ fn explanation_takes_the_room_of_the_side_panel() {
     session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     right_click(&mut session, [300.0, 300.0]);
     assert!(says(&mut session, "Pixel 300, 300"), "explained at once");
-    assert!(!session.viewer.panel(), "the panel made way");
+    assert!(!session.viewer.chrome().panel(), "the panel made way");
     click_on(&mut session, CLOSE);
-    assert!(session.viewer.panel(), "and came back");
+    assert!(session.viewer.chrome().panel(), "and came back");
     right_click(&mut session, [320.0, 280.0]);
     assert!(says(&mut session, "Pixel 320, 280"), "another pixel is explained, too");
     click_on(&mut session, "Side panel");
     let viewer = &session.viewer;
-    assert!(viewer.panel() && !viewer.explains(), "who wants the panel gets it");
+    assert!(
+        viewer.chrome().panel() && !viewer.pixels().explains(),
+        "who wants the panel gets it"
+    );
     key(&mut session, "e");
     session.settle();
     assert!(
@@ -116,13 +119,16 @@ fn explanation_takes_the_room_of_the_side_panel() {
     session.command(Command::Inspector(InspectorCommand::Pin([700, 300])));
     session.settle();
     click_on(&mut session, CLOSE);
-    assert!(!session.viewer.panel(), "the pinned pixel stays in sight");
+    assert!(!session.viewer.chrome().panel(), "the pinned pixel stays in sight");
     session.command(Command::Inspector(InspectorCommand::Unpin));
-    assert!(session.viewer.panel(), "without a pin the panel is back");
+    assert!(session.viewer.chrome().panel(), "without a pin the panel is back");
     // Where there is room for both, nothing folds.
     session.resize([1280, 800]);
     right_click(&mut session, [300.0, 300.0]);
-    assert!(session.viewer.panel() && says(&mut session, "Pixel 300, 300"), "both");
+    assert!(
+        session.viewer.chrome().panel() && says(&mut session, "Pixel 300, 300"),
+        "both"
+    );
 }
 
 #[test]
@@ -131,7 +137,7 @@ fn panels_leave_the_pinned_pixel_in_sight() {
         let mut session = comparing([800, 600]);
         session.command(Command::Inspector(InspectorCommand::Pin([300, 300])));
         right_click(&mut session, [f64::from(x), 300.0]);
-        if session.viewer.pinned_pixel().map(|[x, _]| x) != Some(x) {
+        if session.viewer.pixels().pinned().map(|[x, _]| x) != Some(x) {
             // The explanation lies there.
             session.command(Command::Inspector(InspectorCommand::Pin([x.into(), 300])));
             session.settle();
@@ -166,7 +172,11 @@ fn button_of_the_other_reading_is_whole() {
         for (y, reading) in [(-9.0, "read as course"), (9.0, "read as svg")] {
             click(&mut session, at + dvec2(0.0, y));
             session.settle();
-            let note = session.viewer.reading_note().expect("two readings");
+            let note = session
+                .viewer
+                .scene_list()
+                .reading_note(session.viewer.settings().dialect)
+                .expect("two readings");
             assert!(note.starts_with(reading), "{note} at {window:?}");
         }
     }
@@ -285,19 +295,19 @@ fn panel_that_is_closed_leaves_the_picture() {
     session.settle();
     session.command(Command::Ab(AbCommand::NextDifference));
     session.settle();
-    assert!(session.viewer.pinned_pixel().is_some(), "the next difference");
-    assert!(session.viewer.panel(), "still there");
+    assert!(session.viewer.pixels().pinned().is_some(), "the next difference");
+    assert!(session.viewer.chrome().panel(), "still there");
     session.command(Command::Window(WindowCommand::Panel(Toggle::Flip)));
     session.settle();
     assert!(
-        !session.viewer.panel() && !session.viewer.explains(),
+        !session.viewer.chrome().panel() && !session.viewer.pixels().explains(),
         "nothing took its place"
     );
-    let pinned = session.viewer.pinned_pixel().expect("still pinned");
+    let pinned = session.viewer.pixels().pinned().expect("still pinned");
     session.command(Command::Inspector(InspectorCommand::Pin(pinned.map(i64::from))));
     session.command(Command::Inspector(InspectorCommand::Explanation(Toggle::On)));
     session.settle();
-    assert!(session.viewer.explains(), "asked for, it comes");
+    assert!(session.viewer.pixels().explains(), "asked for, it comes");
 }
 
 #[test]
@@ -308,7 +318,11 @@ fn escape_asks_anew_after_anything_else() {
     key(&mut session, "?");
     session.settle();
     click(&mut session, dvec2(3.0, 3.0));
-    assert_eq!(session.viewer.dialog(), None, "a click beside the help closes it");
+    assert_eq!(
+        session.viewer.chrome().dialog(),
+        None,
+        "a click beside the help closes it"
+    );
     key(&mut session, "Escape");
     assert!(!session.has_quit(), "hours of work later");
     key(&mut session, "Escape");
@@ -328,7 +342,7 @@ fn reset_shows_the_canvas_beside_the_panel() {
         session.command(Command::View(ViewCommand::Reset));
         session.settle();
         let free = session.free_area.expect("there is room");
-        let view = session.viewer.view_numbers().expect("a scene");
+        let view = session.viewer.both().view_numbers().expect("a scene");
         let middle = f64::from(window[0]) / 2.0;
         let [left, right] = [0.0, 100.0].map(|x| middle + (x - view.center.x) * view.scale);
         assert!(

@@ -35,8 +35,8 @@ impl Session {
             self.composed.push_front(Damage::all(size));
             let whole = PixelRect::of_size(size);
             let mut window = WindowPixels { size, pixels: surface };
-            self.viewer.draw_parts(parts, &mut window);
-            self.viewer.draw_over(&[whole], &mut window);
+            self.viewer.window().draw_parts(parts, &mut window);
+            self.viewer.window().draw_over(&[whole], &mut window);
             self.overlay.canvas().lay_over(window.pixels);
             return vec![whole];
         }
@@ -64,14 +64,17 @@ impl Session {
     /// Writes parts of the window: the picture, straight from the frame, and the panels over it.
     fn write(&self, surface: &mut [u32], size: [u32; 2], parts: &[PixelRect]) {
         let mut window = WindowPixels { size, pixels: surface };
-        self.viewer.draw_parts(parts, &mut window);
+        self.viewer.window().draw_parts(parts, &mut window);
         for part in parts {
             self.overlay.canvas().lay_part_over(canvas_rect(part), window.pixels);
         }
     }
 
     pub(super) fn window(&self) -> [u32; 2] {
-        self.viewer.window_size().map(|side| side.min(Framebuffer::MAX_SIDE))
+        self.viewer
+            .chrome()
+            .window_size()
+            .map(|side| side.min(Framebuffer::MAX_SIDE))
     }
 
     /// The picture of the whole window.

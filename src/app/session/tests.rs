@@ -106,11 +106,11 @@ fn compose_lays_panels_over_what_was_drawn_on_the_surface() {
         desk.session.command(Command::View(ViewCommand::PanBy {
             by: DVec2::new(if step % 2 == 0 { 7.5 } else { -7.5 }, 3.25),
         }));
-        let waits = desk.session.viewer.waits_for_surface();
-        let shown = desk.session.viewer.frame().map(|frame| frame.picture.clone());
+        let waits = desk.session.viewer.frames().waits_for_surface();
+        let shown = desk.session.viewer.frames().frame().map(|frame| frame.picture.clone());
         desk.compose();
         desk.is_right("panels and inset over the frame");
-        let is_new = desk.session.viewer.frame().map(|frame| frame.picture.clone()) != shown;
+        let is_new = desk.session.viewer.frames().frame().map(|frame| frame.picture.clone()) != shown;
         assert_eq!(is_new, waits, "the frame is there before the panels");
         drawn += u32::from(waits);
         assert_eq!(desk.compose(), 0, "nothing is left to write");
@@ -153,7 +153,7 @@ fn compose_in_parts_is_the_whole() {
                     let names = ["z", "=", "?", "Tab", "`", "Ctrl+Shift+P", "Escape", "a"];
                     let press = KeyPress::from_name(u.choose(&names)?).expect("a key");
                     // The window would close.
-                    if session.viewer.dialog().is_some() || press.logical != Some(Key::Escape) {
+                    if session.viewer.chrome().dialog().is_some() || press.logical != Some(Key::Escape) {
                         session.key(press);
                     }
                 }

@@ -58,9 +58,12 @@ impl FrameLog {
         let (shows, since) = if is_panels {
             ("panels".to_owned(), shown.event)
         } else {
-            (shows(viewer), Some(viewer.wanted_since()))
+            (shows(viewer), Some(viewer.frames().wanted_since()))
         };
-        let drawn = viewer.frame().filter(|_| !is_panels && !viewer.is_refining());
+        let drawn = viewer
+            .frames()
+            .frame()
+            .filter(|_| !is_panels && !viewer.frames().is_refining());
         let behind = since.map_or(Duration::ZERO, |since| now.saturating_duration_since(since));
         let PanelTimes {
             layout,
@@ -92,9 +95,9 @@ impl FrameLog {
 
 /// What the picture is: `final`, `refining`, or how its preview was made.
 fn shows(viewer: &Viewer) -> String {
-    match viewer.preview() {
+    match viewer.frames().preview() {
         None => "final".to_owned(),
-        Some(_) if viewer.is_refining() => "refining".to_owned(),
+        Some(_) if viewer.frames().is_refining() => "refining".to_owned(),
         Some(quality) => quality.to_string(),
     }
 }

@@ -111,7 +111,7 @@ impl Handler {
         let viewer = Viewer::new(viewer_options).map_err(AppError::Threads)?;
         let scale = window.scale_factor() as f32;
         let mut session = Session::new(viewer, scale, Clock::Real(Instant::now()));
-        self.first_theme = Some(session.viewer().theme());
+        self.first_theme = Some(session.viewer().chrome().theme());
         let interface = self.options.scale.map_or(self.remembered.interface_scale(), |wanted| {
             InterfaceScale::from_percent((wanted / scale * 100.0).round().clamp(0.0, 1000.0) as u32)
         });
@@ -168,18 +168,18 @@ impl Handler {
         let viewer = opened.session.viewer();
         let mut now = self.remembered.clone();
         now.greeted |= self.is_bare();
-        if self.first_theme != Some(viewer.theme()) {
-            now.set_theme(viewer.theme());
+        if self.first_theme != Some(viewer.chrome().theme()) {
+            now.set_theme(viewer.chrome().theme());
         }
         if self.options.scale.is_none() {
-            now.set_interface_scale(viewer.interface_scale());
+            now.set_interface_scale(viewer.chrome().interface_scale());
         }
         now.panel = opened.session.panel_choice().or(now.panel);
         now.panel_widths = opened.session.panel_widths();
-        if self.options.size.is_none() && !viewer.window_size().contains(&0) {
-            now.size = Some(viewer.window_size());
+        if self.options.size.is_none() && !viewer.chrome().window_size().contains(&0) {
+            now.size = Some(viewer.chrome().window_size());
         }
-        now.set_recent(viewer.opened());
+        now.set_recent(viewer.scene_list().opened());
         if now == self.remembered {
             return;
         }
@@ -283,7 +283,7 @@ impl ApplicationHandler<Wake> for Handler {
         let mut watched = None;
         if let Some(watch) = &mut self.watch {
             let viewer = opened.session.viewer();
-            let files = if viewer.follows_files() {
+            let files = if viewer.scene_list().follows_files() {
                 viewer.files()
             } else {
                 Vec::new()

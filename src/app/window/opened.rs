@@ -133,8 +133,8 @@ impl Opened {
         let viewer = self.session.viewer();
         let (picture, due) = (shown_next(viewer), viewer.due());
         // A window system that shows nothing at the moment must not hold up a frame that waits to be shown.
-        let patience = due.filter(|_| viewer.waits_for_surface());
-        self.dirty |= viewer.revision() != self.drawn_revision || viewer.waits_for_surface();
+        let patience = due.filter(|_| viewer.frames().waits_for_surface());
+        self.dirty |= viewer.revision() != self.drawn_revision || viewer.frames().waits_for_surface();
         if self.next_wish.is_some_and(|request| request <= now) {
             self.dirty = true;
         }
@@ -207,7 +207,7 @@ impl Opened {
     }
 
     fn tell_title(&mut self) {
-        let title = self.session.viewer().title();
+        let title = self.session.viewer().both().title();
         if title != self.title {
             self.window.set_title(&title);
             self.title = title;
@@ -220,8 +220,11 @@ impl Opened {
         while start.elapsed() < RESIZE_WAIT {
             self.session.poll();
             let viewer = self.session.viewer();
-            let is_right = |frame: &crate::viewer::Frame| frame.picture.size == viewer.frame_size();
-            if viewer.is_settled() || viewer.waits_for_surface() || viewer.frame().is_some_and(is_right) {
+            let is_right = |frame: &crate::viewer::Frame| frame.picture.size == viewer.both().layout().frame_size();
+            if viewer.is_settled()
+                || viewer.frames().waits_for_surface()
+                || viewer.frames().frame().is_some_and(is_right)
+            {
                 return;
             }
             std::thread::sleep(Duration::from_millis(1));
@@ -247,7 +250,7 @@ fn run_panels(session: &mut Session, egui: &mut egui_winit::State, window: &Wind
 
 /// The number of the picture that the next frame will show.
 fn shown_next(viewer: &Viewer) -> u64 {
-    viewer.picture_revision() + u64::from(viewer.waits_for_surface())
+    viewer.picture_revision() + u64::from(viewer.frames().waits_for_surface())
 }
 
 /// A part of the window as softbuffer names it.

@@ -40,7 +40,7 @@ impl Player {
     /// When a step fails.
     pub(super) fn advance(&mut self, opened: &mut Opened) -> Result<Option<Instant>, AppError> {
         while !self.steps.is_empty() && opened.session.viewer().is_settled() {
-            if self.awaited == Some(opened.session.viewer().window_size()) {
+            if self.awaited == Some(opened.session.viewer().chrome().window_size()) {
                 (self.awaited, self.until) = (None, None);
             }
             if let Some(until) = self.until.filter(|until| *until > Instant::now()) {

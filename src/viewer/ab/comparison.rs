@@ -1,16 +1,20 @@
 //! The state of comparing.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
 use crate::compare::{DifferencePaint, DifferenceStyle};
-use crate::viewer::ab::measuring::Measuring;
+use crate::raster::Framebuffer;
+use crate::viewer::ab::measuring::{Measured, Measuring, Stage};
 use crate::viewer::ab::other::{Arrangement, Other};
+use crate::viewer::chrome::Chrome;
 use crate::viewer::frames::drawing::{Changes, Drawing};
 use crate::viewer::frames::frame::Frame;
 use crate::viewer::frames::job::Drawn;
 use crate::viewer::jobs::mailbox::Mailbox;
+use crate::viewer::settings::PixelZoom;
+use crate::viewer::view::layout::{Sharing, WindowLayout};
 use crate::viewer::view::panes::Moved;
 
 impl Comparison {
@@ -41,7 +45,7 @@ impl Comparison {
 
 /// The state of comparing.
 #[derive(Debug)]
-pub(in crate::viewer) struct Comparison {
+pub struct Comparison {
     pub(in crate::viewer) other: Option<Other>,
     /// Whether B stands where A else does; settings change places instead.
     pub(in crate::viewer) swapped: bool,
@@ -89,6 +93,94 @@ pub(in crate::viewer) struct Paint {
 }
 
 impl Comparison {
+    /// What A is compared with.
+    pub fn other(&self) -> Option<&Other> {
+        self.other.as_ref()
+    }
+
+    /// How A and B share the window.
+    pub fn arrangement(&self) -> Arrangement {
+        match self.other {
+            Some(_) => self.arrangement,
+            None => Arrangement::Alone,
+        }
+    }
+
+    /// How differences are shown.
+    pub fn difference_style(&self) -> DifferenceStyle {
+        self.style
+    }
+
+    /// What shown differences are multiplied with; `None` while they are not to be seen.
+    pub fn difference_gain(&self) -> Option<f32> {
+        Some(self.paint.as_ref()?.colors.gain())
+    }
+
+    /// Whether B stands where A else does.
+    pub fn is_swapped(&self) -> bool {
+        self.swapped
+    }
+
+    /// Whether all of B is to be seen, in place of A.
+    pub fn shows_b(&self) -> bool {
+        self.swapped != self.flip_shows_back()
+    }
+
+    /// The picture that is being read as B.
+    pub fn loading_picture(&self) -> Option<&Path> {
+        self.loading.as_deref()
+    }
+
+    /// B's pixels as they are on the screen or would be; they may be a preview's.
+    pub fn other_pixels(&self) -> Option<&Framebuffer> {
+        match (self.other.as_ref()?, &self.held) {
+            (Other::Picture(picture), _) => Some(&picture.pixels),
+            (_, Some([_, b])) => Some(&b.pixels),
+            (_, None) => Some(&self.drawing.as_ref()?.frame()?.pixels),
+        }
+    }
+
+    /// A pixel of B, straight `[r, g, b, a]`, if it is final.
+    pub(in crate::viewer) fn other_final_rgba(&self, x: u32, y: u32) -> Option<[u8; 4]> {
+        match (self.other.as_ref()?, &self.held) {
+            (Other::Picture(picture), _) => picture.pixels.rgba(x, y),
+            (_, Some([_, b])) => b.final_rgba(x, y),
+            (_, None) => self.drawing.as_ref()?.frame()?.final_rgba(x, y),
+        }
+    }
+
+    /// The size of both frames, where a picture from outside gives it.
+    pub(in crate::viewer) fn fixed_size(&self) -> Option<[u32; 2]> {
+        match self.other.as_ref()? {
+            Other::Picture(picture) => Some([picture.pixels.width(), picture.pixels.height()]),
+            Other::Settings { .. } | Other::Truth(_) => None,
+        }
+    }
+
+    /// Where frames lie in the window.
+    pub(in crate::viewer) fn layout(&self, zoom: PixelZoom, chrome: &Chrome) -> WindowLayout {
+        let sharing = Sharing {
+            side_by_side: self.arrangement() == Arrangement::SideBySide,
+            fixed_size: self.fixed_size(),
+            moved: &self.moved,
+        };
+        WindowLayout::new(zoom, chrome, sharing)
+    }
+
+    /// Whether the one in the back is to be seen of both that flip.
+    pub(in crate::viewer) fn flip_shows_back(&self) -> bool {
+        matches!(self.flip, Some((_, true)))
+    }
+
+    /// When something about comparing is to be done: flipping, measuring, looking at B again.
+    pub(in crate::viewer) fn due(&self) -> Option<Instant> {
+        let flip = self.flip.and_then(|(due, _)| due);
+        let drawing = self.drawing.as_ref().and_then(Drawing::due);
+        let other = self.postponed.filter(|_| self.other.is_some());
+        let all = [flip, drawing, other, self.measuring.due()];
+        all.into_iter().flatten().min()
+    }
+
     /// Whether B is needed on the screen.
     pub(in crate::viewer) fn shows_both(&self) -> bool {
         self.other.is_some() && (self.arrangement != Arrangement::Alone || self.swapped)
@@ -129,5 +221,29 @@ impl Comparison {
 
     pub(in crate::viewer) fn touch(&mut self) {
         self.number += 1;
+    }
+
+    /// Takes in what the thread found out; true if that is news of these two.
+    pub(in crate::viewer) fn measured(&mut self, measured: Measured) -> bool {
+        let measuring = &mut self.measuring;
+        if measured.stage != Stage::More {
+            measuring.running = None;
+        }
+        if self.other.is_none() || measured.stage == Stage::GivenUp {
+            return false;
+        }
+        if let Some(measures) = measured.measures {
+            measuring.found = Some((measured.which, measures));
+        }
+        if measured.stage == Stage::Ended {
+            measuring.complete = Some(measured.which);
+        }
+        true
+    }
+
+    /// Takes pictures of a size of their own back to the middle.
+    pub(in crate::viewer) fn center(&mut self) {
+        self.moved = Moved::default();
+        self.touch();
     }
 }

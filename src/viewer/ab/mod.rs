@@ -7,3 +7,6 @@ pub(in crate::viewer) mod comparison;
 pub(in crate::viewer) mod measuring;
 pub(in crate::viewer) mod other;
 pub(in crate::viewer) mod outside;
+pub(in crate::viewer) mod requests;
+mod sides;
+mod wipe;

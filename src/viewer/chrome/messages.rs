@@ -5,6 +5,9 @@ use crate::plain;
 /// Messages kept; older ones go.
 const MOST: usize = 6;
 
+/// What is said where the explanation that was asked for has no room.
+pub const NO_ROOM: &str = "no room here for the explanation of the pixel: make the window wider";
+
 /// One message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {

@@ -7,7 +7,7 @@ pub(in crate::viewer) mod messages;
 use crate::figure::PixelRect;
 use crate::viewer::chrome::ending::Ending;
 use crate::viewer::chrome::interface_scale::InterfaceScale;
-use crate::viewer::chrome::messages::Messages;
+use crate::viewer::chrome::messages::{Message, Messages};
 use crate::viewer::settings::Theme;
 
 /// Something that covers the picture and takes the keyboard until it is closed. One at a time.
@@ -29,7 +29,7 @@ pub enum Dialog {
 
 /// What is to be seen in the window besides the picture.
 #[derive(Debug)]
-pub(in crate::viewer) struct Chrome {
+pub struct Chrome {
     pub(in crate::viewer) window: [u32; 2],
     pub(in crate::viewer) free_area: Option<PixelRect>,
     pub(in crate::viewer) theme: Theme,
@@ -63,6 +63,66 @@ impl Chrome {
             messages: Messages::default(),
             ending: Ending::default(),
         }
+    }
+    /// The window in device pixels.
+    pub fn window_size(&self) -> [u32; 2] {
+        self.window
+    }
+
+    /// The dialog that is open.
+    pub fn dialog(&self) -> Option<Dialog> {
+        self.dialog
+    }
+
+    /// Whether everything but the picture is hidden.
+    pub fn everything_hidden(&self) -> bool {
+        self.hidden
+    }
+
+    /// Whether text lies over the picture.
+    pub fn overlay_text(&self) -> bool {
+        self.shown.text
+    }
+
+    /// Whether the side panel is to be seen, unless everything is hidden.
+    pub fn panel(&self) -> bool {
+        self.shown.panel
+    }
+
+    /// Whether what the scene says about itself is to be seen.
+    pub fn about(&self) -> bool {
+        self.shown.words
+    }
+
+    /// Light or dark panels.
+    pub fn theme(&self) -> Theme {
+        self.theme
+    }
+
+    /// How large panels and their letters are.
+    pub fn interface_scale(&self) -> InterfaceScale {
+        self.interface_scale
+    }
+
+    /// Whether the ways on for newcomers lie over the picture.
+    pub fn start_card(&self) -> bool {
+        self.start_card
+    }
+
+    /// What the user is to be told, oldest first. Whoever shows a message dismisses it after a while.
+    pub fn messages(&self) -> &[Message] {
+        self.messages.all()
+    }
+
+    /// Closes one thing that covers the picture, the latest first; false when nothing does.
+    pub(in crate::viewer) fn close_latest(&mut self) -> bool {
+        self.dialog.take().is_some() || std::mem::take(&mut self.start_card) || std::mem::take(&mut self.hidden)
+    }
+
+    /// The part of the window that no panel covers.
+    pub(in crate::viewer) fn free_window(&self) -> PixelRect {
+        let window = PixelRect::of_size(self.window);
+        self.free_area.map_or(window, |free| free.intersection(&window))
     }
 }
 

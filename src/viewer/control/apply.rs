@@ -1,19 +1,17 @@
 //! Commands to changes of state.
 
-use crate::viewer::command::parts::{
-    ExportCommand, InspectorCommand, LessonCommand, PointerCommand, SceneCommand, SheetCommand, ViewCommand,
-    WindowCommand,
-};
 use std::time::Instant;
 
-use crate::viewer::chrome::ending;
+use crate::viewer::chrome::{Chrome, ending};
+use crate::viewer::command::parts::{
+    AbCommand, ExportCommand, InspectorCommand, PointerCommand, SceneCommand, SheetCommand, WindowCommand,
+};
 use crate::viewer::command::{Command, Effect};
-use crate::viewer::library;
+use crate::viewer::control::comparing::Comparing;
+use crate::viewer::control::copy::Copied;
 use crate::viewer::settings::values::next_of;
-use crate::viewer::settings::{PixelZoom, Theme, Toggle};
+use crate::viewer::settings::{Theme, Toggle};
 use crate::viewer::state::Viewer;
-use crate::viewer::view::camera::Camera;
-use crate::viewer::view::pointer::PointerButton;
 
 /// What is said while everything but the picture is hidden.
 const WAY_BACK: &str = "Tab brings the panels back, and so does a right click";
@@ -24,7 +22,17 @@ impl Viewer {
     /// Any command is fine at any time: one that makes no sense now changes nothing.
     #[must_use = "the program around the viewer has to carry out the effects"]
     pub fn apply(&mut self, command: Command) -> Vec<Effect> {
-        if self.is_so_already(&command) {
+        // Windows repeat some that tell nothing new.
+        let is_so_already = match &command {
+            Command::Pointer(PointerCommand::Moved { at }) => self.pointer.at == Some(*at),
+            Command::Pointer(PointerCommand::Left) => self.pointer.at.is_none(),
+            Command::Window(WindowCommand::Resize(size)) => self.chrome.window == *size,
+            Command::Window(WindowCommand::SetFreeArea(area)) => self.chrome.free_area == *area,
+            Command::Inspector(InspectorCommand::PointAtTexel(texel)) => self.inspector.pointed_texel == *texel,
+            Command::Sheet(SheetCommand::SetRoom(room)) => !self.sheet.room_changes(*room),
+            _ => false,
+        };
+        if is_so_already {
             return Vec::new();
         }
         if !is_passing(&command) {
@@ -36,160 +44,61 @@ impl Viewer {
         effects
     }
 
-    /// Whether everything but the picture is hidden.
-    pub fn everything_hidden(&self) -> bool {
-        self.chrome.hidden
-    }
-
-    /// Whether a command that windows repeat tells nothing new.
-    fn is_so_already(&self, command: &Command) -> bool {
-        match command {
-            Command::Pointer(PointerCommand::Moved { at }) => self.pointer.at == Some(*at),
-            Command::Pointer(PointerCommand::Left) => self.pointer.at.is_none(),
-            Command::Window(WindowCommand::Resize(size)) => self.chrome.window == *size,
-            Command::Window(WindowCommand::SetFreeArea(area)) => self.chrome.free_area == *area,
-            Command::Inspector(InspectorCommand::PointAtTexel(texel)) => self.inspector.pointed_texel == *texel,
-            Command::Sheet(SheetCommand::SetRoom(room)) => !self.sheet_room_changes(*room),
-            _ => false,
-        }
-    }
-
     /// Every command has its arm: one that nobody carries out does not compile.
     fn dispatch(&mut self, command: Command) -> Vec<Effect> {
         match command {
-            Command::Pointer(command) => self.apply_pointer(command),
-            Command::View(command) => self.apply_view(command),
+            Command::Pointer(command) => self.hand().apply_pointer(command),
+            Command::View(command) => {
+                self.hand().apply_view(command);
+                self.drawings().follow_settings();
+            }
             Command::Set(change) => {
                 if let Some(remark) = change.apply(&mut self.settings) {
                     self.chrome.messages.error(remark);
                 }
             }
             Command::Ab(command) => self.apply_ab(command),
-            Command::Scenes(command) => self.apply_scenes(command),
-            Command::Lesson(command) => self.apply_lesson(command),
-            Command::Inspector(command) => self.apply_inspector(command),
-            Command::Export(command) => return self.apply_export(command),
-            Command::Sheet(command) => return self.apply_sheet(command),
+            Command::Scenes(command) => self.opening().apply(command),
+            Command::Lesson(command) => self.opening().lessons().apply(command),
+            Command::Inspector(command) => self.hand().apply_inspector(command),
+            Command::Export(ExportCommand::WindowScreenshot) => return vec![Effect::PictureOfWindow],
+            Command::Export(command) => {
+                let copied = self.saving().export(command);
+                if command == ExportCommand::Screenshot {
+                    // No preview, and no rest: the picture of this moment, even if the view goes on moving.
+                    self.drawings().set_hurry(true);
+                }
+                return tell_copied(&mut self.chrome, copied);
+            }
+            Command::Sheet(command) => {
+                let copied = self.saving().change_sheet(command);
+                return tell_copied(&mut self.chrome, copied);
+            }
             Command::Window(command) => return self.apply_window(command),
         }
         Vec::new()
     }
 
-    fn apply_pointer(&mut self, command: PointerCommand) {
-        match command {
-            PointerCommand::Moved { at } => self.pointer_moved(at),
-            PointerCommand::Left => self.pointer.at = None,
-            PointerCommand::Pressed(button) => {
-                self.inspector.magnifier.revealed = false;
-                self.pointer_pressed(button);
-            }
-            PointerCommand::Released(PointerButton::Primary) => {
-                (self.pointer.dragging, self.ab.drags_line) = (false, false);
-            }
-            PointerCommand::Released(PointerButton::Secondary) => {}
-            PointerCommand::Wheel { clicks } => self.wheel(clicks),
-            PointerCommand::Pinch { factor } => self.zoom(self.pointer.at, factor),
+    /// Carries out a command; what is explained stays in sight.
+    fn apply_ab(&mut self, command: AbCommand) {
+        let panes = self.pixels().explains().then(|| self.both().layout.panes());
+        let jumps = command == AbCommand::NextDifference;
+        Comparing {
+            settings: &mut self.settings,
+            messages: &mut self.chrome.messages,
+            scene_list: &mut self.scene_list,
+            frames: &mut self.frames,
+            ab: &mut self.ab,
+            saver: &mut self.export.saver,
         }
-    }
-
-    fn apply_view(&mut self, command: ViewCommand) {
-        match command {
-            ViewCommand::PanBy { by } => self.pan(by),
-            ViewCommand::ZoomAt { at, factor } => self.zoom(at, factor),
-            ViewCommand::RotateBy { degrees } => self.look(|camera, context| camera.rotate(degrees, context)),
-            ViewCommand::Reset => self.reset_view(),
-            ViewCommand::Fit => self.fit_view(),
-            ViewCommand::ActualSize => self.look(Camera::actual_size),
-            ViewCommand::Set(numbers) => self.look(|camera, context| camera.set(numbers, context)),
-            ViewCommand::SetPixelZoom(zoom) => self.set_pixel_zoom(zoom),
-            ViewCommand::NextPixelZoom => self.set_pixel_zoom(next_of(&PixelZoom::ALL, self.settings.pixel_zoom, 1.0)),
-            ViewCommand::Progressive(toggle) => {
-                self.settings.progressive = toggle.of(self.settings.progressive);
-                self.frames.drawing.set_progressive(self.settings.progressive);
-                if let Some(drawing) = self.ab.drawing_mut() {
-                    drawing.set_progressive(self.settings.progressive);
-                }
-            }
+        .apply(command);
+        if jumps {
+            self.hand().jump();
         }
-    }
-
-    fn apply_scenes(&mut self, command: SceneCommand) {
-        match command {
-            SceneCommand::Next if self.step_lesson(true) => {}
-            SceneCommand::Previous if self.step_lesson(false) => {}
-            SceneCommand::Next => self.scene_list.step(1),
-            SceneCommand::Previous => self.scene_list.step(self.scene_list.scenes.len().saturating_sub(1)),
-            SceneCommand::Show(index) => self.scene_list.show(index),
-            SceneCommand::Open(paths) => self.open(&paths),
-            SceneCommand::OpenGallery => self.replace_scenes(library::gallery_entries()),
-            SceneCommand::Reload => self.read_current(),
-            SceneCommand::RememberOpened(earlier) => self.remember_opened(&earlier),
-            SceneCommand::FilesChanged(files) => self.files_changed(&files),
-            SceneCommand::FollowFiles(toggle) => {
-                let follows = toggle.of(self.scene_list.follows_files);
-                self.scene_list.follows_files = follows;
-                let words = if follows {
-                    "files are read again when they change"
-                } else {
-                    "files are not read again by themselves"
-                };
-                self.chrome.messages.done(words.to_owned());
-            }
-            SceneCommand::OtherReading => self.choose_other_reading(),
+        if panes.is_some_and(|before| before != self.both().layout.panes()) {
+            self.hand().keep_explained_pin_in_sight();
         }
-    }
-
-    fn apply_lesson(&mut self, command: LessonCommand) {
-        match command {
-            LessonCommand::Open(source) => self.open_lesson(&source),
-            LessonCommand::Step(step) => self.take_step(step),
-            LessonCommand::Close => {
-                self.close_lesson();
-            }
-        }
-    }
-
-    fn apply_inspector(&mut self, command: InspectorCommand) {
-        match command {
-            InspectorCommand::Show(toggle) => self.show_inspector(toggle),
-            InspectorCommand::SetRegion(region) => self.inspector.magnifier.set_region(region),
-            InspectorCommand::SetMagnification(magnification) => {
-                self.inspector.magnifier.set_magnification(magnification);
-            }
-            InspectorCommand::StepMagnification(steps) => self.inspector.magnifier.step(steps),
-            InspectorCommand::PinUnderPointer => self.pin_under_pointer(),
-            InspectorCommand::Pin(pixel) => self.pin(pixel),
-            InspectorCommand::PinEdge => self.pin_edge(),
-            InspectorCommand::Nudge(by) => self.nudge(by),
-            InspectorCommand::Unpin => self.inspector.magnifier.pin = None,
-            InspectorCommand::PointAtTexel(texel) => self.inspector.pointed_texel = texel,
-            InspectorCommand::Explanation(toggle) => self.show_explanation(toggle),
-        }
-    }
-
-    fn apply_export(&mut self, command: ExportCommand) -> Vec<Effect> {
-        match command {
-            ExportCommand::CopyPixel => self.copy_pixel(),
-            ExportCommand::Copy => self.copy(),
-            ExportCommand::CopyPicture => self.copy_picture(),
-            ExportCommand::CopyExplanation => self.copy_explanation(),
-            ExportCommand::CopyCommandLine => self.copy_command_line(),
-            ExportCommand::WindowScreenshot => vec![Effect::PictureOfWindow],
-            ExportCommand::Screenshot => {
-                self.ask_for_screenshot();
-                Vec::new()
-            }
-        }
-    }
-
-    fn apply_sheet(&mut self, command: SheetCommand) -> Vec<Effect> {
-        match command {
-            SheetCommand::Change(change) => self.change_sheet(change),
-            SheetCommand::SetRoom(room) => self.set_sheet_room(room),
-            SheetCommand::Save => self.ask_for_sheet(),
-            SheetCommand::CopyCommandLine => return self.copy_sheet_command_line(),
-        }
-        Vec::new()
+        self.ab.touch();
     }
 
     fn apply_window(&mut self, command: WindowCommand) -> Vec<Effect> {
@@ -202,8 +111,9 @@ impl Viewer {
                 magnifier.revealed |= magnifier.pin.is_some();
             }
             WindowCommand::SetFreeArea(area) => {
-                self.set_free_area(area);
-                self.reveal_pin();
+                let mut hand = self.hand();
+                hand.set_free_area(area);
+                hand.reveal_pin();
             }
             WindowCommand::OverlayText(toggle) => screen.shown.text = toggle.of(screen.shown.text),
             WindowCommand::Panel(toggle) => screen.shown.panel = toggle.of(screen.shown.panel),
@@ -232,20 +142,9 @@ impl Viewer {
         Vec::new()
     }
 
-    fn show_inspector(&mut self, toggle: Toggle) {
-        // What is hidden is not open to the eye: the key shows it again.
-        self.inspector.magnifier.open = toggle.of(self.inspector.magnifier.open && !self.chrome.hidden);
-        if self.inspector.magnifier.open {
-            self.chrome.hidden = false;
-        } else {
-            self.inspector.magnifier.pin = None;
-            self.inspector.magnifier.came_with_pin = false;
-        }
-    }
-
     /// Closes or unpins what is open, the latest first; when nothing is, asks once and then ends the program.
     fn escape(&mut self) -> Vec<Effect> {
-        if self.close_latest() {
+        if self.opening().close_latest() {
             self.chrome.ending.forget();
             return Vec::new();
         }
@@ -255,17 +154,20 @@ impl Viewer {
         self.chrome.messages.question(ending::QUESTION.to_owned());
         Vec::new()
     }
+}
 
-    /// Closes or unpins one thing; false when nothing is open.
-    fn close_latest(&mut self) -> bool {
-        self.chrome.dialog.take().is_some()
-            || std::mem::take(&mut self.chrome.start_card)
-            || std::mem::take(&mut self.chrome.hidden)
-            || self.escape_arrangement()
-            || self.inspector.magnifier.pin.take().is_some()
-            || std::mem::take(&mut self.inspector.magnifier.open)
-            || self.escape_comparison()
-            || self.close_lesson()
+/// What the program around the viewer does with what is copied; the user is told.
+fn tell_copied(chrome: &mut Chrome, copied: Option<Result<Copied, String>>) -> Vec<Effect> {
+    match copied {
+        Some(Ok(Copied { effect, message })) => {
+            chrome.messages.done(message);
+            vec![effect]
+        }
+        Some(Err(problem)) => {
+            chrome.messages.error(problem);
+            Vec::new()
+        }
+        None => Vec::new(),
     }
 }
 

@@ -1,68 +1,73 @@
-//! Texts for the clipboard: a pixel in words, and the command line that makes the picture.
+//! What goes to the clipboard: a pixel in words, the picture, an explanation, a command line.
 
-use crate::figure::{InsetPlace, InsetSpec};
+use crate::inspect::Detail;
 use crate::viewer::command::Effect;
-use crate::viewer::export::spec::{PictureSpec, output_name, shell_line};
-use crate::viewer::state::Viewer;
+use crate::viewer::control::pointing::Pointing;
+use crate::viewer::control::recipes::Recipes;
 
-impl Viewer {
-    pub(in crate::viewer) fn copy_pixel(&mut self) -> Vec<Effect> {
+/// What is copied, and what the user is told of it.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::viewer) struct Copied {
+    pub(in crate::viewer) effect: Effect,
+    pub(in crate::viewer) message: String,
+}
+
+impl Copied {
+    /// A text, which the user is shown.
+    pub(in crate::viewer) fn text(text: String) -> Self {
+        Self {
+            message: format!("copied: {text}"),
+            effect: Effect::CopyText(text),
+        }
+    }
+
+    /// The pixel that the user means in words; `None` where there is none.
+    pub(in crate::viewer) fn pixel(pixels: &Pointing<'_>) -> Option<Self> {
         // In the inset the pointer reads pixels that the user looks at; elsewhere it is where it happens to be.
-        let in_inset = self.hovered_pixel().filter(|_| self.pointer_over_inset());
-        let pinned = in_inset.or(self.pinned_pixel());
-        let pixel = pinned.or(self.hovered_pixel()).or(self.inspected_pixel());
-        match pixel.and_then(|pixel| self.status_of(pixel)) {
-            Some(status) => {
-                let other = self
-                    .other_status_of(status.pixel)
-                    .and_then(|other| other.decimal_text());
-                let other = other.map_or(String::new(), |other| format!("  B {other}"));
-                self.copy_text(format!("{status}{other}"))
-            }
-            None => Vec::new(),
-        }
+        let in_inset = pixels.hovered().filter(|_| pixels.over_inset());
+        let pinned = in_inset.or(pixels.pinned());
+        let pixel = pinned.or(pixels.hovered()).or(pixels.inspected())?;
+        let status = pixels.status_of(pixel)?;
+        let other = pixels.other_status_of(pixel).and_then(|other| other.decimal_text());
+        let other = other.map_or(String::new(), |other| format!("  B {other}"));
+        Some(Self::text(format!("{status}{other}")))
     }
 
-    pub(in crate::viewer) fn copy_command_line(&mut self) -> Vec<Effect> {
-        match self.command_line() {
-            Some(line) => self.copy_text(line),
-            None => Vec::new(),
-        }
-    }
-
-    pub(in crate::viewer) fn copy_text(&mut self, text: String) -> Vec<Effect> {
-        self.chrome.messages.done(format!("copied: {text}"));
-        vec![Effect::CopyText(text)]
-    }
-
-    /// The `rasterscope render` command that makes the current picture, quoted for a POSIX shell; `None` without a
-    /// scene or without pixels. Options that have their default value are left out, but for size and view.
-    pub fn command_line(&self) -> Option<String> {
-        let output = output_name(&self.current()?.label);
-        Some(shell_line(&self.picture_spec()?.arguments(&output)))
-    }
-
-    /// What decides the current picture; `None` without a scene or without pixels.
-    pub(in crate::viewer) fn picture_spec(&self) -> Option<PictureSpec> {
-        let (entry, size) = (self.current()?, self.frame_size());
-        (!size.contains(&0)).then(|| PictureSpec {
-            scene: entry.source.clone(),
-            size,
-            view: entry.camera.view(),
-            render: self.settings.render,
-            dialect: self.dialect_of_picture(),
-            legend: true,
-            insets: self.inset_spec().into_iter().collect(),
+    /// The picture as a screenshot of this moment shows it.
+    ///
+    /// # Errors
+    /// One line for the user when there is none.
+    pub(in crate::viewer) fn picture(recipes: &Recipes<'_>) -> Result<Self, String> {
+        let both = &recipes.both;
+        let drawing = &both.frames.drawing;
+        let frame = drawing.final_frame(drawing.newest_request());
+        let both_current = !both.ab.shows_both() || both.ab.is_current();
+        let frame = frame
+            .filter(|_| both_current)
+            .ok_or("nothing copied: there is no finished picture yet; copy again when it is drawn")?;
+        let recipe = recipes.recipe_of_frame(frame, both.ab.shows_both());
+        let picture = recipes.shot_of(frame, recipe.as_ref()).picture()?;
+        let (width, height) = (picture.width(), picture.height());
+        Ok(Self {
+            effect: Effect::CopyPicture(picture),
+            message: format!("copied the picture, {width} x {height} pixels"),
         })
     }
 
-    /// The inspector's inset as figures carry it: as large as the frame has room for. `None` while it is not to be seen, or
-    /// where there is no room at all.
-    fn inset_spec(&self) -> Option<InsetSpec> {
-        let pixel = self.inspector.inset.and(self.inspected_pixel())?;
-        let (entry, context) = (self.current()?, self.view_context()?);
-        let (region, magnification) = (self.inspector.magnifier.region, self.inspector.magnifier.magnification);
-        let spec = InsetSpec::around(InsetPlace::Pixel(pixel), region, magnification);
-        spec.fitted(self.frame_size(), &entry.camera.transform(&context))
+    /// The explanation as Markdown; explained now if nobody did yet.
+    ///
+    /// # Errors
+    /// One line for the user when there is nothing to explain.
+    pub(in crate::viewer) fn explanation(recipes: &Recipes<'_>) -> Result<Self, String> {
+        let pixels = &recipes.pixels;
+        let pixel = pixels.inspected().filter(|_| pixels.inspector.magnifier.open);
+        let asked = pixel.and_then(|pixel| pixels.question(pixel));
+        let explained = asked
+            .and_then(|asked| asked.explain())
+            .ok_or("no pixel to explain: open the inspector with Z, or pin a pixel")?;
+        Ok(Self {
+            effect: Effect::CopyText(explained.own.markdown(Detail::Telling)),
+            message: "copied the explanation as Markdown".to_owned(),
+        })
     }
 }

@@ -1,90 +1,75 @@
 //! Walking through a lesson: every step sets scene, settings, view, pin and comparison, whatever was changed before.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::geometry::View;
 use crate::render::RenderSettings;
 use crate::scene::DialectChoice;
+use crate::viewer::LessonCommand;
+use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::other::Against;
-use crate::viewer::control::explanation::NO_ROOM;
-use crate::viewer::inspector::Pin;
+use crate::viewer::ab::requests::ComparisonContext;
+use crate::viewer::chrome::Chrome;
+use crate::viewer::chrome::messages::NO_ROOM;
+use crate::viewer::inspector::state::Inspection;
 use crate::viewer::lesson::model::{Lesson, LessonStep};
 use crate::viewer::lesson::source::LessonSource;
 use crate::viewer::lesson::walk::{Before, Walk};
 use crate::viewer::library;
-use crate::viewer::library::{SceneEntry, SceneSource, SceneState};
-use crate::viewer::state::Viewer;
+use crate::viewer::library::state::SceneList;
+use crate::viewer::library::{SceneEntry, SceneState};
+use crate::viewer::settings::Settings;
 use crate::viewer::view::camera::Camera;
 
-impl Viewer {
-    /// The lesson that is open, and the number of its step, from 0.
-    pub fn lesson(&self) -> Option<(&Lesson, usize)> {
-        self.lesson.as_ref().map(|walk| (&walk.lesson, walk.at))
+/// The open lesson, and what its steps set.
+#[derive(Debug)]
+pub(in crate::viewer) struct Lessons<'a> {
+    pub(in crate::viewer) lesson: &'a mut Option<Walk>,
+    pub(in crate::viewer) settings: &'a mut Settings,
+    pub(in crate::viewer) chrome: &'a mut Chrome,
+    pub(in crate::viewer) scene_list: &'a mut SceneList,
+    pub(in crate::viewer) ab: &'a mut Comparison,
+    pub(in crate::viewer) inspector: &'a mut Inspection,
+}
+
+impl Lessons<'_> {
+    pub(in crate::viewer) fn apply(&mut self, command: LessonCommand) {
+        match command {
+            LessonCommand::Open(source) => self.open(&source),
+            LessonCommand::Step(step) => self.take_step(step),
+            LessonCommand::Close => {
+                self.close();
+            }
+        }
     }
 
     /// Opens a lesson at its first step; where it cannot be read, the user is told.
-    pub(in crate::viewer) fn open_lesson(&mut self, source: &LessonSource) {
+    pub(in crate::viewer) fn open(&mut self, source: &LessonSource) {
         match source.read() {
             Ok(lesson) => self.begin(lesson, Some(source.clone())),
             Err(error) => self.chrome.messages.error(error.to_string()),
         }
     }
 
-    /// The same of a lesson that was read already.
-    pub(in crate::viewer) fn show_lesson(&mut self, lesson: Lesson) {
-        self.begin(lesson, None);
-        self.update();
-    }
-
-    /// The file of the open lesson.
-    fn lesson_file(&self) -> Option<&Path> {
-        match self.lesson.as_ref()?.source.as_ref()? {
-            LessonSource::File(path) => Some(path),
-            LessonSource::BuiltIn(_) => None,
-        }
-    }
-
-    /// The files that what is shown was read from: the scene's, those of its textures, the lesson's.
-    pub fn files(&self) -> Vec<PathBuf> {
-        let mut files = Vec::new();
-        if let Some((entry, SceneSource::File(document))) = self.current().map(|entry| (entry, &entry.source)) {
-            let folder = document.parent().unwrap_or(Path::new(""));
-            let textures = entry.scene().map(|scene| scene.files.textures.as_slice());
-            files.push(document.clone());
-            files.extend(
-                textures
-                    .unwrap_or_default()
-                    .iter()
-                    .map(|(address, _)| folder.join(address)),
-            );
-        }
-        files.extend(self.lesson_file().map(Path::to_owned));
-        files
-    }
-
-    /// Whether files are to be read again when they change on the disk.
-    pub fn follows_files(&self) -> bool {
-        self.scene_list.follows_files
-    }
-
     /// Reads again what is shown of these files, unless the user does not want that.
     pub(in crate::viewer) fn files_changed(&mut self, files: &[PathBuf]) {
-        if !self.follows_files() || files.is_empty() {
+        if !self.scene_list.follows_files || files.is_empty() {
             return;
         }
-        let is_lesson = |file: &PathBuf| self.lesson_file() == Some(file);
+        let file_of_lesson = self.lesson.as_ref().and_then(Walk::file);
+        let is_lesson = |file: &PathBuf| file_of_lesson == Some(file);
         let (lesson, others) = (files.iter().any(is_lesson), !files.iter().all(is_lesson));
         if lesson {
-            self.reload_lesson();
+            self.reload();
         }
         if others {
-            self.read_current();
+            self.scene_list.read_current(self.ab.wanted_dialects(self.settings));
         }
     }
 
     /// Reads the open lesson again and stays at its step; where it cannot be read any more, it stays as it is and the user is
     /// told.
-    fn reload_lesson(&mut self) {
+    fn reload(&mut self) {
         let Some(Walk {
             at,
             source: Some(source),
@@ -105,13 +90,14 @@ impl Viewer {
         }
     }
 
-    fn begin(&mut self, lesson: Lesson, source: Option<LessonSource>) {
+    /// Shows a lesson from its first step on; what was there before comes back when it is closed.
+    pub(in crate::viewer) fn begin(&mut self, lesson: Lesson, source: Option<LessonSource>) {
         let before = match self.lesson.take() {
             Some(walk) => walk.before,
             None => Before {
                 scenes: std::mem::take(&mut self.scene_list.scenes),
                 current: self.scene_list.current,
-                settings: self.settings,
+                settings: *self.settings,
                 explanation: self.chrome.shown.explanation,
             },
         };
@@ -124,8 +110,8 @@ impl Viewer {
                 entries.push(library::entry_of(step.scene.clone()));
             }
         }
-        self.replace_scenes(entries);
-        self.lesson = Some(Walk {
+        self.scene_list.replace(entries);
+        *self.lesson = Some(Walk {
             lesson,
             source,
             at: 0,
@@ -138,8 +124,8 @@ impl Viewer {
     }
 
     /// Goes on or back by one step; false where no lesson is open.
-    pub(in crate::viewer) fn step_lesson(&mut self, forward: bool) -> bool {
-        let Some(walk) = &self.lesson else { return false };
+    pub(in crate::viewer) fn step(&mut self, forward: bool) -> bool {
+        let Some(walk) = &*self.lesson else { return false };
         let last = walk.lesson.steps.len() - 1;
         match (forward, walk.at) {
             (true, at) if at < last => self.take_step(at + 1),
@@ -171,53 +157,60 @@ impl Viewer {
             ..
         } = step;
         for change in settings {
-            if let Some(remark) = change.apply(&mut self.settings) {
+            if let Some(remark) = change.apply(self.settings) {
                 self.chrome.messages.error(remark);
             }
         }
         if let Some((against, arrangement)) = against {
             self.compare(against);
-            self.arrange(arrangement);
+            let mut context = ComparisonContext {
+                settings: self.settings,
+                messages: &mut self.chrome.messages,
+            };
+            self.ab.arrange(arrangement, &mut context);
         }
         self.chrome.hidden = false;
         self.chrome.shown.explanation = explained;
         self.inspector.magnifier.open = pin.is_some();
         (self.inspector.magnifier.asked, self.inspector.magnifier.kept_view) = (false, None);
-        self.inspector.magnifier.pin = pin.map(|place| Pin {
-            pixel: [0, 0],
-            place: Some((place, (self.scene_list.current, self.scene_list.generation))),
-        });
+        self.inspector.magnifier.pin = None;
+        if let Some(place) = pin {
+            self.inspector.pin_place(place, self.scene_list);
+        }
     }
 
     /// Sets the view that a step asks for, as soon as its scene was read; without one all of the canvas is shown in the part of
     /// the window that is free, until a hand moves it.
-    pub(in crate::viewer) fn follow_lesson(&mut self) {
-        let (Some(walk), Some(context)) = (&self.lesson, self.view_context()) else {
+    pub(in crate::viewer) fn follow(&mut self) {
+        let layout = self.ab.layout(self.settings.pixel_zoom, self.chrome);
+        let (Some(walk), Some(context)) = (&*self.lesson, self.scene_list.view_context(layout.frame_size())) else {
             return;
         };
-        let camera = self.current().map(|entry| entry.camera);
+        let camera = self.scene_list.camera();
         let follows = walk.fitted.is_some() && walk.fitted == camera;
         let numbers = walk.lesson.steps.get(walk.at).and_then(|step| step.view);
         // An explanation takes room: another scale would show other content at the pixel that was asked about.
-        let rests = self.inspector.magnifier.asked && self.explains();
+        let rests = self.inspector.magnifier.asked && self.inspector.explains(self.chrome, self.scene_list, &layout);
         if !walk.view_pending && (!follows || rests) {
             return;
         }
         let fitted = if let Some(numbers) = numbers {
-            self.look(|camera, _| camera.set(numbers, &context));
+            self.scene_list
+                .look(context.frame, |camera, _| camera.set(numbers, &context));
             None
         } else {
-            self.look(|camera, _| *camera = Camera::new(View::Default));
-            self.fit_view();
-            self.current().map(|entry| entry.camera)
+            self.scene_list
+                .look(context.frame, |camera, _| *camera = Camera::new(View::Default));
+            self.scene_list.fit_view(&layout);
+            self.scene_list.camera()
         };
-        if let Some(walk) = &mut self.lesson {
+        if let Some(walk) = self.lesson {
             (walk.view_pending, walk.fitted) = (false, fitted);
         }
     }
 
     /// Closes the lesson and brings back what was open before; false where none is open.
-    pub(in crate::viewer) fn close_lesson(&mut self) -> bool {
+    pub(in crate::viewer) fn close(&mut self) -> bool {
         let Some(Walk { before, .. }) = self.lesson.take() else {
             return false;
         };
@@ -235,14 +228,22 @@ impl Viewer {
             entry.thumbnail_asked = entry.thumbnail.is_some();
         }
         let cameras: Vec<Camera> = scenes.iter().map(|entry| entry.camera).collect();
-        self.replace_scenes(scenes);
+        self.scene_list.replace(scenes);
         for (entry, camera) in self.scene_list.scenes.iter_mut().zip(cameras) {
             entry.camera = camera;
         }
         self.scene_list.current = before.current.min(self.scene_list.scenes.len().saturating_sub(1));
-        self.settings = before.settings;
+        *self.settings = before.settings;
         self.chrome.shown.explanation = before.explanation;
         (self.inspector.magnifier.pin, self.inspector.magnifier.open) = (None, false);
         true
+    }
+
+    fn compare(&mut self, against: Against) {
+        let mut context = ComparisonContext {
+            settings: self.settings,
+            messages: &mut self.chrome.messages,
+        };
+        self.ab.compare(against, &mut context);
     }
 }

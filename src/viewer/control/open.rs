@@ -1,25 +1,96 @@
-//! Files and folders become the list of scenes.
+//! Files and folders become the list of scenes, lessons or pictures to compare with; a saved picture brings back its scene,
+//! view, settings and pin.
 
 use std::path::{Path, PathBuf};
 
+use glam::DVec2;
+
+use crate::figure::{InsetPlace, InsetSpec};
+use crate::viewer::SceneCommand;
+use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::other::Against;
 use crate::viewer::ab::outside::is_picture;
+use crate::viewer::ab::requests::ComparisonContext;
+use crate::viewer::chrome::Chrome;
+use crate::viewer::control::lesson::Lessons;
+use crate::viewer::export::restored::Restored;
+use crate::viewer::export::spec::PictureSpec;
+use crate::viewer::export::state::Export;
+use crate::viewer::inspector::state::Inspection;
 use crate::viewer::lesson::source::LessonSource;
+use crate::viewer::lesson::walk::Walk;
 use crate::viewer::library;
-use crate::viewer::library::{SceneEntry, SceneSource};
-use crate::viewer::state::Viewer;
+use crate::viewer::library::SceneEntry;
+use crate::viewer::library::state::SceneList;
+use crate::viewer::settings::Settings;
 use crate::viewer::view::camera::Camera;
 
-impl Viewer {
-    /// What opening a file of this name gives: a `scene`, a `picture` or a `lesson`; `None` where it is none of these.
-    pub fn kind_of_file(path: &Path) -> Option<&'static str> {
-        if crate::scene::is_document(path) {
-            return Some("scene");
+/// What opening a file of this name gives: a `scene`, a `picture` or a `lesson`; `None` where it is none of these.
+pub fn kind_of_file(path: &Path) -> Option<&'static str> {
+    if crate::scene::is_document(path) {
+        return Some("scene");
+    }
+    if is_picture(path) {
+        return Some("picture");
+    }
+    LessonSource::from_address(path).map(|_| "lesson")
+}
+
+/// The list of scenes, and what else opened files change.
+#[derive(Debug)]
+pub(in crate::viewer) struct Opening<'a> {
+    pub(in crate::viewer) lesson: &'a mut Option<Walk>,
+    pub(in crate::viewer) settings: &'a mut Settings,
+    pub(in crate::viewer) chrome: &'a mut Chrome,
+    pub(in crate::viewer) scene_list: &'a mut SceneList,
+    pub(in crate::viewer) ab: &'a mut Comparison,
+    pub(in crate::viewer) inspector: &'a mut Inspection,
+    pub(in crate::viewer) export: &'a mut Export,
+}
+
+impl Opening<'_> {
+    pub(in crate::viewer) fn lessons(&mut self) -> Lessons<'_> {
+        Lessons {
+            lesson: self.lesson,
+            settings: self.settings,
+            chrome: self.chrome,
+            scene_list: self.scene_list,
+            ab: self.ab,
+            inspector: self.inspector,
         }
-        if is_picture(path) {
-            return Some("picture");
+    }
+
+    pub(in crate::viewer) fn apply(&mut self, command: SceneCommand) {
+        let is_step = match command {
+            SceneCommand::Next => self.lessons().step(true),
+            SceneCommand::Previous => self.lessons().step(false),
+            _ => false,
+        };
+        if is_step {
+            return;
         }
-        LessonSource::from_address(path).map(|_| "lesson")
+        let scenes = &mut *self.scene_list;
+        match command {
+            SceneCommand::Next => scenes.step(1),
+            SceneCommand::Previous => scenes.step(scenes.scenes.len().saturating_sub(1)),
+            SceneCommand::Show(index) => scenes.show(index),
+            SceneCommand::Open(paths) => self.open(&paths),
+            SceneCommand::OpenGallery => self.replace(library::gallery_entries()),
+            SceneCommand::Reload => scenes.read_current(self.ab.wanted_dialects(self.settings)),
+            SceneCommand::RememberOpened(earlier) => scenes.remember_opened(&earlier),
+            SceneCommand::FilesChanged(files) => self.lessons().files_changed(&files),
+            SceneCommand::FollowFiles(toggle) => {
+                let follows = toggle.of(scenes.follows_files);
+                scenes.follows_files = follows;
+                let words = if follows {
+                    "files are read again when they change"
+                } else {
+                    "files are not read again by themselves"
+                };
+                self.chrome.messages.done(words.to_owned());
+            }
+            SceneCommand::OtherReading => scenes.choose_other_reading(&mut self.settings.dialect),
+        }
     }
 
     /// Adds the scenes in `paths` to the list and shows the first of them; at the start they are the list, or the
@@ -29,7 +100,7 @@ impl Viewer {
         self.scene_list.note_opened(&there);
         let lesson = paths.iter().find_map(|path| LessonSource::from_address(path));
         if let Some(lesson) = lesson {
-            self.open_lesson(&lesson);
+            self.lessons().open(&lesson);
             return self.open_gallery_if_empty();
         }
         let (pictures, documents): (Vec<&PathBuf>, Vec<&PathBuf>) = paths.iter().partition(|path| is_picture(path));
@@ -43,7 +114,11 @@ impl Viewer {
         let compares = !self.scene_list.scenes.is_empty() || !documents.is_empty();
         let (mut scenes, problems) = library::list_scenes(if compares { &documents } else { paths });
         if let Some(picture) = pictures.last().filter(|_| compares) {
-            self.compare(Against::File((*picture).clone()));
+            let mut context = ComparisonContext {
+                settings: self.settings,
+                messages: &mut self.chrome.messages,
+            };
+            self.ab.compare(Against::File((*picture).clone()), &mut context);
         }
         for problem in problems {
             self.chrome.messages.error(problem);
@@ -52,69 +127,117 @@ impl Viewer {
             if scenes.is_empty() {
                 scenes = library::gallery_entries();
             }
-            self.replace_scenes(scenes);
+            self.replace(scenes);
         } else if !scenes.is_empty() {
-            self.add_scenes(scenes);
+            self.add(scenes);
         }
-    }
-
-    /// Files and folders that were opened, in this session or in earlier ones, the latest first.
-    pub fn opened(&self) -> &[PathBuf] {
-        &self.scene_list.opened
-    }
-
-    /// Takes up what earlier sessions opened.
-    pub(in crate::viewer) fn remember_opened(&mut self, earlier: &[PathBuf]) {
-        let now = std::mem::take(&mut self.scene_list.opened);
-        self.scene_list.note_opened(earlier);
-        self.scene_list.note_opened(&now);
     }
 
     /// A picture whose scene is gone leaves a list with something to look at too.
     fn open_gallery_if_empty(&mut self) {
         if self.scene_list.scenes.is_empty() {
-            self.replace_scenes(library::gallery_entries());
+            self.replace(library::gallery_entries());
         }
     }
 
-    /// Appends scenes and shows the first of them; one that is in the list already is read again instead.
-    pub(in crate::viewer) fn add_scenes(&mut self, scenes: Vec<SceneEntry>) {
-        let place = |list: &[SceneEntry], source: &SceneSource| list.iter().position(|entry| entry.source == *source);
-        let first = scenes.first().map(|entry| entry.source.clone());
-        for mut scene in scenes {
-            if place(&self.scene_list.scenes, &scene.source).is_some() {
-                continue;
-            }
-            if self.scene_list.scenes.len() >= library::MAX_SCENES {
-                self.chrome.messages.error(format!(
-                    "{}: the list is full; start the program anew with it",
-                    scene.label
-                ));
-                break;
-            }
-            scene.camera = Camera::new(self.scene_list.start_view);
-            self.scene_list.scenes.push(scene);
+    /// Closes or unpins one thing, the latest first; false when nothing is open.
+    pub(in crate::viewer) fn close_latest(&mut self) -> bool {
+        if self.chrome.close_latest() {
+            return true;
         }
-        if let Some(index) = first.and_then(|source| place(&self.scene_list.scenes, &source)) {
-            let known =
-                self.scene_list.scenes[index].scene().is_some() || self.scene_list.scenes[index].failure().is_some();
-            self.scene_list.current = index;
-            if known {
-                self.read_current();
-            }
-        }
+        let mut context = ComparisonContext {
+            settings: self.settings,
+            messages: &mut self.chrome.messages,
+        };
+        self.ab.escape_arrangement(&mut context)
+            || self.inspector.magnifier.pin.take().is_some()
+            || std::mem::take(&mut self.inspector.magnifier.open)
+            || self.ab.escape(&mut context)
+            || self.lessons().close()
     }
 
-    pub(in crate::viewer) fn replace_scenes(&mut self, mut scenes: Vec<SceneEntry>) {
+    fn add(&mut self, scenes: Vec<SceneEntry>) {
+        let dialects = self.ab.wanted_dialects(self.settings);
+        self.scene_list.add(scenes, dialects, &mut self.chrome.messages);
+    }
+
+    fn replace(&mut self, scenes: Vec<SceneEntry>) {
         // Its steps would show other scenes.
-        self.lesson = None;
-        for scene in &mut scenes {
-            scene.camera = Camera::new(self.scene_list.start_view);
+        *self.lesson = None;
+        self.scene_list.replace(scenes);
+    }
+
+    /// Shows what a picture's record tells: scene, view, settings. False where it has none.
+    fn restore(&mut self, shot: &Path) -> bool {
+        let grammar = self.export.grammar;
+        let restored = match grammar.map(|grammar| Restored::of_file(shot, grammar.picture)) {
+            None | Some(Ok(None)) => return false,
+            Some(Ok(Some(restored))) => restored,
+            Some(Err(problem)) => {
+                self.chrome.messages.error(problem);
+                return true;
+            }
+        };
+        let address = PathBuf::from(restored.spec.scene.address());
+        let (scenes, problems) = library::list_scenes(&[address]);
+        if let Some(problem) = problems.into_iter().next() {
+            let name = shot.display();
+            self.chrome
+                .messages
+                .error(format!("{name}: the scene of this picture is not there: {problem}"));
+            return true;
         }
-        self.scene_list.scenes = scenes;
-        self.scene_list.generation += 1;
-        self.scene_list.readers.drop_thumbnails();
-        self.scene_list.recent.clear();
-        self.scene_list.current = 0;
+        if self.scene_list.scenes.is_empty() {
+            self.replace(scenes);
+        } else {
+            self.add(scenes);
+        }
+        self.settings.render = restored.spec.render;
+        self.settings.render.outline = true;
+        self.settings.dialect = restored.spec.dialect;
+        if let Some(entry) = self.scene_list.current_mut() {
+            entry.camera = Camera::new(restored.spec.view);
+        }
+        self.chrome.messages.done(format!("as in {}", shot.display()));
+        self.export.restored = Some(restored);
+        true
+    }
+
+    /// Tells, once the scene was read, what changed since its picture was made.
+    pub(in crate::viewer) fn complete_restored(&mut self) {
+        let Some(entry) = self.scene_list.current().filter(|entry| !entry.is_reading()) else {
+            return;
+        };
+        let Some(scene) = entry.scene().cloned() else { return };
+        let source = entry.source.clone();
+        let Some(restored) = self.export.restored.take_if(|restored| restored.spec.scene == source) else {
+            return;
+        };
+        if let Some(inset) = restored.spec.insets.first() {
+            self.pin_as_in(inset, &restored.spec, scene.canvas);
+        }
+        if let Some(differs) = &restored.record.differs {
+            self.chrome
+                .messages
+                .done(format!("{}: {differs}", restored.shot.display()));
+        }
+        if let Some(change) = restored.changes(&scene.files) {
+            self.chrome.messages.error(change);
+        }
+    }
+
+    /// Pins the place of an inset, in a window that may have another size than the picture.
+    fn pin_as_in(&mut self, inset: &InsetSpec, spec: &PictureSpec, canvas: DVec2) {
+        let place = match inset.at {
+            InsetPlace::User(place) => place,
+            InsetPlace::Pixel(pixel) => {
+                let centre = DVec2::from(pixel.map(f64::from)) + 0.5;
+                spec.view.transform(canvas, spec.size).to_scene(centre)
+            }
+        };
+        self.inspector.magnifier.set_magnification(inset.magnification);
+        self.inspector.magnifier.set_region(inset.region);
+        self.inspector.magnifier.open = true;
+        self.inspector.pin_place(place, self.scene_list);
     }
 }

@@ -1,186 +1,122 @@
-//! Screenshots and copies of the picture: asked for now, made when the frame of this state is there.
+//! Screenshots and sheets: asked for now, made when the frame and the scene of this state are there.
 
-use std::path::Path;
-use std::sync::Arc;
+use crate::viewer::chrome::Dialog;
+use crate::viewer::control::copy::Copied;
+use crate::viewer::control::recipes::Recipes;
+use crate::viewer::export::saver::Work;
+use crate::viewer::export::sheet::desk::SheetDesk;
+use crate::viewer::export::sheet::preview::SheetQuestion;
+use crate::viewer::export::sheet::saving::SheetJob;
+use crate::viewer::export::state::Export;
+use crate::viewer::{ExportCommand, SheetCommand};
 
-use crate::figure::{Record, add_legends};
-use crate::raster::Framebuffer;
-use crate::viewer::command::Effect;
-use crate::viewer::export::saver::{Recipe, Saved, Shot, Work};
-use crate::viewer::export::spec::PictureSpec;
-use crate::viewer::frames::frame::Frame;
-use crate::viewer::state::Viewer;
+/// What saves, and what it saves.
+#[derive(Debug)]
+pub(in crate::viewer) struct Saving<'a> {
+    pub(in crate::viewer) recipes: Recipes<'a>,
+    pub(in crate::viewer) export: &'a mut Export,
+    pub(in crate::viewer) sheet: &'a mut SheetDesk,
+}
 
-impl Viewer {
-    /// Saves the picture of the whole window, as [`crate::viewer::command::Effect::PictureOfWindow`] asks for it.
-    pub fn save_window_picture(&mut self, window: Framebuffer) {
-        if window.pixels().is_empty() {
-            self.chrome
-                .messages
-                .error("nothing to save: the window has no pixels; make it larger".to_owned());
-        } else {
-            let recipe = self.recipe_of_window();
-            self.export
-                .saver
-                .push(Work::Picture(Shot::Ready(window), recipe.map(Box::new)));
+/// What became of the screenshots that were asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::viewer) enum Screenshots {
+    /// There are none, or their frame is still to come.
+    Wait,
+    /// They are being saved.
+    Saved,
+    /// There is nothing to save.
+    NoPicture,
+}
+
+impl Saving<'_> {
+    /// What a command puts on the clipboard, if it does, or why it cannot; a screenshot is noted.
+    pub(in crate::viewer) fn export(&mut self, command: ExportCommand) -> Option<Result<Copied, String>> {
+        let recipes = &self.recipes;
+        match command {
+            // The program around the viewer makes it.
+            ExportCommand::WindowScreenshot => None,
+            ExportCommand::Screenshot => {
+                self.export.saver.ask(recipes.both.frames.drawing.newest_request());
+                None
+            }
+            ExportCommand::Copy if recipes.pixels.inspector.magnifier.open => Copied::pixel(&recipes.pixels).map(Ok),
+            ExportCommand::CopyPixel => Copied::pixel(&recipes.pixels).map(Ok),
+            ExportCommand::Copy | ExportCommand::CopyPicture => Some(Copied::picture(recipes)),
+            ExportCommand::CopyExplanation => Some(Copied::explanation(recipes)),
+            ExportCommand::CopyCommandLine => recipes.command_line().map(Copied::text).map(Ok),
         }
-        self.update();
     }
 
-    pub(in crate::viewer) fn ask_for_screenshot(&mut self) {
-        self.export.saver.waiting = self.export.saver.waiting.saturating_add(1);
-        self.export.saver.since = self.frames.drawing.newest_request();
-        // No preview, and no rest: the picture of this moment, even if the view goes on moving.
-        self.set_hurry(true);
+    /// The same for a command about the sheet.
+    pub(in crate::viewer) fn change_sheet(&mut self, command: SheetCommand) -> Option<Result<Copied, String>> {
+        match command {
+            SheetCommand::Change(change) => self.sheet.draft.change(change),
+            SheetCommand::SetRoom(room) => self.sheet.room = room,
+            SheetCommand::Save => self.sheet.ask(),
+            SheetCommand::CopyCommandLine => {
+                let line = self.recipes.sheet_command_line(self.sheet);
+                return line.map(Copied::text).map(Ok);
+            }
+        }
+        None
     }
 
-    /// The picture that screenshots wait for is another one now.
-    pub(in crate::viewer) fn wait_for_newest_frame(&mut self) {
-        self.export.saver.since = self.frames.drawing.newest_request();
+    fn sheet_question(&self) -> Option<SheetQuestion> {
+        self.recipes.sheet_question(self.sheet, self.export.grammar)
     }
 
     /// Saves the screenshots that wait, as soon as there is a final frame of the state when they were asked for, or of
     /// a later one.
-    pub(in crate::viewer) fn save_when_ready(&mut self) {
-        let reading = self
-            .current()
-            .is_some_and(crate::viewer::library::SceneEntry::is_reading);
-        if self.export.saver.waiting == 0 || reading || !self.inspector.samples.is_current() {
-            return;
+    pub(in crate::viewer) fn save_screenshots(&mut self) -> Screenshots {
+        let both = self.recipes.both;
+        let (drawing, saver) = (&both.frames.drawing, &mut self.export.saver);
+        let probed = self.recipes.pixels.inspector.samples.is_current();
+        if !saver.is_waiting() || both.scene_list.is_reading() || !probed {
+            return Screenshots::Wait;
         }
-        let Some(frame) = self.frames.drawing.final_frame(self.export.saver.since).cloned() else {
-            if !self.frames.drawing.is_current() {
-                return;
+        let Some(frame) = drawing.final_frame(saver.since) else {
+            if !drawing.is_current() {
+                return Screenshots::Wait;
             }
-            self.export.saver.waiting = 0;
-            self.set_hurry(false);
-            self.chrome
-                .messages
-                .error("nothing to save: there is no picture; open a scene first".to_owned());
-            return;
+            saver.waiting = 0;
+            return Screenshots::NoPicture;
         };
-        if self.ab.shows_both() && !self.ab.is_current() {
-            return;
+        if both.ab.shows_both() && !both.ab.is_current() {
+            return Screenshots::Wait;
         }
-        let recipe = self.recipe_of_frame(&frame, self.ab.shows_both());
-        for _ in 0..std::mem::take(&mut self.export.saver.waiting) {
-            let shot = self.shot_of(&frame, recipe.as_ref());
-            self.export
-                .saver
-                .push(Work::Picture(shot, recipe.clone().map(Box::new)));
+        let recipe = self.recipes.recipe_of_frame(frame, both.ab.shows_both());
+        for _ in 0..std::mem::take(&mut saver.waiting) {
+            let shot = self.recipes.shot_of(frame, recipe.as_ref());
+            saver.push(Work::Picture(shot, recipe.clone().map(Box::new)));
         }
-        self.set_hurry(false);
+        Screenshots::Saved
     }
 
-    /// What a screenshot of this frame shows.
-    fn shot_of(&self, frame: &Arc<Frame>, recipe: Option<&Recipe>) -> Shot {
-        if !self.ab.shows_both() {
-            return Shot::Frame {
-                frame: Arc::clone(frame),
-                insets: recipe.map_or(Vec::new(), |recipe| recipe.spec.insets.clone()),
-                legends: self.legends_of_picture(),
-            };
-        }
-        if self.inspector.inset.is_some() {
-            // The inset is in window pixels.
-            return Shot::Ready(self.window_picture());
-        }
-        let mut picture = self.composite().picture();
-        add_legends(&mut picture, &self.legends_of_picture(), &[]);
-        Shot::Ready(picture)
+    /// Sees to it that the preview of the sheet follows, while it is to be seen.
+    pub(in crate::viewer) fn want_sheet(&mut self) {
+        let is_open = self.recipes.pixels.chrome.dialog == Some(Dialog::Sheet);
+        let is_seen = is_open && !self.sheet.room.contains(&0);
+        let question = is_seen.then(|| self.sheet_question()).flatten();
+        self.sheet.previews.want(question, |_| None);
     }
 
-    /// Copies the inspected pixel in words, or the picture while no pixel is inspected.
-    pub(in crate::viewer) fn copy(&mut self) -> Vec<Effect> {
-        if self.inspector.magnifier.open {
-            self.copy_pixel()
-        } else {
-            self.copy_picture()
+    /// Saves the sheets that wait for their scene.
+    ///
+    /// # Errors
+    /// One line for the user when there is nothing to save.
+    pub(in crate::viewer) fn save_sheets(&mut self) -> Result<(), &'static str> {
+        if self.sheet.waiting == 0 || self.recipes.both.scene_list.is_reading() {
+            return Ok(());
         }
-    }
-
-    /// The picture as a screenshot of this moment shows it.
-    pub(in crate::viewer) fn copy_picture(&mut self) -> Vec<Effect> {
-        let frame = self
-            .frames
-            .drawing
-            .final_frame(self.frames.drawing.newest_request())
-            .cloned();
-        let both_current = !self.ab.shows_both() || self.ab.is_current();
-        let Some(frame) = frame.filter(|_| both_current) else {
-            let problem = "nothing copied: there is no finished picture yet; copy again when it is drawn";
-            self.chrome.messages.error(problem.to_owned());
-            return Vec::new();
+        let jobs = std::mem::take(&mut self.sheet.waiting);
+        let job = self.sheet_question().zip(self.recipes.picture_spec());
+        let Some((question, spec)) = job else {
+            return Err("no sheet to save: there is no picture; open a scene first");
         };
-        let recipe = self.recipe_of_frame(&frame, self.ab.shows_both());
-        match self.shot_of(&frame, recipe.as_ref()).picture() {
-            Ok(picture) => {
-                let (width, height) = (picture.width(), picture.height());
-                self.chrome
-                    .messages
-                    .done(format!("copied the picture, {width} x {height} pixels"));
-                vec![Effect::CopyPicture(picture)]
-            }
-            Err(problem) => {
-                self.chrome.messages.error(problem);
-                Vec::new()
-            }
+        for _ in 0..jobs {
+            self.export.saver.push_sheet(SheetJob::new(&question, spec.clone()));
         }
-    }
-
-    /// How the picture of the whole window was made.
-    fn recipe_of_window(&self) -> Option<Recipe> {
-        Some(Recipe {
-            spec: self.picture_spec()?,
-            scene: Arc::clone(self.current()?.scene()?),
-            differs: Some("a picture of the window; the command line draws what it shows, without panels".to_owned()),
-        })
-    }
-
-    /// The record of a picture of the window that is written to `output`; `None` without a scene.
-    pub fn record_of_window(&self, output: &Path) -> Option<Record> {
-        Some(self.recipe_of_window()?.record(output))
-    }
-
-    /// How a frame was made, and what else its picture shows.
-    fn recipe_of_frame(&self, frame: &Frame, with_other: bool) -> Option<Recipe> {
-        let now = self.picture_spec()?;
-        let picture = &frame.picture;
-        let spec = PictureSpec {
-            size: picture.size,
-            render: picture.settings,
-            // What A and B share has its own insets, in window pixels.
-            insets: if with_other { Vec::new() } else { now.insets.clone() },
-            ..now
-        };
-        let drawn_of_now = self
-            .current()?
-            .scene()
-            .is_some_and(|scene| Arc::ptr_eq(scene, &picture.scene));
-        let seen_from_there = spec.view.transform(picture.scene.canvas, picture.size) == picture.view;
-        let differs = if !drawn_of_now || !seen_from_there {
-            Some("the view moved on while this picture was saved; the command line draws where it went")
-        } else if with_other {
-            Some("A and B share this picture; the command line draws A alone")
-        } else {
-            None
-        };
-        Some(Recipe {
-            spec,
-            scene: Arc::clone(&picture.scene),
-            differs: differs.map(str::to_owned),
-        })
-    }
-
-    pub(in crate::viewer) fn picture_saved(&mut self, Saved(saved): Saved) {
-        self.export.saver.running = self.export.saver.running.saturating_sub(1);
-        match saved {
-            Ok((path, [width, height])) => {
-                self.chrome
-                    .messages
-                    .done(format!("saved {}, {width} x {height} pixels", path.display()));
-            }
-            Err(problem) => self.chrome.messages.error(problem),
-        }
+        Ok(())
     }
 }

@@ -2,23 +2,13 @@
 
 use std::time::Instant;
 
-use crate::viewer::state::{DrawnState, Finished, Viewer};
+use crate::raster::Framebuffer;
+use crate::viewer::ab::requests::ComparisonContext;
+use crate::viewer::control::save::Screenshots;
+use crate::viewer::export::saver::{Shot, Work};
+use crate::viewer::state::{Finished, Viewer};
 
 impl Viewer {
-    pub(in crate::viewer) fn drawn_state(&self) -> DrawnState {
-        DrawnState {
-            frame: self.frames.drawing.number(),
-            comparison: self.ab.state(),
-            panes: self.panes(),
-            samples: self.inspector.samples.number(),
-            inset: self.inspector.inset,
-            other_inset: self.inspector.other_inset,
-            legends: self.frames.legends.places(),
-            pixel_zoom: self.settings.pixel_zoom,
-            window: self.chrome.window,
-        }
-    }
-
     /// Takes in what the threads finished; true if something that is to be seen changed. Never waits.
     pub fn poll(&mut self) -> bool {
         let mut any = false;
@@ -27,7 +17,7 @@ impl Viewer {
             any = true;
         }
         if self.due().is_some_and(|due| due <= Instant::now()) {
-            self.look_at_drawings();
+            self.drawings().look();
             any = true;
         }
         if any {
@@ -43,25 +33,19 @@ impl Viewer {
 
     /// Whether the final frame of the current state is there, and what the inspector and a comparison say about it.
     pub fn is_final(&self) -> bool {
-        let reading = self
-            .current()
-            .is_some_and(|entry| entry.is_reading() || entry.is_read_for_b());
         let drawn = self.frames.drawing.is_current() && self.ab.is_current();
-        !reading
+        !self.scene_list.is_reading_any()
             && drawn
-            && self.inspector.samples.is_current()
-            && self.explains_all()
-            && self.is_measured()
+            && self.inspector.is_answered()
+            && self.both().is_measured()
             && self.sheet.is_current()
     }
 
     /// When to call [`Viewer::poll`] even if nothing wakes the event loop: then the hand rests, and the preview on the
     /// screen is to be refined, or nobody came for [`Viewer::draw_frame`]. `None` while there is nothing to wait for.
     pub fn due(&self) -> Option<Instant> {
-        [self.frames.drawing.due(), self.comparison_due()]
-            .into_iter()
-            .flatten()
-            .min()
+        let both = [self.frames.drawing.due(), self.ab.due()];
+        both.into_iter().flatten().min()
     }
 
     /// Waits until [`Viewer::is_settled`]: for scripts, tests and pictures without a window.
@@ -76,46 +60,38 @@ impl Viewer {
 
     fn finish_until(&mut self, done: fn(&Self) -> bool) {
         self.poll();
-        self.set_hurry(true);
+        self.drawings().set_hurry(true);
         while !done(self) {
             // Every pending piece of work sends its result, even when it fails; without threads there is none left.
             let Ok(finished) = self.results.recv() else { break };
             self.take_in(finished);
             self.update();
         }
-        self.set_hurry(self.export.saver.is_waiting());
-    }
-
-    /// Starts what is due.
-    fn look_at_drawings(&mut self) {
-        self.frames.drawing.look();
-        if let Some(drawing) = self.ab.drawing_mut() {
-            drawing.look();
-        }
+        let waits = self.export.saver.is_waiting();
+        self.drawings().set_hurry(waits);
     }
 
     pub(in crate::viewer) fn take_in(&mut self, finished: Finished) {
         match finished {
-            Finished::Read(read) => self.scene_read(read),
-            Finished::Drawn(id, drawn) => {
-                self.hold_pair();
-                let drawing = self.drawing_of(id);
-                let failed = drawing.is_some_and(|drawing| drawing.finished(drawn) && drawing.has_failed());
-                self.release_pair();
-                if failed {
-                    let name = self.current().map_or(String::new(), |entry| entry.label.clone());
-                    self.chrome.messages.error(format!(
-                        "{name}: drawing this view failed inside the program; please report it with the file"
-                    ));
+            Finished::Read(read) => self.scene_list.take_in(read, self.settings.dialect, &mut self.chrome),
+            Finished::Drawn(id, drawn) => self.drawings().take_in(id, drawn),
+            Finished::Measured(measured) => {
+                if self.ab.measured(measured) {
+                    self.hand().jump();
                 }
             }
-            Finished::Measured(measured) => self.measured(measured),
-            Finished::PictureRead(read) => self.picture_read(read),
+            Finished::PictureRead(read) => {
+                let mut context = ComparisonContext {
+                    settings: &self.settings,
+                    messages: &mut self.chrome.messages,
+                };
+                self.ab.picture_read(read, &mut context);
+            }
             Finished::Probed(target, samples) => self.inspector.samples.finished(target, samples),
             Finished::Explained(asked, explanation) => self.inspector.explanation.finished(asked, *explanation),
             Finished::Contributed(target, found) => self.inspector.contributions.finished(target, *found),
-            Finished::Thumbnail(thumbnail) => self.thumbnail_drawn(thumbnail),
-            Finished::Saved(saved) => self.picture_saved(saved),
+            Finished::Thumbnail(thumbnail) => self.scene_list.thumbnail_drawn(thumbnail),
+            Finished::Saved(saved) => self.export.saver.take_in(saved, &mut self.chrome.messages),
             Finished::SheetDrawn(question, drawn) => self.sheet.previews.finished(question, *drawn),
         }
     }
@@ -123,25 +99,49 @@ impl Viewer {
     /// After any change: reads what must be read, wants the right frame, places the inset, saves what waits for it.
     pub(in crate::viewer) fn update(&mut self) {
         self.revision += 1;
-        self.want_scene();
-        self.complete_restored();
-        self.follow_lesson();
-        self.follow_free_part();
-        self.keep_pin_in_place();
-        self.place_inset();
-        self.want_frame();
-        self.update_comparison();
-        self.want_samples();
-        self.want_explanation();
-        self.want_contributions();
-        self.place_legends();
-        let drawn = self.drawn_state();
+        self.scene_list.want(self.ab.wanted_dialects(&self.settings));
+        let mut opening = self.opening();
+        opening.complete_restored();
+        opening.lessons().follow();
+        let in_lesson = self.lesson.is_some();
+        self.hand().place(in_lesson);
+        self.drawings().want_frame();
+        self.drawings().update_comparison();
+        self.hand().want_answers();
+        let legends = self.pixels().legends();
+        self.frames.legends.place(legends);
+        let drawn = self.window().drawn_state();
         if self.last_drawn != Some(drawn) {
             self.last_drawn = Some(drawn);
             self.picture_revision += 1;
         }
-        self.save_when_ready();
-        self.want_sheet();
-        self.save_sheets_when_ready();
+        let screenshots = self.saving().save_screenshots();
+        if screenshots != Screenshots::Wait {
+            self.drawings().set_hurry(false);
+        }
+        if screenshots == Screenshots::NoPicture {
+            let problem = "nothing to save: there is no picture; open a scene first";
+            self.chrome.messages.error(problem.to_owned());
+        }
+        let mut saving = self.saving();
+        saving.want_sheet();
+        if let Err(problem) = saving.save_sheets() {
+            self.chrome.messages.error(problem.to_owned());
+        }
+    }
+
+    /// Saves the picture of the whole window, as [`crate::viewer::command::Effect::PictureOfWindow`] asks for it.
+    pub fn save_window_picture(&mut self, window: Framebuffer) {
+        if window.pixels().is_empty() {
+            self.chrome
+                .messages
+                .error("nothing to save: the window has no pixels; make it larger".to_owned());
+        } else {
+            let recipe = self.recipes().recipe_of_window();
+            self.export
+                .saver
+                .push(Work::Picture(Shot::Ready(window), recipe.map(Box::new)));
+        }
+        self.update();
     }
 }

@@ -13,6 +13,7 @@ use crate::figure::{InsetSpec, Record, add_furniture, encode_png, write_new};
 use crate::raster::Framebuffer;
 use crate::render::Legend;
 use crate::scene::Scene;
+use crate::viewer::chrome::messages::Messages;
 use crate::viewer::export::naming::NameTemplate;
 use crate::viewer::export::sheet::saving::SheetJob;
 use crate::viewer::export::spec::PictureSpec;
@@ -38,7 +39,7 @@ pub(in crate::viewer) struct Saver {
     pub(in crate::viewer) waiting: u32,
     pub(in crate::viewer) since: u64,
     /// Pictures at work.
-    pub(in crate::viewer) running: u32,
+    running: u32,
 }
 
 /// What is to be saved, and where.
@@ -111,9 +112,26 @@ impl Saver {
         self.waiting == 0 && self.running == 0
     }
 
+    /// A screenshot of the frame of this request, or of a later one, is to be saved.
+    pub(in crate::viewer) fn ask(&mut self, request: u64) {
+        self.waiting = self.waiting.saturating_add(1);
+        self.since = request;
+    }
+
     /// Whether a screenshot waits for its frame.
     pub(in crate::viewer) fn is_waiting(&self) -> bool {
         self.waiting > 0
+    }
+
+    /// Takes in what became of a picture, and tells the user.
+    pub(in crate::viewer) fn take_in(&mut self, Saved(saved): Saved, messages: &mut Messages) {
+        self.running = self.running.saturating_sub(1);
+        match saved {
+            Ok((path, [width, height])) => {
+                messages.done(format!("saved {}, {width} x {height} pixels", path.display()));
+            }
+            Err(problem) => messages.error(problem),
+        }
     }
 
     /// Saves a sheet beside the pictures.

@@ -7,13 +7,14 @@ use crate::raster::Framebuffer;
 use crate::render::{Legend, Visualisation};
 use crate::scene::Scene;
 use crate::viewer::PixelRect;
+use crate::viewer::frames::present::{WindowPixels, paste};
 
 /// The legends on the screen: of A, and of B where that shows something else.
 #[derive(Debug, Default)]
 pub(in crate::viewer) struct Legends {
-    pub(in crate::viewer) request: Option<LegendRequest>,
+    request: Option<LegendRequest>,
     pub(in crate::viewer) placed: Vec<(PixelRect, Framebuffer)>,
-    pub(in crate::viewer) number: u64,
+    number: u64,
 }
 
 /// Where the legends lie, and a number that grows with every change of them.
@@ -51,10 +52,29 @@ impl Legends {
             number: self.number,
         }
     }
+
+    /// Puts the legends that are asked for where they have room now.
+    pub(in crate::viewer) fn place(&mut self, request: Option<LegendRequest>) {
+        if request == self.request {
+            return;
+        }
+        self.placed = request.as_ref().map_or_else(Vec::new, LegendRequest::place);
+        self.request = request;
+        self.number += 1;
+    }
+
+    /// Draws the legends as far as they lie in `parts`.
+    pub(in crate::viewer) fn draw(&self, parts: &[PixelRect], window: &mut WindowPixels<'_>) {
+        for (rect, picture) in &self.placed {
+            for part in parts {
+                paste(picture, [rect.x, rect.y], window, part);
+            }
+        }
+    }
 }
 
 impl LegendRequest {
-    pub(in crate::viewer) fn place(&self) -> Vec<(PixelRect, Framebuffer)> {
+    fn place(&self) -> Vec<(PixelRect, Framebuffer)> {
         let legends: Vec<Legend> = self
             .shown
             .iter()

@@ -1,11 +1,18 @@
-//! A's frame: what draws it, and what of it the window shows.
+//! A's frame: what draws it, what of it is on the screen, and what lies over it.
 
+use std::time::{Duration, Instant};
+
+use crate::viewer::PixelRect;
 use crate::viewer::frames::drawing::Drawing;
+use crate::viewer::frames::frame::{Frame, PreviewQuality};
 use crate::viewer::frames::legends::Legends;
+
+/// A refinement that takes longer shows how far it is.
+const LONG: Duration = Duration::from_millis(200);
 
 /// What draws A's frame, and what lies over it.
 #[derive(Debug)]
-pub(in crate::viewer) struct Frames {
+pub struct Frames {
     pub(in crate::viewer) drawing: Drawing,
     /// Draws quick frames for whoever shows them on a surface that it lends.
     pub(in crate::viewer) surface_pool: Option<rayon::ThreadPool>,
@@ -19,5 +26,52 @@ impl Frames {
             surface_pool: None,
             legends: Legends::default(),
         }
+    }
+
+    /// The frame on the screen. It may show an older state, or be a preview; see
+    /// [`Viewer::is_settled`](crate::viewer::Viewer::is_settled).
+    pub fn frame(&self) -> Option<&Frame> {
+        self.drawing.frame()
+    }
+
+    /// How the frame on the screen was made, unless it is final.
+    pub fn preview(&self) -> Option<PreviewQuality> {
+        Some(self.frame()?.preview.as_ref()?.quality)
+    }
+
+    /// Since when the picture on the screen has been wanted.
+    pub fn wanted_since(&self) -> Instant {
+        self.drawing.frame_since()
+    }
+
+    /// Whether final tiles are being drawn over what is on the screen.
+    pub fn is_refining(&self) -> bool {
+        self.drawing.refinement().is_some()
+    }
+
+    /// Which part of a refinement that takes long is done, `0.0..=1.0`.
+    pub fn long_refinement(&self) -> Option<f64> {
+        let (since, done) = self.drawing.refinement()?;
+        (Instant::now().saturating_duration_since(since) >= LONG).then_some(done)
+    }
+
+    /// What the status line says about a frame that is not final, such as `preview, rate 1`.
+    pub fn preview_text(&self) -> Option<String> {
+        let preview = self.preview();
+        match (preview, self.drawing.refinement()) {
+            (Some(_), Some((_, done))) => Some(format!("refining {:.0} %", done * 100.0)),
+            (Some(quality), None) => Some(format!("preview, {quality}")),
+            (None, _) => None,
+        }
+    }
+
+    /// Whether a frame is quick to draw and waits for [`Viewer::draw_frame`](crate::viewer::Viewer::draw_frame).
+    pub fn waits_for_surface(&self) -> bool {
+        self.drawing.waits_for_surface()
+    }
+
+    /// Where legends lie in the window, in window pixels.
+    pub fn legend_places(&self) -> Vec<PixelRect> {
+        self.legends.placed.iter().map(|(rect, _)| *rect).collect()
     }
 }

@@ -5,6 +5,7 @@
 
 pub(in crate::viewer) mod contributions;
 pub(in crate::viewer) mod explanation;
+pub(in crate::viewer) mod pin;
 pub(in crate::viewer) mod samples;
 pub(in crate::viewer) mod side_by_side;
 pub(in crate::viewer) mod state;

@@ -1,5 +1,7 @@
 //! A lesson that is open, and what comes back when it is closed.
 
+use std::path::Path;
+
 use crate::viewer::lesson::model::Lesson;
 use crate::viewer::lesson::source::LessonSource;
 use crate::viewer::library::SceneEntry;
@@ -21,6 +23,16 @@ pub(in crate::viewer) struct Walk {
     /// The view that shows the whole canvas, while nobody moved it: it follows the free part of the window.
     pub(in crate::viewer) fitted: Option<Camera>,
     pub(in crate::viewer) before: Before,
+}
+
+impl Walk {
+    /// The file that it was read from, if from any.
+    pub(in crate::viewer) fn file(&self) -> Option<&Path> {
+        match self.source.as_ref()? {
+            LessonSource::File(path) => Some(path),
+            LessonSource::BuiltIn(_) => None,
+        }
+    }
 }
 
 /// What comes back when the lesson is closed.

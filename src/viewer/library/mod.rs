@@ -1,8 +1,11 @@
 //! The scenes a user can switch between: files, every scene in a folder, or the built-in gallery.
 
+mod cameras;
 pub(in crate::viewer) mod dialects;
 pub mod gallery;
+mod listing;
 pub(in crate::viewer) mod readers;
+mod reading;
 pub(in crate::viewer) mod state;
 
 use std::cmp::Ordering;

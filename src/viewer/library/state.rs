@@ -1,19 +1,19 @@
 //! The list of scenes: which is shown, and what was read of them.
 
 use std::collections::HashMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::geometry::View;
 use crate::scene::Dialect;
-use crate::viewer::library::SceneEntry;
 use crate::viewer::library::readers::Readers;
+use crate::viewer::library::{SceneEntry, SceneSource};
 
 /// Files that are kept as opened.
 const MOST_OPENED: usize = 12;
 
 /// The list of scenes, and what reads them.
 #[derive(Debug)]
-pub(in crate::viewer) struct SceneList {
+pub struct SceneList {
     pub(in crate::viewer) scenes: Vec<SceneEntry>,
     /// The dialects that were chosen for the scenes of folders.
     pub(in crate::viewer) chosen_readings: HashMap<PathBuf, Dialect>,
@@ -51,15 +51,89 @@ impl SceneList {
         }
     }
 
+    /// All scenes, in the order of the list.
+    pub fn scenes(&self) -> &[SceneEntry] {
+        &self.scenes
+    }
+
+    /// The place of the current scene in the list.
+    pub fn current_index(&self) -> usize {
+        self.current
+    }
+
+    /// Files and folders that were opened, by this program or by earlier ones, the latest first.
+    pub fn opened(&self) -> &[PathBuf] {
+        &self.opened
+    }
+
+    /// Whether files are to be read again when they change on the disk.
+    pub fn follows_files(&self) -> bool {
+        self.follows_files
+    }
+
+    /// What the current scene says about itself.
+    pub fn words(&self) -> Option<&str> {
+        self.current()?.scene()?.words.as_deref()
+    }
+
+    /// Whether the current scene could not be read, so that there is nothing to look at.
+    pub fn has_no_picture(&self) -> bool {
+        self.current().is_some_and(SceneEntry::has_no_picture)
+    }
+
+    /// The files that the current scene was read from: its own and those of its textures.
+    pub(in crate::viewer) fn files(&self) -> Vec<PathBuf> {
+        let Some((entry, SceneSource::File(document))) = self.current().map(|entry| (entry, &entry.source)) else {
+            return Vec::new();
+        };
+        let folder = document.parent().unwrap_or(Path::new(""));
+        let textures = entry.scene().map(|scene| scene.files.textures.as_slice());
+        let textures = textures.unwrap_or_default().iter();
+        let textures = textures.map(|(address, _)| folder.join(address));
+        std::iter::once(document.clone()).chain(textures).collect()
+    }
+
+    /// Whether a thread reads the current scene.
+    pub(in crate::viewer) fn is_reading(&self) -> bool {
+        self.current().is_some_and(SceneEntry::is_reading)
+    }
+
+    /// The same, in A's dialect or in B's.
+    pub(in crate::viewer) fn is_reading_any(&self) -> bool {
+        self.current()
+            .is_some_and(|entry| entry.is_reading() || entry.is_read_for_b())
+    }
+
+    /// The name of the current scene; empty without one.
+    pub(in crate::viewer) fn label(&self) -> String {
+        self.current().map_or(String::new(), |entry| entry.label.clone())
+    }
+
     /// The scene that is shown; `None` only while the list is empty.
-    pub(in crate::viewer) fn current(&self) -> Option<&SceneEntry> {
+    pub fn current(&self) -> Option<&SceneEntry> {
         self.scenes.get(self.current)
+    }
+
+    pub(in crate::viewer) fn current_mut(&mut self) -> Option<&mut SceneEntry> {
+        self.scenes.get_mut(self.current)
+    }
+
+    /// Tells the current scene from all others, also from those of earlier lists.
+    pub(in crate::viewer) fn identity(&self) -> (usize, u64) {
+        (self.current, self.generation)
+    }
+
+    /// Takes up what was opened earlier.
+    pub(in crate::viewer) fn remember_opened(&mut self, earlier: &[PathBuf]) {
+        let now = std::mem::take(&mut self.opened);
+        self.note_opened(earlier);
+        self.note_opened(&now);
     }
 
     /// Notes that these were opened, the first as the latest.
     pub(in crate::viewer) fn note_opened(&mut self, paths: &[PathBuf]) {
         for path in paths.iter().rev() {
-            // Another session starts in another folder.
+            // The program may start in another folder next time.
             let Ok(path) = std::path::absolute(path) else { continue };
             self.opened.retain(|before| *before != path);
             self.opened.insert(0, path);
@@ -74,7 +148,7 @@ impl SceneList {
         }
     }
 
-    /// Shows the scene so many places on, round and round.
+    /// Shows the scene `by` places further on, round and round.
     pub(in crate::viewer) fn step(&mut self, by: usize) {
         if !self.scenes.is_empty() {
             self.show((self.current + by) % self.scenes.len());

@@ -164,7 +164,7 @@ impl Stage for ViewerStage<'_> {
                 Effect::CopyPicture(_) => {}
                 Effect::PictureOfWindow => {
                     self.viewer.finish();
-                    let picture = self.viewer.window_picture();
+                    let picture = self.viewer.window().picture();
                     self.viewer.save_window_picture(picture);
                 }
                 Effect::Quit => self.has_quit = true,
@@ -177,7 +177,7 @@ impl Stage for ViewerStage<'_> {
     }
 
     fn shot(&mut self, path: &Path) -> Result<(), String> {
-        save_window(self.viewer, &self.viewer.window_picture(), path).map_err(|error| {
+        save_window(self.viewer, &self.viewer.window().picture(), path).map_err(|error| {
             format!(
                 "{}: cannot write this file: {error}; choose another place",
                 path.display()
@@ -195,6 +195,11 @@ impl Stage for ViewerStage<'_> {
 /// # Errors
 /// When it has no pixels or the file cannot be written.
 pub fn save_window(viewer: &Viewer, picture: &Framebuffer, path: &Path) -> io::Result<()> {
-    let record = viewer.record_of_window(path);
-    save_picture(picture, record.as_ref(), (path, Named::ByUser), &viewer.guard())
+    let record = viewer.recipes().record_of_window(path);
+    save_picture(
+        picture,
+        record.as_ref(),
+        (path, Named::ByUser),
+        &viewer.recipes().guard(),
+    )
 }

@@ -31,6 +31,12 @@ pub fn told_words(settings: &Settings, about: About) -> Vec<String> {
     always.chain(changed_words(settings, about)).collect()
 }
 
+/// What a window's title tells.
+pub(in crate::viewer) fn title_words(settings: &Settings) -> Vec<String> {
+    let all = [About::Samples, About::Textures].into_iter();
+    all.flat_map(|about| told_words(settings, about)).collect()
+}
+
 fn told(told: Told, about: About) -> impl Iterator<Item = &'static PictureSetting> {
     PICTURE_SETTINGS
         .iter()

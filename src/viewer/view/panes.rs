@@ -4,6 +4,7 @@
 use glam::DVec2;
 
 use crate::figure::PixelRect;
+use crate::raster::Region;
 
 /// Where a frame lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,6 +13,18 @@ pub(in crate::viewer) struct Pane {
     pub(in crate::viewer) area: PixelRect,
     /// The screen pixel of the frame's upper left corner; it may lie outside the area.
     pub(in crate::viewer) corner: [i64; 2],
+}
+
+impl Pane {
+    /// Where pixels of the frame lie in the screen, as if the pane had no end.
+    pub(in crate::viewer) fn place(&self, region: Region) -> PixelRect {
+        PixelRect {
+            x: i64::from(region.x) + self.corner[0],
+            y: i64::from(region.y) + self.corner[1],
+            width: region.width,
+            height: region.height,
+        }
+    }
 }
 
 /// Where frames lie in the screen.

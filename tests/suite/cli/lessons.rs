@@ -60,7 +60,11 @@ fn lesson_is_walked_by_keys_and_closed_by_escape() {
         folder.path().join("lesson.toml"),
     ])));
     assert_eq!(title(&session.viewer).as_deref(), Some("First"));
-    assert_eq!(session.viewer.scenes().len(), 2, "each scene of the lesson once");
+    assert_eq!(
+        session.viewer.scene_list().scenes().len(),
+        2,
+        "each scene of the lesson once"
+    );
     assert_eq!(
         session.viewer.settings().render.sample_rate.samples(),
         16,
@@ -71,27 +75,37 @@ fn lesson_is_walked_by_keys_and_closed_by_escape() {
         rasterscope::texture::PixelSampling::default(),
         "the others have their defaults"
     );
-    let pinned = session.viewer.pinned_pixel().expect("the step's pin");
-    let user = session.viewer.status_of(pinned).unwrap().user;
+    let pinned = session.viewer.pixels().pinned().expect("the step's pin");
+    let user = session.viewer.pixels().status_of(pinned).unwrap().user;
     assert!(user.distance(dvec2(40.0, 60.0)) < 1.0, "{user}");
     session.assert_frame_is_current();
 
     session.keys(&["PageDown"]);
     assert_eq!(title(&session.viewer).as_deref(), Some("Second"));
-    let numbers = session.viewer.view_numbers().unwrap();
+    let numbers = session.viewer.both().view_numbers().unwrap();
     assert_eq!(
         (numbers.center, numbers.scale),
         (dvec2(50.0, 50.0), 2.0),
         "the step's view"
     );
     assert_eq!(session.viewer.settings().dialect, DialectChoice::Svg);
-    assert_eq!(session.viewer.arrangement(), Arrangement::SideBySide);
-    assert_eq!(session.viewer.other_settings().unwrap().sample_rate.samples(), 4, "B");
-    assert_eq!(session.viewer.pinned_pixel(), None, "no pin");
+    assert_eq!(session.viewer.ab().arrangement(), Arrangement::SideBySide);
+    assert_eq!(
+        session
+            .viewer
+            .ab()
+            .other_settings(session.viewer.settings())
+            .unwrap()
+            .sample_rate
+            .samples(),
+        4,
+        "B"
+    );
+    assert_eq!(session.viewer.pixels().pinned(), None, "no pin");
 
     session.keys(&["PageDown", "PageDown"]);
     assert_eq!(title(&session.viewer).as_deref(), Some("Third"), "the last one stays");
-    assert_eq!(session.viewer.other(), None, "without a comparison");
+    assert_eq!(session.viewer.ab().other(), None, "without a comparison");
     session.keys(&["=", "]", "PageUp"]);
     session.run(Command::Lesson(LessonCommand::Step(2)));
     assert_eq!(
@@ -100,7 +114,7 @@ fn lesson_is_walked_by_keys_and_closed_by_escape() {
         "as its author meant it"
     );
     assert!(
-        session.viewer.view_numbers().unwrap().rotation.abs() < 1e-9,
+        session.viewer.both().view_numbers().unwrap().rotation.abs() < 1e-9,
         "upright again"
     );
     session.run(Command::Lesson(LessonCommand::Step(17)));
@@ -113,7 +127,7 @@ fn lesson_is_walked_by_keys_and_closed_by_escape() {
     session.run(Command::Window(WindowCommand::Escape));
     assert_eq!(session.viewer.lesson(), None, "closed");
     assert_eq!(*session.viewer.settings(), settings, "the settings are back");
-    assert_eq!(session.viewer.scenes().len(), 1, "and the scenes");
+    assert_eq!(session.viewer.scene_list().scenes().len(), 1, "and the scenes");
     assert!(*session.pixels() == before, "and the picture");
 }
 
@@ -126,12 +140,12 @@ fn lesson_shows_the_canvas_where_no_panel_is_until_a_hand_moves_it() {
         folder.path().join("lesson.toml"),
     ])));
     let middle = |session: &Session| {
-        let entry = session.viewer.current().unwrap();
+        let entry = session.viewer.scene_list().current().unwrap();
         let canvas = entry.scene().unwrap().canvas;
         entry
             .camera
             .view()
-            .transform(canvas, session.viewer.frame_size())
+            .transform(canvas, session.viewer.both().layout().frame_size())
             .to_pixels(canvas / 2.0)
     };
     let free = |x: i64, width: u32| {
@@ -171,7 +185,7 @@ fn lesson_that_cannot_be_read_changes_nothing() {
     let mut session = Session::open(&[TRIANGLES], [200, 100]);
     session.run(Command::Lesson(LessonCommand::Open(LessonSource::File(path))));
     assert_eq!(session.viewer.lesson(), None);
-    let message = &session.viewer.messages().last().unwrap().text;
+    let message = &session.viewer.chrome().messages().last().unwrap().text;
     assert!(
         message.contains("broken.toml:3:9: nowhere.svg: no such scene"),
         "{message}"

@@ -166,6 +166,7 @@ fn feeds_are_found_for_the_texel_that_is_pointed_at() {
     session.run(Command::Inspector(InspectorCommand::Pin([20, 12])));
     let texel = session
         .viewer
+        .inspector()
         .explanation()
         .unwrap()
         .paints
@@ -187,13 +188,14 @@ fn feeds_are_found_for_the_texel_that_is_pointed_at() {
         });
     assert!(texel.is_some(), "the pixel shows a texture");
     assert_eq!(
-        session.viewer.contributions_region(),
+        session.viewer.inspector().contributions_region(),
         None,
         "nothing is looked for unasked"
     );
     session.run(Command::Inspector(InspectorCommand::PointAtTexel(texel)));
     let lit: Vec<[u32; 2]> = session
         .viewer
+        .inspector()
         .contributed_pixels()
         .iter()
         .map(|fed| fed.pixel)
@@ -207,6 +209,7 @@ fn feeds_are_found_for_the_texel_that_is_pointed_at() {
     }));
     let moved: Vec<[u32; 2]> = session
         .viewer
+        .inspector()
         .contributed_pixels()
         .iter()
         .map(|fed| fed.pixel)
@@ -214,8 +217,8 @@ fn feeds_are_found_for_the_texel_that_is_pointed_at() {
     assert!(moved.contains(&[23, 12]), "they follow the picture: {moved:?}");
     session.run(Command::Inspector(InspectorCommand::Unpin));
     assert!(
-        session.viewer.contributed_pixels().is_empty(),
+        session.viewer.inspector().contributed_pixels().is_empty(),
         "without an explanation nothing is lit"
     );
-    assert_eq!(session.viewer.pointed_texel(), None, "nor pointed at");
+    assert_eq!(session.viewer.inspector().pointed_texel(), None, "nor pointed at");
 }

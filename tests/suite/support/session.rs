@@ -73,14 +73,14 @@ impl Session {
 
     /// The finished frame.
     pub(crate) fn pixels(&self) -> &Framebuffer {
-        &self.viewer.frame().unwrap().pixels
+        &self.viewer.frames().frame().unwrap().pixels
     }
 
     /// Asserts that the frame is what the renderer makes of scene, view and settings of this moment.
     pub(crate) fn assert_frame_is_current(&self) {
-        let entry = self.viewer.current().unwrap();
+        let entry = self.viewer.scene_list().current().unwrap();
         let scene = entry.scene().unwrap();
-        let size = self.viewer.frame_size();
+        let size = self.viewer.both().layout().frame_size();
         let view = entry.camera.view().transform(scene.canvas, size);
         let mut expected = Framebuffer::new(size[0], size[1]);
         render::draw(scene, &view, &self.viewer.settings().render, &mut expected);

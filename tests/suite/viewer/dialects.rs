@@ -19,8 +19,8 @@ const BOXED: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="100" heig
 /// The session's only scene, read in `dialect` and drawn from where A is seen.
 fn drawn(session: &Session, dialect: DialectChoice, settings: &RenderSettings) -> Framebuffer {
     let scene = scene::load(&session.folder.path().join("1.svg"), dialect).unwrap();
-    let entry = session.viewer.current().unwrap();
-    let size = session.viewer.frame_size();
+    let entry = session.viewer.scene_list().current().unwrap();
+    let size = session.viewer.both().layout().frame_size();
     let view = entry.camera.view().transform(entry.scene().unwrap().canvas, size);
     let mut frame = Framebuffer::new(size[0], size[1]);
     render::draw(&scene, &view, settings, &mut frame);
@@ -31,9 +31,13 @@ fn assert_both(session: &Session, dialects: [DialectChoice; 2], when: &str) {
     let viewer = &session.viewer;
     let own = drawn(session, dialects[0], &viewer.settings().render);
     assert!(*session.pixels() == own, "{when}: A in {:?}", dialects[0]);
-    let other = drawn(session, dialects[1], &viewer.other_settings().unwrap());
+    let other = drawn(
+        session,
+        dialects[1],
+        &viewer.ab().other_settings(viewer.settings()).unwrap(),
+    );
     assert!(
-        *viewer.other_pixels().unwrap() == other,
+        *viewer.ab().other_pixels().unwrap() == other,
         "{when}: B in {:?}",
         dialects[1]
     );
@@ -48,7 +52,7 @@ fn dialects_of_a_and_b_are_their_own() {
     session.run(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
     session.run(set("dialect", Course.name()));
     assert_both(&session, [Course, Auto], "A reads anew, B does not");
-    let title = session.viewer.title();
+    let title = session.viewer.both().title();
     assert!(title.contains("dialect course | auto"), "{title}");
     session.run(Command::View(ViewCommand::PanBy {
         by: glam::dvec2(7.0, -3.0),
@@ -64,13 +68,17 @@ fn dialects_of_a_and_b_are_their_own() {
     session.run(set("dialect", Svg.name()));
     assert_both(&session, [Svg, Course], "A's choice leaves B alone");
     session.run(Command::Inspector(InspectorCommand::Pin([100, 80])));
-    assert!(session.viewer.explanation().is_some(), "A is explained");
-    let [own, other] = [session.viewer.explanation(), session.viewer.other_explanation()].map(Option::unwrap);
+    assert!(session.viewer.inspector().explanation().is_some(), "A is explained");
+    let [own, other] = [
+        session.viewer.inspector().explanation(),
+        session.viewer.inspector().other_explanation(),
+    ]
+    .map(Option::unwrap);
     assert_eq!(
         [own.color, other.color],
         [
             session.pixels().rgba(100, 80).unwrap(),
-            session.viewer.other_pixels().unwrap().rgba(100, 80).unwrap()
+            session.viewer.ab().other_pixels().unwrap().rgba(100, 80).unwrap()
         ],
         "each in its dialect"
     );
@@ -79,12 +87,12 @@ fn dialects_of_a_and_b_are_their_own() {
     session.run(Command::Scenes(SceneCommand::Reload));
     assert_both(&session, [Svg, Course], "both are read again");
     session.run(set("dialect", Course.name()));
-    let same = session.pixels() == session.viewer.other_pixels().unwrap();
+    let same = session.pixels() == session.viewer.ab().other_pixels().unwrap();
     assert!(same, "one dialect, one scene");
     assert!(
-        !session.viewer.title().contains("dialect"),
+        !session.viewer.both().title().contains("dialect"),
         "{}",
-        session.viewer.title()
+        session.viewer.both().title()
     );
     session.run(Command::Ab(AbCommand::Compare(Against::Truth(None))));
     session.run(set("dialect", Svg.name()));
@@ -100,20 +108,28 @@ fn other_reading_holds_for_the_folder() {
         assert!(*session.pixels() == own, "{when}");
     };
     is_read(&session, Svg, "at first");
-    let note = session.viewer.reading_note().unwrap();
+    let note = session
+        .viewer
+        .scene_list()
+        .reading_note(session.viewer.settings().dialect)
+        .unwrap();
     assert_eq!(note, "read as svg; as course it is another picture", "the note");
-    let words = |session: &Session| session.viewer.reading_words();
+    let words = |session: &Session| session.viewer.scene_list().reading_words();
     assert_eq!(words(&session).as_deref(), Some("read as svg"), "the status line");
     session.run(Command::Scenes(SceneCommand::OtherReading));
     assert_eq!(session.viewer.settings().dialect, Auto, "the setting stays");
     is_read(&session, Course, "after the button");
     assert_eq!(words(&session).as_deref(), Some("read as course"), "the status line");
-    let note = session.viewer.reading_note().unwrap();
+    let note = session
+        .viewer
+        .scene_list()
+        .reading_note(session.viewer.settings().dialect)
+        .unwrap();
     assert!(
         note.starts_with("read as course, as you chose for its folder"),
         "{note}"
     );
-    let line = session.viewer.command_line().unwrap();
+    let line = session.viewer.recipes().command_line().unwrap();
     assert!(
         line.contains("--dialect course"),
         "the command line makes the same: {line}"
@@ -124,7 +140,7 @@ fn other_reading_holds_for_the_folder() {
     session.run(Command::Scenes(SceneCommand::Show(0)));
     is_read(&session, Svg, "back again, for both");
     session.run(set("rules", rasterscope::rules::Rules::Course.name()));
-    let line = session.viewer.command_line().unwrap();
+    let line = session.viewer.recipes().command_line().unwrap();
     assert!(line.contains("--dialect svg"), "rules alone would say course: {line}");
     session.run(set("dialect", Course.name()));
     session.run(Command::Scenes(SceneCommand::OtherReading));
@@ -154,7 +170,7 @@ fn settings_for_b_are_written_as_the_command_line_has_them() {
     session.run(Command::Ab(AbCommand::Compare(against)));
     assert_eq!(session.viewer.settings().render.sample_rate.samples(), 1, "A stays");
     assert_eq!(session.viewer.settings().dialect, DialectChoice::Auto, "in its dialect");
-    match session.viewer.other() {
+    match session.viewer.ab().other() {
         Some(Other::Settings { render, dialect }) => {
             assert_eq!(
                 (render.sample_rate.samples(), *dialect),
@@ -164,7 +180,11 @@ fn settings_for_b_are_written_as_the_command_line_has_them() {
         }
         other => panic!("{other:?}"),
     }
-    assert_eq!(session.viewer.arrangement(), Arrangement::Wipe, "to be seen at once");
+    assert_eq!(
+        session.viewer.ab().arrangement(),
+        Arrangement::Wipe,
+        "to be seen at once"
+    );
     assert_both(&session, [DialectChoice::Auto, DialectChoice::Course], "from the start");
     for wrong in [
         "sample-rate 0",

@@ -15,7 +15,7 @@ fn saved(session: &mut Session) {
 }
 
 fn errors(session: &Session) -> Vec<String> {
-    let messages = session.viewer.messages().iter();
+    let messages = session.viewer.chrome().messages().iter();
     let errors = messages.filter(|message| message.kind == MessageKind::Error);
     errors.map(|message| message.text.clone()).collect()
 }
@@ -33,14 +33,17 @@ fn broken_file_keeps_the_picture_until_it_is_mended() {
     session.run(Command::Inspector(InspectorCommand::Pin([100, 75])));
     session.viewer.request_thumbnail(0);
     session.viewer.finish_thumbnails();
-    let (picture, view) = (session.pixels().clone(), session.viewer.view_numbers());
+    let (picture, view) = (session.pixels().clone(), session.viewer.both().view_numbers());
     for half in ["", "<svg", &TRIANGLES[..TRIANGLES.len() / 2]] {
         fs::write(&file, half).unwrap();
         saved(&mut session);
         assert!(*session.pixels() == picture, "as it was read last");
-        assert_eq!(session.viewer.view_numbers(), view, "from the same place");
-        assert!(session.viewer.explanation().is_some(), "a pixel can still be explained");
-        let entry = session.viewer.current().unwrap();
+        assert_eq!(session.viewer.both().view_numbers(), view, "from the same place");
+        assert!(
+            session.viewer.inspector().explanation().is_some(),
+            "a pixel can still be explained"
+        );
+        let entry = session.viewer.scene_list().current().unwrap();
         assert!(entry.thumbnail.is_some(), "and it keeps its thumbnail");
         let failure = entry.failure().expect("it is told").to_owned();
         assert!(failure.contains("1.svg"), "{failure}");
@@ -50,12 +53,15 @@ fn broken_file_keeps_the_picture_until_it_is_mended() {
     saved(&mut session);
     assert!(*session.pixels() != picture, "the new document");
     session.assert_frame_is_current();
-    assert_eq!(session.viewer.view_numbers(), view, "from the same place");
-    assert_eq!(session.viewer.pinned_pixel(), Some([100, 75]), "the pin stays");
+    assert_eq!(session.viewer.both().view_numbers(), view, "from the same place");
+    assert_eq!(session.viewer.pixels().pinned(), Some([100, 75]), "the pin stays");
     assert_eq!(errors(&session), [""; 0], "nothing is wrong any more");
     fs::remove_file(&file).unwrap();
     saved(&mut session);
-    assert!(session.viewer.frame().is_some(), "a file that is gone is shown on");
+    assert!(
+        session.viewer.frames().frame().is_some(),
+        "a file that is gone is shown on"
+    );
     fs::write(&file, TRIANGLES).unwrap();
     saved(&mut session);
     assert!(*session.pixels() == picture, "and back");

@@ -12,29 +12,33 @@ fn inspector_pin_and_nudge() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
     session.keys(&["Left"]);
     assert_eq!(
-        session.viewer.pinned_pixel(),
+        session.viewer.pixels().pinned(),
         None,
         "arrows do nothing before the inspector is open"
     );
     session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(100.2, 50.9) }));
     session.keys(&["Enter"]);
-    assert_eq!(session.viewer.pinned_pixel(), Some([100, 50]), "pinned");
-    assert!(session.viewer.inspector().open, "and to be seen");
+    assert_eq!(session.viewer.pixels().pinned(), Some([100, 50]), "pinned");
+    assert!(session.viewer.inspector().magnifier().open, "and to be seen");
     session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(3.0, 4.0) }));
     session.keys(&["Left", "Up", "Shift+Right", "Shift+Down"]);
-    assert_eq!(session.viewer.pinned_pixel(), Some([109, 59]), "nudged");
+    assert_eq!(session.viewer.pixels().pinned(), Some([109, 59]), "nudged");
     session.run(Command::Inspector(InspectorCommand::Nudge([100_000, -100_000])));
-    assert_eq!(session.viewer.pinned_pixel(), Some([399, 0]), "within the frame");
+    assert_eq!(session.viewer.pixels().pinned(), Some([399, 0]), "within the frame");
     session.run(Command::Window(WindowCommand::Resize([200, 300])));
     assert_eq!(
-        session.viewer.pinned_pixel(),
+        session.viewer.pixels().pinned(),
         None,
         "a smaller frame does not reach the place"
     );
     session.run(Command::Window(WindowCommand::Resize([0, 0])));
-    assert_eq!(session.viewer.pinned_pixel(), None, "a minimised window has no pixels");
+    assert_eq!(
+        session.viewer.pixels().pinned(),
+        None,
+        "a minimised window has no pixels"
+    );
     session.run(Command::Window(WindowCommand::Resize([400, 300])));
-    assert_eq!(session.viewer.pinned_pixel(), Some([399, 0]), "as the user chose it");
+    assert_eq!(session.viewer.pixels().pinned(), Some([399, 0]), "as the user chose it");
 }
 
 #[test]
@@ -42,21 +46,24 @@ fn inspector_pin_stays_at_its_place_in_the_scene() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
     session.run(Command::Inspector(InspectorCommand::Pin([150, 120])));
     let place = |session: &Session| {
-        let pixel = session.viewer.pinned_pixel().expect("in the frame");
-        session.viewer.status_of(pixel).expect("a scene").user
+        let pixel = session.viewer.pixels().pinned().expect("in the frame");
+        session.viewer.pixels().status_of(pixel).expect("a scene").user
     };
-    let (before, scale) = (place(&session), session.viewer.view_numbers().expect("a view").scale);
+    let (before, scale) = (
+        place(&session),
+        session.viewer.both().view_numbers().expect("a view").scale,
+    );
     session.run(Command::View(ViewCommand::ZoomAt {
         at: Some(dvec2(130.0, 110.0)),
         factor: 3.0,
     }));
     assert_eq!(
-        session.viewer.pinned_pixel(),
+        session.viewer.pixels().pinned(),
         Some([190, 140]),
         "three times as far from what stays"
     );
     session.run(Command::View(ViewCommand::PanBy { by: dvec2(-40.0, 25.0) }));
-    assert_eq!(session.viewer.pinned_pixel(), Some([150, 165]), "with the picture");
+    assert_eq!(session.viewer.pixels().pinned(), Some([150, 165]), "with the picture");
     for command in [
         Command::View(ViewCommand::RotateBy { degrees: 35.0 }),
         Command::Window(WindowCommand::Resize([500, 420])),
@@ -64,44 +71,63 @@ fn inspector_pin_stays_at_its_place_in_the_scene() {
         set("sample-rate", "9"),
     ] {
         session.run(command.clone());
-        let numbers = session.viewer.view_numbers().expect("a view");
+        let numbers = session.viewer.both().view_numbers().expect("a view");
         assert!(
             (place(&session) - before).length() < 1.0 / numbers.scale,
             "{command:?}: less than a pixel away"
         );
     }
     session.run(Command::View(ViewCommand::PanBy { by: dvec2(9000.0, 0.0) }));
-    assert_eq!(session.viewer.pinned_pixel(), None, "out of sight");
+    assert_eq!(session.viewer.pixels().pinned(), None, "out of sight");
     session.run(Command::View(ViewCommand::Reset));
     assert!(
         (place(&session) - before).length() < 1.0 / scale.min(1.0),
         "and back: {:?}",
-        session.viewer.pinned_pixel()
+        session.viewer.pixels().pinned()
     );
 }
 
 #[test]
 fn inspector_explains_the_pinned_pixel() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
-    assert!(session.viewer.explanation().is_none(), "nothing is pinned");
+    assert!(session.viewer.inspector().explanation().is_none(), "nothing is pinned");
     session.run(Command::Inspector(InspectorCommand::Show(Toggle::On)));
-    assert!(session.viewer.explanation().is_none(), "the pointer is not followed");
+    assert!(
+        session.viewer.inspector().explanation().is_none(),
+        "the pointer is not followed"
+    );
     session.run(Command::Inspector(InspectorCommand::Pin([200, 150])));
-    let explained = session.viewer.explanation().expect("a pinned pixel").clone();
-    let frame = session.viewer.frame().expect("a frame");
+    let explained = session
+        .viewer
+        .inspector()
+        .explanation()
+        .expect("a pinned pixel")
+        .clone();
+    let frame = session.viewer.frames().frame().expect("a frame");
     assert_eq!(explained.pixel, [200, 150], "the pinned one");
     assert_eq!(Some(explained.color), frame.final_rgba(200, 150), "as in the frame");
     session.run(set("sample-rate", "4"));
     assert_eq!(
-        session.viewer.explanation().map(|explained| explained.samples.len()),
+        session
+            .viewer
+            .inspector()
+            .explanation()
+            .map(|explained| explained.samples.len()),
         Some(4),
         "for the new settings"
     );
-    assert!(session.viewer.other_explanation().is_none(), "there is no B");
+    assert!(
+        session.viewer.inspector().other_explanation().is_none(),
+        "there is no B"
+    );
     session.keys(&["r"]);
     session.run(set("sample-rate", "9"));
-    let explained = session.viewer.explanation().expect("a pinned pixel");
-    let other = session.viewer.other_explanation().expect("B is drawn by us");
+    let explained = session.viewer.inspector().explanation().expect("a pinned pixel");
+    let other = session
+        .viewer
+        .inspector()
+        .other_explanation()
+        .expect("B is drawn by us");
     let differences = explained.differences(other);
     let samples = differences.iter().find(|difference| difference.what == "samples");
     assert_eq!(
@@ -114,9 +140,9 @@ fn inspector_explains_the_pinned_pixel() {
         "nothing differs from itself"
     );
     session.keys(&["e"]);
-    assert!(session.viewer.explanation().is_none(), "closed");
+    assert!(session.viewer.inspector().explanation().is_none(), "closed");
     session.keys(&["e"]);
-    assert!(session.viewer.explanation().is_some(), "open again");
+    assert!(session.viewer.inspector().explanation().is_some(), "open again");
     let copied = session.run(Command::Export(ExportCommand::CopyExplanation));
     assert!(
         matches!(copied.as_slice(), [Effect::CopyText(text)] if text.starts_with("## Pixel (200, 150)")),
@@ -128,33 +154,41 @@ fn inspector_explains_the_pinned_pixel() {
 fn inspector_inset_reads_the_frame() {
     let mut session = Session::open(&[TRIANGLES], [640, 480]);
     session.run(Command::Inspector(InspectorCommand::Pin([320, 240])));
-    let placed = session.viewer.inset().unwrap();
+    let placed = session.viewer.inspector().inset().unwrap();
     let block = placed.block([322, 239]).unwrap();
     session.run(Command::Pointer(PointerCommand::Moved {
         at: dvec2(block.x as f64 + 1.5, block.y as f64 + 2.5),
     }));
-    assert!(session.viewer.pointer_over_inset(), "over the inset");
-    assert_eq!(session.viewer.hovered_pixel(), Some([322, 239]), "the magnified pixel");
+    assert!(session.viewer.pixels().over_inset(), "over the inset");
     assert_eq!(
-        session.viewer.status().unwrap().rgba,
+        session.viewer.pixels().hovered(),
+        Some([322, 239]),
+        "the magnified pixel"
+    );
+    assert_eq!(
+        session.viewer.pixels().status().unwrap().rgba,
         session.pixels().rgba(322, 239),
         "its colour"
     );
-    let window = session.viewer.window_picture();
+    let window = session.viewer.window().picture();
     let corner = [block.x, block.y].map(|n| u32::try_from(n).unwrap());
     assert_eq!(
         window.rgba(corner[0], corner[1]),
         session.pixels().rgba(322, 239),
         "shown as it is"
     );
-    let magnification = session.viewer.inspector().magnification;
-    let numbers = session.viewer.view_numbers();
+    let magnification = session.viewer.inspector().magnifier().magnification;
+    let numbers = session.viewer.both().view_numbers();
     session.run(Command::Pointer(PointerCommand::Wheel { clicks: 1.0 }));
     assert!(
-        session.viewer.inspector().magnification > magnification,
+        session.viewer.inspector().magnifier().magnification > magnification,
         "the wheel magnifies here"
     );
-    assert_eq!(session.viewer.view_numbers(), numbers, "and does not zoom the picture");
+    assert_eq!(
+        session.viewer.both().view_numbers(),
+        numbers,
+        "and does not zoom the picture"
+    );
 }
 
 #[test]
@@ -174,7 +208,7 @@ fn inspector_inset_never_hides_its_pixel() {
                 let _ = session.viewer.apply(Command::Pointer(PointerCommand::Moved {
                     at: dvec2(f64::from(x), f64::from(y)),
                 }));
-                let [px, py] = session.viewer.inspected_pixel().unwrap();
+                let [px, py] = session.viewer.pixels().inspected().unwrap();
                 let k = zoom.factor();
                 assert_eq!([px, py], [x / k, y / k], "follows the pointer, below the inset too");
                 let shown = PixelRect {
@@ -183,7 +217,7 @@ fn inspector_inset_never_hides_its_pixel() {
                     width: k,
                     height: k,
                 };
-                let placed = session.viewer.inset().unwrap();
+                let placed = session.viewer.inspector().inset().unwrap();
                 assert!(!placed.rect.overlaps(&shown), "{placed:?} hides {shown:?}");
                 assert!(
                     placed.rect.x >= 60 && placed.rect.bottom() <= 290,
@@ -199,12 +233,12 @@ fn inspector_labels_only_where_they_fit() {
     let mut session = Session::open(&[TRIANGLES], [640, 480]);
     session.run(Command::Inspector(InspectorCommand::Pin([0, 0])));
     assert!(
-        session.viewer.pixel_labels([7.0, 12.0]).is_empty(),
+        session.viewer.pixels().pixel_labels([7.0, 12.0]).is_empty(),
         "20 pixels are too few for 3 lines of 12"
     );
     session.run(Command::Inspector(InspectorCommand::SetMagnification(40)));
-    let labels = session.viewer.pixel_labels([7.0, 12.0]);
-    let inset = session.viewer.inset().unwrap().inset;
+    let labels = session.viewer.pixels().pixel_labels([7.0, 12.0]);
+    let inset = session.viewer.inspector().inset().unwrap().inset;
     let visible = usize::try_from(inset.region - inset.region / 2).unwrap();
     let dots = usize::from(!inset.has_detail());
     let expected = visible * visible - dots;
@@ -239,10 +273,11 @@ fn inspector_samples_of_the_inspected_pixel() {
             rotation: 0.0,
         })));
         session.run(Command::Inspector(InspectorCommand::Pin([60, 60])));
-        let samples = session.viewer.pixel_samples();
+        let samples = session.viewer.inspector().pixel_samples();
         assert_eq!(samples.len(), 16, "scene {key}");
         let hits: Vec<(String, usize)> = session
             .viewer
+            .inspector()
             .hits()
             .into_iter()
             .map(|(hit, n)| (hit.to_string(), n))
@@ -258,7 +293,10 @@ fn inspector_samples_of_the_inspected_pixel() {
         );
     }
     session.keys(&["Esc", "Esc"]);
-    assert!(session.viewer.pixel_samples().is_empty(), "the inspector is closed");
+    assert!(
+        session.viewer.inspector().pixel_samples().is_empty(),
+        "the inspector is closed"
+    );
 }
 
 #[test]
@@ -276,15 +314,15 @@ fn inspector_counts_the_shades_of_an_edge() {
         scale: 1.0,
         rotation: 0.0,
     })));
-    assert_eq!(session.viewer.region_colors(), None, "the inspector is closed");
+    assert_eq!(session.viewer.pixels().region_colors(), None, "the inspector is closed");
     session.run(set("sample-rate", "4"));
     session.run(Command::Inspector(InspectorCommand::SetRegion(32)));
     session.run(Command::Inspector(InspectorCommand::SetMagnification(6)));
     session.run(Command::Inspector(InspectorCommand::Pin([320, 240])));
-    let found = session.viewer.region_colors();
+    let found = session.viewer.pixels().region_colors();
     session.run(set("pattern", SamplePattern::Rotated.name()));
     assert_eq!(
-        (found, session.viewer.region_colors()),
+        (found, session.viewer.pixels().region_colors()),
         (Some(3), Some(5)),
         "grid and rotated grid"
     );
@@ -297,27 +335,36 @@ fn inspector_explanation_goes_by_what_is_seen() {
     session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(100.0, 50.0) }));
     session.keys(&["e"]);
     assert_eq!(
-        session.viewer.pinned_pixel(),
+        session.viewer.pixels().pinned(),
         Some([100, 50]),
         "E pins where nothing is"
     );
-    assert!(session.viewer.explains(), "and explains");
+    assert!(session.viewer.pixels().explains(), "and explains");
     session.keys(&["e"]);
-    assert!(!session.viewer.explains(), "E hides what is shown");
-    assert_eq!(session.viewer.pinned_pixel(), Some([100, 50]), "the pin stays");
+    assert!(!session.viewer.pixels().explains(), "E hides what is shown");
+    assert_eq!(session.viewer.pixels().pinned(), Some([100, 50]), "the pin stays");
     session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(120.0, 60.0) }));
     session.keys(&["Enter"]);
-    assert_eq!(session.viewer.pinned_pixel(), Some([120, 60]), "the pin moves");
-    assert!(session.viewer.explains(), "who points at another pixel asks about it");
+    assert_eq!(session.viewer.pixels().pinned(), Some([120, 60]), "the pin moves");
+    assert!(
+        session.viewer.pixels().explains(),
+        "who points at another pixel asks about it"
+    );
     session.keys(&["Enter"]);
-    assert_eq!(session.viewer.pinned_pixel(), None, "unpinned");
+    assert_eq!(session.viewer.pixels().pinned(), None, "unpinned");
     session.keys(&["Enter"]);
-    assert!(session.viewer.explains(), "a new pin is explained, as its help says");
+    assert!(
+        session.viewer.pixels().explains(),
+        "a new pin is explained, as its help says"
+    );
     session.keys(&["Tab"]);
-    assert!(!session.viewer.explains(), "only the picture");
+    assert!(!session.viewer.pixels().explains(), "only the picture");
     session.keys(&["e"]);
-    assert!(session.viewer.explains(), "E shows what was hidden with the rest");
-    assert_eq!(session.viewer.pinned_pixel(), Some([120, 60]), "of the same pixel");
+    assert!(
+        session.viewer.pixels().explains(),
+        "E shows what was hidden with the rest"
+    );
+    assert_eq!(session.viewer.pixels().pinned(), Some([120, 60]), "of the same pixel");
 }
 
 /// A pin that leaves the window is not forgotten, and says where it went.
@@ -326,7 +373,7 @@ fn inspector_says_that_the_pin_left_the_window() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
     session.run(Command::Inspector(InspectorCommand::Pin([100, 50])));
     let told = |session: &Session| {
-        let messages = session.viewer.messages();
+        let messages = session.viewer.chrome().messages();
         messages
             .iter()
             .any(|message| message.text.contains("outside the window"))
@@ -335,21 +382,21 @@ fn inspector_says_that_the_pin_left_the_window() {
     let at = dvec2(300.0, 250.0);
     session.run(Command::Pointer(PointerCommand::Moved { at }));
     session.run(Command::Pointer(PointerCommand::Wheel { clicks: 6.0 }));
-    assert_eq!(session.viewer.pinned_pixel(), None, "zoomed away");
+    assert_eq!(session.viewer.pixels().pinned(), None, "zoomed away");
     assert!(told(&session), "and not in silence");
     session.run(Command::Pointer(PointerCommand::Wheel { clicks: -6.0 }));
-    assert_eq!(session.viewer.pinned_pixel(), Some([100, 50]), "it comes back");
-    assert!(session.viewer.explains(), "with its explanation");
+    assert_eq!(session.viewer.pixels().pinned(), Some([100, 50]), "it comes back");
+    assert!(session.viewer.pixels().explains(), "with its explanation");
 }
 
 /// The ring in the picture goes where the pixel is to be seen, in every pane.
 #[test]
 fn inspector_pin_has_a_place_in_every_pane() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
-    assert!(session.viewer.pinned_places().is_empty(), "no pin");
+    assert!(session.viewer.pixels().pinned_places().is_empty(), "no pin");
     session.run(Command::Inspector(InspectorCommand::Pin([100, 50])));
     let corners = |session: &Session| -> Vec<[i64; 2]> {
-        let places = session.viewer.pinned_places();
+        let places = session.viewer.pixels().pinned_places();
         places.iter().map(|place| [place.x, place.y]).collect()
     };
     assert_eq!(corners(&session), [[100, 50]], "in the frame");
@@ -360,7 +407,7 @@ fn inspector_pin_has_a_place_in_every_pane() {
     session.run(Command::Ab(AbCommand::Arrange(
         rasterscope::viewer::Arrangement::SideBySide,
     )));
-    let pixel = session.viewer.pinned_pixel().expect("in both halves");
+    let pixel = session.viewer.pixels().pinned().expect("in both halves");
     let [x, y] = pixel.map(i64::from);
     assert_eq!(corners(&session), [[x, y], [x + 201, y]], "in both");
 }

@@ -105,13 +105,17 @@ fn random_commands_never_break_the_viewer() {
         let mut drawn: Option<(u64, Framebuffer)> = None;
         for _ in 0..u.int_in_range(1..=40)? {
             let _ = viewer.apply(command(u)?);
-            let _ = (viewer.status(), viewer.title(), viewer.command_line());
-            let _ = viewer.pixel_labels([1.0, 1.0]);
+            let _ = (
+                viewer.pixels().status(),
+                viewer.both().title(),
+                viewer.recipes().command_line(),
+            );
+            let _ = viewer.pixels().pixel_labels([1.0, 1.0]);
             match u.int_in_range(0..=3)? {
                 0 => viewer.finish(),
                 1 => _ = viewer.poll(),
                 2 => {
-                    let now = (viewer.picture_revision(), viewer.window_picture());
+                    let now = (viewer.picture_revision(), viewer.window().picture());
                     let is_told = drawn
                         .as_ref()
                         .is_none_or(|(revision, picture)| *revision != now.0 || *picture == now.1);
@@ -123,9 +127,14 @@ fn random_commands_never_break_the_viewer() {
         }
         viewer.finish();
         assert!(viewer.is_settled(), "finished is finished");
-        let size = viewer.frame_size();
-        if viewer.current().is_some_and(|entry| entry.scene().is_some()) && !size.contains(&0) {
-            let frame = viewer.frame().expect("a frame for a scene");
+        let size = viewer.both().layout().frame_size();
+        if viewer
+            .scene_list()
+            .current()
+            .is_some_and(|entry| entry.scene().is_some())
+            && !size.contains(&0)
+        {
+            let frame = viewer.frames().frame().expect("a frame for a scene");
             assert_eq!(
                 [frame.pixels.width(), frame.pixels.height()],
                 size,

@@ -55,9 +55,9 @@ fn replay_the_courses_keys() {
     assert_eq!(render.level_sampling, LevelSampling::Zero, "round");
     assert_eq!(render.sample_rate, SampleRate::ONE, "not below one");
     assert!(
-        session.viewer.title().starts_with("1.svg - sample rate 1,"),
+        session.viewer.both().title().starts_with("1.svg - sample rate 1,"),
         "{}",
-        session.viewer.title()
+        session.viewer.both().title()
     );
 }
 
@@ -89,9 +89,9 @@ fn replay_drag_moves_pixels_with_the_pointer() {
 fn replay_wheel_zooms_about_the_pointer() {
     let mut session = Session::open(&[TRIANGLES], [160, 120]);
     session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(40.5, 30.5) }));
-    let before = session.viewer.status().unwrap();
+    let before = session.viewer.pixels().status().unwrap();
     session.run(Command::Pointer(PointerCommand::Wheel { clicks: 3.0 }));
-    let after = session.viewer.status().unwrap();
+    let after = session.viewer.pixels().status().unwrap();
     assert!(
         after.scale > before.scale * 1.9,
         "up is in: {} to {}",
@@ -111,21 +111,31 @@ fn replay_wheel_zooms_about_the_pointer() {
 fn replay_each_scene_keeps_its_view() {
     let mut session = Session::open(&[TRIANGLES, SQUARE], [160, 120]);
     session.run(Command::View(ViewCommand::PanBy { by: dvec2(5.0, 9.0) }));
-    let first = session.viewer.view_numbers().unwrap();
+    let first = session.viewer.both().view_numbers().unwrap();
     session.keys(&["2"]);
-    assert_eq!(session.viewer.current_index(), 1, "2 shows the second scene");
-    assert!(session.viewer.current().unwrap().camera.is_default(), "its own view");
+    assert_eq!(
+        session.viewer.scene_list().current_index(),
+        1,
+        "2 shows the second scene"
+    );
+    assert!(
+        session.viewer.scene_list().current().unwrap().camera.is_default(),
+        "its own view"
+    );
     session.run(Command::View(ViewCommand::RotateBy { degrees: 10.0 }));
     session.keys(&["PageDown"]);
     assert_eq!(
-        session.viewer.view_numbers(),
+        session.viewer.both().view_numbers(),
         Some(first),
         "round to the first, as it was"
     );
     session.keys(&["9"]);
-    assert_eq!(session.viewer.current_index(), 0, "there is no ninth");
+    assert_eq!(session.viewer.scene_list().current_index(), 0, "there is no ninth");
     session.keys(&["Space"]);
-    assert!(session.viewer.current().unwrap().camera.is_default(), "Space resets");
+    assert!(
+        session.viewer.scene_list().current().unwrap().camera.is_default(),
+        "Space resets"
+    );
 }
 
 #[test]
@@ -137,14 +147,14 @@ fn replay_pixel_zoom_shows_the_same_part() {
         rotation: 0.0,
     })));
     session.run(Command::View(ViewCommand::SetPixelZoom(PixelZoom::new(2).unwrap())));
-    let numbers = session.viewer.view_numbers().unwrap();
+    let numbers = session.viewer.both().view_numbers().unwrap();
     assert_eq!(
         (session.pixels().width(), session.pixels().height()),
         (80, 60),
         "half the pixels"
     );
     assert!((numbers.scale - 2.0).abs() < 1e-12, "half the scale: {numbers:?}");
-    let window = session.viewer.window_picture();
+    let window = session.viewer.window().picture();
     for (x, y) in [(0, 0), (81, 7), (159, 119)] {
         assert_eq!(
             window.rgba(x, y),
@@ -153,7 +163,7 @@ fn replay_pixel_zoom_shows_the_same_part() {
         );
     }
     session.run(Command::Pointer(PointerCommand::Moved { at: dvec2(81.0, 7.0) }));
-    assert_eq!(session.viewer.hovered_pixel(), Some([40, 3]), "frame pixels");
+    assert_eq!(session.viewer.pixels().hovered(), Some([40, 3]), "frame pixels");
 }
 
 #[test]
@@ -162,17 +172,21 @@ fn replay_escape_closes_one_thing_at_a_time() {
     session.keys(&["z"]);
     session.run(Command::Inspector(InspectorCommand::Pin([10, 20])));
     session.keys(&["Tab", "?"]);
-    assert_eq!(session.viewer.dialog(), Some(Dialog::Help), "help is open");
+    assert_eq!(session.viewer.chrome().dialog(), Some(Dialog::Help), "help is open");
     session.keys(&["Ctrl+G"]);
-    assert_eq!(session.viewer.dialog(), Some(Dialog::GoToPixel), "one dialog at a time");
+    assert_eq!(
+        session.viewer.chrome().dialog(),
+        Some(Dialog::GoToPixel),
+        "one dialog at a time"
+    );
     let state = |session: &Session| {
         let viewer = &session.viewer;
-        let inspector = viewer.inspector();
+        let inspector = viewer.inspector().magnifier();
         (
-            viewer.dialog().is_some(),
-            viewer.pinned_pixel().is_some(),
+            viewer.chrome().dialog().is_some(),
+            viewer.pixels().pinned().is_some(),
             inspector.open,
-            viewer.everything_hidden(),
+            viewer.chrome().everything_hidden(),
         )
     };
     for expected in [
@@ -201,10 +215,15 @@ fn replay_escape_asks_before_it_ends() {
     let mut session = Session::open(&[TRIANGLES], [400, 300]);
     let questions = |session: &Session| {
         let asked = |message: &&rasterscope::viewer::Message| message.kind == MessageKind::Question;
-        session.viewer.messages().iter().filter(asked).count()
+        session.viewer.chrome().messages().iter().filter(asked).count()
     };
     assert_eq!(session.run(Command::Window(WindowCommand::Escape)), [], "it asks");
-    let text = session.viewer.messages().last().map(|message| message.text.clone());
+    let text = session
+        .viewer
+        .chrome()
+        .messages()
+        .last()
+        .map(|message| message.text.clone());
     assert_eq!(text.as_deref(), Some("Esc again ends the program"));
     session.keys(&["z"]);
     assert_eq!(
@@ -234,18 +253,18 @@ fn replay_escape_asks_before_it_ends() {
 fn replay_broken_scene_leaves_the_others_usable() {
     let mut session = Session::open(&[TRIANGLES, "<svg", SQUARE], [64, 64]);
     session.keys(&["2"]);
-    let entry = session.viewer.current().unwrap();
+    let entry = session.viewer.scene_list().current().unwrap();
     let problem = entry.failure().expect("no scene").to_owned();
     assert!(problem.contains("2.svg"), "{problem} names the file");
     assert!(!problem.contains('\n'), "{problem} is one line");
-    let message = session.viewer.messages().last().unwrap();
+    let message = session.viewer.chrome().messages().last().unwrap();
     assert_eq!(
         (message.kind, &message.text),
         (MessageKind::Error, &problem),
         "the user is told"
     );
     assert!(
-        session.viewer.frame().is_none(),
+        session.viewer.frames().frame().is_none(),
         "no picture of another scene under this name"
     );
     for command in [
@@ -267,7 +286,7 @@ fn replay_broken_scene_leaves_the_others_usable() {
 fn replay_reload_and_dialect_read_again() {
     let mut session = Session::open(&[TRIANGLES], [64, 64]);
     session.run(Command::View(ViewCommand::PanBy { by: dvec2(3.0, 0.0) }));
-    let numbers = session.viewer.view_numbers();
+    let numbers = session.viewer.both().view_numbers();
     std::fs::write(
         session.folder.path().join("1.svg"),
         TRIANGLES.replace("#1f6feb", "#00ff00"),
@@ -277,9 +296,9 @@ fn replay_reload_and_dialect_read_again() {
     session.keys(&["Ctrl+R"]);
     assert!(*session.pixels() != before, "the new colours");
     session.assert_frame_is_current();
-    assert_eq!(session.viewer.view_numbers(), numbers, "the view stays");
+    assert_eq!(session.viewer.both().view_numbers(), numbers, "the view stays");
     session.run(set("dialect", DialectChoice::Course.name()));
-    let scene = session.viewer.current().unwrap().scene().unwrap();
+    let scene = session.viewer.scene_list().current().unwrap().scene().unwrap();
     assert_eq!(scene.dialect.name(), "course", "read as asked");
 }
 
@@ -292,6 +311,7 @@ fn replay_thumbnails_come_when_asked_for() {
     session.viewer.finish_thumbnails();
     let sizes: Vec<Option<[u32; 2]>> = session
         .viewer
+        .scene_list()
         .scenes()
         .iter()
         .map(|entry| {
@@ -313,14 +333,14 @@ fn replay_copies() {
     let mut session = Session::open(&[TRIANGLES], [64, 48]);
     session.run(Command::Inspector(InspectorCommand::Pin([32, 24])));
     let effects = session.run(Command::Export(ExportCommand::CopyPixel));
-    let status = session.viewer.status().unwrap();
+    let status = session.viewer.pixels().status().unwrap();
     assert_eq!(
         effects,
         [Effect::CopyText(status.to_string())],
         "what the status line says"
     );
     assert!(status.to_string().starts_with("pixel 32, 24  user 10"), "{status}");
-    let line = session.viewer.command_line().unwrap();
+    let line = session.viewer.recipes().command_line().unwrap();
     let path = session.folder.path().join("1.svg");
     let expected = format!(
         "rasterscope render {} -o 1.png --size 64x48 --view default",
@@ -334,16 +354,16 @@ fn replay_copies() {
         scale: 0.1,
         rotation: -30.0,
     })));
-    let line = session.viewer.command_line().unwrap();
+    let line = session.viewer.recipes().command_line().unwrap();
     let options = "--size 64x48 --view=-1.5,2.25,0.1,-30 --sample-rate 4 --pixel-sampling bilinear \
                    --level-sampling nearest --rules course";
     assert!(line.ends_with(options), "{line}");
     session.keys(&["t", "t", "m", "m", "m", ",", ",", ","]);
     session.run(step("lod-per", 1.0));
-    let line = session.viewer.command_line().unwrap();
+    let line = session.viewer.recipes().command_line().unwrap();
     let options = "--anisotropy 4 --lod-bias -1.5 --lod-level 2 --lod-per sample --rules course";
     assert!(line.ends_with(options), "{line}");
-    let title = session.viewer.title();
+    let title = session.viewer.both().title();
     assert!(
         title.contains("level sampling nearest, anisotropy 4, bias -1.5, level 2, level per sample - "),
         "{title}"
@@ -352,7 +372,7 @@ fn replay_copies() {
     session.run(set("lod-level", "auto"));
     session.run(set("anisotropy", "1"));
     session.run(step("lod-per", 1.0));
-    let line = session.viewer.command_line().unwrap();
+    let line = session.viewer.recipes().command_line().unwrap();
     assert!(line.ends_with("--level-sampling nearest --rules course"), "{line}");
 }
 
@@ -365,18 +385,19 @@ fn replay_steps_through_patterns_and_tells_which_rates_they_refuse() {
     assert!(
         session
             .viewer
+            .both()
             .title()
             .contains("sample rate 4, pattern jittered, pixel"),
         "{}",
-        session.viewer.title()
+        session.viewer.both().title()
     );
-    let line = session.viewer.command_line().unwrap();
+    let line = session.viewer.recipes().command_line().unwrap();
     assert!(line.contains(" --sample-rate 4 --pattern jittered"), "{line}");
     session.assert_frame_is_current();
     session.keys(&["a", "a"]);
     session.run(set("sample-rate", "5"));
     assert_eq!(render(&session).sample_rate.samples(), 5, "halton takes any number");
-    assert!(session.viewer.messages().is_empty(), "nothing to tell");
+    assert!(session.viewer.chrome().messages().is_empty(), "nothing to tell");
     session.assert_frame_is_current();
     session.keys(&["a", "a"]);
     assert_eq!(render(&session).pattern, SamplePattern::Grid, "round and round");
@@ -385,7 +406,7 @@ fn replay_steps_through_patterns_and_tells_which_rates_they_refuse() {
         4,
         "the nearest that a grid takes"
     );
-    let told = session.viewer.messages()[0].text.clone();
+    let told = session.viewer.chrome().messages()[0].text.clone();
     assert_eq!(
         told, "pattern grid takes a square number of samples, not 5; 4 is nearest, and halton and r2 take any",
         "in one line"
@@ -395,11 +416,11 @@ fn replay_steps_through_patterns_and_tells_which_rates_they_refuse() {
     session.run(step("resolve", 1.0));
     assert_eq!(render(&session).resolve, ResolveSpace::Linear, "the other one");
     assert!(
-        session.viewer.title().contains("resolve linear"),
+        session.viewer.both().title().contains("resolve linear"),
         "{}",
-        session.viewer.title()
+        session.viewer.both().title()
     );
-    let line = session.viewer.command_line().unwrap();
+    let line = session.viewer.recipes().command_line().unwrap();
     assert!(line.ends_with(" --resolve linear"), "{line}");
     session.assert_frame_is_current();
     session.run(set("resolve", ResolveSpace::Stored.name()));
@@ -415,33 +436,41 @@ fn replay_steps_through_patterns_and_tells_which_rates_they_refuse() {
 #[test]
 fn replay_gallery_without_paths() {
     let mut session = Session::open(&[], [64, 64]);
-    assert!(!session.viewer.scenes().is_empty(), "the built-in gallery");
+    assert!(!session.viewer.scene_list().scenes().is_empty(), "the built-in gallery");
     session.assert_frame_is_current();
     session.run(Command::Scenes(SceneCommand::Open(vec![
         session.folder.path().to_owned(),
     ])));
-    assert_eq!(session.viewer.messages().len(), 1, "an empty folder is told");
+    assert_eq!(session.viewer.chrome().messages().len(), 1, "an empty folder is told");
     session.assert_frame_is_current();
 }
 
 #[test]
 fn replay_opening_keeps_the_other_scenes() {
     let mut session = Session::open(&[SQUARE, SQUARE], [64, 64]);
-    let count = session.viewer.scenes().len();
+    let count = session.viewer.scene_list().scenes().len();
     let broken = session.folder.path().join("broken.svg");
     std::fs::write(&broken, "<svg").unwrap();
     session.run(Command::Scenes(SceneCommand::Open(vec![
         session.folder.path().join("nowhere.svg"),
     ])));
-    assert_eq!(session.viewer.scenes().len(), count, "a missing file changes nothing");
-    assert_eq!(session.viewer.messages().len(), 1, "but is told");
+    assert_eq!(
+        session.viewer.scene_list().scenes().len(),
+        count,
+        "a missing file changes nothing"
+    );
+    assert_eq!(session.viewer.chrome().messages().len(), 1, "but is told");
     for _ in 0..2 {
         session.run(Command::Scenes(SceneCommand::Open(vec![broken.clone()])));
-        assert_eq!(session.viewer.scenes().len(), count + 1, "added once, at the end");
-        assert_eq!(session.viewer.current_index(), count, "and shown");
+        assert_eq!(
+            session.viewer.scene_list().scenes().len(),
+            count + 1,
+            "added once, at the end"
+        );
+        assert_eq!(session.viewer.scene_list().current_index(), count, "and shown");
     }
     assert!(
-        session.viewer.current().unwrap().failure().is_some(),
+        session.viewer.scene_list().current().unwrap().failure().is_some(),
         "as broken as it is"
     );
     session.run(Command::Scenes(SceneCommand::Previous));
@@ -451,6 +480,7 @@ fn replay_opening_keeps_the_other_scenes() {
     session.assert_frame_is_current();
     let left: Vec<_> = session
         .viewer
+        .chrome()
         .messages()
         .iter()
         .filter(|m| m.text.contains("broken.svg"))
@@ -474,7 +504,7 @@ fn replay_command_line_makes_the_same_picture() {
     ] {
         session.run(command);
     }
-    let line = session.viewer.command_line().unwrap();
+    let line = session.viewer.recipes().command_line().unwrap();
     let program = std::path::Path::new(env!("CARGO_BIN_EXE_rasterscope"));
     let mut folders = vec![program.parent().unwrap().to_owned()];
     folders.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));
@@ -497,18 +527,25 @@ fn replay_hide_leaves_only_the_picture() {
     session.run(Command::Inspector(InspectorCommand::Pin([200, 150])));
     session.keys(&["Tab"]);
     assert!(
-        session.viewer.everything_hidden() && session.viewer.inset().is_none(),
+        session.viewer.chrome().everything_hidden() && session.viewer.inspector().inset().is_none(),
         "no inset"
     );
     assert!(
-        session.viewer.window_picture() == *session.pixels(),
+        session.viewer.window().picture() == *session.pixels(),
         "nothing but the frame"
     );
     session.keys(&["Tab"]);
-    assert_eq!(session.viewer.pinned_pixel(), Some([200, 150]), "comes back as it was");
+    assert_eq!(
+        session.viewer.pixels().pinned(),
+        Some([200, 150]),
+        "comes back as it was"
+    );
     session.keys(&["Tab", "z"]);
-    assert!(!session.viewer.everything_hidden(), "what is asked for is shown");
-    assert!(session.viewer.inset().is_some(), "the inspector");
+    assert!(
+        !session.viewer.chrome().everything_hidden(),
+        "what is asked for is shown"
+    );
+    assert!(session.viewer.inspector().inset().is_some(), "the inspector");
 }
 
 #[test]
@@ -533,7 +570,7 @@ fn replay_newest_request_wins() {
     let frames = woken.load(Ordering::SeqCst);
     // The waker is called after the result is sent: the one for the first frame may come late.
     assert!((1..=3).contains(&frames), "{frames} frames were drawn for 200 requests");
-    let rotation = viewer.view_numbers().unwrap().rotation;
+    let rotation = viewer.both().view_numbers().unwrap().rotation;
     assert!((rotation - 50.0).abs() < 1e-9, "all of them count: {rotation}");
     assert!(!viewer.poll(), "nothing is left to take in");
 }
@@ -559,9 +596,12 @@ fn replay_revisions_tell_what_to_draw() {
         step("sample-rate", 1.0),
         Command::Inspector(InspectorCommand::StepMagnification(1)),
     ] {
-        let (picture, window) = (session.viewer.picture_revision(), session.viewer.window_picture());
+        let (picture, window) = (session.viewer.picture_revision(), session.viewer.window().picture());
         session.run(command.clone());
-        assert!(session.viewer.window_picture() != window, "{command:?} changes pixels");
+        assert!(
+            session.viewer.window().picture() != window,
+            "{command:?} changes pixels"
+        );
         assert!(session.viewer.picture_revision() > picture, "{command:?} says so");
     }
 }
@@ -572,7 +612,12 @@ fn replay_reload_draws_the_thumbnail_again() {
     let mut session = Session::open(&[TRIANGLES, SQUARE], [200, 150]);
     session.viewer.request_thumbnail(0);
     session.viewer.finish_thumbnails();
-    let thumbnail = |session: &Session| session.viewer.scenes()[0].thumbnail.clone().expect("drawn");
+    let thumbnail = |session: &Session| {
+        session.viewer.scene_list().scenes()[0]
+            .thumbnail
+            .clone()
+            .expect("drawn")
+    };
     let before = thumbnail(&session);
     std::fs::write(session.folder.path().join("1.svg"), SQUARE).unwrap();
     session.run(Command::Scenes(SceneCommand::Reload));

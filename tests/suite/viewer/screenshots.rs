@@ -25,7 +25,7 @@ fn screenshot_is_the_frame() {
     let pictures = session.pictures();
     assert_eq!(pictures.len(), 1, "{pictures:?}");
     assert!(read(&pictures[0]) == rgba(session.pixels()), "every pixel");
-    let message = session.viewer.messages().last().unwrap();
+    let message = session.viewer.chrome().messages().last().unwrap();
     let name = pictures[0].file_name().unwrap().to_str().unwrap();
     assert!(
         message.text.contains(name) && message.text.contains("80 x 60"),
@@ -45,7 +45,7 @@ fn screenshot_tells_how_it_was_made() {
     session.keys(&["=", "s"]);
     let told = |session: &Session, index: usize| Record::of_file(&session.pictures()[index]).unwrap().unwrap();
     let first = told(&session, 0);
-    let line = session.viewer.command_line().unwrap();
+    let line = session.viewer.recipes().command_line().unwrap();
     let [before, after] = ["rasterscope render ", " --size 80x60 --view default --sample-rate 4"];
     assert!(
         first.command_line.starts_with(before) && first.command_line.ends_with(after),
@@ -80,7 +80,7 @@ fn screenshot_holds_the_inset() {
     session.keys(&["s"]);
     let shot = &session.pictures()[0];
     let told = Record::of_file(shot).unwrap().unwrap();
-    let line = session.viewer.command_line().unwrap();
+    let line = session.viewer.recipes().command_line().unwrap();
     assert!(line.ends_with(" --inset 300,200:15@20:auto"), "{line}");
     assert!(
         told.command_line.ends_with(" --inset 300,200:15@20:auto") && told.differs.is_none(),
@@ -135,7 +135,7 @@ fn screenshot_folder_that_is_none() {
         let mut viewer = Viewer::new(options).unwrap();
         let _ = viewer.apply(Command::Export(ExportCommand::Screenshot));
         viewer.finish();
-        let message = viewer.messages().last().unwrap();
+        let message = viewer.chrome().messages().last().unwrap();
         assert_eq!(message.kind, MessageKind::Error, "{}", message.text);
         let told = message.text.contains(&wrong.display().to_string()) && message.text.contains("--screenshot-dir");
         assert!(told, "{} names place and cure", message.text);

@@ -34,10 +34,10 @@ fn script_plays_like_a_hand() {
     );
     let viewer = &session.viewer;
     assert_eq!(viewer.settings().render.sample_rate.samples(), 9, "nothing after quit");
-    assert_eq!(viewer.window_size(), [500, 400], "resized");
-    assert!(!viewer.current().unwrap().camera.is_default(), "dragged");
+    assert_eq!(viewer.chrome().window_size(), [500, 400], "resized");
+    assert!(!viewer.scene_list().current().unwrap().camera.is_default(), "dragged");
     let picture = image::open(&shot).unwrap().into_rgba8();
-    let window = viewer.window_picture();
+    let window = viewer.window().picture();
     assert_eq!(picture.dimensions(), (500, 400), "the whole window");
     let same = picture
         .enumerate_pixels()

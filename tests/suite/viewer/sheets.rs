@@ -52,7 +52,7 @@ fn saved(session: &Session) -> (PathBuf, Vec<String>) {
     let pictures = session.pictures();
     let sheet = pictures.iter().find(|path| path.to_string_lossy().contains("-sheet"));
     let sheet = sheet
-        .unwrap_or_else(|| panic!("{:?}", session.viewer.messages()))
+        .unwrap_or_else(|| panic!("{:?}", session.viewer.chrome().messages()))
         .clone();
     let names = names(&sheet.with_extension(""));
     (sheet, names)
@@ -101,7 +101,11 @@ fn sheet_from_the_window_is_that_of_its_command_line() {
         &["rerun", sheet.to_str().unwrap(), "--check", "--threads=1"],
     );
     assert!(check.contains("the same"), "{check}");
-    let line = session.viewer.sheet_command_line().unwrap();
+    let line = session
+        .viewer
+        .recipes()
+        .sheet_command_line(session.viewer.sheet())
+        .unwrap();
     let told = record.command_line.split(" --sample-rate").nth(1);
     assert_eq!(
         line.split(" --sample-rate").nth(1),
@@ -166,7 +170,7 @@ fn sheets_wait_for_their_scene_and_never_replace() {
     }
     session.viewer.finish();
     let pictures = session.pictures();
-    assert_eq!(pictures.len(), 3, "{:?}", session.viewer.messages());
+    assert_eq!(pictures.len(), 3, "{:?}", session.viewer.chrome().messages());
     let folders = pictures.iter().filter(|path| path.with_extension("").is_dir()).count();
     assert_eq!(folders, 3, "each with its panels");
 }
@@ -174,12 +178,12 @@ fn sheets_wait_for_their_scene_and_never_replace() {
 #[test]
 fn previews_follow_what_is_set() {
     let mut session = session([300, 200]);
-    assert!(session.viewer.sheet_preview().is_none(), "the dialog is closed");
+    assert!(session.viewer.sheet().preview().is_none(), "the dialog is closed");
     session.keys(&["Shift+S"]);
-    assert_eq!(session.viewer.dialog(), Some(Dialog::Sheet), "it is open");
+    assert_eq!(session.viewer.chrome().dialog(), Some(Dialog::Sheet), "it is open");
     session.run(Command::Sheet(SheetCommand::SetRoom([400, 300])));
     let shown = |session: &Session| {
-        let (preview, stale) = session.viewer.sheet_preview().unwrap();
+        let (preview, stale) = session.viewer.sheet().preview().unwrap();
         assert!(!stale, "it was waited for");
         preview.clone()
     };
@@ -197,7 +201,10 @@ fn previews_follow_what_is_set() {
         Command::Sheet(SheetCommand::Change(SheetChange::Axis(side, axis)))
     };
     session.run(side(SheetSide::Rows, "sample-rate 4,9"));
-    assert!(session.viewer.sheet().columns.is_none(), "a setting has one side");
+    assert!(
+        session.viewer.sheet().draft().columns.is_none(),
+        "a setting has one side"
+    );
     assert_eq!(shown(&session).unwrap().panels, 2, "only those");
     session.keys(&["v"]);
     let other = shown(&session).unwrap();
@@ -218,7 +225,7 @@ fn previews_follow_what_is_set() {
     session.run(side(SheetSide::Rows, ""));
     assert!(shown(&session).unwrap_err().contains("smaller"), "too large");
     session.run(Command::Sheet(SheetCommand::Save));
-    let message = session.viewer.messages().last().unwrap();
+    let message = session.viewer.chrome().messages().last().unwrap();
     assert_eq!(message.kind, MessageKind::Error, "{}", message.text);
     assert!(session.pictures().is_empty(), "nothing is left");
     assert_eq!(
@@ -235,7 +242,7 @@ fn sheets_that_cannot_be_saved_say_so() {
     std::fs::remove_file(&gone).unwrap();
     say(&mut session, "sheet-columns", "dialect course,svg");
     say(&mut session, "save-sheet", "");
-    let message = session.viewer.messages().last().unwrap().text.clone();
+    let message = session.viewer.chrome().messages().last().unwrap().text.clone();
     assert!(message.contains("1.svg"), "{message}");
     assert_eq!(
         std::fs::read_dir(session.folder.path()).unwrap().count(),

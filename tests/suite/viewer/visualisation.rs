@@ -27,7 +27,7 @@ fn visualisations_follow_each_other_by_key() {
         session.keys(&["v"]);
         assert_eq!(shown(&session), visualisation, "the next");
         session.assert_frame_is_current();
-        let named = session.viewer.command_line().unwrap();
+        let named = session.viewer.recipes().command_line().unwrap();
         let option = format!(" --visualise {}", visualisation.name());
         assert_eq!(
             named.contains(&option),
@@ -38,19 +38,22 @@ fn visualisations_follow_each_other_by_key() {
     session.keys(&["shift+v", "shift+v"]);
     assert_eq!(shown(&session), Visualisation::MipLevels, "back");
     assert!(
-        session.viewer.title().contains("visualise mip"),
+        session.viewer.both().title().contains("visualise mip"),
         "{}",
-        session.viewer.title()
+        session.viewer.both().title()
     );
 }
 
 #[test]
 fn visualised_window_shows_the_legend_where_it_hides_nothing() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
-    assert!(session.viewer.legend_places().is_empty(), "a picture needs none");
+    assert!(
+        session.viewer.frames().legend_places().is_empty(),
+        "a picture needs none"
+    );
     session.run(set("visualise", Visualisation::Overdraw.name()));
     let legend = {
-        let scene = session.viewer.current().unwrap().scene().unwrap();
+        let scene = session.viewer.scene_list().current().unwrap().scene().unwrap();
         Visualisation::Overdraw.legend(scene).unwrap()
     };
     let free = PixelRect {
@@ -64,8 +67,8 @@ fn visualised_window_shows_the_legend_where_it_hides_nothing() {
     let [(rect, picture)] = &expected[..] else {
         panic!("there is room")
     };
-    assert_eq!(session.viewer.legend_places(), [*rect], "in the free area");
-    let window = session.viewer.window_picture();
+    assert_eq!(session.viewer.frames().legend_places(), [*rect], "in the free area");
+    let window = session.viewer.window().picture();
     let row = |y: i64| usize::try_from(y * 640 + rect.x).unwrap();
     for (y, pixels) in (rect.y..).zip(picture.pixels().chunks(rect.width as usize)) {
         assert_eq!(&window.pixels()[row(y)..][..pixels.len()], pixels, "row {y}");
@@ -75,21 +78,21 @@ fn visualised_window_shows_the_legend_where_it_hides_nothing() {
         rect.x + 4,
         rect.bottom() - 4,
     ])));
-    for place in session.viewer.legend_places() {
+    for place in session.viewer.frames().legend_places() {
         assert!(!place.contains([rect.x + 4, rect.bottom() - 4]), "the pixel is seen");
         assert!(
-            !place.overlaps(&session.viewer.inset().unwrap().rect),
+            !place.overlaps(&session.viewer.inspector().inset().unwrap().rect),
             "so is its inset"
         );
     }
     session.keys(&["tab"]);
-    assert!(session.viewer.legend_places().is_empty(), "only the picture");
+    assert!(session.viewer.frames().legend_places().is_empty(), "only the picture");
 }
 
 #[test]
 fn visualised_window_draws_the_parts_that_changed() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
-    let mut window = session.viewer.window_picture();
+    let mut window = session.viewer.window().picture();
     assert!(session.viewer.take_damage().is_none(), "at first everything");
     for command in [
         step("visualise", 1.0),
@@ -106,15 +109,18 @@ fn visualised_window_draws_the_parts_that_changed() {
         let parts = session.viewer.take_damage();
         let all = [PixelRect::of_size(WINDOW)];
         let parts = parts.as_deref().unwrap_or(&all);
-        session.viewer.draw_parts(parts, &mut WindowPixels::of(&mut window));
-        assert!(window == session.viewer.window_picture(), "after {command:?}");
+        session
+            .viewer
+            .window()
+            .draw_parts(parts, &mut WindowPixels::of(&mut window));
+        assert!(window == session.viewer.window().picture(), "after {command:?}");
     }
 }
 
 #[test]
 fn visualised_comparison_has_a_legend_for_each_side_that_differs() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
-    let legends = |session: &Session| session.viewer.legend_places().len();
+    let legends = |session: &Session| session.viewer.frames().legend_places().len();
     session.run(set("visualise", Visualisation::Coverage.name()));
     session.run(Command::Ab(AbCommand::Compare(Against::Settings)));
     session.run(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
@@ -133,7 +139,7 @@ fn visualised_screenshots_carry_the_legend() {
     session.run(set("visualise", Visualisation::Coverage.name()));
     session.keys(&["s"]);
     let mut expected = session.pixels().clone();
-    let scene = session.viewer.current().unwrap().scene().unwrap();
+    let scene = session.viewer.scene_list().current().unwrap().scene().unwrap();
     let legend = Visualisation::Coverage.legend(scene).unwrap();
     assert_eq!(add_legends(&mut expected, &[legend], &[]), 1, "there is room");
     let saved = image::open(&session.pictures()[0]).unwrap().into_rgba8();
@@ -145,7 +151,7 @@ fn visualised_screenshots_carry_the_legend() {
 fn visualised_pixels_are_explained_as_the_picture() {
     let mut session = Session::open(&[TRIANGLES], WINDOW);
     session.run(Command::Inspector(InspectorCommand::Pin([300, 240])));
-    let explained = |session: &Session| session.viewer.explanation().unwrap().color;
+    let explained = |session: &Session| session.viewer.inspector().explanation().unwrap().color;
     let before = explained(&session);
     session.run(set("visualise", Visualisation::Primitive.name()));
     assert_eq!(explained(&session), before, "its colour");

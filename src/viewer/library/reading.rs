@@ -1,66 +1,62 @@
 //! Which scene is shown, and when documents are read, drawn as thumbnails and let go.
 
+use crate::scene::DialectChoice;
+use crate::viewer::chrome::Chrome;
+use crate::viewer::library::dialects::WantedDialects;
 use crate::viewer::library::readers::{Order, ReadScene, Side, Thumbnail};
+use crate::viewer::library::state::SceneList;
 use crate::viewer::library::{SceneSource, SceneState};
-use crate::viewer::state::Viewer;
 
 /// Scenes kept in memory besides the current one.
 const KEPT: usize = 3;
 
-impl Viewer {
+impl SceneList {
     /// Sees to it that the current scene is read in the dialect that is set, and in B's.
-    pub(in crate::viewer) fn want_scene(&mut self) {
-        let Some(entry) = self.scene_list.scenes.get(self.scene_list.current) else {
-            return;
-        };
+    pub(in crate::viewer) fn want(&mut self, dialects: WantedDialects) {
+        let Some(entry) = self.current() else { return };
         match entry.state.dialect() {
-            None => self.read_current(),
-            Some(dialect) if dialect != self.reading_of(self.scene_list.current, self.settings.dialect) => {
-                self.read_for(Side::A);
+            None => self.read_current(dialects),
+            Some(dialect) if dialect != self.reading_of(self.current, dialects.own) => {
+                self.read_for(Side::A, dialects);
             }
             Some(_) => {}
         }
         self.let_go_of_old_scenes();
-        self.want_other_scene();
+        self.want_for_b(dialects);
     }
 
     /// The same for B where it has a dialect of its own; else B shares A's scene.
-    fn want_other_scene(&mut self) {
-        let own = self.own_dialect_of_b();
-        let wanted = own.map(|dialect| self.reading_of(self.scene_list.current, dialect));
-        let Some(entry) = self.scene_list.scenes.get_mut(self.scene_list.current) else {
-            return;
-        };
+    fn want_for_b(&mut self, dialects: WantedDialects) {
+        let wanted = dialects.other.map(|dialect| self.reading_of(self.current, dialect));
+        let Some(entry) = self.current_mut() else { return };
         match wanted {
             None => entry.other_state = SceneState::Unread,
-            Some(dialect) if entry.other_state.dialect() != Some(dialect) => self.read_for(Side::B),
+            Some(dialect) if entry.other_state.dialect() != Some(dialect) => self.read_for(Side::B, dialects),
             Some(_) => {}
         }
     }
 
     /// Reads the current scene again.
-    pub(in crate::viewer) fn read_current(&mut self) {
-        self.scene_list.documents += 1;
-        let documents = self.scene_list.documents;
-        let Some(entry) = self.scene_list.scenes.get_mut(self.scene_list.current) else {
-            return;
-        };
+    pub(in crate::viewer) fn read_current(&mut self, dialects: WantedDialects) {
+        self.documents += 1;
+        let documents = self.documents;
+        let Some(entry) = self.current_mut() else { return };
         entry.document = documents;
-        self.read_for(Side::A);
-        if self.own_dialect_of_b().is_some() {
-            self.read_for(Side::B);
+        self.read_for(Side::A, dialects);
+        if dialects.other.is_some() {
+            self.read_for(Side::B, dialects);
         }
     }
 
     /// Reads the current scene for one side, in its dialect.
-    fn read_for(&mut self, side: Side) {
-        let (generation, index) = (self.scene_list.generation, self.scene_list.current);
+    fn read_for(&mut self, side: Side, dialects: WantedDialects) {
+        let (generation, index) = (self.generation, self.current);
         let dialect = match side {
-            Side::A => self.settings.dialect,
-            Side::B => self.own_dialect_of_b().unwrap_or(self.settings.dialect),
+            Side::A => dialects.own,
+            Side::B => dialects.other.unwrap_or(dialects.own),
         };
         let dialect = self.reading_of(index, dialect);
-        let Some(entry) = self.scene_list.scenes.get_mut(index) else {
+        let Some(entry) = self.scenes.get_mut(index) else {
             return;
         };
         let state = side.state(entry);
@@ -75,12 +71,11 @@ impl Viewer {
             scene: None,
         };
         if side == Side::B {
-            self.scene_list.readers.scenes.push(order);
+            self.readers.scenes.push(order);
             return;
         }
-        for order in self.scene_list.readers.scenes.replace(order) {
+        for order in self.readers.scenes.replace(order) {
             let forgotten = self
-                .scene_list
                 .scenes
                 .get_mut(order.index)
                 .filter(|_| order.generation == generation);
@@ -94,14 +89,15 @@ impl Viewer {
         }
     }
 
-    /// Takes in a scene that was read. One that is no longer shown is kept, if it was read as the settings say.
-    pub(in crate::viewer) fn scene_read(&mut self, read: ReadScene) {
-        let is_current = read.index == self.scene_list.current;
-        let Some(entry) = self.scene_list.scenes.get_mut(read.index) else {
+    /// Takes in a scene that was read. One that is no longer shown is kept, if it was read as the settings say; `choice` is the
+    /// dialect that they say now.
+    pub(in crate::viewer) fn take_in(&mut self, read: ReadScene, choice: DialectChoice, chrome: &mut Chrome) {
+        let is_current = read.index == self.current;
+        let Some(entry) = self.scenes.get_mut(read.index) else {
             return;
         };
         let dialect = read.dialect;
-        let is_newest = read.generation == self.scene_list.generation && read.document == entry.document;
+        let is_newest = read.generation == self.generation && read.document == entry.document;
         let Some(side) = Side::reading(entry, dialect).filter(|_| is_newest) else {
             return;
         };
@@ -120,14 +116,14 @@ impl Viewer {
             entry.thumbnail = None;
         }
         if is_current || read.result.is_ok() {
-            self.chrome.messages.forget_problems_of(&entry.source.address());
+            chrome.messages.forget_problems_of(&entry.source.address());
         }
         *side.state(entry) = match read.result {
             Ok(scene) => SceneState::Ready { scene, dialect },
             Err(message) => {
                 // Over a picture that stays it is to be seen for as long as it is so.
-                if is_current && (before.is_none() || self.chrome.hidden) {
-                    self.chrome.messages.error(message.clone());
+                if is_current && (before.is_none() || chrome.hidden) {
+                    chrome.messages.error(message.clone());
                 }
                 SceneState::Failed {
                     message,
@@ -137,47 +133,42 @@ impl Viewer {
             }
         };
         if draws_again {
-            self.request_thumbnail(read.index);
+            self.request_thumbnail(read.index, choice);
         }
     }
 
     /// Keeps the current scene and the ones shown last; the others are read again when they are asked for.
     fn let_go_of_old_scenes(&mut self) {
-        let current = self.scene_list.current;
-        if self.scene_list.recent.last() == Some(&current) {
+        let current = self.current;
+        if self.recent.last() == Some(&current) {
             return;
         }
-        for index in &self.scene_list.recent {
-            if let Some(entry) = self.scene_list.scenes.get_mut(*index) {
+        for index in &self.recent {
+            if let Some(entry) = self.scenes.get_mut(*index) {
                 entry.other_state = SceneState::Unread;
             }
         }
-        self.scene_list.recent.retain(|index| *index != current);
-        self.scene_list.recent.push(current);
-        while self.scene_list.recent.len() > KEPT + 1 {
-            let oldest = self.scene_list.recent.remove(0);
-            if let Some(entry) = self.scene_list.scenes.get_mut(oldest) {
+        self.recent.retain(|index| *index != current);
+        self.recent.push(current);
+        while self.recent.len() > KEPT + 1 {
+            let oldest = self.recent.remove(0);
+            if let Some(entry) = self.scenes.get_mut(oldest) {
                 entry.state = SceneState::Unread;
             }
         }
     }
 
     /// Asks for the thumbnail of a scene in the list: it is read and drawn when nothing else is to be done, and stands
-    /// in [`crate::viewer::library::SceneEntry::thumbnail`] then. To be called for the scenes that a panel shows.
-    pub fn request_thumbnail(&mut self, index: usize) {
-        let generation = self.scene_list.generation;
-        let dialect = self.reading_of(index, self.settings.dialect);
-        let Some(entry) = self
-            .scene_list
-            .scenes
-            .get_mut(index)
-            .filter(|entry| !entry.thumbnail_asked)
-        else {
+    /// in [`crate::viewer::library::SceneEntry::thumbnail`] then. `choice` is the dialect that the settings say.
+    pub(in crate::viewer) fn request_thumbnail(&mut self, index: usize, choice: DialectChoice) {
+        let generation = self.generation;
+        let dialect = self.reading_of(index, choice);
+        let Some(entry) = self.scenes.get_mut(index).filter(|entry| !entry.thumbnail_asked) else {
             return;
         };
         entry.thumbnail_asked = true;
-        self.scene_list.readers.pending_thumbnails += 1;
-        self.scene_list.readers.thumbnails.push(Order {
+        self.readers.pending_thumbnails += 1;
+        self.readers.thumbnails.push(Order {
             generation,
             index,
             document: entry.document,
@@ -188,9 +179,9 @@ impl Viewer {
     }
 
     pub(in crate::viewer) fn thumbnail_drawn(&mut self, thumbnail: Thumbnail) {
-        self.scene_list.readers.pending_thumbnails = self.scene_list.readers.pending_thumbnails.saturating_sub(1);
-        let in_list = thumbnail.generation == self.scene_list.generation;
-        if let Some(entry) = self.scene_list.scenes.get_mut(thumbnail.index).filter(|_| in_list) {
+        self.readers.pending_thumbnails = self.readers.pending_thumbnails.saturating_sub(1);
+        let in_list = thumbnail.generation == self.generation;
+        if let Some(entry) = self.scenes.get_mut(thumbnail.index).filter(|_| in_list) {
             entry.thumbnail = thumbnail.picture;
         }
     }

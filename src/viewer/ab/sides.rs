@@ -1,10 +1,12 @@
-//! A and B in words: which settings differ, and what each of both is.
+//! What B is beside A: its settings and dialect, and in words which settings differ.
 
 use crate::color::ResolveSpace;
+use crate::render::RenderSettings;
+use crate::scene::DialectChoice;
+use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::ab::other::Other;
-use crate::viewer::settings::picture::{About, told_words};
+use crate::viewer::library::dialects::WantedDialects;
 use crate::viewer::settings::{Settings, picture};
-use crate::viewer::state::Viewer;
 
 /// What the truth is.
 fn truth_words(resolve: ResolveSpace) -> String {
@@ -28,32 +30,63 @@ fn differing(a: &Settings, b: &Settings) -> Vec<Differing> {
         .collect()
 }
 
-impl Viewer {
+impl Comparison {
+    /// B's settings, where it is drawn; `own` are A's.
+    pub fn other_settings(&self, own: &Settings) -> Option<RenderSettings> {
+        match self.other()? {
+            Other::Settings { render, .. } => Some(*render),
+            Other::Truth(resolve) => {
+                let own = own.render;
+                Some(RenderSettings {
+                    resolve: resolve.unwrap_or(own.resolve),
+                    ..own.truth()
+                })
+            }
+            Other::Picture(_) => None,
+        }
+    }
+
+    /// The dialect that B's scene is read in, where that is not A's.
+    pub fn own_dialect_of_b(&self, own: &Settings) -> Option<DialectChoice> {
+        match self.other()? {
+            Other::Settings { dialect, .. } => Some(*dialect).filter(|dialect| *dialect != own.dialect),
+            Other::Truth(_) | Other::Picture(_) => None,
+        }
+    }
+
+    /// In which dialects A and B are to be read.
+    pub(in crate::viewer) fn wanted_dialects(&self, own: &Settings) -> WantedDialects {
+        WantedDialects {
+            own: own.dialect,
+            other: self.own_dialect_of_b(own),
+        }
+    }
+
     /// Which settings of A and B differ, in words such as `sample rate 1 | 16`; `None` without B, and for a picture from
     /// outside, whose settings nobody knows.
-    pub fn comparison_words(&self) -> Option<Vec<String>> {
-        let words = self.differing_settings()?.into_iter();
+    pub fn words(&self, own: &Settings) -> Option<Vec<String>> {
+        let words = self.differing_settings(own)?.into_iter();
         Some(words.map(|(name, a, b)| format!("{name} {a} | {b}")).collect())
     }
 
     /// A against B in one line, for the window's title; `None` without B.
-    pub fn comparison_title(&self) -> Option<String> {
+    pub(in crate::viewer) fn title(&self, own: &Settings) -> Option<String> {
         let other = match self.other()? {
             Other::Settings { .. } => "B".to_owned(),
             Other::Truth(_) => "the truth".to_owned(),
             Other::Picture(picture) => picture.name(),
         };
-        let words = match self.comparison_words() {
+        let words = match self.words(own) {
             Some(words) if words.is_empty() => vec!["the same settings".to_owned()],
             Some(words) => words,
-            None => self.own_words(),
+            None => picture::title_words(own),
         };
         Some(format!("A against {other}: {}", words.join(", ")))
     }
 
     /// What A is and what B is, each for itself, such as `A: sample rate 16`; `None` without B.
-    pub fn comparison_sides(&self) -> Option<[String; 2]> {
-        let differing = self.differing_settings().unwrap_or_default();
+    pub fn sides(&self, own: &Settings) -> Option<[String; 2]> {
+        let differing = self.differing_settings(own).unwrap_or_default();
         let a: Vec<String> = differing.iter().map(|(name, a, _)| format!("{name} {a}")).collect();
         let b: Vec<String> = differing.iter().map(|(name, _, b)| format!("{name} {b}")).collect();
         let a = match self.other()? {
@@ -64,26 +97,18 @@ impl Viewer {
         let b = match self.other()? {
             Other::Settings { .. } if b.is_empty() => "B".to_owned(),
             Other::Settings { .. } => format!("B: {}", b.join(", ")),
-            Other::Truth(resolve) => truth_words(resolve.unwrap_or(self.settings.render.resolve)),
+            Other::Truth(resolve) => truth_words(resolve.unwrap_or(own.render.resolve)),
             Other::Picture(picture) => format!("B: {}", picture.name()),
         };
         Some([a, b])
     }
 
-    /// A's settings as the title tells them.
-    pub(in crate::viewer) fn own_words(&self) -> Vec<String> {
-        [About::Samples, About::Textures]
-            .into_iter()
-            .flat_map(|about| told_words(&self.settings, about))
-            .collect()
-    }
-
-    fn differing_settings(&self) -> Option<Vec<Differing>> {
+    fn differing_settings(&self, own: &Settings) -> Option<Vec<Differing>> {
         let other = Settings {
-            render: self.other_settings()?,
-            dialect: self.own_dialect_of_b().unwrap_or(self.settings.dialect),
-            ..self.settings
+            render: self.other_settings(own)?,
+            dialect: self.own_dialect_of_b(own).unwrap_or(own.dialect),
+            ..*own
         };
-        Some(differing(&self.settings, &other))
+        Some(differing(own, &other))
     }
 }

@@ -1,0 +1,229 @@
+//! A and B as they are at this moment: their frames, which of them belong together, what the window shows of them.
+
+use std::sync::Arc;
+
+use crate::plain;
+use crate::raster::Framebuffer;
+use crate::render::{Legend, RenderSettings, Visualisation};
+use crate::viewer::ab::comparison::Comparison;
+use crate::viewer::ab::measuring::{Measures, SharedPicture, Which};
+use crate::viewer::ab::other::{Arrangement, Other};
+use crate::viewer::chrome::Chrome;
+use crate::viewer::frames::composite::{Composite, Content};
+use crate::viewer::frames::drawing::Drawing;
+use crate::viewer::frames::frame::Picture;
+use crate::viewer::frames::state::Frames;
+use crate::viewer::library::state::SceneList;
+use crate::viewer::settings::Settings;
+use crate::viewer::settings::picture::title_words;
+use crate::viewer::view::camera::{ViewContext, ViewNumbers};
+use crate::viewer::view::layout::WindowLayout;
+
+/// Longest title of the window, in characters.
+const MAX_TITLE: usize = 300;
+
+/// A and B at this moment, and where they lie in the window.
+#[derive(Clone, Copy, Debug)]
+pub struct Both<'a> {
+    pub(in crate::viewer) settings: &'a Settings,
+    pub(in crate::viewer) scene_list: &'a SceneList,
+    pub(in crate::viewer) frames: &'a Frames,
+    pub(in crate::viewer) ab: &'a Comparison,
+    pub(in crate::viewer) layout: WindowLayout,
+}
+
+impl<'a> Both<'a> {
+    pub(in crate::viewer) fn new(
+        settings: &'a Settings,
+        chrome: &Chrome,
+        scene_list: &'a SceneList,
+        frames: &'a Frames,
+        ab: &'a Comparison,
+    ) -> Self {
+        Self {
+            settings,
+            scene_list,
+            frames,
+            ab,
+            layout: ab.layout(settings.pixel_zoom, chrome),
+        }
+    }
+
+    /// Where frames lie in the window.
+    pub fn layout(&self) -> WindowLayout {
+        self.layout
+    }
+
+    /// The numbers of the current view; `None` before the scene was read.
+    pub fn view_numbers(&self) -> Option<ViewNumbers> {
+        self.scene_list.view_numbers(self.layout.frame_size())
+    }
+
+    /// The window's title: scene, settings or what of them differs between A and B, program.
+    pub fn title(&self) -> String {
+        let name = self.scene_list.current();
+        let name = name.map_or("no scene", |entry| entry.label.as_str());
+        let words = self.ab.title(self.settings);
+        let words = words.unwrap_or_else(|| title_words(self.settings).join(", "));
+        plain::short_line(&format!("{name} - {words} - Rasterscope"), MAX_TITLE)
+    }
+
+    /// How far A and B are apart, and whether that is about the pictures of this moment; `None` until it was found out.
+    pub fn measures(&self) -> Option<(&'a Measures, bool)> {
+        let (which, measures) = self.ab.measuring.found.as_ref()?;
+        Some((measures, self.measurable() == Some(*which)))
+    }
+
+    /// Where the line of the wipe is, in window pixels from the left; `None` where there is none.
+    pub fn wipe_line(&self) -> Option<f64> {
+        let wipes = self.ab.arrangement() == Arrangement::Wipe;
+        let [front, _] = self.pair().filter(|_| wipes)?;
+        let column = i64::from(self.ab.wipe_column(front.width(), &self.layout));
+        let column = column + self.layout.panes().first.corner[0];
+        Some(column as f64 * f64::from(self.layout.zoom()))
+    }
+
+    /// What the current camera looks at; `None` before the scene was read.
+    pub(in crate::viewer) fn view_context(&self) -> Option<ViewContext> {
+        self.scene_list.view_context(self.layout.frame_size())
+    }
+
+    /// What B shows where A shows `own`; `None` unless B is drawn, and while its scene is being read.
+    pub(in crate::viewer) fn other_picture(&self, own: &Picture) -> Option<Picture> {
+        let settings = self.ab.other_settings(self.settings)?;
+        let scene = match self.ab.own_dialect_of_b(self.settings) {
+            None => Arc::clone(&own.scene),
+            Some(_) => Arc::clone(self.scene_list.current()?.other_state.scene()?),
+        };
+        let outline = settings.outline && own.settings.outline;
+        Some(Picture {
+            settings: RenderSettings { outline, ..settings },
+            scene,
+            ..own.clone()
+        })
+    }
+
+    /// Both pictures on the screen, the one in front first; `None` while they cannot be compared.
+    pub(in crate::viewer) fn pair(&self) -> Option<[&'a Framebuffer; 2]> {
+        let [a, b] = match &self.ab.held {
+            Some([a, b]) => [&a.pixels, &b.pixels],
+            None => self.pair_in_step()?,
+        };
+        Some(if self.ab.swapped { [b, a] } else { [a, b] })
+    }
+
+    /// A's pixels and B's, where they show the scene from the same place.
+    pub(in crate::viewer) fn pair_in_step(&self) -> Option<[&'a Framebuffer; 2]> {
+        let a = self.frames.drawing.frame()?;
+        if let Some(Other::Picture(picture)) = &self.ab.other {
+            let size = [picture.pixels.width(), picture.pixels.height()];
+            return (a.picture.size == size).then_some([&a.pixels, &picture.pixels]);
+        }
+        let b = self.ab.drawing.as_ref()?.frame()?;
+        let in_step = match self.ab.own_dialect_of_b(self.settings) {
+            None => a.picture.is_seen_as(&b.picture),
+            Some(_) => a.picture.shows_document_of(&b.picture),
+        };
+        in_step.then_some([&a.pixels, &b.pixels])
+    }
+
+    /// The same for threads.
+    pub(in crate::viewer) fn shared_pair(&self) -> Option<[SharedPicture; 2]> {
+        self.pair_in_step()?;
+        let a = Arc::clone(self.frames.drawing.shared_frame()?) as SharedPicture;
+        let b = match self.ab.other.as_ref()? {
+            Other::Picture(picture) => Arc::clone(picture) as SharedPicture,
+            _ => Arc::clone(self.ab.drawing.as_ref()?.shared_frame()?) as SharedPicture,
+        };
+        Some([a, b])
+    }
+
+    /// Whether `picture` must wait until both frames have come to the last view.
+    pub(in crate::viewer) fn lags_behind(&self, picture: &Picture) -> bool {
+        let Some(other) = self.ab.drawn_other().filter(|_| self.ab.shows_both()) else {
+            return false;
+        };
+        let wanted = self.frames.drawing.wanted();
+        let moves = wanted.is_some_and(|wanted| !wanted.is_seen_as(picture));
+        let same_scene =
+            wanted.is_some_and(|wanted| Arc::ptr_eq(&wanted.scene, &picture.scene) && wanted.size == picture.size);
+        moves && same_scene && !(self.frames.drawing.has_arrived() && other.has_arrived())
+    }
+
+    /// Whether nothing is to be found out about A and B any more.
+    pub(in crate::viewer) fn is_measured(&self) -> bool {
+        let which = self.measurable();
+        which.is_none() || which == self.ab.measuring.complete
+    }
+
+    /// Both pictures, if they are final and belong together.
+    pub(in crate::viewer) fn measurable(&self) -> Option<Which> {
+        let settled = self.frames.drawing.is_current() && self.ab.is_current();
+        self.pair_in_step().filter(|_| settled)?;
+        let number = |drawing: &Drawing| (drawing.id(), drawing.number());
+        Some(Which {
+            a: number(&self.frames.drawing),
+            b: self.ab.drawn_other().map(number),
+            other: self.ab.others,
+        })
+    }
+
+    /// What the window shows below the panels.
+    pub(in crate::viewer) fn composite(&self) -> Composite<'a> {
+        let Some(frame) = self.frames.frame() else {
+            return Composite::default();
+        };
+        let panes = self.layout.panes();
+        let comparison = &self.ab;
+        let Some([front, back]) = self.pair().filter(|_| comparison.shows_both()) else {
+            return Composite::new(vec![(panes.first, Content::One(&frame.pixels))]);
+        };
+        let content = match comparison.arrangement {
+            Arrangement::Alone | Arrangement::SideBySide => Content::One(front),
+            Arrangement::Flip => Content::One(if self.ab.flip_shows_back() { back } else { front }),
+            Arrangement::Wipe => Content::Wipe([front, back], comparison.wipe_column(front.width(), &self.layout)),
+            Arrangement::Difference => match &comparison.paint {
+                Some(paint) => Content::Difference([front, back], &paint.colors),
+                None => Content::One(front),
+            },
+        };
+        let second = panes.second.map(|pane| (pane, Content::One(back)));
+        Composite::new(std::iter::once((panes.first, content)).chain(second).collect())
+    }
+
+    /// What the picture on the screen shows: A, then B where that is seen and shows something else.
+    pub(in crate::viewer) fn visualisations(&self) -> Vec<Visualisation> {
+        let Some(frame) = self.frames.frame() else {
+            return Vec::new();
+        };
+        let mut shown = vec![frame.picture.settings.visualisation];
+        if self.ab.arrangement() == Arrangement::Difference {
+            // The difference has colours of its own.
+            return Vec::new();
+        }
+        if self.ab.shows_both() {
+            shown.extend(
+                self.ab
+                    .other_settings(self.settings)
+                    .map(|settings| settings.visualisation),
+            );
+            shown.dedup();
+        }
+        shown.retain(|shown| *shown != Visualisation::Color);
+        shown
+    }
+
+    /// The legends that a saved picture carries.
+    pub(in crate::viewer) fn legends_of_picture(&self) -> Vec<Legend> {
+        let Some(frame) = self.frames.frame() else {
+            return Vec::new();
+        };
+        let legends = self.visualisations().into_iter();
+        legends.filter_map(|shown| shown.legend(&frame.picture.scene)).collect()
+    }
+
+    /// Whether A's frame is what the window shows, pixel by pixel.
+    pub(in crate::viewer) fn shows_plain_frame(&self) -> bool {
+        self.layout.is_plain() && !self.ab.shows_both() && self.settings.render.background.a >= 1.0
+    }
+}

@@ -1,0 +1,144 @@
+//! How the picture in the window is made again: its command line, its record, what a screenshot of it shows.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::figure::{Guard, InsetPlace, InsetSpec, Record, add_legends};
+use crate::viewer::ab::other::Other;
+use crate::viewer::control::both::Both;
+use crate::viewer::control::pointing::Pointing;
+use crate::viewer::control::window::WindowContent;
+use crate::viewer::export::saver::{Recipe, Shot};
+use crate::viewer::export::spec::{PictureSpec, output_name, shell_line};
+use crate::viewer::frames::frame::Frame;
+
+/// What is in the window, as somebody else can make it again.
+#[derive(Clone, Copy, Debug)]
+pub struct Recipes<'a> {
+    pub(in crate::viewer) both: Both<'a>,
+    pub(in crate::viewer) pixels: Pointing<'a>,
+}
+
+impl Recipes<'_> {
+    /// The `rasterscope render` command that makes the current picture, quoted for a POSIX shell; `None` without a
+    /// scene or without pixels. Options that have their default value are left out, but for size and view.
+    pub fn command_line(&self) -> Option<String> {
+        let output = output_name(&self.both.scene_list.current()?.label);
+        Some(shell_line(&self.picture_spec()?.arguments(&output)))
+    }
+
+    /// The record of a picture of the window that is written to `output`; `None` without a scene.
+    pub fn record_of_window(&self, output: &Path) -> Option<Record> {
+        Some(self.recipe_of_window()?.record(output))
+    }
+
+    /// What decides the current picture; `None` without a scene or without pixels.
+    pub(in crate::viewer) fn picture_spec(&self) -> Option<PictureSpec> {
+        let (entry, size) = (self.both.scene_list.current()?, self.both.layout.frame_size());
+        (!size.contains(&0)).then(|| PictureSpec {
+            scene: entry.source.clone(),
+            size,
+            view: entry.camera.view(),
+            render: self.both.settings.render,
+            dialect: self.both.scene_list.dialect_of_picture(self.both.settings),
+            legend: true,
+            insets: self.inset_spec().into_iter().collect(),
+        })
+    }
+
+    /// The inspector's inset as figures carry it: as large as the frame has room for. `None` while it is not to be seen, or
+    /// where there is no room at all.
+    fn inset_spec(&self) -> Option<InsetSpec> {
+        let pixel = self.pixels.inspector.inset.and(self.pixels.inspected())?;
+        let (entry, context) = (self.both.scene_list.current()?, self.both.view_context()?);
+        let (region, magnification) = (
+            self.pixels.inspector.magnifier.region,
+            self.pixels.inspector.magnifier.magnification,
+        );
+        let spec = InsetSpec::around(InsetPlace::Pixel(pixel), region, magnification);
+        spec.fitted(self.both.layout.frame_size(), &entry.camera.transform(&context))
+    }
+
+    /// How the picture of the whole window was made.
+    pub(in crate::viewer) fn recipe_of_window(&self) -> Option<Recipe> {
+        Some(Recipe {
+            spec: self.picture_spec()?,
+            scene: Arc::clone(self.both.scene_list.current()?.scene()?),
+            differs: Some("a picture of the window; the command line draws what it shows, without panels".to_owned()),
+        })
+    }
+
+    /// How a frame was made, and what else its picture shows.
+    pub(in crate::viewer) fn recipe_of_frame(&self, frame: &Frame, with_other: bool) -> Option<Recipe> {
+        let now = self.picture_spec()?;
+        let picture = &frame.picture;
+        let spec = PictureSpec {
+            size: picture.size,
+            render: picture.settings,
+            // What A and B share has its own insets, in window pixels.
+            insets: if with_other { Vec::new() } else { now.insets.clone() },
+            ..now
+        };
+        let drawn_of_now = self
+            .both
+            .scene_list
+            .current()?
+            .scene()
+            .is_some_and(|scene| Arc::ptr_eq(scene, &picture.scene));
+        let seen_from_there = spec.view.transform(picture.scene.canvas, picture.size) == picture.view;
+        let differs = if !drawn_of_now || !seen_from_there {
+            Some("the view moved on while this picture was saved; the command line draws where it went")
+        } else if with_other {
+            Some("A and B share this picture; the command line draws A alone")
+        } else {
+            None
+        };
+        Some(Recipe {
+            spec,
+            scene: Arc::clone(&picture.scene),
+            differs: differs.map(str::to_owned),
+        })
+    }
+
+    /// What a screenshot of this frame shows.
+    pub(in crate::viewer) fn shot_of(&self, frame: &Arc<Frame>, recipe: Option<&Recipe>) -> Shot {
+        if !self.both.ab.shows_both() {
+            return Shot::Frame {
+                frame: Arc::clone(frame),
+                insets: recipe.map_or(Vec::new(), |recipe| recipe.spec.insets.clone()),
+                legends: self.both.legends_of_picture(),
+            };
+        }
+        if self.pixels.inspector.inset.is_some() {
+            // The inset is in window pixels.
+            return Shot::Ready(self.window().picture());
+        }
+        let mut picture = self.both.composite().picture();
+        add_legends(&mut picture, &self.both.legends_of_picture(), &[]);
+        Shot::Ready(picture)
+    }
+
+    /// Protects what is shown: the scene with its textures, and a picture that is compared with it.
+    pub fn guard(&self) -> Guard {
+        let mut guard = Guard::default();
+        if let Some((entry, scene)) = self
+            .both
+            .scene_list
+            .current()
+            .and_then(|entry| Some((entry, entry.scene()?)))
+        {
+            entry.source.protect(&scene.files, &mut guard);
+        }
+        if let Some(Other::Picture(picture)) = self.both.ab.other() {
+            guard.protect(&picture.path);
+        }
+        guard
+    }
+
+    fn window(&self) -> WindowContent<'_> {
+        WindowContent {
+            both: self.both,
+            inspector: self.pixels.inspector,
+        }
+    }
+}

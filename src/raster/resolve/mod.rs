@@ -8,7 +8,7 @@
 mod box_filter;
 mod weigh;
 
-use crate::color::{Premultiplied16, ResolveSpace, Resolver};
+use crate::color::{LightResolver, Premultiplied16, ResolveSpace, Resolver};
 use crate::raster::resolve::weigh::Weigh;
 use crate::rules::Rules;
 
@@ -54,6 +54,12 @@ impl ResolveFilter {
     pub(crate) fn resolver(self, count: u32, rules: Rules) -> Resolver {
         debug_assert!(self.weigh().is_even(), "a sum knows no weights");
         Resolver::new(count, rules)
+    }
+
+    /// What makes a pixel of the light of its samples, of which there are `count`.
+    pub(crate) fn light_resolver(self, count: usize, rules: Rules) -> LightResolver {
+        debug_assert!(self.weigh().is_even(), "a sum knows no weights");
+        LightResolver::new(u32::try_from(count).unwrap_or(u32::MAX), rules)
     }
 
     /// The pixel of some samples, which are all of it.

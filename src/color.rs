@@ -3,16 +3,16 @@
 mod blend;
 mod blend_all;
 mod colormap;
-mod ramp;
 mod light;
+mod ramp;
 mod resolve;
 
 use crate::rules::Rules;
 
 pub use blend::BlendMode;
 pub use colormap::Colormap;
-pub use ramp::{Mix, Ramp, Spread, Stop, Stretch};
 pub use light::{Light, LightResolver};
+pub use ramp::{Mix, Ramp, Spread, Stop, Stretch};
 pub use resolve::{ResolveSpace, encoded};
 
 /// A straight (not premultiplied) sRGB-encoded colour; each channel and alpha in `0.0..=1.0`.

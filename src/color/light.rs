@@ -196,6 +196,12 @@ impl LightResolver {
             }
             return self.pixel(sum);
         }
+        self.opaque_mean(samples)
+    }
+
+    /// As [`LightResolver::mean`] of opaque samples.
+    #[inline]
+    pub fn opaque_mean(&self, samples: &[Premultiplied16]) -> u32 {
         let mut sums = [0_u64; 3];
         for Premultiplied16([r, g, b, _]) in samples {
             for (sum, channel) in sums.iter_mut().zip([r, g, b]) {
@@ -307,6 +313,9 @@ mod tests {
                 plain_mean(&samples, rules)
             };
             assert_eq!(resolver.mean(&samples), expected, "{samples:?} {rules:?}");
+            if opaque {
+                assert_eq!(resolver.opaque_mean(&samples), expected, "{samples:?} {rules:?}");
+            }
             if !alike {
                 let mut sum = Light::default();
                 for sample in &samples {
@@ -332,7 +341,10 @@ mod tests {
                 }
             }
             for pair in steps.least[..255].windows(2) {
-                assert!(pair[1] - pair[0] > 1 << PIECE_BITS, "at most one step in a piece: {pair:?}");
+                assert!(
+                    pair[1] - pair[0] > 1 << PIECE_BITS,
+                    "at most one step in a piece: {pair:?}"
+                );
             }
         }
     }

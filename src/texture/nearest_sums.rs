@@ -91,7 +91,11 @@ impl<const N: usize> Offsets<N> {
         let middle = f64::from(side - 1) / 2.0;
         let reach = (axis.right.abs() + axis.down.abs()) * middle + 1.0;
         let mut of_samples = [0; N];
-        for (j, row) in of_samples.chunks_exact_mut(side as usize).take(side as usize).enumerate() {
+        for (j, row) in of_samples
+            .chunks_exact_mut(side as usize)
+            .take(side as usize)
+            .enumerate()
+        {
             let down = (j as f64 - middle) * axis.down;
             for (i, offset) in row.iter_mut().enumerate() {
                 *offset = to_units(down + (i as f64 - middle) * axis.right) + UNCERTAIN / 2;
@@ -102,7 +106,10 @@ impl<const N: usize> Offsets<N> {
 }
 
 /// A distance in texels in fixed point, rounded to nearest; by adding, because rounding is a call on some machines.
-#[expect(clippy::cast_possible_truncation, reason = "the fixed-point number is in the lower half")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the fixed-point number is in the lower half"
+)]
 fn to_units(texels: f64) -> i32 {
     const WHOLE: f64 = 1.5 * (1_u64 << (52 - FRACTION_BITS)) as f64;
     (texels + WHOLE).to_bits() as i32

@@ -46,6 +46,8 @@ pub(super) struct BySamples {
 struct SampleShades {
     points: Vec<[u16; 2]>,
     colors: Vec<Premultiplied16>,
+    /// The positions of samples, where they are the same in every pixel.
+    same: Vec<[u16; 2]>,
     memory: Vec<Position>,
 }
 
@@ -64,23 +66,43 @@ impl Mean {
             Self::Linear(resolver) => resolver.mean(samples),
         }
     }
+
+    /// The same of opaque samples.
+    #[inline]
+    fn opaque_pixel(&self, samples: &[Premultiplied16]) -> u32 {
+        match self {
+            Self::Stored(resolver) => resolver.pixel(Premultiplied16::sums(samples)),
+            Self::Linear(resolver) => resolver.opaque_mean(samples),
+        }
+    }
 }
 
 impl BySamples {
     pub(super) fn new(context: &ShadeContext<'_>, positions: SamplePositions) -> Self {
         let side = context.rate.side();
         let rules = context.sampling.rules;
+        let same = if positions.are_same() {
+            let places = positions.of_pixel([0; 2], &mut Vec::new()).to_vec();
+            places.into_iter().map(|place| place.map(u16::from)).collect()
+        } else {
+            Vec::new()
+        };
         Self {
             positions,
             is_grid: context.grid.side().cast_unsigned() == side,
             mean: match context.space {
                 // The mean of one sample is that sample in either.
-                ResolveSpace::Linear if side > 1 => Mean::Linear(context.filter.light_resolver((side * side) as usize, rules)),
+                ResolveSpace::Linear if side > 1 => {
+                    Mean::Linear(context.filter.light_resolver((side * side) as usize, rules))
+                }
                 _ => Mean::Stored(context.filter.resolver(side * side, rules)),
             },
             lights: Vec::new(),
             shared: Vec::new(),
-            shades: SampleShades::default(),
+            shades: SampleShades {
+                same,
+                ..SampleShades::default()
+            },
         }
     }
 
@@ -213,7 +235,8 @@ impl VisibilityPainter<'_> {
                             }
                             let (samples, others) = rest.split_at(count);
                             rest = others;
-                            let pixel = mean.pixel(samples);
+                            // What is shaded here is opaque.
+                            let pixel = mean.opaque_pixel(samples);
                             of_row = Some((place[1], pixel));
                             block.put(place, pixel);
                         }
@@ -334,19 +357,25 @@ impl SampleShades {
         let pixel = [0, 1].map(|i| origin[i] + i32::from(place[i]));
         // No tile has more than `2^14` points of a lattice along a side.
         let [left, top] = place.map(|at| u16::try_from(u32::from(at) * side).unwrap_or(u16::MAX));
-        let point =
-            |[column, row]: Position| [left.saturating_add(column.into()), top.saturating_add(row.into())];
-        let of_pixel = positions.of_pixel(pixel, &mut self.memory);
+        let first = self.points.len();
         match fragment.part {
-            Part::Whole { .. } => self.points.extend(of_pixel.iter().map(|place| point(*place))),
+            Part::Whole { .. } if !self.same.is_empty() => self.points.extend_from_slice(&self.same),
+            Part::Whole { .. } => {
+                let of_pixel = positions.of_pixel(pixel, &mut self.memory);
+                self.points.extend(of_pixel.iter().map(|place| place.map(u16::from)));
+            }
             Part::Masked { first, mask, .. } => {
+                let of_pixel = positions.of_pixel(pixel, &mut self.memory);
                 let mut rest = mask;
                 while rest != 0 {
                     let sample = usize::from(first) + rest.trailing_zeros() as usize;
-                    self.points.push(point(of_pixel[sample]));
+                    self.points.push(of_pixel[sample].map(u16::from));
                     rest &= rest - 1;
                 }
             }
+        }
+        for point in &mut self.points[first..] {
+            *point = [point[0].wrapping_add(left), point[1].wrapping_add(top)];
         }
     }
 

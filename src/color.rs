@@ -3,6 +3,7 @@
 mod blend;
 mod blend_all;
 mod colormap;
+mod light;
 mod ramp;
 mod resolve;
 
@@ -10,6 +11,7 @@ use crate::rules::Rules;
 
 pub use blend::BlendMode;
 pub use colormap::Colormap;
+pub use light::{Light, LightResolver};
 pub use ramp::{Mix, Ramp, Spread, Stop, Stretch};
 pub use resolve::{ResolveSpace, encoded};
 

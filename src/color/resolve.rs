@@ -1,8 +1,7 @@
 //! Samples to pixels: the mean of stored values, or of the light that they stand for.
 
-use std::sync::LazyLock;
-
 use super::Premultiplied16;
+use super::light::LightResolver;
 use crate::rules::Rules;
 
 /// In which values samples are averaged.
@@ -13,40 +12,6 @@ pub enum ResolveSpace {
     Stored,
     /// In linear light (IEC 61966-2-1), as an eye far away mixes them.
     Linear,
-}
-
-/// Linear light is kept in parts of this: fine enough to tell all stored values apart, and the sum of 256 samples times
-/// their alpha fits 64 bits.
-const ONE_LIGHT: f64 = (1_u64 << 31) as f64;
-
-/// Linear light of every stored channel.
-static LIGHT: LazyLock<Vec<u32>> =
-    LazyLock::new(|| (0..=Premultiplied16::ONE).map(|stored| light(stored.into())).collect());
-
-/// The least light of each byte from 1 on, rounded to nearest; and truncated.
-static LEAST: LazyLock<[Vec<u32>; 2]> = LazyLock::new(|| {
-    let per_byte = f64::from(Premultiplied16::PER_BYTE);
-    [0.5, 0.0].map(|below| {
-        (1..=255)
-            .map(|byte| light((f64::from(byte) - below) * per_byte))
-            .collect()
-    })
-});
-
-/// Linear light of a stored channel.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "between nothing and ONE_LIGHT"
-)]
-fn light(stored: f64) -> u32 {
-    let stored = stored / f64::from(Premultiplied16::ONE);
-    let light = if stored <= 0.040_45 {
-        stored / 12.92
-    } else {
-        ((stored + 0.055) / 1.055).powf(2.4)
-    };
-    (light * ONE_LIGHT).round() as u32
 }
 
 impl ResolveSpace {
@@ -67,8 +32,7 @@ impl ResolveSpace {
     pub fn resolve(self, samples: &[Premultiplied16], rules: Rules) -> u32 {
         match self {
             Self::Stored => stored_mean(samples, rules),
-            Self::Linear if samples.windows(2).all(|pair| pair[0] == pair[1]) => stored_mean(samples, rules),
-            Self::Linear => linear_mean(samples, rules),
+            Self::Linear => LightResolver::new(u32::try_from(samples.len()).unwrap_or(u32::MAX), rules).mean(samples),
         }
     }
 }
@@ -92,15 +56,6 @@ impl Premultiplied16 {
             (green_alpha >> 32) as u32,
         ]
     }
-
-    /// The linear light of red, green and blue, weighted by alpha, and alpha; each in `0.0..=255.0`: what
-    /// [`ResolveSpace::Linear`] averages.
-    pub fn light(self) -> [f64; 4] {
-        let [r, g, b, alpha] = self.0;
-        let opacity = f64::from(alpha) / f64::from(Self::ONE);
-        let of = |channel| f64::from(LIGHT[straight(channel, alpha)]) / ONE_LIGHT * 255.0 * opacity;
-        [of(r), of(g), of(b), 255.0 * opacity]
-    }
 }
 
 /// The stored value of linear light, both in `0.0..=255.0`: the way back.
@@ -121,43 +76,6 @@ fn stored_mean(samples: &[Premultiplied16], rules: Rules) -> u32 {
         u32::try_from(samples.len()).unwrap_or(u32::MAX),
         rules,
     )
-}
-
-/// Alpha is no light: its mean is that of the stored values. Each sample's light counts by its alpha.
-fn linear_mean(samples: &[Premultiplied16], rules: Rules) -> u32 {
-    let (mut sums, mut alphas) = ([0_u64; 3], 0_u32);
-    for Premultiplied16([r, g, b, alpha]) in samples {
-        alphas += u32::from(*alpha);
-        for (sum, channel) in sums.iter_mut().zip([r, g, b]) {
-            *sum += u64::from(LIGHT[straight(*channel, *alpha)]) * u64::from(*alpha);
-        }
-    }
-    let count = u32::try_from(samples.len()).unwrap_or(u32::MAX);
-    let opacity = Premultiplied16::resolve([0, 0, 0, alphas], count, rules) & 0xFF00_0000;
-    if alphas == 0 {
-        return opacity;
-    }
-    let least = match rules {
-        Rules::Standard | Rules::Float => &LEAST[0],
-        Rules::Course => &LEAST[1],
-    };
-    // A mean is at least some light where as many of it are no more than the sum: nothing is rounded before.
-    let [r, g, b] = sums.map(|sum| {
-        let byte = least.partition_point(|light| u64::from(*light) * u64::from(alphas) <= sum);
-        u32::try_from(byte).unwrap_or(255)
-    });
-    opacity | r << 16 | g << 8 | b
-}
-
-/// The index of a premultiplied channel's straight value among all stored ones.
-#[inline]
-fn straight(channel: u16, alpha: u16) -> usize {
-    const ONE: u32 = Premultiplied16::ONE as u32;
-    if alpha == Premultiplied16::ONE {
-        return usize::from(channel.min(Premultiplied16::ONE));
-    }
-    let alpha = u32::from(alpha.max(1));
-    ((u32::from(channel) * ONE + alpha / 2) / alpha).min(ONE) as usize
 }
 
 #[cfg(test)]
@@ -261,14 +179,6 @@ mod tests {
                             space.resolve(&[sample; 9], rules),
                             sample.to_pixel(rules),
                             "{sample:?} {rules:?} {space:?}"
-                        );
-                    }
-                    // The curve and its way back lose nothing, but for the straight value of what is translucent.
-                    if alpha == Premultiplied16::ONE {
-                        assert_eq!(
-                            linear_mean(&[sample; 4], rules),
-                            sample.to_pixel(rules),
-                            "{sample:?} {rules:?} there and back"
                         );
                     }
                 }

@@ -43,7 +43,7 @@ impl DisplayList<'_> {
     pub(in crate::raster) fn painters_of(&self, columns: Span) -> Painters<'_> {
         Painters {
             direct: DirectPainter::new(self.shade_context()),
-            visibility: VisibilityPainter::new(self.shade_context()),
+            visibility: VisibilityPainter::new(self.shade_context(), self.places()),
             per_sample: PerSamplePainter::new(self.shade_context(), self.places()),
             shape_coverage: self.shape_coverage(columns),
             tally: Tally::default(),

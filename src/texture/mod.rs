@@ -10,6 +10,7 @@ mod filter;
 mod filter_plan;
 mod footprint;
 mod level_of_detail;
+mod nearest_sums;
 #[cfg(test)]
 mod oracle;
 mod pixel_filter;

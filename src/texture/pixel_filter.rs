@@ -8,10 +8,10 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, i32x8, u8x16};
-use glam::DVec2;
 
 use super::bilinear::{MASS, MASS_BITS};
 use super::filter_plan::{PixelList, Plan};
+use super::nearest_sums::{self, FEW, MANY, NearestSamples};
 use super::sample_offsets::{Footing, MAX_SIDE, Scale};
 use super::simd_channels::{self, Spread};
 use super::tent_weights::{Covered, Weighed, weigh};
@@ -29,10 +29,28 @@ struct Blocks<S: Simd> {
     weights: [[S::u64s; 2]; 4],
 }
 
+/// Samples that are filtered together: of several pixels, so that vectors are full.
+const BATCH: usize = 64;
+
+/// Some samples of some pixels, one pixel after the other.
+struct Batch {
+    points: [[u16; 2]; BATCH],
+    count: usize,
+    /// Whose they are: pixels of a list, and where the samples of each end.
+    pixels: [(usize, usize); BATCH],
+    pixel_count: usize,
+}
+
 /// See [`super::Filter::sums`].
 pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
     let scale = Scale::new(side);
     let taps = plan.line.taps.count;
+    if let Some(samples) = NearestSamples::<FEW>::new(plan, side) {
+        return dispatch!(level, simd => nearest_sums::sum(simd, plan, &samples, (list, sums)));
+    }
+    if let Some(samples) = NearestSamples::<MANY>::new(plan, side) {
+        return dispatch!(level, simd => nearest_sums::sum(simd, plan, &samples, (list, sums)));
+    }
     match Footing::of_plan(plan, scale) {
         Some(footings) => dispatch!(level, simd => sum_texels(simd, plan, scale, &footings, (list, sums))),
         None if taps == 1 => dispatch!(level, simd => sum_samples::<_, false>(simd, plan, scale, list, sums)),
@@ -49,42 +67,78 @@ fn sum_samples<S: Simd, const TAPS: bool>(
     list: PixelList<'_>,
     sums: &mut [[u32; 4]],
 ) {
-    const MAX_SAMPLES: usize = MAX_SIDE * MAX_SIDE;
-    let mut all = [[0; 2]; MAX_SAMPLES];
+    let mut inside = [[0; 2]; MAX_SIDE * MAX_SIDE];
     let side = scale.side as usize;
-    let samples = &mut all[..side * side];
-    for (j, row) in (0..).zip(samples.chunks_exact_mut(side)) {
+    for (j, row) in (0..).zip(inside.chunks_exact_mut(side).take(side)) {
         for (i, sample) in (0..).zip(row) {
             *sample = [i, j];
         }
     }
-    let mut some = [[0; 2]; MAX_SAMPLES];
-    let mut colors = [Premultiplied16::TRANSPARENT; MAX_SAMPLES];
-    for (i, (sum, pixel)) in sums.iter_mut().zip(list.pixels).enumerate() {
-        let mut plan = *plan;
-        plan.first += DVec2::new(f64::from(pixel[0]), f64::from(pixel[1])) * f64::from(scale.side);
-        let samples = match list.masks {
-            None => &*samples,
-            Some(masks) => {
-                let mut count = 0;
-                for (j, sample) in samples.iter().enumerate().take(64) {
-                    some[count] = *sample;
-                    count += usize::from(masks[i] >> j & 1 == 1);
-                }
-                &some[..count]
-            }
-        };
-        let colors = &mut colors[..samples.len()];
+    let inside = &inside[..side * side];
+    let mut colors = [Premultiplied16::TRANSPARENT; BATCH];
+    sums.fill([0; 4]);
+    let mut batch = Batch::EMPTY;
+    let mut next = (0, 0);
+    while next.0 < list.pixels.len() {
+        batch.fill(list, inside, scale.side, &mut next);
+        let points = &batch.points[..batch.count];
+        let colors = &mut colors[..batch.count];
         if TAPS {
-            anisotropic_filter::filter_with(simd, &plan, samples, colors);
+            anisotropic_filter::filter_with(simd, plan, points, colors);
         } else {
-            sample_filter::filter_with(simd, &plan, samples, colors);
+            sample_filter::filter_with(simd, plan, points, colors);
         }
-        *sum = [0; 4];
-        for color in colors {
-            for (sum, channel) in sum.iter_mut().zip(color.0) {
-                *sum += u32::from(channel);
+        batch.add_to(sums, colors);
+    }
+}
+
+impl Batch {
+    const EMPTY: Self = Self {
+        points: [[0; 2]; BATCH],
+        count: 0,
+        pixels: [(0, 0); BATCH],
+        pixel_count: 0,
+    };
+
+    /// Takes samples, as many as fit, from sample `next.1` of pixel `next.0` on, and moves `next` on. In a pixel they lie
+    /// `inside`.
+    #[inline(always)]
+    fn fill(&mut self, list: PixelList<'_>, inside: &[[u16; 2]], side: u32, next: &mut (usize, usize)) {
+        let side = u16::try_from(side).unwrap_or(1);
+        (self.count, self.pixel_count) = (0, 0);
+        let (mut pixel, mut sample) = *next;
+        while pixel < list.pixels.len() && self.count < BATCH && self.pixel_count < BATCH {
+            let [left, top] = list.pixels[pixel].map(|at| at.saturating_mul(side));
+            let mask = list.masks.map(|masks| masks[pixel]);
+            while sample < inside.len() && self.count < BATCH {
+                let [x, y] = inside[sample];
+                self.points[self.count] = [left.saturating_add(x), top.saturating_add(y)];
+                let is_meant = mask.is_none_or(|mask| sample < 64 && mask >> sample & 1 == 1);
+                self.count += usize::from(is_meant);
+                sample += 1;
             }
+            self.pixels[self.pixel_count] = (pixel, self.count);
+            self.pixel_count += 1;
+            if sample == inside.len() {
+                (pixel, sample) = (pixel + 1, 0);
+            }
+        }
+        *next = (pixel, sample);
+    }
+
+    /// Adds the colours of the samples to the sums of their pixels.
+    #[inline(always)]
+    fn add_to(&self, sums: &mut [[u32; 4]], colors: &[Premultiplied16]) {
+        let mut first = 0;
+        for (pixel, end) in &self.pixels[..self.pixel_count] {
+            let mut sum = sums[*pixel];
+            for color in &colors[first..*end] {
+                for (sum, channel) in sum.iter_mut().zip(color.0) {
+                    *sum += u32::from(channel);
+                }
+            }
+            sums[*pixel] = sum;
+            first = *end;
         }
     }
 }

@@ -74,6 +74,12 @@ impl<S: Simd> Positions<S> {
         self.round(simd, axis, (-2.0, axis.last + 2.0), to_fixed)
     }
 
+    /// As [`Positions::far`], at most `reach` texels outside the level.
+    #[inline(always)]
+    pub(super) fn around(&self, simd: S, axis: &Axis, reach: f64) -> S::i32s {
+        self.round(simd, axis, (-reach, axis.last + reach), 1.5 * TO_FIXED)
+    }
+
     #[inline(always)]
     fn round(&self, simd: S, axis: &Axis, limits: (f64, f64), to_fixed: f64) -> S::i32s {
         let half = self.round_half(simd, axis, limits, (0, to_fixed));

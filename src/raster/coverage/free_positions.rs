@@ -4,18 +4,21 @@
 //! grid of samples: so everything that leads to a tile, and the rule for ties, is the grid's. What remains to be found
 //! here is which of its lattice points a pixel's samples are. Where no edge crosses a pixel, its corners decide at once.
 
-use crate::geometry::edge::{SampleEdge, doubled_area};
+use fearless_simd::dispatch;
+
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::SampleRate;
 use crate::raster::coverage::covered::Covered;
-use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::float_shape::FloatShape;
-use crate::raster::coverage::free_positions_polygon::FreePositionsPolygon;
+use crate::raster::coverage::free_positions_polygon::{FreePositionsPolygon, PixelSamples};
+use crate::raster::coverage::free_positions_triangle::{FoundRun, PixelReach, TriangleScan};
+use crate::raster::coverage::sample_lanes::SampleLanes;
 use crate::raster::coverage::shape::Shape;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::span::{PixelRect, Reach, SampleBox, Span};
 use crate::rules::Rules;
+use crate::simd;
 
 /// Finds the samples that shapes cover, for one drawing.
 #[derive(Debug)]
@@ -29,16 +32,9 @@ pub(crate) struct FreePositions {
     /// For each sample what the edges of the triangle at work gain from a pixel's first point to it.
     gains: Vec<[i64; 3]>,
     outlines: FreePositionsPolygon,
-}
-
-/// A [`SampleEdge`], whose samples are all points of the lattice.
-#[derive(Clone, Copy, Debug, Default)]
-struct LatticeEdge {
-    /// At the frame's first point.
-    value: i64,
-    /// What it gains one point to the right, and down.
-    right: i64,
-    down: i64,
+    /// Where there are few enough samples to look at all of them at once, and what was found so.
+    lanes: Option<SampleLanes>,
+    found: Vec<FoundRun>,
 }
 
 impl FreePositions {
@@ -56,6 +52,8 @@ impl FreePositions {
             memory: Vec::with_capacity(SampleRate::MAX as usize),
             gains: Vec::with_capacity(SampleRate::MAX as usize),
             outlines: FreePositionsPolygon::new(outlines, columns, places.count()),
+            lanes: SampleLanes::new(places.clone()),
+            found: Vec::new(),
             places,
         }
     }
@@ -69,7 +67,11 @@ impl FreePositions {
             // These have no edges: `ShapeCoverage` knows them itself.
             Shape::Tile | Shape::Samples(_) | Shape::Pixels(_) => {}
             Shape::Outline(outline) => {
-                self.outlines.find(outline, (self.grid, &self.places), rect.y);
+                let samples = match &mut self.lanes {
+                    Some(lanes) => PixelSamples::Few(lanes),
+                    None => PixelSamples::Many(&self.places, &mut self.memory),
+                };
+                self.outlines.find(outline, (self.grid, samples), rect.y);
                 for y in rect.y.start..rect.y.end {
                     self.outlines
                         .each(outline.number, y, rect.x, |covered| visit(y, covered));
@@ -117,115 +119,54 @@ impl FreePositions {
     }
 
     fn triangle(&mut self, corners: [GridPoint; 3], rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
-        let area = doubled_area(corners);
-        if area == 0 {
+        let Some(scan) = TriangleScan::new(corners, rect, (self.grid, self.rules)) else {
             return;
-        }
-        let side = self.grid.side();
-        let samples = SampleBox::new(corners, self.grid, self.rules);
-        let pixels = |span: Span, within: Span| {
-            Span {
-                start: span.start.div_euclid(side),
-                end: (span.end - 1).div_euclid(side) + 1,
-            }
-            .intersection(within)
         };
-        let (columns, rows) = (pixels(samples.columns, rect.x), pixels(samples.rows, rect.y));
-        if columns.is_empty() || rows.is_empty() || samples.columns.is_empty() || samples.rows.is_empty() {
-            return;
+        let Some(lanes) = &mut self.lanes else {
+            return self.triangle_one_by_one(&scan, visit);
+        };
+        let (found, all) = (&mut self.found, lanes.all());
+        found.clear();
+        dispatch!(simd::level(), simd => scan.find(simd, lanes, found));
+        for FoundRun { y, xs, bits } in &*found {
+            visit(
+                *y,
+                if *bits == all {
+                    Covered::Whole(*xs)
+                } else {
+                    Covered::Part(xs.start, SampleMask::of_bits(*bits))
+                },
+            );
         }
-        let first = self.grid.sample_coordinate(0);
-        let first = GridPoint { x: first, y: first };
-        let edges = SampleEdge::of_triangle((corners, area), first, (self.grid, self.rules)).map(LatticeEdge::new);
+    }
+
+    /// As [`FreePositions::triangle`] for any number of samples.
+    fn triangle_one_by_one(&mut self, scan: &TriangleScan, mut visit: impl FnMut(i32, Covered)) {
         self.gains.clear();
-        // Where there are few columns, looking at each pixel costs less than finding out which to look at.
-        let lines = (columns.end - columns.start > 2).then(|| TileRows::new(corners));
-        for y in rows.start..rows.end {
-            let (touched, inside) = match &lines {
-                Some(lines) => self.row_of(lines, (columns, samples.rows), y),
-                None => (columns, Span::EMPTY),
-            };
-            if inside.is_empty() {
-                self.pixels(&edges, touched, y, &mut visit);
-                continue;
+        for y in scan.rows.start..scan.rows.end {
+            let (before, inside, after) = scan.parts(y);
+            for x in (before.start..before.end).chain(after.start..after.end) {
+                if let Some(covered) = self.pixel(scan, x, y) {
+                    visit(y, covered);
+                }
             }
-            let before = Span {
-                start: touched.start,
-                end: inside.start,
-            };
-            let after = Span {
-                start: inside.end,
-                end: touched.end,
-            };
-            self.pixels(&edges, before, y, &mut visit);
-            visit(y, Covered::Whole(inside));
-            self.pixels(&edges, after, y, &mut visit);
-        }
-    }
-
-    /// The pixels of row `y` that a triangle may touch, and those of them that it covers for certain, of `columns`.
-    #[expect(clippy::cast_possible_truncation, reason = "clamped to columns of a frame")]
-    fn row_of(&self, lines: &TileRows, (columns, rows): (Span, Span), y: i32) -> (Span, Span) {
-        let side = self.grid.side();
-        let all = Span {
-            start: y * side,
-            end: (y + 1) * side,
-        };
-        let inside = all.intersection(rows);
-        let at = |row| self.grid.sample_coordinate(row);
-        let bounds = lines.between(at(inside.start), at(inside.end - 1));
-        let (least, most) = (f64::from(columns.start), f64::from(columns.end));
-        let per_unit = 1.0 / self.grid.units_per_pixel();
-        // No column of a frame is negative.
-        let floor = |units: f64| (units * per_unit).clamp(least, most) as i32;
-        let touched = Span {
-            start: floor(bounds.touched[0]),
-            end: floor(bounds.touched[1]).saturating_add(1).min(columns.end),
-        };
-        if inside != all || bounds.covered[0] > bounds.covered[1] {
-            return (touched, Span::EMPTY);
-        }
-        let covered = Span {
-            start: (bounds.covered[0] * per_unit).clamp(least, most).ceil() as i32,
-            end: floor(bounds.covered[1]),
-        };
-        (touched, covered)
-    }
-
-    /// The pixels `xs` of row `y`, one by one.
-    #[inline]
-    fn pixels(&mut self, edges: &[LatticeEdge; 3], xs: Span, y: i32, visit: &mut impl FnMut(i32, Covered)) {
-        for x in xs.start..xs.end {
-            if let Some(covered) = self.pixel(edges, x, y) {
-                visit(y, covered);
+            if !inside.is_empty() {
+                visit(y, Covered::Whole(inside));
             }
         }
     }
 
-    #[inline]
-    fn pixel(&mut self, edges: &[LatticeEdge; 3], x: i32, y: i32) -> Option<Covered> {
-        // What is never below zero keeps nothing out.
-        let (mut values, mut crossed) = ([i64::MAX / 2; 3], false);
-        for (value, edge) in values.iter_mut().zip(edges) {
-            let edge = edge.at_pixel(self.grid.side(), x, y);
-            let [least, most] = edge.range(self.grid.side());
-            if most < 0 {
-                return None;
-            }
-            if least < 0 {
-                *value = edge.value;
-                crossed = true;
-            }
-        }
+    fn pixel(&mut self, scan: &TriangleScan, x: i32, y: i32) -> Option<Covered> {
         let whole = Covered::Whole(Span { start: x, end: x + 1 });
-        if !crossed {
-            return Some(whole);
-        }
+        let values = match scan.reach(x, y) {
+            PixelReach::Nothing => return None,
+            PixelReach::All => return Some(whole),
+            PixelReach::Part(values) => values,
+        };
         if self.gains.is_empty() || !self.places.are_same() {
             let places = self.places.of_pixel([x, y], &mut self.memory);
             self.gains.clear();
-            self.gains
-                .extend(places.iter().map(|place| edges.map(|edge| edge.gain(*place))));
+            self.gains.extend(places.iter().map(|place| scan.gains(*place)));
         }
         let mut mask = SampleMask::default();
         mask.set_each(self.gains.len(), |sample| {
@@ -239,43 +180,6 @@ impl FreePositions {
         } else {
             Some(Covered::Part(x, mask))
         }
-    }
-}
-
-impl LatticeEdge {
-    fn new(edge: SampleEdge) -> Self {
-        Self {
-            value: edge.value,
-            right: edge.right.into(),
-            down: edge.down.into(),
-        }
-    }
-
-    /// The same, standing at a pixel's first point.
-    #[inline]
-    fn at_pixel(self, side: i32, x: i32, y: i32) -> Self {
-        let (column, row) = (i64::from(x) * i64::from(side), i64::from(y) * i64::from(side));
-        Self {
-            value: self.value + self.right * column + self.down * row,
-            ..self
-        }
-    }
-
-    /// What it gains from a pixel's first point to another.
-    #[inline]
-    fn gain(&self, [column, row]: Position) -> i64 {
-        self.right * i64::from(column) + self.down * i64::from(row)
-    }
-
-    /// The least and the greatest value in the pixel that it stands at.
-    #[inline]
-    fn range(&self, side: i32) -> [i64; 2] {
-        let last = i64::from(side - 1);
-        let (right, down) = (self.right * last, self.down * last);
-        [
-            self.value + right.min(0) + down.min(0),
-            self.value + right.max(0) + down.max(0),
-        ]
     }
 }
 

@@ -1,25 +1,31 @@
 //! What outlines enclose in one row of tiles, where samples lie anywhere in their pixels.
 //!
-//! A row of pixels is swept from left to right. Pixels that an edge may cross are looked at sample by sample: an edge
+//! A row of pixels is swept from left to right. Of pixels that an edge may cross the samples are looked at: an edge
 //! winds around a sample between its ends that does not lie left of it, by the integer edge function, exactly as the
 //! grid's crossings are rounded. To the right of all it crosses, an edge winds around each of its rows alike. So between
 //! edges whole runs of pixels are inside or outside; all rows of lattice points agree, but where an edge ends in between.
 
-use std::ops::Range;
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
+use fearless_simd::{Simd, dispatch};
 
 use crate::geometry::FillRule;
 use crate::geometry::edge::edge_value;
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-use crate::raster::SampleRate;
 use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::edge_bounds::{Line, MARGIN};
 use crate::raster::coverage::outline_cache::OutlineCache;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
+use crate::raster::coverage::sample_lanes::{PixelEdge, SampleLanes};
 use crate::raster::coverage::shape::{MAX_SPANS, OutlineOf};
 use crate::raster::coverage::windings::RowWindings;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::span::{PixelRect, Span};
+use crate::simd;
 
 /// Remembers what outlines enclose in the tile row at work.
 #[derive(Debug)]
@@ -35,7 +41,6 @@ pub(in crate::raster) struct FreePositionsPolygon {
     all: SampleMask,
     sweep: Sweep,
     windings: RowWindings,
-    memory: Vec<Position>,
 }
 
 /// What was found for one outline.
@@ -56,23 +61,32 @@ struct Run {
 /// Edges of an outline in one row of pixels, reusing its memory.
 #[derive(Debug, Default)]
 struct Sweep {
-    /// The edges, and pixels that each may cross.
+    /// By the first pixel that each may cross.
     edges: Vec<LocalEdge>,
-    crossings: Vec<(i32, u32)>,
-    /// Pixels from which on an edge winds around all samples of some rows, those rows, and how.
-    passed: Vec<(i32, Span, i32)>,
+    /// Those that may cross the pixel at work, by number.
+    active: Vec<u32>,
+    /// On which side of them samples lie: bits of those around which the edge winds, and how.
+    sides: Vec<(u64, i32)>,
     /// How often each sample of a pixel is wound around, and each row.
     around: Vec<i32>,
     rows: Vec<i32>,
 }
 
-/// An edge and the lattice rows of a pixel that it crosses.
+/// An edge, the lattice rows of a pixel that it crosses, and the pixels that it may cross.
 #[derive(Clone, Copy, Debug)]
 struct LocalEdge {
     top: GridPoint,
     bottom: GridPoint,
     rows: Span,
     winding: i32,
+    from: i32,
+    to: i32,
+}
+
+/// The samples of pixels: few enough to look at all of them at once, or many.
+pub(in crate::raster) enum PixelSamples<'p> {
+    Few(&'p mut SampleLanes),
+    Many(&'p SamplePositions, &'p mut Vec<Position>),
 }
 
 impl FreePositionsPolygon {
@@ -87,12 +101,16 @@ impl FreePositionsPolygon {
             all: SampleMask::all(count),
             sweep: Sweep::default(),
             windings: RowWindings::default(),
-            memory: Vec::with_capacity(SampleRate::MAX as usize),
         }
     }
 
     /// Makes sure that an outline is known in some rows of pixels.
-    pub(in crate::raster) fn find(&mut self, of: OutlineOf<'_>, places: (SubpixelGrid, &SamplePositions), rows: Span) {
+    pub(in crate::raster) fn find(
+        &mut self,
+        of: OutlineOf<'_>,
+        (grid, mut samples): (SubpixelGrid, PixelSamples<'_>),
+        rows: Span,
+    ) {
         let Self { found, runs, .. } = self;
         if found.go_to(rows, runs.len() > MAX_SPANS / 4) {
             self.starts.clear();
@@ -101,13 +119,13 @@ impl FreePositionsPolygon {
         }
         // Where it is found the first time, its runs come last.
         let (first, mut is_new) = (self.starts.len(), false);
-        let area = self.area(&of, places.0, rows);
+        let area = self.area(&of, grid, rows);
         self.found.get_or(of.number, || {
             is_new = true;
             Stored { rows: area.y, first }
         });
         if is_new {
-            self.scan(of, places, area);
+            dispatch!(simd::level(), simd => self.scan(simd, of, (grid, &mut samples), area));
         }
     }
 
@@ -125,11 +143,18 @@ impl FreePositionsPolygon {
     }
 
     /// Adds the runs of an outline, row by row.
-    fn scan(&mut self, of: OutlineOf<'_>, places: (SubpixelGrid, &SamplePositions), area: PixelRect) {
+    #[inline(always)]
+    fn scan<S: Simd>(
+        &mut self,
+        simd: S,
+        of: OutlineOf<'_>,
+        (grid, samples): (SubpixelGrid, &mut PixelSamples<'_>),
+        area: PixelRect,
+    ) {
         for y in area.y.start..area.y.end {
             self.starts.push(self.runs.len());
-            self.sweep.gather((of.outline, of.edges), places.0, area.x, y);
-            self.row(of.outline.rule, places, area.x, y);
+            self.sweep.gather((of.outline, of.edges), grid, area.x, y);
+            self.row(simd, of.outline.rule, (grid, samples), (area.x, y));
         }
         self.starts.push(self.runs.len());
     }
@@ -152,38 +177,45 @@ impl FreePositionsPolygon {
     }
 
     /// Adds the runs of row `y`, whose edges were gathered.
-    fn row(&mut self, rule: FillRule, (grid, places): (SubpixelGrid, &SamplePositions), columns: Span, y: i32) {
+    #[inline(always)]
+    fn row<S: Simd>(
+        &mut self,
+        simd: S,
+        rule: FillRule,
+        (grid, samples): (SubpixelGrid, &mut PixelSamples<'_>),
+        (columns, y): (Span, i32),
+    ) {
         let first_run = self.runs.len();
         self.windings.begin(grid.side());
-        let (mut crossings, mut passed) = (0, 0);
+        let mut next = 0;
         let mut x = columns.start;
         while x < columns.end {
-            while let Some((from, rows, winding)) = self.sweep.passed.get(passed)
-                && *from <= x
-            {
-                self.windings.add(*rows, *winding);
-                passed += 1;
-            }
-            let here = crossings..crossings + self.sweep.crossings[crossings..].partition_point(|(at, _)| *at <= x);
-            crossings = here.end;
-            if here.is_empty()
+            next = self.sweep.go_to(x, next, &mut self.windings);
+            if self.sweep.active.is_empty()
                 && let Some(winding) = self.windings.even()
             {
-                let next = [
-                    self.sweep.passed.get(passed).map(|edge| edge.0),
-                    self.sweep.crossings.get(crossings).map(|edge| edge.0),
-                ];
-                let end = next.into_iter().flatten().fold(columns.end, i32::min);
+                let end = self
+                    .sweep
+                    .edges
+                    .get(next)
+                    .map_or(columns.end, |edge| edge.from.min(columns.end));
                 if rule.encloses(winding) {
                     self.push(first_run, Span { start: x, end }, None);
                 }
                 x = end;
                 continue;
             }
-            let mask = {
-                let places = places.of_pixel([x, y], &mut self.memory);
-                self.sweep
-                    .enclosed((rule, &self.windings), here, (grid, [x, y]), places)
+            let mask = match samples {
+                PixelSamples::Few(lanes) => {
+                    let bits = self
+                        .sweep
+                        .enclosed_bits(simd, (rule, &self.windings), (grid, [x, y]), lanes);
+                    SampleMask::of_bits(bits)
+                }
+                PixelSamples::Many(places, memory) => {
+                    let places = places.of_pixel([x, y], memory);
+                    self.sweep.enclosed((rule, &self.windings), (grid, [x, y]), places)
+                }
             };
             let pixel = Span { start: x, end: x + 1 };
             if mask == self.all {
@@ -193,8 +225,7 @@ impl FreePositionsPolygon {
             }
             x += 1;
         }
-        self.windings
-            .forget(self.sweep.passed[..passed].iter().map(|(_, rows, _)| *rows));
+        self.windings.forget(self.sweep.edges.iter().map(|edge| edge.rows));
     }
 
     #[inline]
@@ -214,10 +245,10 @@ impl FreePositionsPolygon {
 
 impl Sweep {
     /// Finds where the edges of an outline lie in row `y` of pixels, of which only `columns` count.
+    #[inline(always)]
     fn gather(&mut self, (outline, all): (&Outline, &[OutlineEdge]), grid: SubpixelGrid, columns: Span, y: i32) {
         self.edges.clear();
-        self.crossings.clear();
-        self.passed.clear();
+        self.active.clear();
         let (top, width) = (y * grid.side(), grid.units_per_pixel());
         let rows = Span {
             start: top,
@@ -227,32 +258,96 @@ impl Sweep {
             let line = Line::new(edge.top, edge.bottom);
             let at = |row| line.at(f64::from(grid.sample_coordinate(row)));
             let (first, last) = (at(inside.start), at(inside.end - 1));
-            let from = pixel((first.min(last) - MARGIN) / width, columns);
-            let to = pixel((first.max(last) + MARGIN) / width, columns);
-            let rows = Span {
-                start: inside.start - top,
-                end: inside.end - top,
-            };
-            let number = u32::try_from(self.edges.len()).unwrap_or(u32::MAX);
             self.edges.push(LocalEdge {
                 top: edge.top,
                 bottom: edge.bottom,
-                rows,
+                rows: Span {
+                    start: inside.start - top,
+                    end: inside.end - top,
+                },
                 winding: edge.winding,
+                from: pixel((first.min(last) - MARGIN) / width, columns),
+                to: pixel((first.max(last) + MARGIN) / width, columns),
             });
-            let crossed = from.max(columns.start)..(to + 1).min(columns.end);
-            self.crossings.extend(crossed.map(|x| (x, number)));
-            self.passed.push((to + 1, rows, edge.winding));
         }
-        self.crossings.sort_unstable_by_key(|(x, _)| *x);
-        self.passed.sort_unstable_by_key(|(x, ..)| *x);
+        self.edges.sort_unstable_by_key(|edge| edge.from);
     }
 
-    /// The samples of a pixel that are inside, where the edges `here` may cross it.
+    /// Finds the edges that may cross a pixel, where `next` is the first edge that none before it reached: those that lie left
+    /// of it from now on wind around whole rows. The first edge that this pixel does not reach.
+    #[inline(always)]
+    fn go_to(&mut self, x: i32, mut next: usize, windings: &mut RowWindings) -> usize {
+        while let Some(edge) = self.edges.get(next)
+            && edge.from <= x
+        {
+            self.active.push(u32::try_from(next).unwrap_or(u32::MAX));
+            next += 1;
+        }
+        let edges = &self.edges;
+        self.active.retain(|number| {
+            let edge = &edges[*number as usize];
+            let is_here = edge.to >= x;
+            if !is_here {
+                windings.add(edge.rows, edge.winding);
+            }
+            is_here
+        });
+        next
+    }
+
+    /// The samples of a pixel that are inside, as bits.
+    #[inline(always)]
+    fn enclosed_bits<S: Simd>(
+        &mut self,
+        simd: S,
+        (rule, windings): (FillRule, &RowWindings),
+        (grid, pixel): (SubpixelGrid, [i32; 2]),
+        lanes: &mut SampleLanes,
+    ) -> u64 {
+        lanes.go_to(pixel);
+        let [x, y] = pixel.map(|pixel| grid.sample_coordinate(pixel * grid.side()));
+        self.sides.clear();
+        for number in &self.active {
+            let edge = &self.edges[*number as usize];
+            let value = edge_value(edge.top, edge.bottom, GridPoint { x, y });
+            // What edges gain from sample to sample are multiples of their distance: divided by that, and rounded down, the
+            // side does not change. Downwards, the right of the edge on the screen is where the edge function is negative.
+            let left_of_sample = PixelEdge {
+                value: -value >> grid.bits(),
+                right: edge.bottom.y - edge.top.y,
+                down: edge.top.x - edge.bottom.x,
+            };
+            let mut bits = lanes.inside(simd, left_of_sample);
+            if edge.rows.end - edge.rows.start != grid.side() {
+                bits &= lanes.in_rows(simd, edge.rows);
+            }
+            self.sides.push((bits, edge.winding));
+        }
+        if let Some(winding) = windings.even() {
+            return enclosed_of(rule, winding, lanes.all(), &self.sides);
+        }
+        windings.of_rows(&mut self.rows);
+        let (mut rest, mut enclosed) = (lanes.all(), 0);
+        while rest != 0 {
+            // All samples in rows that are wound around alike.
+            let winding_of = |sample: u32| self.rows[lanes.row(sample as usize)];
+            let winding = winding_of(rest.trailing_zeros());
+            let (mut alike, mut others) = (0, rest);
+            while others != 0 {
+                let sample = others.trailing_zeros();
+                alike |= u64::from(winding_of(sample) == winding) << sample;
+                others &= others - 1;
+            }
+            enclosed |= enclosed_of(rule, winding, alike, &self.sides);
+            rest &= !alike;
+        }
+        enclosed
+    }
+
+    /// The samples of a pixel that are inside, one after the other.
     fn enclosed(
         &mut self,
         (rule, windings): (FillRule, &RowWindings),
-        here: Range<usize>,
         (grid, pixel): (SubpixelGrid, [i32; 2]),
         places: &[Position],
     ) -> SampleMask {
@@ -265,34 +360,41 @@ impl Sweep {
             self.around.extend(rows);
         }
         let [x, y] = pixel.map(|pixel| grid.sample_coordinate(pixel * grid.side()));
-        for (_, number) in &self.crossings[here] {
+        for number in &self.active {
             let edge = &self.edges[*number as usize];
             let value = edge_value(edge.top, edge.bottom, GridPoint { x, y });
             let [dx, dy] = [edge.bottom.x - edge.top.x, edge.bottom.y - edge.top.y];
             let [right, down] = [-i64::from(dy), i64::from(dx)].map(|step| step << grid.bits());
             // Downwards, the right of the edge on the screen is where the edge function is negative.
-            let winding = |[column, row]: [i64; 2]| {
+            let rows = i64::from(edge.rows.start)..i64::from(edge.rows.end);
+            for (around, place) in self.around.iter_mut().zip(places) {
+                let [column, row] = place.map(i64::from);
                 let left_of_sample = value + right * column + down * row <= 0;
-                if left_of_sample { edge.winding } else { 0 }
-            };
-            let samples = self.around.iter_mut().zip(places);
-            let samples = samples.map(|(around, place)| (around, place.map(i64::from)));
-            if edge.rows.end - edge.rows.start == grid.side() {
-                samples.for_each(|(around, place)| *around += winding(place));
-            } else {
-                let rows = i64::from(edge.rows.start)..i64::from(edge.rows.end);
-                let in_rows = samples.filter(|(_, place)| rows.contains(&place[1]));
-                in_rows.for_each(|(around, place)| *around += winding(place));
+                *around += if left_of_sample && rows.contains(&row) {
+                    edge.winding
+                } else {
+                    0
+                };
             }
         }
-        // Of a winding number all bits count, or the lowest.
-        let counted = match rule {
-            FillRule::NonZero => -1,
-            FillRule::EvenOdd => 1,
-        };
         let mut mask = SampleMask::default();
-        mask.set_each(places.len(), |sample| self.around[sample] & counted != 0);
+        mask.set_each(places.len(), |sample| rule.encloses(self.around[sample]));
         mask
+    }
+}
+
+/// Which of some samples are inside, around all of which `winding` is wound, and around each of them what `sides` add.
+fn enclosed_of(rule: FillRule, winding: i32, samples: u64, sides: &[(u64, i32)]) -> u64 {
+    if samples == 0 {
+        return 0;
+    }
+    match sides {
+        [] if rule.encloses(winding) => samples,
+        [] => 0,
+        [(bits, more), sides @ ..] => {
+            enclosed_of(rule, winding + more, samples & bits, sides)
+                | enclosed_of(rule, winding, samples & !bits, sides)
+        }
     }
 }
 

@@ -31,7 +31,8 @@
 //! * [`span_rows`] gathers the spans of sample rows by rows of pixels, [`pixel_rows`] makes runs and masks of them.
 //! * [`polygon_rows`] finds the spans of polygons, [`simple_polygon_rows`] where two edges cross each row.
 //! * [`mask8x8`] and [`mask8x8_simd`] hold small shapes as 64 bits.
-//! * [`free_positions`] and [`free_positions_polygon`] serve patterns off the grid, with [`windings`] and [`edge_bounds`].
+//! * [`free_positions`], [`free_positions_triangle`] and [`free_positions_polygon`] serve patterns off the grid, with
+//!   [`sample_lanes`], [`windings`] and [`edge_bounds`].
 //!
 //! What was tried to have fewer ways still, in instructions per redraw:
 //!
@@ -53,6 +54,7 @@ pub(in crate::raster) mod edge_bounds;
 pub(in crate::raster) mod float_shape;
 pub(in crate::raster) mod free_positions;
 pub(in crate::raster) mod free_positions_polygon;
+mod free_positions_triangle;
 pub(in crate::raster) mod mask8x8;
 pub(in crate::raster) mod mask8x8_simd;
 pub(in crate::raster) mod outline_cache;
@@ -60,6 +62,7 @@ pub(in crate::raster) mod pixel_rows;
 pub(in crate::raster) mod pixel_rows_4x4;
 pub(in crate::raster) mod polygon;
 pub(in crate::raster) mod polygon_rows;
+mod sample_lanes;
 pub(in crate::raster) mod shape;
 pub(in crate::raster) mod shape_coverage;
 pub(in crate::raster) mod simple_polygon_rows;

@@ -13,8 +13,9 @@ use crate::rules::Rules;
 /// How a tile is painted.
 ///
 /// With one sample per pixel, and where everything is flat, all methods give the same bytes, so each tile takes the
-/// fastest. Where samples are shaded, the visibility method rounds once per primitive and pixel, blending once per
-/// sample: tiles that shade anything take the one or the other for the whole list.
+/// fastest. Where samples of the grid are shaded, the visibility method rounds once per primitive and pixel, blending once
+/// per sample: tiles that shade anything take the one or the other for the whole list. Off the grid, and in linear light,
+/// every sample is rounded for itself, and both give the same bytes where nothing is to be seen through what is shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::raster) enum Method {
     /// Opaque primitives straight into the frame.
@@ -30,6 +31,8 @@ pub(in crate::raster) enum Method {
 pub(in crate::raster) struct Kinds {
     /// All are opaque, and none is in a layer.
     opaque: bool,
+    /// None has more than one colour.
+    flat: bool,
     /// Samples that are shaded must be blended one by one.
     blended: bool,
 }
@@ -50,6 +53,7 @@ impl Kinds {
             .reduce(|| (false, true), |a, b| (a.0 || b.0, a.1 && b.1));
         Self {
             opaque: !translucent && shaded_opaque && !layers,
+            flat: !shaded,
             // The course truncates every sample; layers do not know what would be below a sample that shows through.
             blended: !shaded_opaque || shaded && (layers || rules == Rules::Course),
         }
@@ -66,14 +70,19 @@ impl Kinds {
             let mut commands = commands.clone();
             commands.all(|(chunk, commands)| commands.iter().all(|command| is_so(command, chunk)))
         };
+        let all_opaque = || self.opaque || all(|command, _| command.is_opaque());
+        let all_flat = || self.flat || all(|command, chunk| !matches!(command.work(chunk), Work::Shaded(..)));
         let rate_one = context.rate == SampleRate::ONE;
-        // Neither samples off the grid nor their light can be summed up before all are painted.
         if !context.is_grid() || space != ResolveSpace::Stored && !rate_one {
-            return Method::PerSample;
+            return if context.rate.is_square() && (all_flat() || all_opaque()) {
+                Method::Visibility
+            } else {
+                Method::PerSample
+            };
         }
-        if rate_one && (self.opaque || all(|command, _| command.is_opaque())) {
+        if rate_one && all_opaque() {
             Method::Direct
-        } else if !self.blended || all(|command, chunk| !matches!(command.work(chunk), Work::Shaded(..))) {
+        } else if !self.blended || all_flat() {
             Method::Visibility
         } else {
             Method::PerSample

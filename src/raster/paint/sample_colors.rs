@@ -272,14 +272,7 @@ impl SampleColors {
         }
         match self.space {
             ResolveSpace::Stored => dispatch!(simd::level(), simd => self.resolve_stored(simd, first, pixels)),
-            ResolveSpace::Linear => {
-                for (i, samples) in self.split_from(first) {
-                    let Some(pixel) = pixels.get_mut(i) else {
-                        break;
-                    };
-                    *pixel = self.filter.pixel(samples, (self.space, self.rules));
-                }
-            }
+            ResolveSpace::Linear => dispatch!(simd::level(), simd => self.resolve_linear(simd, first, pixels)),
         }
     }
 
@@ -292,6 +285,24 @@ impl SampleColors {
         let samples = samples.chunks_exact(self.per_pixel);
         let all = self.split[first..].iter().zip(samples).enumerate();
         all.filter_map(|(i, (split, samples))| split.then_some((i, samples)))
+    }
+
+    /// Resolves split pixels into the mean of their samples' light.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn resolve_linear<S: Simd>(&self, simd: S, first: usize, pixels: &mut [u32]) {
+        let resolver = self.filter.light_resolver(self.per_pixel, self.rules);
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                for (i, samples) in self.split_from(first) {
+                    let Some(pixel) = pixels.get_mut(i) else {
+                        break;
+                    };
+                    *pixel = resolver.mean(samples);
+                }
+            },
+        );
     }
 
     /// Resolves split pixels into the mean of what their samples store.

@@ -8,7 +8,7 @@
 mod box_filter;
 mod weigh;
 
-use crate::color::{Premultiplied16, ResolveSpace, Resolver};
+use crate::color::{LightResolver, Resolver};
 use crate::raster::resolve::weigh::Weigh;
 use crate::rules::Rules;
 
@@ -56,17 +56,17 @@ impl ResolveFilter {
         Resolver::new(count, rules)
     }
 
-    /// The pixel of some samples, which are all of it.
-    #[inline]
-    pub(crate) fn pixel(self, samples: &[Premultiplied16], (space, rules): (ResolveSpace, Rules)) -> u32 {
-        debug_assert!(self.weigh().is_even(), "a mean knows no weights");
-        space.resolve(samples, rules)
+    /// What makes a pixel of the light of its samples, of which there are `count`.
+    pub(crate) fn light_resolver(self, count: usize, rules: Rules) -> LightResolver {
+        debug_assert!(self.weigh().is_even(), "a sum knows no weights");
+        LightResolver::new(u32::try_from(count).unwrap_or(u32::MAX), rules)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::{Premultiplied16, ResolveSpace};
 
     #[test]
     fn weights_are_those_of_the_mean() {
@@ -74,7 +74,7 @@ mod tests {
         let third = 1.0 / 3.0;
         assert_eq!(ResolveFilter::Box.weights(&positions), [third; 3]);
         let samples = [0, 0, 255].map(|value| Premultiplied16::from_bytes([value, value, value, 255]));
-        let pixel = ResolveFilter::Box.pixel(&samples, (ResolveSpace::Stored, Rules::Standard));
+        let pixel = ResolveSpace::Stored.resolve(&samples, Rules::Standard);
         assert_eq!(pixel, 0xFF55_5555, "a third of white");
         let sum = [65_280, 65_280, 65_280, 3 * 65_280];
         assert_eq!(

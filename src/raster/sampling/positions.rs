@@ -16,8 +16,9 @@ pub(crate) struct SamplePositions {
     count: usize,
     /// Where they lie in every pixel; empty where each pixel has its own.
     same: Vec<Position>,
-    /// The cells along one side of a pixel.
-    cells: Vec<[u32; 2]>,
+    /// For two samples at a time the cells in which they may lie: where each begins and how long it is, in the order in which
+    /// random bits are taken; of jittered samples only.
+    jitter: Vec<[[u16; 2]; 4]>,
 }
 
 /// The lattice that the samples of a pattern lie on.
@@ -45,7 +46,11 @@ impl SamplePositions {
         Self {
             count: count as usize,
             same,
-            cells,
+            jitter: if pattern == SamplePattern::Jittered {
+                pairs(&cells)
+            } else {
+                Vec::new()
+            },
         }
     }
 
@@ -67,7 +72,15 @@ impl SamplePositions {
         }
         let pixel = mix((u64::from(x.cast_unsigned()) | u64::from(y.cast_unsigned()) << 32) ^ SEED);
         memory.clear();
-        memory.extend(jittered(&self.cells, pixel));
+        for (number, cells) in (0..).zip(&self.jitter) {
+            let random = hash(pixel, number);
+            let [a, b, c, d] = [0, 1, 2, 3].map(|i| {
+                let [start, length] = cells[i].map(u32::from);
+                byte(start + ((low_quarter(random >> (16 * i)) * length) >> 16))
+            });
+            memory.extend_from_slice(&[[a, b], [c, d]]);
+        }
+        memory.truncate(self.count);
         memory
     }
 }
@@ -85,6 +98,20 @@ fn cells(n: u32) -> Vec<[u32; 2]> {
     // The first point of the lattice whose middle lies in cell `k` or later.
     let first = |k: u32| (2 * k * SubpixelGrid::FINE_SIDE).saturating_sub(n).div_ceil(2 * n);
     (0..n).map(|k| [first(k), first(k + 1) - first(k)]).collect()
+}
+
+/// The cells of an even number of samples, two at a time: columns and rows as [`jittered`] takes them from random bits.
+fn pairs(cells: &[[u32; 2]]) -> Vec<[[u16; 2]; 4]> {
+    let narrow = |cell: [u32; 2]| cell.map(|at| u16::try_from(at).unwrap_or(u16::MAX));
+    let all: Vec<[[u16; 2]; 2]> = cells
+        .iter()
+        .flat_map(|row| cells.iter().map(|column| [narrow(*column), narrow(*row)]))
+        .collect();
+    let pair = |pair: &[[[u16; 2]; 2]]| {
+        let [first, second] = [pair[0], pair[pair.len() - 1]];
+        [first[0], first[1], second[0], second[1]]
+    };
+    all.chunks(2).map(pair).collect()
 }
 
 /// A place anywhere in each of `n x n` cells, as a seed says.
@@ -149,4 +176,26 @@ fn byte(point: u32) -> u8 {
     debug_assert!(point < 256, "{point} lies on the lattice");
     let [low, ..] = point.to_le_bytes();
     low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn jitter_two_by_two_is_that_of_one_sample_after_the_other() {
+        arbtest::arbtest(|u| {
+            let side = u.int_in_range(1..=16)?;
+            let rate = SampleRate::new(side * side).expect("a rate");
+            let positions = SamplePositions::new(SamplePattern::Jittered, rate);
+            let [x, y] = [u.int_in_range(0..=70_000)?, u.int_in_range(0..=70_000)?];
+            let mut memory = vec![[9, 9]; 3];
+            let found = positions.of_pixel([x, y], &mut memory);
+            let pixel = mix((u64::from(x.cast_unsigned()) | u64::from(y.cast_unsigned()) << 32) ^ SEED);
+            let expected: Vec<Position> = jittered(&cells(side), pixel).collect();
+            assert_eq!(found, expected, "{side} x {side} in {x}, {y}");
+            Ok(())
+        })
+        .budget_ms(200);
+    }
 }

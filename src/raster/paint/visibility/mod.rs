@@ -4,6 +4,7 @@
 //! GPUs do with an FMASK; [`flat_resolve`] averages surfaces of one colour without shading.
 
 pub(in crate::raster) mod buffer;
+mod by_samples;
 pub(in crate::raster) mod flat_resolve;
 mod fragments;
 mod layer_end;

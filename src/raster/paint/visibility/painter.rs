@@ -2,7 +2,8 @@
 //!
 //! Nothing hidden is ever shaded, and a primitive's part of a pixel is shaded as one, whatever the number of samples:
 //! its sum over the samples is taken before anything is rounded. Translucent flat colours are mixed once for all
-//! samples that show the same. The second step is in `resolve`.
+//! samples that show the same. The second step is in `resolve`; in `by_samples` where each sample is shaded and rounded for
+//! itself, because samples do not lie on the grid or their light is averaged.
 
 use fearless_simd::{Simd, dispatch};
 
@@ -15,10 +16,12 @@ use crate::raster::layers::Compositing;
 use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
 use crate::raster::paint::visibility::buffer::VisibilityBuffer;
+use crate::raster::paint::visibility::by_samples::BySamples;
 use crate::raster::paint::visibility::fragments::FragmentSums;
 use crate::raster::paint::visibility::layer_end::LayerEnd;
 use crate::raster::paint::visibility::shading_queue::ShadingQueue;
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
+use crate::raster::sampling::positions::SamplePositions;
 use crate::raster::shading::context::ShadeContext;
 use crate::raster::span::PixelRect;
 use crate::raster::surface_id::{MAX_SURFACES, SurfaceId};
@@ -33,22 +36,24 @@ pub(crate) struct VisibilityPainter<'a> {
     pub(super) surfaces: SurfaceTable<'a>,
     pub(super) unresolved: ShadingQueue,
     pub(super) fragments: FragmentSums,
+    pub(super) by_samples: BySamples,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
 }
 
 impl<'a> VisibilityPainter<'a> {
     /// A painter for one drawing.
-    pub(crate) fn new(context: ShadeContext<'a>) -> Self {
-        let side = context.grid.side().cast_unsigned();
+    pub(crate) fn new(context: ShadeContext<'a>, positions: SamplePositions) -> Self {
+        let side = context.rate.side();
         let resolver = context.filter.resolver(side * side, context.sampling.rules);
         Self {
             context,
             resolver,
-            layers: LayerStack::new(VisibilityBuffer::new(context.grid.side())),
+            layers: LayerStack::new(buffer(&context)),
             surfaces: SurfaceTable::new(context.sampling.rules, resolver),
             unresolved: ShadingQueue::default(),
             fragments: FragmentSums::default(),
+            by_samples: BySamples::new(&context, positions),
             samples_shaded: 0,
         }
     }
@@ -82,10 +87,11 @@ impl<'a> VisibilityPainter<'a> {
 
     #[inline]
     fn opaque(&mut self, shape: Shape<'_>, surface: SurfaceId, shape_coverage: &mut ShapeCoverage) {
+        let by_four = self.has_four_rows(shape);
         let tile = self.layers.top();
         if matches!(shape, Shape::Tile) {
             tile.cover(surface);
-        } else if self.context.grid.side() == pixel_rows_4x4::SIDE && has_rows(shape) {
+        } else if by_four {
             dispatch!(simd::level(), simd => opaque_four(simd, (shape, shape_coverage), tile, surface));
         } else {
             shape_coverage.each(
@@ -98,9 +104,10 @@ impl<'a> VisibilityPainter<'a> {
     }
 
     fn translucent(&mut self, shape: Shape<'_>, color: Premultiplied16, shape_coverage: &mut ShapeCoverage) {
+        let by_four = self.has_four_rows(shape);
         let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
         surfaces.next_paint();
-        if self.context.grid.side() == pixel_rows_4x4::SIDE && has_rows(shape) {
+        if by_four {
             dispatch!(simd::level(), simd => translucent_four(simd, (shape, shape_coverage), tile, (surfaces, color)));
         } else {
             shape_coverage.each(
@@ -115,7 +122,7 @@ impl<'a> VisibilityPainter<'a> {
     fn begin_layer(&mut self) {
         let rect = self.layers.base().rect;
         let surface = self.surfaces.flat(Premultiplied16::TRANSPARENT);
-        let layer = self.layers.push(|| VisibilityBuffer::new(self.context.grid.side()));
+        let layer = self.layers.push(|| buffer(&self.context));
         layer.reset(rect, surface);
     }
 
@@ -123,6 +130,15 @@ impl<'a> VisibilityPainter<'a> {
         if let Some((below, layer)) = self.layers.pop() {
             below.composite(layer, &mut LayerEnd::new(&mut self.surfaces, compositing));
         }
+    }
+
+    /// Whether a pixel has 4 x 4 samples of the grid and a shape may have many rows of them, so that it pays to look at
+    /// several at once.
+    #[inline]
+    fn has_four_rows(&self, shape: Shape<'_>) -> bool {
+        // The lattice of other positions is far finer.
+        self.context.grid.side() == pixel_rows_4x4::SIDE
+            && !matches!(shape, Shape::Tile | Shape::Samples(_) | Shape::Pixels(_))
     }
 
     /// Makes sure that every surface may be mixed with the next paint. There are twice as many numbers as samples in a
@@ -144,10 +160,9 @@ impl<'a> VisibilityPainter<'a> {
     }
 }
 
-/// Whether a shape may have many rows, so that it pays to look at several at once.
-#[inline]
-fn has_rows(shape: Shape<'_>) -> bool {
-    !matches!(shape, Shape::Tile | Shape::Samples(_) | Shape::Pixels(_))
+/// A buffer of no pixels.
+fn buffer(context: &ShadeContext<'_>) -> VisibilityBuffer {
+    VisibilityBuffer::new(context.rate.side().cast_signed())
 }
 
 /// Lets the samples of a shape show `surface`, where a pixel has 4 x 4 samples.

@@ -24,8 +24,15 @@ impl VisibilityPainter<'_> {
         self.unresolved.clear();
         let PixelRect { x, y } = self.layers.base().rect;
         if !self.surfaces.any_shaded {
-            dispatch!(simd::level(), simd => resolve_flat(simd, self, block));
+            if self.by_samples.is_linear() {
+                self.resolve_light(block);
+            } else {
+                dispatch!(simd::level(), simd => resolve_flat(simd, self, block));
+            }
             return Duration::ZERO;
+        }
+        if self.by_samples.is_meant() {
+            return self.resolve_by_samples(block, timed);
         }
         for (y, row) in (y.start..y.end).zip(0..) {
             self.resolve_row(y, row, block.line(y));
@@ -48,7 +55,7 @@ impl VisibilityPainter<'_> {
 
     /// After a tile of a single pixel was resolved: the sums of its samples' channels, if any of them was shaded.
     pub(crate) fn shaded_sums(&mut self) -> Option<[u32; 4]> {
-        if self.unresolved.is_empty() {
+        if self.unresolved.is_empty() || self.by_samples.is_meant() {
             return None;
         }
         self.unresolved.clear();
@@ -216,7 +223,7 @@ impl VisibilityPainter<'_> {
 /// Resolves the pixels of a row that show two surfaces or are split, by what each is and by its column.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn each_shared(
+pub(super) fn each_shared(
     shown: &Shown<'_>,
     pixels: &mut [u32],
     of_two: impl Fn(TwoSurfaces) -> u32,

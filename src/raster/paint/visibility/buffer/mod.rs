@@ -257,7 +257,7 @@ impl VisibilityBuffer {
 
     /// The surfaces of a split pixel's samples, row by row; `x` counts from the tile's left side.
     #[inline]
-    pub(crate) fn samples(&self, x: usize, y: i32) -> impl Iterator<Item = SurfaceId> + '_ {
+    pub(crate) fn samples(&self, x: usize, y: i32) -> impl Iterator<Item = SurfaceId> + Clone + '_ {
         self.words(x, y)
             .chunks_exact(self.words)
             .flat_map(|row| row.iter().flat_map(|word| lanes(*word)).take(self.side))

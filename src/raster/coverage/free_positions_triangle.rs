@@ -1,0 +1,233 @@
+//! What a triangle covers in one tile where samples lie anywhere in their pixels.
+//!
+//! Pixel by pixel: where no edge crosses a pixel, its corners decide at once; elsewhere its samples are asked, all at once by
+//! [`SampleLanes`], or one after the other where there are too many of them.
+
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
+use fearless_simd::Simd;
+
+use crate::geometry::edge::{SampleEdge, doubled_area};
+use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::raster::coverage::edge_bounds::TileRows;
+use crate::raster::coverage::sample_lanes::{PixelEdge, SampleLanes};
+use crate::raster::sampling::positions::Position;
+use crate::raster::span::{PixelRect, SampleBox, Span};
+use crate::rules::Rules;
+
+/// A triangle and the pixels of a tile that it may touch.
+#[derive(Debug)]
+pub(super) struct TriangleScan {
+    grid: SubpixelGrid,
+    edges: [LatticeEdge; 3],
+    /// What bounds the columns of rows of pixels; `None` where there are so few columns that looking at each pixel costs less.
+    lines: Option<TileRows>,
+    columns: Span,
+    pub(super) rows: Span,
+    /// Rows of samples between the highest and the lowest corner.
+    sample_rows: Span,
+}
+
+/// Pixels side by side of which the same samples are covered.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FoundRun {
+    pub(super) y: i32,
+    pub(super) xs: Span,
+    /// A bit for each sample.
+    pub(super) bits: u64,
+}
+
+/// A [`SampleEdge`], whose samples are all points of the lattice.
+#[derive(Clone, Copy, Debug)]
+struct LatticeEdge {
+    edge: SampleEdge,
+    /// What it gains from a pixel's first point to the point where it is least and greatest.
+    least: i64,
+    most: i64,
+}
+
+/// How much of a pixel a triangle covers by the values of its edges at the corners.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PixelReach {
+    Nothing,
+    All,
+    /// The values of the edges at the pixel's first point; those that do not cross the pixel have one that keeps nothing out.
+    Part([i64; 3]),
+}
+
+/// The value of an edge that keeps nothing out.
+const INSIDE: i64 = i64::MAX / 2;
+
+impl TriangleScan {
+    /// Prepares a triangle; `None` where it touches nothing of the tile `rect`.
+    pub(super) fn new(corners: [GridPoint; 3], rect: PixelRect, (grid, rules): (SubpixelGrid, Rules)) -> Option<Self> {
+        let area = doubled_area(corners);
+        if area == 0 {
+            return None;
+        }
+        let side = grid.side();
+        let samples = SampleBox::new(corners, grid, rules);
+        if samples.columns.is_empty() || samples.rows.is_empty() {
+            return None;
+        }
+        let pixels = |span: Span, within: Span| {
+            Span {
+                start: span.start.div_euclid(side),
+                end: (span.end - 1).div_euclid(side) + 1,
+            }
+            .intersection(within)
+        };
+        let (columns, rows) = (pixels(samples.columns, rect.x), pixels(samples.rows, rect.y));
+        if columns.is_empty() || rows.is_empty() {
+            return None;
+        }
+        let first = grid.sample_coordinate(0);
+        let first = GridPoint { x: first, y: first };
+        let edges = SampleEdge::of_triangle((corners, area), first, (grid, rules));
+        Some(Self {
+            grid,
+            edges: edges.map(|edge| LatticeEdge::new(edge, side)),
+            lines: (columns.end - columns.start > 2).then(|| TileRows::new(corners)),
+            columns,
+            rows,
+            sample_rows: samples.rows,
+        })
+    }
+
+    /// The pixels of row `y` that it may touch, and those of them that it covers for certain.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "clamped to columns of a frame")]
+    pub(super) fn row(&self, y: i32) -> (Span, Span) {
+        let Some(lines) = &self.lines else {
+            return (self.columns, Span::EMPTY);
+        };
+        let (columns, side) = (self.columns, self.grid.side());
+        let all = Span {
+            start: y * side,
+            end: (y + 1) * side,
+        };
+        let inside = all.intersection(self.sample_rows);
+        let at = |row| self.grid.sample_coordinate(row);
+        let bounds = lines.between(at(inside.start), at(inside.end - 1));
+        let (least, most) = (f64::from(columns.start), f64::from(columns.end));
+        let per_unit = 1.0 / self.grid.units_per_pixel();
+        // No column of a frame is negative.
+        let floor = |units: f64| (units * per_unit).clamp(least, most) as i32;
+        let touched = Span {
+            start: floor(bounds.touched[0]),
+            end: floor(bounds.touched[1]).saturating_add(1).min(columns.end),
+        };
+        if inside != all || bounds.covered[0] > bounds.covered[1] {
+            return (touched, Span::EMPTY);
+        }
+        let covered = Span {
+            start: (bounds.covered[0] * per_unit).clamp(least, most).ceil() as i32,
+            end: floor(bounds.covered[1]),
+        };
+        (touched, covered)
+    }
+
+    /// The parts of row `y` that are to be looked at pixel by pixel, and what is covered between them.
+    #[inline(always)]
+    pub(super) fn parts(&self, y: i32) -> (Span, Span, Span) {
+        let (touched, inside) = self.row(y);
+        if inside.is_empty() {
+            return (touched, Span::EMPTY, Span::EMPTY);
+        }
+        let before = Span {
+            start: touched.start,
+            end: inside.start,
+        };
+        let after = Span {
+            start: inside.end,
+            end: touched.end,
+        };
+        (before, inside, after)
+    }
+
+    /// What its edges say of a pixel.
+    #[inline(always)]
+    pub(super) fn reach(&self, x: i32, y: i32) -> PixelReach {
+        let side = i64::from(self.grid.side());
+        let (column, row) = (i64::from(x) * side, i64::from(y) * side);
+        let (mut values, mut crossed) = ([INSIDE; 3], false);
+        for (value, LatticeEdge { edge, least, most }) in values.iter_mut().zip(&self.edges) {
+            let here = edge.value + i64::from(edge.right) * column + i64::from(edge.down) * row;
+            if here + most < 0 {
+                return PixelReach::Nothing;
+            }
+            if here + least < 0 {
+                *value = here;
+                crossed = true;
+            }
+        }
+        if crossed {
+            PixelReach::Part(values)
+        } else {
+            PixelReach::All
+        }
+    }
+
+    /// What each edge gains from a pixel's first point to another.
+    #[inline]
+    pub(super) fn gains(&self, [column, row]: Position) -> [i64; 3] {
+        self.edges.map(|LatticeEdge { edge, .. }| {
+            i64::from(edge.right) * i64::from(column) + i64::from(edge.down) * i64::from(row)
+        })
+    }
+
+    /// Finds all that is covered, row by row.
+    #[inline(always)]
+    pub(super) fn find<S: Simd>(&self, simd: S, lanes: &mut SampleLanes, found: &mut Vec<FoundRun>) {
+        for y in self.rows.start..self.rows.end {
+            let (before, inside, after) = self.parts(y);
+            for xs in [before, after] {
+                for x in xs.start..xs.end {
+                    let bits = self.bits(simd, lanes, [x, y]);
+                    if bits != 0 {
+                        let xs = Span { start: x, end: x + 1 };
+                        found.push(FoundRun { y, xs, bits });
+                    }
+                }
+            }
+            if !inside.is_empty() {
+                let bits = lanes.all();
+                found.push(FoundRun { y, xs: inside, bits });
+            }
+        }
+    }
+
+    /// The samples of a pixel that are covered.
+    #[inline(always)]
+    fn bits<S: Simd>(&self, simd: S, lanes: &mut SampleLanes, pixel: [i32; 2]) -> u64 {
+        let values = match self.reach(pixel[0], pixel[1]) {
+            PixelReach::Nothing => return 0,
+            PixelReach::All => return lanes.all(),
+            PixelReach::Part(values) => values,
+        };
+        lanes.go_to(pixel);
+        let mut bits = lanes.all();
+        for (value, LatticeEdge { edge, .. }) in values.into_iter().zip(&self.edges) {
+            if value != INSIDE {
+                let SampleEdge { right, down, .. } = *edge;
+                bits &= lanes.inside(simd, PixelEdge { value, right, down });
+            }
+        }
+        bits
+    }
+}
+
+impl LatticeEdge {
+    fn new(edge: SampleEdge, side: i32) -> Self {
+        let last = i64::from(side - 1);
+        let (right, down) = (i64::from(edge.right) * last, i64::from(edge.down) * last);
+        Self {
+            edge,
+            least: right.min(0) + down.min(0),
+            most: right.max(0) + down.max(0),
+        }
+    }
+}

@@ -1,0 +1,259 @@
+//! The sums of pixels' samples where each reads the nearest texel of one level: a fetch a sample, and little else.
+//!
+//! A pixel's samples stand around its centre as those of every other pixel do. So the centre is placed in the level once, in
+//! fixed point, and a sample's texel takes two additions and two shifts:
+//!
+//! ```text
+//!     texel k-1 |      texel k      | texel k+1       # a sample's place, as the sum of two rounded numbers
+//!               |~  #           #  ~|                 ~ so close to an edge that rounding might have carried it across
+//! ```
+//!
+//! [`bilinear::to_fixed`] decides what a sample reads. Sums of rounded numbers may differ from it by a little more than one
+//! unit: pixels with a sample so close to the edge of a texel are read again by that very function, sample by sample.
+
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, u8x16, u16x8, u32x4};
+use glam::DVec2;
+
+use super::PixelSampling;
+use super::bilinear::{FRACTION_BITS, add, to_fixed};
+use super::filter_plan::{Axis, GridLevel, PixelList, Plan};
+use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows};
+
+/// Samples of a pixel that take little memory, and as many as there may be.
+pub(super) const FEW: usize = 16;
+pub(super) const MANY: usize = 256;
+/// Where samples lie is known to less than half of this: three numbers are rounded by half a unit each.
+const UNCERTAIN: i32 = 4;
+/// How far samples may lie from their pixel's centre, in texels: with the largest level on one side of them, columns and rows
+/// fit 16 bits.
+const FARTHEST: f64 = 8000.0;
+/// Coordinates below this are exact to far less than a unit, however large the numbers that they are sums of.
+const LARGEST: f64 = (1_u64 << 30) as f64;
+/// No list reaches further from the pixel that it is counted from, in samples.
+const LIST: f64 = (1_u32 << 20) as f64;
+
+/// Where the samples of every pixel lie.
+#[derive(Debug)]
+pub(super) struct NearestSamples<'a, const N: usize> {
+    level: GridLevel<'a>,
+    side: u32,
+    x: Offsets<N>,
+    y: Offsets<N>,
+}
+
+/// The same on one axis.
+#[derive(Debug)]
+struct Offsets<const N: usize> {
+    /// From the pixel's centre, in fixed point, and half of [`UNCERTAIN`] more: so what is uncertain lies just behind the edge
+    /// of a texel.
+    of_samples: [i32; N],
+    /// Centres that far outside the level have no sample in it, in texels.
+    reach: f64,
+}
+
+/// Which texels the samples of a vector of pixels read.
+struct Found<S: Simd, const N: usize> {
+    /// For each sample the texel of each pixel.
+    texels: [[u32; MAX_LANES]; N],
+    /// How far the samples are from the edges of their texels, at least; in the lower half of each lane.
+    distance: S::i16s,
+}
+
+impl<'a, const N: usize> NearestSamples<'a, N> {
+    /// For a plan that reads the nearest texel of one level; `None` where it does not, or numbers are too large.
+    pub(super) fn new(plan: &Plan<'a>, side: u32) -> Option<Self> {
+        let is_one = plan.pixel == PixelSampling::Nearest && plan.coarser.is_none() && plan.line.taps.count == 1;
+        if !is_one || (side * side) as usize > N {
+            return None;
+        }
+        let offsets = |axis: &Axis| {
+            let farthest = plan.first.abs() + LIST;
+            let largest = axis.at_pivot.abs() + farthest.x * axis.right.abs() + farthest.y * axis.down.abs();
+            Offsets::new(axis, side).filter(|offsets| largest < LARGEST && offsets.reach < FARTHEST)
+        };
+        Some(Self {
+            x: offsets(&plan.finer.x)?,
+            y: offsets(&plan.finer.y)?,
+            level: plan.finer,
+            side,
+        })
+    }
+}
+
+impl<const N: usize> Offsets<N> {
+    fn new(axis: &Axis, side: u32) -> Option<Self> {
+        let middle = f64::from(side - 1) / 2.0;
+        let reach = (axis.right.abs() + axis.down.abs()) * middle + 1.0;
+        let mut of_samples = [0; N];
+        for (j, row) in of_samples
+            .chunks_exact_mut(side as usize)
+            .take(side as usize)
+            .enumerate()
+        {
+            let down = (j as f64 - middle) * axis.down;
+            for (i, offset) in row.iter_mut().enumerate() {
+                *offset = to_units(down + (i as f64 - middle) * axis.right) + UNCERTAIN / 2;
+            }
+        }
+        reach.is_finite().then_some(Self { of_samples, reach })
+    }
+}
+
+/// A distance in texels in fixed point, rounded to nearest; by adding, because rounding is a call on some machines.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the fixed-point number is in the lower half"
+)]
+fn to_units(texels: f64) -> i32 {
+    const WHOLE: f64 = 1.5 * (1_u64 << (52 - FRACTION_BITS)) as f64;
+    (texels + WHOLE).to_bits() as i32
+}
+
+/// The sums over the samples of pixels.
+#[inline(always)]
+pub(super) fn sum<S: Simd, const N: usize>(
+    simd: S,
+    plan: &Plan<'_>,
+    samples: &NearestSamples<'_, N>,
+    (list, sums): (PixelList<'_>, &mut [[u32; 4]]),
+) {
+    let lanes = S::u32s::LEN;
+    let count = (samples.side * samples.side) as usize;
+    let middle = plan.first + f64::from(samples.side - 1) / 2.0;
+    let mut found = Found {
+        texels: [[0; MAX_LANES]; N],
+        distance: S::i16s::splat(simd, 0),
+    };
+    for (i, (pixels, sums)) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).enumerate() {
+        found.find(simd, samples, (pixels, middle));
+        let masks = list.masks.map(|masks| &masks[i * lanes..]);
+        for (lane, (sum, pixel)) in sums.iter_mut().zip(pixels).enumerate() {
+            let mask = masks.map(|masks| masks[lane]);
+            *sum = if found.is_uncertain(lane) {
+                exact(plan, samples.side, *pixel, mask)
+            } else {
+                let texels = samples.level.level.texels();
+                match mask {
+                    None => sum_all(simd, texels, &found.texels[..count], lane),
+                    Some(mask) => sum_some(texels, &found.texels[..count], lane, mask),
+                }
+            };
+        }
+    }
+}
+
+impl<S: Simd, const N: usize> Found<S, N> {
+    /// Finds the texels of up to a vector of pixels.
+    #[inline(always)]
+    fn find(&mut self, simd: S, samples: &NearestSamples<'_, N>, (pixels, middle): (&[[u16; 2]], DVec2)) {
+        let number = |value: i32| S::i32s::splat(simd, value);
+        let side = S::f32s::splat(simd, samples.side as f32);
+        let [columns, rows] = columns_and_rows(simd, pixels);
+        let at = Positions::new(simd, [columns * side, rows * side], middle);
+        let level = &samples.level;
+        let x = at.around(simd, &level.x, samples.x.reach);
+        let y = at.around(simd, &level.y, samples.y.reach);
+        let last = [level.level.width(), level.level.height()].map(|size| size.cast_signed() - 1);
+        let last: S::i16s = number(last[0] | last[1] << 16).bitcast();
+        let stride: S::i16s = number(1 | level.level.stride().cast_signed() << 16).bitcast();
+        let fraction: S::i16s = number((1 << FRACTION_BITS) - 1).bitcast();
+        let mut distance = S::i16s::splat(simd, i16::MAX);
+        let count = (samples.side * samples.side) as usize;
+        let offsets = samples.x.of_samples[..count].iter().zip(&samples.y.of_samples[..count]);
+        for (texels, (right, down)) in self.texels.iter_mut().zip(offsets) {
+            let (x, y) = (x + number(*right), y + number(*down));
+            // The upper halves are no distances, and nobody looks at them.
+            distance = distance
+                .min(x.bitcast::<S::i16s>() & fraction)
+                .min(y.bitcast::<S::i16s>() & fraction);
+            let (column, row) = (x >> FRACTION_BITS, y >> FRACTION_BITS << 16);
+            let at: S::i16s = (column & number(0xFFFF) | row).bitcast();
+            let inside = at.max(S::i16s::splat(simd, 0)).min(last);
+            let offset: S::u32s = inside.pairwise_dot_product(stride).bitcast();
+            offset.store_slice(&mut texels[..S::u32s::LEN]);
+        }
+        self.distance = distance;
+    }
+
+    /// Whether a sample of a pixel may read another texel than the one that was found.
+    #[inline(always)]
+    fn is_uncertain(&self, lane: usize) -> bool {
+        i32::from(self.distance.as_slice()[2 * lane]) < UNCERTAIN
+    }
+}
+
+/// The sum of the texels that all samples of a pixel read.
+#[inline(always)]
+fn sum_all<S: Simd>(simd: S, texels: &[[u8; 4]], found: &[[u32; MAX_LANES]], lane: usize) -> [u32; 4] {
+    let texel = |found: &[u32; MAX_LANES]| texels[found[lane % MAX_LANES] as usize];
+    let zero = u8x16::splat(simd, 0);
+    // Of every second sample: half of 256 bytes fit 16 bits.
+    let mut halves = u16x8::splat(simd, 0);
+    let (fours, rest) = found.as_chunks::<4>();
+    for four in fours {
+        let four = four.each_ref().map(|found| u32::from_le_bytes(texel(found)));
+        let bytes: u8x16<S> = u32x4::simd_from(simd, four).bitcast();
+        halves += bytes.zip_low(zero).bitcast::<u16x8<S>>() + bytes.zip_high(zero).bitcast::<u16x8<S>>();
+    }
+    let halves = halves.to_array();
+    let mut sums = [0, 1, 2, 3].map(|i| u32::from(halves[i]) + u32::from(halves[i + 4]));
+    for found in rest {
+        for (sum, byte) in sums.iter_mut().zip(texel(found)) {
+            *sum += u32::from(byte);
+        }
+    }
+    // A byte is stored as 256 times itself.
+    sums.map(|sum| sum << 8)
+}
+
+/// The same of those of the first 64 samples that a mask names.
+#[inline(always)]
+fn sum_some(texels: &[[u8; 4]], found: &[[u32; MAX_LANES]], lane: usize, mask: u64) -> [u32; 4] {
+    const EVERY_OTHER: u32 = 0x00FF_00FF;
+    // Two bytes in each: 64 of them fit 16 bits.
+    let (mut red_blue, mut green_alpha, mut rest) = (0, 0, mask);
+    while rest != 0 {
+        let Some(found) = found.get(rest.trailing_zeros() as usize) else {
+            break;
+        };
+        let texel = u32::from_le_bytes(texels[found[lane % MAX_LANES] as usize]);
+        red_blue += texel & EVERY_OTHER;
+        green_alpha += texel >> 8 & EVERY_OTHER;
+        rest &= rest - 1;
+    }
+    let [low, high] = [0xFFFF, 0xFFFF_0000];
+    [
+        (red_blue & low) << 8,
+        (green_alpha & low) << 8,
+        (red_blue & high) >> 8,
+        (green_alpha & high) >> 8,
+    ]
+}
+
+/// The sum of a pixel's samples as they are decided one by one.
+#[cold]
+fn exact(plan: &Plan<'_>, side: u32, pixel: [u16; 2], mask: Option<u64>) -> [u32; 4] {
+    let level = &plan.finer;
+    let mut sums = [0; 4];
+    for j in 0..side {
+        for i in 0..side {
+            if mask.is_some_and(|mask| mask.checked_shr(j * side + i).unwrap_or(0) & 1 == 0) {
+                continue;
+            }
+            let sample = |pixel: u16, inside: u32| f64::from(u32::from(pixel) * side + inside);
+            let from_pivot = plan.first + DVec2::new(sample(pixel[0], i), sample(pixel[1], j));
+            let at = |axis: &Axis| {
+                let texels = (axis.at_pivot + from_pivot.x * axis.right) + from_pivot.y * axis.down;
+                to_fixed(texels, axis.last)
+            };
+            add(level.level, plan.pixel, [at(&level.x), at(&level.y)], 1, &mut sums);
+        }
+    }
+    sums.map(|sum: i32| sum.cast_unsigned() << 8)
+}

@@ -5,6 +5,7 @@ mod blend_all;
 mod colormap;
 mod ramp;
 mod resolve;
+mod weighted;
 
 use crate::rules::Rules;
 
@@ -12,6 +13,7 @@ pub use blend::BlendMode;
 pub use colormap::Colormap;
 pub use ramp::{Mix, Ramp, Spread, Stop, Stretch};
 pub use resolve::{ResolveSpace, encoded};
+pub use weighted::WeightedSum;
 
 /// A straight (not premultiplied) sRGB-encoded colour; each channel and alpha in `0.0..=1.0`.
 #[derive(Clone, Copy, Debug, PartialEq)]

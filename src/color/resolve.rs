@@ -40,13 +40,17 @@ static LEAST: LazyLock<[Vec<u32>; 2]> = LazyLock::new(|| {
     reason = "between nothing and ONE_LIGHT"
 )]
 fn light(stored: f64) -> u32 {
+    (light_of(stored) * ONE_LIGHT).round() as u32
+}
+
+/// Linear light of a stored channel, `0.0..=1.0`.
+pub(super) fn light_of(stored: f64) -> f64 {
     let stored = stored / f64::from(Premultiplied16::ONE);
-    let light = if stored <= 0.040_45 {
+    if stored <= 0.040_45 {
         stored / 12.92
     } else {
         ((stored + 0.055) / 1.055).powf(2.4)
-    };
-    (light * ONE_LIGHT).round() as u32
+    }
 }
 
 impl ResolveSpace {
@@ -151,7 +155,7 @@ fn linear_mean(samples: &[Premultiplied16], rules: Rules) -> u32 {
 
 /// The index of a premultiplied channel's straight value among all stored ones.
 #[inline]
-fn straight(channel: u16, alpha: u16) -> usize {
+pub(super) fn straight(channel: u16, alpha: u16) -> usize {
     const ONE: u32 = Premultiplied16::ONE as u32;
     if alpha == Premultiplied16::ONE {
         return usize::from(channel.min(Premultiplied16::ONE));

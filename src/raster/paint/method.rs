@@ -7,6 +7,7 @@ use crate::raster::SampleRate;
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::list::chunk::Chunk;
 use crate::raster::list::context::ListContext;
+use crate::raster::resolve::SizedFilter;
 use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
 
@@ -55,11 +56,12 @@ impl Kinds {
         }
     }
 
-    /// How a tile is painted of which these commands are to be seen, chunk by chunk; its samples are averaged in `space`.
+    /// How a tile is painted of which these commands are to be seen, chunk by chunk; its samples are weighted by `filter` and
+    /// averaged in `space`.
     pub(in crate::raster) fn method<'c>(
         self,
         context: &ListContext,
-        space: ResolveSpace,
+        (filter, space): (SizedFilter, ResolveSpace),
         commands: &(impl Iterator<Item = (&'c Chunk, &'c [TileCommand])> + Clone),
     ) -> Method {
         let all = |is_so: fn(&TileCommand, &Chunk) -> bool| {
@@ -67,8 +69,8 @@ impl Kinds {
             commands.all(|(chunk, commands)| commands.iter().all(|command| is_so(command, chunk)))
         };
         let rate_one = context.rate == SampleRate::ONE;
-        // Neither samples off the grid nor their light can be summed up before all are painted.
-        if !context.is_grid() || space != ResolveSpace::Stored && !rate_one {
+        // Neither samples off the grid nor their light can be summed up before all are painted, nor what neighbours weigh too.
+        if !context.is_grid() || !filter.is_plain() || space != ResolveSpace::Stored && !rate_one {
             return Method::PerSample;
         }
         if rate_one && (self.opaque || all(|command, _| command.is_opaque())) {

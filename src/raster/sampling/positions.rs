@@ -18,6 +18,8 @@ pub(crate) struct SamplePositions {
     same: Vec<Position>,
     /// The cells along one side of a pixel.
     cells: Vec<[u32; 2]>,
+    /// The column and the row of the frame's first pixel in what is painted.
+    margin: i32,
 }
 
 /// The lattice that the samples of a pattern lie on.
@@ -46,6 +48,15 @@ impl SamplePositions {
             count: count as usize,
             same,
             cells,
+            margin: 0,
+        }
+    }
+
+    /// The same in a frame around which so many pixels are painted on each side.
+    pub(crate) fn with_margin(self, margin: u32) -> Self {
+        Self {
+            margin: margin.cast_signed(),
+            ..self
         }
     }
 
@@ -59,12 +70,14 @@ impl SamplePositions {
         !self.same.is_empty()
     }
 
-    /// Where the samples of the pixel in column and row `pixel` of the frame lie; `memory` is overwritten.
+    /// Where the samples of a pixel lie, by its column and row in what is painted; `memory` is overwritten.
     #[inline]
     pub(crate) fn of_pixel<'s>(&'s self, [x, y]: [i32; 2], memory: &'s mut Vec<Position>) -> &'s [Position] {
         if !self.same.is_empty() {
             return &self.same;
         }
+        // A pixel of the frame has the same ones however much is painted around it.
+        let [x, y] = [x - self.margin, y - self.margin];
         let pixel = mix((u64::from(x.cast_unsigned()) | u64::from(y.cast_unsigned()) << 32) ^ SEED);
         memory.clear();
         memory.extend(jittered(&self.cells, pixel));

@@ -19,6 +19,7 @@ use crate::geometry::{Polygon, ViewTransform};
 use crate::raster::{
     self, Chunk, ChunkBuilder, Compositing, Counters, DisplayList, FilterRadius, Framebuffer, Hidden, ListContext,
     PaintSources, PlacedGradient, RasterSettings, RasterTimes, ResolveFilter, SamplePattern, SampleRate,
+    SizedFilter,
 };
 use crate::rules::Rules;
 use crate::scene::{Composite, Fill, Gradient, MaskKind, Paint, Primitive, PrimitiveKind, Scene};
@@ -104,9 +105,14 @@ impl RenderSettings {
         }
     }
 
+    /// What samples weigh, and how far.
+    pub(crate) fn filter(&self) -> SizedFilter {
+        self.resolve_filter.sized(self.filter_radius)
+    }
+
     /// How many pixels beside its own a pixel takes samples from, in each direction.
     pub(crate) fn margin(&self) -> f64 {
-        self.resolve_filter.sized(self.filter_radius).margin().into()
+        self.filter().margin().into()
     }
 }
 
@@ -367,7 +373,7 @@ fn raster_settings(settings: &RenderSettings) -> RasterSettings {
             sample_step: settings.pattern.nearest(settings.sample_rate).step(),
             rules: settings.rules,
         },
-        filter: settings.resolve_filter.sized(settings.filter_radius),
+        filter: settings.filter(),
         space: settings.resolve,
         background: settings.background,
         palette: None,

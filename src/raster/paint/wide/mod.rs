@@ -85,11 +85,10 @@ impl WideResolve {
     pub(in crate::raster) fn resolve(&mut self, colors: &SampleColors, block: &mut PixelBlock<'_>) {
         let margin = self.weights.margin().cast_unsigned() as usize;
         self.flat.find(colors, margin);
+        self.put_flat(colors, block);
         if self.flat.are_all() {
-            self.put_flat(colors, block);
             return;
         }
-        self.put_flat(colors, block);
         let finish = Finish {
             colors,
             margin,

@@ -6,6 +6,7 @@ mod colormap;
 mod light;
 mod ramp;
 mod resolve;
+mod weighted;
 
 use crate::rules::Rules;
 
@@ -14,6 +15,7 @@ pub use colormap::Colormap;
 pub use light::{Light, LightResolver};
 pub use ramp::{Mix, Ramp, Spread, Stop, Stretch};
 pub use resolve::{ResolveSpace, encoded};
+pub use weighted::WeightedSum;
 
 /// A straight (not premultiplied) sRGB-encoded colour; each channel and alpha in `0.0..=1.0`.
 #[derive(Clone, Copy, Debug, PartialEq)]

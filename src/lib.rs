@@ -95,7 +95,7 @@ pub use scene::{Scene, SceneError};
 pub use {
     color::{ResolveSpace, Rgba},
     geometry::View,
-    raster::{SamplePattern, SampleRate},
+    raster::{FilterRadius, ResolveFilter, SamplePattern, SampleRate},
     render::{RenderSettings, Visualisation},
     rules::Rules,
     texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling},

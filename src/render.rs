@@ -17,8 +17,9 @@ use rayon::prelude::*;
 use crate::color::{BlendMode, ResolveSpace, Rgba};
 use crate::geometry::{Polygon, ViewTransform};
 use crate::raster::{
-    self, Chunk, ChunkBuilder, Compositing, Counters, DisplayList, Framebuffer, Hidden, ListContext, PaintSources,
-    PlacedGradient, RasterSettings, RasterTimes, SamplePattern, SampleRate,
+    self, Chunk, ChunkBuilder, Compositing, Counters, DisplayList, FilterRadius, Framebuffer, Hidden, ListContext,
+    PaintSources, PlacedGradient, RasterSettings, RasterTimes, ResolveFilter, SamplePattern, SampleRate,
+    SizedFilter,
 };
 use crate::rules::Rules;
 use crate::scene::{Composite, Fill, Gradient, MaskKind, Paint, Primitive, PrimitiveKind, Scene};
@@ -48,6 +49,11 @@ pub struct RenderSettings {
     pub detail: LevelOfDetail,
     /// Whose conventions.
     pub rules: Rules,
+    /// What samples weigh in a pixel: its own, and its neighbours'. Pictures of something else than colours are means of a
+    /// pixel's own samples, and so are the tiles of patterns, whose texels are samples yet.
+    pub resolve_filter: ResolveFilter,
+    /// How far that filter reaches, where not as far as it does by itself.
+    pub filter_radius: Option<FilterRadius>,
     /// In which values the samples of a pixel are averaged.
     pub resolve: ResolveSpace,
     /// What the pixels show.
@@ -68,6 +74,8 @@ impl Default for RenderSettings {
             anisotropy: Anisotropy::default(),
             detail: LevelOfDetail::default(),
             rules: Rules::default(),
+            resolve_filter: ResolveFilter::default(),
+            filter_radius: None,
             resolve: ResolveSpace::default(),
             visualisation: Visualisation::default(),
             background: Rgba::WHITE,
@@ -78,8 +86,8 @@ impl Default for RenderSettings {
 
 impl RenderSettings {
     /// The truth about a picture: as many samples as there can be, each of which reads the texture itself. Rules,
-    /// background, how a texture is continued between its texels and in which values samples are averaged are the
-    /// picture's own: what is then left of a difference is sampling. Only [`Rules::Float`] gives way to the standard
+    /// background, how a texture is continued between its texels, what samples weigh and in which values they are averaged
+    /// are the picture's own: what is then left of a difference is sampling. Only [`Rules::Float`] gives way to the standard
     /// rules: no number of samples closes its pinholes.
     #[must_use]
     pub fn truth(self) -> Self {
@@ -95,6 +103,16 @@ impl RenderSettings {
             },
             ..self
         }
+    }
+
+    /// What samples weigh, and how far.
+    pub(crate) fn filter(&self) -> SizedFilter {
+        self.resolve_filter.sized(self.filter_radius)
+    }
+
+    /// How many pixels beside its own a pixel takes samples from, in each direction.
+    pub(crate) fn margin(&self) -> f64 {
+        self.filter().margin().into()
     }
 }
 
@@ -355,6 +373,7 @@ fn raster_settings(settings: &RenderSettings) -> RasterSettings {
             sample_step: settings.pattern.nearest(settings.sample_rate).step(),
             rules: settings.rules,
         },
+        filter: settings.filter(),
         space: settings.resolve,
         background: settings.background,
         palette: None,
@@ -440,6 +459,8 @@ struct Screen<'a> {
     scale: f64,
     /// Pixels of the frame.
     size: [u32; 2],
+    /// Pixels that are painted on each side of it.
+    margin: f64,
 }
 
 impl<'a> Screen<'a> {
@@ -449,6 +470,7 @@ impl<'a> Screen<'a> {
             rules: settings.rules,
             scale: pixels_per_unit(view) * f64::from(settings.sample_rate.side()),
             size,
+            margin: settings.margin(),
         }
     }
 
@@ -479,7 +501,7 @@ impl<'a> Screen<'a> {
         }
     }
 
-    /// Whether any of a polygon may lie in the frame.
+    /// Whether any of a polygon may lie in what is painted.
     fn shows(&self, polygon: &Polygon) -> bool {
         let [low, high] = polygon.bounds();
         let corners =
@@ -489,7 +511,8 @@ impl<'a> Screen<'a> {
             .fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[first, last], corner| {
                 [first.min(*corner), last.max(*corner)]
             });
-        first.cmple(DVec2::from(self.size.map(f64::from))).all() && last.cmpge(DVec2::ZERO).all()
+        first.cmple(DVec2::from(self.size.map(f64::from)) + self.margin).all()
+            && last.cmpge(DVec2::splat(-self.margin)).all()
     }
 
     fn place(&self, point: DVec2) -> DVec2 {

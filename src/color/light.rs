@@ -61,13 +61,17 @@ pub struct LightResolver {
     reason = "between nothing and ONE_LIGHT"
 )]
 fn of_stored(stored: f64) -> u32 {
+    (light_of(stored) * ONE_LIGHT).round() as u32
+}
+
+/// Linear light of a stored channel, `0.0..=1.0`.
+pub(super) fn light_of(stored: f64) -> f64 {
     let stored = stored / f64::from(Premultiplied16::ONE);
-    let light = if stored <= 0.040_45 {
+    if stored <= 0.040_45 {
         stored / 12.92
     } else {
         ((stored + 0.055) / 1.055).powf(2.4)
-    };
-    (light * ONE_LIGHT).round() as u32
+    }
 }
 
 impl Steps {
@@ -230,7 +234,7 @@ fn of_color(light: &[u32; 1 << 16], color: Premultiplied16) -> Light {
 /// The straight value of a premultiplied channel.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "at most ONE")]
-fn straight(channel: u16, alpha: u16) -> u16 {
+pub(super) fn straight(channel: u16, alpha: u16) -> u16 {
     const ONE: u32 = Premultiplied16::ONE as u32;
     if alpha == Premultiplied16::ONE {
         return channel.min(Premultiplied16::ONE);

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::cause::{self, Cause};
 use super::trial::{Trial, squared};
-use crate::color::{Premultiplied16, ResolveSpace};
+use crate::color::{Premultiplied16, ResolveSpace, WeightedSum};
 use crate::raster::{Framebuffer, PixelReplay, Region};
 use crate::render::Neighbourhood;
 use crate::rules::Rules;
@@ -83,15 +83,15 @@ pub(super) fn truncated_errors(trial: &Trial<'_>, causes: &[Cause]) -> Option<[f
 
 /// What a pixel becomes when only the mean is truncated, and when its samples are, too.
 fn truncations(pixel: &PixelReplay, space: ResolveSpace) -> [u32; 2] {
+    if let Some(around) = &pixel.around {
+        let mut whole = WeightedSum::default();
+        for (weight, color) in around.pixels.iter().flat_map(|pixel| &pixel.samples) {
+            whole.add(*weight, space.parts(truncated(color)));
+        }
+        return [around.sum, whole].map(|sum| space.weighted_pixel(sum, Rules::Course));
+    }
     let exact: Vec<Premultiplied16> = pixel.samples.iter().map(|sample| sample.color).collect();
-    let whole = |color: &Premultiplied16| {
-        Premultiplied16(
-            color
-                .0
-                .map(|channel| channel / Premultiplied16::PER_BYTE * Premultiplied16::PER_BYTE),
-        )
-    };
-    let whole: Vec<Premultiplied16> = exact.iter().map(whole).collect();
+    let whole: Vec<Premultiplied16> = exact.iter().map(truncated).collect();
     let mean = match space {
         ResolveSpace::Stored => Premultiplied16::resolve(
             pixel.sums,
@@ -101,4 +101,10 @@ fn truncations(pixel: &PixelReplay, space: ResolveSpace) -> [u32; 2] {
         ResolveSpace::Linear => space.resolve(&exact, Rules::Course),
     };
     [mean, space.resolve(&whole, Rules::Course)]
+}
+
+/// A sample whose channels are cut to bytes.
+fn truncated(color: &Premultiplied16) -> Premultiplied16 {
+    let whole = |channel| channel / Premultiplied16::PER_BYTE * Premultiplied16::PER_BYTE;
+    Premultiplied16(color.0.map(whole))
 }

@@ -33,6 +33,13 @@ impl Explanation {
         };
         compare("mean", mean(self), mean(b));
         compare("samples", self.samples.len().to_string(), b.samples.len().to_string());
+        let filter = |of: &Self| {
+            let wide = of.resolve.around.as_ref();
+            wide.map_or("box".to_owned(), |wide| {
+                format!("{} of radius {}", wide.filter, number(wide.radius))
+            })
+        };
+        compare("filter", filter(self), filter(b));
         compare("averaged as", self.resolve.space.to_owned(), b.resolve.space.to_owned());
         let background = |of: &Self| {
             let shown = of.samples.iter().filter(|sample| sample.seen.is_none()).count();

@@ -4,12 +4,13 @@ use glam::DVec2;
 
 use super::depth;
 use super::model::{
-    Edge, Explanation, Fragment, Interpolated, Missed, Paint, Pinhole, RampStop, Resolve, Rounding, Sample, Shape,
-    Source, Tap, Texel, Texture, TileTexel, VERSION, Verdict, View,
+    Edge, Explanation, Fragment, Interpolated, Missed, Paint, Pinhole, RampStop, Sample, Shape, Source, Tap, Texel,
+    Texture, TileTexel, VERSION, Verdict, View,
 };
 use super::numbers::one_line;
+use super::resolve::resolve;
 use super::samples::{SampleHit, shape_of, straight};
-use crate::color::{BlendMode, Premultiplied16, ResolveSpace, Rgba};
+use crate::color::{BlendMode, Premultiplied16, Rgba};
 use crate::geometry::FillRule;
 use crate::geometry::edge::{EdgeKind, EdgeTest};
 use crate::raster::{Attributes, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay, SampleOfTriangle};
@@ -77,7 +78,7 @@ impl Explanation {
             user: subject.view.to_scene(center).to_array(),
             color: [r, g, b, a],
             hex: hex([r, g, b, a]),
-            resolve: resolve(&replay, (rules, subject.settings.resolve)),
+            resolve: resolve(&replay, subject.settings),
             samples,
             paints,
             pinholes,
@@ -344,32 +345,6 @@ fn mark_masks(paints: &mut [Paint]) {
     }
 }
 
-fn resolve(replay: &PixelReplay, (rules, space): (Rules, ResolveSpace)) -> Resolve {
-    let samples = replay.samples.len();
-    let weight = replay.samples.first().map_or(1.0, |sample| sample.weight);
-    let sums = match space {
-        ResolveSpace::Stored => replay
-            .sums
-            .map(|sum| f64::from(sum) / f64::from(Premultiplied16::PER_BYTE)),
-        ResolveSpace::Linear => replay.samples.iter().fold([0.0; 4], |sums, sample| {
-            let light = sample.color.light();
-            [0, 1, 2, 3].map(|k| sums[k] + light[k])
-        }),
-    };
-    Resolve {
-        space: space.name(),
-        sums,
-        samples,
-        weight,
-        mean: sums.map(|sum| sum * weight),
-        rounding: match rules {
-            Rules::Standard | Rules::Float => Rounding::Nearest,
-            Rules::Course => Rounding::Truncated,
-        },
-        summed_exactly: replay.summed_exactly,
-    }
-}
-
 fn triangle_view(sample: &SampleOfTriangle, corners: &[DVec2; 3], rules: Rules) -> View {
     View::Triangle {
         edges: edges(sample, corners, rules),
@@ -472,7 +447,7 @@ fn interpolated(attributes: &Attributes) -> Interpolated {
 }
 
 /// A stored colour in levels of a byte.
-fn levels(color: Premultiplied16) -> [f64; 4] {
+pub(super) fn levels(color: Premultiplied16) -> [f64; 4] {
     color
         .0
         .map(|channel| f64::from(channel) / f64::from(Premultiplied16::PER_BYTE))

@@ -6,6 +6,7 @@
 
 mod accumulation;
 mod advice;
+mod around_words;
 mod contributions;
 mod depth;
 mod differences;
@@ -14,6 +15,7 @@ mod model;
 mod numbers;
 mod part_words;
 mod pinholes;
+mod resolve;
 mod samples;
 mod seams;
 mod seen;
@@ -27,8 +29,8 @@ pub use contributions::{ContributedPixel, Contributions, TexelPlace};
 pub use differences::Difference;
 pub use explanation::Question;
 pub use model::{
-    Cure, Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve, Rounding, Sample, Setting,
-    Shape, Source, Tap, Texel, Texture, Truth, VERSION, Verdict, View,
+    Around, Cure, Edge, Explanation, Fragment, Interpolated, Level, Missed, Paint, Pinhole, Resolve, Rounding, Sample,
+    Setting, Shape, Source, Taken, Tap, Texel, Texture, Truth, VERSION, Verdict, View,
 };
 pub use samples::{PixelSample, SampleHit, pixel_samples};
 pub use text::Detail;

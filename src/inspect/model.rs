@@ -51,26 +51,55 @@ pub struct Resolve {
     /// In which values samples are averaged: `stored`, or `linear` light. There red, green and blue of the sums and the mean
     /// are light, weighted by alpha and scaled to `0.0..=255.0`; the colour is the mean divided by its alpha and encoded.
     pub space: &'static str,
-    /// The sums of the samples' channels.
+    /// The sums of the samples' channels; of samples that are weighted already where there is an [`Resolve::around`].
     pub sums: [f64; 4],
-    /// Of how many samples.
+    /// Of how many samples, of this pixel and of others.
     pub samples: usize,
-    /// What each sample weighs.
+    /// What each sample weighs; 1 where they are weighted already.
     pub weight: f64,
-    /// Sums times weight.
+    /// Sums times weight. What lies beyond black, white or the opacity is clamped then.
     pub mean: [f64; 4],
     /// What was done with fractions.
     pub rounding: Rounding,
     /// Whether shaded samples were summed before they were rounded to 1/256, so that the sums may differ a little from
     /// those of [`Explanation::samples`].
     pub summed_exactly: bool,
+    /// What is taken of which pixels, where a filter takes samples of the neighbours too.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub around: Option<Around>,
+}
+
+/// What a pixel takes of the pixels around it, by a filter that is wider than a pixel.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Around {
+    /// The filter's name.
+    pub filter: &'static str,
+    /// How far from the pixel's middle samples weigh anything, in pixels.
+    pub radius: f64,
+    /// The pixels of which anything is taken, row by row; this one is among them.
+    pub pixels: Vec<Taken>,
+}
+
+/// What a pixel takes of another one, or of itself.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Taken {
+    /// How many columns to the right and how many rows below it lies.
+    pub beside: [i32; 2],
+    /// What its samples weigh together. Those of all pixels are 1.
+    pub weight: f64,
+    /// What they add to the mean.
+    pub adds: [f64; 4],
+    /// What each of its samples weighs, in the order of the pattern.
+    pub weights: Vec<f64>,
+    /// What each of them shows.
+    pub colors: Vec<[f64; 4]>,
 }
 
 /// What a pixel should be, and how to come nearer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Truth {
     /// The pixel's true colour, straight red, green, blue, alpha: of 256 samples, each of which reads level 0 of its texture,
-    /// averaged as the picture's are.
+    /// weighted and averaged as the picture's are.
     pub color: [u8; 4],
     /// How far the pixel is from it: the largest difference of a channel in levels, of premultiplied colours.
     pub distance: f64,

@@ -76,6 +76,9 @@ impl Explanation {
     /// How the samples became the colour.
     pub fn resolve_lines(&self) -> Vec<String> {
         let resolve = &self.resolve;
+        if let Some(around) = &resolve.around {
+            return self.around_lines(around);
+        }
         let mut lines = Vec::new();
         if resolve.samples == 1 {
             lines.push("One sample is the pixel.".to_owned());

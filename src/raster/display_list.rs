@@ -10,7 +10,6 @@ use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::list::chunk::{Chunk, measure_layers};
 use crate::raster::list::context::ListContext;
 use crate::raster::paint::method::Kinds;
-use crate::raster::resolve::ResolveFilter;
 use crate::raster::sampling::positions::SamplePositions;
 use crate::raster::settings::RasterSettings;
 use crate::raster::shading::context::ShadeContext;
@@ -43,8 +42,9 @@ impl<'a> DisplayList<'a> {
         context: ListContext,
         settings: RasterSettings,
         mut chunks: Vec<Chunk>,
-        sources: PaintSources<'a>,
+        mut sources: PaintSources<'a>,
     ) -> Self {
+        sources.shift(context.shift());
         measure_layers(&mut chunks, &context);
         let mut outlines = 0;
         for chunk in &mut chunks {
@@ -94,7 +94,7 @@ impl<'a> DisplayList<'a> {
         ShadeContext {
             grid: self.context.grid,
             rate: self.context.rate,
-            filter: ResolveFilter::default(),
+            filter: self.settings.filter,
             space: self.settings.space,
             sampling: self.settings.sampling,
             sources: &self.sources,
@@ -108,7 +108,7 @@ impl<'a> DisplayList<'a> {
 
     /// Where samples lie, on the lattice of the grid.
     pub(in crate::raster) fn places(&self) -> SamplePositions {
-        SamplePositions::new(self.context.pattern, self.context.rate)
+        SamplePositions::new(self.context.pattern, self.context.rate).with_margin(self.context.margin)
     }
 
     /// What finds coverage, in these columns of pixels.

@@ -10,8 +10,8 @@
 //! | floor | what is decided there |
 //! |---|---|
 //! | `sampling` | how many samples a pixel has, and where they lie |
+//! | `resolve` | what each sample weighs in its pixel, and in those around |
 //! | `settings`, `stats`, `span`, `tile_layout`, `surface_id`, `attributes` | what the floors above share: runs of samples, tiles, surface numbers, planes |
-//! | `resolve` | what each sample weighs in its pixel |
 //! | `shading` | the colour of a paint at a sample |
 //! | `layers` | how a layer is composited with what is below it |
 //! | `coverage` | which samples a shape covers |
@@ -49,7 +49,7 @@ mod tiles;
 
 pub use display_list::DisplayList;
 pub use explain::pieces::{Piece, PieceShape, SampleOfTriangle};
-pub use explain::replay::{PixelReplay, ReplayedSample};
+pub use explain::replay::{Around, PixelReplay, ReplayedSample, WeighedPixel};
 pub use frame::framebuffer::Framebuffer;
 pub use frame::region::Region;
 pub use layers::Compositing;
@@ -59,6 +59,7 @@ pub use list::context::ListContext;
 pub use list::hidden::Hidden;
 pub use paint::recorder::{PaintedCommand, PaintedKind, PaintedSample};
 
+pub use resolve::{FilterRadius, ResolveFilter, SizedFilter};
 pub use sampling::pattern::SamplePattern;
 pub use sampling::rate::SampleRate;
 pub use settings::RasterSettings;

@@ -7,6 +7,7 @@ use crate::color::Rgba;
 use crate::geometry::{FillRule, Polygon};
 use crate::raster::layers::Compositing;
 use crate::raster::list::builder::ChunkBuilder;
+use crate::raster::resolve::{FilterRadius, ResolveFilter, SizedFilter};
 use crate::raster::shading::Paint;
 use crate::texture::{MipLevel, MipPyramid, Texture};
 
@@ -60,6 +61,15 @@ pub(in crate::raster) fn fill(builder: &mut ChunkBuilder<'_>, u: &mut Unstructur
         }
     }
     Ok(())
+}
+
+/// Mostly the pixel's own samples; else any filter, by any radius.
+pub(in crate::raster) fn any_filter(u: &mut Unstructured<'_>) -> Result<SizedFilter> {
+    if u.ratio(2, 3)? {
+        return Ok(SizedFilter::default());
+    }
+    let radius = f64::from(u.int_in_range(1..=16)?) / 4.0;
+    Ok(u.choose(&ResolveFilter::ALL)?.sized(FilterRadius::new(radius)))
 }
 
 /// A texture in which every texel differs from its neighbours.

@@ -39,7 +39,7 @@ impl DisplayList<'_> {
     fn assert_size(&self, frame: &Framebuffer) {
         assert_eq!(
             [frame.width(), frame.height()],
-            self.context.size,
+            self.context.frame_size,
             "the list is made for a frame of one size"
         );
     }
@@ -51,7 +51,7 @@ impl DisplayList<'_> {
         cancelled: &AtomicBool,
     ) -> Option<RasterTimes> {
         let mut times = RasterTimes::default();
-        let [width, height] = self.context.size;
+        let [width, height] = self.context.frame_size;
         if width == 0 || height == 0 {
             return Some(times);
         }
@@ -108,7 +108,7 @@ mod tests {
     use crate::color::{ResolveSpace, Rgba};
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::list::context::ListContext;
-    use crate::raster::random::{fill, noise};
+    use crate::raster::random::{any_filter, fill, noise};
     use crate::raster::tile_layout::TileLayout;
     use crate::raster::{RasterSettings, SamplePattern, SampleRate};
     use crate::rules::Rules;
@@ -132,6 +132,7 @@ mod tests {
                 rate,
                 pattern,
                 sampling: SamplingSettings { rules, ..sampling },
+                filter: any_filter(u)?,
                 space: *u.choose(&ResolveSpace::ALL)?,
                 background: Rgba::WHITE,
                 palette: None,

@@ -31,7 +31,7 @@ impl DisplayList<'_> {
         publish: &(impl Fn(Region, &[u32]) + Sync),
     ) -> Option<RasterTimes> {
         let mut times = RasterTimes::default();
-        if self.context.size.contains(&0) {
+        if self.context.frame_size.contains(&0) {
             return Some(times);
         }
         let tiles_in_order = self.tiles_in_order(wanted, from);
@@ -69,7 +69,7 @@ impl DisplayList<'_> {
         let mut tiles_in_order: Vec<WantedTile> = all
             .map(|tile| WantedTile {
                 tile,
-                region: Region::of_tile(tiles.pixels(tile[0], tile[1], self.context.size)),
+                region: Region::of_tile(tiles.pixels(tile[0], tile[1], self.context.frame_size)),
             })
             .filter(|tile| wanted.iter().any(|region| !region.intersection(tile.region).is_empty()))
             .collect();
@@ -94,7 +94,7 @@ impl DisplayList<'_> {
                 let Region { width, height, .. } = tile.region;
                 pixels.resize(width as usize * height as usize, 0);
                 let [column, row] = tile.tile;
-                let rect = self.context.tiles.pixels(column, row, self.context.size);
+                let rect = self.context.tiles.pixels(column, row, self.context.frame_size);
                 let mut block = PixelBlock::new(rect, &mut pixels, width as usize);
                 self.tile(pass, &mut painters, tile.tile, &mut block);
                 publish(tile.region, &pixels);

@@ -1,6 +1,7 @@
 //! Everything that decides how primitives become pixels.
 
 use crate::color::{ResolveSpace, Rgba};
+use crate::raster::resolve::SizedFilter;
 use crate::raster::sampling::pattern::SamplePattern;
 use crate::raster::sampling::rate::SampleRate;
 use crate::texture::SamplingSettings;
@@ -14,6 +15,8 @@ pub struct RasterSettings {
     pub pattern: SamplePattern,
     /// How textures are read, and by whose rules.
     pub sampling: SamplingSettings,
+    /// What samples weigh in a pixel, its own and its neighbours'.
+    pub filter: SizedFilter,
     /// In which values samples are averaged.
     pub space: ResolveSpace,
     /// What lies below the first primitive.

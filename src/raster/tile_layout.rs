@@ -1,4 +1,15 @@
-//! How a frame is cut into tiles.
+//! How a frame is cut into tiles, and what is painted for each.
+//!
+//! Where pixels take samples of their neighbours, a tile is painted with a margin of pixels all around it. What is painted is
+//! the frame with such a margin, and its columns and rows are counted from the margin's first: so a tile's own pixels have the
+//! numbers in the frame that the first of its painted ones have in what is painted, and no number is below zero.
+//!
+//! ```text
+//!      painted  0 1 2 3 4 5 6 7 8 9         margin 1, tiles of 4
+//!      frame    . 0 1 2 3 4 5 6 7 .
+//!      tile 0   < _ _ _ _ >
+//!      tile 1           < _ _ _ _ >
+//! ```
 
 use crate::raster::SampleRate;
 use crate::raster::span::{PixelRect, Span};
@@ -9,6 +20,8 @@ pub(crate) struct TileLayout {
     /// Sides of a tile in pixels: powers of two, so that finding a pixel's tile is a shift.
     width_log2: u32,
     height_log2: u32,
+    /// Pixels on each side of a tile that are painted with it.
+    margin: u32,
     /// Tiles in a row, rows of tiles.
     pub(crate) columns: u32,
     pub(crate) rows: u32,
@@ -33,8 +46,31 @@ impl TileLayout {
         Self {
             width_log2,
             height_log2,
+            margin: 0,
             columns: count(size[0], width_log2),
             rows: count(size[1], height_log2),
+        }
+    }
+
+    /// The same tiles, each painted with so many pixels on each side.
+    pub(crate) fn with_margin(self, margin: u32) -> Self {
+        Self { margin, ..self }
+    }
+
+    /// By how many pixels the painted ones of a tile reach into the next.
+    pub(crate) fn overlap(self) -> i32 {
+        2 * self.margin.cast_signed()
+    }
+
+    /// What is painted for a tile that has these pixels of the frame, as counted in what is painted.
+    pub(crate) fn painted(self, pixels: PixelRect) -> PixelRect {
+        let wider = |span: Span| Span {
+            start: span.start,
+            end: span.end + self.overlap(),
+        };
+        PixelRect {
+            x: wider(pixels.x),
+            y: wider(pixels.y),
         }
     }
 
@@ -48,10 +84,10 @@ impl TileLayout {
         1 << self.height_log2
     }
 
-    /// The tile columns or rows that a half-open, non-empty box of pixels touches, clipped to the frame.
+    /// The tile columns or rows for which a half-open, non-empty box of pixels is painted, clipped to the frame.
     pub(crate) fn tiles_of(self, pixels: PixelRect) -> PixelRect {
         let range = |span: Span, log2: u32, count: u32| Span {
-            start: (span.start >> log2).max(0),
+            start: ((span.start - self.overlap()) >> log2).max(0),
             end: (((span.end - 1) >> log2) + 1).min(count.cast_signed()),
         };
         PixelRect {
@@ -60,7 +96,7 @@ impl TileLayout {
         }
     }
 
-    /// The pixels of a tile, clipped to a frame of `size`.
+    /// The pixels of a tile that are resolved, clipped to a frame of `size`.
     pub(crate) fn pixels(self, column: u32, row: u32, size: [u32; 2]) -> PixelRect {
         let span = |index: u32, log2: u32, limit: u32| Span {
             start: (index << log2).cast_signed(),

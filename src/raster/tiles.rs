@@ -39,7 +39,7 @@ impl DisplayList<'_> {
         })
     }
 
-    /// Painters of tiles in these columns of pixels.
+    /// Painters of tiles for which these columns of pixels are painted.
     pub(in crate::raster) fn painters_of(&self, columns: Span) -> Painters<'_> {
         Painters {
             direct: DirectPainter::new(self.shade_context()),
@@ -53,7 +53,8 @@ impl DisplayList<'_> {
     /// How a tile is painted, of which the commands from `first` on are to be seen.
     pub(in crate::raster) fn method(&self, pass: &Pass<'_>, tile: usize, first: (usize, usize)) -> Method {
         let commands = visible(&pass.bins, tile, first).map(|(chunk, commands)| (&self.chunks[chunk], commands));
-        self.kinds.method(&self.context, self.settings.space, &commands)
+        self.kinds
+            .method(&self.context, (self.settings.filter, self.settings.space), &commands)
     }
 
     /// The colour of a tile in which nothing else is to be seen, of the commands from `first` on.
@@ -77,14 +78,14 @@ impl DisplayList<'_> {
         painters: &mut Painters<'s>,
         mut row: FrameRow<'_>,
     ) {
-        let stride = self.context.size[0] as usize;
+        let stride = self.context.frame_size[0] as usize;
         let columns = self.context.tiles.columns;
         let first = ((row.number - pass.first_row) * columns) as usize;
         for (column, tile) in (0..columns).zip(first..) {
             if pass.cancelled.load(Ordering::Relaxed) {
                 return;
             }
-            let rect = self.context.tiles.pixels(column, row.number, self.context.size);
+            let rect = self.context.tiles.pixels(column, row.number, self.context.frame_size);
             let mut block = PixelBlock::in_rows(rect, row.pixels, stride);
             self.numbered_tile(pass, painters, tile, &mut block);
         }
@@ -132,7 +133,14 @@ impl DisplayList<'_> {
         Some(self.settings.palette.map_or(pixel, |palette| recolor(palette, pixel)))
     }
 
-    fn paint_tile<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, tile: usize, block: &mut PixelBlock<'_>) {
+    /// As [`DisplayList::numbered_tile`], with all samples painted.
+    pub(in crate::raster) fn paint_tile<'s>(
+        &'s self,
+        pass: &Pass<'_>,
+        painters: &mut Painters<'s>,
+        tile: usize,
+        block: &mut PixelBlock<'_>,
+    ) {
         let background = self.background();
         let rules = self.settings.sampling.rules;
         let first = first_visible(&pass.bins, tile);
@@ -171,16 +179,16 @@ impl DisplayList<'_> {
                 painters.tally.counters.samples_shaded += std::mem::take(&mut painters.visibility.samples_shaded);
             }
             Method::PerSample => {
-                painters.per_sample.begin(block.rect, background);
+                painters
+                    .per_sample
+                    .begin(self.context.tiles.painted(block.rect), background);
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
                     painters
                         .per_sample
                         .paint(&self.chunks[chunk], entries, &mut painters.shape_coverage);
                 }
                 resolving = start.map(|_| Instant::now());
-                for y in block.rect.y.start..block.rect.y.end {
-                    painters.per_sample.resolve(y, block.line(y));
-                }
+                painters.per_sample.resolve_tile(block);
                 painters.tally.counters.samples_shaded += std::mem::take(&mut painters.per_sample.samples_shaded);
             }
         }

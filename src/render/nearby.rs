@@ -6,12 +6,12 @@ use rayon::prelude::*;
 use super::replay::{bounds, shines_through, touch};
 use super::{RenderSettings, Screen, Subject, add, number, outline, raster_settings, sources};
 use crate::geometry::ViewTransform;
-use crate::raster::{ChunkBuilder, DisplayList, ListContext};
+use crate::raster::{ChunkBuilder, DisplayList, ListContext, SizedFilter};
 use crate::scene::{Composite, PrimitiveKind, Scene};
 
-/// How far from the pixel a primitive may lie and yet paint it, in pixels: corners are snapped by far less, whoever's
-/// rules, and a hairline is as wide as a pixel.
-const REACH: f64 = 2.0;
+/// How far from the pixel a primitive may lie and yet paint it, in pixels: the pixel takes samples of its neighbours, corners
+/// are snapped by far less than one, whoever's rules, and a hairline is as wide as a pixel.
+const REACH: f64 = 2.0 + SizedFilter::MOST_MARGIN as f64;
 
 /// The primitives near one pixel of a picture.
 #[derive(Debug)]

@@ -90,10 +90,11 @@ impl<'a> Neighbourhood<'a> {
     pub fn new(subject: Subject<'a>, size: [u32; 2], region: Region) -> Self {
         /// Corners are snapped by far less than this, in pixels.
         const SNAP: f64 = 1.0;
+        let beside = SNAP + subject.settings.margin();
         let screen = Screen::new(subject.view, subject.settings, size);
         let low = DVec2::new(f64::from(region.x), f64::from(region.y));
         let size_of = DVec2::new(f64::from(region.width), f64::from(region.height));
-        let near = [low - SNAP, low + size_of + SNAP];
+        let near = [low - beside, low + size_of + beside];
         // One translucent shaded primitive anywhere makes all shaded ones blend sample by sample.
         let wanted = |kind: &PrimitiveKind| {
             shines_through(subject.scene, kind) || bounds(&screen, kind).is_none_or(|bounds| touch(bounds, near))
@@ -219,7 +220,7 @@ impl<'a> Explainer<'a> {
         };
         let (list, mut pieces) = self.all_pieces_of(primitive);
         let [x, y] = self.pixel;
-        let painted = list.replay(x, y).map(|replay| replay.painted).unwrap_or_default();
+        let painted = list.painted(x, y);
         let touched = |piece: &Piece| painted.iter().any(|op| piece.is_of(op) && !op.fragments.is_empty());
         pieces.retain(touched);
         pieces

@@ -8,7 +8,7 @@ use glam::{DAffine2, DVec2};
 use super::{RenderSettings, Visualisation, draw};
 use crate::color::Rgba;
 use crate::geometry::ViewTransform;
-use crate::raster::{Framebuffer, PlacedPattern, SampleRate};
+use crate::raster::{Framebuffer, PlacedPattern, ResolveFilter, SampleRate};
 use crate::scene::Pattern;
 use crate::texture::Tile;
 
@@ -51,6 +51,9 @@ fn pattern_tile(pattern: &Pattern, to_pixels: DAffine2, settings: &RenderSetting
         visualisation: Visualisation::Color,
         background: Rgba::TRANSPARENT,
         outline: false,
+        // Its texels become samples, which are weighted then.
+        resolve_filter: ResolveFilter::default(),
+        filter_radius: None,
         ..*settings
     };
     pattern.drawn.get(&format!("{size} {settings:?}"), || {

@@ -127,7 +127,8 @@ impl ExplanationPanel {
         section(ui, "samples", &heading, true, |ui| {
             self.samples(ui, explanation, hovered);
         });
-        if count > 1 {
+        // The pixel is no mean of its own samples where it takes others too.
+        if count > 1 && explanation.resolve.around.is_none() {
             section(ui, "scrubber", "Sample by sample", false, |ui| {
                 scrubber::show(ui, explanation, &mut self.accumulated);
             });

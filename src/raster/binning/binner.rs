@@ -14,6 +14,7 @@ use crate::raster::list::chunk::{Chunk, DrawCommand, LayerMark};
 use crate::raster::list::context::ListContext;
 use crate::raster::shading::sources::PaintSources;
 use crate::raster::span::{PixelRect, Reach, SampleBox, Span, to_index};
+use crate::raster::tile_layout::TileLayout;
 
 /// Walks over the commands of a chunk.
 pub(crate) struct Binner<'a> {
@@ -23,7 +24,7 @@ pub(crate) struct Binner<'a> {
     rows: Span,
     samples: Sides,
     pixels: Sides,
-    /// The samples of the frame.
+    /// The samples that are painted.
     frame: SampleBox,
 }
 
@@ -33,51 +34,78 @@ struct Sides {
     width: u32,
     height: u32,
     inverse: [u64; 2],
+    /// By how much what is painted for a tile reaches into the next.
+    overlap: i32,
+    /// The last column and row of tiles.
+    last: [i32; 2],
 }
 
 impl Sides {
     const SHIFT: u32 = 40;
 
-    fn new(width: u32, height: u32) -> Self {
-        // Rounded up, it is too large by less than one in `2^SHIFT`; no coordinate of a frame exceeds `2^22`, and no side
-        // `2^14`. So the error of a quotient stays below `2^-17`, too little to carry it over a whole number.
+    /// `unit` of them make a pixel.
+    fn new(tiles: TileLayout, unit: u32) -> Self {
+        let (width_log2, height_log2) = tiles.sides_log2();
+        let (width, height) = (unit << width_log2, unit << height_log2);
+        // Rounded up, it is too large by less than one in `2^SHIFT`; no coordinate that is painted exceeds `2^23`, and no side
+        // `2^14`. So the error of a quotient stays below `2^-16`, too little to carry it over a whole number.
         let inverse = |side: u32| (1_u64 << Self::SHIFT).div_ceil(u64::from(side));
         Self {
             width,
             height,
             inverse: [inverse(width), inverse(height)],
+            overlap: tiles.overlap() * unit.cast_signed(),
+            last: [tiles.columns, tiles.rows].map(|count| count.cast_signed() - 1),
         }
     }
 
-    /// The tile column that holds a column of the frame.
+    /// The first and the last tile column for which any of some columns is painted.
     #[inline]
-    fn column(&self, x: i32) -> i32 {
-        quotient(x, self.inverse[0])
+    fn columns(&self, span: Span) -> (i32, i32) {
+        self.tiles(span, 0)
     }
 
-    /// The tile row that holds a row of the frame.
+    /// The first and the last tile row for which any of some rows is painted.
     #[inline]
-    fn row(&self, y: i32) -> i32 {
-        quotient(y, self.inverse[1])
+    fn rows(&self, span: Span) -> (i32, i32) {
+        self.tiles(span, 1)
+    }
+
+    #[inline]
+    fn tiles(&self, span: Span, axis: usize) -> (i32, i32) {
+        let tile = |at: i32| quotient(at, self.inverse[axis]);
+        (
+            tile((span.start - self.overlap).max(0)),
+            tile(span.end - 1).min(self.last[axis]),
+        )
+    }
+
+    /// What is painted for a tile column or row, which are `side` long.
+    #[inline]
+    fn painted(&self, tile: i32, side: u32) -> Span {
+        let side = side.cast_signed();
+        Span {
+            start: tile * side,
+            end: (tile + 1) * side + self.overlap,
+        }
     }
 }
 
 #[inline]
 fn quotient(coordinate: i32, inverse: u64) -> i32 {
-    debug_assert!((0..=1 << 22).contains(&coordinate), "{coordinate} lies in the frame");
+    debug_assert!((0..=1 << 23).contains(&coordinate), "{coordinate} lies in the frame");
     ((u64::from(coordinate.cast_unsigned()) * inverse) >> Sides::SHIFT) as i32
 }
 
 impl<'a> Binner<'a> {
     pub(crate) fn new(chunk: &'a Chunk, context: &'a ListContext, rows: Span) -> Self {
-        let (width_log2, height_log2) = context.tiles.sides_log2();
         let side = context.grid.side().cast_unsigned();
         Self {
             chunk,
             context,
             rows,
-            samples: Sides::new(side << width_log2, side << height_log2),
-            pixels: Sides::new(1 << width_log2, 1 << height_log2),
+            samples: Sides::new(context.tiles, side),
+            pixels: Sides::new(context.tiles, 1),
             frame: context.samples(),
         }
     }
@@ -211,8 +239,7 @@ impl<'a> Binner<'a> {
     #[inline]
     fn stamp(&self, sides: Sides, stamp: CoverageMask, entry: TileCommand, visit: &mut impl FnMut(usize, TileCommand)) {
         let (columns, rows) = (stamp.columns(), stamp.rows());
-        let (left, right) = (sides.column(columns.start), sides.column(columns.end - 1));
-        let (top, bottom) = (sides.row(rows.start), sides.row(rows.end - 1));
+        let ((left, right), (top, bottom)) = (sides.columns(columns), sides.rows(rows));
         let (width, height) = (sides.width.cast_signed(), sides.height.cast_signed());
         if left == right && top == bottom {
             if self.rows.start <= top && top < self.rows.end {
@@ -223,11 +250,8 @@ impl<'a> Binner<'a> {
         }
         for row in top.max(self.rows.start)..=bottom.min(self.rows.end - 1) {
             for column in left..=right {
-                let of_tile = |tile: i32, side: i32| Span {
-                    start: tile * side,
-                    end: (tile + 1) * side,
-                };
-                let part = stamp.within(of_tile(column, width), of_tile(row, height));
+                let (columns, rows) = (sides.painted(column, sides.width), sides.painted(row, sides.height));
+                let part = stamp.within(columns, rows);
                 if part.mask != 0 {
                     let entry = in_tile(part, entry, [column * width, row * height]);
                     visit(self.tile(column, row), entry);
@@ -247,11 +271,11 @@ impl<'a> Binner<'a> {
         let (grid, sides) = (self.context.grid, self.samples);
         let outline = &self.chunk.outlines[index as usize];
         let SampleBox { columns, rows } = outline.samples;
+        let ((left, right), (top, bottom)) = (sides.columns(columns), sides.rows(rows));
         let in_row = Span {
-            start: sides.column(columns.start),
-            end: sides.column(columns.end - 1) + 1,
+            start: left,
+            end: right + 1,
         };
-        let (top, bottom) = (sides.row(rows.start), sides.row(rows.end - 1));
         let tile_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
         let (width, height) = (sides.width.cast_signed(), sides.height.cast_signed());
         let few = (in_row.end - in_row.start) * (bottom - top + 1) <= 2;
@@ -261,14 +285,11 @@ impl<'a> Binner<'a> {
             }
             return;
         }
-        let unit_width = f64::from(width << grid.bits());
+        let units = [width, sides.overlap].map(|samples| f64::from(samples << grid.bits()));
         for row in tile_rows {
-            let all_rows = Span {
-                start: row * height,
-                end: ((row + 1) * height).min(self.frame.rows.end),
-            };
+            let all_rows = sides.painted(row, sides.height).intersection(self.frame.rows);
             let outline = (outline, self.chunk.outline_edges.as_slice());
-            tiles.each(outline, grid, (all_rows, in_row, unit_width), |column, reach| {
+            tiles.each(outline, grid, (all_rows, in_row, units), |column, reach| {
                 let entry = match reach {
                     Reach::Part => entry,
                     Reach::All => entry.covering(base && entry.is_opaque()),
@@ -298,11 +319,7 @@ impl<'a> Binner<'a> {
         if samples.columns.is_empty() || samples.rows.is_empty() {
             return;
         }
-        let (left, right) = (
-            sides.column(samples.columns.start),
-            sides.column(samples.columns.end - 1),
-        );
-        let (top, bottom) = (sides.row(samples.rows.start), sides.row(samples.rows.end - 1));
+        let ((left, right), (top, bottom)) = (sides.columns(samples.columns), sides.rows(samples.rows));
         let tile_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
         let height = sides.height.cast_signed();
         if (right - left + 1) * (bottom - top + 1) <= 2
@@ -316,10 +333,7 @@ impl<'a> Binner<'a> {
         }
         let edges = TileRows::new(corners);
         for row in tile_rows {
-            let in_tile = Span {
-                start: row * height,
-                end: ((row + 1) * height).min(self.frame.rows.end),
-            };
+            let in_tile = sides.painted(row, sides.height).intersection(self.frame.rows);
             let inside = in_tile.intersection(samples.rows);
             let bounds = edges.between(
                 grid.sample_coordinate(inside.start),
@@ -349,20 +363,12 @@ impl<'a> Binner<'a> {
     fn float(&self, float: &FloatShape, entry: TileCommand, base: bool, visit: &mut impl FnMut(usize, TileCommand)) {
         let (grid, sides) = (self.context.grid, self.samples);
         let SampleBox { columns, rows } = float.samples;
-        let of_tile = |tile: i32, side: u32, frame: Span| {
-            let side = side.cast_signed();
-            Span {
-                start: tile * side,
-                end: (tile + 1) * side,
-            }
-            .intersection(frame)
-        };
-        let (top, bottom) = (sides.row(rows.start), sides.row(rows.end - 1));
+        let ((left, right), (top, bottom)) = (sides.columns(columns), sides.rows(rows));
         for row in top.max(self.rows.start)..=bottom.min(self.rows.end - 1) {
-            for column in sides.column(columns.start)..=sides.column(columns.end - 1) {
+            for column in left..=right {
                 let samples = SampleBox {
-                    columns: of_tile(column, sides.width, self.frame.columns),
-                    rows: of_tile(row, sides.height, self.frame.rows),
+                    columns: sides.painted(column, sides.width).intersection(self.frame.columns),
+                    rows: sides.painted(row, sides.height).intersection(self.frame.rows),
                 };
                 let entry = match float.reach(grid, samples) {
                     None => continue,
@@ -381,11 +387,15 @@ impl<'a> Binner<'a> {
         reason = "clamped to the tiles of a frame; just before the first, truncation names the first"
     )]
     fn touched(&self, columns: [f64; 2], left: i32, right: i32) -> Span {
-        let width = f64::from(self.samples.width << self.context.grid.bits());
+        let bits = self.context.grid.bits();
+        let (width, overlap) = (
+            f64::from(self.samples.width << bits),
+            f64::from(self.samples.overlap << bits),
+        );
         // Far more than the error of the quotients lies between a tile's side and the nearest sample.
         let tile = |x: f64| (x / width).clamp(f64::from(left) - 1.0, f64::from(right) + 1.0) as i32;
         Span {
-            start: tile(columns[0]).max(left),
+            start: tile(columns[0] - overlap).max(left),
             end: tile(columns[1]).min(right) + 1,
         }
     }
@@ -407,7 +417,8 @@ impl<'a> Binner<'a> {
         let whole = |tiles: f64| tiles.clamp(0.0, f64::from(columns)) as i32;
         let start = (first - half) / width;
         let start = whole(start) + i32::from(f64::from(whole(start)) < start);
-        let mut end = whole((last + half) / width);
+        let overlap = f64::from(self.samples.overlap << grid.bits());
+        let mut end = whole((last + half - overlap) / width);
         // The frame may cut the last tile short.
         if end == columns - 1 && f64::from(grid.sample_coordinate(self.frame.columns.end - 1)) <= last {
             end = columns;
@@ -451,10 +462,10 @@ mod tests {
     use crate::raster::layers::Compositing;
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::list::chunk::measure_layers;
-    use crate::raster::random::{fill, noise};
+    use crate::raster::random::{any_filter, fill, noise};
     use crate::raster::shading::Paint;
     use crate::raster::tile_layout::TileLayout;
-    use crate::raster::{RasterSettings, SamplePattern, SampleRate};
+    use crate::raster::{RasterSettings, SamplePattern, SampleRate, SizedFilter};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
 
@@ -470,6 +481,7 @@ mod tests {
                 rules: *u.choose(&Rules::ALL)?,
                 ..SamplingSettings::default()
             },
+            filter: any_filter(u)?,
             space: ResolveSpace::Stored,
             background: Rgba::WHITE,
             palette: None,
@@ -512,6 +524,7 @@ mod tests {
             rate: SampleRate::ONE,
             pattern: SamplePattern::Grid,
             sampling: SamplingSettings::default(),
+            filter: SizedFilter::default(),
             space: ResolveSpace::Stored,
             background: Rgba::WHITE,
             palette: None,
@@ -573,9 +586,8 @@ mod tests {
                     commands.is_sorted_by_key(|command| command.command()),
                     "in painter's order"
                 );
-                let rect = context
-                    .tiles
-                    .pixels(tile % context.tiles.columns, tile / context.tiles.columns, SIZE);
+                let tiles = context.tiles;
+                let rect = tiles.painted(tiles.pixels(tile % tiles.columns, tile / tiles.columns, SIZE));
                 let side = to_index(context.grid.side());
                 let whole = rect.x.length() * rect.y.length() * side * side;
                 for shape in &all {
@@ -600,7 +612,13 @@ mod tests {
             for (command, bits) in chunk.commands.iter().zip(bits) {
                 if let DrawCommand::Samples(index) | DrawCommand::Pixels(index) = command {
                     let stamp = chunk.stamps[*index as usize].coverage;
-                    assert_eq!(bits, stamp.mask.count_ones(), "each bit of {stamp:?} is in one tile");
+                    // What is painted for a tile reaches into the next where there is a margin.
+                    let once = stamp.mask.count_ones();
+                    assert!(bits >= once, "each bit of {stamp:?} is in a tile");
+                    assert!(
+                        bits == once || context.margin > 0,
+                        "each bit of {stamp:?} is in one tile"
+                    );
                     stamped += 1;
                 }
             }

@@ -215,7 +215,7 @@ mod tests {
     use crate::raster::shading::Paint;
     use crate::raster::span::PixelRect;
     use crate::raster::tile_layout::TileLayout;
-    use crate::raster::{RasterSettings, SamplePattern, SampleRate};
+    use crate::raster::{RasterSettings, SamplePattern, SampleRate, SizedFilter};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
 
@@ -229,6 +229,7 @@ mod tests {
                 rules,
                 ..SamplingSettings::default()
             },
+            filter: SizedFilter::default(),
             space: ResolveSpace::Stored,
             background: Rgba::WHITE,
             palette: None,

@@ -32,12 +32,12 @@ struct Column {
 
 impl OutlineTiles {
     /// Calls `visit` with each tile column from `tiles.start` on that the outline may touch in the sample rows `all_rows`;
-    /// `width` is that of a tile in units of the grid.
+    /// `width` is that of a tile in units of the grid, `overlap` by how much what is painted for it reaches into the next.
     pub(crate) fn each(
         &mut self,
         outline: (&Outline, &[OutlineEdge]),
         grid: SubpixelGrid,
-        (all_rows, tiles, width): (Span, Span, f64),
+        (all_rows, tiles, [width, overlap]): (Span, Span, [f64; 2]),
         visit: impl FnMut(i32, Reach),
     ) {
         let (outline, all) = outline;
@@ -49,7 +49,7 @@ impl OutlineTiles {
             let line = Line::new(edge.top, edge.bottom);
             let at = |row| line.at(f64::from(grid.sample_coordinate(row)));
             let (first, last) = (at(inside.start), at(inside.end - 1));
-            let from = tile(first.min(last) - MARGIN, width, tiles);
+            let from = tile(first.min(last) - MARGIN - overlap, width, tiles);
             let to = tile(first.max(last) + MARGIN, width, tiles);
             if from >= tiles.end {
                 continue;

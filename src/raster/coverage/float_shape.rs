@@ -13,25 +13,34 @@ use crate::raster::span::{Reach, SampleBox, Span};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FloatShape {
     triangle: FloatTriangle,
-    /// The samples of the frame in the box around it; never empty.
+    /// The samples that are painted in the box around it; never empty.
     pub(crate) samples: SampleBox,
+    /// Where the frame's first sample is in what is painted: floats round by their place in the frame.
+    origin: i32,
 }
 
 impl FloatShape {
-    /// `None` where it has no area, or no sample of the frame lies in its box.
-    pub(crate) fn new(points: [DVec2; 3], grid: SubpixelGrid, frame: SampleBox) -> Option<Self> {
+    /// Its corners in the frame, around which `margin` pixels are painted on each side, `painted` in all; `None` where it has no
+    /// area, or none of these samples lies in its box.
+    pub(crate) fn new(points: [DVec2; 3], grid: SubpixelGrid, (painted, margin): (SampleBox, u32)) -> Option<Self> {
+        let origin = margin.cast_signed() * grid.side();
+        let place = |index: i32| place(grid, index - origin);
         let triangle = FloatTriangle::new(points)?;
         let [low, high] = triangle.bounds();
         let span = |low, high, Span { start, end }: Span| Span {
-            start: first(start, end, |index| place(grid, index) >= low),
-            end: first(start, end, |index| place(grid, index) > high),
+            start: first(start, end, |index| place(index) >= low),
+            end: first(start, end, |index| place(index) > high),
         };
         let samples = SampleBox {
-            columns: span(low.x, high.x, frame.columns),
-            rows: span(low.y, high.y, frame.rows),
+            columns: span(low.x, high.x, painted.columns),
+            rows: span(low.y, high.y, painted.rows),
         };
         let any = !samples.columns.is_empty() && !samples.rows.is_empty();
-        any.then_some(Self { triangle, samples })
+        any.then_some(Self {
+            triangle,
+            samples,
+            origin,
+        })
     }
 
     /// The covered columns of a sample row, of those in `columns`.
@@ -43,7 +52,7 @@ impl FloatShape {
         let ends = [columns.start, columns.end];
         let [start, end] = self
             .triangle
-            .columns(place(grid, row), ends, |column| place(grid, column));
+            .columns(self.place(grid, row), ends, |column| self.place(grid, column));
         if start < end { Span { start, end } } else { Span::EMPTY }
     }
 
@@ -54,7 +63,7 @@ impl FloatShape {
             return None;
         }
         let SampleBox { columns, rows } = samples;
-        let corner = |column, row| point(grid, [column, row]);
+        let corner = |column, row| self.point(grid, [column, row]);
         let corners = [
             corner(columns.start, rows.start),
             corner(columns.end - 1, rows.start),
@@ -71,18 +80,23 @@ impl FloatShape {
 
     /// The edge functions at a sample.
     pub(crate) fn edges(&self, grid: SubpixelGrid, sample: [i32; 2]) -> [f32; 3] {
-        self.triangle.edges(point(grid, sample))
+        self.triangle.edges(self.point(grid, sample))
     }
 
     /// Whether a sample is covered.
     pub(crate) fn covers(&self, grid: SubpixelGrid, sample: [i32; 2]) -> bool {
-        self.triangle.covers(point(grid, sample))
+        self.triangle.covers(self.point(grid, sample))
     }
-}
 
-/// A sample's place in the frame, in pixels.
-fn point(grid: SubpixelGrid, [column, row]: [i32; 2]) -> Vec2 {
-    Vec2::new(place(grid, column), place(grid, row))
+    /// A sample's place in the frame, in pixels.
+    fn point(&self, grid: SubpixelGrid, [column, row]: [i32; 2]) -> Vec2 {
+        Vec2::new(self.place(grid, column), self.place(grid, row))
+    }
+
+    /// Where a sample row or column that is painted lies in the frame, in pixels.
+    fn place(&self, grid: SubpixelGrid, index: i32) -> f32 {
+        place(grid, index - self.origin)
+    }
 }
 
 /// Where a sample row or column lies, in pixels.

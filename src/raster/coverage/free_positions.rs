@@ -196,7 +196,7 @@ mod tests {
     use crate::raster::paint::per_sample::PerSamplePainter;
     use crate::raster::paint::recorder::PaintedCommand;
     use crate::raster::random::{fill, noise};
-    use crate::raster::{DisplayList, Framebuffer, RasterSettings, SamplePattern};
+    use crate::raster::{DisplayList, Framebuffer, RasterSettings, SamplePattern, SizedFilter};
     use crate::texture::{PixelSampling, SamplingSettings, Texture};
 
     const SIZE: [u32; 2] = [70, 50];
@@ -210,6 +210,7 @@ mod tests {
                 rules,
                 ..SamplingSettings::default()
             },
+            filter: SizedFilter::default(),
             space: ResolveSpace::Stored,
             background: Rgba::WHITE,
             palette: None,
@@ -240,7 +241,7 @@ mod tests {
             start: pixel[0],
             end: pixel[0] + 1,
         };
-        let bins = list.bins_of_pixel(pixel);
+        let bins = list.bins_of_pixel(pixel, 0);
         let chunks: Vec<_> = list
             .chunks
             .iter()

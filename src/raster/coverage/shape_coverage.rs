@@ -261,7 +261,7 @@ mod tests {
 
         fn float(&mut self) {
             let points = [self.points[0], self.points[1], self.points[2]];
-            if let Some(float) = FloatShape::new(points, self.grid, self.frame) {
+            if let Some(float) = FloatShape::new(points, self.grid, (self.frame, 0)) {
                 self.check(Shape::Float(&float), |drawing, at| float.covers(drawing.grid, at));
             }
         }

@@ -95,9 +95,10 @@ impl DisplayList<'_> {
         let Some(chunk) = self.chunks.first() else {
             return Vec::new();
         };
-        let pixel = pixel.map(u32::cast_signed);
+        let pixel = self.painted_at(pixel);
         let seen = SeenFrom {
             context: self.shade_context(),
+            shift: self.context.shift(),
             pixel,
             places: self.places().of_pixel(pixel, &mut Vec::new()).to_vec(),
         };
@@ -146,6 +147,8 @@ fn weights_at(shaders: &[Shader<'_>], sample: ShadedSample) -> [f64; 3] {
 /// The samples of one pixel.
 struct SeenFrom<'a> {
     context: ShadeContext<'a>,
+    /// From places in the frame to where they are painted.
+    shift: DVec2,
     pixel: [i32; 2],
     /// Where they lie in it.
     places: Vec<Position>,
@@ -197,8 +200,9 @@ impl SeenFrom<'_> {
         });
         PieceShape::Triangle {
             samples: samples.collect(),
-            corners: corners
-                .map(|corner| DVec2::new(f64::from(corner.x), f64::from(corner.y)) / grid.units_per_pixel()),
+            corners: corners.map(|corner| {
+                DVec2::new(f64::from(corner.x), f64::from(corner.y)) / grid.units_per_pixel() - self.shift
+            }),
             texture: shader.texture_use(&self.context),
         }
     }

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::color::Premultiplied16;
+use crate::color::{Premultiplied16, WeightedSum};
 use crate::raster::DisplayList;
 use crate::raster::binning::bins::{Bins, entries_of_tile};
 use crate::raster::binning::tile_command::TileCommand;
@@ -37,6 +37,26 @@ pub struct PixelReplay {
     pub summed_exactly: bool,
     /// What they resolve to: `0xAARRGGBB`, as in the frame.
     pub pixel: u32,
+    /// Where the pixel takes samples of its neighbours too: how it came of all of them.
+    pub around: Option<Around>,
+}
+
+/// How a pixel came of its own samples and its neighbours'.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Around {
+    /// The pixels any of whose samples weigh something, row by row, the pixel itself among them.
+    pub pixels: Vec<WeighedPixel>,
+    /// All samples together, each times its weight.
+    pub sum: WeightedSum,
+}
+
+/// The samples of one pixel, and what they weigh in another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WeighedPixel {
+    /// How many columns to the right of the other one and how many rows below it the pixel lies.
+    pub beside: [i32; 2],
+    /// In the order of the pattern: what each weighs, in parts of [`WeightedSum::weight`], and its colour.
+    pub samples: Vec<(i64, Premultiplied16)>,
 }
 
 /// What one sample of a pixel holds when everything is painted.
@@ -93,27 +113,60 @@ impl PixelReplay {
 }
 
 impl DisplayList<'_> {
-    /// Paints pixel `(x, y)` again; `None` outside the frame.
-    pub fn replay(&self, x: u32, y: u32) -> Option<PixelReplay> {
-        if x >= self.context.size[0] || y >= self.context.size[1] {
-            return None;
+    /// What paints pixel `(x, y)`, as [`DisplayList::replay`] tells it; nothing outside the frame.
+    pub fn painted(&self, x: u32, y: u32) -> Vec<PaintedCommand> {
+        if !self.holds([x, y]) {
+            return Vec::new();
         }
-        let at = [x.cast_signed(), y.cast_signed()];
-        let bins = self.bins_of_pixel(at);
+        let at = self.painted_at([x, y]);
+        let mut painters = self.painters_at(at);
+        self.own_samples(at, &self.bins_of_pixel(at, 0), &mut painters).0
+    }
+
+    fn holds(&self, [x, y]: [u32; 2]) -> bool {
+        let [width, height] = self.context.frame_size;
+        x < width && y < height
+    }
+
+    /// Painters of a single pixel.
+    fn painters_at(&self, at: [i32; 2]) -> Painters<'_> {
+        self.painters_of(Span {
+            start: at[0],
+            end: at[0] + 1,
+        })
+    }
+
+    /// What paints a pixel, and what its samples hold then.
+    fn own_samples(
+        &self,
+        at: [i32; 2],
+        bins: &[Arc<Bins>],
+        painters: &mut Painters<'_>,
+    ) -> (Vec<PaintedCommand>, Vec<(Premultiplied16, usize)>) {
         let chunks: Vec<(&Chunk, &[TileCommand])> = self
             .chunks
             .iter()
-            .zip(&bins)
+            .zip(bins)
             .map(|(chunk, bins)| (chunk, bins.of_tile(0)))
             .collect();
-        let mut painters = self.painters_of(Span {
-            start: at[0],
-            end: at[0] + 1,
-        });
-        let (painted, samples) =
-            painters
-                .per_sample
-                .replay(&chunks, (at, self.background()), &mut painters.shape_coverage);
+        painters
+            .per_sample
+            .replay(&chunks, (at, self.background()), &mut painters.shape_coverage)
+    }
+
+    /// Paints pixel `(x, y)` again; `None` outside the frame.
+    pub fn replay(&self, x: u32, y: u32) -> Option<PixelReplay> {
+        if !self.holds([x, y]) {
+            return None;
+        }
+        let at = self.painted_at([x, y]);
+        let bins = self.bins_of_pixel(at, 0);
+        let mut painters = self.painters_at(at);
+        let (painted, samples) = self.own_samples(at, &bins, &mut painters);
+        let positions = self.positions(at);
+        if !self.settings.filter.is_plain() {
+            return Some(self.replay_around([x, y], painted, (positions, samples)));
+        }
         let cancelled = AtomicBool::new(false);
         let pass = Pass {
             bins,
@@ -121,19 +174,17 @@ impl DisplayList<'_> {
             cancelled: &cancelled,
             tally: SharedTally::default(),
         };
-        let pixel = self.alone(&pass, &mut painters, at);
+        let pixel = self.alone(&pass, &mut painters, one_pixel(at));
         let by_visibility = self.method(&pass, 0, first_visible(&pass.bins, 0)) == Method::Visibility;
         let shaded = by_visibility.then(|| painters.visibility.shaded_sums()).flatten();
-        let positions = self.positions(at);
-        let weights = self.shade_context().filter.weights(&positions);
+        let weight = 1.0 / samples.len() as f64;
         Some(PixelReplay {
             sums: shaded.unwrap_or_else(|| sums(samples.iter().map(|(color, _)| color))),
             summed_exactly: shaded.is_some(),
             samples: positions
                 .into_iter()
-                .zip(weights)
                 .zip(samples)
-                .map(|((position, weight), (color, fragments))| ReplayedSample {
+                .map(|(position, (color, fragments))| ReplayedSample {
                     position,
                     weight,
                     color,
@@ -142,45 +193,107 @@ impl DisplayList<'_> {
                 .collect(),
             painted,
             pixel,
+            around: None,
         })
+    }
+
+    /// The same where the pixel takes samples of its neighbours: these are its own, and where they lie.
+    fn replay_around(
+        &self,
+        pixel: [u32; 2],
+        painted: Vec<PaintedCommand>,
+        (positions, samples): (Vec<[f64; 2]>, Vec<(Premultiplied16, usize)>),
+    ) -> PixelReplay {
+        let mut resolved = [0];
+        let painters = self.paint_alone(pixel, |painters, pass, rect| {
+            // Also where one colour is all there is, which tiles need not paint to know.
+            self.paint_tile(pass, painters, 0, &mut PixelBlock::new(rect, &mut resolved, 1));
+        });
+        let weighed = painters.per_sample.neighbourhood();
+        let pixels = weighed.iter().flat_map(|weighed| &weighed.pixels);
+        let sum = weighed.as_ref().map(|weighed| weighed.sum).unwrap_or_default();
+        let around: Vec<WeighedPixel> = pixels
+            .map(|(beside, samples)| WeighedPixel {
+                beside: *beside,
+                samples: samples.clone(),
+            })
+            .collect();
+        let own = around.iter().find(|pixel| pixel.beside == [0, 0]);
+        let weight = |sample: usize| {
+            let weight = own.map_or(0, |own| own.samples[sample].0);
+            weight as f64 / sum.weight as f64
+        };
+        PixelReplay {
+            sums: sums(samples.iter().map(|(color, _)| color)),
+            summed_exactly: false,
+            samples: positions
+                .into_iter()
+                .zip(samples)
+                .enumerate()
+                .map(|(sample, (position, (color, fragments)))| ReplayedSample {
+                    position,
+                    weight: weight(sample),
+                    color,
+                    fragments,
+                })
+                .collect(),
+            painted,
+            pixel: resolved[0],
+            around: Some(Around { pixels: around, sum }),
+        }
     }
 
     /// What [`PixelReplay::pixel`] would be, without noting what paints it; `None` outside the frame.
     pub fn pixel(&self, x: u32, y: u32) -> Option<u32> {
-        if x >= self.context.size[0] || y >= self.context.size[1] {
+        if !self.holds([x, y]) {
             return None;
         }
-        let at = [x.cast_signed(), y.cast_signed()];
+        let mut pixel = None;
+        self.paint_alone([x, y], |painters, pass, rect| {
+            pixel = Some(self.alone(pass, painters, rect))
+        });
+        pixel
+    }
+
+    /// Has a pixel painted as a tile of its own; the painters still hold what they painted for it.
+    fn paint_alone<'s>(
+        &'s self,
+        [x, y]: [u32; 2],
+        paint: impl FnOnce(&mut Painters<'s>, &Pass<'_>, PixelRect),
+    ) -> Painters<'s> {
+        let at = [x, y].map(u32::cast_signed);
         let cancelled = AtomicBool::new(false);
+        let margin = self.context.margin;
         let pass = Pass {
-            bins: self.bins_of_pixel(at),
+            bins: self.bins_of_pixel(at, margin),
             first_row: y,
             cancelled: &cancelled,
             tally: SharedTally::default(),
         };
         let mut painters = self.painters_of(Span {
             start: at[0],
-            end: at[0] + 1,
+            end: at[0] + 1 + 2 * margin.cast_signed(),
         });
-        Some(self.alone(&pass, &mut painters, at))
+        paint(&mut painters, &pass, one_pixel(at));
+        painters
     }
 
-    /// Paints a pixel as a tile of its own, the first of the pass.
-    fn alone<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, at: [i32; 2]) -> u32 {
+    /// Paints a pixel of the frame as a tile of its own, the first of the pass.
+    fn alone<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, rect: PixelRect) -> u32 {
         let mut pixel = [0];
-        let one = |start: i32| Span { start, end: start + 1 };
-        let rect = PixelRect {
-            x: one(at[0]),
-            y: one(at[1]),
-        };
         self.numbered_tile(pass, painters, 0, &mut PixelBlock::new(rect, &mut pixel, 1));
         pixel[0]
     }
 
-    /// The commands that touch a pixel of the frame.
-    pub(in crate::raster) fn bins_of_pixel(&self, pixel: [i32; 2]) -> Vec<Arc<Bins>> {
+    /// The column and row of a pixel of the frame in what is painted.
+    pub(in crate::raster) fn painted_at(&self, pixel: [u32; 2]) -> [i32; 2] {
+        pixel.map(|at| (at + self.context.margin).cast_signed())
+    }
+
+    /// The commands that touch a tile of one pixel, which begins there, and `margin` around it.
+    pub(in crate::raster) fn bins_of_pixel(&self, pixel: [i32; 2], margin: u32) -> Vec<Arc<Bins>> {
         let context = ListContext {
-            tiles: TileLayout::new((0, 0), self.context.size),
+            tiles: TileLayout::new((0, 0), self.context.size).with_margin(margin),
             ..self.context
         };
         let bins = |chunk| {
@@ -202,6 +315,12 @@ impl DisplayList<'_> {
         let position = |place: &Position| place.map(|at| grid.sample_position(at.into()));
         places.of_pixel(pixel, &mut memory).iter().map(position).collect()
     }
+}
+
+/// The rectangle of one pixel.
+fn one_pixel([x, y]: [i32; 2]) -> PixelRect {
+    let one = |start: i32| Span { start, end: start + 1 };
+    PixelRect { x: one(x), y: one(y) }
 }
 
 /// The sums of colours, channel by channel.

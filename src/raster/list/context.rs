@@ -1,5 +1,7 @@
 //! What filling a chunk needs to know about the drawing: the frame, its samples and tiles.
 
+use glam::DVec2;
+
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::sampling::pattern::SamplePattern;
 use crate::raster::sampling::positions::lattice;
@@ -18,8 +20,12 @@ pub struct ListContext {
     pub(crate) pattern: SamplePattern,
     pub(crate) rate: SampleRate,
     pub(crate) rules: Rules,
-    /// Pixels in a row, rows.
+    /// Pixels in a row, rows: of the frame.
+    pub(crate) frame_size: [u32; 2],
+    /// The same of what is painted, the frame and a margin around it, whose pixels are counted from the margin's first.
     pub(crate) size: [u32; 2],
+    /// Pixels of the frame on each side of a pixel that it takes samples from.
+    pub(crate) margin: u32,
     pub(crate) tiles: TileLayout,
 }
 
@@ -36,14 +42,22 @@ impl ListContext {
     pub(crate) fn with_tiles(size: [u32; 2], settings: &RasterSettings, tiles: TileLayout) -> Self {
         let rate = settings.pattern.nearest(settings.rate);
         let pattern = settings.pattern.simplest(rate);
+        let margin = settings.filter.margin();
         Self {
             grid: lattice(pattern, rate),
             pattern,
             rate,
             rules: settings.sampling.rules,
-            size,
-            tiles,
+            frame_size: size,
+            size: size.map(|pixels| pixels + 2 * margin),
+            margin,
+            tiles: tiles.with_margin(margin),
         }
+    }
+
+    /// What a place in the frame, in pixels, has to be moved by to where it is painted.
+    pub(crate) fn shift(&self) -> DVec2 {
+        DVec2::splat(f64::from(self.margin))
     }
 
     /// Whether samples are all those of the grid.
@@ -51,7 +65,7 @@ impl ListContext {
         self.pattern == SamplePattern::Grid
     }
 
-    /// The samples of the frame.
+    /// The samples that are painted.
     pub(crate) fn samples(&self) -> SampleBox {
         let all = |pixels: u32| Span {
             start: 0,
@@ -63,7 +77,7 @@ impl ListContext {
         }
     }
 
-    /// The pixels that hold any sample of a box, clipped to the frame; `None` when there are none.
+    /// The pixels that hold any sample of a box, clipped to what is painted; `None` when there are none.
     pub(crate) fn pixels_of(&self, samples: SampleBox) -> Option<PixelRect> {
         let side = self.grid.side();
         let frame = self.samples();

@@ -17,6 +17,8 @@ pub(crate) struct Hairline {
     /// From left to right, in pixels.
     from: [f32; 2],
     to: [f32; 2],
+    /// Pixels that are painted on each side of the frame.
+    margin: i32,
     pub(crate) color: Premultiplied16,
 }
 
@@ -28,14 +30,20 @@ struct Gatherer<F: FnMut(CoverageMask)> {
 }
 
 impl Hairline {
-    /// The line between two screen-space points; `None` when it misses a frame of `size`.
-    pub(crate) fn new(ends: [DVec2; 2], size: [u32; 2], color: Premultiplied16) -> Option<Self> {
-        let [from, to] = cut(ends, size)?;
+    /// The line between two screen-space points; `None` when it misses the `size` that is painted, of which `margin` pixels
+    /// on each side lie beyond the frame. It keeps its place in the frame, so that it rounds alike whatever the margin.
+    pub(crate) fn new(ends: [DVec2; 2], (size, margin): ([u32; 2], u32), color: Premultiplied16) -> Option<Self> {
+        let [from, to] = cut(ends, size, margin)?;
         let (from, to) = if from[0] > to[0] { (to, from) } else { (from, to) };
-        Some(Self { from, to, color })
+        Some(Self {
+            from,
+            to,
+            margin: margin.cast_signed(),
+            color,
+        })
     }
 
-    /// Calls `visit` with each pixel `[column, row]` of the line that lies in a frame of `size`.
+    /// Calls `visit` with each pixel `[column, row]` of the line that lies in the `size` that is painted.
     #[inline]
     fn trace(&self, size: [u32; 2], mut visit: impl FnMut(i32, i32)) {
         let Self { from, to, .. } = *self;
@@ -48,13 +56,14 @@ impl Hairline {
         } else {
             [1.0 / slope.abs(), slope.signum()]
         };
-        let frame = [size[0] as f32, size[1] as f32];
+        let least = -self.margin as f32;
+        let frame = size.map(|pixels| pixels as f32 + least);
         let (last, height) = (to[0].floor(), dy.abs());
         let [mut x, mut y] = from;
         // Before its whole number exceeds `last`, `x` exceeds it by one.
         while x < last + 1.0 && (y - from[1]).abs() <= height {
-            if x >= 0.0 && x < frame[0] && y >= 0.0 && y < frame[1] {
-                visit(truncate(x), truncate(y));
+            if x >= least && x < frame[0] && y >= least && y < frame[1] {
+                visit(floor(x) + self.margin, floor(y) + self.margin);
             }
             x += step[0];
             y += step[1];
@@ -98,20 +107,23 @@ impl<F: FnMut(CoverageMask)> Gatherer<F> {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "the caller has checked that it lies in the frame"
+    reason = "the caller has checked that it lies near the frame"
 )]
-fn truncate(coordinate: f32) -> i32 {
-    coordinate as i32
+fn floor(coordinate: f32) -> i32 {
+    let truncated = coordinate as i32;
+    truncated - i32::from(truncated as f32 > coordinate)
 }
 
-/// The ends as 32-bit floats, where a line that reaches beyond the margin is cut to it; `None` when it misses the
-/// frame. Lines inside the margin stay as they are: cutting would change their rounding.
-fn cut(ends: [DVec2; 2], size: [u32; 2]) -> Option<[[f32; 2]; 2]> {
-    let frame = DVec2::new(f64::from(size[0]), f64::from(size[1]));
+/// The ends as 32-bit floats, where a line that reaches far beyond the frame is cut; `None` when it misses what is painted.
+/// Others stay as they are: cutting would change their rounding.
+fn cut(ends: [DVec2; 2], size: [u32; 2], margin: u32) -> Option<[[f32; 2]; 2]> {
+    let first = DVec2::splat(-f64::from(margin));
+    let beyond = first + DVec2::new(f64::from(size[0]), f64::from(size[1]));
     let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-    if !low.is_finite() || !high.is_finite() || high.cmplt(DVec2::ZERO).any() || low.cmpge(frame).any() {
+    if !low.is_finite() || !high.is_finite() || high.cmplt(first).any() || low.cmpge(beyond).any() {
         return None;
     }
+    let frame = beyond + first;
     let (least, greatest) = (DVec2::splat(-MARGIN), frame + MARGIN);
     let inside = low.cmpge(least).all() && high.cmple(greatest).all();
     let [from, to] = if inside {
@@ -161,7 +173,8 @@ mod tests {
     use super::*;
 
     fn line(from: (f64, f64), to: (f64, f64), size: [u32; 2]) -> Option<Hairline> {
-        Hairline::new([DVec2::from(from), DVec2::from(to)], size, Premultiplied16::TRANSPARENT)
+        let ends = [DVec2::from(from), DVec2::from(to)];
+        Hairline::new(ends, (size, 0), Premultiplied16::TRANSPARENT)
     }
 
     fn pixels(from: (f64, f64), to: (f64, f64)) -> Vec<[i32; 2]> {

@@ -103,7 +103,7 @@ mod tests {
     use crate::color::{ResolveSpace, Rgba};
     use crate::geometry::{FillRule, Polygon};
     use crate::raster::list::builder::ChunkBuilder;
-    use crate::raster::random::{fill, noise};
+    use crate::raster::random::{any_filter, fill, noise};
     use crate::raster::shading::Paint;
     use crate::raster::{DisplayList, Framebuffer, RasterSettings, SamplePattern, SampleRate};
     use crate::rules::Rules;
@@ -145,6 +145,7 @@ mod tests {
                     rules: *u.choose(&Rules::ALL)?,
                     ..SamplingSettings::default()
                 },
+                filter: any_filter(u)?,
                 space: *u.choose(&ResolveSpace::ALL)?,
                 background: Rgba::WHITE,
                 palette: None,

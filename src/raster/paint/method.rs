@@ -7,6 +7,7 @@ use crate::raster::SampleRate;
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::list::chunk::Chunk;
 use crate::raster::list::context::ListContext;
+use crate::raster::resolve::SizedFilter;
 use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
 
@@ -59,11 +60,12 @@ impl Kinds {
         }
     }
 
-    /// How a tile is painted of which these commands are to be seen, chunk by chunk; its samples are averaged in `space`.
+    /// How a tile is painted of which these commands are to be seen, chunk by chunk; its samples are weighted by `filter` and
+    /// averaged in `space`.
     pub(in crate::raster) fn method<'c>(
         self,
         context: &ListContext,
-        space: ResolveSpace,
+        (filter, space): (SizedFilter, ResolveSpace),
         commands: &(impl Iterator<Item = (&'c Chunk, &'c [TileCommand])> + Clone),
     ) -> Method {
         let all = |is_so: fn(&TileCommand, &Chunk) -> bool| {
@@ -73,6 +75,10 @@ impl Kinds {
         let all_opaque = || self.opaque || all(|command, _| command.is_opaque());
         let all_flat = || self.flat || all(|command, chunk| !matches!(command.work(chunk), Work::Shaded(..)));
         let rate_one = context.rate == SampleRate::ONE;
+        if !filter.is_plain() {
+            // What neighbours weigh, too, takes the colour of every sample.
+            return Method::PerSample;
+        }
         if !context.is_grid() || space != ResolveSpace::Stored && !rate_one {
             return if context.rate.is_square() && (all_flat() || all_opaque()) {
                 Method::Visibility

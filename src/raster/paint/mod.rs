@@ -6,6 +6,8 @@
 //! | [`visibility`] | opaque shapes on a grid | which surface each sample shows; shades once per pixel and surface |
 //! | [`per_sample`] | everything | the colour of each sample ([`sample_colors`]) |
 //!
+//! Where pixels take samples of their neighbours, [`wide`] resolves what [`per_sample`] has painted.
+//!
 //! [`per_sample`] is the simple one that the others are tested against; it also feeds the [`recorder`], from which pixels
 //! are explained.
 
@@ -15,3 +17,4 @@ pub(in crate::raster) mod per_sample;
 pub(in crate::raster) mod recorder;
 pub(in crate::raster) mod sample_colors;
 pub(in crate::raster) mod visibility;
+pub(in crate::raster) mod wide;

@@ -5,10 +5,12 @@ use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::shape::Shape;
 use crate::raster::coverage::shape_coverage::ShapeCoverage;
+use crate::raster::frame::block::PixelBlock;
 use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
 use crate::raster::paint::recorder::{PaintedCommand, PaintedKind, Recorder};
 use crate::raster::paint::sample_colors::SampleColors;
+use crate::raster::paint::wide::{WeighedPixels, WideResolve};
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::shading::Shader;
 use crate::raster::shading::context::ShadeContext;
@@ -19,6 +21,8 @@ use crate::raster::span::{PixelRect, Span};
 pub(crate) struct PerSamplePainter<'a> {
     context: ShadeContext<'a>,
     layers: LayerStack<SampleColors>,
+    /// What resolves tiles where pixels take samples of their neighbours.
+    wide: Option<WideResolve>,
     /// Where the samples of a pixel lie.
     positions: SamplePositions,
     memory: Vec<Position>,
@@ -38,6 +42,7 @@ impl<'a> PerSamplePainter<'a> {
         Self {
             context,
             layers: LayerStack::new(buffer(&context)),
+            wide: (!context.filter.is_plain()).then(|| WideResolve::new(&context, &positions)),
             positions,
             memory: Vec::new(),
             covered: Vec::new(),
@@ -78,7 +83,23 @@ impl<'a> PerSamplePainter<'a> {
         }
     }
 
-    /// Resolves one row of the finished tile.
+    /// Resolves the finished tile, of which `block` are the pixels that it has in the frame.
+    pub(crate) fn resolve_tile(&mut self, block: &mut PixelBlock<'_>) {
+        if let Some(wide) = &mut self.wide {
+            return wide.resolve(self.layers.base(), block);
+        }
+        for y in block.rect.y.start..block.rect.y.end {
+            self.resolve(y, block.line(y));
+        }
+    }
+
+    /// After a tile of one pixel was resolved that takes samples of its neighbours: all of them.
+    pub(crate) fn neighbourhood(&self) -> Option<WeighedPixels> {
+        let wide = self.wide.as_ref()?;
+        Some(wide.neighbourhood(self.layers.base()))
+    }
+
+    /// Resolves one row of the finished tile, each pixel the mean of its own samples.
     pub(crate) fn resolve(&self, y: i32, pixels: &mut [u32]) {
         self.layers.base().resolve(y, pixels);
     }
@@ -243,6 +264,5 @@ impl<'a> PerSamplePainter<'a> {
 
 /// A buffer of no pixels.
 fn buffer(context: &ShadeContext<'_>) -> SampleColors {
-    let settings = (context.sampling.rules, context.filter, context.space);
-    SampleColors::new(context.rate, settings)
+    SampleColors::new(context.rate, (context.sampling.rules, context.space))
 }

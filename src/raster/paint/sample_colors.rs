@@ -10,10 +10,9 @@ use std::ops::Range;
 
 use fearless_simd::{Simd, dispatch};
 
-use crate::color::{Premultiplied16, ResolveSpace, Resolver};
+use crate::color::{LightResolver, Premultiplied16, ResolveSpace, Resolver};
 use crate::raster::SampleRate;
 use crate::raster::layers::Compositing;
-use crate::raster::resolve::ResolveFilter;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::span::{PixelRect, Span};
 use crate::rules::Rules;
@@ -21,6 +20,15 @@ use crate::simd;
 
 /// Samples of one pixel with which one colour is composited together.
 const ALIKE: usize = 16;
+
+/// What a pixel holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::raster) enum PixelColors<'s> {
+    /// One colour in all its samples.
+    Whole(Premultiplied16),
+    /// A colour for each.
+    Split(&'s [Premultiplied16]),
+}
 
 /// The samples of a rectangle of pixels.
 #[derive(Debug)]
@@ -30,7 +38,6 @@ pub(crate) struct SampleColors {
     /// Samples per pixel.
     per_pixel: usize,
     rules: Rules,
-    filter: ResolveFilter,
     /// For means of stored values.
     resolver: Resolver,
     space: ResolveSpace,
@@ -45,14 +52,13 @@ pub(crate) struct SampleColors {
 
 impl SampleColors {
     /// A tile of no pixels.
-    pub(crate) fn new(rate: SampleRate, (rules, filter, space): (Rules, ResolveFilter, ResolveSpace)) -> Self {
+    pub(crate) fn new(rate: SampleRate, (rules, space): (Rules, ResolveSpace)) -> Self {
         Self {
             rect: PixelRect::EMPTY,
             width: 0,
             per_pixel: rate.samples() as usize,
             rules,
-            filter,
-            resolver: filter.resolver(rate.samples(), rules),
+            resolver: Resolver::new(rate.samples(), rules),
             space,
             whole: Vec::new(),
             split: Vec::new(),
@@ -255,6 +261,26 @@ impl SampleColors {
         }
     }
 
+    /// Samples of a pixel.
+    pub(in crate::raster) fn per_pixel(&self) -> usize {
+        self.per_pixel
+    }
+
+    /// Pixels in a row.
+    pub(in crate::raster) fn width(&self) -> usize {
+        self.width
+    }
+
+    /// The pixel with this index, counted row by row.
+    #[inline]
+    pub(in crate::raster) fn pixel(&self, index: usize) -> PixelColors<'_> {
+        if self.split[index] {
+            PixelColors::Split(&self.samples[index * self.per_pixel..][..self.per_pixel])
+        } else {
+            PixelColors::Whole(self.whole[index])
+        }
+    }
+
     /// Resolves row `y` of the tile into pixels `0xAARRGGBB`: each the mean of its samples.
     pub(crate) fn resolve(&self, y: i32, pixels: &mut [u32]) {
         let first = self.index(self.rect.x.start, y);
@@ -291,7 +317,7 @@ impl SampleColors {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     fn resolve_linear<S: Simd>(&self, simd: S, first: usize, pixels: &mut [u32]) {
-        let resolver = self.filter.light_resolver(self.per_pixel, self.rules);
+        let resolver = LightResolver::new(u32::try_from(self.per_pixel).unwrap_or(u32::MAX), self.rules);
         simd.vectorize(
             #[inline(always)]
             || {

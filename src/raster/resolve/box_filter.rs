@@ -1,15 +1,15 @@
-//! The mean of a pixel's own samples.
+//! The mean of what lies inside: by its own radius, of the pixel's own samples.
 
 use crate::raster::resolve::weigh::Weigh;
 
 pub(super) struct BoxFilter;
 
 impl Weigh for BoxFilter {
-    fn weight(&self, _: [f64; 2]) -> f64 {
-        1.0
+    fn radius(&self) -> f64 {
+        0.5
     }
 
-    fn is_even(&self) -> bool {
-        true
+    fn weight(&self, _: f64) -> f64 {
+        1.0
     }
 }

@@ -1,13 +1,11 @@
 //! What every resolve filter answers.
 
-/// A resolve filter.
+/// A resolve filter. All are products of what a sample weighs by its column and by its row.
 pub(super) trait Weigh: Sync {
-    /// What a sample weighs that lies at this offset from the pixel's middle, in pixels; in parts of whatever the weights of
-    /// all samples add up to.
-    fn weight(&self, offset: [f64; 2]) -> f64;
+    /// How far from the pixel's middle samples weigh anything, in pixels, where nobody asks for another radius.
+    fn radius(&self) -> f64;
 
-    /// Whether all samples of the pixel weigh alike, and no others anything.
-    fn is_even(&self) -> bool {
-        false
-    }
+    /// What a sample weighs by its distance from the middle along one axis, in pixels; at most about 1, and asked for
+    /// `0.0..radius` only. What the weights of all samples add up to is made 1 later.
+    fn weight(&self, distance: f64) -> f64;
 }

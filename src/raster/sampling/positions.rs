@@ -19,6 +19,8 @@ pub(crate) struct SamplePositions {
     /// For two samples at a time the cells in which they may lie: where each begins and how long it is, in the order in which
     /// random bits are taken; of jittered samples only.
     jitter: Vec<[[u16; 2]; 4]>,
+    /// The column and the row of the frame's first pixel in what is painted.
+    margin: i32,
 }
 
 /// The lattice that the samples of a pattern lie on.
@@ -51,6 +53,15 @@ impl SamplePositions {
             } else {
                 Vec::new()
             },
+            margin: 0,
+        }
+    }
+
+    /// The same in a frame around which so many pixels are painted on each side.
+    pub(crate) fn with_margin(self, margin: u32) -> Self {
+        Self {
+            margin: margin.cast_signed(),
+            ..self
         }
     }
 
@@ -64,12 +75,14 @@ impl SamplePositions {
         !self.same.is_empty()
     }
 
-    /// Where the samples of the pixel in column and row `pixel` of the frame lie; `memory` is overwritten.
+    /// Where the samples of a pixel lie, by its column and row in what is painted; `memory` is overwritten.
     #[inline]
     pub(crate) fn of_pixel<'s>(&'s self, [x, y]: [i32; 2], memory: &'s mut Vec<Position>) -> &'s [Position] {
         if !self.same.is_empty() {
             return &self.same;
         }
+        // A pixel of the frame has the same ones however much is painted around it.
+        let [x, y] = [x - self.margin, y - self.margin];
         let pixel = mix((u64::from(x.cast_unsigned()) | u64::from(y.cast_unsigned()) << 32) ^ SEED);
         memory.clear();
         for (number, cells) in (0..).zip(&self.jitter) {

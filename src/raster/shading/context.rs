@@ -3,7 +3,7 @@
 use crate::color::ResolveSpace;
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::SampleRate;
-use crate::raster::resolve::ResolveFilter;
+use crate::raster::resolve::SizedFilter;
 use crate::raster::shading::sources::PaintSources;
 use crate::texture::{SampleGrid, SamplingSettings};
 
@@ -14,7 +14,7 @@ pub(crate) struct ShadeContext<'a> {
     /// Samples per pixel.
     pub(crate) rate: SampleRate,
     /// What each of them weighs in its pixel, and in which values they are averaged.
-    pub(crate) filter: ResolveFilter,
+    pub(crate) filter: SizedFilter,
     pub(crate) space: ResolveSpace,
     pub(crate) sampling: SamplingSettings,
     pub(crate) sources: &'a PaintSources<'a>,

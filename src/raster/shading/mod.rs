@@ -201,7 +201,7 @@ mod tests {
     use crate::color::ResolveSpace;
     use crate::geometry::subpixel::SubpixelGrid;
     use crate::raster::SampleRate;
-    use crate::raster::resolve::ResolveFilter;
+    use crate::raster::resolve::SizedFilter;
     use crate::texture::SamplingSettings;
 
     /// A paint of which nothing but the colours of samples is known: column in red, row in green.
@@ -253,7 +253,7 @@ mod tests {
         let context = ShadeContext {
             grid: SubpixelGrid::new(2),
             rate: SampleRate::ONE,
-            filter: ResolveFilter::default(),
+            filter: SizedFilter::default(),
             space: ResolveSpace::Stored,
             sampling: SamplingSettings::default(),
             sources: &sources,

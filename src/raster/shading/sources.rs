@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DAffine2;
+use glam::{DAffine2, DVec2};
 
 use crate::color::Ramp;
 use crate::geometry::GradientShape;
@@ -46,6 +46,22 @@ impl<'a> From<Vec<&'a Texture>> for PaintSources<'a> {
         Self {
             textures,
             ..Self::default()
+        }
+    }
+}
+
+impl PaintSources<'_> {
+    /// Moves what lies on the screen by so many pixels.
+    pub(in crate::raster) fn shift(&mut self, by: DVec2) {
+        if by == DVec2::ZERO {
+            return;
+        }
+        let back = DAffine2::from_translation(-by);
+        for gradient in &mut self.gradients {
+            gradient.from_pixels *= back;
+        }
+        for pattern in &mut self.patterns {
+            pattern.from_pixels *= back;
         }
     }
 }

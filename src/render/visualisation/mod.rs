@@ -1,8 +1,8 @@
 //! What a picture shows in place of colours: by which paints those of a scene's primitives are replaced, and how numbers
 //! become colours.
 //!
-//! Shapes, samples and resolve stay those of the picture: only paints change, so that a visualisation can be laid over
-//! the picture pixel by pixel. All colours are told apart by people with any kind of colour vision.
+//! Shapes and samples stay those of the picture: only paints change, so that a visualisation can be laid over the picture
+//! pixel by pixel; and a pixel is always the mean of its own samples, whatever filter the picture has. All colours are told apart by people with any kind of colour vision.
 //!
 //! Each visualisation is a [`Show`] in a file of its own, with its legend. To add one, write its file and a line in the
 //! table below.
@@ -23,7 +23,7 @@ mod wireframe;
 
 use super::{Legend, RenderSettings, Screen, sources};
 use crate::geometry::ViewTransform;
-use crate::raster::{ChunkBuilder, PaintSources, RasterSettings};
+use crate::raster::{ChunkBuilder, PaintSources, RasterSettings, SizedFilter};
 use crate::render::visualisation::clips::{Role, add_clip, roles};
 use crate::render::visualisation::show::{Show, Source};
 use crate::scene::Scene;
@@ -125,6 +125,8 @@ impl<'a> Visualiser<'a> {
 
     /// What the rasterizer does otherwise than for the picture.
     pub(super) fn change(kind: Visualisation, settings: &mut RasterSettings) {
+        // Numbers, and colours that stand for them, mean nothing beyond the pixel that they were found in.
+        settings.filter = SizedFilter::default();
         kind.show().change(settings);
     }
 

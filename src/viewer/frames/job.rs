@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use rayon::ThreadPool;
 
-use crate::raster::{Framebuffer, Region, SampleRate};
+use crate::raster::{Framebuffer, Region, ResolveFilter, SampleRate};
 use crate::render::{
     CancelToken, FrameStats, RenderSettings, Subject, draw_cancellable, draw_onto, draw_regions, refine,
 };
@@ -165,9 +165,12 @@ impl Job {
         Drawn::Frame { frame, ended }
     }
 
+    /// What previews are drawn with: one sample, which is its pixel.
     fn at_rate_one(&self) -> RenderSettings {
         RenderSettings {
             sample_rate: SampleRate::ONE,
+            resolve_filter: ResolveFilter::Box,
+            filter_radius: None,
             ..self.picture.settings
         }
     }

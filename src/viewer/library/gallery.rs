@@ -90,6 +90,8 @@ pub static SCENES: &[GalleryScene] = scenes![
     "study/18_text_at_8_px.svg",
     "study/19_banding.svg",
     "study/20_conflation.svg",
+    "study/21_fine_spokes.svg",
+    "study/22_what_filters_cost.svg",
     "subdiv/triangle0.svg",
     "subdiv/triangle1.svg",
     "subdiv/triangle2.svg",

@@ -6,14 +6,14 @@
 use super::row::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
 use super::{Settings, values};
 use crate::color::ResolveSpace;
-use crate::raster::{SamplePattern, SampleRate};
+use crate::raster::{FilterRadius, ResolveFilter, SamplePattern, SampleRate};
 use crate::render::Visualisation;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
 use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
 use crate::viewer::key_chords::{Chord, Key, Modifiers};
 
-/// What stands for a level that nobody fixed.
+/// What stands for a level that nobody fixed, or a radius.
 const AUTO: &str = "auto";
 
 /// A setting whose values have names; `$field` is where [`Settings`] keep it.
@@ -315,6 +315,75 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
             )
         }],
         ..named!("lod-per", "level per", Derivatives, render.detail.derivatives)
+    },
+    PictureSetting {
+        help: "What samples weigh in a pixel, its own and its neighbours'",
+        about: About::Samples,
+        told: Told::IfChanged,
+        panel: Some(row("Filter", "Resolve filter", Control::List)),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "Wider ones than the box take samples of neighbours too: less moire, for some blur or ringing, and about twice the time",
+            ..command(
+                "resolve-filter",
+                "Resolve filter",
+                "Weighs the samples of a pixel and its neighbours by the next filter, such as Mitchell's or Lanczos'",
+            )
+        }],
+        ..named!("resolve-filter", "filter", ResolveFilter, render.resolve_filter)
+    },
+    PictureSetting {
+        option: "filter-radius",
+        label: "filter radius",
+        placeholder: "R",
+        help: "How far the resolve filter reaches, in pixels: auto, or 0.5 to 4",
+        values: Values::Open {
+            form: "auto, or a number of pixels from 0.5 to 4",
+            range: "`auto`, 0.5 ... 4",
+            some: &["1", "1.5", "2"],
+            offered: |_| Vec::new(),
+        },
+        about: About::Samples,
+        told: Told::IfChanged,
+        panel: Some(row(
+            "",
+            "Filter radius",
+            Control::Number {
+                range: [FilterRadius::MIN, FilterRadius::MAX],
+                prefix: "radius ",
+                none: Some(AUTO),
+            },
+        )),
+        commands: &[SettingCommand {
+            step: Some(0.5),
+            takes_value: true,
+            more: "A wider one blurs more and takes longer; auto is each filter's own: 0.5 for the box, 2 for Mitchell's",
+            ..command(
+                "filter-radius",
+                "Filter radius",
+                "Stretches the resolve filter to the next radius, half a pixel wider: 0.5 to 4, then auto",
+            )
+        }],
+        signed: false,
+        goes_round: true,
+        former: |_| None,
+        get: |settings| {
+            let radius = settings.render.filter_radius;
+            radius.map_or(AUTO.to_owned(), |radius| radius.pixels().to_string())
+        },
+        set: |settings, text| {
+            settings.render.filter_radius = match text {
+                AUTO => None,
+                _ => Some(values::number(text).and_then(FilterRadius::new)?),
+            };
+            Some(())
+        },
+        step: |settings, by| {
+            let render = &mut settings.render;
+            let now = render.resolve_filter.sized(render.filter_radius).radius();
+            render.filter_radius = FilterRadius::new(now + by);
+        },
     },
     PictureSetting {
         help: "In which values the samples of a pixel are averaged",

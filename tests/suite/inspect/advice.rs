@@ -4,7 +4,7 @@ use glam::DVec2;
 use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::{View as SceneView, ViewTransform};
 use rasterscope::inspect::{Cure, Explanation, Interpolated, Question, Setting, View};
-use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
+use rasterscope::raster::{Framebuffer, ResolveFilter, SamplePattern, SampleRate};
 use rasterscope::render::{RenderSettings, Subject, draw, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, PrimitiveKind, ReadOptions, Scene};
@@ -63,6 +63,10 @@ fn settings() -> Vec<RenderSettings> {
             own.sample_rate = rate(16);
             own.pattern = SamplePattern::Jittered;
             own.background = rasterscope::color::Rgba::TRANSPARENT;
+        }),
+        with(&|own| {
+            own.sample_rate = rate(4);
+            own.resolve_filter = ResolveFilter::Mitchell;
         }),
         with(&|own| {
             own.sample_rate = rate(256);

@@ -7,8 +7,8 @@
 
 use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::View as SceneView;
-use rasterscope::inspect::{Explanation, Fragment, Interpolated, Paint, Question, Shape, View};
-use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
+use rasterscope::inspect::{Around, Explanation, Fragment, Interpolated, Paint, Question, Shape, View};
+use rasterscope::raster::{FilterRadius, Framebuffer, ResolveFilter, SamplePattern, SampleRate};
 use rasterscope::render::{RenderSettings, Subject, draw, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, Paint as ScenePaint, PrimitiveKind, ReadOptions, Scene};
@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use crate::support::explaining::advised;
 
 /// What pictures are drawn with.
-fn settings() -> [RenderSettings; 10] {
+fn settings() -> [RenderSettings; 13] {
     let rate = |samples| SampleRate::new(samples).unwrap();
     let plain = RenderSettings::default();
     [
@@ -81,6 +81,25 @@ fn settings() -> [RenderSettings; 10] {
             rules: Rules::Float,
             ..plain
         },
+        RenderSettings {
+            sample_rate: rate(4),
+            resolve_filter: ResolveFilter::Mitchell,
+            ..plain
+        },
+        RenderSettings {
+            sample_rate: rate(4),
+            resolve_filter: ResolveFilter::Lanczos3,
+            resolve: ResolveSpace::Linear,
+            background: rasterscope::color::Rgba::TRANSPARENT,
+            ..plain
+        },
+        RenderSettings {
+            pattern: SamplePattern::Jittered,
+            resolve_filter: ResolveFilter::CatmullRom,
+            filter_radius: FilterRadius::new(1.25),
+            rules: Rules::Course,
+            ..plain
+        },
     ]
 }
 
@@ -138,6 +157,9 @@ fn every_explanation_of_every_scene_ends_in_the_frames_bytes() {
 fn check_resolve(found: &Explanation, rules: Rules) {
     let resolve = &found.resolve;
     let linear = resolve.space == "linear";
+    if let Some(around) = &resolve.around {
+        return check_around(found, around, rules);
+    }
     let total: [f64; 4] = found.samples.iter().fold([0.0; 4], |sum, sample| {
         let averaged = if linear { light(sample.color) } else { sample.color };
         std::array::from_fn(|i| sum[i] + averaged[i])
@@ -193,6 +215,60 @@ fn check_resolve(found: &Explanation, rules: Rules) {
     }
 }
 
+/// What is taken of each pixel adds up to the mean, which is clamped and rounded to the colour.
+fn check_around(found: &Explanation, around: &Around, rules: Rules) {
+    let linear = found.resolve.space == "linear";
+    let weights: f64 = around.pixels.iter().flat_map(|pixel| &pixel.weights).sum();
+    assert!((weights - 1.0).abs() < 1e-9, "all weigh one together: {around:?}");
+    let mut sums = [0.0; 4];
+    for pixel in &around.pixels {
+        assert_eq!(pixel.weights.len(), found.samples.len(), "a weight for each sample");
+        let mut adds = [0.0; 4];
+        for (weight, color) in pixel.weights.iter().zip(&pixel.colors) {
+            let averaged = if linear { light(*color) } else { *color };
+            adds = std::array::from_fn(|i| adds[i] + averaged[i] * weight);
+        }
+        for (adds, told) in adds.iter().zip(pixel.adds) {
+            assert!((adds - told).abs() < if linear { 0.02 } else { 1e-9 }, "{adds} and not {told}: {pixel:?}");
+        }
+        sums = std::array::from_fn(|i| sums[i] + pixel.adds[i]);
+    }
+    for (sum, mean) in sums.iter().zip(found.resolve.mean) {
+        assert!((sum - mean).abs() < 1e-6, "{sum} and not {mean}: {around:?}");
+    }
+    let own = around.pixels.iter().find(|pixel| pixel.beside == [0, 0]);
+    assert!(
+        own.is_none_or(|own| own.colors.iter().zip(&found.samples).all(|(own, sample)| *own == sample.color)),
+        "its own samples: {around:?}"
+    );
+    let alpha = sums[3].clamp(0.0, 255.0);
+    for (i, byte) in found.color.iter().enumerate() {
+        let clamped = sums[i].clamp(0.0, if i < 3 { alpha } else { 255.0 });
+        let exact = match i {
+            3 => alpha,
+            _ if alpha <= 0.0 => 0.0,
+            _ if linear => stored(clamped / alpha) * 255.0,
+            _ => clamped * 255.0 / alpha,
+        };
+        let slack = match () {
+            () if linear && alpha < 255.0 => 0.3,
+            () if linear => 1e-3,
+            () => 1e-6,
+        };
+        let byte = f64::from(*byte);
+        let right = match rules {
+            Rules::Standard | Rules::Float => (byte - exact).abs() <= 0.5 + slack,
+            Rules::Course => byte <= exact + slack && exact < byte + 1.0 + slack,
+        };
+        assert!(right, "{exact} is rounded to {byte}: {found:?}");
+    }
+    let lines = found.resolve_lines();
+    assert!(lines[0].contains(around.filter), "the filter is named: {lines:?}");
+    let red = lines.iter().find(|line| line.starts_with("red")).expect("red is told");
+    let byte = format!(" {}", found.color[0]);
+    assert!(red.contains(" neighbours ") && red.ends_with(&byte), "{red} and not {byte}");
+}
+
 /// The light of a premultiplied colour, weighted by its alpha, by IEC 61966-2-1.
 fn light([r, g, b, alpha]: [f64; 4]) -> [f64; 4] {
     let of = |channel: f64| {
@@ -218,6 +294,10 @@ fn stored(light: f64) -> f64 {
 
 /// All samples together are the pixel, one alone is that sample, and the covered part ends with what is covered.
 fn check_accumulation(found: &Explanation) {
+    // Its own samples are a part of the pixel only.
+    if found.resolve.around.is_some() {
+        return;
+    }
     let all = found.mean_of_first(found.samples.len());
     for (all, color) in all.iter().zip(found.color) {
         // What is off by a quarter of a level counts more where little is opaque.

@@ -9,5 +9,6 @@ mod oracle;
 mod patterns;
 mod regions;
 mod render;
+mod resolve_filters;
 mod robustness;
 mod visualisation;

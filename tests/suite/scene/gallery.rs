@@ -24,10 +24,12 @@ fn root() -> &'static Path {
 }
 
 /// Study scenes that the generator does not make.
-const BY_HAND: [&str; 3] = [
+const BY_HAND: [&str; 5] = [
     "study/18_text_at_8_px.svg",
     "study/19_banding.svg",
     "study/20_conflation.svg",
+    "study/21_fine_spokes.svg",
+    "study/22_what_filters_cost.svg",
 ];
 
 /// The files below a folder, relative to it, with `/`.

@@ -19,6 +19,8 @@ use rasterscope::rules::Rules;
 use rasterscope::scene::{Composite, Dialect, Fill, MaskKind, Paint, PrimitiveKind, Scene};
 use rasterscope::texture::{Derivatives, FixedLevel, LevelSampling, MipLevel, PixelSampling, Texture};
 
+use crate::support::resolve_filters;
+
 /// Premultiplied, `0.0..=1.0`.
 pub(crate) type Color = [f64; 4];
 
@@ -58,26 +60,47 @@ pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSetting
         .iter()
         .flat_map(|primitive| steps_of(&primitive.kind, view, units, settings.rules))
         .collect();
-    let mut frame = Framebuffer::new(size[0], size[1]);
-    for y in 0..size[1] {
-        for x in 0..size[0] {
-            let mut sum = [0.0; 4];
-            let places = places(settings, [x, y]);
-            for [right, down] in &places {
-                let (i, j) = (x * side + right, y * side + down);
-                let color = sample_color(&steps, (scene, view), settings, [i, j], (side, bits));
+    let margin = resolve_filters::margin(settings);
+    let [width, height] = size.map(i64::from);
+    let mut samples = Vec::new();
+    for y in -margin..height + margin {
+        for x in -margin..width + margin {
+            let of_pixel = |[right, down]: [u32; 2]| {
+                let at = [x * i64::from(side) + i64::from(right), y * i64::from(side) + i64::from(down)];
+                let color = sample_color(&steps, (scene, view), settings, at, (side, bits));
                 let averaged = match settings.resolve {
                     ResolveSpace::Stored => color,
                     ResolveSpace::Linear => each_straight(color, to_light),
                 };
-                for (sum, channel) in sum.iter_mut().zip(averaged) {
-                    *sum += channel / places.len() as f64;
+                ([right, down].map(|at| (f64::from(at) + 0.5) / f64::from(side)), averaged)
+            };
+            samples.push(places(settings, [x, y]).into_iter().map(of_pixel).collect::<Vec<_>>());
+        }
+    }
+    let mut frame = Framebuffer::new(size[0], size[1]);
+    for y in 0..height {
+        for x in 0..width {
+            let (mut sum, mut total) = ([0.0; 4], 0.0);
+            for below in -margin..=margin {
+                for right in -margin..=margin {
+                    let index = (y + below + margin) * (width + 2 * margin) + x + right + margin;
+                    for (place, color) in &samples[index as usize] {
+                        let offset = [place[0] + right as f64 - 0.5, place[1] + below as f64 - 0.5];
+                        let weight = resolve_filters::weight(settings, offset);
+                        total += weight;
+                        for (sum, channel) in sum.iter_mut().zip(color) {
+                            *sum += channel * weight;
+                        }
+                    }
                 }
             }
+            let alpha = (sum[3] / total).clamp(0.0, 1.0);
+            let [r, g, b, _] = sum.map(|sum| (sum / total).clamp(0.0, alpha));
+            let mut mean = [r, g, b, alpha];
             if settings.resolve == ResolveSpace::Linear {
-                sum = each_straight(sum, to_stored);
+                mean = each_straight(mean, to_stored);
             }
-            frame.pixels_mut()[(y * size[0] + x) as usize] = to_pixel(sum);
+            frame.pixels_mut()[(y * width + x) as usize] = to_pixel(mean);
         }
     }
     frame
@@ -124,7 +147,7 @@ fn lattice(settings: &RenderSettings) -> (u32, u32) {
 }
 
 /// The samples of a pixel as points of the lattice, counted from the pixel's first.
-fn places(settings: &RenderSettings, pixel: [u32; 2]) -> Vec<[u32; 2]> {
+fn places(settings: &RenderSettings, pixel: [i64; 2]) -> Vec<[u32; 2]> {
     let (count, n) = (settings.sample_rate.samples(), settings.sample_rate.side());
     let side = f64::from(lattice(settings).0);
     let on_lattice = |place: [f64; 2]| place.map(|at| (at * side + 1e-9).floor() as u32);
@@ -142,7 +165,7 @@ fn places(settings: &RenderSettings, pixel: [u32; 2]) -> Vec<[u32; 2]> {
             let g = 1.324_717_957_244_746_f64;
             [g, g * g].map(|step| (0.5 + f64::from(i) / step).fract())
         }),
-        // Where they lie is nobody else's business: tests about cells look at them.
+        // Where they lie is nobody else's business: tests about cells look at them. Of pixels beyond the frame nobody asks.
         SamplePattern::Jittered | SamplePattern::JitteredSame => {
             let empty = Scene::empty(DVec2::ONE, Dialect::Svg);
             let view = View::Default.transform(DVec2::ONE, [64, 64]);
@@ -151,6 +174,7 @@ fn places(settings: &RenderSettings, pixel: [u32; 2]) -> Vec<[u32; 2]> {
                 view: &view,
                 settings,
             };
+            let pixel = pixel.map(|at| u32::try_from(at).expect("in the frame"));
             let found = replay(&subject, [64, 64], pixel).expect("a small frame");
             found.samples.iter().map(|sample| on_lattice(sample.position)).collect()
         }
@@ -269,7 +293,7 @@ fn sample_color(
     steps: &[Step<'_>],
     (scene, view): (&Scene, &ViewTransform),
     settings: &RenderSettings,
-    [i, j]: [u32; 2],
+    [i, j]: [i64; 2],
     (side, bits): (u32, u32),
 ) -> Color {
     let mut layers = vec![premultiply(settings.background)];
@@ -286,12 +310,13 @@ fn sample_color(
                 continue;
             }
             Step::Pixels(pixels, color) => {
-                let here = (i64::from(i / side), i64::from(j / side));
+                let here = [i, j].map(|at| at.div_euclid(side.into()));
+                let here = (here[0], here[1]);
                 pixels.contains(&here).then(|| premultiply(*color))
             }
             Step::Outline(outline) if !outline.encloses([i, j], bits) => None,
             Step::Outline(outline) => {
-                let pixel = DVec2::new(f64::from(i) + 0.5, f64::from(j) + 0.5) / f64::from(side);
+                let pixel = DVec2::new(i as f64 + 0.5, j as f64 + 0.5) / f64::from(side);
                 Some(filled(outline.fill, scene, view.to_scene(pixel)))
             }
             Step::Triangle(triangle) => triangle.color(scene, settings, [i, j], (side, bits)),
@@ -374,8 +399,8 @@ fn filled(fill: Fill, scene: &Scene, at: DVec2) -> Color {
 impl Outline {
     /// Whether a sample lies inside: how often the edges left of it wind around it. An edge counts in the rows from its
     /// top up to its bottom, and to the right of itself.
-    fn encloses(&self, [i, j]: [u32; 2], bits: u32) -> bool {
-        let at = |index: u32| (i128::from(index) << bits) + (1 << (bits - 1));
+    fn encloses(&self, [i, j]: [i64; 2], bits: u32) -> bool {
+        let at = |index: i64| (i128::from(index) << bits) + (1 << (bits - 1));
         let (x, y) = (at(i), at(j));
         let mut winding = 0;
         for [from, to] in &self.edges {
@@ -397,17 +422,17 @@ impl Triangle<'_> {
         &self,
         scene: &Scene,
         settings: &RenderSettings,
-        [i, j]: [u32; 2],
+        [i, j]: [i64; 2],
         (side, bits): (u32, u32),
     ) -> Option<Color> {
-        let at = |index: u32| (i128::from(index) << bits) + (1 << (bits - 1));
+        let at = |index: i64| (i128::from(index) << bits) + (1 << (bits - 1));
         let sample = (at(i), at(j));
         let cross =
             |a: (i128, i128), b: (i128, i128), p: (i128, i128)| (b.0 - a.0) * (p.1 - a.1) - (b.1 - a.1) * (p.0 - a.0);
         let [a, b, c] = self.corners;
         let area = cross(a, b, c);
         if let Some(corners) = self.float {
-            let place = |index: u32| ((f64::from(index) + 0.5) / f64::from(side)) as f32;
+            let place = |index: i64| ((index as f64 + 0.5) / f64::from(side)) as f32;
             if area == 0 || !is_inside_in_floats(corners, (place(i), place(j))) {
                 return None;
             }

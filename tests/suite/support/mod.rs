@@ -10,5 +10,6 @@ pub(crate) mod golden;
 pub(crate) mod mutation;
 pub(crate) mod program;
 pub(crate) mod refusal;
+pub(crate) mod resolve_filters;
 pub(crate) mod scenes;
 pub(crate) mod session;

@@ -23,7 +23,8 @@ impl ChunkBuilder<'_> {
     /// As [`ChunkBuilder::polygon`], but each pixel is covered with all its samples if its middle is inside, and not at all
     /// otherwise.
     pub fn crisp_polygon(&mut self, polygon: &Polygon, place: impl Fn(DVec2) -> DVec2, paint: &Paint) {
-        let runs = self.runs_of_pixels(polygon, place);
+        let shift = self.shift;
+        let runs = self.runs_of_pixels(polygon, |point| place(point) + shift);
         let corner = |x: i32, y: i32| DVec2::new(x.into(), y.into());
         let contours = runs.iter().map(|PixelRect { x, y }| {
             [
@@ -37,7 +38,8 @@ impl ChunkBuilder<'_> {
         self.outline(contours, FillRule::NonZero, paint);
     }
 
-    /// The pixels of the frame whose middles a polygon holds, as rectangles that do not overlap.
+    /// The pixels whose middles a polygon holds, as rectangles that do not overlap; `place` brings points to where they are
+    /// painted.
     fn runs_of_pixels(&mut self, polygon: &Polygon, place: impl Fn(DVec2) -> DVec2) -> Vec<PixelRect> {
         let grid = SubpixelGrid::new(1);
         let [columns, rows] = self.context.size.map(|pixels| Span {
@@ -87,7 +89,7 @@ mod tests {
     use crate::color::{ResolveSpace, Rgba};
     use crate::raster::list::context::ListContext;
     use crate::raster::span::to_index;
-    use crate::raster::{RasterSettings, SamplePattern, SampleRate};
+    use crate::raster::{RasterSettings, SamplePattern, SampleRate, SizedFilter};
     use crate::texture::SamplingSettings;
 
     #[test]
@@ -96,6 +98,7 @@ mod tests {
             rate: SampleRate::new(16).expect("a square number"),
             pattern: SamplePattern::Grid,
             sampling: SamplingSettings::default(),
+            filter: SizedFilter::default(),
             space: ResolveSpace::Stored,
             background: Rgba::WHITE,
             palette: None,

@@ -26,7 +26,9 @@ use crate::rules::Rules;
 #[derive(Debug)]
 pub struct ChunkBuilder<'a> {
     context: &'a ListContext,
-    /// The samples of the frame.
+    /// From places in the frame to where they are painted.
+    shift: DVec2,
+    /// The samples that are painted.
     frame: SampleBox,
     chunk: Chunk,
     source: u32,
@@ -60,6 +62,7 @@ impl<'a> ChunkBuilder<'a> {
         let stored = Premultiplied16::from_straight(Rgba::BLACK, context.rules);
         Self {
             context,
+            shift: context.shift(),
             frame: context.samples(),
             chunk: Chunk {
                 commands: Vec::with_capacity(primitives),
@@ -133,7 +136,8 @@ impl<'a> ChunkBuilder<'a> {
     /// Adds a polygon, its points brought to screen space by `place`; nothing where any of them is not finite there. Its
     /// paint must be one that needs no corners to interpolate between.
     pub fn polygon(&mut self, polygon: &Polygon, place: impl Fn(DVec2) -> DVec2, paint: &Paint) {
-        let place = &place;
+        let shift = self.shift;
+        let place = &|point| place(point) + shift;
         let contours = polygon.contours();
         let contours = contours.map(|contour| contour.iter().map(|point| place(*point)));
         let hidden = self.outline(contours, polygon.rule(), paint);
@@ -199,7 +203,7 @@ impl<'a> ChunkBuilder<'a> {
     pub fn hairline(&mut self, ends: [DVec2; 2], color: Rgba) {
         self.add_waiting();
         let color = self.color(color);
-        if let Some(line) = Hairline::new(ends, self.context.size, color) {
+        if let Some(line) = Hairline::new(ends, (self.context.size, self.context.margin), color) {
             let index = index(self.chunk.hairlines.len());
             self.chunk.hairlines.push(line);
             self.push(DrawCommand::Hairline(index));
@@ -209,7 +213,7 @@ impl<'a> ChunkBuilder<'a> {
     /// Adds a single pixel.
     pub fn point(&mut self, at: DVec2, color: Rgba) {
         self.add_waiting();
-        let (x, y) = (at.x.floor(), at.y.floor());
+        let (x, y) = (at.x.floor() + self.shift.x, at.y.floor() + self.shift.y);
         let [width, height] = self.context.size.map(f64::from);
         if x >= 0.0 && x < width && y >= 0.0 && y < height {
             let coverage = CoverageMask {
@@ -301,7 +305,7 @@ mod tests {
 
     use super::*;
     use crate::color::ResolveSpace;
-    use crate::raster::{RasterSettings, SamplePattern, SampleRate};
+    use crate::raster::{RasterSettings, SamplePattern, SampleRate, SizedFilter};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
 
@@ -316,6 +320,7 @@ mod tests {
                 rules: *u.choose(&Rules::ALL)?,
                 ..SamplingSettings::default()
             },
+            filter: SizedFilter::default(),
             space: ResolveSpace::Stored,
             background: Rgba::WHITE,
             palette: None,

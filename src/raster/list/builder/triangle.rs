@@ -24,6 +24,7 @@ impl ChunkBuilder<'_> {
     /// Adds a triangle in screen space; any finite coordinates.
     #[inline]
     pub fn triangle(&mut self, points: [DVec2; 3], paint: &Paint) {
+        let points = points.map(|point| point + self.shift);
         if self.stamps
             && self.waiting.hopeless == 0
             && let Some(color) = paint.constant()
@@ -92,6 +93,7 @@ impl ChunkBuilder<'_> {
     /// would be read there.
     pub fn measured_triangle(&mut self, points: [DVec2; 3], uv: [[f32; 2]; 3], color: &dyn Fn(&Footprint) -> Rgba) {
         self.add_waiting();
+        let points = points.map(|point| point + self.shift);
         let texture = TexturePaint::new(0, uv, 1.0);
         if points.iter().all(|point| in_guard(*point)) {
             self.measured(points, &texture, color);
@@ -171,7 +173,10 @@ impl ChunkBuilder<'_> {
     fn float(&mut self, points: [DVec2; 3], paint: &Paint) {
         let grid = self.context.grid;
         let corners = points.map(|point| grid.snap(point));
-        let Some(float) = FloatShape::new(points, grid, self.frame).filter(|_| doubled_area(corners) != 0) else {
+        // Exact: they have 32 bits.
+        let in_frame = points.map(|point| point - self.shift);
+        let painted = (self.frame, self.context.margin);
+        let Some(float) = FloatShape::new(in_frame, grid, painted).filter(|_| doubled_area(corners) != 0) else {
             return;
         };
         let paint = self.paint(paint);

@@ -93,9 +93,9 @@ impl BySamples {
             mean: match context.space {
                 // The mean of one sample is that sample in either.
                 ResolveSpace::Linear if side > 1 => {
-                    Mean::Linear(context.filter.light_resolver((side * side) as usize, rules))
+                    Mean::Linear(LightResolver::new(side * side, rules))
                 }
-                _ => Mean::Stored(context.filter.resolver(side * side, rules)),
+                _ => Mean::Stored(Resolver::new(side * side, rules)),
             },
             lights: Vec::new(),
             shared: Vec::new(),

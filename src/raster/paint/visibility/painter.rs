@@ -45,7 +45,7 @@ impl<'a> VisibilityPainter<'a> {
     /// A painter for one drawing.
     pub(crate) fn new(context: ShadeContext<'a>, positions: SamplePositions) -> Self {
         let side = context.rate.side();
-        let resolver = context.filter.resolver(side * side, context.sampling.rules);
+        let resolver = Resolver::new(side * side, context.sampling.rules);
         Self {
             context,
             resolver,
@@ -220,7 +220,7 @@ mod tests {
     use crate::raster::list::context::ListContext;
     use crate::raster::random::{fill, noise};
     use crate::raster::span::Span;
-    use crate::raster::{DisplayList, RasterSettings, SamplePattern, SampleRate};
+    use crate::raster::{DisplayList, RasterSettings, SamplePattern, SampleRate, SizedFilter};
     use crate::rules::Rules;
     use crate::texture::SamplingSettings;
 
@@ -238,6 +238,7 @@ mod tests {
                     rules: *u.choose(&Rules::ALL)?,
                     ..SamplingSettings::default()
                 },
+                filter: SizedFilter::default(),
                 space: ResolveSpace::Stored,
                 background: *u.choose(&[Rgba::WHITE, Rgba::TRANSPARENT])?,
                 palette: None,

@@ -1,0 +1,219 @@
+//! The resolve of tiles whose pixels take samples of their neighbours too.
+//!
+//! A tile is painted with a margin, sample by sample, and each of its own pixels is the weighted sum of all samples around it.
+//! All sums are whole numbers: they do not depend on the order of their terms, and so neither on tiles and threads nor on the
+//! way that a pixel goes:
+//!
+//! | pixels | by |
+//! |---|---|
+//! | in the middle of pixels that show one colour | nothing but that colour ([`flat`]) |
+//! | with samples on a grid | rows, then columns ([`separable`]) |
+//! | with samples anywhere | each sample's own weight ([`free`]) |
+//!
+//! Where samples lie anywhere, weights below zero may happen to outweigh the others. A pixel whose weights add up to less than
+//! an eighth of what evenly spread samples would weigh is the mean of its own samples.
+
+mod flat;
+mod free;
+mod separable;
+
+use crate::color::{Premultiplied16, ResolveSpace, WeightedSum};
+use crate::raster::frame::block::PixelBlock;
+use crate::raster::paint::sample_colors::{PixelColors, SampleColors};
+use crate::raster::paint::wide::flat::FlatPixels;
+use crate::raster::paint::wide::free::FreeSums;
+use crate::raster::paint::wide::separable::SeparableSums;
+use crate::raster::resolve::axis_weights::AxisWeights;
+use crate::raster::sampling::positions::{Position, SamplePositions};
+use crate::raster::shading::context::ShadeContext;
+use crate::rules::Rules;
+
+/// Resolves tiles, one after the other, reusing its memory.
+#[derive(Debug)]
+pub(in crate::raster) struct WideResolve {
+    weights: AxisWeights,
+    positions: SamplePositions,
+    space: ResolveSpace,
+    rules: Rules,
+    flat: FlatPixels,
+    sums: Sums,
+}
+
+/// What sums up weighted samples.
+#[derive(Debug)]
+enum Sums {
+    /// Stored values on a grid: the sums fit the whole numbers of floats.
+    Stored(SeparableSums<f64>),
+    /// Light on a grid.
+    Light(SeparableSums<i64>),
+    /// Samples anywhere.
+    Free(FreeSums),
+}
+
+/// The samples that a pixel is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::raster) struct WeighedPixels {
+    /// Of each pixel that has any: how many columns and rows beside the pixel it lies, and what its samples weigh, in the order
+    /// of the pattern, and show.
+    pub(in crate::raster) pixels: Vec<([i32; 2], Vec<(i64, Premultiplied16)>)>,
+    /// Of all of them.
+    pub(in crate::raster) sum: WeightedSum,
+}
+
+impl WideResolve {
+    /// For one drawing.
+    pub(in crate::raster) fn new(context: &ShadeContext<'_>, positions: &SamplePositions) -> Self {
+        let side = context.grid.side();
+        let weights = AxisWeights::new(context.filter, side);
+        let is_grid = (side * side).cast_unsigned() == context.rate.samples();
+        let sums = match context.space {
+            _ if !is_grid => Sums::Free(FreeSums::new(context.space, &weights, positions)),
+            ResolveSpace::Stored => Sums::Stored(SeparableSums::new(context.space, &weights, side)),
+            ResolveSpace::Linear => Sums::Light(SeparableSums::new(context.space, &weights, side)),
+        };
+        Self {
+            weights,
+            positions: positions.clone(),
+            space: context.space,
+            rules: context.sampling.rules,
+            flat: FlatPixels::default(),
+            sums,
+        }
+    }
+
+    /// Resolves the pixels of `block` from the samples around them.
+    pub(in crate::raster) fn resolve(&mut self, colors: &SampleColors, block: &mut PixelBlock<'_>) {
+        let margin = self.weights.margin().cast_unsigned() as usize;
+        self.flat.find(colors, margin);
+        self.put_flat(colors, block);
+        if self.flat.are_all() {
+            return;
+        }
+        let finish = Finish {
+            colors,
+            margin,
+            space: self.space,
+            rules: self.rules,
+        };
+        let mut put = |[x, y]: [usize; 2], sum: WeightedSum| {
+            let line = block.line(block.rect.y.start + i32::try_from(y).unwrap_or(0));
+            line[x] = finish.pixel([x, y], sum);
+        };
+        match &mut self.sums {
+            Sums::Stored(sums) => sums.each(colors, &self.flat, &mut put),
+            Sums::Light(sums) => sums.each(colors, &self.flat, &mut put),
+            Sums::Free(sums) => sums.each(colors, (&self.positions, &self.weights), &self.flat, &mut put),
+        }
+    }
+
+    /// Resolves what needs no sum.
+    fn put_flat(&self, colors: &SampleColors, block: &mut PixelBlock<'_>) {
+        let margin = self.weights.margin().cast_unsigned() as usize;
+        for (y, row) in (0..).zip(block.rect.y.start..block.rect.y.end) {
+            let first = (y + margin) * colors.width() + margin;
+            for ((x, is_flat), pixel) in self.flat.row(y).iter().enumerate().zip(block.line(row)) {
+                if *is_flat && let PixelColors::Whole(color) = colors.pixel(first + x) {
+                    *pixel = color.to_pixel(self.rules);
+                }
+            }
+        }
+    }
+
+    /// The samples of a tile of one pixel and its margin, with what each weighs.
+    pub(in crate::raster) fn neighbourhood(&self, colors: &SampleColors) -> WeighedPixels {
+        let margin = self.weights.margin();
+        let count = self.positions.count();
+        let corner = [colors.rect.x.start, colors.rect.y.start];
+        let mut memory = Vec::new();
+        let mut of_pixel = |[right, below]: [i32; 2]| {
+            let pixel = [corner[0] + margin + right, corner[1] + margin + below];
+            let places: &[Position] = self.positions.of_pixel(pixel, &mut memory);
+            let weights = self.weights.of_samples([right, below], places);
+            let colors = (0..count).map(|sample| colors.sample(pixel[0], pixel[1], sample));
+            weights.zip(colors).collect::<Vec<_>>()
+        };
+        let around = (-margin..=margin).flat_map(|below| (-margin..=margin).map(move |right| [right, below]));
+        let mut pixels: Vec<_> = around.map(|beside| (beside, of_pixel(beside))).collect();
+        let samples = pixels.iter().flat_map(|(_, samples)| samples);
+        if is_too_little(samples.map(|(weight, _)| weight).sum(), count) {
+            pixels.retain(|(beside, _)| *beside == [0, 0]);
+            for (weight, _) in pixels.iter_mut().flat_map(|(_, samples)| samples) {
+                *weight = 1;
+            }
+        }
+        pixels.retain(|(_, samples)| samples.iter().any(|(weight, _)| *weight != 0));
+        let mut sum = WeightedSum::default();
+        for (weight, color) in pixels.iter().flat_map(|(_, samples)| samples) {
+            sum.add(*weight, self.space.parts(*color));
+        }
+        WeighedPixels { pixels, sum }
+    }
+}
+
+/// Whether the weights of all samples, of which a pixel has `count`, add up to so little that they mean nothing.
+fn is_too_little(weight: i64, count: usize) -> bool {
+    let even = AxisWeights::ONE * AxisWeights::ONE * count as f64;
+    (weight as f64) < even / 8.0
+}
+
+/// Makes pixels of sums.
+struct Finish<'s> {
+    colors: &'s SampleColors,
+    margin: usize,
+    space: ResolveSpace,
+    rules: Rules,
+}
+
+impl Finish<'_> {
+    /// The pixel of the tile in column `x` and row `y`.
+    fn pixel(&self, [x, y]: [usize; 2], sum: WeightedSum) -> u32 {
+        if is_too_little(sum.weight, self.colors.per_pixel()) {
+            return self.own([x, y]);
+        }
+        // The light of what shines through is rounded once for each sample: alike ones are not to suffer from that.
+        let shines_through = sum.channels[3] != i64::from(Premultiplied16::ONE) * sum.weight;
+        if self.space == ResolveSpace::Linear
+            && shines_through
+            && let Some(color) = self.only_color([x, y])
+        {
+            return color.to_pixel(self.rules);
+        }
+        self.space.weighted_pixel(sum, self.rules)
+    }
+
+    /// The mean of its own samples.
+    fn own(&self, [x, y]: [usize; 2]) -> u32 {
+        match self
+            .colors
+            .pixel((y + self.margin) * self.colors.width() + x + self.margin)
+        {
+            PixelColors::Whole(color) => color.to_pixel(self.rules),
+            PixelColors::Split(samples) => self.space.resolve(samples, self.rules),
+        }
+    }
+
+    /// What all samples around it show, if that is one colour.
+    fn only_color(&self, [x, y]: [usize; 2]) -> Option<Premultiplied16> {
+        let side = 2 * self.margin + 1;
+        let first = y * self.colors.width() + x;
+        let indices = (0..side).flat_map(|row| (0..side).map(move |column| (row, column)));
+        let mut only = None;
+        for (row, column) in indices {
+            let index = first + row * self.colors.width() + column;
+            let whole;
+            let samples = match self.colors.pixel(index) {
+                PixelColors::Whole(color) => {
+                    whole = [color];
+                    &whole[..]
+                }
+                PixelColors::Split(samples) => samples,
+            };
+            for sample in samples {
+                if *only.get_or_insert(*sample) != *sample {
+                    return None;
+                }
+            }
+        }
+        only
+    }
+}

@@ -18,8 +18,7 @@ use crate::color::{BlendMode, ResolveSpace, Rgba};
 use crate::geometry::{Polygon, ViewTransform};
 use crate::raster::{
     self, Chunk, ChunkBuilder, Compositing, Counters, DisplayList, FilterRadius, Framebuffer, Hidden, ListContext,
-    PaintSources, PlacedGradient, RasterSettings, RasterTimes, ResolveFilter, SamplePattern, SampleRate,
-    SizedFilter,
+    PaintSources, PlacedGradient, RasterSettings, RasterTimes, ResolveFilter, SamplePattern, SampleRate, SizedFilter,
 };
 use crate::rules::Rules;
 use crate::scene::{Composite, Fill, Gradient, MaskKind, Paint, Primitive, PrimitiveKind, Scene};

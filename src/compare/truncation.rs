@@ -86,12 +86,12 @@ fn truncations(pixel: &PixelReplay, space: ResolveSpace) -> [u32; 2] {
     if let Some(around) = &pixel.around {
         let mut whole = WeightedSum::default();
         for (weight, color) in around.pixels.iter().flat_map(|pixel| &pixel.samples) {
-            whole.add(*weight, space.parts(truncated(color)));
+            whole.add(*weight, space.parts(truncated(*color)));
         }
         return [around.sum, whole].map(|sum| space.weighted_pixel(sum, Rules::Course));
     }
     let exact: Vec<Premultiplied16> = pixel.samples.iter().map(|sample| sample.color).collect();
-    let whole: Vec<Premultiplied16> = exact.iter().map(truncated).collect();
+    let whole: Vec<Premultiplied16> = exact.iter().copied().map(truncated).collect();
     let mean = match space {
         ResolveSpace::Stored => Premultiplied16::resolve(
             pixel.sums,
@@ -104,7 +104,7 @@ fn truncations(pixel: &PixelReplay, space: ResolveSpace) -> [u32; 2] {
 }
 
 /// A sample whose channels are cut to bytes.
-fn truncated(color: &Premultiplied16) -> Premultiplied16 {
+fn truncated(color: Premultiplied16) -> Premultiplied16 {
     let whole = |channel| channel / Premultiplied16::PER_BYTE * Premultiplied16::PER_BYTE;
     Premultiplied16(color.0.map(whole))
 }

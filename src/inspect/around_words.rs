@@ -1,5 +1,7 @@
 //! In words, what a pixel takes of its neighbours where a filter is wider than a pixel.
 
+use std::fmt::Write as _;
+
 use super::model::{Around, Explanation, Resolve, Rounding, Taken};
 use super::numbers::number;
 use crate::color::{ResolveSpace, encoded};
@@ -54,18 +56,18 @@ impl Explanation {
         let opacity = mean[3].clamp(0.0, 255.0);
         let most = if channel < 3 { opacity } else { 255.0 };
         let clamped = sum.clamp(0.0, most);
-        // Less is the rounding of these numbers.
+        // Less is the rounding of these numbers; and writing to a `String` cannot fail.
         if (clamped - sum).abs() > 1e-6 {
-            words += &format!(", clamped to {}", number(clamped));
+            let _ = write!(words, ", clamped to {}", number(clamped));
         }
         let mut last = clamped;
         if channel < 3 && self.color[3] < 255 && opacity > 0.0 {
             last = clamped * 255.0 / opacity;
-            words += &format!(", / alpha = {}", number(last));
+            let _ = write!(words, ", / alpha = {}", number(last));
         }
         if is_light {
             last = encoded(last);
-            words += &format!(", encoded {}", number(last));
+            let _ = write!(words, ", encoded {}", number(last));
         }
         let byte = self.color[channel];
         if (last - f64::from(byte)).abs() > 1e-9 {
@@ -73,7 +75,7 @@ impl Explanation {
                 Rounding::Nearest => "rounded",
                 Rounding::Truncated => "truncated",
             };
-            words += &format!(", {how} to {byte}");
+            let _ = write!(words, ", {how} to {byte}");
         }
         words
     }

@@ -8,9 +8,9 @@ use super::model::{
     Texture, TileTexel, VERSION, Verdict, View,
 };
 use super::numbers::one_line;
-use super::resolve::resolve;
+use super::resolve::{levels, resolve};
 use super::samples::{SampleHit, shape_of, straight};
-use crate::color::{BlendMode, Premultiplied16, Rgba};
+use crate::color::{BlendMode, Rgba};
 use crate::geometry::FillRule;
 use crate::geometry::edge::{EdgeKind, EdgeTest};
 use crate::raster::{Attributes, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay, SampleOfTriangle};
@@ -444,13 +444,6 @@ fn interpolated(attributes: &Attributes) -> Interpolated {
                 .collect(),
         },
     }
-}
-
-/// A stored colour in levels of a byte.
-pub(super) fn levels(color: Premultiplied16) -> [f64; 4] {
-    color
-        .0
-        .map(|channel| f64::from(channel) / f64::from(Premultiplied16::PER_BYTE))
 }
 
 /// As style sheets write it.

@@ -1,6 +1,5 @@
 //! How samples became a pixel, in numbers: the mean of its own, or weighted ones of its neighbours too.
 
-use super::explanation::levels;
 use super::model::{Around, Resolve, Rounding, Taken};
 use crate::color::{Premultiplied16, ResolveSpace, WeightedSum};
 use crate::raster::{self, PixelReplay, WeighedPixel};
@@ -75,4 +74,11 @@ fn taken(around: &raster::Around, settings: &RenderSettings) -> Around {
         radius: filter.radius(),
         pixels: around.pixels.iter().map(of_pixel).collect(),
     }
+}
+
+/// A stored colour in levels of a byte.
+pub(super) fn levels(color: Premultiplied16) -> [f64; 4] {
+    color
+        .0
+        .map(|channel| f64::from(channel) / f64::from(Premultiplied16::PER_BYTE))
 }

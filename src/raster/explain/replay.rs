@@ -250,7 +250,7 @@ impl DisplayList<'_> {
         }
         let mut pixel = None;
         self.paint_alone([x, y], |painters, pass, rect| {
-            pixel = Some(self.alone(pass, painters, rect))
+            pixel = Some(self.alone(pass, painters, rect));
         });
         pixel
     }

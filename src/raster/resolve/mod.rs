@@ -18,6 +18,8 @@ mod lanczos;
 mod tent;
 mod weigh;
 
+use std::num::NonZeroU16;
+
 use crate::raster::resolve::cubic::Cubic;
 use crate::raster::resolve::lanczos::Lanczos;
 use crate::raster::resolve::weigh::Weigh;
@@ -74,9 +76,9 @@ filters! {
     BlackmanHarris = "blackman-harris" => blackman_harris::BlackmanHarris,
 }
 
-/// How far a filter reaches where it is stretched, in pixels.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FilterRadius(f64);
+/// How far a filter reaches where it is stretched: hundredths of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct FilterRadius(NonZeroU16);
 
 /// A filter and its radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,14 +109,21 @@ impl FilterRadius {
     /// The greatest.
     pub const MAX: f64 = 4.0;
 
-    /// So many pixels, or `None` unless that is 0.5 to 4.
+    /// So many pixels, to the nearest hundredth; `None` unless that is 0.5 to 4.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at most some hundreds"
+    )]
     pub fn new(pixels: f64) -> Option<Self> {
-        (Self::MIN..=Self::MAX).contains(&pixels).then_some(Self(pixels))
+        let inside = (Self::MIN..=Self::MAX).contains(&pixels);
+        let hundredths = NonZeroU16::new((pixels * 100.0).round() as u16);
+        hundredths.filter(|_| inside).map(Self)
     }
 
     /// In pixels.
     pub fn pixels(self) -> f64 {
-        self.0
+        f64::from(self.0.get()) / 100.0
     }
 }
 

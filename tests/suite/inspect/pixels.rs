@@ -229,7 +229,10 @@ fn check_around(found: &Explanation, around: &Around, rules: Rules) {
             adds = std::array::from_fn(|i| adds[i] + averaged[i] * weight);
         }
         for (adds, told) in adds.iter().zip(pixel.adds) {
-            assert!((adds - told).abs() < if linear { 0.02 } else { 1e-9 }, "{adds} and not {told}: {pixel:?}");
+            assert!(
+                (adds - told).abs() < if linear { 0.02 } else { 1e-9 },
+                "{adds} and not {told}: {pixel:?}"
+            );
         }
         sums = std::array::from_fn(|i| sums[i] + pixel.adds[i]);
     }
@@ -238,7 +241,11 @@ fn check_around(found: &Explanation, around: &Around, rules: Rules) {
     }
     let own = around.pixels.iter().find(|pixel| pixel.beside == [0, 0]);
     assert!(
-        own.is_none_or(|own| own.colors.iter().zip(&found.samples).all(|(own, sample)| *own == sample.color)),
+        own.is_none_or(|own| own
+            .colors
+            .iter()
+            .zip(&found.samples)
+            .all(|(own, sample)| *own == sample.color)),
         "its own samples: {around:?}"
     );
     let alpha = sums[3].clamp(0.0, 255.0);
@@ -266,7 +273,10 @@ fn check_around(found: &Explanation, around: &Around, rules: Rules) {
     assert!(lines[0].contains(around.filter), "the filter is named: {lines:?}");
     let red = lines.iter().find(|line| line.starts_with("red")).expect("red is told");
     let byte = format!(" {}", found.color[0]);
-    assert!(red.contains(" neighbours ") && red.ends_with(&byte), "{red} and not {byte}");
+    assert!(
+        red.contains(" neighbours ") && red.ends_with(&byte),
+        "{red} and not {byte}"
+    );
 }
 
 /// The light of a premultiplied colour, weighted by its alpha, by IEC 61966-2-1.

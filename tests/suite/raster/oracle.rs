@@ -37,7 +37,11 @@ fn samples(u: &mut arbtest::arbitrary::Unstructured<'_>) -> arbtest::arbitrary::
     let rates = if pattern.needs_square() { &rates[..5] } else { &rates };
     // Where the samples of pixels beyond the frame lie is unknown where each pixel has its own.
     let is_wide = pattern != SamplePattern::Jittered && u.ratio(1, 3)?;
-    let filters = if is_wide { &ResolveFilter::ALL[..] } else { &ResolveFilter::ALL[..1] };
+    let filters = if is_wide {
+        &ResolveFilter::ALL[..]
+    } else {
+        &ResolveFilter::ALL[..1]
+    };
     let radius = f64::from(u.int_in_range(2..=12)?) / 4.0;
     Ok(RenderSettings {
         pattern,

@@ -6,7 +6,8 @@ use rasterscope::geometry::{View, ViewTransform};
 use rasterscope::raster::{FilterRadius, Framebuffer, Region, ResolveFilter, SamplePattern};
 use rasterscope::render::{CancelToken, Nearby, RenderSettings, Subject, draw_regions, replay};
 use rasterscope::rules::Rules;
-use rasterscope::scene::Scene;
+use rasterscope::scene::{DialectChoice, ReadOptions, Scene, read};
+use rasterscope::viewer::gallery::{SCENES, Textures};
 
 use crate::support::scenes::{Fills, at_rate, drawn, one_to_one, random, scene, triangle};
 
@@ -48,7 +49,10 @@ fn one_colour_stays_that_colour() {
     ];
     for shade in shades {
         let far = 900.0;
-        let scene = scene(40.0, vec![triangle([(-far, -far), (3.0 * far, -far), (-far, 3.0 * far)], shade)]);
+        let scene = scene(
+            40.0,
+            vec![triangle([(-far, -far), (3.0 * far, -far), (-far, 3.0 * far)], shade)],
+        );
         for filter in filters() {
             for (pattern, rate) in [
                 (SamplePattern::Grid, 1),
@@ -57,7 +61,9 @@ fn one_colour_stays_that_colour() {
                 (SamplePattern::Jittered, 4),
                 (SamplePattern::Halton, 5),
             ] {
-                for (resolve, rules) in ResolveSpace::ALL.into_iter().flat_map(|space| Rules::ALL.map(|rules| (space, rules)))
+                for (resolve, rules) in ResolveSpace::ALL
+                    .into_iter()
+                    .flat_map(|space| Rules::ALL.map(|rules| (space, rules)))
                 {
                     let settings = RenderSettings {
                         pattern,
@@ -90,7 +96,8 @@ fn a_box_by_its_own_radius_is_the_mean() {
             filter_radius,
             ..settings
         };
-        let [own, asked] = [None, FilterRadius::new(0.5)].map(|radius| drawn(&scene, &one_to_one(SIZE), &with(radius), SIZE));
+        let [own, asked] =
+            [None, FilterRadius::new(0.5)].map(|radius| drawn(&scene, &one_to_one(SIZE), &with(radius), SIZE));
         assert!(own == asked, "{settings:?}");
         Ok(())
     })
@@ -138,7 +145,12 @@ fn a_part_of_the_picture_is_the_picture_up_to_its_border() {
 /// The same pixels by regions, by themselves, and replayed; on one thread and on several.
 fn check_all_ways(scene: &Scene, settings: &RenderSettings, (pixel, region): ([u32; 2], Region)) {
     let view = one_to_one(SIZE);
-    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+    let pool = |threads| {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("a pool")
+    };
     let whole = pool(1).install(|| drawn(scene, &view, settings, SIZE));
     let by_three = pool(3).install(|| drawn(scene, &view, settings, SIZE));
     assert!(whole == by_three, "threads: {settings:?}");
@@ -163,13 +175,24 @@ fn check_all_ways(scene: &Scene, settings: &RenderSettings, (pixel, region): ([u
     let Some(around) = replayed.around else {
         return;
     };
-    let weights = around.pixels.iter().flat_map(|pixel| &pixel.samples).map(|(weight, _)| *weight);
-    assert_eq!(weights.sum::<i64>(), around.sum.weight, "all weigh one together: {settings:?}");
+    let weights = around
+        .pixels
+        .iter()
+        .flat_map(|pixel| &pixel.samples)
+        .map(|(weight, _)| *weight);
+    assert_eq!(
+        weights.sum::<i64>(),
+        around.sum.weight,
+        "all weigh one together: {settings:?}"
+    );
     let own = around.pixels.iter().find(|pixel| pixel.beside == [0, 0]);
     for (index, sample) in replayed.samples.iter().enumerate() {
         let weight = own.map_or(0, |own| own.samples[index].0) as f64 / around.sum.weight as f64;
         assert!((sample.weight - weight).abs() < 1e-12, "{pixel:?} {settings:?}");
-        assert!(own.is_none_or(|own| own.samples[index].1 == sample.color), "{pixel:?} {settings:?}");
+        assert!(
+            own.is_none_or(|own| own.samples[index].1 == sample.color),
+            "{pixel:?} {settings:?}"
+        );
     }
     let summed = settings.resolve.weighted_pixel(around.sum, settings.rules);
     let is_alike = around
@@ -177,7 +200,10 @@ fn check_all_ways(scene: &Scene, settings: &RenderSettings, (pixel, region): ([u
         .iter()
         .flat_map(|pixel| &pixel.samples)
         .all(|(_, color)| *color == around.pixels[0].samples[0].1);
-    assert!(is_alike || summed == expected, "the sum is the pixel: {pixel:?} {settings:?}");
+    assert!(
+        is_alike || summed == expected,
+        "the sum is the pixel: {pixel:?} {settings:?}"
+    );
 }
 
 #[test]
@@ -221,5 +247,69 @@ fn a_hard_edge_rings_where_weights_go_below_zero_and_nowhere_else() {
         let mirrored = row.iter().rev().map(|value| 256 - u16::from(*value));
         let alike = row.iter().zip(mirrored).all(|(a, b)| u16::from(*a).abs_diff(b) <= 1);
         assert!(alike, "{filter:?} is even: {row:?}");
+    }
+}
+
+/// How far the green of pixels is spread around its mean.
+fn spread(greens: &[f64]) -> f64 {
+    let count = greens.len() as f64;
+    let mean = greens.iter().sum::<f64>() / count;
+    (greens.iter().map(|green| (green - mean).powi(2)).sum::<f64>() / count).sqrt()
+}
+
+/// The greens of a study scene's pixels, one unit each, that lie where `wanted` says.
+fn greens(name: &str, filter: ResolveFilter, wanted: impl Fn(DVec2) -> bool) -> Vec<f64> {
+    let found = SCENES
+        .iter()
+        .find(|scene| scene.name == name)
+        .expect("a scene of the gallery");
+    let options = ReadOptions {
+        dialect: DialectChoice::Auto,
+    };
+    let scene = read(found.document.as_bytes(), name, options, &Textures).expect("a good document");
+    let settings = RenderSettings {
+        resolve_filter: filter,
+        ..at_rate(16)
+    };
+    let size = [512, 384];
+    let frame = drawn(
+        &scene,
+        &View::Canvas.transform(DVec2::from(size.map(f64::from)), size),
+        &settings,
+        size,
+    );
+    let places = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+    places
+        .filter(|at| wanted(DVec2::from(at.map(f64::from)) + 0.5))
+        .filter_map(|[x, y]| Some(f64::from(frame.rgba(x, y)?[1])))
+        .collect()
+}
+
+#[test]
+fn study_scenes_show_where_wide_filters_win_and_where_they_lose() {
+    let too_fine = |at: DVec2| (45.0..100.0).contains(&at.distance(DVec2::new(256.0, 206.0)));
+    let lines = |at: DVec2| (264.0..288.0).contains(&at.x) && (256.0..304.0).contains(&at.y);
+    let beside = |at: DVec2| (30.0..122.0).contains(&at.x) && (60.0..90.0).contains(&at.y);
+    let of = |filter| {
+        let aliases = spread(&greens("study/21_fine_spokes.svg", filter, too_fine));
+        let lines = spread(&greens("study/22_what_filters_cost.svg", filter, lines));
+        let mut edges = greens("study/22_what_filters_cost.svg", filter, beside);
+        edges.sort_by(f64::total_cmp);
+        (aliases, lines, edges[edges.len() - 1] - edges[0])
+    };
+    let (aliases, contrast, step) = of(ResolveFilter::Box);
+    for filter in ResolveFilter::ALL.into_iter().skip(1) {
+        let found = of(filter);
+        assert!(
+            found.0 < 0.6 * aliases,
+            "fewer aliases by {filter:?}: {found:?}, {aliases}"
+        );
+        match filter {
+            ResolveFilter::CatmullRom | ResolveFilter::Lanczos2 | ResolveFilter::Lanczos3 => {
+                assert!(found.2 > step + 10.0, "{filter:?} rings: {found:?}, {step}");
+            }
+            ResolveFilter::Mitchell => {}
+            _ => assert!(found.1 < 0.85 * contrast, "{filter:?} blurs: {found:?}, {contrast}"),
+        }
     }
 }

@@ -66,13 +66,19 @@ pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSetting
     for y in -margin..height + margin {
         for x in -margin..width + margin {
             let of_pixel = |[right, down]: [u32; 2]| {
-                let at = [x * i64::from(side) + i64::from(right), y * i64::from(side) + i64::from(down)];
+                let at = [
+                    x * i64::from(side) + i64::from(right),
+                    y * i64::from(side) + i64::from(down),
+                ];
                 let color = sample_color(&steps, (scene, view), settings, at, (side, bits));
                 let averaged = match settings.resolve {
                     ResolveSpace::Stored => color,
                     ResolveSpace::Linear => each_straight(color, to_light),
                 };
-                ([right, down].map(|at| (f64::from(at) + 0.5) / f64::from(side)), averaged)
+                (
+                    [right, down].map(|at| (f64::from(at) + 0.5) / f64::from(side)),
+                    averaged,
+                )
             };
             samples.push(places(settings, [x, y]).into_iter().map(of_pixel).collect::<Vec<_>>());
         }
@@ -174,7 +180,10 @@ fn places(settings: &RenderSettings, pixel: [i64; 2]) -> Vec<[u32; 2]> {
                 view: &view,
                 settings,
             };
-            let pixel = pixel.map(|at| u32::try_from(at).expect("in the frame"));
+            let pixel = match settings.pattern {
+                SamplePattern::JitteredSame => [0, 0],
+                _ => pixel.map(|at| u32::try_from(at).expect("in the frame")),
+            };
             let found = replay(&subject, [64, 64], pixel).expect("a small frame");
             found.samples.iter().map(|sample| on_lattice(sample.position)).collect()
         }

@@ -28,7 +28,9 @@ pub(crate) fn radius(settings: &RenderSettings) -> f64 {
 
 /// Pixels on each side of a pixel in which samples may weigh anything.
 pub(crate) fn margin(settings: &RenderSettings) -> i64 {
-    (0..).find(|pixels| *pixels as f64 >= radius(settings) - 0.5).expect("a small radius")
+    (0..)
+        .find(|pixels| *pixels as f64 >= radius(settings) - 0.5)
+        .expect("a small radius")
 }
 
 /// What a filter is at a distance from the middle, where it is as wide as by itself.

@@ -84,14 +84,13 @@ impl FreeSums {
         for (number, beside) in around.enumerate() {
             let [right, below] = beside.map(|at| (at + self.margin).cast_unsigned() as usize);
             let index = (y + below) * colors.width() + x + right;
-            let (all, each) = match self.same.get(number) {
-                Some((all, each)) => (*all, each),
-                None => {
-                    let places = &self.places[index * self.count..][..self.count];
-                    self.weights.clear();
-                    self.weights.extend(weights.of_samples(beside, places));
-                    (self.weights.iter().sum(), &self.weights)
-                }
+            let (all, each) = if let Some((all, each)) = self.same.get(number) {
+                (*all, each)
+            } else {
+                let places = &self.places[index * self.count..][..self.count];
+                self.weights.clear();
+                self.weights.extend(weights.of_samples(beside, places));
+                (self.weights.iter().sum(), &self.weights)
             };
             match colors.pixel(index) {
                 PixelColors::Whole(color) => sum.add(all, self.space.parts(color)),

@@ -50,12 +50,15 @@ enum Sums {
     Free(FreeSums),
 }
 
+/// What each sample of a pixel weighs, and shows.
+pub(in crate::raster) type WeighedSamples = Vec<(i64, Premultiplied16)>;
+
 /// The samples that a pixel is made of.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::raster) struct WeighedPixels {
     /// Of each pixel that has any: how many columns and rows beside the pixel it lies, and what its samples weigh, in the order
     /// of the pattern, and show.
-    pub(in crate::raster) pixels: Vec<([i32; 2], Vec<(i64, Premultiplied16)>)>,
+    pub(in crate::raster) pixels: Vec<([i32; 2], WeighedSamples)>,
     /// Of all of them.
     pub(in crate::raster) sum: WeightedSum,
 }

@@ -3,9 +3,15 @@
 //!
 //! A pixel that shows one colour has the same samples in each of its rows. Rows of such pixels have one sum.
 
+#![expect(
+    clippy::inline_always,
+    reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
+)]
+
 use std::fmt::Debug;
 
-use fearless_simd::{Simd, dispatch};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch, f64x4};
 
 use crate::color::{ResolveSpace, WeightedSum};
 use crate::raster::paint::sample_colors::{PixelColors, SampleColors};
@@ -23,6 +29,15 @@ pub(super) trait Whole: Copy + Debug + Default {
 
     /// The number.
     fn get(self) -> i64;
+
+    /// `sum`, and each of `parts` times its weight.
+    #[inline(always)]
+    fn plus_weighted<S: Simd>(_: S, sum: [Self; 4], weights: &[Self], parts: &[[Self; 4]]) -> [Self; 4] {
+        weights
+            .iter()
+            .zip(parts)
+            .fold(sum, |sum, (weight, parts)| plus_times(sum, *weight, *parts))
+    }
 }
 
 impl Whole for i64 {
@@ -62,6 +77,15 @@ impl Whole for f64 {
         debug_assert!(self.abs() < 9_007_199_254_740_992.0, "{self} is exact");
         self as i64
     }
+
+    #[inline(always)]
+    fn plus_weighted<S: Simd>(simd: S, sum: [Self; 4], weights: &[Self], parts: &[[Self; 4]]) -> [Self; 4] {
+        let mut sum = f64x4::simd_from(simd, sum);
+        for (weight, parts) in weights.iter().zip(parts) {
+            sum += f64x4::simd_from(simd, *parts) * *weight;
+        }
+        sum.into()
+    }
 }
 
 /// Sums up weighted samples on a grid, reusing its memory.
@@ -85,6 +109,8 @@ pub(super) struct SeparableSums<T> {
     /// its rows of samples, and whether all are as the first.
     rows: Vec<[T; 4]>,
     alike: Vec<bool>,
+    /// The sums of a row of pixels.
+    found: Vec<[i64; 4]>,
 }
 
 impl<T: Whole> SeparableSums<T> {
@@ -109,6 +135,7 @@ impl<T: Whole> SeparableSums<T> {
             split: Vec::new(),
             rows: Vec::new(),
             alike: Vec::new(),
+            found: Vec::new(),
         }
     }
 
@@ -132,28 +159,37 @@ impl<T: Whole> SeparableSums<T> {
                 }
             }
             if wanted.contains(&true) {
-                self.read(colors, y);
+                self.read(colors, y, &wanted);
                 dispatch!(simd::level(), simd => across(simd, self, (y % around) * width, &wanted));
             }
             if let Some(row) = y.checked_sub(2 * self.margin) {
-                for (x, is_flat) in flat.row(row).iter().enumerate() {
-                    if !is_flat {
-                        let channels = dispatch!(simd::level(), simd => down(simd, self, [x, row], width));
-                        let weight = self.total;
-                        put([x, row], WeightedSum { channels, weight });
-                    }
+                self.found.resize(width, [0; 4]);
+                dispatch!(simd::level(), simd => down(simd, self, row, flat.row(row)));
+                let found = self.found.iter().zip(flat.row(row)).enumerate();
+                for (x, (channels, _)) in found.filter(|(_, (_, is_flat))| !**is_flat) {
+                    let (channels, weight) = (*channels, self.total);
+                    put([x, row], WeightedSum { channels, weight });
                 }
             }
         }
     }
 
-    /// Reads a row of pixels.
-    fn read(&mut self, colors: &SampleColors, y: usize) {
+    /// Reads the pixels of a row that lie around those that are wanted.
+    fn read(&mut self, colors: &SampleColors, y: usize, wanted: &[bool]) {
         let (width, per_pixel) = (colors.width(), self.side * self.side);
+        let beside = 2 * self.margin;
         self.whole.resize(width, Default::default());
         self.split.resize(width, false);
         self.samples.resize(width * per_pixel, Default::default());
+        // The last pixel around those that are wanted so far.
+        let mut last = None;
         for x in 0..width {
+            if wanted.get(x) == Some(&true) {
+                last = Some(x + beside);
+            }
+            if last.is_none_or(|last| last < x) {
+                continue;
+            }
             match colors.pixel(y * width + x) {
                 PixelColors::Whole(color) => {
                     self.split[x] = false;
@@ -172,7 +208,6 @@ impl<T: Whole> SeparableSums<T> {
 
 /// Sums up the rows of samples around the pixels that are wanted; `place` is that of the first in the memory of rows.
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn across<S: Simd, T: Whole>(simd: S, sums: &mut SeparableSums<T>, place: usize, wanted: &[bool]) {
     simd.vectorize(
         #[inline(always)]
@@ -197,11 +232,7 @@ fn across<S: Simd, T: Whole>(simd: S, sums: &mut SeparableSums<T>, place: usize,
                     let weights = &sums.weights[beside * side..][..side];
                     let samples = &sums.samples[(x + beside) * side * side..][..side * side];
                     for (found, samples) in found.iter_mut().zip(samples.chunks_exact(side)) {
-                        let mut sum = *found;
-                        for (weight, parts) in weights.iter().zip(samples) {
-                            sum = plus_times(sum, *weight, *parts);
-                        }
-                        *found = sum;
+                        *found = T::plus_weighted(simd, *found, weights, samples);
                     }
                 }
             }
@@ -209,34 +240,32 @@ fn across<S: Simd, T: Whole>(simd: S, sums: &mut SeparableSums<T>, place: usize,
     );
 }
 
-/// The sum of all samples around a pixel: of the last rows.
+/// The sums of all samples around the pixels of a row that are not flat: of the last rows.
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
-fn down<S: Simd, T: Whole>(simd: S, sums: &SeparableSums<T>, [x, row]: [usize; 2], width: usize) -> [i64; 4] {
+fn down<S: Simd, T: Whole>(simd: S, sums: &mut SeparableSums<T>, row: usize, flat: &[bool]) {
     simd.vectorize(
         #[inline(always)]
         || {
-            let (side, around) = (sums.side, 2 * sums.margin + 1);
-            let mut all = [T::default(); 4];
-            for beside in 0..around {
-                let at = (row + beside) % around * width + x;
-                let rows = &sums.rows[at * side..][..side];
-                if sums.alike[at] {
-                    all = plus_times(all, sums.of_pixels[beside], rows[0]);
-                    continue;
+            let (side, around, width) = (sums.side, 2 * sums.margin + 1, flat.len());
+            for x in (0..width).filter(|x| !flat[*x]) {
+                let mut all = [T::default(); 4];
+                for beside in 0..around {
+                    let at = (row + beside) % around * width + x;
+                    let rows = &sums.rows[at * side..][..side];
+                    if sums.alike[at] {
+                        all = plus_times(all, sums.of_pixels[beside], rows[0]);
+                        continue;
+                    }
+                    all = T::plus_weighted(simd, all, &sums.weights[beside * side..][..side], rows);
                 }
-                for (weight, parts) in sums.weights[beside * side..][..side].iter().zip(rows) {
-                    all = plus_times(all, *weight, *parts);
-                }
+                sums.found[x] = all.map(T::get);
             }
-            all.map(T::get)
         },
-    )
+    );
 }
 
 /// `sum + weight * parts`.
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn plus_times<T: Whole>(sum: [T; 4], weight: T, parts: [T; 4]) -> [T; 4] {
     std::array::from_fn(|k| sum[k].plus_times(weight, parts[k]))
 }

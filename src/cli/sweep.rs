@@ -189,7 +189,7 @@ fn measure(
         let truth = truth(&mut truths, spec, &scene, stop);
         let row = times.zip(truth).and_then(|(times, truth)| {
             let peak = peak_of_drawing(spec, options.framing.threads);
-            row(times, peak, &Pair::new(picture.frame(), truth).ok()?, stop)
+            row(times, peak, Pair::new(picture.frame(), truth).ok()?, stop)
         });
         // Half a combination is none.
         let Some(row) = row else { break };
@@ -249,7 +249,7 @@ fn truth<'t>(
 }
 
 /// What the times and the comparison of a picture with the truth say; `None` when stopped.
-fn row(times: Vec<Duration>, peak_mb: Option<f64>, pair: &Pair<'_>, stop: &CancelToken) -> Option<Row> {
+fn row(times: Vec<Duration>, peak_mb: Option<f64>, pair: Pair<'_>, stop: &CancelToken) -> Option<Row> {
     let levels = pair.levels();
     Some(Row {
         min_ms: milliseconds(times.iter().copied().min().unwrap_or_default()),

@@ -57,6 +57,7 @@ pub fn refine(
 }
 
 /// Which regions are drawn, and the pixel that tiles are nearest to which come first.
+#[derive(Clone, Copy)]
 struct TileOrder<'a> {
     wanted: &'a [Region],
     from: [u32; 2],

@@ -211,7 +211,7 @@ impl Dialogs {
                 let enter = self.line(ui, "Command", hint, just_opened);
                 self.problem_line(ui);
                 let (argument, found) = palette::find(&self.text, viewer);
-                self.chosen = step(self.chosen, up, down, found.len());
+                self.chosen = step(self.chosen, [up, down], found.len());
                 let mut run = found.get(self.chosen).filter(|_| enter);
                 // It ends below a row, so that what is cut off is not taken for all.
                 let row = ENTRY + BETWEEN_ENTRIES;
@@ -250,7 +250,7 @@ pub(super) fn arrows(ctx: &Context) -> (bool, bool) {
 }
 
 /// The chosen line of `count` after these arrows.
-pub(super) fn step(chosen: usize, up: bool, down: bool, count: usize) -> usize {
+pub(super) fn step(chosen: usize, [up, down]: [bool; 2], count: usize) -> usize {
     let next = (chosen + usize::from(down)).saturating_sub(usize::from(up));
     next.min(count.saturating_sub(1))
 }

@@ -31,7 +31,7 @@ impl Dialogs {
             let enter = self.line(ui, "File", hint, just_opened);
             self.problem_line(ui);
             let found = self.chooser.shown(if is_path(&self.text) { "" } else { &self.text });
-            self.chosen = step(self.chosen, up, down, found.len());
+            self.chosen = step(self.chosen, [up, down], found.len());
             let mut taken = found
                 .get(self.chosen)
                 .filter(|_| enter && !is_path(&self.text))

@@ -57,7 +57,7 @@ struct Stages {
     present: Option<f64>,
 }
 
-/// For so long frames are drawn that do not count.
+/// How long frames are drawn that do not count yet.
 const WARM_UP: Duration = Duration::from_millis(100);
 
 /// Draws each scene as often as asked and prints what it took, when all are done.

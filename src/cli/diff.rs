@@ -13,7 +13,7 @@ use super::picture::{Picture, on_threads};
 use super::render::{name_for_png, unwritable};
 use super::size::FrameSize;
 use crate::compare::{self, DifferenceStyle, Gain, Guess, Levels, Pair, Place};
-use crate::figure::{Guard, Named, Record, save_picture};
+use crate::figure::{Destination, Guard, Named, Record, save_picture};
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::render::CancelToken;
@@ -268,7 +268,8 @@ fn save(
     let (frame, gain) = shown(pair, options);
     let record = record(pair.size(), output, options);
     let guard = guard(options, ours);
-    save_picture(&frame, Some(&record), (output, Named::ByUser), &guard).map_err(|error| unwritable(output, &error))?;
+    save_picture(&frame, Some(&record), Destination::by_user(output), &guard)
+        .map_err(|error| unwritable(output, &error))?;
     Ok(PictureReport {
         file: output.display().to_string(),
         mode: options.mode.name(),

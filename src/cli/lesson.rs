@@ -8,7 +8,7 @@ use super::failure::Failure;
 use super::options::lesson::LessonOptions;
 use super::options::view::ViewerOptions;
 use super::{memory, progress, render, view};
-use crate::figure::{Guard, Named, Record, save_picture};
+use crate::figure::{Destination, Guard, Named, Record, save_picture};
 use crate::raster::Framebuffer;
 use crate::scene::DialectChoice;
 use crate::viewer::{Against, BUILT_IN, Lesson, LessonSource, SceneSource, SlideError, as_path, plain_record, slides};
@@ -36,7 +36,7 @@ pub(super) fn run(options: &LessonOptions) -> Result<(), Failure> {
         return slides.draw(|slide, path, record| {
             // Only now, so that a lesson that is refused leaves no empty folder.
             std::fs::create_dir_all(folder).map_err(|error| render::unwritable_by("--slides", folder, &error))?;
-            let saved = save_picture(slide, Some(record), (&path, Named::ByProgram), &guard);
+            let saved = save_picture(slide, Some(record), Destination::by_program(&path), &guard);
             progress::done();
             saved.map_err(|error| render::unwritable_by("--slides", &path, &error))
         });
@@ -122,7 +122,7 @@ impl<'a> Slides<'a> {
         progress::count(self.numbers.clone().count());
         memory::ask_for(memory::pixels(self.size).saturating_mul(3))?;
         slides(&self.lesson, self.size, self.numbers.clone(), |number, slide| {
-            let record = record(&self.source, (self.folder, number), self.size);
+            let record = record(&self.source, self.folder, number, self.size);
             take(slide, self.path(number), &record).map_err(SlideFailure::Taken)
         })
         .map_err(|failure| self.failure(failure))
@@ -190,7 +190,7 @@ impl<'a> Slides<'a> {
 }
 
 /// The record of the slide with this number in a folder: words and picture, so that no scene comes back from it.
-fn record(lesson: &LessonSource, (folder, number): (&Path, usize), size: [u32; 2]) -> Record {
+fn record(lesson: &LessonSource, folder: &Path, number: usize, size: [u32; 2]) -> Record {
     let words = [
         "lesson".to_owned(),
         as_path(&lesson.address()),

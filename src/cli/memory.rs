@@ -13,7 +13,7 @@ const BYTES_PER_PIXEL: u64 = 16;
 /// What a picture needs besides.
 const BYTES_BESIDE: u64 = 16 << 20;
 
-/// Asks the system for as much memory as pictures of so many pixels will need, and gives it back. Who asks before the work
+/// Asks the system for as much memory as pictures with this many pixels will need, and gives it back. Who asks before the work
 /// can say what is wrong; the drawing itself cannot.
 pub(super) fn ask_for(pixels: u64) -> Result<(), Failure> {
     ask(pixels, "draw fewer with --size")

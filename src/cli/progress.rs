@@ -63,7 +63,7 @@ impl Drop for Progress {
     }
 }
 
-/// There are so many steps.
+/// Tells how many steps there are.
 pub(super) fn count(steps: usize) {
     if let Some(bar) = &*current() {
         set_style(bar, COUNTED);

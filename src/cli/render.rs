@@ -8,7 +8,7 @@ use super::failure::{Failure, print_error};
 use super::options::render::RenderOptions;
 use super::picture::{Picture, on_threads, spec, tell_reading};
 use super::progress;
-use crate::figure::{Guard, Named, save_picture};
+use crate::figure::{Destination, Guard, save_picture};
 use crate::scene::DialectChoice;
 use crate::viewer::{PictureSpec, Restored, SceneEntry, SceneSource, list_scenes};
 
@@ -19,9 +19,11 @@ pub(super) fn run(options: &RenderOptions, restored: Option<&Restored>) -> Resul
             folder(options)
         } else {
             name_for_png(&options.output)?;
-            let entry = (SceneSource::from_address(&options.scene), false);
-            let output = (options.output.as_path(), Named::ByUser);
-            one(entry, output, options, restored)
+            let scene = Found {
+                source: SceneSource::from_address(&options.scene),
+                is_of_course: false,
+            };
+            one(scene, Destination::by_user(&options.output), options, restored)
         }
     })?
 }
@@ -39,8 +41,11 @@ fn folder(options: &RenderOptions) -> Result<(), Failure> {
         progress::begin(&entry.label);
         let output = picture_of(entry, options);
         let drawn = if taken.insert(output.clone()) {
-            let scene = (entry.source.clone(), entry.is_of_course);
-            one(scene, (&output, Named::ByProgram), options, None)
+            let scene = Found {
+                source: entry.source.clone(),
+                is_of_course: entry.is_of_course,
+            };
+            one(scene, Destination::by_program(&output), options, None)
         } else {
             let (scene, output) = (entry.source.address(), output.display());
             Err(Failure::input(format!(
@@ -75,13 +80,22 @@ fn picture_of(entry: &SceneEntry, options: &RenderOptions) -> PathBuf {
     options.output.join(inner).with_extension("png")
 }
 
-/// Draws a scene, of which is known whether it lies in a folder of the course's.
+/// A scene to be drawn.
+struct Found {
+    source: SceneSource,
+    /// Whether it lies in a folder of the course's.
+    is_of_course: bool,
+}
+
+/// Draws a scene.
 fn one(
-    (source, is_of_course): (SceneSource, bool),
-    (output, named): (&Path, Named),
+    scene: Found,
+    output: Destination<'_>,
     options: &RenderOptions,
     restored: Option<&Restored>,
 ) -> Result<(), Failure> {
+    let Found { source, is_of_course } = scene;
+    let Destination { path: output, named } = output;
     let mut guard = guard_of(options.force, restored);
     if let SceneSource::File(path) = &source {
         guard.protect(path);
@@ -114,7 +128,13 @@ fn one(
         std::fs::create_dir_all(&folder).map_err(|error| unwritable(&folder, &error))?;
     }
     let record = picture.record(output);
-    save_picture(picture.frame(), Some(&record), (output, named), &guard).map_err(|error| unwritable(output, &error))
+    save_picture(
+        picture.frame(),
+        Some(&record),
+        Destination { path: output, named },
+        &guard,
+    )
+    .map_err(|error| unwritable(output, &error))
 }
 
 /// The folder of an output among many; a single picture goes only where its user has made room.

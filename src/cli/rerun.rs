@@ -10,7 +10,7 @@ use super::render::{name_for_png, unwritable};
 use super::restore::{missing_fonts, read_arguments, scene_path, verb_of};
 use super::{diff, lesson, sheet};
 use crate::compare;
-use crate::figure::{Guard, Named, Record, save_picture};
+use crate::figure::{Destination, Guard, Named, Record, save_picture};
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::scene::FolderResources;
@@ -60,7 +60,7 @@ pub(super) fn run(options: &RerunOptions) -> Result<(), Failure> {
         print_error(change);
     }
     let output = options.output.as_deref().unwrap_or(shot);
-    let named = (output, Named::ByUser);
+    let named = Destination::by_user(output);
     save_picture(&again.frame, Some(&again.record), named, &again.guard).map_err(|error| unwritable(output, &error))
 }
 

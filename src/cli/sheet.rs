@@ -10,7 +10,7 @@ use super::options::sheet::SheetOptions;
 use super::picture::{on_threads, read_scene};
 use super::render::{guard_of, name_for_png, unwritable};
 use super::size::FrameSize;
-use crate::figure::{Figure, Guard, Named};
+use crate::figure::{Destination, Figure, Guard, Named};
 use crate::rules::Rules;
 use crate::viewer::{Choice, PictureSpec, Restored, SceneSource, Sheet, SheetRequest};
 
@@ -21,7 +21,7 @@ pub(super) fn run(options: &SheetOptions, restored: Option<&Restored>) -> Result
     if let SceneSource::File(path) = SceneSource::from_address(&options.scene) {
         guard.protect(path);
     }
-    let output = (options.output.as_path(), Named::ByUser);
+    let output = Destination::by_user(&options.output);
     check(&request(options).map_err(Failure::Input)?, output, &guard)?;
     let sheet = on_threads(options.framing.threads, || draw(options, &options.output))??;
     let files = sheet.panels.first().map(|panel| &panel.scene.files);
@@ -35,11 +35,11 @@ pub(super) fn run(options: &SheetOptions, restored: Option<&Restored>) -> Result
 }
 
 /// Says before anything is drawn which file would not be replaced.
-pub(super) fn check(request: &SheetRequest, (output, named): (&Path, Named), guard: &Guard) -> Result<(), Failure> {
-    let beside = request.files_beside(output).into_iter();
+pub(super) fn check(request: &SheetRequest, output: Destination<'_>, guard: &Guard) -> Result<(), Failure> {
+    let beside = request.files_beside(output.path).into_iter();
     for (path, named) in beside
         .map(|path| (path, Named::ByProgram))
-        .chain([(output.to_owned(), named)])
+        .chain([(output.path.to_owned(), output.named)])
     {
         guard.target(&path, named).map_err(|error| unwritable(&path, &error))?;
     }
@@ -62,7 +62,7 @@ pub(super) fn draw(options: &SheetOptions, output: &Path) -> Result<Sheet, Failu
 }
 
 /// Writes all files of a sheet, or none; gives what documents say about the sheet, from the folder it lies in.
-pub(super) fn write(sheet: &Sheet, output: (&Path, Named), guard: &Guard) -> Result<Figure, Failure> {
+pub(super) fn write(sheet: &Sheet, output: Destination<'_>, guard: &Guard) -> Result<Figure, Failure> {
     sheet
         .save(output, guard)
         .map_err(|(path, error)| unwritable(&path, &error))

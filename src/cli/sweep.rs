@@ -182,14 +182,14 @@ fn measure(
             picture.scene
         };
         if rows.is_empty() {
-            told = record(options, (spec, &scene));
+            told = record(options, spec, &scene);
         }
         let mut picture = Picture::of(spec.clone(), Arc::clone(&scene));
         let times = times(&mut picture, options.frames, stop);
         let truth = truth(&mut truths, spec, &scene, stop);
         let row = times.zip(truth).and_then(|(times, truth)| {
             let peak = peak_of_drawing(spec, options.framing.threads);
-            row((times, peak), (picture.frame(), truth), stop)
+            row(times, peak, Pair::new(picture.frame(), truth).ok()?, stop)
         });
         // Half a combination is none.
         let Some(row) = row else { break };
@@ -249,12 +249,7 @@ fn truth<'t>(
 }
 
 /// What the times and the comparison of a picture with the truth say; `None` when stopped.
-fn row(
-    (times, peak_mb): (Vec<Duration>, Option<f64>),
-    (picture, truth): (&Framebuffer, &Framebuffer),
-    stop: &CancelToken,
-) -> Option<Row> {
-    let pair = Pair::new(picture, truth).ok()?;
+fn row(times: Vec<Duration>, peak_mb: Option<f64>, pair: Pair<'_>, stop: &CancelToken) -> Option<Row> {
     let levels = pair.levels();
     Some(Row {
         min_ms: milliseconds(times.iter().copied().min().unwrap_or_default()),
@@ -268,7 +263,7 @@ fn row(
 }
 
 /// The record of the chart: the command line that measures again.
-fn record(options: &SweepOptions, (first, scene): (&PictureSpec, &Scene)) -> Record {
+fn record(options: &SweepOptions, first: &PictureSpec, scene: &Scene) -> Record {
     let mut words = vec![
         "sweep".to_owned(),
         as_path(&first.scene.address()),

@@ -24,10 +24,10 @@ type Colors<S, const CHANNELS: usize> = [f32x16<S>; CHANNELS];
 impl BlendMode {
     /// Blends colours of a layer with those below; as [`BlendMode::blend`] for each.
     pub fn blend_all(self, above: &[Premultiplied16], below: &mut [Premultiplied16], rules: Rules) {
-        self.blend_at(simd::level(), (above, below), rules);
+        self.blend_at(simd::level(), above, below, rules);
     }
 
-    fn blend_at(self, level: Level, (above, below): (&[Premultiplied16], &mut [Premultiplied16]), rules: Rules) {
+    fn blend_at(self, level: Level, above: &[Premultiplied16], below: &mut [Premultiplied16], rules: Rules) {
         if self == Self::Normal || rules == Rules::Course {
             for (below, above) in below.iter_mut().zip(above) {
                 *below = self.blend(*above, *below, rules);
@@ -313,7 +313,7 @@ mod tests {
                         .collect();
                     for (name, level) in simd::tested() {
                         let mut all = below.clone();
-                        mode.blend_at(level, (&above, &mut all), rules);
+                        mode.blend_at(level, &above, &mut all, rules);
                         assert_eq!(all, each, "{mode:?} at level {name}");
                     }
                 }

@@ -12,7 +12,7 @@ use crate::texture::{LevelSampling, PixelSampling};
 /// Something that another renderer does otherwise than ours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cause {
-    /// Everything lies so many pixels further to the right and down.
+    /// Everything is moved to the right and down by these pixels.
     Shifted([f64; 2]),
     /// Samples lie in a corner of their cells, which are pixels where there is one sample in each. Shapes are then seen as
     /// if they were shifted; hairlines and points, which have no samples, stay.
@@ -21,7 +21,7 @@ pub enum Cause {
     Rules(Rules),
     /// Bytes are truncated where ours are rounded.
     Truncated,
-    /// It takes so many samples.
+    /// It takes this many samples.
     SampleRate(SampleRate),
     /// Textures are read so inside a mip level.
     PixelSampling(PixelSampling),

@@ -214,7 +214,7 @@ impl<'a> Search<'a> {
         for count in 1..=MAX_CAUSES {
             let Some(error) = error_of(count) else { continue };
             let mut fewer = (0..count).filter_map(|fewer| Some((fewer, error_of(fewer)?)));
-            // As far below none as so many causes ask for, and once below any other number.
+            // Clearly below any guess with fewer causes, and below none at all by that step once for each cause.
             let is_far_below = |(fewer, error_of_fewer): (usize, u64)| {
                 let times = if fewer == 0 { count } else { 1 };
                 error as f64 <= (0..times).fold(error_of_fewer as f64, |error, _| error * MARGIN)

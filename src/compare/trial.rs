@@ -117,7 +117,7 @@ pub(super) fn squared(ours: u32, theirs: u32) -> u64 {
     channels.map(|(a, b)| u64::from(a.abs_diff(b)).pow(2)).sum()
 }
 
-/// The view under which everything appears moved by so many pixels to the right and down.
+/// The view under which everything appears moved to the right and down by these pixels.
 fn moved(view: &ViewTransform, pixels: [f64; 2]) -> ViewTransform {
     ViewTransform {
         scene_to_pixels: DAffine2::from_translation(DVec2::from_array(pixels)) * view.scene_to_pixels,

@@ -21,7 +21,7 @@ use crate::render::{Legend, Subject};
 /// Ground and letters of the scale.
 const PLATE_COLOR: u32 = 0xfff4_f4f2;
 const INK: u32 = 0xff20_2428;
-/// The picture's shorter side holds so many lines of a scale's text.
+/// Lines of a scale's text that the picture's shorter side has room for.
 const LINES_PER_SIDE: f32 = 24.0;
 /// Smallest and largest text of a scale, in pixels.
 const TEXT_SIZE: std::ops::RangeInclusive<f32> = 12.0..=48.0;

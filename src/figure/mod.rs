@@ -23,7 +23,7 @@ pub use self::png::{encode_png, save_picture, save_png};
 pub use callout::{InsetError, InsetPlace, InsetSpec, add_furniture};
 pub use inset::Inset;
 pub use legend::{add_legends, draw_legend, place_legends};
-pub use output::{Guard, Named, NewFile, Unwritable, open_log, save_files, write_new, writing};
+pub use output::{Destination, Guard, Named, NewFile, Unwritable, open_log, save_files, write_new, writing};
 use placement::corners;
 pub use placement::{Corner, place};
 #[cfg(feature = "cli")]

@@ -33,10 +33,33 @@ static WRITING: Mutex<()> = Mutex::new(());
 /// Who chose the name of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Named {
-    /// The user, in so many words.
+    /// The user, by writing the path.
     ByUser,
     /// The program, such as `01.png` in a folder that the user named.
     ByProgram,
+}
+
+/// Where a file is to be written, and who chose its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Destination<'a> {
+    /// Where.
+    pub path: &'a Path,
+    /// Who chose that name.
+    pub named: Named,
+}
+
+impl<'a> Destination<'a> {
+    /// A file that the user named.
+    pub fn by_user(path: &'a Path) -> Self {
+        let named = Named::ByUser;
+        Self { path, named }
+    }
+
+    /// A file that the program named.
+    pub fn by_program(path: &'a Path) -> Self {
+        let named = Named::ByProgram;
+        Self { path, named }
+    }
 }
 
 /// A file to be written.

@@ -60,7 +60,7 @@ pub(super) fn in_corner(area: &PixelRect, size: [u32; 2], corner: Corner) -> Opt
 
 /// Rectangles of `size` along the sides of `area`, from corner to corner; none where it is larger than that.
 pub(super) fn along_sides(area: &PixelRect, size: [u32; 2]) -> impl Iterator<Item = PixelRect> {
-    /// From one corner to the next in so many steps.
+    /// Steps from one corner to the next.
     const STEPS: u32 = 24;
     let between = |from: i64, to: i64| move |step: u32| from + (to - from) * i64::from(step) / i64::from(STEPS);
     let ends = [Corner::TopLeft, Corner::BottomRight].map(|corner| in_corner(area, size, corner));

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use ::png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
-use super::output::{Guard, Named, NewFile, save_files};
+use super::output::{Destination, Guard, NewFile, save_files};
 use super::record::{KEYWORD, Record};
 use crate::memory;
 use crate::raster::Framebuffer;
@@ -52,7 +52,7 @@ pub fn encode_png(frame: &Framebuffer, record: Option<&Record>) -> io::Result<Ve
 /// # Errors
 /// When the frame has no pixels, when the name does not end in `.png`, when the file cannot be written.
 pub fn save_png(frame: &Framebuffer, path: &Path) -> io::Result<()> {
-    save_picture(frame, None, (path, Named::ByUser), &Guard::default())
+    save_picture(frame, None, Destination::by_user(path), &Guard::default())
 }
 
 /// As [`save_png`], with a record of how the picture was made, and only where `guard` has nothing against it.
@@ -62,7 +62,7 @@ pub fn save_png(frame: &Framebuffer, path: &Path) -> io::Result<()> {
 pub fn save_picture(
     frame: &Framebuffer,
     record: Option<&Record>,
-    (path, named): (&Path, Named),
+    Destination { path, named }: Destination<'_>,
     guard: &Guard,
 ) -> io::Result<()> {
     if !path

@@ -40,14 +40,14 @@ pub fn cut_to_window(
 pub(super) fn cut(contour: &[DVec2], [low, high]: [DVec2; 2]) -> Vec<DVec2> {
     let mut kept = contour.to_vec();
     for axis in [0, 1] {
-        kept = cut_side(&kept, axis, (low[axis], |distance| distance >= 0.0));
-        kept = cut_side(&kept, axis, (high[axis], |distance| distance <= 0.0));
+        kept = cut_side(&kept, axis, low[axis], |distance| distance >= 0.0);
+        kept = cut_side(&kept, axis, high[axis], |distance| distance <= 0.0);
     }
     kept
 }
 
 /// The part of a closed contour on one side of the line where a coordinate has the value `line`.
-fn cut_side(contour: &[DVec2], axis: usize, (line, is_kept): (f64, fn(f64) -> bool)) -> Vec<DVec2> {
+fn cut_side(contour: &[DVec2], axis: usize, line: f64, is_kept: fn(f64) -> bool) -> Vec<DVec2> {
     let mut kept = Vec::with_capacity(contour.len() + 1);
     let next = contour.iter().cycle().skip(1);
     for (from, to) in contour.iter().zip(next) {

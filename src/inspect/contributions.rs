@@ -107,7 +107,7 @@ impl Contributions {
     }
 }
 
-/// The pixels of a frame at most so many rings away from one; `None` outside the frame.
+/// The pixels of a frame within some rings around one; `None` outside the frame.
 fn square(size: [u32; 2], pixel: [u32; 2], rings: u32) -> Option<Region> {
     let side = |at: u32, size: u32| {
         let start = at.saturating_sub(rings);

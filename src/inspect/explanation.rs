@@ -37,6 +37,13 @@ pub struct Question<'a> {
     pub pixel: [u32; 2],
 }
 
+/// What tells of a primitive by its number: how large it is, how its document calls it.
+#[derive(Clone, Copy)]
+struct Sources<'a> {
+    explainer: &'a Explainer<'a>,
+    quotes: Option<&'a Quotes<'a>>,
+}
+
 impl Explanation {
     /// Why a pixel has its colour, but for what would help; `None` outside the picture.
     pub fn new(question: &Question<'_>) -> Option<Self> {
@@ -49,6 +56,10 @@ impl Explanation {
         let quotes = subject.scene.quotes();
         depth::drop_idle_viewports(&mut replay, subject.scene);
         let (seen, unlisted) = depth::list(&mut replay);
+        let sources = Sources {
+            explainer: &explainer,
+            quotes: quotes.as_ref(),
+        };
         let pieces = explainer.pieces(&replay.painted);
         let rules = subject.settings.rules;
         let mut paints: Vec<Paint> = replay
@@ -56,10 +67,7 @@ impl Explanation {
             .iter()
             .zip(pieces)
             .zip(&seen)
-            .map(|((op, piece), seen)| {
-                let source = question.source(op.source, quotes.as_ref());
-                question.paint((op, source), piece, seen, &explainer)
-            })
+            .map(|((op, piece), seen)| question.paint(op, piece, seen, sources))
             .collect();
         mark_masks(&mut paints);
         let [a, r, g, b] = replay.pixel.to_be_bytes();
@@ -68,7 +76,7 @@ impl Explanation {
         if unlisted > 0 {
             count_unlisted(&mut samples, &replay, &paints);
         }
-        let pinholes = question.pinholes(&samples, &paints, (&explainer, quotes.as_ref()));
+        let pinholes = question.pinholes(&samples, &paints, sources);
         missed.retain(|(primitive, _)| pinholes.iter().all(|pinhole| pinhole.primitive != *primitive));
         let around = BESIDE / (replay.samples.len() as f64).sqrt();
         Some(Self {
@@ -108,18 +116,12 @@ struct Shaped {
 }
 
 impl Question<'_> {
-    /// `op` comes with its place in the document.
-    fn paint(
-        &self,
-        (op, source): (&PaintedCommand, Option<Source>),
-        piece: Option<Piece>,
-        seen: &[bool],
-        explainer: &Explainer<'_>,
-    ) -> Paint {
+    fn paint(&self, op: &PaintedCommand, piece: Option<Piece>, seen: &[bool], sources: Sources<'_>) -> Paint {
+        let source = self.source(op.source, sources.quotes);
         let Shaped { shape, views, texture } = self.shape(op, source.is_none(), piece);
         Paint {
             area: (op.kind == PaintedKind::Primitive)
-                .then(|| explainer.area(op.source))
+                .then(|| sources.explainer.area(op.source))
                 .flatten(),
             shape,
             source,
@@ -239,12 +241,7 @@ impl Question<'_> {
     }
 
     /// The samples that the float rules leave open, though a triangle above what is seen there is theirs.
-    fn pinholes(
-        &self,
-        samples: &[Sample],
-        paints: &[Paint],
-        (explainer, quotes): (&Explainer<'_>, Option<&Quotes<'_>>),
-    ) -> Vec<Pinhole> {
+    fn pinholes(&self, samples: &[Sample], paints: &[Paint], sources: Sources<'_>) -> Vec<Pinhole> {
         if self.subject.settings.rules != Rules::Float {
             return Vec::new();
         }
@@ -253,13 +250,18 @@ impl Question<'_> {
         let pinhole = |open: OpenSample| {
             Some(Pinhole {
                 sample: open.sample,
-                source: self.source(open.source, quotes)?,
+                source: self.source(open.source, sources.quotes)?,
                 primitive: open.source,
                 corners: open.corners.map(|corner| corner.to_array()),
                 edges: edges(&open.view, &open.corners, Rules::Float),
             })
         };
-        explainer.left_open(&seen).into_iter().filter_map(pinhole).collect()
+        sources
+            .explainer
+            .left_open(&seen)
+            .into_iter()
+            .filter_map(pinhole)
+            .collect()
     }
 
     /// Where a primitive stands in the document.

@@ -127,7 +127,7 @@ impl Explanation {
             .flat_map(|(i, b)| near[..i].iter().map(move |a| (*a, *b)));
         let mut gaps = pairs.filter_map(|((a, edge_a, from_a), (b, edge_b, from_b))| {
             let gap = from_a + from_b;
-            let meets = gap < WIDEST_GAP && self.face((a, edge_a), (b, edge_b)) && self.are_apart(a, b);
+            let meets = gap < WIDEST_GAP && self.face([a, b], [edge_a, edge_b]) && self.are_apart(a, b);
             (meets && self.shows_below(sample, [a, b])).then_some((sample, [a, b], gap))
         });
         gaps.next()
@@ -163,8 +163,8 @@ impl Explanation {
         (more.is_none() && distance > 0.0 && distance < WIDEST_GAP).then_some((edge, distance))
     }
 
-    /// Whether two edges run side by side.
-    fn face(&self, (a, edge_a): (usize, usize), (b, edge_b): (usize, usize)) -> bool {
+    /// Whether an edge of `a` and one of `b` run side by side.
+    fn face(&self, [a, b]: [usize; 2], [edge_a, edge_b]: [usize; 2]) -> bool {
         let direction = |paint: usize, edge: usize| {
             let corners = self.corners(paint)?;
             let [from, to] = [corners[edge], corners[(edge + 1) % 3]];

@@ -35,7 +35,11 @@ pub fn draw_regions(
             frame.copy_from(tile, pixels, *region);
         }
     };
-    tiles(subject, size, (regions, [0, 0]), cancel, &publish)
+    let order = TileOrder {
+        wanted: regions,
+        from: [0, 0],
+    };
+    tiles(subject, size, order, cancel, &publish)
 }
 
 /// Draws a frame of `size` pixels tile by tile, those nearest to the pixel `from` first, and hands each to `publish`:
@@ -48,13 +52,21 @@ pub fn refine(
     cancel: &CancelToken,
     publish: impl Fn(Region, &[u32]) + Sync,
 ) -> Option<FrameStats> {
-    tiles(subject, size, (&[Region::of_size(size)], from), cancel, &publish)
+    let wanted = &[Region::of_size(size)];
+    tiles(subject, size, TileOrder { wanted, from }, cancel, &publish)
+}
+
+/// Which regions are drawn, and the pixel that tiles are nearest to which come first.
+#[derive(Clone, Copy)]
+struct TileOrder<'a> {
+    wanted: &'a [Region],
+    from: [u32; 2],
 }
 
 fn tiles(
     subject: &Subject<'_>,
     size: [u32; 2],
-    (wanted, from): (&[Region], [u32; 2]),
+    order: TileOrder<'_>,
     cancel: &CancelToken,
     publish: &(impl Fn(Region, &[u32]) + Sync),
 ) -> Option<FrameStats> {
@@ -64,7 +76,7 @@ fn tiles(
     if cancel.is_cancelled() {
         return None;
     }
-    let times = list.rasterize_tiles(wanted, from, &cancel.0, publish)?;
+    let times = list.rasterize_tiles(order.wanted, order.from, &cancel.0, publish)?;
     Some(FrameStats {
         transform,
         bin: times.bin,

@@ -55,8 +55,7 @@ pub(super) struct Builder<'doc> {
 #[derive(Debug)]
 struct Waiting {
     primitive: usize,
-    area: CurvedArea,
-    rule: FillRule,
+    area: FilledArea,
     edges: Edges,
 }
 
@@ -243,7 +242,7 @@ impl<'doc> Builder<'doc> {
     pub(super) fn fill_curved(
         &mut self,
         shape: ShapeId,
-        (area, rule): (CurvedArea, FillRule),
+        area: FilledArea,
         fill: Fill,
         edges: Edges,
     ) -> Result<(), Fault> {
@@ -251,12 +250,12 @@ impl<'doc> Builder<'doc> {
             return Ok(());
         }
         if !self.waits {
-            return self.polygon(shape, edges.polygon(area, rule), fill);
+            return self.polygon(shape, edges.polygon(area), fill);
         }
+        let rule = area.rule;
         self.waiting.push(Waiting {
             primitive: self.primitives.len(),
             area,
-            rule,
             edges,
         });
         let polygon = Arc::new(Polygon::new([[]; 0], rule));
@@ -358,6 +357,13 @@ impl<'doc> Builder<'doc> {
     }
 }
 
+/// An area with curves, and which of its parts count as inside.
+#[derive(Clone, Debug)]
+pub(super) struct FilledArea {
+    pub(super) area: CurvedArea,
+    pub(super) rule: FillRule,
+}
+
 /// What the edges of an area shall be like.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edges {
@@ -369,8 +375,8 @@ pub(super) struct Edges {
 
 impl Edges {
     /// The polygon that an area with curves becomes.
-    fn polygon(self, area: CurvedArea, rule: FillRule) -> Polygon {
-        let polygon = Polygon::curved(area, rule, self.scale);
+    fn polygon(self, filled: FilledArea) -> Polygon {
+        let polygon = Polygon::curved(filled.area, filled.rule, self.scale);
         if self.crisp {
             polygon.with_crisp_edges()
         } else {
@@ -385,7 +391,7 @@ impl Waiting {
         if left.load(Ordering::Relaxed) == 0 {
             return Err(TOO_MANY_POINTS);
         }
-        let polygon = self.edges.polygon(self.area, self.rule);
+        let polygon = self.edges.polygon(self.area);
         let count = polygon.points().len();
         let taken = left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(count));
         if taken.is_err() {

@@ -89,7 +89,8 @@ pub(super) fn numbers(builder: &Builder<'_>, node: Node<'_, '_>, name: &str) -> 
 fn first<const N: usize>(
     builder: &mut Builder<'_>,
     node: Node<'_, '_>,
-    (name, most): (&str, usize),
+    name: &str,
+    most: usize,
 ) -> Result<Option<[f32; N]>, Fault> {
     let numbers = numbers(builder, node, name)?;
     let first = numbers.first_chunk::<N>().copied();
@@ -107,7 +108,7 @@ fn first<const N: usize>(
 
 /// Three `x y` in `points`, in user space.
 fn corners(builder: &mut Builder<'_>, element: Element<'_>) -> Result<Option<[DVec2; 3]>, Fault> {
-    let numbers = first::<6>(builder, element.node, ("points", 6))?;
+    let numbers = first::<6>(builder, element.node, "points", 6)?;
     let corner = |n: [f32; 6], i: usize| {
         element
             .to_user
@@ -118,7 +119,7 @@ fn corners(builder: &mut Builder<'_>, element: Element<'_>) -> Result<Option<[DV
 
 /// Three `r g b a` in `colors`; the opacity means nothing, and the last one may be missing.
 fn corner_colors(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Result<Option<[Rgba; 3]>, Fault> {
-    let numbers = first::<11>(builder, node, ("colors", 12))?;
+    let numbers = first::<11>(builder, node, "colors", 12)?;
     let last = self::numbers(builder, node, "colors")?.get(11).copied();
     if numbers.is_some_and(|n| n[3] < 1.0 || n[7] < 1.0) || last.is_some_and(|alpha| alpha < 1.0) {
         builder.skip(SkippedKind::Attribute, "alpha in colors", node);
@@ -129,6 +130,6 @@ fn corner_colors(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Result<Option
 
 /// Three `u v` in `uvs`.
 fn corner_uvs(builder: &mut Builder<'_>, node: Node<'_, '_>) -> Result<Option<[Vec2; 3]>, Fault> {
-    let numbers = first::<6>(builder, node, ("uvs", 6))?;
+    let numbers = first::<6>(builder, node, "uvs", 6)?;
     Ok(numbers.map(|n| [0, 2, 4].map(|i| Vec2::new(n[i], n[i + 1]))))
 }

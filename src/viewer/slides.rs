@@ -214,12 +214,12 @@ impl Layout {
             look: Look::Bold,
         }];
         if !step.title.is_empty() {
-            top = self.spans(&title, (heading(body), margin, top), slide.as_deref_mut()) + gap;
+            top = self.spans(&title, heading(body), [margin, top], slide.as_deref_mut()) + gap;
         }
         for block in &step.text {
             top = match block {
-                Block::Heading(words) => self.spans(words, (heading(body), margin, top), slide.as_deref_mut()),
-                Block::Paragraph(words) => self.spans(words, (body, margin, top), slide.as_deref_mut()),
+                Block::Heading(words) => self.spans(words, heading(body), [margin, top], slide.as_deref_mut()),
+                Block::Paragraph(words) => self.spans(words, body, [margin, top], slide.as_deref_mut()),
                 Block::Item { depth, marker, words } => {
                     let indent = i64::from(body.line_height()) * i64::try_from(*depth).unwrap_or(0).min(4);
                     let left = margin + indent;
@@ -227,7 +227,7 @@ impl Layout {
                         TextBlock::new(marker, body, None).draw(slide, [left, top], Anchor::Left);
                     }
                     let words_left = left + i64::from(body.line_height());
-                    self.spans(words, (body, words_left, top), slide.as_deref_mut()) - gap / 2
+                    self.spans(words, body, [words_left, top], slide.as_deref_mut()) - gap / 2
                 }
                 Block::Code(code) => {
                     let style = code_style(body);
@@ -242,16 +242,11 @@ impl Layout {
         top - gap <= i64::from(self.size[1]) - margin
     }
 
-    /// Writes spans below `top`; where the next block begins.
-    fn spans(
-        &self,
-        spans: &[Span],
-        (style, left, top): (TextStyle, i64, i64),
-        mut slide: Option<&mut Framebuffer>,
-    ) -> i64 {
+    /// Writes spans from the corner `at` on; where the next block begins.
+    fn spans(&self, spans: &[Span], style: TextStyle, at: [i64; 2], mut slide: Option<&mut Framebuffer>) -> i64 {
         let mut pen = Pen {
-            left,
-            at: [left, top],
+            left: at[0],
+            at,
             blank: false,
         };
         let blank = i64::from(TextBlock::new("n n", style, None).size()[0])

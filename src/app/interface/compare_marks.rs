@@ -48,27 +48,28 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Mark
     let taken = [taken, &letters, &things(viewer, scale)].concat();
     let left = free.left() + MARGIN;
     let half = (free.width() / 2.0 - 2.0 * MARGIN).max(40.0);
-    let places: Vec<(String, f32, Align2, f32)> = match viewer.ab().arrangement() {
+    let tag = |text, x, align, wide| Tag { text, x, align, wide };
+    let places: Vec<Tag> = match viewer.ab().arrangement() {
         Arrangement::Alone if !viewer.ab().is_swapped() => return Marks::default(),
-        Arrangement::Alone => vec![(front, left, Align2::LEFT_TOP, half)],
+        Arrangement::Alone => vec![tag(front, left, Align2::LEFT_TOP, half)],
         Arrangement::Wipe => {
             let Some(line) = line else {
                 return Marks::default();
             };
             let before = [insets(viewer, scale), letters.clone()].concat();
-            (drawn, handle) = draw_line(ui, viewer, free, (line, &before));
+            (drawn, handle) = draw_line(ui, viewer, free, line, &before);
             // Each on its own side: where there is little room its words give way, never the side.
             let beside = |room: f32| (room - 2.0 * MARGIN - 2.0 * PADDING.x).min(half);
             vec![
-                (front, line - MARGIN, Align2::RIGHT_TOP, beside(line - free.left())),
-                (back, line + MARGIN, Align2::LEFT_TOP, beside(free.right() - line)),
+                tag(front, line - MARGIN, Align2::RIGHT_TOP, beside(line - free.left())),
+                tag(back, line + MARGIN, Align2::LEFT_TOP, beside(free.right() - line)),
             ]
         }
         Arrangement::SideBySide => {
             let middle = free.center().x + MARGIN;
             vec![
-                (front, left, Align2::LEFT_TOP, half),
-                (back, middle, Align2::LEFT_TOP, half),
+                tag(front, left, Align2::LEFT_TOP, half),
+                tag(back, middle, Align2::LEFT_TOP, half),
             ]
         }
         Arrangement::Difference => {
@@ -78,17 +79,15 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Mark
                 "B \u{2212} A"
             };
             let what = format!("{order}, {}", viewer.ab().difference_style().measure.name());
-            vec![(what, left, Align2::LEFT_TOP, half)]
+            vec![tag(what, left, Align2::LEFT_TOP, half)]
         }
         Arrangement::Flip => {
             let is_front = viewer.ab().shows_b() == viewer.ab().is_swapped();
             let seen = if is_front { front } else { back };
-            vec![(seen, left, Align2::LEFT_TOP, half)]
+            vec![tag(seen, left, Align2::LEFT_TOP, half)]
         }
     };
-    let tags = places
-        .into_iter()
-        .filter_map(|(text, x, align, wide)| tag(ui, free, &taken, (&text, x, align, wide)));
+    let tags = places.iter().filter_map(|tag| tag.show(ui, free, &taken));
     Marks {
         labels: tags.chain(letters).collect(),
         line: drawn,
@@ -149,7 +148,7 @@ fn letters(ui: &Ui, viewer: &Viewer, free: Rect) -> Vec<Rect> {
 
 /// The line with its handle; the pointer tells that it can be dragged. It passes behind the insets, where no hand can
 /// take it, and behind their letters. Returns what its parts take, and the handle.
-fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, (x, insets): (f32, &[Rect])) -> (Vec<Rect>, Option<Rect>) {
+fn draw_line(ui: &Ui, viewer: &Viewer, free: Rect, x: f32, insets: &[Rect]) -> (Vec<Rect>, Option<Rect>) {
     if viewer.pixels().over_line() {
         ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
     }
@@ -227,46 +226,60 @@ fn free_pieces(free: Rect, x: f32, insets: &[Rect]) -> Vec<Rangef> {
     pieces
 }
 
-/// Words on a dark ground at `x`, at most so wide, as high up as nothing is in their way; shortened where they do not fit,
-/// at last to their first letter, and none where there is not even room for that.
-fn tag(ui: &Ui, free: Rect, taken: &[Rect], (text, x, align, wide): (&str, f32, Align2, f32)) -> Option<Rect> {
-    let lines = |rows| {
-        let mut job = LayoutJob::simple(text.to_owned(), FontId::proportional(12.0), Color32::WHITE, wide);
-        job.wrap.max_rows = rows;
-        ui.painter().layout_job(job)
-    };
-    let letter = || {
-        let first = text.chars().next().map(String::from).unwrap_or_default();
-        ui.painter()
-            .layout_no_wrap(first, FontId::proportional(12.0), Color32::WHITE)
-    };
-    let galley = if wide < LEAST_WORDS {
-        letter()
-    } else {
-        let line = ui.fonts_mut(|fonts| fonts.row_height(&FontId::proportional(12.0)));
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few")]
-        let rows = (free.height() * MOST_HEIGHT / line) as usize;
-        lines(rows.max(2))
-    };
-    let is_short = galley.elided || wide < LEAST_WORDS;
-    if galley.size().x > wide + 1.0 {
-        return None;
+/// A tag over the picture: whose it is.
+struct Tag {
+    text: String,
+    /// Its left or right end, as it is aligned.
+    x: f32,
+    align: Align2,
+    /// The room for its words.
+    wide: f32,
+}
+
+impl Tag {
+    /// Words on a dark ground at `x`, at most so wide, as high up as nothing is in their way; shortened where they do not fit,
+    /// at last to their first letter, and none where there is not even room for that.
+    fn show(&self, ui: &Ui, free: Rect, taken: &[Rect]) -> Option<Rect> {
+        let Self { text, x, align, wide } = self;
+        let (x, align, wide) = (*x, *align, *wide);
+        let lines = |rows| {
+            let mut job = LayoutJob::simple(text.to_owned(), FontId::proportional(12.0), Color32::WHITE, wide);
+            job.wrap.max_rows = rows;
+            ui.painter().layout_job(job)
+        };
+        let letter = || {
+            let first = text.chars().next().map(String::from).unwrap_or_default();
+            ui.painter()
+                .layout_no_wrap(first, FontId::proportional(12.0), Color32::WHITE)
+        };
+        let galley = if wide < LEAST_WORDS {
+            letter()
+        } else {
+            let line = ui.fonts_mut(|fonts| fonts.row_height(&FontId::proportional(12.0)));
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few")]
+            let rows = (free.height() * MOST_HEIGHT / line) as usize;
+            lines(rows.max(2))
+        };
+        let is_short = galley.elided || wide < LEAST_WORDS;
+        if galley.size().x > wide + 1.0 {
+            return None;
+        }
+        let size = galley.size() + 2.0 * PADDING;
+        let mut place = align.anchor_size(pos2(x, free.top() + MARGIN), size);
+        while let Some(other) = taken.iter().find(|other| other.intersects(place)) {
+            place = place.translate(vec2(0.0, other.bottom() + MARGIN - place.top()));
+        }
+        if !free.contains_rect(place) {
+            return None;
+        }
+        ui.painter().rect_filled(place, 5.0, Color32::from_black_alpha(190));
+        ui.painter().galley(place.min + PADDING, galley, Color32::WHITE);
+        if is_short {
+            let id = ui.scope_id().with(("tag", text));
+            ui.interact(place, id, Sense::hover()).on_hover_text(text);
+        }
+        Some(place)
     }
-    let size = galley.size() + 2.0 * PADDING;
-    let mut place = align.anchor_size(pos2(x, free.top() + MARGIN), size);
-    while let Some(other) = taken.iter().find(|other| other.intersects(place)) {
-        place = place.translate(vec2(0.0, other.bottom() + MARGIN - place.top()));
-    }
-    if !free.contains_rect(place) {
-        return None;
-    }
-    ui.painter().rect_filled(place, 5.0, Color32::from_black_alpha(190));
-    ui.painter().galley(place.min + PADDING, galley, Color32::WHITE);
-    if is_short {
-        let id = ui.scope_id().with(("tag", text));
-        ui.interact(place, id, Sense::hover()).on_hover_text(text);
-    }
-    Some(place)
 }
 
 #[cfg(test)]

@@ -225,14 +225,17 @@ impl Dialogs {
                 let enter = self.line(ui, "Command", hint, just_opened);
                 self.problem_line(ui);
                 let (argument, found) = palette::find(&self.text, viewer);
-                self.chosen = step(self.chosen, (up, down), found.len());
+                self.chosen = step(self.chosen, [up, down], found.len());
                 let mut run = found.get(self.chosen).filter(|_| enter);
                 // It ends below a row, so that what is cut off is not taken for all.
                 let row = ENTRY + BETWEEN_ENTRIES;
                 let height = (screen.height() * 0.6 / row).floor().max(1.0) * row - BETWEEN_ENTRIES;
-                let pressed = list_of(ui, &found, (self.chosen, up || down, height), |ui, entry, chosen| {
-                    entry.show(ui, chosen)
-                });
+                let list = ListShown {
+                    chosen: self.chosen,
+                    moves: up || down,
+                    height,
+                };
+                let pressed = list_of(ui, &found, list, |ui, entry, chosen| entry.show(ui, chosen));
                 run = pressed.and_then(|index| found.get(index)).or(run);
                 if found.is_empty() {
                     ui.label(RichText::new("nothing of that name").weak());
@@ -261,18 +264,29 @@ pub(super) fn arrows(ctx: &Context) -> (bool, bool) {
 }
 
 /// The chosen line of `count` after these arrows.
-pub(super) fn step(chosen: usize, (up, down): (bool, bool), count: usize) -> usize {
+pub(super) fn step(chosen: usize, [up, down]: [bool; 2], count: usize) -> usize {
     let next = (chosen + usize::from(down)).saturating_sub(usize::from(up));
     next.min(count.saturating_sub(1))
 }
 
-/// A list of lines to choose from, of which one is `chosen`, scrolled to where it `moves`; which was pressed.
+/// How a list of lines is shown.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ListShown {
+    /// The line that is chosen.
+    pub(super) chosen: usize,
+    /// Whether that is another one than before: the list is scrolled to it.
+    pub(super) moves: bool,
+    pub(super) height: f32,
+}
+
+/// A list of lines to choose from; which was pressed.
 pub(super) fn list_of<T>(
     ui: &mut Ui,
     lines: &[T],
-    (chosen, moves, height): (usize, bool, f32),
+    list: ListShown,
     show: impl Fn(&mut Ui, &T, bool) -> egui::Response,
 ) -> Option<usize> {
+    let ListShown { chosen, moves, height } = list;
     let mut pressed = None;
     look::bars_beside(ui);
     // An area keeps the height that it had: without a least height, a list that a filter made short stays so.

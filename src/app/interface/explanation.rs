@@ -60,6 +60,21 @@ pub(super) struct Hovered {
     texel: Option<TexelPlace>,
 }
 
+/// What is told of the pinned pixel.
+#[derive(Clone, Copy)]
+struct Reported<'a> {
+    viewer: &'a Viewer,
+    explanation: &'a Explanation,
+}
+
+/// The heading of one of the paints.
+#[derive(Clone, Copy)]
+struct PaintHeading {
+    number: usize,
+    /// Whether the sample that is pointed at or chosen has it.
+    is_lit: bool,
+}
+
 impl ExplanationPanel {
     /// Fills the panel; what the pointer is over.
     pub(super) fn show(&mut self, ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) -> Hovered {
@@ -89,7 +104,7 @@ impl ExplanationPanel {
         }
         area.show(ui, |ui| {
             if let Some(explanation) = explanation {
-                self.report(ui, viewer, (explanation, commands), &mut hovered);
+                self.report(ui, Reported { viewer, explanation }, commands, &mut hovered);
             } else {
                 ui.label(RichText::new("finding out …").weak());
                 self.comparison(ui, viewer, commands);
@@ -101,8 +116,8 @@ impl ExplanationPanel {
     fn report(
         &mut self,
         ui: &mut Ui,
-        viewer: &Viewer,
-        (explanation, commands): (&Explanation, &mut Vec<Command>),
+        Reported { viewer, explanation }: Reported<'_>,
+        commands: &mut Vec<Command>,
         hovered: &mut Hovered,
     ) {
         lines(ui, &explanation.pixel_lines());
@@ -138,7 +153,8 @@ impl ExplanationPanel {
         // The topmost first, as one sees them.
         for paint in (0..explanation.paints.len()).rev() {
             let is_lit = lit.is_some_and(|sample| sample.stack.contains(&paint));
-            self.paint(ui, viewer, (explanation, paint, is_lit), hovered);
+            let heading = PaintHeading { number: paint, is_lit };
+            self.paint(ui, Reported { viewer, explanation }, heading, hovered);
         }
         if let Some(words) = explanation.unlisted_words() {
             lines(ui, &[words]);
@@ -197,8 +213,8 @@ impl ExplanationPanel {
     fn paint(
         &mut self,
         ui: &mut Ui,
-        viewer: &Viewer,
-        (explanation, number, is_lit): (&Explanation, usize, bool),
+        Reported { viewer, explanation }: Reported<'_>,
+        PaintHeading { number, is_lit }: PaintHeading,
         hovered: &mut Hovered,
     ) {
         let paint = &explanation.paints[number];

@@ -19,9 +19,11 @@ const MARGIN: f32 = 10.0;
 /// Space inside a message, in points.
 const PADDING: f32 = 8.0;
 
-/// What lies over the picture besides, in points.
+/// Where messages may lie, and what lies over the picture besides, in points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Taken<'a> {
+    /// The picture that no panel covers.
+    pub(super) free: Rect,
     /// What a message never covers where there is any other room.
     pub(super) things: &'a [Rect],
     /// What would give way to a message: it moves only where there is no other room.
@@ -41,9 +43,10 @@ impl Messages {
         &mut self,
         ui: &Ui,
         viewer: &Viewer,
-        (free, taken): (Rect, Taken<'_>),
+        taken: Taken<'_>,
         commands: &mut Vec<Command>,
     ) -> Vec<Rect> {
+        let free = taken.free;
         let now = ui.input(|input| input.time);
         self.shown
             .retain(|id, _| viewer.chrome().messages().iter().any(|message| message.id == *id));

@@ -268,10 +268,10 @@ impl Interface {
                 self.dialogs.ask_for(spec, &mut asked.commands);
             }
             if self.beside_lesson(viewer, whole.width()) < whole.width() {
-                page = self.lesson_panel(ui, viewer, (whole.width(), asked));
+                page = self.lesson_panel(ui, viewer, whole.width(), asked);
             }
             if viewer.chrome().panel() {
-                self.side_panel(ui, viewer, (whole.width(), asked));
+                self.side_panel(ui, viewer, whole.width(), asked);
                 // Why a pixel has its colour tells the same of A and B, for that pixel: it goes first where there is not room
                 // for both.
                 let room = ui.available_rect_before_wrap();
@@ -283,7 +283,7 @@ impl Interface {
                 let fits = ui.available_width() >= self.widths.of(SizedPanel::Comparison, whole.width()) + beside;
                 has_comparison = viewer.ab().other().is_some() && fits;
                 if has_comparison {
-                    self.compare_panel(ui, viewer, (whole.width(), asked));
+                    self.compare_panel(ui, viewer, whole.width(), asked);
                 }
             }
         }
@@ -305,7 +305,12 @@ impl Interface {
                 ui.pixels_per_point(),
             )))));
         self.float(ui, viewer, free, asked);
-        self.words(ui, viewer, (free, &words), asked);
+        let taken = Taken {
+            free,
+            things: &[],
+            words: &words,
+        };
+        self.words(ui, viewer, taken, asked);
         self.hold_clicks();
         let ctx = self.ctx.clone();
         self.dialogs.show(&ctx, viewer, &mut asked.commands);
@@ -342,8 +347,9 @@ impl Interface {
             .show(&self.ctx, |ui| ui.allocate_response(whole.size(), Sense::click()));
     }
 
-    /// Messages, tags and the text over the picture, each where nothing else lies; `before` are the words of the last pass.
-    fn words(&mut self, ui: &Ui, viewer: &Viewer, (free, before): (Rect, &[Rect]), asked: &mut Asked) {
+    /// Messages, tags and the text over the picture, each where nothing else lies; `before` has the words of the last pass.
+    fn words(&mut self, ui: &Ui, viewer: &Viewer, before: Taken<'_>, asked: &mut Asked) {
+        let free = before.free;
         let hidden = viewer.chrome().everything_hidden();
         let about = if hidden {
             None
@@ -354,9 +360,9 @@ impl Interface {
         let things: Vec<Rect> = things.into_iter().chain(about).collect();
         let taken = Taken {
             things: &things,
-            words: before,
+            ..before
         };
-        let messages = self.messages.show(ui, viewer, (free, taken), &mut asked.commands);
+        let messages = self.messages.show(ui, viewer, taken, &mut asked.commands);
         if !hidden {
             let told: Vec<Rect> = messages.iter().copied().chain(about).collect();
             let Marks { labels, line, handle } = compare_marks::show(ui, viewer, free, &told);
@@ -379,7 +385,7 @@ impl Interface {
 
     /// The lesson beside the picture. Where it leaves no room for the explanation of a pixel, that is a page of its panel,
     /// and what the pointer is over there is returned.
-    fn lesson_panel(&mut self, ui: &mut Ui, viewer: &Viewer, (window, asked): (f32, &mut Asked)) -> Option<Hovered> {
+    fn lesson_panel(&mut self, ui: &mut Ui, viewer: &Viewer, window: f32, asked: &mut Asked) -> Option<Hovered> {
         let shares = self.lesson_shares_panel(viewer, window);
         let commands = &mut asked.commands;
         let memory = &mut self.explanation;
@@ -400,13 +406,13 @@ impl Interface {
                 lesson::text(ui, viewer);
                 Hovered::default()
             });
-        self.cover(ui, (SizedPanel::Lesson, true), panel.response.rect);
+        self.cover(ui, SizedPanel::Lesson, true, panel.response.rect);
         shares.then_some(panel.inner)
     }
 
     /// On the left, unless that would cover the pinned pixel. The panel keeps its side as long as it is to be seen, so that
     /// its buttons stay under the pointer.
-    fn compare_panel(&mut self, ui: &mut Ui, viewer: &Viewer, (window, asked): (f32, &mut Asked)) {
+    fn compare_panel(&mut self, ui: &mut Ui, viewer: &Viewer, window: f32, asked: &mut Asked) {
         let width = self.widths.of(SizedPanel::Comparison, window);
         let room = ui.available_rect_before_wrap();
         let scale = ui.pixels_per_point();
@@ -437,12 +443,12 @@ impl Interface {
                 let area = ScrollArea::vertical().id_salt("compare").auto_shrink(false);
                 area.show(ui, |ui| compare::show(ui, viewer, &mut asked.commands));
             });
-        self.cover(ui, (SizedPanel::Comparison, !on_right), panel.response.rect);
+        self.cover(ui, SizedPanel::Comparison, !on_right, panel.response.rect);
     }
 
     /// Notes that a panel covers the picture, and lets its edge be dragged.
-    fn cover(&mut self, ui: &Ui, (panel, is_left): (SizedPanel, bool), rect: Rect) {
-        let grip = self.widths.edge(ui, (panel, is_left), rect);
+    fn cover(&mut self, ui: &Ui, panel: SizedPanel, is_left: bool, rect: Rect) {
+        let grip = self.widths.edge(ui, panel, is_left, rect);
         self.covered.extend([rect, grip]);
     }
 
@@ -478,7 +484,7 @@ impl Interface {
                 look::bars_beside(ui);
                 memory.show(ui, viewer, &mut asked.commands)
             });
-        self.cover(ui, (SizedPanel::Explanation, side.is_left), panel.response.rect);
+        self.cover(ui, SizedPanel::Explanation, side.is_left, panel.response.rect);
         panel.inner
     }
 }

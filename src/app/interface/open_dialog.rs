@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Align, Button, Context, Label, Layout, RichText, Ui, vec2};
 
-use super::dialogs::{Dialogs, arrows, list_of, step};
+use super::dialogs::{Dialogs, ListShown, arrows, list_of, step};
 use super::look::CONTROL;
 use super::modal::{beside, modal};
 use super::palette::{BETWEEN_ENTRIES, ENTRY};
@@ -35,7 +35,7 @@ impl Dialogs {
             let enter = self.line(ui, "File", hint, just_opened);
             self.problem_line(ui);
             let found = self.chooser.shown(if is_path(&self.text) { "" } else { &self.text });
-            self.chosen = step(self.chosen, (up, down), found.len());
+            self.chosen = step(self.chosen, [up, down], found.len());
             let mut taken = found
                 .get(self.chosen)
                 .filter(|_| enter && !is_path(&self.text))
@@ -46,10 +46,13 @@ impl Dialogs {
                 let height = rows * row - BETWEEN_ENTRIES;
                 // As high for every folder: the buttons stay under the pointer.
                 ui.set_min_height(height);
-                list_of(ui, &found, (self.chosen, up || down, height), |ui, item, chosen| {
-                    item.show(ui, chosen)
-                })
-                .inspect(|index| taken = found.get(*index).map(|item| item.path.clone()));
+                let list = ListShown {
+                    chosen: self.chosen,
+                    moves: up || down,
+                    height,
+                };
+                list_of(ui, &found, list, |ui, item, chosen| item.show(ui, chosen))
+                    .inspect(|index| taken = found.get(*index).map(|item| item.path.clone()));
                 if let Some(problem) = self.chooser.problem() {
                     ui.label(RichText::new(problem).color(ui.visuals().warn_fg_color));
                 } else if found.is_empty() {

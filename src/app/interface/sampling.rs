@@ -27,39 +27,44 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 
 /// Settings below each other; those without a label stand beside the one before them.
 fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], now: &Settings, commands: &mut Vec<Command>) {
-    let shown: Vec<(&'static PictureSetting, &PanelRow)> = settings
-        .iter()
-        .filter_map(|setting| Some((*setting, setting.panel.as_ref()?)))
-        .collect();
-    for group in shown.chunk_by(|_, (_, next)| next.label.is_empty()) {
-        let [(first, panel), ..] = group else { continue };
-        if let Control::WideButtons(across) = panel.control {
-            ui.label(egui::RichText::new(panel.label).weak());
-            for values in first.offered(now).chunks(across) {
-                buttons(ui, (first, panel), values, now, commands);
+    let shown = settings.iter().filter_map(|setting| {
+        Some(ShownSetting {
+            setting,
+            panel: setting.panel.as_ref()?,
+        })
+    });
+    let shown: Vec<ShownSetting> = shown.collect();
+    for group in shown.chunk_by(|_, next| next.panel.label.is_empty()) {
+        let [first, ..] = group else { continue };
+        if let Control::WideButtons(across) = first.panel.control {
+            ui.label(egui::RichText::new(first.panel.label).weak());
+            for values in first.setting.offered(now).chunks(across) {
+                buttons(ui, *first, values, now, commands);
             }
             continue;
         }
-        row(ui, panel.label, |ui| {
+        row(ui, first.panel.label, |ui| {
             let gaps = (group.len() - 1) as f32 * 4.0;
             let width = (ui.available_width() - gaps) / group.len() as f32;
-            for (setting, panel) in group {
-                control(ui, setting, panel, (now, width), commands);
+            for shown in group {
+                control(ui, *shown, now, width, commands);
             }
         });
     }
 }
 
-fn control(
-    ui: &mut Ui,
+/// A setting, and how the panel shows it.
+#[derive(Clone, Copy)]
+struct ShownSetting {
     setting: &'static PictureSetting,
-    panel: &PanelRow,
-    (now, width): (&Settings, f32),
-    commands: &mut Vec<Command>,
-) {
+    panel: &'static PanelRow,
+}
+
+fn control(ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32, commands: &mut Vec<Command>) {
+    let ShownSetting { setting, panel } = shown;
     match panel.control {
         Control::Buttons | Control::WideButtons(_) => {
-            buttons(ui, (setting, panel), &setting.offered(now), now, commands);
+            buttons(ui, shown, &setting.offered(now), now, commands);
         }
         Control::List => {
             let current = setting.value(now);
@@ -70,7 +75,7 @@ fn control(
         }
         Control::Number { range, prefix, none } => {
             let number = Number { range, prefix, none };
-            let chosen = number.show(ui, setting, panel.name, (now, width));
+            let chosen = number.show(ui, shown, now, width);
             commands.extend(chosen.and_then(|value| setting.to(&value).ok()).map(Command::Set));
         }
     }
@@ -79,7 +84,7 @@ fn control(
 /// A button for each of these values.
 fn buttons(
     ui: &mut Ui,
-    (setting, panel): (&'static PictureSetting, &PanelRow),
+    ShownSetting { setting, panel }: ShownSetting,
     values: &[String],
     now: &Settings,
     commands: &mut Vec<Command>,
@@ -113,10 +118,11 @@ impl Number {
     fn show(
         &self,
         ui: &mut Ui,
-        setting: &PictureSetting,
-        name: &str,
-        (now, width): (&Settings, f32),
+        ShownSetting { setting, panel }: ShownSetting,
+        now: &Settings,
+        width: f32,
     ) -> Option<String> {
+        let name = panel.name;
         let Self { range, prefix, none } = *self;
         let least = if none.is_some() { range[0] - BELOW } else { range[0] };
         let before = setting.value(now).parse().unwrap_or(least);

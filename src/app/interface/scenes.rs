@@ -168,6 +168,7 @@ pub(super) fn list(
     let width = ((ui.available_width() - GAP * (COLUMNS - 1) as f32) / COLUMNS as f32).floor();
     let cell = vec2(width, PICTURE_HEIGHT + NAME_HEIGHT);
     ui.spacing_mut().item_spacing = vec2(GAP, GAP);
+    let mut pictures = Pictures { thumbnails, requests };
     for (heading, scenes) in groups(viewer.scene_list().scenes()) {
         if let Some(heading) = heading {
             ui.label(RichText::new(heading).weak().small());
@@ -176,7 +177,7 @@ pub(super) fn list(
         for first in scenes.step_by(COLUMNS) {
             ui.horizontal(|ui| {
                 for scene in first..(first + COLUMNS).min(end) {
-                    if picture(ui, viewer, scene, cell, (thumbnails, requests)) {
+                    if picture(ui, viewer, scene, cell, &mut pictures) {
                         commands.push(Command::Scenes(SceneCommand::Show(scene)));
                     }
                 }
@@ -206,14 +207,15 @@ fn groups(scenes: &[SceneEntry]) -> Vec<(Option<String>, Range<usize>)> {
     groups
 }
 
+/// The pictures of scenes in small, and what is wanted of them.
+struct Pictures<'a> {
+    thumbnails: &'a mut Thumbnails,
+    requests: &'a mut Wishes,
+}
+
 /// One scene: picture and name. True when it was clicked.
-fn picture(
-    ui: &mut Ui,
-    viewer: &Viewer,
-    index: usize,
-    cell: Vec2,
-    (thumbnails, requests): (&mut Thumbnails, &mut Wishes),
-) -> bool {
+fn picture(ui: &mut Ui, viewer: &Viewer, index: usize, cell: Vec2, pictures: &mut Pictures<'_>) -> bool {
+    let Pictures { thumbnails, requests } = pictures;
     let entry = &viewer.scene_list().scenes()[index];
     let (rect, response) = ui.allocate_exact_size(cell, Sense::click());
     let current = index == viewer.scene_list().current_index();
@@ -224,7 +226,7 @@ fn picture(
     if !ui.is_rect_visible(rect) {
         return false;
     }
-    paint(ui, viewer, index, &response, (thumbnails, requests));
+    paint(ui, viewer, index, &response, pictures);
     let key = if index < 9 {
         format!(" ({})", index + 1)
     } else {
@@ -246,7 +248,7 @@ fn paint(
     viewer: &Viewer,
     index: usize,
     response: &egui::Response,
-    (thumbnails, requests): (&mut Thumbnails, &mut Wishes),
+    Pictures { thumbnails, requests }: &mut Pictures<'_>,
 ) {
     let entry = &viewer.scene_list().scenes()[index];
     let (rect, current) = (response.rect, index == viewer.scene_list().current_index());

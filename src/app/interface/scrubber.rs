@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, explanation: &Explanation, accumulated: &mut Opt
         return;
     };
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width() - 4.0, HEIGHT), Sense::hover());
-    plot(ui, rect, &convergence.parts, (convergence.area, count));
+    plot(ui, rect, &convergence.parts, convergence.area, count);
     let words = format!(
         "{}: {:.1} % of {count} samples; {:.1} % in truth (line)",
         convergence.name,
@@ -49,7 +49,7 @@ pub(super) fn show(ui: &mut Ui, explanation: &Explanation, accumulated: &mut Opt
 
 /// The covered part after each sample, the true area as a level line.
 #[expect(clippy::cast_possible_truncation, reason = "places on a screen")]
-fn plot(ui: &Ui, rect: Rect, parts: &[f64], (area, count): (f64, usize)) {
+fn plot(ui: &Ui, rect: Rect, parts: &[f64], area: f64, count: usize) {
     let painter = ui.painter();
     painter.rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
     let inside = rect.shrink(4.0);

@@ -60,7 +60,7 @@ impl PanelMemory {
 }
 
 impl Interface {
-    pub(super) fn side_panel(&mut self, ui: &mut Ui, viewer: &Viewer, (window, asked): (f32, &mut Asked)) {
+    pub(super) fn side_panel(&mut self, ui: &mut Ui, viewer: &Viewer, window: f32, asked: &mut Asked) {
         let panel = Panel::right("side panel")
             .resizable(false)
             .exact_size(self.widths.of(SizedPanel::Side, window))
@@ -94,7 +94,7 @@ impl Interface {
                 look::beside_bar(ui, |ui| self.settings(ui, viewer, asked));
                 self.scenes(ui, viewer, true, asked);
             });
-        self.cover(ui, (SizedPanel::Side, false), panel.response.rect);
+        self.cover(ui, SizedPanel::Side, false, panel.response.rect);
     }
 
     /// Whether a panel of `height` points is so high that the list of scenes scrolls by itself.

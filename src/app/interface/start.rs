@@ -76,7 +76,7 @@ pub(super) fn card(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Comm
     commands.extend(way);
 }
 
-/// The ways side by side in so many columns; which was taken.
+/// The ways side by side in columns; returns the one that was taken.
 pub(super) fn ways(ui: &mut Ui, viewer: &Viewer, columns: usize) -> Vec<Command> {
     let mut taken = Vec::new();
     let gap = ui.spacing().item_spacing.x;

@@ -158,7 +158,7 @@ fn shortened(value: f64, decimals: Option<usize>, fits: &impl Fn(&str) -> bool) 
     fitting.unwrap_or_else(|| rounded(value, 1, decimals))
 }
 
-/// The number with so many significant digits and at most so many decimals; very large and very small ones with an
+/// The number with the given count of significant digits and no more decimals than given; very large and very small ones with an
 /// exponent.
 fn rounded(value: f64, digits: i32, decimals: Option<usize>) -> String {
     let value = match decimals {

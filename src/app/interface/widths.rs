@@ -72,7 +72,7 @@ impl SizedPanel {
 }
 
 impl PanelWidths {
-    /// The width of a panel in a window of so many points.
+    /// The width of a panel in a window that is `window` points wide.
     pub(super) fn of(self, panel: SizedPanel, window: f32) -> f32 {
         let chosen = match panel {
             SizedPanel::Side => self.side,
@@ -97,7 +97,7 @@ impl PanelWidths {
     }
 
     /// The edge of a `panel` that lies at `rect` on the left or the right of the picture. What of the picture it covers.
-    pub(super) fn edge(&mut self, ui: &Ui, (panel, is_left): (SizedPanel, bool), rect: Rect) -> Rect {
+    pub(super) fn edge(&mut self, ui: &Ui, panel: SizedPanel, is_left: bool, rect: Rect) -> Rect {
         let x = if is_left { rect.right() } else { rect.left() };
         let grip = Rect::from_x_y_ranges(x - GRAB..=x + GRAB, rect.y_range());
         let window = ui.ctx().content_rect().width();

@@ -12,7 +12,7 @@ use fearless_simd::{Simd, dispatch};
 
 use crate::simd;
 
-/// Rows of so many pixels are worth the choice of vector instructions: most rows of letters are shorter.
+/// From this many pixels on a row is worth the choice of vector instructions: most rows of letters are shorter.
 const LONG: usize = 32;
 /// Pixels that are looked at together, whether anything is to be mixed.
 const STRETCH: usize = 64;

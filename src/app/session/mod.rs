@@ -88,7 +88,7 @@ pub(super) struct PanelTimes {
 /// What a surface holds that is to be composed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Holds {
-    /// What [`Session::compose`] wrote so many calls ago; after 0 calls nothing of use.
+    /// What [`Session::compose`] wrote, and how many calls ago; 0 where that is of no use.
     Composed(u8),
     /// The frame, all of it, and nothing else.
     Frame,

@@ -23,12 +23,20 @@ pub(super) struct Item {
     pub(super) subject: Subject,
     /// Its options.
     pub(super) words: &'static [&'static str],
-    /// The name of the pin that its inset looks at, and the settings that are compared to propose it.
-    pub(super) pin: Option<(&'static str, [&'static [&'static str]; 2])>,
+    /// The pin that its inset looks at.
+    pub(super) pin: Option<PinnedInset>,
     /// Whether the caption tells how long each panel takes to draw.
     pub(super) timed: bool,
     /// By how many degrees the scene is turned; its whole canvas is shown then.
     pub(super) turned: Option<f64>,
+}
+
+/// A pin that insets look at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PinnedInset {
+    pub(super) name: &'static str,
+    /// The settings that are compared to propose it.
+    pub(super) compared: [&'static [&'static str]; 2],
 }
 
 /// What a figure shows.
@@ -73,13 +81,18 @@ const fn plain(name: &'static str, says: &'static str, subject: Subject) -> Item
     }
 }
 
+/// A pin by its name.
+const fn pin(name: &'static str, compared: [&'static [&'static str]; 2]) -> PinnedInset {
+    PinnedInset { name, compared }
+}
+
 /// A sheet with an inset.
 const fn sheet(
     name: &'static str,
     says: &'static str,
     scene: &'static str,
     words: &'static [&'static str],
-    pin: (&'static str, [&'static [&'static str]; 2]),
+    pin: PinnedInset,
 ) -> Item {
     Item {
         verb: "sheet",
@@ -92,7 +105,7 @@ const fn sheet(
 /// Every figure, in the order of the tasks.
 pub(super) static ITEMS: &[Item] = &[
     Item {
-        pin: Some(("test4", RATES)),
+        pin: Some(pin("test4", RATES)),
         ..plain(
             "T1_triangles",
             "Task 1: one sample per pixel",
@@ -104,7 +117,7 @@ pub(super) static ITEMS: &[Item] = &[
         "Task 2: more samples per pixel",
         "basic/test4.svg",
         &["--sample-rate=1,4,16"],
-        ("test4", RATES),
+        pin("test4", RATES),
     ),
     Item {
         words: &["--size=800x800", "--sample-rate=16"],
@@ -121,7 +134,7 @@ pub(super) static ITEMS: &[Item] = &[
         "Task 5: pixel sampling against more samples",
         "texmap/test1.svg",
         &["--pixel-sampling=nearest,bilinear", "--sample-rate=1,16"],
-        ("texture", TEXELS),
+        pin("texture", TEXELS),
     ),
     Item {
         subject: Subject::Own,
@@ -134,7 +147,7 @@ pub(super) static ITEMS: &[Item] = &[
                 "--pixel-sampling=nearest,bilinear",
                 "--size=480x480",
             ],
-            ("own", LEVELS),
+            pin("own", LEVELS),
         )
     },
     sheet(
@@ -145,7 +158,7 @@ pub(super) static ITEMS: &[Item] = &[
             "--pattern=grid,rotated,jittered,jittered-same,halton,r2",
             "--sample-rate=4",
         ],
-        (
+        pin(
             "patterns",
             [&["--sample-rate=4"], &["--sample-rate=4", "--pattern=jittered"]],
         ),
@@ -166,7 +179,7 @@ pub(super) static ITEMS: &[Item] = &[
                 "--pixel-sampling=bilinear",
                 "--level-sampling=linear",
             ],
-            ("floor", TAPS),
+            pin("floor", TAPS),
         )
     },
     Item {

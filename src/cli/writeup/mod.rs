@@ -8,7 +8,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use self::course::{ITEMS, Item, Scenes, turned_view};
+use self::course::{ITEMS, Item, PinnedInset, Scenes, turned_view};
 use self::pins::Pins;
 use super::arguments::{self, Verb};
 use super::failure::{Failure, print};
@@ -18,13 +18,13 @@ use super::picture::spec_of_render;
 use super::picture::{Picture, on_threads};
 use super::render::unwritable;
 use super::{progress, sheet};
-use crate::figure::{Figure, Guard, Named, NewFile, html, latex, markdown, save_files, save_picture};
+use crate::figure::{Destination, Figure, Guard, Named, NewFile, html, latex, markdown, save_files, save_picture};
 use crate::plain;
 use crate::viewer::{PictureSpec, Sheet, caption_of};
 
 /// What shows the figures, in the words of documents.
 const PAGES: [&str; 3] = ["index.html", "figures.md", "figures.tex"];
-/// Draws of a panel of which the median time is told.
+/// How often a panel is drawn for its median time.
 const TIMED: usize = 7;
 
 /// Draws every figure and writes the pages that show them.
@@ -48,7 +48,7 @@ pub(super) fn run(options: &WriteupOptions) -> Result<(), Failure> {
         target.map_err(|error| unwritable(&page, &error))?;
     }
     save_files(&made_scenes(&scenes, &inner), &guard).map_err(|(path, error)| unwritable(&path, &error))?;
-    let figures = on_threads(options.threads, || all((options, &guard), &scenes, &mut pins))??;
+    let figures = on_threads(options.threads, || all(options, &guard, &scenes, &mut pins))??;
     let title = "Figures of the write-up";
     let texts = [html(title, &figures), markdown(&figures), latex(&figures)];
     let pages = PAGES.into_iter().zip(texts);
@@ -97,21 +97,17 @@ pub(super) fn check_pins(text: &str) -> Result<(), Failure> {
 
 /// The names that pins may have.
 fn known_pins() -> Vec<&'static str> {
-    ITEMS.iter().filter_map(|item| Some(item.pin?.0)).collect()
+    ITEMS.iter().filter_map(|item| Some(item.pin?.name)).collect()
 }
 
 /// Draws the figures one after the other.
-fn all(
-    (options, guard): (&WriteupOptions, &Guard),
-    scenes: &Scenes<'_>,
-    pins: &mut Pins,
-) -> Result<Vec<Figure>, Failure> {
+fn all(options: &WriteupOptions, guard: &Guard, scenes: &Scenes<'_>, pins: &mut Pins) -> Result<Vec<Figure>, Failure> {
     progress::count(ITEMS.len());
     let mut figures = Vec::new();
     for item in ITEMS {
         progress::begin(item.name);
         let output = options.output.join(item.name).with_extension("png");
-        let figure = one(item, (&output, guard), scenes, pins)?;
+        let figure = one(item, &output, guard, scenes, pins)?;
         figures.push(Figure {
             caption: format!("{}. {}", item.says, figure.caption),
             alternative: format!("{}. {}", item.says, figure.alternative),
@@ -123,14 +119,14 @@ fn all(
 }
 
 /// Draws one figure and writes it.
-fn one(item: &Item, (output, guard): (&Path, &Guard), scenes: &Scenes<'_>, pins: &mut Pins) -> Result<Figure, Failure> {
+fn one(item: &Item, output: &Path, guard: &Guard, scenes: &Scenes<'_>, pins: &mut Pins) -> Result<Figure, Failure> {
     // Asked before the work as well.
     let target = guard.target(output, Named::ByProgram);
     target.map_err(|error| unwritable(output, &error))?;
     let (mut words, scene) = words_of(item, output, scenes)?;
-    if let Some((name, compared)) = item.pin {
+    if let Some(PinnedInset { name, compared }) = item.pin {
         // A sheet has the smaller panels: what is to be seen in one is to be seen in a larger picture.
-        let shares = |other: &&Item| other.verb == "sheet" && other.pin.is_some_and(|(known, _)| known == name);
+        let shares = |other: &&Item| other.verb == "sheet" && other.pin.is_some_and(|pin| pin.name == name);
         let proposes = || {
             let sheet = ITEMS.iter().find(shares).unwrap_or(item);
             let (words, scene) = words_of(sheet, output, scenes)?;
@@ -141,7 +137,7 @@ fn one(item: &Item, (output, guard): (&Path, &Guard), scenes: &Scenes<'_>, pins:
     }
     match parsed(&words, &scene)? {
         Verb::Sheet(options) => {
-            let named = (output, Named::ByProgram);
+            let named = Destination::by_program(output);
             sheet::check(&sheet::request(&options).map_err(Failure::Input)?, named, guard)?;
             let sheet = sheet::draw(&options, output)?;
             let figure = sheet::write(&sheet, named, guard)?;
@@ -151,7 +147,7 @@ fn one(item: &Item, (output, guard): (&Path, &Guard), scenes: &Scenes<'_>, pins:
                 ..figure
             })
         }
-        _ => render(spec_of(&words, &scene)?, (output, guard)),
+        _ => render(spec_of(&words, &scene)?, output, guard),
     }
 }
 
@@ -171,12 +167,12 @@ fn words_of(item: &Item, output: &Path, scenes: &Scenes<'_>) -> Result<(Vec<Stri
 }
 
 /// Draws and writes a single picture.
-fn render(spec: PictureSpec, (output, guard): (&Path, &Guard)) -> Result<Figure, Failure> {
+fn render(spec: PictureSpec, output: &Path, guard: &Guard) -> Result<Figure, Failure> {
     let caption = caption_of(&spec);
     let mut picture = Picture::read(spec)?;
     picture.draw_figure()?;
     let record = picture.record(output);
-    let named = (output, Named::ByProgram);
+    let named = Destination::by_program(output);
     let mut guard = guard.clone();
     picture.protect(&mut guard);
     save_picture(picture.frame(), Some(&record), named, &guard).map_err(|error| unwritable(output, &error))?;

@@ -7,7 +7,7 @@ use super::painter::{Painter, Place, affine};
 use super::values::WHITENS;
 use crate::color::{BlendMode, Rgba};
 use crate::geometry::{CurvedArea, FillRule, Path};
-use crate::scene::build::Edges;
+use crate::scene::build::{Edges, FilledArea};
 use crate::scene::error::Fault;
 use crate::scene::{Composite, Fill, MaskKind};
 
@@ -152,8 +152,14 @@ pub(super) fn to_box(painter: &mut Painter<'_, '_>, sides: [f32; 4], place: Plac
         crisp: false,
     };
     let opaque = Fill::Solid(Rgba::BLACK);
-    painter
-        .builder
-        .fill_curved(place.shape, (area, FillRule::NonZero), opaque, edges)?;
+    painter.builder.fill_curved(
+        place.shape,
+        FilledArea {
+            area,
+            rule: FillRule::NonZero,
+        },
+        opaque,
+        edges,
+    )?;
     painter.builder.end_layer(place.shape, Composite::Clip)
 }

@@ -9,7 +9,7 @@ use super::pictures::{self, Picture};
 use super::{clip, prepare, reach, shapes};
 use crate::color::BlendMode;
 use crate::geometry::{CurvedArea, FillRule};
-use crate::scene::build::{Edges, unit_square};
+use crate::scene::build::{Edges, FilledArea, unit_square};
 use crate::scene::error::Fault;
 use crate::scene::triangles::{self, Element};
 use crate::scene::{Composite, Fill, Paint};
@@ -186,7 +186,8 @@ impl<'doc> Painter<'_, 'doc> {
             stroke: None,
             to_user: place.to_user,
         };
-        self.builder.fill_curved(place.shape, (area, rule), fill, edges)
+        self.builder
+            .fill_curved(place.shape, FilledArea { area, rule }, fill, edges)
     }
 
     fn stroke(&mut self, path: &Path, place: Place) -> Result<(), Fault> {
@@ -215,8 +216,15 @@ impl<'doc> Painter<'_, 'doc> {
             self.warn_once("more than 200000 dashes; the line is drawn without gaps");
         }
         let edges = self.edges_for(path, place, stroke.width().get());
-        self.builder
-            .fill_curved(place.shape, (area, FillRule::NonZero), paint, edges)
+        self.builder.fill_curved(
+            place.shape,
+            FilledArea {
+                area,
+                rule: FillRule::NonZero,
+            },
+            paint,
+            edges,
+        )
     }
 
     /// Whether the path that is painted is stroked where it lies on the canvas, so that no transform widens its line.

@@ -44,12 +44,12 @@ impl<'doc> Painter<'_, 'doc> {
                     from: DVec2::new(gradient.x1().into(), gradient.y1().into()),
                     to: DVec2::new(gradient.x2().into(), gradient.y2().into()),
                 };
-                self.gradient(
-                    gradient,
-                    Arc::as_ptr(gradient) as usize,
-                    (shape, &linear_look(gradient)),
-                    place,
-                )
+                let element = GradientElement {
+                    base: gradient,
+                    address: Arc::as_ptr(gradient) as usize,
+                    look: linear_look(gradient),
+                };
+                self.gradient(&element, shape, place)
             }
             Paint::RadialGradient(gradient) => {
                 let shape = GradientShape::Radial {
@@ -58,26 +58,21 @@ impl<'doc> Painter<'_, 'doc> {
                     focus: DVec2::new(gradient.fx().into(), gradient.fy().into()),
                     focal_radius: gradient.fr().get().into(),
                 };
-                self.gradient(
-                    gradient,
-                    Arc::as_ptr(gradient) as usize,
-                    (shape, &radial_look(gradient)),
-                    place,
-                )
+                let element = GradientElement {
+                    base: gradient,
+                    address: Arc::as_ptr(gradient) as usize,
+                    look: radial_look(gradient),
+                };
+                self.gradient(&element, shape, place)
             }
             Paint::Pattern(pattern) => self.pattern(pattern, place)?.map(Fill::Pattern),
         })
     }
 
-    fn gradient(
-        &mut self,
-        gradient: &BaseGradient,
-        address: usize,
-        (geometry, look): (GradientShape, &Vec<u32>),
-        place: Place,
-    ) -> Option<Fill> {
+    fn gradient(&mut self, element: &GradientElement<'_>, geometry: GradientShape, place: Place) -> Option<Fill> {
+        let gradient = element.base;
         let to_user = place.to_user * affine(gradient.transform());
-        let key = key(address, place.opacity, to_user);
+        let key = key(element.address, place.opacity, to_user);
         if let Some(known) = self.servers.gradients.get(&key) {
             return known.map(Fill::Gradient);
         }
@@ -91,7 +86,7 @@ impl<'doc> Painter<'_, 'doc> {
             usvg::SpreadMethod::Repeat => Spread::Repeat,
         };
         let id = Ramp::new(stops.collect(), spread).and_then(|ramp| {
-            let shape = self.shape_of_gradient(gradient.id(), look, place.shape);
+            let shape = self.shape_of_gradient(gradient.id(), &element.look, place.shape);
             let gradient = Gradient {
                 shape,
                 geometry,
@@ -209,6 +204,15 @@ fn look(gradient: &BaseGradient, geometry: &[f32]) -> Vec<u32> {
         look.extend([stop.offset().get(), stop.opacity().get()].map(f32::to_bits));
     }
     look
+}
+
+/// A gradient as usvg tells it.
+struct GradientElement<'a> {
+    base: &'a BaseGradient,
+    /// Tells it from others.
+    address: usize,
+    /// By which its element is found where usvg gave it another name.
+    look: Vec<u32>,
 }
 
 fn linear_look(gradient: &LinearGradient) -> Vec<u32> {

@@ -18,7 +18,7 @@ use crate::viewer::frames::frame::{Frame, Picture};
 use crate::viewer::jobs::mailbox::Mailbox;
 use crate::viewer::jobs::pool::{AtEnd, WorkerPool, guarded};
 
-/// So long after the last change both pictures count as at rest.
+/// How long after the last change both pictures count as resting.
 pub(in crate::viewer) const REST: Duration = Duration::from_millis(120);
 
 /// Places that can be gone to one after the other.

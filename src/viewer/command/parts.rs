@@ -98,7 +98,7 @@ pub enum AbCommand {
     SetMeasure(Measure),
     /// Shows differences times this, kept above zero.
     SetGain(f32),
-    /// Doubles (above zero) or halves the gain so many times.
+    /// Doubles the gain this many times, or halves it where the number is below zero.
     StepGain(i32),
     /// Pins the pixel that differs most; from there the next.
     NextDifference,
@@ -151,7 +151,7 @@ pub enum InspectorCommand {
     SetRegion(u32),
     /// This many window pixels along each side of a magnified pixel, kept within the inspector's limits.
     SetMagnification(u32),
-    /// A higher (above zero) or lower magnification by so many steps; the inset's size stays about the same.
+    /// Raises the magnification by this many steps, or lowers it where the number is below zero; the inset's size stays about the same.
     StepMagnification(i32),
     /// Pins the pixel under the pointer and opens the inspector; unpins if that pixel is pinned already.
     PinUnderPointer,
@@ -159,7 +159,7 @@ pub enum InspectorCommand {
     Pin([i64; 2]),
     /// Pins the pixel nearest to the middle of the free picture where two colours meet.
     PinEdge,
-    /// Moves the pin by so many frame pixels within the frame; pins first what the open inspector shows.
+    /// Moves the pin by frame pixels, within the frame; pins what the open inspector shows first.
     Nudge([i64; 2]),
     /// The inspector follows the pointer again.
     Unpin,

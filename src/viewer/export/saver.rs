@@ -168,7 +168,7 @@ impl Job {
     fn save(self) -> Result<(PathBuf, [u32; 2]), String> {
         match self.work {
             Work::Picture(picture, recipe) => {
-                save_new((&self.folder, &self.name), &picture.picture()?, recipe.as_deref())
+                save_new(&self.folder, &self.name, &picture.picture()?, recipe.as_deref())
             }
             Work::Sheet(sheet) => {
                 let stem = self.name.name(Some(sheet.spec()), &now());
@@ -207,7 +207,8 @@ fn zone() -> TimeZone {
 
 /// Saves `picture` in `folder` under a name that did not exist.
 fn save_new(
-    (folder, name): (&Path, &NameTemplate),
+    folder: &Path,
+    name: &NameTemplate,
     picture: &Framebuffer,
     recipe: Option<&Recipe>,
 ) -> Result<(PathBuf, [u32; 2]), String> {
@@ -246,7 +247,7 @@ mod tests {
         picture.pixels_mut()[4] = 0x80ff_8000;
         let paths: Vec<PathBuf> = (0..20)
             .map(|_| {
-                save_new((folder.path(), &NameTemplate::default()), &picture, None)
+                save_new(folder.path(), &NameTemplate::default(), &picture, None)
                     .expect("a writable folder")
                     .0
             })
@@ -290,7 +291,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let nowhere = folder.path().join("no/such");
         let problem =
-            save_new((&nowhere, &NameTemplate::default()), &Framebuffer::new(1, 1), None).expect_err("no folder");
+            save_new(&nowhere, &NameTemplate::default(), &Framebuffer::new(1, 1), None).expect_err("no folder");
         assert!(
             problem.contains("no/such") && problem.contains("--screenshot-dir"),
             "{problem}"

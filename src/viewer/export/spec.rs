@@ -111,9 +111,11 @@ impl PictureSpec {
 
     /// The record of the picture that was drawn of `scene`, for a file `output`.
     pub fn record(&self, scene: &Scene, output: &Path) -> Record {
+        let textures = scene.files.textures.iter();
+        let textures = textures.map(|(address, digest)| texture_file(address, digest));
         Record {
             scene: Some(scene_file(&self.scene, scene, output)),
-            textures: scene.files.textures.iter().map(texture_file).collect(),
+            textures: textures.collect(),
             view: self.view_text(),
             settings: self
                 .settings()
@@ -125,7 +127,7 @@ impl PictureSpec {
     }
 }
 
-/// The record of a picture of `size` pixels that these arguments make, of which nothing else is known.
+/// The record of a picture of `size` pixels of which only the arguments are known.
 pub fn plain_record(arguments: Vec<String>, size: [u32; 2]) -> Record {
     Record {
         version: Record::VERSION,
@@ -153,9 +155,9 @@ fn scene_file(source: &SceneSource, scene: &Scene, output: &Path) -> RecordedFil
     }
 }
 
-fn texture_file((address, digest): &(String, FileDigest)) -> RecordedFile {
+fn texture_file(address: &str, digest: &FileDigest) -> RecordedFile {
     RecordedFile {
-        address: address.clone(),
+        address: address.to_owned(),
         beside: None,
         sha256: digest.to_string(),
     }

@@ -43,7 +43,7 @@ pub(in crate::viewer) struct FrameBudget {
 }
 
 impl FrameBudget {
-    /// Takes in that a drawing of `picture` took so long; `quality` is `None` for a whole frame.
+    /// Takes in how long a drawing of `picture` took; `quality` is `None` for a whole frame.
     pub(in crate::viewer) fn note(&mut self, picture: &Picture, quality: Option<PreviewQuality>, took: Duration) {
         self.follow(&picture.scene);
         let cost = took.as_secs_f64() / pixels(picture);
@@ -82,7 +82,7 @@ impl FrameBudget {
         self.moved = self.moved.map(|cost| cost * WORTH);
     }
 
-    /// A whole frame of `picture` was given up after so long.
+    /// A whole frame of `picture` was given up after this time.
     pub(in crate::viewer) fn note_given_up(&mut self, picture: &Picture, after: Duration) {
         let known = self.whole_frame(picture).unwrap_or_default();
         if after > known.max(BUDGET) {
@@ -146,7 +146,7 @@ impl FrameBudget {
         whole / (picture.settings.sample_rate.samples() * side * side).max(1)
     }
 
-    /// What a step of the ladder took, for so many pixels; `None` where it was not drawn yet.
+    /// How long a step of the ladder took for this number of pixels; `None` where it was not drawn yet.
     pub(in crate::viewer) fn step_cost(&self, picture: &Picture, quality: PreviewQuality) -> Option<Duration> {
         let at = STEPS.iter().position(|step| *step == quality)?;
         let cost = self.steps[at].filter(|_| self.knows(&picture.scene))?;

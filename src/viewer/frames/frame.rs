@@ -50,7 +50,7 @@ pub struct Preview {
 pub enum PreviewQuality {
     /// One sample per pixel.
     RateOne,
-    /// One sample for so many pixels along each side.
+    /// One sample for a square with this many pixels along each side.
     Coarse(u32),
     /// The frame before, moved by whole pixels, with its uncovered strips drawn.
     Moved,

@@ -40,7 +40,7 @@ pub(in crate::viewer) enum Plan {
     Coarse(PreviewQuality),
     /// A step of the ladder, then final tiles; a picture that is quick to draw comes at once.
     CoarseThenFine(PreviewQuality),
-    /// This frame, moved by so many pixels.
+    /// This frame, moved by a number of pixels.
     Moved(Arc<Frame>, [i64; 2]),
     /// Final tiles over what is on the screen.
     Fine,

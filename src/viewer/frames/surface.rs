@@ -1,4 +1,4 @@
-//! Frames that whoever shows them draws himself, straight into what he shows: those that are known to be quick.
+//! Quick frames that the event loop draws itself, straight into the surface that it presents.
 
 use std::time::{Duration, Instant};
 
@@ -10,11 +10,11 @@ use crate::viewer::frames::frame::PreviewQuality;
 use crate::viewer::frames::job::{Drawn, Job, Plan};
 use crate::viewer::frames::request::FrameRequest;
 
-/// A frame that is drawn where it is shown is given up after so long: the window must not stand still.
+/// When a frame that is drawn into the surface is given up: the window must not stand still.
 const LONGEST: Duration = BUDGET.saturating_mul(2);
 
 impl Drawing {
-    /// Whether whoever shows frames draws quick ones with [`Drawing::draw_onto`]: they are what he shows, pixel by pixel.
+    /// Whether the event loop draws quick frames with [`Drawing::draw_onto`]: a frame is what the surface shows, pixel by pixel.
     pub(in crate::viewer) fn lend_surface(&mut self, lends: bool) {
         match (lends, &self.surface) {
             (true, Surface::Kept) => self.surface = Surface::Lent,

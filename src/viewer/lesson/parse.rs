@@ -125,7 +125,7 @@ fn steps(value: &Value<'_>, folder: Option<&Path>) -> Found<Vec<LessonStep>> {
             return mistake(value.span(), "a step is a table; write `[[step]]` above it");
         };
         let before = steps.last().map(|step| step.scene.clone());
-        steps.push(step(table, (before, value.span()), folder)?);
+        steps.push(step(table, value.span(), before, folder)?);
     }
     Ok(steps)
 }
@@ -133,7 +133,8 @@ fn steps(value: &Value<'_>, folder: Option<&Path>) -> Found<Vec<LessonStep>> {
 /// One step; without a scene of its own it shows the one `before`.
 fn step(
     table: &DeTable<'_>,
-    (before, at): (Option<SceneSource>, Range<usize>),
+    at: Range<usize>,
+    before: Option<SceneSource>,
     folder: Option<&Path>,
 ) -> Found<LessonStep> {
     let (mut scene, mut against, mut arrangement) = (before, None, None);
@@ -250,7 +251,7 @@ fn arrange(value: &Value<'_>) -> Found<Arrangement> {
     of_form(value, arrangement, Arrangement::FORM)
 }
 
-/// A string of at most so many bytes.
+/// A string that is not longer than this many bytes.
 fn words(value: &Value<'_>, most: usize) -> Found<String> {
     match value.get_ref().as_str() {
         Some(text) if text.len() > most => mistake(

@@ -8,7 +8,7 @@ use std::time::Duration;
 use glam::DVec2;
 
 use super::parse::{Script, ScriptError, ScriptStep, Step};
-use crate::figure::{Named, save_picture};
+use crate::figure::{Destination, save_picture};
 use crate::raster::Framebuffer;
 use crate::viewer::{Command, Effect, KeyPress, PointerButton, Viewer, commands};
 
@@ -199,7 +199,7 @@ pub fn save_window(viewer: &Viewer, picture: &Framebuffer, path: &Path) -> io::R
     save_picture(
         picture,
         record.as_ref(),
-        (path, Named::ByUser),
+        Destination::by_user(path),
         &viewer.recipes().guard(),
     )
 }

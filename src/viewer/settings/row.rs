@@ -95,7 +95,7 @@ pub struct PanelRow {
 pub enum Control {
     /// A button for every value, beside the label.
     Buttons,
-    /// A button for every value, so many in a row, below the label.
+    /// A button for every value, this many in a row, below the label.
     WideButtons(usize),
     /// A list that drops down.
     List,
@@ -149,7 +149,7 @@ impl PictureSetting {
         (self.get)(settings)
     }
 
-    /// The value of a picture of which nothing is said.
+    /// The value where nothing is said about the setting.
     pub fn default_value(&self) -> String {
         self.value(&Settings::default())
     }

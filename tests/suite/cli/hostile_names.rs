@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Output;
 
-use rasterscope::figure::{Guard, Named, Record, save_picture, save_png};
+use rasterscope::figure::{Destination, Guard, Record, save_picture, save_png};
 use rasterscope::plain;
 use rasterscope::raster::Framebuffer;
 
@@ -117,7 +117,7 @@ fn trapped(folder: &Path, name: &str, record: &Record) {
     save_picture(
         &frame(),
         Some(record),
-        (&folder.join(name), Named::ByUser),
+        Destination::by_user(&folder.join(name)),
         &Guard::default(),
     )
     .unwrap();

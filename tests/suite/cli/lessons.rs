@@ -90,17 +90,8 @@ fn lesson_is_walked_by_keys_and_closed_by_escape() {
     );
     assert_eq!(session.viewer.settings().dialect, DialectChoice::Svg);
     assert_eq!(session.viewer.ab().arrangement(), Arrangement::SideBySide);
-    assert_eq!(
-        session
-            .viewer
-            .ab()
-            .other_settings(session.viewer.settings())
-            .unwrap()
-            .sample_rate
-            .samples(),
-        4,
-        "B"
-    );
+    let b = session.viewer.ab().other_settings(session.viewer.settings());
+    assert_eq!(b.unwrap().sample_rate.samples(), 4, "B");
     assert_eq!(session.viewer.pixels().pinned(), None, "no pin");
 
     session.keys(&["PageDown", "PageDown"]);

@@ -60,7 +60,7 @@ pub struct Panel {
 pub type SceneReader<'a> = &'a mut dyn FnMut(DialectChoice) -> Result<Arc<Scene>, String>;
 
 impl SheetRequest {
-    /// A sheet of every combination of `axes`, of which `spec` gives each one's picture.
+    /// A sheet of every combination of `axes`; `spec` gives the picture of each.
     ///
     /// # Errors
     /// One line when there are too many of them, and what `spec` says.
@@ -137,7 +137,7 @@ impl SheetRequest {
         let frames: Vec<&Framebuffer> = panels.iter().map(|panel| &panel.frame).collect();
         Ok(Sheet {
             picture: layout.draw(&frames, legend.as_ref()),
-            record: self.record((first, &scene), output),
+            record: self.record(first, &scene, output),
             caption: plan.caption.clone(),
             panels,
         })
@@ -210,7 +210,7 @@ impl SheetRequest {
     }
 
     /// The record: the command line of the sheet.
-    fn record(&self, (first, scene): (&PictureSpec, &Scene), output: &Path) -> Record {
+    fn record(&self, first: &PictureSpec, scene: &Scene, output: &Path) -> Record {
         let of_panel = first.record(scene, output);
         let plain = plain_record(self.arguments(first, &output.display().to_string()), first.size);
         Record {

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::figure::{Figure, Guard, Named, NewFile, Unwritable, encode_png, html, latex, markdown, save_files};
+use crate::figure::{Destination, Figure, Guard, NewFile, Unwritable, encode_png, html, latex, markdown, save_files};
 use crate::viewer::export::sheet::captions::title;
 use crate::viewer::export::sheet::drawing::{Panel, Sheet, SheetRequest};
 
@@ -27,23 +27,22 @@ impl Sheet {
     ///
     /// # Errors
     /// When one cannot be written.
-    pub fn save(&self, (output, named): (&Path, Named), guard: &Guard) -> Result<Figure, Unwritable> {
+    pub fn save(&self, output: Destination<'_>, guard: &Guard) -> Result<Figure, Unwritable> {
         let mut guard = guard.clone();
         for panel in &self.panels {
             panel.spec.scene.protect(&panel.scene.files, &mut guard);
         }
-        let folder = output.with_extension("");
+        let folder = output.path.with_extension("");
         // Before the rest: records tell the way from there to the scene.
         let made = make_folder(&folder).map_err(|error| (folder.clone(), error))?;
-        let (whole, files) = self
-            .files((output, named), &folder)
-            .inspect_err(|_| remove(made, &folder))?;
+        let (whole, files) = self.files(output, &folder).inspect_err(|_| remove(made, &folder))?;
         save_files(&files, &guard).inspect_err(|_| remove(made, &folder))?;
         Ok(whole)
     }
 
     /// What documents say about the sheet, and all its files.
-    fn files(&self, (output, named): (&Path, Named), folder: &Path) -> Result<(Figure, Vec<NewFile>), Unwritable> {
+    fn files(&self, output: Destination<'_>, folder: &Path) -> Result<(Figure, Vec<NewFile>), Unwritable> {
+        let Destination { path: output, named } = output;
         let at = |path: &Path| {
             let path = path.to_owned();
             move |error| (path, error)

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::figure::{Guard, Named, Unwritable};
+use crate::figure::{Destination, Guard, Unwritable};
 use crate::viewer::export::sheet::preview::SheetQuestion;
 use crate::viewer::export::spec::PictureSpec;
 
@@ -56,7 +56,7 @@ impl SheetJob {
                 let path = path.display();
                 format!("{path}: cannot save here: {error}; {cure}")
             };
-            let saved = sheet.save((&output, Named::ByProgram), &Guard::default());
+            let saved = sheet.save(Destination::by_program(&output), &Guard::default());
             saved.map_err(unwritable).map(|_| (output, size))
         });
         if saved.is_err() {

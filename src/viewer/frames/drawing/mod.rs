@@ -6,7 +6,7 @@
 //! if a newer one is wanted, since a drag would otherwise show nothing until it ends; a slow one is given up, but
 //! never for so long that the window seems dead.
 //!
-//! Frames that are known to be quick can be drawn by whoever shows them, straight into what he shows.
+//! Frames that are known to be quick can be drawn by the event loop, straight into the surface that it presents.
 
 #[cfg(test)]
 mod tests;
@@ -39,10 +39,10 @@ pub(in crate::viewer) enum Surface {
 /// A final frame that takes longer is given up for a newer request.
 const SLOW: Duration = Duration::from_millis(400);
 
-/// After so long without a new frame, the one that is drawn is left to finish.
+/// Once no new frame has come for this long, the one that is being drawn is left to finish.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// So long after the last request the hand counts as resting.
+/// How long after the last request the hand counts as resting.
 pub(in crate::viewer) const REST: Duration = Duration::from_millis(100);
 
 /// Which of the viewer's drawings: the results of all arrive in one channel.
@@ -493,7 +493,7 @@ impl Plan {
     }
 }
 
-/// Whether a frame that `takes` so long is given up for a newer one, `since` the last finished one.
+/// Whether a frame that takes as long as `takes` is given up for a newer one, `since` the last finished one.
 fn is_too_slow(takes: Duration, since: Duration) -> bool {
     takes > SLOW && since < PATIENCE
 }

@@ -19,7 +19,7 @@ pub(super) fn run(options: &RenderOptions, restored: Option<&Restored>) -> Resul
             folder(options)
         } else {
             name_for_png(&options.output)?;
-            let scene = Found {
+            let scene = SceneToDraw {
                 source: SceneSource::from_address(&options.scene),
                 is_of_course: false,
             };
@@ -41,7 +41,7 @@ fn folder(options: &RenderOptions) -> Result<(), Failure> {
         progress::begin(&entry.label);
         let output = picture_of(entry, options);
         let drawn = if taken.insert(output.clone()) {
-            let scene = Found {
+            let scene = SceneToDraw {
                 source: entry.source.clone(),
                 is_of_course: entry.is_of_course,
             };
@@ -81,7 +81,7 @@ fn picture_of(entry: &SceneEntry, options: &RenderOptions) -> PathBuf {
 }
 
 /// A scene to be drawn.
-struct Found {
+struct SceneToDraw {
     source: SceneSource,
     /// Whether it lies in a folder of the course's.
     is_of_course: bool,
@@ -89,12 +89,12 @@ struct Found {
 
 /// Draws a scene.
 fn one(
-    scene: Found,
+    scene: SceneToDraw,
     output: Destination<'_>,
     options: &RenderOptions,
     restored: Option<&Restored>,
 ) -> Result<(), Failure> {
-    let Found { source, is_of_course } = scene;
+    let SceneToDraw { source, is_of_course } = scene;
     let Destination { path: output, named } = output;
     let mut guard = guard_of(options.force, restored);
     if let SceneSource::File(path) = &source {

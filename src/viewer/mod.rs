@@ -9,13 +9,16 @@
 //!
 //! ```text
 //! script, slides                        who drives a viewer by texts, or step by step through a lesson
-//! control                               what commands and results do to several parts
+//! control                               what commands and results do to several parts, through structs that borrow them
 //! state                                 the viewer: its parts side by side
 //! command                               what a user can do, as data
 //! lesson, export, inspector, ab,        the parts, each with its own state;
 //! frames, library, view, chrome         none of them knows the viewer
 //! settings, jobs, key_chords            what all of them use
 //! ```
+//!
+//! A part answers for itself: `viewer.scene_list().current()`, `viewer.ab().arrangement()`. What takes several parts is asked
+//! of [`Both`] (A, B and where they lie), [`Pointing`] (which pixel is meant), [`WindowContent`] and [`Recipes`].
 //!
 //! Window pixels are device pixels from the window's upper left corner; frame pixels are `pixel zoom` times larger.
 

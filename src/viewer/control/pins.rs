@@ -25,7 +25,7 @@ const PANEL_ROOM: i64 = 12;
 const FEW: usize = 4000;
 
 /// What a camera looks at, and where its frame lies.
-struct SeenFrom {
+struct FrameInWindow {
     context: ViewContext,
     panes: Panes,
 }
@@ -180,8 +180,8 @@ impl Hand<'_> {
         self.keep_fixed_in_place(&panes, asks);
         let contexts = before.zip(self.both().view_context());
         if let Some((before, context)) = contexts.filter(|(before, context)| asks && before.frame != context.frame) {
-            let before = SeenFrom { context: before, panes };
-            let now = SeenFrom {
+            let before = FrameInWindow { context: before, panes };
+            let now = FrameInWindow {
                 context,
                 panes: self.layout().panes(),
             };
@@ -218,7 +218,7 @@ impl Hand<'_> {
 
     /// Sets the view in which the pinned pixel shows what it showed `before`, at the same place of the window if its pane has
     /// that, else as near as may be.
-    fn keep_view_of_pin(&mut self, before: &SeenFrom, now: &SeenFrom) {
+    fn keep_view_of_pin(&mut self, before: &FrameInWindow, now: &FrameInWindow) {
         let Some(Pin {
             pixel,
             place: Some((place, _)),

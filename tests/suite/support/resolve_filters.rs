@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use rasterscope::raster::ResolveFilter;
+use rasterscope::raster::{FilterRadius, ResolveFilter};
 use rasterscope::render::RenderSettings;
 
 /// Along one axis, weights are multiples of one over this: that is part of their definition.
@@ -23,14 +23,15 @@ fn own_radius(filter: ResolveFilter) -> f64 {
 pub(crate) fn radius(settings: &RenderSettings) -> f64 {
     settings
         .filter_radius
-        .map_or(own_radius(settings.resolve_filter), |radius| radius.pixels())
+        .map_or(own_radius(settings.resolve_filter), FilterRadius::pixels)
 }
 
 /// Pixels on each side of a pixel in which samples may weigh anything.
 pub(crate) fn margin(settings: &RenderSettings) -> i64 {
-    (0..)
+    // None reaches farther than four pixels.
+    (0..4)
         .find(|pixels| *pixels as f64 >= radius(settings) - 0.5)
-        .expect("a small radius")
+        .unwrap_or(4)
 }
 
 /// What a filter is at a distance from the middle, where it is as wide as by itself.

@@ -97,12 +97,15 @@ impl Dialogs {
             .floor()
             .clamp(1.0, FEW_ROWS);
         let height = rows * row - BETWEEN_ENTRIES;
+        let list = ListShown {
+            chosen: usize::MAX,
+            moves: false,
+            height,
+        };
         let pressed = ui
             .scope(|ui| {
                 ui.set_min_height(height);
-                let pressed = list_of(ui, &found, (usize::MAX, false, height), |ui, item, chosen| {
-                    item.show(ui, chosen)
-                });
+                let pressed = list_of(ui, &found, list, |ui, item, chosen| item.show(ui, chosen));
                 if found.is_empty() {
                     ui.label(RichText::new("no pictures here").weak());
                 }

@@ -178,7 +178,6 @@ impl SizedFilter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::{Premultiplied16, ResolveSpace};
 
     #[test]
     fn margins_hold_all_that_weighs_anything() {

@@ -92,9 +92,7 @@ impl BySamples {
             is_grid: context.grid.side().cast_unsigned() == side,
             mean: match context.space {
                 // The mean of one sample is that sample in either.
-                ResolveSpace::Linear if side > 1 => {
-                    Mean::Linear(LightResolver::new(side * side, rules))
-                }
+                ResolveSpace::Linear if side > 1 => Mean::Linear(LightResolver::new(side * side, rules)),
                 _ => Mean::Stored(Resolver::new(side * side, rules)),
             },
             lights: Vec::new(),

@@ -16,7 +16,7 @@ use super::sample_offsets::{Footing, MAX_SIDE, Scale};
 use super::simd_channels::{self, Spread};
 use super::tent_weights::{Covered, Weighed, weigh};
 use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows};
-use super::{anisotropic_filter, sample_filter};
+use super::{PixelSampling, anisotropic_filter, sample_filter};
 use crate::color::Premultiplied16;
 use crate::simd::Level;
 
@@ -37,7 +37,7 @@ struct Batch {
     points: [[u16; 2]; BATCH],
     count: usize,
     /// Whose they are: pixels of a list, and where the samples of each end.
-    pixels: [(usize, usize); BATCH],
+    pixels: [(u32, u32); BATCH],
     pixel_count: usize,
 }
 
@@ -45,17 +45,38 @@ struct Batch {
 pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
     let scale = Scale::new(side);
     let taps = plan.line.taps.count;
-    if let Some(samples) = NearestSamples::<FEW>::new(plan, side) {
-        return dispatch!(level, simd => nearest_sums::sum(simd, plan, &samples, (list, sums)));
-    }
-    if let Some(samples) = NearestSamples::<MANY>::new(plan, side) {
-        return dispatch!(level, simd => nearest_sums::sum(simd, plan, &samples, (list, sums)));
+    if plan.pixel == PixelSampling::Nearest && sum_nearest(level, plan, side, (list, &mut *sums)) {
+        return;
     }
     match Footing::of_plan(plan, scale) {
         Some(footings) => dispatch!(level, simd => sum_texels(simd, plan, scale, &footings, (list, sums))),
         None if taps == 1 => dispatch!(level, simd => sum_samples::<_, false>(simd, plan, scale, list, sums)),
         None => dispatch!(level, simd => sum_samples::<_, true>(simd, plan, scale, list, sums)),
     }
+}
+
+/// Fetches a texel for every sample, where that is all; whether it is.
+fn sum_nearest(level: Level, plan: &Plan<'_>, side: u32, sums: (PixelList<'_>, &mut [[u32; 4]])) -> bool {
+    if (side * side) as usize > FEW {
+        sum_nearest_of::<MANY>(level, plan, side, sums)
+    } else {
+        sum_nearest_of::<FEW>(level, plan, side, sums)
+    }
+}
+
+// Not inlined: its memory is not for lists that do not need it.
+#[inline(never)]
+fn sum_nearest_of<const N: usize>(
+    level: Level,
+    plan: &Plan<'_>,
+    side: u32,
+    sums: (PixelList<'_>, &mut [[u32; 4]]),
+) -> bool {
+    let Some(samples) = NearestSamples::<N>::new(plan, side) else {
+        return false;
+    };
+    dispatch!(level, simd => nearest_sums::sum(simd, plan, &samples, sums));
+    true
 }
 
 /// Filters every sample, with one tap or several.
@@ -117,7 +138,8 @@ impl Batch {
                 self.count += usize::from(is_meant);
                 sample += 1;
             }
-            self.pixels[self.pixel_count] = (pixel, self.count);
+            let number = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
+            self.pixels[self.pixel_count] = (number(pixel), number(self.count));
             self.pixel_count += 1;
             if sample == inside.len() {
                 (pixel, sample) = (pixel + 1, 0);
@@ -131,14 +153,15 @@ impl Batch {
     fn add_to(&self, sums: &mut [[u32; 4]], colors: &[Premultiplied16]) {
         let mut first = 0;
         for (pixel, end) in &self.pixels[..self.pixel_count] {
-            let mut sum = sums[*pixel];
-            for color in &colors[first..*end] {
+            let (pixel, end) = (*pixel as usize, *end as usize);
+            let mut sum = sums[pixel];
+            for color in &colors[first..end] {
                 for (sum, channel) in sum.iter_mut().zip(color.0) {
                     *sum += u32::from(channel);
                 }
             }
-            sums[*pixel] = sum;
-            first = *end;
+            sums[pixel] = sum;
+            first = end;
         }
     }
 }

@@ -88,6 +88,7 @@ pub(super) fn drop_down<T: Copy + PartialEq>(
     ComboBox::from_id_salt(name)
         .width(ui.available_width())
         .selected_text(shown.map_or("", |(_, text)| text))
+        .truncate()
         .height(f32::INFINITY)
         .show_ui(ui, |ui| {
             for (value, text) in values {

@@ -70,7 +70,11 @@ fn control(ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32, command
             let current = setting.value(now);
             let names = setting.names();
             let values: Vec<(&str, &str)> = names.iter().map(|name| (*name, *name)).collect();
-            let chosen = drop_down(ui, panel.name, &tip_of(setting), current.as_str(), &values);
+            let list = ui.scope(|ui| {
+                ui.set_max_width(width);
+                drop_down(ui, panel.name, &tip_of(setting), current.as_str(), &values)
+            });
+            let chosen = list.inner;
             commands.extend(chosen.and_then(|value| setting.to(value).ok()).map(Command::Set));
         }
         Control::Number { range, prefix, none } => {

@@ -324,7 +324,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
-            more: "Wider ones than the box take samples of neighbours too: less moire, for some blur or ringing, and about twice the time",
+            more: "Wider ones than the box take samples of neighbours too: less moire, for some blur or ringing, and for more time",
             ..command(
                 "resolve-filter",
                 "Resolve filter",

@@ -11,6 +11,7 @@ mod layer_end;
 pub(in crate::raster) mod packed;
 pub(in crate::raster) mod painter;
 mod resolve;
+mod resolve_by_samples;
 pub(in crate::raster) mod shading_queue;
 pub(in crate::raster) mod surface_color;
 pub(in crate::raster) mod surfaces;

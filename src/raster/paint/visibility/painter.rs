@@ -2,7 +2,7 @@
 //!
 //! Nothing hidden is ever shaded, and a primitive's part of a pixel is shaded as one, whatever the number of samples:
 //! its sum over the samples is taken before anything is rounded. Translucent flat colours are mixed once for all
-//! samples that show the same. The second step is in `resolve`; in `by_samples` where each sample is shaded and rounded for
+//! samples that show the same. The second step is in `resolve`; in `resolve_by_samples` where each sample is shaded and rounded for
 //! itself, because samples do not lie on the grid or their light is averaged.
 
 use fearless_simd::{Simd, dispatch};

@@ -1,0 +1,275 @@
+//! The second step of a tile where every sample is shaded and rounded for itself: off the grid, where no sum of a primitive's
+//! samples is known before, and in linear light, which is no sum of what samples store.
+//!
+//! As in `resolve` only what is seen is shaded, primitive by primitive. Pixels that show one primitive are averaged as soon as
+//! their samples are shaded; those that several share have a place for each sample, which are averaged at last. In tiles of
+//! flat colours light is added up by surface.
+
+use std::time::{Duration, Instant};
+
+use crate::color::{Light, LightResolver, Premultiplied16};
+use crate::raster::frame::block::PixelBlock;
+use crate::raster::paint::visibility::buffer::{Run, VisibilityBuffer};
+use crate::raster::paint::visibility::by_samples::{BySamples, Mean};
+use crate::raster::paint::visibility::packed::lanes;
+use crate::raster::paint::visibility::painter::VisibilityPainter;
+use crate::raster::paint::visibility::resolve::each_shared;
+use crate::raster::paint::visibility::shading_queue::{Fragment, Part, ShadingQueue};
+use crate::raster::paint::visibility::surface_color::Shaded;
+use crate::raster::paint::visibility::surfaces::SurfaceTable;
+use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
+use crate::raster::shading::Shader;
+use crate::raster::span::PixelRect;
+use crate::raster::surface_id::{MAX_SURFACES, SurfaceId, TWO_SURFACES};
+
+/// Fragments that are shaded together: so many that their samples stay in a core's cache.
+const TOGETHER: usize = 64;
+
+impl VisibilityPainter<'_> {
+    /// Shades what is seen and resolves the finished tile; how long shading took, if that is to be `timed`.
+    pub(super) fn resolve_by_samples(&mut self, block: &mut PixelBlock<'_>, timed: bool) -> Duration {
+        let PixelRect { x, y } = self.layers.base().rect;
+        self.by_samples.shared.clear();
+        for (y, row) in (y.start..y.end).zip(0..) {
+            self.note_row(y, row, block.line(y));
+        }
+        if self.unresolved.is_empty() {
+            return Duration::ZERO;
+        }
+        let start = timed.then(Instant::now);
+        self.unresolved.sort(self.surfaces.len());
+        self.shade_samples([x.start, y.start], block);
+        let shading = start.map(|start| start.elapsed()).unwrap_or_default();
+        let BySamples { shared, mean, .. } = &self.by_samples;
+        let samples = shared.chunks_exact(self.resolver.count() as usize);
+        for (place, samples) in self.unresolved.places.iter().zip(samples) {
+            block.put(*place, mean.pixel(samples));
+        }
+        shading
+    }
+
+    /// Resolves what is flat in a row, and notes what is to be shaded.
+    fn note_row(&mut self, y: i32, row: u16, line: &mut [u32]) {
+        let (tile, surfaces) = (self.layers.base(), &self.surfaces);
+        let BySamples { shared, mean, .. } = &mut self.by_samples;
+        let unresolved = &mut self.unresolved;
+        let count = self.resolver.count();
+        for (run, range) in tile.runs(y) {
+            let columns = (0_u16..).take(range.end).skip(range.start);
+            match run {
+                Run::Whole(surface) => {
+                    let shown = surfaces.get(surface);
+                    if shown.shaded.is_none() {
+                        line[range].fill(shown.pixel);
+                    } else {
+                        columns.for_each(|x| unresolved.whole(surface, [x, row]));
+                    }
+                }
+                Run::TwoSurfacePixels => {
+                    let row_of_two = tile.two_surfaces(y);
+                    for x in columns {
+                        let TwoSurfaces { mask, first, second } = row_of_two.get(usize::from(x));
+                        let samples = (0..count).map(|i| if mask >> i & 1 == 1 { second } else { first });
+                        if let Some(flat) = note_shared(samples, surfaces, ([x, row], unresolved), shared) {
+                            line[usize::from(x)] = mean.pixel(&shared[flat..]);
+                            shared.truncate(flat);
+                        }
+                    }
+                }
+                Run::Split => {
+                    for x in columns {
+                        let samples = tile.samples(usize::from(x), y);
+                        if let Some(flat) = note_shared(samples, surfaces, ([x, row], unresolved), shared) {
+                            line[usize::from(x)] = mean.pixel(&shared[flat..]);
+                            shared.truncate(flat);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Shades all fragments; pixels that show one primitive go to `block`, whose first pixel is `origin`.
+    fn shade_samples(&mut self, origin: [i32; 2], block: &mut PixelBlock<'_>) {
+        let Self {
+            context,
+            surfaces,
+            unresolved,
+            by_samples,
+            ..
+        } = self;
+        let BySamples {
+            positions,
+            mean,
+            shared,
+            shades,
+            ..
+        } = by_samples;
+        let ShadingQueue { places, sorted, .. } = unresolved;
+        let grid = context.samples_from(origin);
+        let count = positions.count();
+        for fragments in sorted.by_surface() {
+            let Some(Shaded { corners, paint, .. }) = surfaces.get(fragments[0].surface).shaded else {
+                continue;
+            };
+            let shader = Shader::new(context, corners, paint);
+            // Where all pixels of a row get the same colours, that of the first one.
+            let repeats = shader.is_level() && positions.are_same();
+            let mut of_row = None;
+            for fragments in fragments.chunks(TOGETHER) {
+                shades.points.clear();
+                let mut row = of_row.map(|(row, _)| row);
+                for fragment in fragments {
+                    if let Part::Whole { place } = fragment.part {
+                        if repeats && row == Some(place[1]) {
+                            continue;
+                        }
+                        row = Some(place[1]);
+                    }
+                    shades.gather(fragment, places, (positions, origin, grid.side));
+                }
+                shades.shade(&shader, grid);
+                self.samples_shaded += shades.points.len() as u64;
+                let mut rest = &shades.colors[..shades.points.len()];
+                for Fragment { part, .. } in fragments {
+                    match *part {
+                        Part::Whole { place } => {
+                            if let Some((row, pixel)) = of_row
+                                && repeats
+                                && row == place[1]
+                            {
+                                block.put(place, pixel);
+                                continue;
+                            }
+                            let (samples, others) = rest.split_at(count);
+                            rest = others;
+                            // What is shaded here is opaque.
+                            let pixel = mean.opaque_pixel(samples);
+                            of_row = Some((place[1], pixel));
+                            block.put(place, pixel);
+                        }
+                        Part::Masked { pixel, first, mask } => {
+                            let first = pixel as usize * count + usize::from(first);
+                            let mut bits = mask;
+                            while bits != 0
+                                && let Some((color, others)) = rest.split_first()
+                            {
+                                shared[first + bits.trailing_zeros() as usize] = *color;
+                                rest = others;
+                                bits &= bits - 1;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Resolves a tile of flat colours into the means of their light.
+    pub(super) fn resolve_light(&mut self, block: &mut PixelBlock<'_>) {
+        let Mean::Linear(resolver) = self.by_samples.mean else {
+            return;
+        };
+        let all = (0..self.surfaces.len()).map(|i| SurfaceId::try_from(i).unwrap_or(0));
+        let lights = &mut self.by_samples.lights;
+        lights.clear();
+        lights.extend(all.map(|surface| Light::new(self.surfaces.get(surface).flat)));
+        let (tile, surfaces, lights) = (self.layers.base(), &self.surfaces, &*lights);
+        let flat = FlatLight {
+            surfaces,
+            lights,
+            resolver,
+            count: self.resolver.count(),
+        };
+        for y in tile.rect.y.start..tile.rect.y.end {
+            let line = block.line(y);
+            let Some(table) = surfaces.flat_resolve() else {
+                flat.row_of_many(tile, y, line);
+                continue;
+            };
+            let shown = tile.shown(y);
+            table.row(shown.whole, line);
+            each_shared(&shown, line, |two| flat.two(two), |x| flat.split(tile, x, y));
+        }
+    }
+}
+
+/// What pixels of flat colours are resolved by.
+struct FlatLight<'s> {
+    surfaces: &'s SurfaceTable<'s>,
+    lights: &'s [Light],
+    resolver: LightResolver,
+    count: u32,
+}
+
+impl FlatLight<'_> {
+    /// The pixel that shows two surfaces.
+    #[inline]
+    fn two(&self, TwoSurfaces { mask, first, second }: TwoSurfaces) -> u32 {
+        let shown = self.surfaces.get(first);
+        // What is all alike is its pixel.
+        if shown.flat == self.surfaces.get(second).flat {
+            return shown.pixel;
+        }
+        let of_second = mask.count_ones();
+        let [first, second] = [first, second].map(|surface| self.lights[usize::from(surface)]);
+        let mut sum = first.times(self.count - of_second);
+        sum += second.times(of_second);
+        self.resolver.pixel(sum)
+    }
+
+    /// The pixel in column `x` of the tile and row `y`, which is split.
+    #[inline]
+    fn split(&self, tile: &VisibilityBuffer, x: usize, y: i32) -> u32 {
+        let (mut sum, mut first, mut differ) = (Light::default(), None, false);
+        tile.each_packed(x, y, |word, used| {
+            for surface in &lanes(word)[..used as usize] {
+                sum += self.lights[usize::from(*surface)];
+                let known = first.get_or_insert(*surface);
+                differ |= known != surface && self.surfaces.get(*known).flat != self.surfaces.get(*surface).flat;
+            }
+        });
+        match first {
+            Some(surface) if !differ => self.surfaces.get(surface).pixel,
+            _ => self.resolver.pixel(sum),
+        }
+    }
+
+    /// A row where there are many surfaces.
+    #[cold]
+    fn row_of_many(&self, tile: &VisibilityBuffer, y: i32, line: &mut [u32]) {
+        let row_of_two = tile.two_surfaces(y);
+        for ((x, surface), pixel) in tile.row(y).iter().enumerate().zip(line) {
+            *pixel = match *surface {
+                TWO_SURFACES => self.two(row_of_two.get(x)),
+                surface if usize::from(surface) < MAX_SURFACES => self.surfaces.get(surface).pixel,
+                _ => self.split(tile, x, y),
+            };
+        }
+    }
+}
+
+/// Adds the samples of a pixel that several surfaces share to `shared`, and what of it is to be shaded to the queue; where
+/// nothing is, only the former, and where they begin.
+#[inline]
+fn note_shared(
+    samples: impl Iterator<Item = SurfaceId> + Clone,
+    surfaces: &SurfaceTable<'_>,
+    (place, unresolved): ([u16; 2], &mut ShadingQueue),
+    shared: &mut Vec<Premultiplied16>,
+) -> Option<usize> {
+    let first = shared.len();
+    let mut any_shaded = false;
+    shared.extend(samples.clone().map(|surface| {
+        let shown = surfaces.get(surface);
+        any_shaded |= shown.shaded.is_some();
+        shown.flat
+    }));
+    if !any_shaded {
+        return Some(first);
+    }
+    unresolved.split(place, samples, |surface| {
+        surfaces.get(surface).shaded.is_none().then_some([0; 4])
+    });
+    None
+}

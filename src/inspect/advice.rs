@@ -1,309 +1,231 @@
-//! What would change a pixel for the better, and with which key: the step from why to what to do.
-//!
-//! A setting is advised only where it was tried on this pixel and brought it nearer to the truth (see [`super::Truth`]).
-//! What is said of the reason is read off what was recorded of the pixel, and left away where nothing fits.
+//! How far a pixel is from the truth, and which settings bring it nearer: each is tried on this very pixel, by the code that
+//! draws frames.
 
-use std::collections::BTreeSet;
+use super::explanation::Question;
+use super::model::{Cure, Explanation, Setting, Truth};
+use crate::raster::{SamplePattern, SampleRate};
+use crate::render::{Nearby, RenderSettings};
+use crate::rules::Rules;
+use crate::texture::{Anisotropy, Derivatives, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
 
-use super::model::{Cure, Explanation, Interpolated, Missed, Paint, Setting, Texture, Truth, View};
-use super::numbers::{number, percent, significant};
-
-/// How many times as long as wide a footprint is from which on averaging it both ways blurs.
-const BLURS: f64 = 2.0;
-/// The part of a pixel by which samples may be wrong about coverage before anybody is told.
-const WRONG: f64 = 0.2;
-/// Texels between samples from which on some are left out whatever the filter.
-const LEAVES_OUT: f64 = 2.0;
-/// A colour of less alpha than this, in levels, lets what is below shine through.
-const OPAQUE: f64 = 254.99;
+/// Corners near a pixel above which it is not drawn again and again.
+const MOST_WORK: usize = 50_000;
+/// A setting has to bring a pixel nearer by more levels than this: less is rounding.
+const LEAST: f64 = 1.0;
+/// Of several values of a setting the first is taken that brings this part of what the best one does.
+const ENOUGH: f64 = 0.75;
+/// What brings less than this part of what another setting does is not worth a word.
+const WORTH_A_WORD: f64 = 0.25;
+/// Settings that are told at most.
+const MOST_CURES: usize = 3;
 
 impl Explanation {
-    /// How far the pixel is from the truth, then everything that would bring it nearer; empty where nobody asked.
-    pub fn help_lines(&self) -> Vec<String> {
-        let verdict = self.truth.as_ref().map(Truth::verdict);
-        verdict.into_iter().chain(self.hints()).collect()
+    /// Why a pixel has its colour, how far it is from the truth and what brings it nearer; `None` outside the picture.
+    pub fn advised(question: &Question<'_>) -> Option<Self> {
+        let explanation = Self::new(question)?;
+        Some(Self {
+            truth: explanation.find_truth(question),
+            ..explanation
+        })
     }
 
-    /// What is wrong about seams here, then each setting that would bring this pixel nearer to the truth, the best first, with
-    /// the reason where one is known; empty where all is well.
-    pub fn hints(&self) -> Vec<String> {
-        let cures = self.truth.iter().flat_map(|truth| &truth.cures);
-        self.seams()
-            .into_iter()
-            .chain(cures.map(|cure| self.hint(cure)))
-            .collect()
-    }
-
-    /// The reason, what to do and what it brings.
-    fn hint(&self, cure: &Cure) -> String {
-        let mut words = self.reason(cure).map_or(String::new(), |reason| reason + " ");
-        words += &cure.words();
-        words
-    }
-
-    /// What is wrong with this pixel that a setting cures.
-    fn reason(&self, cure: &Cure) -> Option<String> {
-        let texture = self.topmost().and_then(|paint| Some((paint, paint.texture.as_ref()?)));
-        match cure.setting {
-            Setting::SampleRate => self
-                .thin_parts()
-                .or_else(|| self.wrong_coverage())
-                .or_else(|| texture.and_then(|(_, texture)| self.texels_between(texture))),
-            Setting::LevelSampling => texture.and_then(|(paint, texture)| self.few_of_many(paint, texture)),
-            Setting::Anisotropy => texture.and_then(|(_, texture)| texture.blurred_across()),
-            Setting::PixelSampling => texture.and_then(|(_, texture)| texture.single_texels()),
-            Setting::LodLevel => Some("A fixed level of detail is read here, whatever the footprint.".to_owned()),
-            Setting::LodBias => Some("A bias is added to the level of detail.".to_owned()),
-            Setting::LodPer => {
-                Some("The level of detail is that of a whole pixel, for each of its samples.".to_owned())
-            }
-            Setting::Rules | Setting::Pattern => None,
+    /// `None` where there is too much to draw.
+    fn find_truth(&self, question: &Question<'_>) -> Option<Truth> {
+        let settings = question.subject.settings;
+        let nearby = Nearby::new(&question.subject, question.size, question.pixel);
+        if nearby.work() > MOST_WORK {
+            return None;
         }
-    }
-
-    /// The topmost primitive that is seen.
-    fn topmost(&self) -> Option<&Paint> {
-        let seen = |paint: &&Paint| paint.fragments.iter().any(|fragment| fragment.seen);
-        self.paints.iter().rev().find(seen)
-    }
-
-    /// The distance of neighbouring samples, in pixels.
-    fn step(&self) -> f64 {
-        1.0 / (self.samples.len().max(1) as f64).sqrt()
-    }
-
-    /// Whether a primitive passes between the samples, and would be seen if it did not.
-    fn is_thin(&self, missed: &Missed) -> bool {
-        let hides = |paint: &Paint| {
-            paint.primitive > missed.primitive
-                && paint.fragments.len() == self.samples.len()
-                && paint.fragments.iter().all(|fragment| fragment.color[3] >= OPAQUE)
+        let draw = |settings: &RenderSettings| {
+            let [a, r, g, b] = nearby.pixel(settings)?.to_be_bytes();
+            Some([r, g, b, a])
         };
-        missed.width < self.step() && !self.paints.iter().any(hides)
-    }
-
-    fn thin_parts(&self) -> Option<String> {
-        let thin = self.missed.iter().filter(|missed| self.is_thin(missed));
-        let area: f64 = thin.map(|missed| missed.area).sum();
-        (area > 0.0).then(|| {
-            format!(
-                "What is thin passes between the samples here, {} of the pixel: it breaks up.",
-                percent(area.min(1.0))
-            )
-        })
-    }
-
-    fn wrong_coverage(&self) -> Option<String> {
-        let paint = self.topmost()?;
-        let (part, area) = (self.covered_part(paint), paint.area.filter(|_| !paint.is_crisp())?);
-        ((part - area).abs() > WRONG).then(|| {
-            format!(
-                "The samples say that {} covers {} of the pixel; in truth it is {}.",
-                paint.name(),
-                percent(part),
-                percent(area)
-            )
-        })
-    }
-
-    /// The part of the samples that any piece of a paint's primitive covers.
-    pub(super) fn covered_part(&self, paint: &Paint) -> f64 {
-        let pieces = self
-            .paints
-            .iter()
-            .filter(|other| other.primitive == paint.primitive && other.area.is_some());
-        let covered: BTreeSet<usize> = pieces.flat_map(Paint::samples).collect();
-        covered.len() as f64 / self.samples.len().max(1) as f64
-    }
-
-    fn texels_between(&self, texture: &Texture) -> Option<String> {
-        let step = if texture.step == "sample" { 1.0 } else { self.step() };
-        let apart = texture.major * step;
-        (texture.reads_base_once() && apart > LEAVES_OUT).then(|| {
-            format!(
-                "Samples lie about {} texels apart here, and what is between them is not read.",
-                significant(apart)
-            )
-        })
-    }
-
-    /// How many texels the pixel's footprint holds, and how few of them its samples read.
-    fn few_of_many(&self, paint: &Paint, texture: &Texture) -> Option<String> {
-        let ([a, b], [c, d]) = (texture.right, texture.down);
-        let steps = if texture.step == "sample" {
-            self.samples.len()
-        } else {
-            1
+        let true_color = draw(&RenderSettings {
+            resolve: settings.resolve,
+            ..settings.truth()
+        })?;
+        let distance = distance(self.color, true_color);
+        let mut truth = Truth {
+            color: true_color,
+            distance,
+            cures: Vec::new(),
         };
-        let held = (a * d - b * c).abs() * steps as f64;
-        let read: BTreeSet<[u32; 2]> = paint
-            .views
-            .iter()
-            .filter_map(|view| match view {
-                View::Triangle {
-                    value: Interpolated::Texture { texels, .. },
-                    ..
-                } => Some(texels),
-                _ => None,
-            })
-            .flatten()
-            .map(|texel| texel.at)
-            .collect();
-        let is_whole = paint.fragments.len() == self.samples.len();
-        (is_whole && texture.reads_base_once() && held > 2.0 * read.len() as f64).then(|| {
-            let texels = if read.len() == 1 {
-                "one"
-            } else {
-                &read.len().to_string()
-            };
-            format!(
-                "The pixel's footprint holds about {} texels, of which its samples read {texels}.",
-                significant(held)
-            )
-        })
+        // Nothing can bring it nearer by more than it is away.
+        if distance > LEAST {
+            let reads_textures = self.paints.iter().any(|paint| paint.texture.is_some());
+            truth.cures = candidates(settings, reads_textures)
+                .into_iter()
+                .filter_map(|(setting, values)| truth.cure(setting, values, draw))
+                .collect();
+            truth.cures.sort_by(|a, b| b.nearer.total_cmp(&a.nearer));
+            let best = truth.cures.first().map_or(0.0, |cure| cure.nearer);
+            truth.cures.retain(|cure| cure.nearer >= best * WORTH_A_WORD);
+            truth.cures.truncate(MOST_CURES);
+        }
+        Some(truth)
     }
 }
 
 impl Truth {
-    /// How far the pixel is from it, in one sentence.
-    fn verdict(&self) -> String {
-        let levels = levels(self.distance);
-        if self.distance == 0.0 {
-            "This pixel is what it should be: 256 samples give the same colour.".to_owned()
-        } else if self.distance <= 1.0 {
-            "This pixel is what it should be, within 1 level of the truth (256 samples).".to_owned()
-        } else if self.cures.is_empty() {
-            format!(
-                "This pixel is within {levels} levels of the truth (256 samples); no single setting brings it nearer."
-            )
-        } else {
-            format!("This pixel is {levels} levels from the truth (256 samples).")
-        }
+    /// The first of a setting's values that brings nearly as much as the best one.
+    fn cure(
+        &self,
+        setting: Setting,
+        values: Vec<(String, RenderSettings)>,
+        draw: impl Fn(&RenderSettings) -> Option<[u8; 4]>,
+    ) -> Option<Cure> {
+        let tried = values.into_iter().filter_map(|(value, settings)| {
+            let color = draw(&settings)?;
+            let nearer = self.distance - distance(color, self.color);
+            (nearer > LEAST).then_some(Cure {
+                setting,
+                value,
+                color,
+                nearer,
+            })
+        });
+        let tried: Vec<Cure> = tried.collect();
+        let best = tried.iter().map(|cure| cure.nearer).fold(0.0, f64::max);
+        tried.into_iter().find(|cure| cure.nearer >= best * ENOUGH)
     }
 }
 
-impl Cure {
-    /// What to set, with which key (which may step through other values first), and what it brings.
-    fn words(&self) -> String {
-        let value = &self.value;
-        let what = match self.setting {
-            Setting::Rules => format!("Rules {value}"),
-            Setting::LodLevel => "The level of detail as computed (key M)".to_owned(),
-            Setting::LodBias => format!("Bias {value} (keys comma and full stop)"),
-            Setting::LevelSampling => format!("Level sampling {value} (key L)"),
-            Setting::Anisotropy => format!("Anisotropy {value} (key T)"),
-            Setting::LodPer => format!("Level of detail per {value}"),
-            Setting::PixelSampling => format!("Pixel sampling {value} (key P)"),
-            Setting::SampleRate if value == "256" => format!("{value} samples"),
-            Setting::SampleRate => format!("{value} samples (key =)"),
-            Setting::Pattern => format!("Pattern {value} (key A), whose samples share neither columns nor rows"),
-        };
-        format!("{what}: {} levels nearer to the truth.", levels(self.nearer))
-    }
+/// How far two colours are apart: the largest difference of a channel, in levels, when both are premultiplied.
+fn distance(a: [u8; 4], b: [u8; 4]) -> f64 {
+    let premultiplied = |[r, g, b, a]: [u8; 4]| {
+        let alpha = f64::from(a) / 255.0;
+        [r, g, b]
+            .map(|channel| f64::from(channel) * alpha)
+            .into_iter()
+            .chain([f64::from(a)])
+    };
+    let apart = premultiplied(a).zip(premultiplied(b)).map(|(a, b)| (a - b).abs());
+    apart.fold(0.0, f64::max)
 }
 
-/// Levels with one digit after the point at most.
-fn levels(count: f64) -> String {
-    number((count * 10.0).round() / 10.0)
+/// Every setting that may bring a pixel nearer to the truth, with the values that are worth trying, the cheapest first.
+fn candidates(own: &RenderSettings, reads_textures: bool) -> Vec<(Setting, Vec<(String, RenderSettings)>)> {
+    let mut all = vec![
+        (Setting::Rules, rules(own)),
+        (Setting::SampleRate, rates(own)),
+        (Setting::Pattern, patterns(own)),
+    ];
+    if reads_textures {
+        all.extend(of_textures(own));
+    }
+    all
 }
 
-impl Texture {
-    /// Whether a sample reads a single place of the base level.
-    fn reads_base_once(&self) -> bool {
-        self.taps == 1 && matches!(self.levels.as_slice(), [level] if level.number == 0)
-    }
+fn rules(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
+    let rules = Rules::Standard;
+    let is_other = own.rules != rules;
+    is_other
+        .then(|| (rules.name().to_owned(), RenderSettings { rules, ..*own }))
+        .into_iter()
+        .collect()
+}
 
-    fn single_texels(&self) -> Option<String> {
-        let one = self.pixel_sampling == "nearest" && self.taps == 1 && self.levels.len() == 1;
-        one.then(|| "A sample reads only the nearest texel.".to_owned())
-    }
-
-    fn blurred_across(&self) -> Option<String> {
-        // Neither fixed nor biased: the level is that of the longer side.
-        let follows = (self.clamped - self.major.log2()).abs() < 0.01;
-        let [long, wide] = self.footprint();
-        let is_long = self.taps == 1 && self.clamped > 0.0 && long > BLURS * wide;
-        (self.level_sampling != "zero" && follows && is_long).then(|| {
-            let ratio = if wide > 0.0 {
-                number((long / wide).round())
-            } else {
-                "many".to_owned()
-            };
-            format!("The footprint is {ratio} times as long as wide, and its level averages as much across as along: that blurs.")
+/// The higher sample rates that keys reach, and the highest.
+fn rates(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
+    let now = own.pattern.nearest(own.sample_rate);
+    let by_key = std::iter::successors(Some(now), |rate| Some(rate.higher()).filter(|next| next != rate));
+    let highest = SampleRate::new(SampleRate::MAX);
+    by_key
+        .chain(highest)
+        .filter(|rate| *rate > now)
+        .map(|sample_rate| {
+            let settings = RenderSettings { sample_rate, ..*own };
+            (sample_rate.samples().to_string(), settings)
         })
-    }
+        .collect()
+}
+
+/// The pattern whose samples share neither columns nor rows; where a single sample lies is luck.
+fn patterns(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
+    let pattern = SamplePattern::Rotated;
+    let now = own.pattern.nearest(own.sample_rate);
+    let is_sensible = own.pattern != pattern && pattern.takes(now) && now > SampleRate::ONE;
+    is_sensible
+        .then(|| (pattern.name().to_owned(), RenderSettings { pattern, ..*own }))
+        .into_iter()
+        .collect()
+}
+
+fn of_textures(own: &RenderSettings) -> Vec<(Setting, Vec<(String, RenderSettings)>)> {
+    let detail = |value: &str, changes: bool, detail: LevelOfDetail| {
+        let settings = RenderSettings { detail, ..*own };
+        changes.then(|| (value.to_owned(), settings)).into_iter().collect()
+    };
+    let levels = [LevelSampling::Linear, LevelSampling::Nearest]
+        .into_iter()
+        .filter(|level| *level != own.level_sampling)
+        .map(|level_sampling| {
+            let settings = RenderSettings { level_sampling, ..*own };
+            (level_sampling.name().to_owned(), settings)
+        });
+    let taps = Anisotropy::STEPS
+        .into_iter()
+        .filter(|anisotropy| *anisotropy > own.anisotropy)
+        .map(|anisotropy| (anisotropy.taps().to_string(), RenderSettings { anisotropy, ..*own }));
+    let bilinear = PixelSampling::Bilinear;
+    let pixel = (own.pixel_sampling != bilinear).then(|| {
+        let settings = RenderSettings {
+            pixel_sampling: bilinear,
+            ..*own
+        };
+        (bilinear.name().to_owned(), settings)
+    });
+    let automatic = LevelOfDetail {
+        fixed: None,
+        ..own.detail
+    };
+    let unbiased = LevelOfDetail {
+        bias: LodBias::default(),
+        ..own.detail
+    };
+    let per_sample = LevelOfDetail {
+        derivatives: Derivatives::Sample,
+        ..own.detail
+    };
+    vec![
+        (Setting::LodLevel, detail("auto", own.detail.fixed.is_some(), automatic)),
+        (Setting::LodBias, detail("0", own.detail != unbiased, unbiased)),
+        (Setting::LevelSampling, levels.collect()),
+        (Setting::Anisotropy, taps.collect()),
+        (Setting::LodPer, detail("sample", own.detail != per_sample, per_sample)),
+        (Setting::PixelSampling, pixel.into_iter().collect()),
+    ]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::model::Level;
     use super::*;
 
-    fn texture(pixel_sampling: &'static str, level_sampling: &'static str, [major, minor]: [f64; 2]) -> Texture {
-        let clamped = if level_sampling == "zero" {
-            0.0
-        } else {
-            major.max(1.0).log2()
-        };
-        let level = |number, weight| Level {
-            number,
-            size: [64, 64],
-            weight,
-        };
-        Texture {
-            name: "checker".to_owned(),
-            index: 0,
-            size: [64, 64],
-            pixel_sampling,
-            asked: false,
-            level_sampling,
-            right: [major, 0.0],
-            down: [0.0, minor],
-            step: "pixel",
-            major,
-            minor,
-            taps: 1,
-            level_of_detail: Some(major.log2()),
-            clamped,
-            levels: match level_sampling {
-                "linear" => vec![level(3, 0.5), level(4, 0.5)],
-                _ => vec![level(0, 1.0)],
-            },
-            opacity: 1.0,
+    #[test]
+    fn distance_is_of_what_is_seen() {
+        for (a, b, expected) in [
+            ([10, 20, 30, 255], [10, 20, 30, 255], 0.0),
+            ([10, 20, 30, 255], [13, 15, 30, 255], 5.0),
+            ([255, 0, 0, 0], [0, 255, 0, 0], 0.0),
+            ([255, 0, 0, 51], [0, 0, 0, 51], 51.0),
+            ([0, 0, 0, 0], [0, 0, 0, 255], 255.0),
+        ] {
+            let found = distance(a, b);
+            assert!((found - expected).abs() < 1e-9, "{a:?} to {b:?} is {found}");
         }
     }
 
     #[test]
-    fn only_one_texel_is_said_to_be_the_only_one() {
-        let taps = |taps, texture| Texture { taps, ..texture };
-        for (texture, expected) in [
-            (texture("nearest", "zero", [9.0, 8.0]), true),
-            (texture("bilinear", "zero", [9.0, 8.0]), false),
-            (texture("nearest", "linear", [9.0, 8.0]), false),
-            (taps(16, texture("nearest", "zero", [9.0, 1.0])), false),
-        ] {
-            assert_eq!(texture.single_texels().is_some(), expected, "{texture:?}");
+    fn candidates_are_other_settings() {
+        let own = RenderSettings::default();
+        for reads_textures in [false, true] {
+            for (setting, values) in candidates(&own, reads_textures) {
+                for (value, settings) in values {
+                    assert!(settings != own, "{setting:?} {value}");
+                }
+            }
         }
-    }
-
-    #[test]
-    fn long_footprints_are_blurred_where_one_tap_reads_their_level() {
-        let long = texture("bilinear", "linear", [9.0, 1.0]);
-        let blurs = |texture: &Texture| texture.blurred_across().is_some();
-        assert!(blurs(&long), "nine times as long");
-        for (texture, why) in [
-            (texture("bilinear", "zero", [9.0, 1.0]), "level 0 averages nothing"),
-            (texture("bilinear", "linear", [9.0, 8.0]), "nearly square"),
-            (
-                Texture {
-                    taps: 5,
-                    ..long.clone()
-                },
-                "taps lie along it",
-            ),
-            (Texture { clamped: 0.0, ..long }, "another level is fixed"),
-        ] {
-            assert!(!blurs(&texture), "{why}");
-        }
+        let rates: Vec<String> = rates(&own).into_iter().map(|(value, _)| value).collect();
+        assert_eq!(rates, ["4", "9", "16", "25", "36", "49", "64", "256"], "cheapest first");
     }
 }

@@ -6,6 +6,7 @@
 
 mod accumulation;
 mod advice;
+mod advice_words;
 mod around_words;
 mod contributions;
 mod depth;
@@ -21,7 +22,6 @@ mod seams;
 mod seen;
 mod servers;
 mod text;
-mod truth;
 mod words;
 
 pub use accumulation::Convergence;

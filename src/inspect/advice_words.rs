@@ -1,0 +1,309 @@
+//! What would change a pixel for the better, and with which key: the step from why to what to do.
+//!
+//! A setting is advised only where it was tried on this pixel and brought it nearer to the truth (see [`super::Truth`]).
+//! What is said of the reason is read off what was recorded of the pixel, and left away where nothing fits.
+
+use std::collections::BTreeSet;
+
+use super::model::{Cure, Explanation, Interpolated, Missed, Paint, Setting, Texture, Truth, View};
+use super::numbers::{number, percent, significant};
+
+/// How many times as long as wide a footprint is from which on averaging it both ways blurs.
+const BLURS: f64 = 2.0;
+/// The part of a pixel by which samples may be wrong about coverage before anybody is told.
+const WRONG: f64 = 0.2;
+/// Texels between samples from which on some are left out whatever the filter.
+const LEAVES_OUT: f64 = 2.0;
+/// A colour of less alpha than this, in levels, lets what is below shine through.
+const OPAQUE: f64 = 254.99;
+
+impl Explanation {
+    /// How far the pixel is from the truth, then everything that would bring it nearer; empty where nobody asked.
+    pub fn help_lines(&self) -> Vec<String> {
+        let verdict = self.truth.as_ref().map(Truth::verdict);
+        verdict.into_iter().chain(self.hints()).collect()
+    }
+
+    /// What is wrong about seams here, then each setting that would bring this pixel nearer to the truth, the best first, with
+    /// the reason where one is known; empty where all is well.
+    pub fn hints(&self) -> Vec<String> {
+        let cures = self.truth.iter().flat_map(|truth| &truth.cures);
+        self.seams()
+            .into_iter()
+            .chain(cures.map(|cure| self.hint(cure)))
+            .collect()
+    }
+
+    /// The reason, what to do and what it brings.
+    fn hint(&self, cure: &Cure) -> String {
+        let mut words = self.reason(cure).map_or(String::new(), |reason| reason + " ");
+        words += &cure.words();
+        words
+    }
+
+    /// What is wrong with this pixel that a setting cures.
+    fn reason(&self, cure: &Cure) -> Option<String> {
+        let texture = self.topmost().and_then(|paint| Some((paint, paint.texture.as_ref()?)));
+        match cure.setting {
+            Setting::SampleRate => self
+                .thin_parts()
+                .or_else(|| self.wrong_coverage())
+                .or_else(|| texture.and_then(|(_, texture)| self.texels_between(texture))),
+            Setting::LevelSampling => texture.and_then(|(paint, texture)| self.few_of_many(paint, texture)),
+            Setting::Anisotropy => texture.and_then(|(_, texture)| texture.blurred_across()),
+            Setting::PixelSampling => texture.and_then(|(_, texture)| texture.single_texels()),
+            Setting::LodLevel => Some("A fixed level of detail is read here, whatever the footprint.".to_owned()),
+            Setting::LodBias => Some("A bias is added to the level of detail.".to_owned()),
+            Setting::LodPer => {
+                Some("The level of detail is that of a whole pixel, for each of its samples.".to_owned())
+            }
+            Setting::Rules | Setting::Pattern => None,
+        }
+    }
+
+    /// The topmost primitive that is seen.
+    fn topmost(&self) -> Option<&Paint> {
+        let seen = |paint: &&Paint| paint.fragments.iter().any(|fragment| fragment.seen);
+        self.paints.iter().rev().find(seen)
+    }
+
+    /// The distance of neighbouring samples, in pixels.
+    fn step(&self) -> f64 {
+        1.0 / (self.samples.len().max(1) as f64).sqrt()
+    }
+
+    /// Whether a primitive passes between the samples, and would be seen if it did not.
+    fn is_thin(&self, missed: &Missed) -> bool {
+        let hides = |paint: &Paint| {
+            paint.primitive > missed.primitive
+                && paint.fragments.len() == self.samples.len()
+                && paint.fragments.iter().all(|fragment| fragment.color[3] >= OPAQUE)
+        };
+        missed.width < self.step() && !self.paints.iter().any(hides)
+    }
+
+    fn thin_parts(&self) -> Option<String> {
+        let thin = self.missed.iter().filter(|missed| self.is_thin(missed));
+        let area: f64 = thin.map(|missed| missed.area).sum();
+        (area > 0.0).then(|| {
+            format!(
+                "What is thin passes between the samples here, {} of the pixel: it breaks up.",
+                percent(area.min(1.0))
+            )
+        })
+    }
+
+    fn wrong_coverage(&self) -> Option<String> {
+        let paint = self.topmost()?;
+        let (part, area) = (self.covered_part(paint), paint.area.filter(|_| !paint.is_crisp())?);
+        ((part - area).abs() > WRONG).then(|| {
+            format!(
+                "The samples say that {} covers {} of the pixel; in truth it is {}.",
+                paint.name(),
+                percent(part),
+                percent(area)
+            )
+        })
+    }
+
+    /// The part of the samples that any piece of a paint's primitive covers.
+    pub(super) fn covered_part(&self, paint: &Paint) -> f64 {
+        let pieces = self
+            .paints
+            .iter()
+            .filter(|other| other.primitive == paint.primitive && other.area.is_some());
+        let covered: BTreeSet<usize> = pieces.flat_map(Paint::samples).collect();
+        covered.len() as f64 / self.samples.len().max(1) as f64
+    }
+
+    fn texels_between(&self, texture: &Texture) -> Option<String> {
+        let step = if texture.step == "sample" { 1.0 } else { self.step() };
+        let apart = texture.major * step;
+        (texture.reads_base_once() && apart > LEAVES_OUT).then(|| {
+            format!(
+                "Samples lie about {} texels apart here, and what is between them is not read.",
+                significant(apart)
+            )
+        })
+    }
+
+    /// How many texels the pixel's footprint holds, and how few of them its samples read.
+    fn few_of_many(&self, paint: &Paint, texture: &Texture) -> Option<String> {
+        let ([a, b], [c, d]) = (texture.right, texture.down);
+        let steps = if texture.step == "sample" {
+            self.samples.len()
+        } else {
+            1
+        };
+        let held = (a * d - b * c).abs() * steps as f64;
+        let read: BTreeSet<[u32; 2]> = paint
+            .views
+            .iter()
+            .filter_map(|view| match view {
+                View::Triangle {
+                    value: Interpolated::Texture { texels, .. },
+                    ..
+                } => Some(texels),
+                _ => None,
+            })
+            .flatten()
+            .map(|texel| texel.at)
+            .collect();
+        let is_whole = paint.fragments.len() == self.samples.len();
+        (is_whole && texture.reads_base_once() && held > 2.0 * read.len() as f64).then(|| {
+            let texels = if read.len() == 1 {
+                "one"
+            } else {
+                &read.len().to_string()
+            };
+            format!(
+                "The pixel's footprint holds about {} texels, of which its samples read {texels}.",
+                significant(held)
+            )
+        })
+    }
+}
+
+impl Truth {
+    /// How far the pixel is from it, in one sentence.
+    fn verdict(&self) -> String {
+        let levels = levels(self.distance);
+        if self.distance == 0.0 {
+            "This pixel is what it should be: 256 samples give the same colour.".to_owned()
+        } else if self.distance <= 1.0 {
+            "This pixel is what it should be, within 1 level of the truth (256 samples).".to_owned()
+        } else if self.cures.is_empty() {
+            format!(
+                "This pixel is within {levels} levels of the truth (256 samples); no single setting brings it nearer."
+            )
+        } else {
+            format!("This pixel is {levels} levels from the truth (256 samples).")
+        }
+    }
+}
+
+impl Cure {
+    /// What to set, with which key (which may step through other values first), and what it brings.
+    fn words(&self) -> String {
+        let value = &self.value;
+        let what = match self.setting {
+            Setting::Rules => format!("Rules {value}"),
+            Setting::LodLevel => "The level of detail as computed (key M)".to_owned(),
+            Setting::LodBias => format!("Bias {value} (keys comma and full stop)"),
+            Setting::LevelSampling => format!("Level sampling {value} (key L)"),
+            Setting::Anisotropy => format!("Anisotropy {value} (key T)"),
+            Setting::LodPer => format!("Level of detail per {value}"),
+            Setting::PixelSampling => format!("Pixel sampling {value} (key P)"),
+            Setting::SampleRate if value == "256" => format!("{value} samples"),
+            Setting::SampleRate => format!("{value} samples (key =)"),
+            Setting::Pattern => format!("Pattern {value} (key A), whose samples share neither columns nor rows"),
+        };
+        format!("{what}: {} levels nearer to the truth.", levels(self.nearer))
+    }
+}
+
+/// Levels with one digit after the point at most.
+fn levels(count: f64) -> String {
+    number((count * 10.0).round() / 10.0)
+}
+
+impl Texture {
+    /// Whether a sample reads a single place of the base level.
+    fn reads_base_once(&self) -> bool {
+        self.taps == 1 && matches!(self.levels.as_slice(), [level] if level.number == 0)
+    }
+
+    fn single_texels(&self) -> Option<String> {
+        let one = self.pixel_sampling == "nearest" && self.taps == 1 && self.levels.len() == 1;
+        one.then(|| "A sample reads only the nearest texel.".to_owned())
+    }
+
+    fn blurred_across(&self) -> Option<String> {
+        // Neither fixed nor biased: the level is that of the longer side.
+        let follows = (self.clamped - self.major.log2()).abs() < 0.01;
+        let [long, wide] = self.footprint();
+        let is_long = self.taps == 1 && self.clamped > 0.0 && long > BLURS * wide;
+        (self.level_sampling != "zero" && follows && is_long).then(|| {
+            let ratio = if wide > 0.0 {
+                number((long / wide).round())
+            } else {
+                "many".to_owned()
+            };
+            format!("The footprint is {ratio} times as long as wide, and its level averages as much across as along: that blurs.")
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::model::Level;
+    use super::*;
+
+    fn texture(pixel_sampling: &'static str, level_sampling: &'static str, [major, minor]: [f64; 2]) -> Texture {
+        let clamped = if level_sampling == "zero" {
+            0.0
+        } else {
+            major.max(1.0).log2()
+        };
+        let level = |number, weight| Level {
+            number,
+            size: [64, 64],
+            weight,
+        };
+        Texture {
+            name: "checker".to_owned(),
+            index: 0,
+            size: [64, 64],
+            pixel_sampling,
+            asked: false,
+            level_sampling,
+            right: [major, 0.0],
+            down: [0.0, minor],
+            step: "pixel",
+            major,
+            minor,
+            taps: 1,
+            level_of_detail: Some(major.log2()),
+            clamped,
+            levels: match level_sampling {
+                "linear" => vec![level(3, 0.5), level(4, 0.5)],
+                _ => vec![level(0, 1.0)],
+            },
+            opacity: 1.0,
+        }
+    }
+
+    #[test]
+    fn only_one_texel_is_said_to_be_the_only_one() {
+        let taps = |taps, texture| Texture { taps, ..texture };
+        for (texture, expected) in [
+            (texture("nearest", "zero", [9.0, 8.0]), true),
+            (texture("bilinear", "zero", [9.0, 8.0]), false),
+            (texture("nearest", "linear", [9.0, 8.0]), false),
+            (taps(16, texture("nearest", "zero", [9.0, 1.0])), false),
+        ] {
+            assert_eq!(texture.single_texels().is_some(), expected, "{texture:?}");
+        }
+    }
+
+    #[test]
+    fn long_footprints_are_blurred_where_one_tap_reads_their_level() {
+        let long = texture("bilinear", "linear", [9.0, 1.0]);
+        let blurs = |texture: &Texture| texture.blurred_across().is_some();
+        assert!(blurs(&long), "nine times as long");
+        for (texture, why) in [
+            (texture("bilinear", "zero", [9.0, 1.0]), "level 0 averages nothing"),
+            (texture("bilinear", "linear", [9.0, 8.0]), "nearly square"),
+            (
+                Texture {
+                    taps: 5,
+                    ..long.clone()
+                },
+                "taps lie along it",
+            ),
+            (Texture { clamped: 0.0, ..long }, "another level is fixed"),
+        ] {
+            assert!(!blurs(&texture), "{why}");
+        }
+    }
+}

@@ -348,7 +348,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         told: Told::IfChanged,
         panel: Some(row(
             "",
-            "Filter radius",
+            "Radius of the resolve filter",
             Control::Number {
                 range: [FilterRadius::MIN, FilterRadius::MAX],
                 prefix: "radius ",

@@ -347,11 +347,11 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         about: About::Samples,
         told: Told::IfChanged,
         panel: Some(row(
-            "",
+            "Radius",
             "Radius of the resolve filter",
             Control::Number {
                 range: [FilterRadius::MIN, FilterRadius::MAX],
-                prefix: "radius ",
+                prefix: "",
                 none: Some(AUTO),
             },
         )),

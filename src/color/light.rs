@@ -233,7 +233,6 @@ fn of_color(light: &[u32; 1 << 16], color: Premultiplied16) -> Light {
 
 /// The straight value of a premultiplied channel.
 #[inline]
-#[expect(clippy::cast_possible_truncation, reason = "at most ONE")]
 pub(super) fn straight(channel: u16, alpha: u16) -> u16 {
     const ONE: u32 = Premultiplied16::ONE as u32;
     if alpha == Premultiplied16::ONE {

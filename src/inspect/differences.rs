@@ -72,7 +72,7 @@ impl Explanation {
                 textures.extend(of_paint.map(|difference| (paint.name(), difference)));
             }
         }
-        found.extend(by_what(textures));
+        found.extend(by_what(&textures));
         found
     }
 
@@ -87,7 +87,7 @@ impl Explanation {
 }
 
 /// What differs of textures, in the table's order: once where it is the same of all, else with the names of the primitives.
-fn by_what(textures: Vec<(String, Difference)>) -> Vec<Difference> {
+fn by_what(textures: &[(String, Difference)]) -> Vec<Difference> {
     let of_row = |(what, _): &(&str, InWords)| {
         let rows: Vec<&(String, Difference)> = textures.iter().filter(|(_, row)| row.what == *what).collect();
         let alike = rows.windows(2).all(|pair| pair[0].1 == pair[1].1);

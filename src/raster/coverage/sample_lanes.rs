@@ -127,8 +127,12 @@ impl SampleLanes {
 
     /// The number of a sample's row.
     #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a whole number below 256"
+    )]
     pub(super) fn row(&self, sample: usize) -> usize {
-        // Below 256, so that nothing is lost.
         self.rows[sample % MOST] as usize
     }
 }

@@ -43,6 +43,21 @@ impl Hairline {
         })
     }
 
+    /// The pixel that a coordinate falls in, which lies in what is painted.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the caller has checked that it lies near the frame"
+    )]
+    fn cell(&self, coordinate: f32) -> i32 {
+        let truncated = coordinate as i32;
+        // Without a margin nothing lies below zero, and pictures of many lines are drawn without.
+        if self.margin == 0 {
+            return truncated;
+        }
+        truncated - i32::from(truncated as f32 > coordinate) + self.margin
+    }
+
     /// Calls `visit` with each pixel `[column, row]` of the line that lies in the `size` that is painted.
     #[inline]
     fn trace(&self, size: [u32; 2], mut visit: impl FnMut(i32, i32)) {
@@ -63,7 +78,7 @@ impl Hairline {
         // Before its whole number exceeds `last`, `x` exceeds it by one.
         while x < last + 1.0 && (y - from[1]).abs() <= height {
             if x >= least && x < frame[0] && y >= least && y < frame[1] {
-                visit(floor(x) + self.margin, floor(y) + self.margin);
+                visit(self.cell(x), self.cell(y));
             }
             x += step[0];
             y += step[1];
@@ -103,15 +118,6 @@ impl<F: FnMut(CoverageMask)> Gatherer<F> {
         }
         self.block.mask = 0;
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the caller has checked that it lies near the frame"
-)]
-fn floor(coordinate: f32) -> i32 {
-    let truncated = coordinate as i32;
-    truncated - i32::from(truncated as f32 > coordinate)
 }
 
 /// The ends as 32-bit floats, where a line that reaches far beyond the frame is cut; `None` when it misses what is painted.

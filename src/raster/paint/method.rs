@@ -28,6 +28,10 @@ pub(in crate::raster) enum Method {
 }
 
 /// What the primitives of a list are like.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "what is so of all of a list, each on its own"
+)]
 #[derive(Clone, Copy, Debug)]
 pub(in crate::raster) struct Kinds {
     /// All are opaque, and none is in a layer.

@@ -176,7 +176,7 @@ fn limits_of_small_allocations_end_the_program_as_others_do() {
     };
     let start = Instant::now();
     while !listens() {
-        assert!(start.elapsed() < Duration::from_secs(60), "it never listens");
+        assert!(start.elapsed() < Duration::from_mins(1), "it never listens");
         sleep(Duration::from_millis(10));
     }
     let sent = Command::new("kill").args(["-ABRT", &running.id().to_string()]).status();

@@ -65,7 +65,7 @@ pub(super) fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
 /// Where the reader is, as a button with a list of all steps.
 fn steps(ui: &mut Ui, lesson: &Lesson, at: usize, commands: &mut Vec<Command>) {
     let of = format!("step {} of {}", at + 1, lesson.steps.len());
-    let button = egui::Button::new(RichText::new(format!("{of} \u{23F7}")).size(12.0)).small();
+    let button = egui::Button::new(RichText::new(format!("{of} \u{2026}")).size(12.0)).small();
     let (response, _) = egui::containers::menu::MenuButton::from_button(button).ui(ui, |ui| {
         ScrollArea::vertical().max_height(LIST).show(ui, |ui| {
             for (number, step) in lesson.steps.iter().enumerate() {
@@ -127,7 +127,7 @@ fn words(ui: &mut Ui, step: &LessonStep) {
 fn layout(ui: &Ui, spans: &[Span], size: f32, heading: bool) -> LayoutJob {
     let visuals = ui.visuals();
     let mut job = LayoutJob::default();
-    let mut after_apart = false;
+    let mut after = None;
     for span in spans {
         let strong = span.look == Look::Bold || heading;
         let color = if strong {
@@ -149,11 +149,13 @@ fn layout(ui: &Ui, spans: &[Span], size: f32, heading: bool) -> LayoutJob {
         if span.look == Look::Code {
             format.background = visuals.code_bg_color;
         }
-        // Letters that lean to the right would lean on what follows, too.
-        let is_apart = matches!(span.look, Look::Code | Look::Italic);
-        let space = if is_apart || after_apart { BESIDE_BOX } else { 0.0 };
-        job.append(&span.text, if job.is_empty() { 0.0 } else { space }, format);
-        after_apart = is_apart;
+        let in_box = span.look == Look::Code;
+        // Letters that lean to the right lean on a space behind them.
+        let leans_on = after == Some(Look::Italic) && span.text.starts_with(' ');
+        let is_apart = in_box || after == Some(Look::Code) || leans_on;
+        let space = if is_apart && !job.is_empty() { BESIDE_BOX } else { 0.0 };
+        job.append(&span.text, space, format);
+        after = Some(span.look);
     }
     job
 }

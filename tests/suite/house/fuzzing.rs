@@ -56,8 +56,10 @@ fn seconds() -> u64 {
 
 /// Runs one input; a panic is reported with its bytes.
 fn run(target: &Target, input: &[u8]) {
+    // Of its own, so that no other test's pictures are waited for.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a pool");
     let started = Instant::now();
-    let done = std::panic::catch_unwind(|| (target.run)(input));
+    let done = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| pool.install(|| (target.run)(input))));
     let what = String::from_utf8_lossy(input).escape_debug().to_string();
     let name = target.name;
     assert!(done.is_ok(), "{name} fails on {} bytes: {what}", input.len());

@@ -35,8 +35,18 @@ const EVERYTHING: &str = r##"<?xml version="1.0" encoding="utf-8"?>
 </svg>
 "##;
 
+thread_local! {
+    /// Threads of this test's own: those that all tests share might be busy with another's pictures, and time would be told
+    /// of them.
+    static POOL: rayon::ThreadPool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a pool");
+}
+
 /// Reads in every dialect, draws what comes out, and answers with the errors' lines.
 fn survive(document: &[u8], what: &str) -> Vec<String> {
+    POOL.with(|pool| pool.install(|| survive_here(document, what)))
+}
+
+fn survive_here(document: &[u8], what: &str) -> Vec<String> {
     let started = Instant::now();
     let mut lines = Vec::new();
     for dialect in DialectChoice::ALL {

@@ -54,12 +54,17 @@ fn seconds() -> u64 {
     chosen.and_then(|seconds| seconds.parse().ok()).unwrap_or(SECONDS)
 }
 
+thread_local! {
+    /// Threads of a test's own, so that it waits for no other test's pictures.
+    static POOL: rayon::ThreadPool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a pool");
+}
+
 /// Runs one input; a panic is reported with its bytes.
 fn run(target: &Target, input: &[u8]) {
-    // Of its own, so that no other test's pictures are waited for.
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a pool");
     let started = Instant::now();
-    let done = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| pool.install(|| (target.run)(input))));
+    let done = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+        POOL.with(|pool| pool.install(|| (target.run)(input)))
+    }));
     let what = String::from_utf8_lossy(input).escape_debug().to_string();
     let name = target.name;
     assert!(done.is_ok(), "{name} fails on {} bytes: {what}", input.len());

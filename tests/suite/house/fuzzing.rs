@@ -63,7 +63,7 @@ thread_local! {
 fn run(target: &Target, input: &[u8]) {
     let started = Instant::now();
     let done = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-        POOL.with(|pool| pool.install(|| (target.run)(input)))
+        POOL.with(|pool| pool.install(|| (target.run)(input)));
     }));
     let what = String::from_utf8_lossy(input).escape_debug().to_string();
     let name = target.name;

@@ -8,7 +8,7 @@
 //!               |~  #           #  ~|                 ~ so close to an edge that rounding might have carried it across
 //! ```
 //!
-//! [`bilinear::to_fixed`] decides what a sample reads. Sums of rounded numbers may differ from it by a little more than one
+//! `bilinear::to_fixed` decides what a sample reads. Sums of rounded numbers may differ from it by a little more than one
 //! unit: pixels with a sample so close to the edge of a texel are read again by that very function, sample by sample.
 
 #![expect(

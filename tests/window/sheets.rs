@@ -40,11 +40,15 @@ fn keys_put_a_sheet_together_and_save_it() {
     program.desktop.point(2, 2);
     program.desktop.type_char('s', &[keysym::SHIFT]);
     let elsewhere = tempfile::tempdir().unwrap();
-    let expected = window_after("hide on; move 2,2; sheet", elsewhere.path());
+    // What is said of hidden panels is gone by then.
+    let expected = window_after("hide on; wait 10000; move 2,2; sheet", elsewhere.path());
     program.shows(&expected, "the dialog with its preview");
     // A key that no line of text wants goes on changing the picture, and the sheet with it.
     program.desktop.type_char('v', &[]);
-    let expected = window_after("hide on; move 2,2; sheet; visualise coverage", elsewhere.path());
+    let expected = window_after(
+        "hide on; wait 10000; move 2,2; sheet; visualise coverage",
+        elsewhere.path(),
+    );
     program.shows(&expected, "the preview follows");
     program.desktop.press(keysym::ESCAPE, &[]);
     program.desktop.type_char('p', &[keysym::CONTROL, keysym::SHIFT]);

@@ -134,12 +134,7 @@ fn faded(light: i32, alpha: u16) -> i32 {
 
 /// `sum / full`, neither below zero, as `rules` round it, at most 255.
 fn divided(sum: i64, full: i64, rules: Rules) -> u32 {
-    let [sum, full] = [sum, full].map(i64::cast_unsigned);
-    let rounded = match rules {
-        Rules::Standard | Rules::Float => (sum + full / 2) / full,
-        Rules::Course => sum / full,
-    };
-    u32::try_from(rounded).unwrap_or(255).min(255)
+    super::divide_wide(sum.cast_unsigned(), full.cast_unsigned(), rules)
 }
 
 #[cfg(test)]

@@ -13,14 +13,19 @@ const SIDE: i32 = 20;
 const SIZE: [u32; 2] = [20, 20];
 
 /// The largest difference of any channel, and how many pixels differ by more than `level`.
+///
+/// Colours are straight: they are quotients by the opacity. Where that is a byte or two, as where a filter's negative lobes
+/// cancel what others add, the quotient magnifies the rounding of each blend, and where it is zero no colour is seen.
 fn difference(a: &Framebuffer, b: &Framebuffer, level: u8) -> (u8, usize) {
     let of_pixel = |a: &u32, b: &u32| {
-        a.to_be_bytes()
-            .iter()
-            .zip(b.to_be_bytes())
-            .map(|(a, b)| a.abs_diff(b))
-            .max()
-            .unwrap_or(0)
+        let ([opacity, colors_a @ ..], [other, colors_b @ ..]) = (a.to_be_bytes(), b.to_be_bytes());
+        let colors = colors_a.iter().zip(&colors_b).map(|(a, b)| a.abs_diff(*b)).max();
+        let magnified = match opacity.min(other) {
+            0 => u8::MAX,
+            opacity @ 1..4 => 4 / opacity,
+            _ => 0,
+        };
+        (opacity.abs_diff(other)).max(colors.unwrap_or(0).saturating_sub(magnified))
     };
     let all: Vec<u8> = a.pixels().iter().zip(b.pixels()).map(|(a, b)| of_pixel(a, b)).collect();
     (

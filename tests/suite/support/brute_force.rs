@@ -100,6 +100,14 @@ pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSetting
                     }
                 }
             }
+            let own = &samples[((y + margin) * (width + 2 * margin) + x + margin) as usize];
+            if total < own.len() as f64 / 8.0 {
+                // Weights below zero outweigh the others: the filter says nothing of this pixel.
+                (sum, total) = ([0.0; 4], own.len() as f64);
+                for (k, channel) in own.iter().flat_map(|(_, color)| color.iter().enumerate()) {
+                    sum[k] += channel;
+                }
+            }
             let alpha = (sum[3] / total).clamp(0.0, 1.0);
             let [r, g, b, _] = sum.map(|sum| (sum / total).clamp(0.0, alpha));
             let mut mean = [r, g, b, alpha];
@@ -579,13 +587,23 @@ fn read_level(level: &MipLevel, uv: DVec2, sampling: PixelSampling) -> Color {
 }
 
 pub(crate) fn premultiply(color: Rgba) -> Color {
-    let [r, g, b, a] = [color.r, color.g, color.b, color.a].map(f64::from);
+    // A byte over 255 errs by 1e-6 of a level in 32 bits: enough for a mean that is a half to be none.
+    let exact = |channel: f32| {
+        let byte = (f64::from(channel) * 255.0).round();
+        if channel == (byte / 255.0) as f32 {
+            byte / 255.0
+        } else {
+            f64::from(channel)
+        }
+    };
+    let [r, g, b, a] = [color.r, color.g, color.b, color.a].map(exact);
     [r * a, g * a, b * a, a]
 }
 
 /// Straight bytes, rounded to nearest.
 fn to_pixel([r, g, b, a]: Color) -> u32 {
-    let byte = |channel: f64| (channel.clamp(0.0, 1.0) * 255.0 + 0.5 + 1e-9).floor() as u32;
+    // Sums err by 1e-13; filters' whole-number weights make means that lie 1e-10 below a half, and those are no ties.
+    let byte = |channel: f64| (channel.clamp(0.0, 1.0) * 255.0 + 0.5 + 1e-11).floor() as u32;
     let straight = |channel: f64| if a > 0.0 { byte(channel / a) } else { 0 };
     byte(a) << 24 | straight(r) << 16 | straight(g) << 8 | straight(b)
 }

@@ -2,11 +2,12 @@
 //! the panel's other page.
 
 use crate::viewer::{InspectorCommand, LessonCommand, SceneCommand, Toggle};
-use egui::text::{LayoutJob, TextFormat};
-use egui::{FontFamily, FontId, RichText, ScrollArea, Ui};
+use egui::text::{CCursor, LayoutJob, TextFormat};
+use egui::{CursorIcon, FontFamily, FontId, RichText, ScrollArea, Sense, Ui};
+use std::ops::Range;
 
 use super::controls::{choice, command_button, tip};
-use crate::viewer::{Block, Command, Lesson, LessonStep, Look, Span, Viewer};
+use crate::viewer::{Block, Command, CommandSpec, Lesson, LessonStep, Look, Span, Viewer, commands};
 
 /// Width of the panel, in points, frame included.
 pub(super) const WIDTH: f32 = 300.0;
@@ -80,8 +81,8 @@ fn steps(ui: &mut Ui, lesson: &Lesson, at: usize, commands: &mut Vec<Command>) {
     response.on_hover_text("Goes to any step").accessible_name(&of);
 }
 
-/// The text of the step.
-pub(super) fn text(ui: &mut Ui, viewer: &Viewer) {
+/// The text of the step. Keys that it names can be clicked.
+pub(super) fn text(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let step = viewer
         .lesson()
         .and_then(|(lesson, at)| Some((at, lesson.steps.get(at)?)));
@@ -90,10 +91,10 @@ pub(super) fn text(ui: &mut Ui, viewer: &Viewer) {
     ScrollArea::vertical()
         .id_salt(("lesson", at))
         .auto_shrink(false)
-        .show(ui, |ui| words(ui, step));
+        .show(ui, |ui| words(ui, step, commands));
 }
 
-fn words(ui: &mut Ui, step: &LessonStep) {
+fn words(ui: &mut Ui, step: &LessonStep, commands: &mut Vec<Command>) {
     if !step.title.is_empty() {
         ui.label(RichText::new(&step.title).size(HEADING + 2.0).strong());
         ui.add_space(6.0);
@@ -102,17 +103,15 @@ fn words(ui: &mut Ui, step: &LessonStep) {
         match block {
             Block::Heading(words) => {
                 ui.add_space(4.0);
-                ui.label(layout(ui, words, HEADING, true));
+                ui.label(layout(ui, words, HEADING, true).job);
             }
-            Block::Paragraph(words) => {
-                ui.label(layout(ui, words, SIZE, false));
-            }
+            Block::Paragraph(words) => paragraph(ui, words, commands),
             Block::Item { depth, marker, words } => {
                 ui.horizontal_top(|ui| {
                     #[expect(clippy::cast_precision_loss, reason = "a few")]
                     ui.add_space(INDENT * (*depth).min(4) as f32);
                     ui.label(RichText::new(marker).size(SIZE));
-                    ui.vertical(|ui| ui.label(layout(ui, words, SIZE, false)));
+                    ui.vertical(|ui| paragraph(ui, words, commands));
                 });
             }
             Block::Code(code) => {
@@ -123,10 +122,54 @@ fn words(ui: &mut Ui, step: &LessonStep) {
     }
 }
 
+/// Words whose keys can be clicked: hands that know no keys find there what they do.
+fn paragraph(ui: &mut Ui, spans: &[Span], commands: &mut Vec<Command>) {
+    let Words { mut job, keys } = layout(ui, spans, SIZE, false);
+    job.wrap.max_width = ui.available_width();
+    let galley = ui.fonts_mut(|fonts| fonts.layout_job(job));
+    let label = ui.label(std::sync::Arc::clone(&galley));
+    for key in keys {
+        let cursor = |index: usize| {
+            let cursor = CCursor {
+                prefer_next_row: index == key.letters.start,
+                ..CCursor::new(index)
+            };
+            galley.pos_from_cursor(cursor).translate(label.rect.min.to_vec2())
+        };
+        let place = cursor(key.letters.start).union(cursor(key.letters.end));
+        let response = ui.interact(
+            place.expand(BESIDE_BOX),
+            label.id.with(key.letters.start),
+            Sense::click(),
+        );
+        let response = response.on_hover_cursor(CursorIcon::PointingHand);
+        let response = response.on_hover_text(format!("{}: {}. A click does it, too.", key.spec.name, key.spec.help));
+        if response.accessible_name(format!("Key: {}", key.spec.name)).clicked() {
+            commands.push(key.command);
+        }
+    }
+}
+
+/// Words in their looks, and the keys among them.
+struct Words {
+    job: LayoutJob,
+    keys: Vec<KeyInWords>,
+}
+
+/// A key that words name.
+struct KeyInWords {
+    /// Where its letters are among all letters.
+    letters: Range<usize>,
+    spec: &'static CommandSpec,
+    command: Command,
+}
+
 /// Words in their looks.
-fn layout(ui: &Ui, spans: &[Span], size: f32, heading: bool) -> LayoutJob {
+fn layout(ui: &Ui, spans: &[Span], size: f32, heading: bool) -> Words {
     let visuals = ui.visuals();
     let mut job = LayoutJob::default();
+    let mut keys = Vec::new();
+    let mut letters = 0;
     let mut after = None;
     for span in spans {
         let strong = span.look == Look::Bold || heading;
@@ -156,6 +199,14 @@ fn layout(ui: &Ui, spans: &[Span], size: f32, heading: bool) -> LayoutJob {
         let space = if is_apart && !job.is_empty() { BESIDE_BOX } else { 0.0 };
         job.append(&span.text, space, format);
         after = Some(span.look);
+        let end = letters + span.text.chars().count();
+        let key = commands::of_key_name(&span.text).filter(|_| in_box);
+        keys.extend(key.map(|(spec, command)| KeyInWords {
+            letters: letters..end,
+            spec,
+            command,
+        }));
+        letters = end;
     }
-    job
+    Words { job, keys }
 }

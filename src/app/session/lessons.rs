@@ -1,13 +1,13 @@
 //! A lesson walked through by mouse: what its text speaks of can be reached, in small windows too.
 
-use crate::viewer::{InspectorCommand, SceneCommand};
+use crate::viewer::{AbCommand, InspectorCommand, LessonCommand, SceneCommand};
 use std::path::PathBuf;
 
 use super::hands::{key, place_of, session};
 use super::small_windows::{click_on, right_click, says};
 use super::*;
-use crate::viewer::Toggle;
 use crate::viewer::script::Stage as _;
+use crate::viewer::{Against, Arrangement, LessonSource, Toggle};
 
 /// What opens the explanation where it is a page of the lesson's panel, and what opens the text.
 const PAGES: [&str; 2] = ["Page: Why this colour", "Page: Text"];
@@ -93,4 +93,60 @@ fn pixel_that_is_clicked_in_a_lesson_is_explained_in_small_windows() {
     session.command(Command::Scenes(SceneCommand::Next));
     session.settle();
     assert!(!session.viewer.pixels().explains(), "as the step says");
+}
+
+#[test]
+fn keys_in_a_lesson_are_clicked_where_nobody_knows_them() {
+    let mut session = at_step(1, [1280, 800]);
+    let rate = |session: &Session| session.viewer.settings().render.sample_rate.samples();
+    let before = rate(&session);
+    click_on(&mut session, "Key: Higher sample rate");
+    assert!(rate(&session) > before, "as the key does");
+    click_on(&mut session, "Key: Lower sample rate");
+    assert_eq!(rate(&session), before, "and back");
+}
+
+#[test]
+fn steps_of_a_lesson_compare_as_their_author_meant_it() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    for command in [
+        AbCommand::Compare(Against::Settings),
+        AbCommand::SetWipe(0.9),
+        AbCommand::SetGain(32.0),
+    ] {
+        session.command(Command::Ab(command));
+    }
+    let source = LessonSource::BuiltIn(1);
+    session.command(Command::Lesson(LessonCommand::Open(source)));
+    session.settle();
+    session.command(Command::Ab(AbCommand::Compare(Against::Settings)));
+    session.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
+    session.settle();
+    let (line, free) = (session.viewer.both().wipe_line(), session.free_area);
+    let (line, free) = (line.expect("a wipe"), free.expect("there is room"));
+    let part = (line - free.x as f64) / f64::from(free.width);
+    assert!((0.25..0.75).contains(&part), "nobody moved this line: {part}");
+    session.command(Command::Ab(AbCommand::Arrange(Arrangement::Difference)));
+    session.settle();
+    assert_eq!(session.viewer.ab().difference_gain(), Some(1.0), "nor its gain");
+}
+
+#[test]
+fn steps_show_what_they_showed_after_a_window_was_small() {
+    for lesson in ["six-tasks", "anisotropy"] {
+        let steps = if lesson == "six-tasks" { 10 } else { 6 };
+        for step in 0..steps {
+            let mut session = session(vec![PathBuf::from(format!("lesson:{lesson}"))], [1280, 800]);
+            session.command(Command::Lesson(LessonCommand::Step(step)));
+            session.settle();
+            let before = session.viewer.both().view_numbers().expect("a picture");
+            for size in [[500, 400], [1280, 800]] {
+                session.resize(size);
+                session.settle();
+            }
+            let after = session.viewer.both().view_numbers().expect("a picture");
+            let same = (after.scale / before.scale - 1.0).abs() < 1e-3 && after.center.distance(before.center) < 1.0;
+            assert!(same, "step {step} of {lesson}: {after:?} instead of {before:?}");
+        }
+    }
 }

@@ -241,6 +241,12 @@ impl Comparison {
         true
     }
 
+    /// The line of the wipe is where nobody moved it, and differences are coloured as at first.
+    pub(in crate::viewer) fn forget_looks(&mut self) {
+        (self.wipe, self.style, self.gain) = (None, DifferenceStyle::default(), 1.0);
+        self.touch();
+    }
+
     /// Takes pictures of a size of their own back to the middle.
     pub(in crate::viewer) fn center(&mut self) {
         self.moved = Moved::default();

@@ -75,6 +75,14 @@ pub fn for_key(press: &KeyPress) -> Option<Command> {
     search(Chord::matches_logical).or_else(|| search(Chord::matches_place))
 }
 
+/// The command of a key by the name that help has for it, such as `Shift+D`, and what the key runs.
+pub fn of_key_name(name: &str) -> Option<(&'static CommandSpec, Command)> {
+    all().iter().find_map(|spec| {
+        let at = spec.keys.iter().position(|chord| chord.to_string() == name)?;
+        Some((spec, spec.command_of_key(at)?))
+    })
+}
+
 /// The table of keys and gestures as Markdown, as it stands in the README.
 pub fn markdown() -> String {
     use std::fmt::Write as _;

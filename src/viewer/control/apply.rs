@@ -9,6 +9,7 @@ use crate::viewer::command::parts::{
 use crate::viewer::command::{Command, Effect};
 use crate::viewer::control::comparing::Comparing;
 use crate::viewer::control::copy::Copied;
+use crate::viewer::control::update::follow_lesson;
 use crate::viewer::settings::values::next_of;
 use crate::viewer::settings::{Theme, Toggle};
 use crate::viewer::state::Viewer;
@@ -111,9 +112,9 @@ impl Viewer {
                 magnifier.revealed |= magnifier.pin.is_some();
             }
             WindowCommand::SetFreeArea(area) => {
-                let mut hand = self.hand();
-                hand.set_free_area(area);
-                hand.reveal_pin();
+                self.hand().set_free_area(area);
+                follow_lesson(self);
+                self.hand().reveal_pin();
             }
             WindowCommand::OverlayText(toggle) => screen.shown.text = toggle.of(screen.shown.text),
             WindowCommand::Panel(toggle) => screen.shown.panel = toggle.of(screen.shown.panel),

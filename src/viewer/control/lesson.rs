@@ -117,7 +117,7 @@ impl Lessons<'_> {
             at: 0,
             scenes,
             view_pending: false,
-            fitted: None,
+            shown: None,
             before,
         });
         self.take_step(0);
@@ -143,10 +143,11 @@ impl Lessons<'_> {
         let Some(walk) = self.lesson.as_mut().filter(|walk| at < walk.lesson.steps.len()) else {
             return;
         };
-        (walk.at, walk.view_pending, walk.fitted) = (at, true, None);
+        (walk.at, walk.view_pending, walk.shown) = (at, true, None);
         let (scene, step) = (walk.scenes[at], walk.lesson.steps[at].clone());
         self.scene_list.current = scene.min(self.scene_list.scenes.len().saturating_sub(1));
         self.compare(Against::Nothing);
+        self.ab.forget_looks();
         self.settings.render = RenderSettings::default();
         self.settings.dialect = DialectChoice::default();
         let LessonStep {
@@ -179,33 +180,42 @@ impl Lessons<'_> {
         }
     }
 
-    /// Sets the view that a step asks for, as soon as its scene was read; without one all of the canvas is shown in the part of
-    /// the window that is free, until a hand moves it.
-    pub(in crate::viewer) fn follow(&mut self) {
+    /// Sets the view that a step asks for, as soon as its scene was read, and again when another part of the window is free;
+    /// without one all of the canvas is shown in that part. Until a hand moves it. True if it was set now.
+    pub(in crate::viewer) fn follow(&mut self) -> bool {
         let layout = self.ab.layout(self.settings.pixel_zoom, self.chrome);
         let (Some(walk), Some(context)) = (&*self.lesson, self.scene_list.view_context(layout.frame_size())) else {
-            return;
+            return false;
         };
-        let camera = self.scene_list.camera();
-        let follows = walk.fitted.is_some() && walk.fitted == camera;
+        let part = layout.free_part();
+        let is_new = walk.shown.is_none_or(|(_, before)| before != part);
         let numbers = walk.lesson.steps.get(walk.at).and_then(|step| step.view);
         // An explanation takes room: another scale would show other content at the pixel that was asked about.
         let rests = self.inspector.magnifier.asked && self.inspector.explains(self.chrome, self.scene_list, &layout);
-        if !walk.view_pending && (!follows || rests) {
-            return;
+        let follows = walk.is_as_set(self.scene_list.camera()) && is_new && !rests;
+        if !walk.view_pending && !follows {
+            return false;
         }
-        let fitted = if let Some(numbers) = numbers {
+        if let Some(numbers) = numbers {
             self.scene_list
                 .look(context.frame, |camera, _| camera.set(numbers, &context));
-            None
         } else {
             self.scene_list
                 .look(context.frame, |camera, _| *camera = Camera::new(View::Default));
             self.scene_list.fit_view(&layout);
-            self.scene_list.camera()
-        };
+        }
         if let Some(walk) = self.lesson {
-            (walk.view_pending, walk.fitted) = (false, fitted);
+            walk.view_pending = false;
+            walk.shown = self.scene_list.camera().map(|camera| (camera, part));
+        }
+        true
+    }
+
+    /// The view of this moment is the one that the step set: a pin was brought into sight.
+    pub(in crate::viewer) fn take_view(&mut self) {
+        let camera = self.scene_list.camera();
+        if let Some((shown, camera)) = self.lesson.as_mut().and_then(|walk| walk.shown.as_mut()).zip(camera) {
+            shown.0 = camera;
         }
     }
 
@@ -216,6 +226,7 @@ impl Lessons<'_> {
         };
         self.chrome.messages.retract(NO_ROOM);
         self.compare(Against::Nothing);
+        self.ab.forget_looks();
         let mut scenes = before.scenes;
         if scenes.is_empty() {
             scenes = library::gallery_entries();

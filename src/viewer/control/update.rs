@@ -100,9 +100,8 @@ impl Viewer {
     pub(in crate::viewer) fn update(&mut self) {
         self.revision += 1;
         self.scene_list.want(self.ab.wanted_dialects(&self.settings));
-        let mut opening = self.opening();
-        opening.complete_restored();
-        opening.lessons().follow();
+        self.opening().complete_restored();
+        follow_lesson(self);
         let in_lesson = self.lesson.is_some();
         self.hand().place(in_lesson);
         self.drawings().want_frame();
@@ -143,5 +142,13 @@ impl Viewer {
                 .push(Work::Picture(Shot::Ready(window), recipe.map(Box::new)));
         }
         self.update();
+    }
+}
+
+/// Sets the view of a lesson's step where that is due; its pin stays in sight.
+pub(in crate::viewer) fn follow_lesson(viewer: &mut Viewer) {
+    if viewer.opening().lessons().follow() {
+        viewer.hand().reveal_pin();
+        viewer.opening().lessons().take_view();
     }
 }

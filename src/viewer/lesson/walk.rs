@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use glam::DVec2;
+
 use crate::viewer::lesson::model::Lesson;
 use crate::viewer::lesson::source::LessonSource;
 use crate::viewer::library::SceneEntry;
@@ -20,12 +22,18 @@ pub(in crate::viewer) struct Walk {
     pub(in crate::viewer) scenes: Vec<usize>,
     /// Whether the step's view is to be set as soon as its scene was read.
     pub(in crate::viewer) view_pending: bool,
-    /// The view that shows the whole canvas, while nobody moved it: it follows the free part of the window.
-    pub(in crate::viewer) fitted: Option<Camera>,
+    /// The view as the step set it, and the free part of the frame that it was set for: while nobody moves it, it follows that
+    /// part.
+    pub(in crate::viewer) shown: Option<(Camera, [DVec2; 2])>,
     pub(in crate::viewer) before: Before,
 }
 
 impl Walk {
+    /// Whether this is the view that the step set.
+    pub(in crate::viewer) fn is_as_set(&self, camera: Option<Camera>) -> bool {
+        self.shown.is_some_and(|(shown, _)| camera == Some(shown))
+    }
+
     /// The file that it was read from, if from any.
     pub(in crate::viewer) fn file(&self) -> Option<&Path> {
         match self.source.as_ref()? {

@@ -89,19 +89,18 @@ pub(super) fn request(options: &SheetOptions) -> Result<SheetRequest, String> {
     }
     // Panels that differ in their rules show one reading of the document.
     let by_rules = panels.iter().all(|rules| *rules == Rules::Course);
-    let mut request = SheetRequest::new(options.axes.0.clone(), |choice| panel(options, choice, by_rules))?;
+    let axes = options.axis_lists()?;
+    let page = SheetRequest::page_panel(&axes);
+    let size = options.size.map_or([page; 2], |FrameSize(size)| size);
+    let mut request = SheetRequest::new(axes, |choice| panel(options, choice, by_rules, size))?;
     request.theme = options.theme;
     request.note.clone_from(&options.note);
     Ok(request)
 }
 
-/// What a panel shows; `by_rules` lets its rules decide how the document is read.
-fn panel(options: &SheetOptions, choice: &Choice, by_rules: bool) -> Result<PictureSpec, String> {
+/// What a panel of this size shows; `by_rules` lets its rules decide how the document is read.
+fn panel(options: &SheetOptions, choice: &Choice, by_rules: bool, size: [u32; 2]) -> Result<PictureSpec, String> {
     let sampling = sampling(choice)?;
-    let size = options.size.map_or_else(
-        || [SheetRequest::page_panel(&options.axes.0); 2],
-        |FrameSize(size)| size,
-    );
     Ok(PictureSpec {
         scene: SceneSource::from_address(&options.scene),
         size,

@@ -22,5 +22,5 @@ pub use path::{CurvedArea, Path, Stroke};
 pub use polygon::Polygon;
 pub use stroke::{LineCap, LineJoin, StrokeStyle};
 pub use triangulate::{FillRule, estimate_crossings, triangulate};
-pub use view::{View, ViewTransform};
+pub use view::{View, ViewTransform, rounded_place};
 pub use width::width_in_window;

@@ -1,5 +1,7 @@
 //! Where the scene lies on the screen: the named views, and the map from user space to pixels.
 
+use std::fmt;
+
 use glam::{DAffine2, DMat2, DVec2};
 
 /// Margin of the default view: the window's shorter side shows this many times the canvas's longer side.
@@ -24,6 +26,40 @@ pub enum View {
     },
 }
 
+/// A place in user units with as many digits as tell hundredths of a pixel apart, where a unit has `scale` pixels.
+pub fn rounded_place(place: DVec2, scale: f64) -> DVec2 {
+    let digits = (scale.abs() * 100.0).log10().ceil();
+    DVec2::new(rounded(place.x, digits), rounded(place.y, digits))
+}
+
+/// A number with so many digits behind its point.
+fn rounded(number: f64, digits: f64) -> f64 {
+    let power = 10.0_f64.powf(digits.clamp(0.0, 12.0));
+    let rounded = (number * power).round() / power;
+    if rounded.is_finite() { rounded } else { number }
+}
+
+/// As `--view` takes it, to the last digit.
+impl fmt::Display for View {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Default => f.write_str("default"),
+            Self::Canvas => f.write_str("canvas"),
+            Self::At {
+                center,
+                scale,
+                rotation,
+            } => {
+                write!(f, "{},{},{scale}", center.x, center.y)?;
+                if *rotation != 0.0 {
+                    write!(f, ",{rotation}")?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
 impl View {
     /// The map to pixels for a canvas of `canvas` user units in a frame of `size` pixels.
     pub fn transform(self, canvas: DVec2, size: [u32; 2]) -> ViewTransform {
@@ -41,6 +77,24 @@ impl View {
                 scale,
                 rotation,
             } => ViewTransform::around(center, scale, rotation, frame),
+        }
+    }
+
+    /// The same view with no more digits than can be seen: a hundredth of a pixel.
+    #[must_use]
+    pub fn rounded(self) -> Self {
+        match self {
+            Self::At {
+                center,
+                scale,
+                rotation,
+            } => Self::At {
+                center: rounded_place(center, scale),
+                // A millionth of it moves nothing by a hundredth in a frame of ten thousand pixels.
+                scale: rounded(scale, 6.0 - scale.abs().log10().ceil()),
+                rotation: rounded(rotation, 4.0),
+            },
+            named => named,
         }
     }
 

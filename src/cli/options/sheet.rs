@@ -8,6 +8,7 @@ use super::framing::FramingOptions;
 use super::lists::Lists;
 use crate::cli::size::FrameSize;
 use crate::figure::{Ground, InsetSpec};
+use crate::viewer::AxisLists;
 
 #[derive(Clone, Debug, Args)]
 pub(in crate::cli) struct SheetOptions {
@@ -25,6 +26,9 @@ pub(in crate::cli) struct SheetOptions {
     /// Dark ink on white for print, or light ink on black for slides
     #[arg(long, default_value = Ground::Light.name(), value_enum)]
     pub(in crate::cli) theme: Ground,
+    /// Put the panels of the only list below each other instead of side by side
+    #[arg(long)]
+    pub(in crate::cli) stacked: bool,
     /// Replace panels and snippets of another making too; never what is read
     #[arg(long)]
     pub(in crate::cli) force: bool,
@@ -35,4 +39,20 @@ pub(in crate::cli) struct SheetOptions {
     pub(in crate::cli) axes: Lists,
     #[command(flatten)]
     pub(in crate::cli) framing: FramingOptions,
+}
+
+impl SheetOptions {
+    /// The lists of values, in the direction that is asked for.
+    ///
+    /// # Errors
+    /// One line where more than one list is to be a stack.
+    pub(in crate::cli) fn axis_lists(&self) -> Result<AxisLists, String> {
+        let lists = self.axes.0.clone().stacked(self.stacked);
+        if self.stacked && lists.axes().count() > 1 {
+            return Err(
+                "--stacked: of two lists the second goes from top to bottom already; leave one of both out".to_owned(),
+            );
+        }
+        Ok(lists)
+    }
 }

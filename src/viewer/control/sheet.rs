@@ -5,21 +5,13 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::figure::{InsetPlace, InsetSpec};
+use crate::geometry::rounded_place;
 use crate::viewer::control::recipes::Recipes;
 use crate::viewer::export::restored::Grammar;
 use crate::viewer::export::sheet::desk::SheetDesk;
 use crate::viewer::export::sheet::preview::{KnownScene, SheetQuestion};
 use crate::viewer::export::spec::{PictureSpec, output_name, shell_line};
 use crate::viewer::inspector::Inspector;
-
-/// A place in user units with as many digits as tell pixels apart, where a unit has `scale` pixels.
-fn rounded(place: DVec2, scale: f64) -> DVec2 {
-    // A hundredth of a pixel.
-    let digits = (scale.abs() * 100.0).log10().ceil().clamp(0.0, 12.0);
-    let power = 10.0_f64.powf(digits);
-    let rounded = (place * power).round() / power;
-    if rounded.is_finite() { rounded } else { place }
-}
 
 impl Recipes<'_> {
     /// The `rasterscope sheet` command that makes the sheet, quoted for a POSIX shell; `None` without a scene or without pixels.
@@ -61,7 +53,10 @@ impl Recipes<'_> {
         } else {
             let centre = DVec2::from(pixel.map(f64::from)) + 0.5;
             let view = entry.camera.transform(&context);
-            InsetPlace::User(rounded(view.to_scene(centre), entry.camera.numbers(&context).scale))
+            InsetPlace::User(rounded_place(
+                view.to_scene(centre),
+                entry.camera.numbers(&context).scale,
+            ))
         };
         let Inspector {
             region, magnification, ..

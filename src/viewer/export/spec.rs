@@ -80,20 +80,7 @@ impl PictureSpec {
 
     /// The view as `--view` takes it.
     pub fn view_text(&self) -> String {
-        match self.view {
-            View::Default => "default".to_owned(),
-            View::Canvas => "canvas".to_owned(),
-            View::At {
-                center,
-                scale,
-                rotation: 0.0,
-            } => format!("{},{},{scale}", center.x, center.y),
-            View::At {
-                center,
-                scale,
-                rotation,
-            } => format!("{},{},{scale},{rotation}", center.x, center.y),
-        }
+        self.view.to_string()
     }
 
     /// The settings that differ from their defaults: names and values of the command line's options.

@@ -129,6 +129,45 @@ fn sheet_of_one_axis_takes_rows_where_it_is_long() {
 }
 
 #[test]
+fn sheet_of_one_axis_is_stacked_where_that_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let axis = ["--sample-rate", "1,4,16", "--size", "120x90"];
+    let view = ["--view", "600.123456789,600.987654321,0.123456789123"];
+    done(
+        folder.path(),
+        &[&["sheet", STAR, "-o", "s.png", "--stacked"], &axis[..], &view].concat(),
+    );
+    let sheet = image::open(folder.path().join("s.png")).unwrap();
+    assert!(
+        sheet.height() > 3 * 90 && sheet.width() < 2 * 120,
+        "{}x{}",
+        sheet.width(),
+        sheet.height()
+    );
+    let told = Record::of_file(&folder.path().join("s.png")).unwrap().unwrap();
+    assert!(told.command_line.contains("--stacked"), "{}", told.command_line);
+    assert!(told.command_line.contains("600.123456789,"), "to the last digit");
+    let snippet = fs::read_to_string(folder.path().join("s/figures.md")).unwrap();
+    assert!(
+        snippet.contains("view 600.12,600.99,0.123457"),
+        "no more digits than can be seen: {snippet}"
+    );
+    done(folder.path(), &["rerun", "--check", "s.png"]);
+    let two = [
+        "sheet",
+        STAR,
+        "-o",
+        "t.png",
+        "--stacked",
+        "--pattern",
+        "grid,r2",
+        "--rules",
+        "standard,course",
+    ];
+    assert_refused(&run(folder.path(), &two), &two, &["--stacked", "two lists"]);
+}
+
+#[test]
 fn sheet_of_visualisations_has_their_legends_below() {
     let folder = tempfile::tempdir().unwrap();
     let size = ["--size", "200x200"];

@@ -6,6 +6,8 @@ use crate::viewer::settings::picture::{PictureSetting, SettingChange};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AxisLists {
     lists: Vec<Axis>,
+    /// Whether the values of the only axis follow each other from top to bottom.
+    stacked: bool,
 }
 
 /// A setting and its values.
@@ -83,11 +85,23 @@ impl FromIterator<Axis> for AxisLists {
     fn from_iter<I: IntoIterator<Item = Axis>>(lists: I) -> Self {
         Self {
             lists: lists.into_iter().collect(),
+            stacked: false,
         }
     }
 }
 
 impl AxisLists {
+    /// The same; the values of the only axis follow each other from top to bottom if `stacked`.
+    #[must_use]
+    pub fn stacked(self, stacked: bool) -> Self {
+        Self { stacked, ..self }
+    }
+
+    /// Whether there is one axis, from top to bottom.
+    pub fn is_stack(&self) -> bool {
+        self.stacked && self.axes().count() == 1
+    }
+
     /// The lists of several values: what differs between panels.
     pub fn axes(&self) -> impl Iterator<Item = &Axis> {
         self.lists.iter().filter(|axis| axis.values.len() > 1)
@@ -95,7 +109,8 @@ impl AxisLists {
 
     /// The words of the command line, in their order.
     pub fn words(&self) -> Vec<String> {
-        self.lists.iter().map(Axis::word).collect()
+        let stacked = self.is_stack().then(|| "--stacked".to_owned());
+        self.lists.iter().map(Axis::word).chain(stacked).collect()
     }
 
     /// How many choices there are; a huge number where they cannot be counted.

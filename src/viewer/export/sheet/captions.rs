@@ -73,12 +73,12 @@ fn shared_words(spec: &PictureSpec, told: impl Fn(&str) -> bool) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// Size, view and insets in words.
+/// Size, view and insets in words; the view has no more digits than can be seen, for the record has them all.
 fn seen(spec: &PictureSpec, each: &str) -> Vec<String> {
     let [width, height] = spec.size;
     let mut parts = vec![format!(
         "{each}{width} \u{d7} {height} pixels, view {}",
-        spec.view_text()
+        spec.view.rounded()
     )];
     for inset in &spec.insets {
         let [region, factor] = [inset.region, inset.magnification];

@@ -105,7 +105,8 @@ impl SheetDraft {
     }
 
     fn axes(&self) -> AxisLists {
-        self.columns.iter().chain(&self.rows).cloned().collect()
+        let axes: AxisLists = self.columns.iter().chain(&self.rows).cloned().collect();
+        axes.stacked(self.columns.is_none())
     }
 
     /// What a panel shows where the window shows `picture`; without insets.

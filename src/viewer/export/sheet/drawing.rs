@@ -186,7 +186,9 @@ impl SheetRequest {
             None => vec![String::new()],
             Some(axis) => axis.values.iter().map(|value| axis.words(value)).collect(),
         };
-        let (columns, rows) = if axes.len() > 1 {
+        let (columns, rows) = if self.axes.is_stack() {
+            (vec![String::new()], named)
+        } else if axes.len() > 1 {
             let rest = AxisLists::rows(&axes[1..]);
             (named, rest)
         } else if named.len() > columns {
@@ -253,6 +255,9 @@ pub(in crate::viewer) fn framing_words(panel: &PictureSpec, theme: Ground, note:
 
 /// How many columns there are, and whether rows have labels.
 fn grid(lists: &AxisLists) -> (usize, bool) {
+    if lists.is_stack() {
+        return (1, true);
+    }
     let mut axes = lists.axes();
     let columns = axes.next().map_or(1, |axis| axis.values.len());
     match axes.next() {

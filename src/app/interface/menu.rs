@@ -7,6 +7,7 @@ use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, PopupCloseBehavior, ScrollArea, Ui};
 
 use super::look;
+use super::standing::{self, Standing};
 use crate::plain;
 use crate::viewer::{
     Action, Argument, Command, CommandSpec, Group, PictureSetting, SceneCommand, Viewer, WindowCommand, commands,
@@ -34,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) ->
         }
         ui.separator();
         for spec in FIRST_HELP.into_iter().filter_map(commands::find) {
-            entry(ui, spec, commands);
+            entry(ui, viewer, spec, commands);
         }
     });
     response.accessible_name("Menu");
@@ -58,7 +59,7 @@ fn of_group(ui: &mut Ui, viewer: &Viewer, group: Group, commands: &mut Vec<Comma
         let setting = lines.first().copied().and_then(setting_of);
         let mut lines_of = |ui: &mut Ui| {
             for spec in lines {
-                if entry(ui, spec, commands) {
+                if entry(ui, viewer, spec, commands) {
                     asks = Some(*spec);
                 }
                 if spec.id == "open" {
@@ -128,16 +129,25 @@ fn values(ui: &mut Ui, viewer: &Viewer, setting: &'static PictureSetting) -> Opt
     chosen
 }
 
-/// A command with its keys. True if it was chosen and needs an argument first; commands that only keys or scripts can give
+/// A command with its keys, marked while what it switches is on. True if it was chosen and needs an argument first; commands that only keys or scripts can give
 /// have no line.
-fn entry(ui: &mut Ui, spec: &'static CommandSpec, commands: &mut Vec<Command>) -> bool {
+fn entry(ui: &mut Ui, viewer: &Viewer, spec: &'static CommandSpec, commands: &mut Vec<Command>) -> bool {
     let command = spec.command();
     if command == Some(Command::Window(WindowCommand::Escape)) || (command.is_none() && spec.argument.is_none()) {
         return false;
     }
     let dots = if command.is_none() { " \u{2026}" } else { "" };
+    let standing = command
+        .as_ref()
+        .map_or_else(Standing::default, |command| standing::of(viewer, command));
     let button = Button::new(format!("{}{dots}", spec.name)).shortcut_text(spec.keys_text());
-    let response = ui.add(button).on_hover_text(spec.help).accessible_name(spec.name);
+    let button = if standing.is_on { button.selected(true) } else { button };
+    let response = ui.add_enabled(standing.idle.is_none(), button);
+    let response = response.on_hover_text(spec.help).accessible_name(spec.name);
+    let response = match standing.idle {
+        Some(why) => response.on_disabled_hover_text(format!("{}. {why}.", spec.help)),
+        None => response,
+    };
     if !response.clicked() {
         return false;
     }

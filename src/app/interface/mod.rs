@@ -32,6 +32,7 @@ mod scenes;
 mod scrubber;
 mod sheet;
 mod side_panel;
+mod standing;
 mod start;
 mod status;
 mod texture_view;
@@ -331,7 +332,7 @@ impl Interface {
         }
         contributions::show(ui, viewer, free);
         hits::hits(ui, viewer);
-        self.close_of_inset.show(ui, viewer, &mut asked.commands);
+        self.close_of_inset.show(ui, viewer, free, &mut asked.commands);
     }
 
     /// A click beside an open list closes it, and presses nothing that lies below.
@@ -403,7 +404,7 @@ impl Interface {
                         return memory.show(ui, viewer, commands);
                     }
                 }
-                lesson::text(ui, viewer);
+                lesson::text(ui, viewer, commands);
                 Hovered::default()
             });
         self.cover(ui, SizedPanel::Lesson, true, panel.response.rect);

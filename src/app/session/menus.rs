@@ -1,14 +1,14 @@
 //! The menu by mouse: every command is in it, lists stay in the window, and a click beside them presses nothing else.
 
 use crate::viewer::{Action, CommandSpec, Group, InspectorCommand, ViewCommand, WindowCommand, commands};
-use egui::accesskit::Node;
+use egui::accesskit::{Node, Toggled};
 use glam::{DVec2, dvec2};
 
 use super::hands::{click, key, nodes, place_of, session};
 use super::small_windows::{click_on, says};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Dialog, Toggle, picture};
+use crate::viewer::{AbCommand, Against, Arrangement, Dialog, Toggle, picture};
 
 /// The names of everything that can be pressed.
 fn names(session: &mut Session) -> Vec<String> {
@@ -146,5 +146,61 @@ fn lost_canvas_has_a_way_back() {
             .scene_list()
             .canvas_in_sight(&session.viewer.both().layout()),
         "and to be seen"
+    );
+}
+
+#[test]
+fn menu_says_what_is_on_and_what_does_nothing() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    let entry = |lists: &[&str], name: &str, session: &mut Session| {
+        open(session, lists);
+        let named: Vec<Node> = nodes(session)
+            .into_iter()
+            .filter(|node| node.label() == Some(name))
+            .collect();
+        assert!(!named.is_empty(), "{name} is in the menu");
+        while session.interface.list_is_open() {
+            key(session, "Escape");
+            session.settle();
+        }
+        // A panel may have a button of that name, too.
+        let is_on = named.iter().any(|node| node.toggled() == Some(Toggled::True));
+        (is_on, named.iter().all(Node::is_disabled))
+    };
+    let compare = [Group::Compare.name()];
+    assert_eq!(entry(&compare, "Wipe", &mut session), (false, false), "no B yet");
+    assert_eq!(
+        entry(&compare, "Next difference", &mut session),
+        (false, true),
+        "from what"
+    );
+    let scenes = [Group::Scenes.name()];
+    assert_eq!(
+        entry(&scenes, "Close the lesson", &mut session),
+        (false, true),
+        "none open"
+    );
+    session.command(Command::Ab(AbCommand::Compare(Against::Settings)));
+    session.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
+    session.settle();
+    assert_eq!(
+        entry(&compare, "Wipe", &mut session),
+        (true, false),
+        "so they share the window"
+    );
+    assert_eq!(
+        entry(&compare, "Side by side", &mut session),
+        (false, false),
+        "and not so"
+    );
+    assert_eq!(
+        entry(&compare, "Next difference", &mut session),
+        (false, false),
+        "now there is B"
+    );
+    assert_eq!(
+        entry(&compare, "Stronger difference", &mut session),
+        (false, true),
+        "which nobody sees"
     );
 }

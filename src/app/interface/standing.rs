@@ -1,0 +1,90 @@
+//! How a command stands now, for menus: whether what it switches is on, and why it would do nothing.
+
+use crate::compare::Gain;
+use crate::viewer::{
+    AbCommand, Arrangement, Command, ExportCommand, InspectorCommand, InterfaceScale, LessonCommand, Other,
+    SceneCommand, ViewCommand, Viewer, WindowCommand,
+};
+
+/// How a command stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Standing {
+    /// Whether what it switches is on.
+    pub(super) is_on: bool,
+    /// Why it would change nothing; `None` where it would.
+    pub(super) idle: Option<&'static str>,
+}
+
+/// That of a command in the state of `viewer`.
+pub(super) fn of(viewer: &Viewer, command: &Command) -> Standing {
+    Standing {
+        is_on: is_on(viewer, command),
+        idle: idle(viewer, command),
+    }
+}
+
+fn is_on(viewer: &Viewer, command: &Command) -> bool {
+    let (chrome, ab) = (viewer.chrome(), viewer.ab());
+    match command {
+        Command::Ab(command) => match command {
+            AbCommand::ToggleArrangement(arrangement) => ab.arrangement() == *arrangement,
+            AbCommand::FlipByHand => ab.shows_b(),
+            AbCommand::Normalize(_) => ab.difference_style().gain == Gain::Normalize,
+            AbCommand::Compare(_) => matches!(ab.other(), Some(Other::Truth(_))),
+            _ => false,
+        },
+        Command::View(ViewCommand::Progressive(_)) => viewer.settings().progressive,
+        Command::Inspector(InspectorCommand::Show(_)) => viewer.inspector().magnifier().open,
+        Command::Inspector(InspectorCommand::Explanation(_)) => viewer.pixels().explains(),
+        Command::Scenes(SceneCommand::FollowFiles(_)) => viewer.scene_list().follows_files(),
+        Command::Window(command) => match command {
+            WindowCommand::OverlayText(_) => chrome.overlay_text(),
+            WindowCommand::HideEverything(_) => chrome.everything_hidden(),
+            WindowCommand::Panel(_) => chrome.panel(),
+            WindowCommand::About(_) => chrome.about(),
+            WindowCommand::StartCard(_) => chrome.start_card(),
+            WindowCommand::SetInterfaceScale(scale) => chrome.interface_scale() == *scale,
+            _ => false,
+        },
+        _ => false,
+    }
+}
+
+fn idle(viewer: &Viewer, command: &Command) -> Option<&'static str> {
+    let ab = viewer.ab();
+    let (is_idle, why) = match command {
+        Command::Ab(AbCommand::NextDifference) => (ab.other().is_none(), "There is no B yet"),
+        Command::Ab(AbCommand::StepGain(_)) => (
+            ab.arrangement() != Arrangement::Difference,
+            "The difference is not shown",
+        ),
+        Command::Lesson(LessonCommand::Close) => (viewer.lesson().is_none(), "No lesson is open"),
+        Command::Scenes(SceneCommand::Next) => match viewer.lesson() {
+            Some((lesson, at)) => (at + 1 == lesson.steps.len(), "This is the last step"),
+            None => (viewer.scene_list().scenes().len() < 2, "There is no other scene"),
+        },
+        Command::Scenes(SceneCommand::Previous) => match viewer.lesson() {
+            Some((_, at)) => (at == 0, "This is the first step"),
+            None => (viewer.scene_list().scenes().len() < 2, "There is no other scene"),
+        },
+        Command::Inspector(InspectorCommand::Unpin) => (viewer.pixels().pinned().is_none(), "No pixel is pinned"),
+        Command::Inspector(InspectorCommand::StepMagnification(_))
+        | Command::Export(ExportCommand::CopyExplanation) => {
+            (!viewer.inspector().magnifier().open, "The pixel inspector is closed")
+        }
+        Command::Window(WindowCommand::About(_)) => (
+            viewer.scene_list().words().is_none(),
+            "This scene says nothing about itself",
+        ),
+        Command::Window(WindowCommand::StepInterfaceScale { up }) => {
+            let now = viewer.chrome().interface_scale();
+            (now.step(*up) == now, "There is no such size")
+        }
+        Command::Window(WindowCommand::SetInterfaceScale(InterfaceScale::ORIGINAL)) => (
+            viewer.chrome().interface_scale() == InterfaceScale::ORIGINAL,
+            "It is so already",
+        ),
+        _ => (false, ""),
+    };
+    is_idle.then_some(why)
+}

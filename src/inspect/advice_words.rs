@@ -183,20 +183,22 @@ impl Truth {
 }
 
 impl Cure {
-    /// What to set, with which key (which may step through other values first), and what it brings.
+    /// What to set, the key that steps through the values, and what it brings.
     fn words(&self) -> String {
         let value = &self.value;
         let what = match self.setting {
             Setting::Rules => format!("Rules {value}"),
-            Setting::LodLevel => "The level of detail as computed (key M)".to_owned(),
-            Setting::LodBias => format!("Bias {value} (keys comma and full stop)"),
-            Setting::LevelSampling => format!("Level sampling {value} (key L)"),
-            Setting::Anisotropy => format!("Anisotropy {value} (key T)"),
+            Setting::LodLevel => "The level of detail as computed (M steps there)".to_owned(),
+            Setting::LodBias => format!("Bias {value} (comma and full stop step there)"),
+            Setting::LevelSampling => format!("Level sampling {value} (L steps there)"),
+            Setting::Anisotropy => format!("Anisotropy {value} (T steps there)"),
             Setting::LodPer => format!("Level of detail per {value}"),
-            Setting::PixelSampling => format!("Pixel sampling {value} (key P)"),
+            Setting::PixelSampling => format!("Pixel sampling {value} (P steps there)"),
             Setting::SampleRate if value == "256" => format!("{value} samples"),
-            Setting::SampleRate => format!("{value} samples (key =)"),
-            Setting::Pattern => format!("Pattern {value} (key A), whose samples share neither columns nor rows"),
+            Setting::SampleRate => format!("{value} samples (= steps there)"),
+            Setting::Pattern => {
+                format!("Pattern {value} (A steps there), whose samples share neither columns nor rows")
+            }
         };
         format!("{what}: {} levels nearer to the truth.", levels(self.nearer))
     }

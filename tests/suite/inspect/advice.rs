@@ -303,7 +303,10 @@ fn advice_is_silent_about_neighbours_that_share_an_edge() {
     assert_eq!(found.missed.len(), 1, "one is met by no sample");
     let told = found.hints().join("\n");
     assert!(!told.contains("thin") && !told.contains("breaks up"), "{told}");
-    assert!(told.contains("samples (key =): "), "more samples mix both: {told}");
+    assert!(
+        told.contains("samples (= steps there): "),
+        "more samples mix both: {told}"
+    );
 }
 
 #[test]

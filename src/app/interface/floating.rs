@@ -277,15 +277,31 @@ pub(super) fn pixel_labels(ui: &Ui, viewer: &Viewer) {
 /// on what was there before is not meant for it.
 #[derive(Debug, Default)]
 pub(super) struct CloseOfInset {
-    /// Inset and pointer in the last pass.
+    /// What the pointer was to be over, and the pointer, in the last pass.
     last: Option<(Rect, Pos2)>,
     /// Where the pointer rests since the inset came.
     rests_at: Option<Pos2>,
+    /// Whether the button was to be seen.
+    shown: bool,
+}
+
+/// Where the button goes: beside the inset's upper end, so that it covers no magnified pixel; in the inset where no side has
+/// room.
+fn place_of_close(inset: Rect, free: Rect) -> Rect {
+    const APART: f32 = 3.0;
+    let size = CONTROL;
+    let places = [
+        inset.right_top() + vec2(APART, 0.0),
+        inset.left_top() - vec2(APART + size.x, 0.0),
+    ];
+    let mut places = places.map(|corner| Rect::from_min_size(corner, size)).into_iter();
+    let inside = Rect::from_min_size(inset.right_top() + vec2(-APART - size.x, APART), size);
+    places.find(|place| free.contains_rect(*place)).unwrap_or(inside)
 }
 
 impl CloseOfInset {
     /// Shows it.
-    pub(super) fn show(&mut self, ui: &Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    pub(super) fn show(&mut self, ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) {
         let scale = ui.pixels_per_point();
         let pinned = viewer
             .inspector()
@@ -293,28 +309,33 @@ impl CloseOfInset {
             .filter(|_| viewer.pixels().pinned().is_some());
         let inset = pinned.map_or(Rect::NOTHING, |placed| points(&placed.rect, scale));
         let pointer = ui.input(|input| input.pointer.latest_pos());
-        let before = std::mem::replace(&mut self.last, pointer.map(|at| (inset, at)));
-        let Some(at) = pointer.filter(|at| inset.contains(*at)) else {
+        let button = place_of_close(inset, free);
+        // On the way to the button the pointer leaves the inset.
+        let around = if self.shown { inset.union(button) } else { inset };
+        let before = std::mem::replace(&mut self.last, pointer.map(|at| (around, at)));
+        let over = pointer.filter(|at| around.contains(*at));
+        self.shown = false;
+        let Some(at) = over else {
             self.rests_at = None;
             return;
         };
-        if before.is_some_and(|(inset, pointer)| pointer == at && !inset.contains(at)) {
+        if before.is_some_and(|(around, pointer)| pointer == at && !around.contains(at)) {
             self.rests_at = Some(at);
         }
         self.rests_at = self.rests_at.filter(|rest| rest.distance(at) < REST);
         if self.rests_at.is_none() {
-            close_of_inset(ui, inset, commands);
+            self.shown = true;
+            close_of_inset(ui, button, commands);
         }
     }
 }
 
-fn close_of_inset(ui: &Ui, inset: Rect, commands: &mut Vec<Command>) {
+fn close_of_inset(ui: &Ui, place: Rect, commands: &mut Vec<Command>) {
     let button = Area::new(Id::unique("close inspector"))
         .order(Order::Middle)
-        .fixed_pos(inset.right_top() + vec2(-3.0, 3.0))
-        .pivot(Align2::RIGHT_TOP)
+        .fixed_pos(place.min)
         .fade_in(false)
-        .show(ui.ctx(), |ui| ui.add(Button::new("\u{d7}").min_size(CONTROL)))
+        .show(ui.ctx(), |ui| ui.add_sized(place.size(), Button::new("\u{d7}")))
         .inner
         .on_hover_text("Closes the pixel inspector, and forgets the pinned pixel")
         .accessible_name("Close the inspector");

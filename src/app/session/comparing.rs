@@ -11,7 +11,7 @@ use std::path::PathBuf;
 
 use glam::{DVec2, dvec2};
 
-use super::hands::{click, nodes, place_of, session};
+use super::hands::{click, key, nodes, place_of, session};
 use super::small_windows::{click_on, comparing, right_click, says};
 use super::*;
 use crate::render::Visualisation;
@@ -462,4 +462,42 @@ fn line_that_nobody_moved_leaves_both_pictures_room() {
             assert!(line < 49.0, "{line} in {free:?}");
         }
     }
+}
+
+#[test]
+fn magnifiers_stay_where_the_wheel_turns_over_them() {
+    for arrangement in [Arrangement::SideBySide, Arrangement::Wipe] {
+        for window in [[800, 600], [1280, 800], [1920, 1080]] {
+            let mut session = comparing(window);
+            session.command(Command::Ab(AbCommand::Arrange(arrangement)));
+            session.settle();
+            let free = session.free_area.expect("there is room");
+            let at = [free.x as f64 + 60.0, free.y as f64 + f64::from(free.height) / 2.0];
+            right_click(&mut session, at);
+            let placed = |session: &Session| session.viewer.inspector().inset().expect("there is room").rect;
+            let first = placed(&session);
+            let middle = dvec2(
+                first.x as f64 + f64::from(first.width) / 2.0,
+                first.y as f64 + f64::from(first.height) / 2.0,
+            );
+            session.pointer(Some(middle));
+            for clicks in [1.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0, -1.0] {
+                session.wheel(clicks);
+                session.settle();
+                let now = placed(&session);
+                let touches =
+                    now.x < first.right() && first.x < now.right() && now.y < first.bottom() && first.y < now.bottom();
+                assert!(touches, "{now:?} after {first:?} at {window:?}, {arrangement:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn next_difference_without_b_says_what_is_missing() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    key(&mut session, "n");
+    session.settle();
+    assert!(session.viewer.ab().other().is_none(), "nothing begins by itself");
+    assert!(says(&mut session, "no B yet"), "but the user is told");
 }

@@ -12,6 +12,10 @@ use crate::viewer::chrome::messages::Messages;
 use crate::viewer::settings::{Settings, Toggle};
 use crate::viewer::view::panes::Moved;
 
+/// Said where B is needed and a copy of A would be no answer.
+const NOTHING_TO_COMPARE: &str =
+    "there is no B yet to differ from: the menu \"A against B\" compares with other settings, the truth or a picture";
+
 /// The smallest and the largest gain.
 const GAINS: [f32; 2] = [1e-6, 1e6];
 
@@ -161,8 +165,8 @@ impl Comparison {
 
     /// The pixel that differs most is to be pinned, or from there the next, as soon as it is known.
     pub(in crate::viewer) fn want_next_difference(&mut self, context: &mut ComparisonContext<'_>) {
-        if self.other.is_none() {
-            self.compare(Against::Settings, context);
+        if self.other.is_none() && self.loading.is_none() {
+            context.messages.error(NOTHING_TO_COMPARE.to_owned());
         } else {
             self.measuring.jumps = true;
         }

@@ -96,6 +96,7 @@ impl Hand<'_> {
         let from = self.pointer.at.replace(to);
         if from != Some(to) {
             (self.pointer.wheels_inset, self.pointer.pinned_through_inset) = (false, None);
+            self.inspector.magnifier.let_go();
         }
         if self.ab.drags_line {
             self.ab.drag_line(to.x, &self.layout());

@@ -75,8 +75,12 @@ pub struct Inspector {
     extent: u32,
     /// Where the inset was last.
     pub(in crate::viewer) corner: Corner,
+    /// The part beside a picture in a half of the window where the inset was last.
+    band: usize,
     /// Turns of the wheel that did not make a whole step yet.
     rest: f64,
+    /// Whether the wheel turned since the pointer last moved: what it turns over stays where it is.
+    wheeled: bool,
 }
 
 /// Where in the window a hand asked about a pixel.
@@ -137,7 +141,9 @@ impl Default for Inspector {
             last: None,
             extent: region * (magnification + 1),
             corner: Corner::default(),
+            band: 0,
             rest: 0.0,
+            wheeled: false,
         }
     }
 }
@@ -175,8 +181,14 @@ impl Inspector {
         let turned = (self.rest + clicks).clamp(-100.0, 100.0);
         let whole = turned.trunc();
         self.rest = turned - whole;
+        self.wheeled = true;
         #[expect(clippy::cast_possible_truncation, reason = "clamped to 100 steps")]
         self.step(whole as i32);
+    }
+
+    /// The pointer moved: the inset may give way again.
+    pub(in crate::viewer) fn let_go(&mut self) {
+        self.wheeled = false;
     }
 
     fn apply(&mut self, limits: Inset) {
@@ -232,23 +244,32 @@ impl Inspector {
         let regions = |least: u32| (least..=region).rev().map(move |region| inset(region, magnification));
         // The ring is worth a somewhat smaller inset, not a tiny one.
         let ring = (self.ring_room > 0).then(|| with_ring(shown, self.ring_room));
-        let beside_ring = regions((region * 2).div_ceil(3).max(smallest));
-        if let Some(placed) = ring.and_then(|ring| self.first_place(beside_ring, &ring, area, &size)) {
-            return Some(placed);
-        }
-        let magnifications = (*Inset::MAGNIFICATION.start()..magnification).rev();
-        let smaller = magnifications.map(|magnification| inset(smallest, magnification));
-        self.first_place(regions(smallest).chain(smaller), shown, area, &size)
+        let beside_ring = || regions((region * 2).div_ceil(3).max(smallest));
+        let all = || {
+            let magnifications = (*Inset::MAGNIFICATION.start()..magnification).rev();
+            let smaller = magnifications.map(|magnification| inset(smallest, magnification));
+            regions(smallest).chain(smaller)
+        };
+        let corners: &[Option<Corner>] = if self.wheeled {
+            &[Some(self.corner), None]
+        } else {
+            &[None]
+        };
+        corners.iter().find_map(|corner| {
+            let large = ring.and_then(|ring| self.first_place(beside_ring(), &ring, area, &size, *corner));
+            large.or_else(|| self.first_place(all(), shown, area, &size, *corner))
+        })
     }
 
     /// Places the first of these insets that has room inside `area` beside `taken`, rather without its large pixel than
-    /// a smaller one.
+    /// a smaller one; in `only` this corner, if there is one.
     fn first_place(
         &mut self,
         insets: impl Iterator<Item = Inset>,
         taken: &PixelRect,
         area: &PixelRect,
         size: &impl Fn(&Inset) -> [u32; 2],
+        only: Option<Corner>,
     ) -> Option<PlacedInset> {
         let longest = (f64::from(area.width.min(area.height)) * SHARE).max(LEAST);
         for inset in insets {
@@ -257,7 +278,8 @@ impl Inspector {
                 if f64::from(whole[0].max(whole[1])) > longest {
                     continue;
                 }
-                if let Some((corner, rect)) = place(area, whole, taken, self.corner) {
+                let found = place(area, whole, taken, self.corner);
+                if let Some((corner, rect)) = found.filter(|(corner, _)| only.is_none_or(|only| only == *corner)) {
                     self.corner = corner;
                     let height = inset.size()[1];
                     let rect = PixelRect { height, ..rect };

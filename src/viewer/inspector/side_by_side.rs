@@ -45,19 +45,23 @@ impl Inspector {
         let regions = (smallest..=region).rev().map(|region| inset(region, magnification));
         let smaller = (magnification.div_ceil(LEAST_PART)..magnification).rev();
         let insets = regions.chain(smaller.map(|magnification| inset(smallest, magnification)));
-        let bands = bands_around(half, canvas);
-        for inset in insets.flat_map(|inset| [inset, inset.without_detail()]) {
-            let size = inset.size();
-            if f64::from(size[0].max(size[1])) > longest {
-                continue;
-            }
-            let mut places = bands.iter().filter_map(|band| place(band, size, &taken, self.corner));
-            if let Some((corner, rect)) = places.next() {
-                self.corner = corner;
-                return Some(PlacedInset { inset, rect });
-            }
-        }
-        None
+        let insets: Vec<Inset> = insets
+            .flat_map(|inset| [inset, inset.without_detail()])
+            .filter(|inset| f64::from(inset.size()[0].max(inset.size()[1])) <= longest)
+            .collect();
+        let bands: Vec<(usize, PixelRect)> = bands_around(half, canvas).into_iter().enumerate().collect();
+        // What the wheel turns over stays in its band, where there is room for any inset.
+        let same = bands.get(self.band..=self.band).filter(|_| self.wheeled);
+        let (found, corner, number) = [same.unwrap_or_default(), &bands].into_iter().find_map(|bands| {
+            insets.iter().find_map(|inset| {
+                bands.iter().find_map(|(number, band)| {
+                    let (corner, rect) = place(band, inset.size(), &taken, self.corner)?;
+                    Some((PlacedInset { inset: *inset, rect }, corner, *number))
+                })
+            })
+        })?;
+        (self.corner, self.band) = (corner, number);
+        Some(found)
     }
 }
 

@@ -18,7 +18,8 @@ use crate::color::{BlendMode, ResolveSpace, Rgba};
 use crate::geometry::{Polygon, ViewTransform};
 use crate::raster::{
     self, Chunk, ChunkBuilder, Compositing, Counters, DisplayList, FilterRadius, Framebuffer, Hidden, ListContext,
-    PaintSources, PlacedGradient, RasterSettings, RasterTimes, ResolveFilter, SamplePattern, SampleRate, SizedFilter,
+    PaintSources, PlacedGradient, RasterSettings, RasterTimes, ResolveFilter, SamplePattern, SampleRate, Seed,
+    SizedFilter,
 };
 use crate::rules::Rules;
 use crate::scene::{Composite, Fill, Gradient, MaskKind, Paint, Primitive, PrimitiveKind, Scene};
@@ -38,6 +39,8 @@ pub struct RenderSettings {
     pub sample_rate: SampleRate,
     /// Where they lie. A rate that the pattern does not take is drawn as the nearest one that it takes.
     pub pattern: SamplePattern,
+    /// Which of all possible ways, where chance decides about that.
+    pub seed: Seed,
     /// Inside a mip level.
     pub pixel_sampling: PixelSampling,
     /// Between mip levels.
@@ -68,6 +71,7 @@ impl Default for RenderSettings {
         Self {
             sample_rate: SampleRate::ONE,
             pattern: SamplePattern::default(),
+            seed: Seed::default(),
             pixel_sampling: PixelSampling::default(),
             level_sampling: LevelSampling::default(),
             anisotropy: Anisotropy::default(),
@@ -364,6 +368,7 @@ fn raster_settings(settings: &RenderSettings) -> RasterSettings {
     RasterSettings {
         rate: settings.sample_rate,
         pattern: settings.pattern,
+        seed: settings.seed,
         sampling: SamplingSettings {
             pixel: settings.pixel_sampling,
             level: settings.level_sampling,

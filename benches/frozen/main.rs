@@ -1,8 +1,8 @@
 //! The sums of the gallery: a line for each scene and group of settings with the SHA-256 of all of its pictures. Work on the
 //! engine that must not move a pixel leaves every line as it is; `benches/frozen/run` compares them.
 //!
-//! The groups: every pattern and resolve space at five rates for each of the rules (`standard`, `course`, `float`), ways of
-//! reading textures (`filters`), every visualisation (`visualised`), and what the inspector says of some pixels (`explained`).
+//! The groups: six patterns and each resolve space at five rates for each of the rules (`standard`, `course`, `float`), the
+//! other patterns (`patterns`), ways of reading textures (`filters`), every visualisation (`visualised`), and what the inspector says of some pixels (`explained`).
 
 use std::fmt::Write as _;
 use std::fs;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::View;
 use rasterscope::inspect::{Explanation, Question};
-use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
+use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate, Seed};
 use rasterscope::render::{RenderSettings, Subject, Visualisation, draw};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, FolderResources, ReadOptions, Scene};
@@ -25,6 +25,15 @@ const SIZE: [u32; 2] = [101, 75];
 /// Where a pixel has many samples.
 const SMALL_SIZE: [u32; 2] = [37, 29];
 const RATES: [u32; 5] = [1, 4, 9, 16, 64];
+/// The patterns that the groups of rules go through.
+const PATTERNS: [SamplePattern; 6] = [
+    SamplePattern::Grid,
+    SamplePattern::Rotated,
+    SamplePattern::Jittered,
+    SamplePattern::JitteredSame,
+    SamplePattern::Halton,
+    SamplePattern::R2,
+];
 const VIEWS: [View; 2] = [View::Default, View::Canvas];
 
 fn main() -> io::Result<()> {
@@ -60,6 +69,7 @@ fn lines(path: &Path) -> String {
         .map(|rules| (rules.name().to_owned(), sampled(*rules)))
         .collect();
     groups.push(("filters".to_owned(), filtered()));
+    groups.push(("patterns".to_owned(), patterned()));
     groups.push(("visualised".to_owned(), visualised()));
     let mut text = String::new();
     let mut line = |group: &str, sum: Sha256| {
@@ -92,7 +102,7 @@ fn picture(scene: &Scene, view: View, settings: &RenderSettings) -> Vec<u8> {
     frame.pixels().iter().flat_map(|pixel| pixel.to_be_bytes()).collect()
 }
 
-/// Every pattern and resolve space at every rate, by one of the rules.
+/// Patterns and resolve spaces at every rate, by one of the rules.
 fn sampled(rules: Rules) -> Vec<RenderSettings> {
     let mut all = Vec::new();
     for sample_rate in rates() {
@@ -115,7 +125,7 @@ fn sampled(rules: Rules) -> Vec<RenderSettings> {
 fn patterns(rules: Rules) -> &'static [SamplePattern] {
     match rules {
         Rules::Float => &[SamplePattern::Grid, SamplePattern::Jittered],
-        Rules::Standard | Rules::Course => &SamplePattern::ALL,
+        Rules::Standard | Rules::Course => &PATTERNS,
     }
 }
 
@@ -142,6 +152,26 @@ fn filtered() -> Vec<RenderSettings> {
         }
     }
     all
+}
+
+/// The other patterns at two rates, by two seeds.
+fn patterned() -> Vec<RenderSettings> {
+    let others = SamplePattern::ALL
+        .into_iter()
+        .filter(|pattern| !PATTERNS.contains(pattern));
+    let settings = others.flat_map(|pattern| {
+        rates()
+            .skip(1)
+            .step_by(2)
+            .enumerate()
+            .map(move |(seed, sample_rate)| RenderSettings {
+                sample_rate,
+                pattern,
+                seed: u32::try_from(seed).ok().and_then(Seed::new).unwrap_or_default(),
+                ..RenderSettings::default()
+            })
+    });
+    settings.collect()
 }
 
 /// Every visualisation at two rates.

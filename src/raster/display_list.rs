@@ -108,7 +108,8 @@ impl<'a> DisplayList<'a> {
 
     /// Where samples lie, on the lattice of the grid.
     pub(in crate::raster) fn places(&self) -> SamplePositions {
-        SamplePositions::new(self.context.pattern, self.context.rate).with_margin(self.context.margin)
+        SamplePositions::new(self.context.pattern, self.context.rate, self.context.seed)
+            .with_margin(self.context.margin)
     }
 
     /// What finds coverage, in these columns of pixels.

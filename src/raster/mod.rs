@@ -60,7 +60,7 @@ pub use list::hidden::Hidden;
 pub use paint::recorder::{PaintedCommand, PaintedKind, PaintedSample};
 
 pub use resolve::{FilterRadius, ResolveFilter, SizedFilter};
-pub use sampling::pattern::SamplePattern;
+pub use sampling::pattern::{SamplePattern, Seed};
 pub use sampling::rate::SampleRate;
 pub use settings::RasterSettings;
 pub use shading::Paint;

@@ -131,6 +131,7 @@ mod tests {
             let settings = RasterSettings {
                 rate,
                 pattern,
+                seed: crate::raster::Seed::default(),
                 sampling: SamplingSettings { rules, ..sampling },
                 filter: any_filter(u)?,
                 space: *u.choose(&ResolveSpace::ALL)?,

@@ -2,7 +2,7 @@
 
 use crate::color::{ResolveSpace, Rgba};
 use crate::raster::resolve::SizedFilter;
-use crate::raster::sampling::pattern::SamplePattern;
+use crate::raster::sampling::pattern::{SamplePattern, Seed};
 use crate::raster::sampling::rate::SampleRate;
 use crate::texture::SamplingSettings;
 
@@ -13,6 +13,8 @@ pub struct RasterSettings {
     pub rate: SampleRate,
     /// Where they lie; where the pattern does not take the rate, it has the nearest one that it takes.
     pub pattern: SamplePattern,
+    /// Where they lie by chance: which chance.
+    pub seed: Seed,
     /// How textures are read, and by whose rules.
     pub sampling: SamplingSettings,
     /// What samples weigh in a pixel, its own and its neighbours'.

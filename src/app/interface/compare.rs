@@ -51,7 +51,10 @@ pub(super) fn offer(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             }
         }
         let close = ui.add_enabled(is_open, Button::new("\u{d7}").min_size(CONTROL));
-        let close = close.on_hover_text(CLOSE_TIP).accessible_name("End the comparison");
+        let close = close
+            .on_hover_text(CLOSE_TIP)
+            .on_disabled_hover_text("There is no B yet");
+        let close = close.accessible_name("End the comparison");
         if close.clicked() {
             commands.push(Command::Ab(AbCommand::Compare(Against::Nothing)));
         }

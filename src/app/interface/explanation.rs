@@ -456,7 +456,9 @@ impl Hovered {
             let painter = ui.painter().with_clip_rect(part);
             for (width, color) in OUTLINE {
                 for contour in &contours {
-                    painter.add(Shape::closed_line(contour.clone(), Stroke::new(width, color)));
+                    // Closed lines have spikes at sharp corners, as long as the sides of the line take to meet.
+                    let closed = contour.iter().chain(contour.first()).copied().collect();
+                    painter.add(Shape::line(closed, Stroke::new(width, color)));
                 }
             }
         }

@@ -50,10 +50,12 @@ pub(super) fn head(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             }
             let is_last = at + 1 == lesson.steps.len();
             let next = ui.add_enabled_ui(!is_last, |ui| command_button(ui, "next-scene", "Next"));
+            next.response.on_disabled_hover_text("This is the last step");
             if next.inner.clicked() {
                 commands.push(Command::Scenes(SceneCommand::Next));
             }
             let back = ui.add_enabled_ui(at > 0, |ui| command_button(ui, "previous-scene", "Back"));
+            back.response.on_disabled_hover_text("This is the first step");
             if back.inner.clicked() {
                 commands.push(Command::Scenes(SceneCommand::Previous));
             }

@@ -77,8 +77,18 @@ fn control(ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32, command
             let chosen = list.inner;
             commands.extend(chosen.and_then(|value| setting.to(value).ok()).map(Command::Set));
         }
-        Control::Number { range, prefix, none } => {
-            let number = Number { range, prefix, none };
+        Control::Number {
+            range,
+            digits,
+            prefix,
+            none,
+        } => {
+            let number = Number {
+                range,
+                digits,
+                prefix,
+                none,
+            };
             let chosen = number.show(ui, shown, now, width);
             commands.extend(chosen.and_then(|value| setting.to(&value).ok()).map(Command::Set));
         }
@@ -113,6 +123,7 @@ fn tip_of(setting: &PictureSetting) -> String {
 /// A number to drag or to type.
 struct Number {
     range: [f64; 2],
+    digits: u8,
     prefix: &'static str,
     none: Option<&'static str>,
 }
@@ -127,18 +138,24 @@ impl Number {
         width: f32,
     ) -> Option<String> {
         let name = panel.name;
-        let Self { range, prefix, none } = *self;
+        let Self {
+            range,
+            digits,
+            prefix,
+            none,
+        } = *self;
+        let power = 10.0_f64.powi(digits.into());
         let least = if none.is_some() { range[0] - BELOW } else { range[0] };
         let before = setting.value(now).parse().unwrap_or(least);
         let mut number = before;
         let signed = setting.signed;
         let field = DragValue::new(&mut number)
             .range(least..=range[1])
-            .speed(SPEED)
-            .max_decimals(2)
+            .speed(SPEED * 100.0 / power)
+            .max_decimals(digits.into())
             .prefix(prefix)
             .custom_formatter(move |number, _| {
-                let rounded = (number * 100.0).round() / 100.0;
+                let rounded = (number * power).round() / power;
                 match none {
                     Some(none) if number < range[0] => none.to_owned(),
                     _ if signed => format!("{rounded:+}"),
@@ -153,6 +170,7 @@ impl Number {
                 }
             });
         let is_taken = sized(ui, width, field, name, &number_tip(setting));
+        number = if digits == 0 { number.round() } else { number };
         #[expect(clippy::float_cmp, reason = "a number that nobody touched is the same one")]
         let is_new = is_taken && number != before;
         is_new.then(|| match none {

@@ -64,7 +64,7 @@ pub(super) fn card(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Comm
                     let way = ways(ui, viewer, 1);
                     ui.add_space(6.0);
                     ui.label(
-                        RichText::new("Any key or click closes this card; ? brings the ways back.")
+                        RichText::new("Any key, or a click beside it, closes this card; ? brings the ways back.")
                             .weak()
                             .small(),
                     );

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use egui::epaint::{ClippedShape, Shape};
-use egui::{Rect, TextureId};
+use egui::{Pos2, Rect, TextureId, Vec2};
 
 use super::CanvasRect;
 
@@ -104,8 +104,24 @@ fn bounds(shape: &Shape) -> Rect {
         Shape::Text(_) => Rect::EVERYTHING,
         // A frame and its shadow come together.
         Shape::Vec(shapes) => shapes.iter().map(bounds).fold(Rect::NOTHING, Rect::union),
+        Shape::Path(path) if path.closed => {
+            shape.visual_bounding_rect() | bounds_of_corners(&path.points, path.stroke.width)
+        }
         other => other.visual_bounding_rect(),
     }
+}
+
+/// Around the corners of a closed path, which egui prolongs until the sides of its line meet: the sharper, the farther.
+fn bounds_of_corners(points: &[Pos2], width: f32) -> Rect {
+    let count = points.len();
+    let corner = |i: usize| {
+        let [before, at, after] = [i + count - 1, i, i + 1].map(|i| points[i % count]);
+        // Half the sum of both sides' normals is as much shorter than one as the corner is farther away.
+        let normal = ((at - before).normalized() + (after - at).normalized()) / 2.0;
+        let half = (width / 2.0 + REACH) / normal.length();
+        Rect::from_center_size(at, Vec2::splat(2.0 * half))
+    };
+    (0..count).map(corner).fold(Rect::NOTHING, Rect::union)
 }
 
 /// Joins parts that overlap or nearly do, until all are apart and few.
@@ -139,6 +155,28 @@ mod tests {
     use egui::{Color32, CornerRadius, pos2, vec2};
 
     use super::*;
+
+    #[test]
+    fn sharp_corners_reach_as_far_as_they_are_painted() {
+        use egui::epaint::{TessellationOptions, Tessellator};
+        for sharp in [0.0, 0.01, 0.1, 0.5, 3.0] {
+            let points = vec![pos2(0.0, 0.0), pos2(40.0, sharp), pos2(40.0, -sharp)];
+            for width in [0.0, 1.0, 4.0] {
+                let shape = Shape::closed_line(points.clone(), egui::Stroke::new(width, Color32::RED));
+                let found = bounds(&shape).expand(REACH);
+                let options = TessellationOptions::default();
+                let mut painted = egui::Mesh::default();
+                Tessellator::new(1.0, options, [1, 1], Vec::new()).tessellate_shape(shape, &mut painted);
+                for vertex in &painted.vertices {
+                    assert!(
+                        found.any_nan() || found.contains(vertex.pos),
+                        "{:?} of a corner {sharp} wide lies outside of {found:?}",
+                        vertex.pos
+                    );
+                }
+            }
+        }
+    }
 
     fn square(at: f32) -> ClippedShape {
         let rect = Rect::from_min_size(pos2(at, 0.0), vec2(4.0, 4.0));

@@ -150,3 +150,26 @@ fn steps_show_what_they_showed_after_a_window_was_small() {
         }
     }
 }
+
+#[test]
+fn needles_that_the_first_steps_speak_of_are_hit_in_every_window() {
+    for window in [
+        [500, 400],
+        [800, 600],
+        [801, 601],
+        [1280, 800],
+        [1366, 768],
+        [1919, 1079],
+    ] {
+        for step in 0..=EXPLAINED {
+            let session = at_step(step, window);
+            let pixel = session.viewer.pixels().pinned().expect("a pin");
+            let status = session.viewer.pixels().status_of(pixel).expect("a picture");
+            let color = status.decimal_text().expect("a colour");
+            assert!(
+                !color.starts_with("247 241 227"),
+                "step {step} in {window:?} pins paper"
+            );
+        }
+    }
+}

@@ -477,6 +477,7 @@ mod tests {
         let settings = RasterSettings {
             rate: SampleRate::new(side * side).expect("a square number"),
             pattern: SamplePattern::Grid,
+            seed: crate::raster::Seed::default(),
             sampling: SamplingSettings {
                 rules: *u.choose(&Rules::ALL)?,
                 ..SamplingSettings::default()
@@ -523,6 +524,7 @@ mod tests {
         let settings = RasterSettings {
             rate: SampleRate::ONE,
             pattern: SamplePattern::Grid,
+            seed: crate::raster::Seed::default(),
             sampling: SamplingSettings::default(),
             filter: SizedFilter::default(),
             space: ResolveSpace::Stored,

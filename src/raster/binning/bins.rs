@@ -225,6 +225,7 @@ mod tests {
         RasterSettings {
             rate: SampleRate::new(side * side).expect("a square number"),
             pattern: SamplePattern::Grid,
+            seed: crate::raster::Seed::default(),
             sampling: SamplingSettings {
                 rules,
                 ..SamplingSettings::default()

@@ -205,6 +205,7 @@ mod tests {
         RasterSettings {
             rate: SampleRate::new(samples).expect("a rate"),
             pattern,
+            seed: crate::raster::Seed::default(),
             sampling: SamplingSettings {
                 pixel: PixelSampling::Bilinear,
                 rules,

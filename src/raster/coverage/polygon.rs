@@ -11,7 +11,7 @@ use glam::DVec2;
 
 use crate::geometry::FillRule;
 use crate::geometry::clip::{clip_edge, in_guard};
-use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+use crate::geometry::subpixel::{GUARD, GridPoint, SubpixelGrid};
 use crate::raster::span::{SampleBox, Span};
 
 /// A polygon in a chunk.
@@ -87,6 +87,12 @@ impl<'a> OutlineBuilder<'a> {
         } else if !(from.point.is_finite() && to.point.is_finite()) {
             self.finite = false;
         } else {
+            // What is cut away winds around nothing, and yet the outline may reach that far: the sides of one around all of the
+            // guard band are cut to an upright line left of it.
+            let (low, high) = (DVec2::splat(GUARD.0), DVec2::splat(GUARD.1));
+            for end in [from.point, to.point] {
+                self.reach(self.grid.snap(end.clamp(low, high)));
+            }
             for ends in clip_edge([from.point, to.point]) {
                 let [from, to] = ends.map(|end| self.grid.snap(end));
                 self.snapped(from, to);
@@ -95,13 +101,17 @@ impl<'a> OutlineBuilder<'a> {
     }
 
     #[inline]
+    fn reach(&mut self, end: GridPoint) {
+        self.low.x = self.low.x.min(end.x);
+        self.low.y = self.low.y.min(end.y);
+        self.high.x = self.high.x.max(end.x);
+        self.high.y = self.high.y.max(end.y);
+    }
+
+    #[inline]
     fn snapped(&mut self, from: GridPoint, to: GridPoint) {
-        for end in [from, to] {
-            self.low.x = self.low.x.min(end.x);
-            self.low.y = self.low.y.min(end.y);
-            self.high.x = self.high.x.max(end.x);
-            self.high.y = self.high.y.max(end.y);
-        }
+        self.reach(from);
+        self.reach(to);
         let (top, bottom, winding) = if from.y < to.y { (from, to, 1) } else { (to, from, -1) };
         let rows = Span {
             start: self.grid.sample_at_or_after(top.y),

@@ -162,7 +162,7 @@ mod tests {
                 &[1, 3, 16, 33, 63]
             };
             let rate = SampleRate::new(*u.choose(rates)?).expect("a rate");
-            let positions = SamplePositions::new(pattern, rate);
+            let positions = SamplePositions::new(pattern, rate, crate::raster::Seed::default());
             let mut lanes = SampleLanes::new(positions.clone()).expect("few samples");
             for _ in 0..8 {
                 let pixel = [u.int_in_range(0..=200)?, u.int_in_range(0..=200)?];

@@ -211,7 +211,7 @@ mod tests {
                 columns: scaled(pixels(FRAME[0]), grid.side()),
                 rows: scaled(pixels(FRAME[1]), grid.side()),
             };
-            let positions = SamplePositions::new(pattern, rate);
+            let positions = SamplePositions::new(pattern, rate, crate::raster::Seed::default());
             let mut rows = ShapeCoverage::new((grid, rules), frame.columns.end, 1);
             if pattern != SamplePattern::Grid {
                 let places = positions.clone();

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::geometry::subpixel::SubpixelGrid;
-use crate::raster::sampling::pattern::SamplePattern;
+use crate::raster::sampling::pattern::{SamplePattern, Seed};
 use crate::raster::sampling::positions::lattice;
 use crate::raster::sampling::rate::SampleRate;
 use crate::raster::settings::RasterSettings;
@@ -18,6 +18,7 @@ pub struct ListContext {
     pub(crate) grid: SubpixelGrid,
     /// Where samples do, and how many there are: a rate that the pattern takes.
     pub(crate) pattern: SamplePattern,
+    pub(crate) seed: Seed,
     pub(crate) rate: SampleRate,
     pub(crate) rules: Rules,
     /// Pixels in a row, rows: of the frame.
@@ -46,6 +47,7 @@ impl ListContext {
         Self {
             grid: lattice(pattern, rate),
             pattern,
+            seed: settings.seed,
             rate,
             rules: settings.sampling.rules,
             frame_size: size,

@@ -141,6 +141,7 @@ mod tests {
             let settings = RasterSettings {
                 rate: SampleRate::new(*u.choose(&[1, 4, 9, 16])?).expect("a rate"),
                 pattern,
+                seed: crate::raster::Seed::default(),
                 sampling: SamplingSettings {
                     rules: *u.choose(&Rules::ALL)?,
                     ..SamplingSettings::default()

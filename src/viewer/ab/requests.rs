@@ -12,6 +12,9 @@ use crate::viewer::chrome::messages::Messages;
 use crate::viewer::settings::{Settings, Toggle};
 use crate::viewer::view::panes::Moved;
 
+/// How what is said of a B of A's settings begins.
+const KEPT: &str = "B keeps these settings";
+
 /// Said where B is needed and a copy of A would be no answer.
 const NOTHING_TO_COMPARE: &str =
     "there is no B yet to differ from: the menu \"A against B\" compares with other settings, the truth or a picture";
@@ -34,13 +37,13 @@ impl Comparison {
     pub(in crate::viewer) fn compare(&mut self, against: Against, context: &mut ComparisonContext<'_>) {
         // The newest request counts.
         self.loading = None;
+        context.messages.retract(KEPT);
         match against {
             Against::Settings => {
                 self.set_other(Some(Other::with(context.settings)));
-                context.messages.done(
-                    "B keeps these settings; now change A with its keys. R swaps both, W wipes, D shows the difference"
-                        .to_owned(),
-                );
+                context.messages.done(format!(
+                    "{KEPT}; now change A with its keys. R swaps both, W wipes, D shows the difference"
+                ));
             }
             Against::Changed(changes) => {
                 let mut other = *context.settings;

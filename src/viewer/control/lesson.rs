@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use glam::DVec2;
+
 use crate::geometry::View;
 use crate::render::RenderSettings;
 use crate::scene::DialectChoice;
@@ -197,8 +199,12 @@ impl Lessons<'_> {
             return false;
         }
         if let Some(numbers) = numbers {
-            self.scene_list
-                .look(context.frame, |camera, _| camera.set(numbers, &context));
+            // In frames of odd sides, too, pixels are those that the author saw: none begins in the middle of one of theirs.
+            let half = DVec2::from(context.frame.map(|side| f64::from(side % 2) / 2.0));
+            self.scene_list.look(context.frame, |camera, _| {
+                camera.set(numbers, &context);
+                camera.pan(-half, &context);
+            });
         } else {
             self.scene_list
                 .look(context.frame, |camera, _| *camera = Camera::new(View::Default));

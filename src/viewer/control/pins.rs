@@ -103,7 +103,12 @@ impl Hand<'_> {
     /// explanation opens, too, where it was closed. Only a pixel that is explained already is unpinned, and the inspector
     /// closes with it if the pin opened it.
     pub(in crate::viewer) fn pin_under_pointer(&mut self) {
-        let Some(pixel) = self.pixels().hovered().or_else(|| self.pixels().inspected()) else {
+        let hovered = self.pixels().hovered();
+        if hovered.is_none() && self.pixels().over_inset() {
+            // The magnifier's frame and its words show no pixel.
+            return;
+        }
+        let Some(pixel) = hovered.or_else(|| self.pixels().inspected()) else {
             return;
         };
         if self.refuses_to_explain() {

@@ -103,6 +103,8 @@ pub enum Control {
     Number {
         /// The smallest and the largest.
         range: [f64; 2],
+        /// Digits behind its point.
+        digits: u8,
         /// Before the number.
         prefix: &'static str,
         /// What stands for no number at all; half a step below the smallest.

@@ -6,7 +6,7 @@
 use super::row::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
 use super::{Settings, values};
 use crate::color::ResolveSpace;
-use crate::raster::{FilterRadius, ResolveFilter, SamplePattern, SampleRate};
+use crate::raster::{FilterRadius, ResolveFilter, SamplePattern, SampleRate, Seed};
 use crate::render::Visualisation;
 use crate::rules::Rules;
 use crate::scene::DialectChoice;
@@ -99,7 +99,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
         help: "Where the samples of a pixel lie",
         about: About::Samples,
         told: Told::IfChanged,
-        panel: Some(row("Sample pattern", "Sample pattern", Control::WideButtons(3))),
+        panel: Some(row("Pattern", "Sample pattern", Control::List)),
         commands: &[SettingCommand {
             step: Some(1.0),
             takes_value: true,
@@ -112,6 +112,53 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
             )
         }],
         ..named!("pattern", "pattern", SamplePattern, render.pattern)
+    },
+    PictureSetting {
+        option: "seed",
+        label: "seed",
+        placeholder: "N",
+        help: "Which places samples have where chance decides about them: 0 to 65535",
+        values: Values::Open {
+            form: "a whole number from 0 to 65535",
+            range: "0 ... 65535",
+            some: &["0", "1", "2", "3"],
+            offered: |_| Vec::new(),
+        },
+        about: About::Samples,
+        told: Told::IfChanged,
+        panel: Some(row(
+            "",
+            "Seed of random patterns",
+            Control::Number {
+                range: [0.0, 65_535.0],
+                digits: 0,
+                prefix: "seed ",
+                none: None,
+            },
+        )),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "Patterns without chance stay as they are: grid, rotated, halton, hammersley and r2",
+            ..command(
+                "seed",
+                "Seed of random patterns",
+                "Places the samples of random patterns otherwise, by the next seed",
+            )
+        }],
+        signed: false,
+        goes_round: true,
+        former: |_| None,
+        get: |settings| settings.render.seed.number().to_string(),
+        set: |settings, text| {
+            settings.render.seed = values::whole(text).and_then(Seed::new)?;
+            Some(())
+        },
+        step: |settings, by| {
+            let seed = settings.render.seed.number();
+            let next = if by < 0.0 { seed.wrapping_sub(1) } else { seed + 1 };
+            settings.render.seed = Seed::new(next % (Seed::MAX + 1)).unwrap_or_default();
+        },
     },
     PictureSetting {
         help: "How a texture is read inside a mip level",
@@ -207,6 +254,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
             "Level of detail bias",
             Control::Number {
                 range: [-LodBias::MAX, LodBias::MAX],
+                digits: 2,
                 prefix: "",
                 none: None,
             },
@@ -268,6 +316,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
             "Fixed level",
             Control::Number {
                 range: [0.0, FixedLevel::MAX],
+                digits: 2,
                 prefix: "level ",
                 none: Some(AUTO),
             },
@@ -351,6 +400,7 @@ pub(super) static PICTURE_SETTINGS: &[PictureSetting] = &[
             "Radius of the resolve filter",
             Control::Number {
                 range: [FilterRadius::MIN, FilterRadius::MAX],
+                digits: 2,
                 prefix: "",
                 none: Some(AUTO),
             },

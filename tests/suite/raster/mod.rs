@@ -1,6 +1,7 @@
 //! What is drawn: coverage, patterns, rules, goldens, and the oracle that draws everything again.
 
 mod coverage;
+mod deep_zooms;
 mod float_rules;
 mod golden;
 mod instruction_guard;

@@ -1,7 +1,7 @@
 //! The engine against the brute-force renderer, on random scenes full of ties.
 
 use rasterscope::color::ResolveSpace;
-use rasterscope::raster::{FilterRadius, Framebuffer, ResolveFilter, SamplePattern};
+use rasterscope::raster::{FilterRadius, Framebuffer, ResolveFilter, SamplePattern, Seed};
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 use rasterscope::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
@@ -41,7 +41,7 @@ fn samples(u: &mut arbtest::arbitrary::Unstructured<'_>) -> arbtest::arbitrary::
     let rates = [1, 4, 9, 16, 25, 2, 3, 5, 7, 17];
     let rates = if pattern.needs_square() { &rates[..5] } else { &rates };
     // Where the samples of pixels beyond the frame lie is unknown where each pixel has its own.
-    let is_wide = pattern != SamplePattern::Jittered && u.ratio(1, 3)?;
+    let is_wide = !pattern.differs_by_pixel() && u.ratio(1, 3)?;
     let filters = if is_wide {
         &ResolveFilter::ALL[..]
     } else {
@@ -50,6 +50,7 @@ fn samples(u: &mut arbtest::arbitrary::Unstructured<'_>) -> arbtest::arbitrary::
     let radius = f64::from(u.int_in_range(2..=12)?) / 4.0;
     Ok(RenderSettings {
         pattern,
+        seed: Seed::new(u.int_in_range(0..=3)?).expect("a seed"),
         resolve_filter: *u.choose(filters)?,
         filter_radius: FilterRadius::new(radius).filter(|_| is_wide && radius > 1.0),
         resolve: *u.choose(&[ResolveSpace::Stored, ResolveSpace::Stored, ResolveSpace::Linear])?,

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::DVec2;
 use rasterscope::color::Rgba;
 use rasterscope::geometry::{FillRule, Polygon, View};
-use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
+use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate, Seed};
 use rasterscope::render::{RenderSettings, Subject, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{Dialect, DialectChoice, Fill, Paint, PrimitiveKind, ReadOptions, Scene, read};
@@ -94,25 +94,80 @@ fn rotated_grid_has_as_many_columns_and_rows_as_samples() {
 }
 
 #[test]
-fn halton_and_r2_are_more_even_than_random_points() {
+fn sequences_are_more_even_than_random_points() {
     for samples in [16, 37, 64, 128] {
-        // The jitter of one sample per pixel is a random point.
-        let random: f64 = (0..20)
-            .map(|set| {
-                let points: Vec<[f64; 2]> = (0..samples)
-                    .map(|i| positions(SamplePattern::Jittered, 1, [i % 64, set * 2 + i / 64])[0])
-                    .collect();
-                discrepancy(&points)
-            })
-            .sum::<f64>()
-            / 20.0;
-        for pattern in [SamplePattern::Halton, SamplePattern::R2] {
+        let mean = |pattern| {
+            let of_pixel = |i: u32| discrepancy(&positions(pattern, samples, [i % 5, i / 5]));
+            (0..20).map(of_pixel).sum::<f64>() / 20.0
+        };
+        let random = mean(SamplePattern::Random);
+        let of_pixels = mean(SamplePattern::Sobol);
+        assert!(
+            of_pixels < 0.8 * random,
+            "scrambled {samples}: {of_pixels} against {random}"
+        );
+        for pattern in [
+            SamplePattern::Halton,
+            SamplePattern::R2,
+            SamplePattern::Hammersley,
+            SamplePattern::SobolSame,
+        ] {
             let found = discrepancy(&positions(pattern, samples, [5, 5]));
             // Few points are never even.
             let most = if samples < 64 { 0.95 } else { 0.6 };
             assert!(found < most * random, "{pattern:?} {samples}: {found} against {random}");
         }
     }
+}
+
+#[test]
+fn random_points_are_anywhere_alike() {
+    let mut bins = [[0_u32; 16]; 2];
+    for pixel in (0..64 * 64).map(|i| [i % 64, i / 64]) {
+        for position in positions(SamplePattern::Random, 3, pixel) {
+            for (bins, at) in bins.iter_mut().zip(position) {
+                let bin = (0..16).rfind(|bin| f64::from(*bin) <= at * 16.0).unwrap_or(0);
+                bins[usize::try_from(bin).expect("small")] += 1;
+            }
+        }
+    }
+    for bin in bins.as_flattened() {
+        // 768 are expected; five standard deviations are 134.
+        assert!(bin.abs_diff(768) < 134, "{bins:?}");
+    }
+}
+
+#[test]
+fn seeds_choose_other_places_where_chance_decides() {
+    for pattern in SamplePattern::ALL {
+        let places = |seed: u32| {
+            let empty = Scene::empty(DVec2::ONE, Dialect::Svg);
+            let view = View::Default.transform(DVec2::ONE, [64, 64]);
+            let settings = RenderSettings {
+                seed: Seed::new(seed).expect("a seed"),
+                ..settings(pattern, 16)
+            };
+            let subject = Subject {
+                scene: &empty,
+                view: &view,
+                settings: &settings,
+            };
+            let found = replay(&subject, [64, 64], [7, 9]).expect("inside");
+            found
+                .samples
+                .into_iter()
+                .map(|sample| sample.position)
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(
+            places(0),
+            positions(pattern, 16, [7, 9]),
+            "{pattern:?}: the first by default"
+        );
+        assert_eq!(places(1) != places(0), pattern.is_seeded(), "{pattern:?}");
+        assert_eq!(places(1), places(1), "{pattern:?}: again the same");
+    }
+    assert_eq!(Seed::new(Seed::MAX + 1), None, "no such seed");
 }
 
 #[test]
@@ -237,7 +292,7 @@ fn patterns_that_are_the_same_in_every_pixel_move_with_the_scene() {
         let picture = |by| drawn(&triangle(by), &one_to_one(SIZE), &settings, SIZE);
         let (here, there) = (picture(DVec2::ZERO), picture(DVec2::new(9.0, 5.0)));
         let moved = (0..22).all(|y| (0..22).all(|x| here.rgba(x, y) == there.rgba(x + 9, y + 5)));
-        assert_eq!(moved, pattern != SamplePattern::Jittered, "{pattern:?}");
+        assert_eq!(moved, !pattern.differs_by_pixel(), "{pattern:?}");
     }
 }
 

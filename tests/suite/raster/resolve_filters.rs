@@ -122,7 +122,7 @@ fn a_part_of_the_picture_is_the_picture_up_to_its_border() {
         let (scene, mut settings) = (random(u, 40, Fills::Flat)?, any(u)?);
         // By others, places are rounded to 32 bits; and jittered, each pixel has samples of its own.
         settings.rules = Rules::Standard;
-        if settings.pattern == SamplePattern::Jittered {
+        if settings.pattern.differs_by_pixel() {
             settings.pattern = SamplePattern::JitteredSame;
         }
         wide += 1;

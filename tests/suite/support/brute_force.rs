@@ -155,7 +155,11 @@ fn lattice(settings: &RenderSettings) -> (u32, u32) {
     match settings.pattern {
         SamplePattern::Grid => (side, 14 - side.next_power_of_two().trailing_zeros()),
         // One sample in the middle is a grid.
-        SamplePattern::Rotated | SamplePattern::R2 if settings.sample_rate == SampleRate::ONE => (1, 14),
+        SamplePattern::Rotated | SamplePattern::R2 | SamplePattern::Hammersley
+            if settings.sample_rate == SampleRate::ONE =>
+        {
+            (1, 14)
+        }
         _ => (256, 6),
     }
 }
@@ -175,12 +179,18 @@ fn places(settings: &RenderSettings, pixel: [i64; 2]) -> Vec<[u32; 2]> {
             [(column + (row + 0.5) / n) / n, (row + (n - 1.0 - column + 0.5) / n) / n]
         }),
         SamplePattern::Halton => of(&|i| [2, 3].map(|base| radical_inverse(i + 1, base))),
+        SamplePattern::Hammersley => of(&|i| [(f64::from(i) + 0.5) / f64::from(count), radical_inverse(i + 1, 2)]),
         SamplePattern::R2 => of(&|i| {
             let g = 1.324_717_957_244_746_f64;
             [g, g * g].map(|step| (0.5 + f64::from(i) / step).fract())
         }),
         // Where they lie is nobody else's business: tests about cells look at them. Of pixels beyond the frame nobody asks.
-        SamplePattern::Jittered | SamplePattern::JitteredSame => {
+        SamplePattern::Jittered
+        | SamplePattern::JitteredSame
+        | SamplePattern::MultiJittered
+        | SamplePattern::Random
+        | SamplePattern::Sobol
+        | SamplePattern::SobolSame => {
             let empty = Scene::empty(DVec2::ONE, Dialect::Svg);
             let view = View::Default.transform(DVec2::ONE, [64, 64]);
             let subject = Subject {
@@ -188,9 +198,10 @@ fn places(settings: &RenderSettings, pixel: [i64; 2]) -> Vec<[u32; 2]> {
                 view: &view,
                 settings,
             };
-            let pixel = match settings.pattern {
-                SamplePattern::JitteredSame => [0, 0],
-                _ => pixel.map(|at| u32::try_from(at).expect("in the frame")),
+            let pixel = if settings.pattern.differs_by_pixel() {
+                pixel.map(|at| u32::try_from(at).expect("in the frame"))
+            } else {
+                [0, 0]
             };
             let found = replay(&subject, [64, 64], pixel).expect("a small frame");
             found.samples.iter().map(|sample| on_lattice(sample.position)).collect()

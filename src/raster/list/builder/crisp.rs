@@ -97,6 +97,7 @@ mod tests {
         let settings = RasterSettings {
             rate: SampleRate::new(16).expect("a square number"),
             pattern: SamplePattern::Grid,
+            seed: crate::raster::Seed::default(),
             sampling: SamplingSettings::default(),
             filter: SizedFilter::default(),
             space: ResolveSpace::Stored,

@@ -316,6 +316,7 @@ mod tests {
         Ok(RasterSettings {
             rate: SampleRate::new(side * side).expect("a square number"),
             pattern: SamplePattern::Grid,
+            seed: crate::raster::Seed::default(),
             sampling: SamplingSettings {
                 rules: *u.choose(&Rules::ALL)?,
                 ..SamplingSettings::default()

@@ -234,6 +234,7 @@ mod tests {
             let settings = RasterSettings {
                 rate: SampleRate::new(*u.choose(&[1, 4, 9, 16, 25, 64, 100])?).expect("a square number"),
                 pattern: SamplePattern::Grid,
+                seed: crate::raster::Seed::default(),
                 sampling: SamplingSettings {
                     rules: *u.choose(&Rules::ALL)?,
                     ..SamplingSettings::default()

@@ -46,7 +46,7 @@ pub(super) static WINDOW: &[CommandSpec] = &[
     spec(
         "interface-larger",
         "Larger interface",
-        "Makes panels and letters larger; the picture stays as it is",
+        "Makes panels and letters larger, not the picture; one that fills what panels leave free makes room for them",
         Group::Window,
     )
     .keys(&[Chord::ctrl('='), Chord::ctrl('+')])
@@ -54,7 +54,7 @@ pub(super) static WINDOW: &[CommandSpec] = &[
     spec(
         "interface-smaller",
         "Smaller interface",
-        "Makes panels and letters smaller; the picture stays as it is",
+        "Makes panels and letters smaller, not the picture; one that fills what panels leave free takes their room",
         Group::Window,
     )
     .keys(&[Chord::ctrl('-')])

@@ -1,0 +1,48 @@
+//! What an arrangement of samples is: it places the samples of one pixel after the other, on a lattice of points: 256 of them
+//! along each side of a pixel, or for the grid one for each of its columns.
+
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use crate::raster::sampling::rate::SampleRate;
+
+/// Column and row of a sample inside its pixel, in points of the lattice.
+pub(crate) type Position = [u8; 2];
+
+/// An arrangement of samples.
+pub(in crate::raster::sampling) trait Arrange: Sync {
+    /// Makes ready to place as many samples as `rate` says.
+    fn prepare(&self, rate: SampleRate) -> Arc<dyn Place>;
+}
+
+/// Places the samples of one pixel after the other.
+pub(in crate::raster::sampling) trait Place: Debug + Send + Sync {
+    /// Adds the places of a pixel's samples, which has random bits of its own.
+    fn place(&self, random: u64, places: &mut Vec<Position>);
+}
+
+/// Places that need no random bits.
+#[derive(Debug)]
+pub(super) struct Fixed(Vec<Position>);
+
+impl Fixed {
+    /// Where `place` says, sample by sample, in points of the lattice.
+    pub(super) fn by(rate: SampleRate, place: impl Fn(u32) -> [u32; 2]) -> Arc<dyn Place> {
+        let places = (0..rate.samples()).map(|sample| place(sample).map(byte));
+        Arc::new(Self(places.collect()))
+    }
+}
+
+impl Place for Fixed {
+    fn place(&self, _: u64, places: &mut Vec<Position>) {
+        places.extend_from_slice(&self.0);
+    }
+}
+
+/// A point of the lattice, which has 256 along each side at most.
+#[inline]
+pub(super) fn byte(point: u32) -> u8 {
+    debug_assert!(point < 256, "{point} lies on the lattice");
+    let [low, ..] = point.to_le_bytes();
+    low
+}

@@ -1,0 +1,107 @@
+//! The first two dimensions of Sobol's sequence ("On the distribution of points in a cube and the approximate evaluation of
+//! integrals", USSR Computational Mathematics and Mathematical Physics 7, 1967), a (0, 2)-sequence: of `2^m` points each
+//! elementary interval of that area, cells as well as columns and rows, holds exactly one. Scrambled after Owen ("Randomly
+//! permuted (t, m, s)-nets and (t, s)-sequences", 1995), which keeps that, with the hash of Laine and Karras as Burley has it
+//! ("Practical hash-based Owen scrambling", Journal of Computer Graphics Techniques 9, 2020).
+
+use std::sync::Arc;
+
+use super::arrange::{Arrange, Place, Position};
+use super::random_bits::halves;
+use crate::raster::sampling::rate::SampleRate;
+
+/// Its first points, scrambled.
+pub(super) struct Sobol;
+
+/// The points of the sequence before they are scrambled, as parts of `2^32`.
+#[derive(Debug)]
+struct Points(Vec<[u32; 2]>);
+
+impl Arrange for Sobol {
+    fn prepare(&self, rate: SampleRate) -> Arc<dyn Place> {
+        Arc::new(Points((0..rate.samples()).map(point).collect()))
+    }
+}
+
+impl Place for Points {
+    fn place(&self, random: u64, places: &mut Vec<Position>) {
+        let seeds = halves(random);
+        places.extend(self.0.iter().map(|point| {
+            [0, 1].map(|axis| {
+                let [top, ..] = scrambled(point[axis], seeds[axis]).to_be_bytes();
+                top
+            })
+        }));
+    }
+}
+
+/// A point of the sequence: the bits of its number mirrored; and combined as Pascal's triangle says.
+fn point(number: u32) -> [u32; 2] {
+    let (mut bits, mut direction, mut second) = (number, 1 << 31, 0);
+    while bits > 0 {
+        if bits & 1 == 1 {
+            second ^= direction;
+        }
+        bits >>= 1;
+        direction ^= direction >> 1;
+    }
+    [number.reverse_bits(), second]
+}
+
+/// Each bit is turned over as a hash of those above it says.
+fn scrambled(value: u32, seed: u32) -> u32 {
+    let mut bits = value.reverse_bits();
+    bits ^= bits.wrapping_mul(0x3D20_ADEA);
+    bits = bits.wrapping_add(seed);
+    bits = bits.wrapping_mul(seed >> 16 | 1);
+    bits ^= bits.wrapping_mul(0x0552_6C56);
+    bits ^= bits.wrapping_mul(0x53A2_2864);
+    bits.reverse_bits()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_elementary_interval_holds_one_point() {
+        arbtest::arbtest(|u| {
+            let log2 = u.int_in_range(0..=8_u32)?;
+            let rate = SampleRate::new(1 << log2).expect("a rate");
+            let mut places = Vec::new();
+            Sobol.prepare(rate).place(u.arbitrary()?, &mut places);
+            for across in 0..=log2 {
+                let down = log2 - across;
+                let mut intervals: Vec<[u32; 2]> = places
+                    .iter()
+                    .map(|[x, y]| [u32::from(*x) << across >> 8, u32::from(*y) << down >> 8])
+                    .collect();
+                intervals.sort_unstable();
+                intervals.dedup();
+                assert_eq!(
+                    intervals.len(),
+                    1 << log2,
+                    "{places:?}: one in each of 2^{across} x 2^{down}"
+                );
+            }
+            Ok(())
+        })
+        .budget_ms(200);
+    }
+
+    #[test]
+    fn points_are_those_of_the_sequence() {
+        let parts = |number| point(number).map(|part| f64::from(part) / f64::from(1_u32 << 31) / 2.0);
+        let first = [0, 1, 2, 3, 4, 5].map(parts);
+        // As published tables have it.
+        let known = [
+            [0.0, 0.0],
+            [0.5, 0.5],
+            [0.25, 0.75],
+            [0.75, 0.25],
+            [0.125, 0.625],
+            [0.625, 0.125],
+        ];
+        assert_eq!(first, known, "the first points");
+    }
+}

@@ -412,7 +412,12 @@ impl GuessReport {
             String::new()
         };
         if self.causes.is_empty() {
-            return format!("guess at the cause no known cause explains the difference{stopped}");
+            let none = if self.stopped {
+                "no cause was found until time was up"
+            } else {
+                "no known cause explains the difference"
+            };
+            return format!("guess at the cause {none}{stopped}");
         }
         // Rounded down, so that 100 % means all of it.
         let percent = (self.explained * 1000.0).floor() / 10.0;

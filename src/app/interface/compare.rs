@@ -324,7 +324,11 @@ fn guess(ui: &mut Ui, viewer: &Viewer) {
         ui.label(RichText::new(text).small().weak()).on_hover_text(tip);
     }
     if guess.causes.is_empty() {
-        ui.label("no known cause explains the difference");
+        ui.label(if guess.stopped {
+            "no cause was found until then"
+        } else {
+            "no known cause explains the difference"
+        });
         return;
     }
     for cause in &guess.causes {

@@ -353,23 +353,41 @@ fn section(ui: &mut Ui, id: &str, title: &str, open: bool, contents: impl FnOnce
         .show(ui, contents);
 }
 
+/// Width of a letter that is as wide as all others, in its sizes; a little more than that.
+const MONOSPACE: f32 = 0.62;
+
+/// Whether a line is numbers and nothing else: a row of a table.
+fn is_row(line: &str) -> bool {
+    let mut words = line.split_whitespace();
+    words.clone().count() > 1 && words.all(|word| word.parse::<f64>().is_ok())
+}
+
 /// Lines of the report. What stands before a gap is a name, and drawn weaker than what it names.
 fn lines(ui: &mut Ui, lines: &[String]) -> Response {
     /// Longest name, in bytes.
     const NAME: usize = 18;
     let (weak, normal) = (ui.visuals().weak_text_color(), ui.visuals().text_color());
     let mut job = LayoutJob::default();
-    let mut add = |text: &str, color| {
+    let mut append = |text: &str, font: FontId, color| {
         let format = TextFormat {
             line_height: Some(SIZE + 4.5),
-            ..TextFormat::simple(FontId::proportional(SIZE), color)
+            ..TextFormat::simple(font, color)
         };
         job.append(text, 0.0, format);
     };
+    // Rows of numbers keep their columns, in letters that are small enough.
+    let longest = lines.iter().filter(|line| is_row(line)).map(|line| line.len()).max();
+    let width = ui.available_width() / longest.unwrap_or(1) as f32;
+    let of_rows = FontId::monospace((width / MONOSPACE).clamp(SIZE / 2.0, SIZE - 1.0));
     for (i, line) in lines.iter().enumerate() {
         if i > 0 {
-            add("\n", normal);
+            append("\n", FontId::proportional(SIZE), normal);
         }
+        if is_row(line) {
+            append(line, of_rows.clone(), normal);
+            continue;
+        }
+        let mut add = |text: &str, color| append(text, FontId::proportional(SIZE), color);
         match line
             .trim_start()
             .split_once("  ")

@@ -7,13 +7,16 @@ use crate::inspect::Explanation;
 
 /// Height of the plot, in points.
 const HEIGHT: f32 = 72.0;
+/// What stands beside the slider, in points.
+const BESIDE: f32 = 116.0;
 
 /// The slider, the colour so far, the plot. `accumulated` is how many samples count; none means all.
 pub(super) fn show(ui: &mut Ui, explanation: &Explanation, accumulated: &mut Option<usize>) {
     let all = explanation.samples.len();
     let mut count = accumulated.unwrap_or(all).clamp(1, all);
     ui.horizontal(|ui| {
-        ui.spacing_mut().slider_width = 180.0;
+        // What is beside it needs room: its number and its word.
+        ui.spacing_mut().slider_width = (ui.available_width() - BESIDE).clamp(40.0, 180.0);
         let slider = ui.add(Slider::new(&mut count, 1..=all).text("samples"));
         if slider.changed() {
             *accumulated = Some(count);

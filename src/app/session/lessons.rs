@@ -1,13 +1,13 @@
 //! A lesson walked through by mouse: what its text speaks of can be reached, in small windows too.
 
-use crate::viewer::{AbCommand, InspectorCommand, LessonCommand, SceneCommand};
+use crate::viewer::{AbCommand, InspectorCommand, LessonCommand, SceneCommand, WindowCommand};
 use std::path::PathBuf;
 
 use super::hands::{key, place_of, session};
 use super::small_windows::{click_on, right_click, says};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Against, Arrangement, LessonSource, Toggle};
+use crate::viewer::{Against, Arrangement, InterfaceScale, LessonSource, Toggle};
 
 /// What opens the explanation where it is a page of the lesson's panel, and what opens the text.
 const PAGES: [&str; 2] = ["Page: Why this colour", "Page: Text"];
@@ -133,20 +133,31 @@ fn steps_of_a_lesson_compare_as_their_author_meant_it() {
 
 #[test]
 fn steps_show_what_they_showed_after_a_window_was_small() {
-    for lesson in ["six-tasks", "anisotropy"] {
-        let steps = if lesson == "six-tasks" { 10 } else { 6 };
-        for step in 0..steps {
-            let mut session = session(vec![PathBuf::from(format!("lesson:{lesson}"))], [1280, 800]);
-            session.command(Command::Lesson(LessonCommand::Step(step)));
-            session.settle();
-            let before = session.viewer.both().view_numbers().expect("a picture");
-            for size in [[500, 400], [1280, 800]] {
-                session.resize(size);
+    let ways = [
+        ([1280, 800], 100, &[[500, 400], [1280, 800]][..]),
+        ([800, 600], 125, &[[640, 480], [500, 380], [800, 600]]),
+    ];
+    for (window, scale, sizes) in ways {
+        for (lesson, steps) in [("six-tasks", 10), ("anisotropy", 6)] {
+            for step in 0..steps {
+                let mut session = session(vec![PathBuf::from(format!("lesson:{lesson}"))], window);
+                let scale = InterfaceScale::from_percent(scale);
+                session.command(Command::Window(WindowCommand::SetInterfaceScale(scale)));
+                session.command(Command::Lesson(LessonCommand::Step(step)));
                 session.settle();
+                let before = session.viewer.both().view_numbers().expect("a picture");
+                for size in sizes {
+                    session.resize(*size);
+                    session.settle();
+                }
+                let after = session.viewer.both().view_numbers().expect("a picture");
+                let same =
+                    (after.scale / before.scale - 1.0).abs() < 1e-3 && after.center.distance(before.center) < 1.0;
+                assert!(
+                    same,
+                    "step {step} of {lesson} in {window:?}: {after:?} instead of {before:?}"
+                );
             }
-            let after = session.viewer.both().view_numbers().expect("a picture");
-            let same = (after.scale / before.scale - 1.0).abs() < 1e-3 && after.center.distance(before.center) < 1.0;
-            assert!(same, "step {step} of {lesson}: {after:?} instead of {before:?}");
         }
     }
 }

@@ -22,6 +22,13 @@ pub fn caption_of(spec: &PictureSpec) -> String {
 /// What differs between the panels of a sheet and what all of them share.
 pub(in crate::viewer) fn caption(first: &PictureSpec, axes: &[&Axis], note: Option<&str>) -> String {
     let list = |axis: &Axis| format!("{} {}", axis.title(), axis.values.join(", "));
+    if axes.is_empty() {
+        let caption = caption_of(first);
+        return match note {
+            Some(note) => format!("{caption} {}.", plain::line(note)),
+            None => caption,
+        };
+    }
     let scene = title(&first.scene);
     let what = match axes {
         [] => scene,

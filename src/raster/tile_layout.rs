@@ -31,17 +31,17 @@ impl TileLayout {
     /// Tiles whose samples, when every pixel is split, still stay in a core's cache: at most 260 kB at any rate.
     pub(crate) fn for_rate(rate: SampleRate, size: [u32; 2]) -> Self {
         let sides_log2 = match rate.side() {
-            1..=4 => (6, 5),
-            5 | 6 => (5, 4),
-            7 | 8 => (4, 4),
-            9..=11 => (4, 3),
-            _ => (3, 3),
+            1..=4 => [6, 5],
+            5 | 6 => [5, 4],
+            7 | 8 => [4, 4],
+            9..=11 => [4, 3],
+            _ => [3, 3],
         };
         Self::new(sides_log2, size)
     }
 
     /// Tiles of `2^sides_log2` pixels, at most 64 wide.
-    pub(crate) fn new((width_log2, height_log2): (u32, u32), size: [u32; 2]) -> Self {
+    pub(crate) fn new([width_log2, height_log2]: [u32; 2], size: [u32; 2]) -> Self {
         let count = |pixels: u32, log2: u32| pixels.div_ceil(1 << log2);
         Self {
             width_log2,
@@ -75,8 +75,8 @@ impl TileLayout {
     }
 
     /// Sides of a tile in pixels, as powers of two.
-    pub(crate) fn sides_log2(self) -> (u32, u32) {
-        (self.width_log2, self.height_log2)
+    pub(crate) fn sides_log2(self) -> [u32; 2] {
+        [self.width_log2, self.height_log2]
     }
 
     /// Rows of pixels in a row of tiles.

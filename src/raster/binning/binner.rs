@@ -5,7 +5,7 @@
 //! everything painted there before.
 
 use crate::geometry::subpixel::GridPoint;
-use crate::raster::binning::polygon_tiles::OutlineTiles;
+use crate::raster::binning::polygon_tiles::{OutlineTiles, TileStrip};
 use crate::raster::binning::tile_command::TileCommand;
 use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::float_shape::FloatShape;
@@ -45,7 +45,7 @@ impl Sides {
 
     /// `unit` of them make a pixel.
     fn new(tiles: TileLayout, unit: u32) -> Self {
-        let (width_log2, height_log2) = tiles.sides_log2();
+        let [width_log2, height_log2] = tiles.sides_log2();
         let (width, height) = (unit << width_log2, unit << height_log2);
         // Rounded up, it is too large by less than one in `2^SHIFT`; no coordinate that is painted exceeds `2^23`, and no side
         // `2^14`. So the error of a quotient stays below `2^-16`, too little to carry it over a whole number.
@@ -212,7 +212,7 @@ impl<'a> Binner<'a> {
                     let paint = self.chunk.outline_paint(index);
                     let opaque = paint.is_opaque(sources);
                     let entry = TileCommand::outline(i, index, paint.constant, opaque);
-                    self.outline(&mut tiles, (index, entry), depth == 0, &mut visit);
+                    self.outline(&mut tiles, entry, depth == 0, &mut visit);
                 }
                 DrawCommand::BeginLayer(index) | DrawCommand::EndLayer(index) => {
                     depth = match command {
@@ -264,13 +264,13 @@ impl<'a> Binner<'a> {
     fn outline(
         &self,
         tiles: &mut OutlineTiles,
-        (index, entry): (u32, TileCommand),
+        entry: TileCommand,
         base: bool,
         visit: &mut impl FnMut(usize, TileCommand),
     ) {
         let (grid, sides) = (self.context.grid, self.samples);
-        let outline = &self.chunk.outlines[index as usize];
-        let SampleBox { columns, rows } = outline.samples;
+        let outline = self.chunk.outlines[entry.primitive()].with_edges(&self.chunk.outline_edges);
+        let SampleBox { columns, rows } = outline.outline.samples;
         let ((left, right), (top, bottom)) = (sides.columns(columns), sides.rows(rows));
         let in_row = Span {
             start: left,
@@ -285,11 +285,15 @@ impl<'a> Binner<'a> {
             }
             return;
         }
-        let units = [width, sides.overlap].map(|samples| f64::from(samples << grid.bits()));
+        let units = |samples: i32| f64::from(samples << grid.bits());
         for row in tile_rows {
-            let all_rows = sides.painted(row, sides.height).intersection(self.frame.rows);
-            let outline = (outline, self.chunk.outline_edges.as_slice());
-            tiles.each(outline, grid, (all_rows, in_row, units), |column, reach| {
+            let strip = TileStrip {
+                rows: sides.painted(row, sides.height).intersection(self.frame.rows),
+                tiles: in_row,
+                width: units(width),
+                overlap: units(sides.overlap),
+            };
+            tiles.each(outline, grid, strip, |column, reach| {
                 let entry = match reach {
                     Reach::Part => entry,
                     Reach::All => entry.covering(base && entry.is_opaque()),
@@ -486,7 +490,7 @@ mod tests {
             background: Rgba::WHITE,
             palette: None,
         };
-        let tiles = TileLayout::new((u.int_in_range(2..=6)?, u.int_in_range(2..=5)?), SIZE);
+        let tiles = TileLayout::new([u.int_in_range(2..=6)?, u.int_in_range(2..=5)?], SIZE);
         let context = ListContext::with_tiles(SIZE, &settings, tiles);
         let mut builder = ChunkBuilder::new(&context, 12);
         fill(&mut builder, u)?;
@@ -501,10 +505,11 @@ mod tests {
     }
 
     /// How many samples a triangle or outline covers in a rectangle of pixels.
-    fn covered(command: TileCommand, chunk: &Chunk, (context, rect): (&ListContext, PixelRect)) -> usize {
+    fn covered(command: TileCommand, chunk: &Chunk, context: &ListContext, rect: PixelRect) -> usize {
         let side = context.grid.side();
         let mut rows = ShapeCoverage::new(
-            (context.grid, context.rules),
+            context.grid,
+            context.rules,
             context.samples().columns.end,
             chunk.outlines.len(),
         );
@@ -592,7 +597,7 @@ mod tests {
                 let whole = rect.x.length() * rect.y.length() * side * side;
                 for shape in &all {
                     let own = commands.iter().find(|command| command.command() == shape.command());
-                    let count = covered(*shape, &chunk, (&context, rect));
+                    let count = covered(*shape, &chunk, &context, rect);
                     assert!(
                         count == 0 || own.is_some(),
                         "tile {tile} knows command {}",

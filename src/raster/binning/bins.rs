@@ -329,7 +329,7 @@ mod tests {
         let (mut covering, mut crossing) = (0_u32, 0_u32);
         arbtest::arbtest(|u| {
             let settings = settings(u.int_in_range(1..=5)?, *u.choose(&Rules::ALL)?);
-            let sides = *u.choose(&[(3, 3), (6, 5), (2, 4), (0, 1)])?;
+            let sides = *u.choose(&[[3, 3], [6, 5], [2, 4], [0, 1]])?;
             let context = ListContext::with_tiles(SIZE, &settings, TileLayout::new(sides, SIZE));
             let (chunk, bins) = binned(&context, &[triangle(u)?]);
             for row in 0..context.tiles.rows {
@@ -369,7 +369,7 @@ mod tests {
         arbtest::arbtest(|u| {
             // First drafts know no stamps.
             let settings = settings(u.int_in_range(1..=4)?, *u.choose(&[Rules::Standard, Rules::Course])?);
-            let sides = *u.choose(&[(3, 3), (6, 5), (1, 2), (0, 0)])?;
+            let sides = *u.choose(&[[3, 3], [6, 5], [1, 2], [0, 0]])?;
             let context = ListContext::with_tiles(SIZE, &settings, TileLayout::new(sides, SIZE));
             let side = f64::from(context.grid.side());
             let corner = DVec2::new(
@@ -410,7 +410,7 @@ mod tests {
     fn slivers_cost_the_tiles_they_touch() {
         let settings = settings(1, Rules::Standard);
         let size = [1024, 1024];
-        let context = ListContext::with_tiles(size, &settings, TileLayout::new((5, 5), size));
+        let context = ListContext::with_tiles(size, &settings, TileLayout::new([5, 5], size));
         let far = |x: f64, y: f64| DVec2::new(x, y);
         let (_, bins) = binned(&context, &[[DVec2::ZERO, far(1023.0, 1024.0), far(1024.0, 1023.0)]]);
         let entries = bins.entries.len();

@@ -22,7 +22,7 @@ pub(crate) struct FloatShape {
 impl FloatShape {
     /// Its corners in the frame, around which `margin` pixels are painted on each side, `painted` in all; `None` where it has no
     /// area, or none of these samples lies in its box.
-    pub(crate) fn new(points: [DVec2; 3], grid: SubpixelGrid, (painted, margin): (SampleBox, u32)) -> Option<Self> {
+    pub(crate) fn new(points: [DVec2; 3], grid: SubpixelGrid, painted: SampleBox, margin: u32) -> Option<Self> {
         let origin = margin.cast_signed() * grid.side();
         let place = |index: i32| place(grid, index - origin);
         let triangle = FloatTriangle::new(points)?;

@@ -40,7 +40,8 @@ pub(crate) struct FreePositions {
 impl FreePositions {
     /// For a drawing of `outlines` outlines; of these only the pixel columns `columns` are ever asked for.
     pub(crate) fn new(
-        (grid, rules): (SubpixelGrid, Rules),
+        grid: SubpixelGrid,
+        rules: Rules,
         places: SamplePositions,
         outlines: usize,
         columns: Span,
@@ -51,7 +52,7 @@ impl FreePositions {
             all: SampleMask::all(places.count()),
             memory: Vec::with_capacity(SampleRate::MAX as usize),
             gains: Vec::with_capacity(SampleRate::MAX as usize),
-            outlines: FreePositionsPolygon::new(outlines, columns, places.count()),
+            outlines: FreePositionsPolygon::new(grid, outlines, columns, places.count()),
             lanes: SampleLanes::new(places.clone()),
             found: Vec::new(),
             places,
@@ -71,7 +72,7 @@ impl FreePositions {
                     Some(lanes) => PixelSamples::Few(lanes),
                     None => PixelSamples::Many(&self.places, &mut self.memory),
                 };
-                self.outlines.find(outline, (self.grid, samples), rect.y);
+                self.outlines.find(outline, samples, rect.y);
                 for y in rect.y.start..rect.y.end {
                     self.outlines
                         .each(outline.number, y, rect.x, |covered| visit(y, covered));
@@ -119,7 +120,7 @@ impl FreePositions {
     }
 
     fn triangle(&mut self, corners: [GridPoint; 3], rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
-        let Some(scan) = TriangleScan::new(corners, rect, (self.grid, self.rules)) else {
+        let Some(scan) = TriangleScan::new(corners, rect, self.grid, self.rules) else {
             return;
         };
         let Some(lanes) = &mut self.lanes else {
@@ -252,7 +253,7 @@ mod tests {
             shape_coverage = shape_coverage.with(list.free_positions(column));
         }
         let mut painter = PerSamplePainter::new(list.shade_context(), list.places());
-        let (painted, samples) = painter.replay(&chunks, (pixel, list.background()), &mut shape_coverage);
+        let (painted, samples) = painter.replay(&chunks, pixel, list.background(), &mut shape_coverage);
         (painted, samples.into_iter().map(|(color, _)| color).collect())
     }
 

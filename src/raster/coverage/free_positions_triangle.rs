@@ -63,7 +63,7 @@ const INSIDE: i64 = i64::MAX / 2;
 
 impl TriangleScan {
     /// Prepares a triangle; `None` where it touches nothing of the tile `rect`.
-    pub(super) fn new(corners: [GridPoint; 3], rect: PixelRect, (grid, rules): (SubpixelGrid, Rules)) -> Option<Self> {
+    pub(super) fn new(corners: [GridPoint; 3], rect: PixelRect, grid: SubpixelGrid, rules: Rules) -> Option<Self> {
         let area = doubled_area(corners);
         if area == 0 {
             return None;
@@ -86,7 +86,7 @@ impl TriangleScan {
         }
         let first = grid.sample_coordinate(0);
         let first = GridPoint { x: first, y: first };
-        let edges = SampleEdge::of_triangle((corners, area), first, (grid, rules));
+        let edges = SampleEdge::of_triangle(corners, area, first, grid, rules);
         Some(Self {
             grid,
             edges: edges.map(|edge| LatticeEdge::new(edge, side)),

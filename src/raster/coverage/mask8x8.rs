@@ -46,7 +46,7 @@ impl CoverageMask {
             x: grid.sample_coordinate(column),
             y: grid.sample_coordinate(row),
         };
-        let edges = SampleEdge::of_triangle((corners, area), first, (grid, rules)).map(SmallEdge::new);
+        let edges = SampleEdge::of_triangle(corners, area, first, grid, rules).map(SmallEdge::new);
         let wide = samples.columns.end - column > 4;
         for j in 0..samples.rows.end - row {
             let mut bits = group_of_four(&edges, 0, j);

@@ -26,6 +26,13 @@ pub(crate) struct Outline {
     tallest: i32,
 }
 
+/// An outline and the edges of its chunk, into which it points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OutlineWithEdges<'c> {
+    pub(crate) outline: &'c Outline,
+    pub(crate) edges: &'c [OutlineEdge],
+}
+
 /// An edge of a polygon that crosses any sample row of the frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OutlineEdge {
@@ -168,7 +175,21 @@ impl Corner {
     }
 }
 
+impl<'c> OutlineWithEdges<'c> {
+    /// The edges that may cross any of `rows`, each with those of them that it crosses.
+    #[inline]
+    pub(crate) fn edges_in(self, rows: Span) -> impl Iterator<Item = (&'c OutlineEdge, Span)> + Clone + use<'c> {
+        self.outline.edges_in(self.edges, rows)
+    }
+}
+
 impl Outline {
+    /// The outline with the edges of its chunk.
+    #[inline]
+    pub(crate) fn with_edges<'c>(&'c self, edges: &'c [OutlineEdge]) -> OutlineWithEdges<'c> {
+        OutlineWithEdges { outline: self, edges }
+    }
+
     /// The edges that may cross any of `rows`; `all` are those of the chunk.
     #[inline]
     pub(crate) fn edges_in<'c>(

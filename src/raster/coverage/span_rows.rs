@@ -79,7 +79,8 @@ impl TriangleRows {
     #[expect(clippy::inline_always, reason = "a few instructions for every triangle")]
     pub(in crate::raster) fn of(
         corners: [GridPoint; 3],
-        (grid, rules): (SubpixelGrid, Rules),
+        grid: SubpixelGrid,
+        rules: Rules,
         rect: PixelRect,
         each: impl FnOnce(&mut Self),
     ) {

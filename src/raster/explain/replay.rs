@@ -151,7 +151,7 @@ impl DisplayList<'_> {
             .collect();
         painters
             .per_sample
-            .replay(&chunks, (at, self.background()), &mut painters.shape_coverage)
+            .replay(&chunks, at, self.background(), &mut painters.shape_coverage)
     }
 
     /// Paints pixel `(x, y)` again; `None` outside the frame.
@@ -165,7 +165,7 @@ impl DisplayList<'_> {
         let (painted, samples) = self.own_samples(at, &bins, &mut painters);
         let positions = self.positions(at);
         if !self.settings.filter.is_plain() {
-            return Some(self.replay_around([x, y], painted, (positions, samples)));
+            return Some(self.replay_around([x, y], painted, positions, samples));
         }
         let cancelled = AtomicBool::new(false);
         let pass = Pass {
@@ -202,7 +202,8 @@ impl DisplayList<'_> {
         &self,
         pixel: [u32; 2],
         painted: Vec<PaintedCommand>,
-        (positions, samples): (Vec<[f64; 2]>, Vec<(Premultiplied16, usize)>),
+        positions: Vec<[f64; 2]>,
+        samples: Vec<(Premultiplied16, usize)>,
     ) -> PixelReplay {
         let mut resolved = [0];
         let painters = self.paint_alone(pixel, |painters, pass, rect| {
@@ -293,7 +294,7 @@ impl DisplayList<'_> {
     /// The commands that touch a tile of one pixel, which begins there, and `margin` around it.
     pub(in crate::raster) fn bins_of_pixel(&self, pixel: [i32; 2], margin: u32) -> Vec<Arc<Bins>> {
         let context = ListContext {
-            tiles: TileLayout::new((0, 0), self.context.size).with_margin(margin),
+            tiles: TileLayout::new([0, 0], self.context.size).with_margin(margin),
             ..self.context
         };
         let bins = |chunk| {

@@ -11,7 +11,7 @@ use crate::geometry::subpixel::GridPoint;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
-use crate::raster::coverage::shape::OutlineOf;
+use crate::raster::coverage::shape::NumberedOutline;
 use crate::raster::layers::Compositing;
 use crate::raster::list::context::ListContext;
 use crate::raster::list::hairline::Hairline;
@@ -104,10 +104,9 @@ impl Chunk {
 
     /// The outline at `index`, with what it needs.
     #[inline]
-    pub(crate) fn outline(&self, index: u32) -> OutlineOf<'_> {
-        OutlineOf {
-            outline: &self.outlines[index as usize],
-            edges: &self.outline_edges,
+    pub(crate) fn outline(&self, index: u32) -> NumberedOutline<'_> {
+        NumberedOutline {
+            outline: self.outlines[index as usize].with_edges(&self.outline_edges),
             number: self.first_outline + index as usize,
         }
     }

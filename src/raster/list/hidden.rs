@@ -54,7 +54,7 @@ fn holds(outer: SampleBox, inner: SampleBox) -> bool {
 
 /// Whether samples are so many that looking back costs little beside painting them.
 pub(crate) fn is_large(samples: SampleBox, context: &ListContext) -> bool {
-    let (width, height) = context.tiles.sides_log2();
+    let [width, height] = context.tiles.sides_log2();
     let side = context.grid.side();
     samples.columns.end - samples.columns.start >= side << width
         && samples.rows.end - samples.rows.start >= side << height

@@ -36,7 +36,8 @@ impl<'a> DirectPainter<'a> {
     /// Paints the commands of one chunk that touch the tile; all must be opaque.
     pub(crate) fn paint(
         &mut self,
-        (chunk, entries): (&Chunk, &[TileCommand]),
+        chunk: &Chunk,
+        entries: &[TileCommand],
         shape_coverage: &mut ShapeCoverage,
         block: &mut PixelBlock<'_>,
     ) {

@@ -54,10 +54,12 @@ impl ChunkBuilder<'_> {
         let Some(outline) = builder.finish(polygon.rule()) else {
             return Vec::new();
         };
-        let (scanner, store) = &mut self.scanner;
-        store.clear();
-        let stored = scanner.scan(&outline, (&edges, grid), (rows, columns.end), store);
-        let found = store.get(stored);
+        self.spans.clear();
+        let outline = outline.with_edges(&edges);
+        let stored = self
+            .scanner
+            .scan(outline, grid, SampleBox { columns, rows }, &mut self.spans);
+        let found = self.spans.get(stored);
         let mut runs: Vec<PixelRect> = Vec::new();
         // Where the runs of the row before begin: rows with the same ones share their rectangles.
         let mut before = 0;

@@ -35,7 +35,8 @@ pub struct ChunkBuilder<'a> {
     /// The colour used last, as given and as stored.
     color: (Rgba, Premultiplied16),
     /// Memory for the spans of small polygons.
-    scanner: (RowScanner, SpanStore),
+    scanner: RowScanner,
+    spans: SpanStore,
     /// Whether small shapes become stamps.
     stamps: bool,
     /// Whether fragments are counted rather than painted.
@@ -71,7 +72,8 @@ impl<'a> ChunkBuilder<'a> {
             },
             source: 0,
             color: (Rgba::BLACK, stored),
-            scanner: Default::default(),
+            scanner: RowScanner::default(),
+            spans: SpanStore::default(),
             // A few points of a finer lattice need not be samples, and stamps are exact.
             stamps: context.is_grid() && context.rules != Rules::Float,
             counts: false,
@@ -165,7 +167,10 @@ impl<'a> ChunkBuilder<'a> {
         let outline = builder.finish(rule)?;
         if self.stamps
             && let Some(color) = paint.constant()
-            && let Some(coverage) = outline.coverage_mask(&self.chunk.outline_edges, grid, &mut self.scanner)
+            && let Some(coverage) =
+                outline
+                    .with_edges(&self.chunk.outline_edges)
+                    .coverage_mask(grid, &mut self.scanner, &mut self.spans)
         {
             outline.drop_edges(&mut self.chunk.outline_edges);
             if coverage.mask != 0 {
@@ -203,7 +208,7 @@ impl<'a> ChunkBuilder<'a> {
     pub fn hairline(&mut self, ends: [DVec2; 2], color: Rgba) {
         self.add_waiting();
         let color = self.color(color);
-        if let Some(line) = Hairline::new(ends, (self.context.size, self.context.margin), color) {
+        if let Some(line) = Hairline::new(ends, self.context.size, self.context.margin, color) {
             let index = index(self.chunk.hairlines.len());
             self.chunk.hairlines.push(line);
             self.push(DrawCommand::Hairline(index));

@@ -175,8 +175,8 @@ impl ChunkBuilder<'_> {
         let corners = points.map(|point| grid.snap(point));
         // Exact: they have 32 bits.
         let in_frame = points.map(|point| point - self.shift);
-        let painted = (self.frame, self.context.margin);
-        let Some(float) = FloatShape::new(in_frame, grid, painted).filter(|_| doubled_area(corners) != 0) else {
+        let float = FloatShape::new(in_frame, grid, self.frame, self.context.margin);
+        let Some(float) = float.filter(|_| doubled_area(corners) != 0) else {
             return;
         };
         let paint = self.paint(paint);

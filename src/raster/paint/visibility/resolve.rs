@@ -208,7 +208,7 @@ impl VisibilityPainter<'_> {
                     .iter()
                     .map(|mask| u64::from(mask.count_ones()))
                     .sum::<u64>();
-                shading.shade_parts((grid, first), &shader);
+                shading.shade_parts(grid, first, &shader);
                 for ((target, found), mask) in shading.targets.iter().zip(&shading.sums).zip(&shading.masks) {
                     let found = shown.over_shaded(*found, kept, mask.count_ones());
                     for (sum, channel) in sums[*target as usize].iter_mut().zip(found) {

@@ -70,7 +70,7 @@ impl VisibilityPainter<'_> {
                     for x in columns {
                         let TwoSurfaces { mask, first, second } = row_of_two.get(usize::from(x));
                         let samples = (0..count).map(|i| if mask >> i & 1 == 1 { second } else { first });
-                        if let Some(flat) = note_shared(samples, surfaces, ([x, row], unresolved), shared) {
+                        if let Some(flat) = note_shared(samples, surfaces, [x, row], unresolved, shared) {
                             line[usize::from(x)] = mean.pixel(&shared[flat..]);
                             shared.truncate(flat);
                         }
@@ -79,7 +79,7 @@ impl VisibilityPainter<'_> {
                 Run::Split => {
                     for x in columns {
                         let samples = tile.samples(usize::from(x), y);
-                        if let Some(flat) = note_shared(samples, surfaces, ([x, row], unresolved), shared) {
+                        if let Some(flat) = note_shared(samples, surfaces, [x, row], unresolved, shared) {
                             line[usize::from(x)] = mean.pixel(&shared[flat..]);
                             shared.truncate(flat);
                         }
@@ -126,7 +126,7 @@ impl VisibilityPainter<'_> {
                         }
                         row = Some(place[1]);
                     }
-                    shades.gather(fragment, places, (positions, origin, grid.side));
+                    shades.gather(fragment, places, positions, grid);
                 }
                 shades.shade(&shader, grid);
                 self.samples_shaded += shades.points.len() as u64;
@@ -255,7 +255,8 @@ impl FlatLight<'_> {
 fn note_shared(
     samples: impl Iterator<Item = SurfaceId> + Clone,
     surfaces: &SurfaceTable<'_>,
-    (place, unresolved): ([u16; 2], &mut ShadingQueue),
+    place: [u16; 2],
+    unresolved: &mut ShadingQueue,
     shared: &mut Vec<Premultiplied16>,
 ) -> Option<usize> {
     let first = shared.len();

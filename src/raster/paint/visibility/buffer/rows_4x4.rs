@@ -153,20 +153,22 @@ impl VisibilityBuffer {
 )]
 fn each_partial_window<S: Simd>(simd: S, row: &TileRow<'_>, mut visit: impl FnMut(Window)) {
     if row.full.is_empty() {
-        return each_window(simd, row, (row.touched.clone(), Ends::Both), visit);
+        return each_window(simd, row, row.touched.clone(), Ends::Both, visit);
     }
     let (before, after) = row.beside_full();
     each_window(
         simd,
         row,
-        (before, Ends::Left),
+        before,
+        Ends::Left,
         #[inline(always)]
         |window| visit(window),
     );
     each_window(
         simd,
         row,
-        (after, Ends::Right),
+        after,
+        Ends::Right,
         #[inline(always)]
         |window| visit(window),
     );

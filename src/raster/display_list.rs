@@ -123,7 +123,7 @@ impl<'a> DisplayList<'a> {
 
     /// As [`DisplayList::shape_coverage`] by spans, for samples that are those of the grid.
     fn grid_rows(&self) -> ShapeCoverage {
-        let columns = self.context.samples().columns.end;
+        let columns = self.context.samples().x.end;
         ShapeCoverage::new(self.context.grid, self.context.rules, columns, self.outlines())
     }
 

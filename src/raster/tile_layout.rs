@@ -12,7 +12,7 @@
 //! ```
 
 use crate::raster::SampleRate;
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::span::{Span, SpanRect};
 
 /// How a frame is cut into tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,12 +63,12 @@ impl TileLayout {
     }
 
     /// What is painted for a tile that has these pixels of the frame, as counted in what is painted.
-    pub(crate) fn painted(self, pixels: PixelRect) -> PixelRect {
+    pub(crate) fn painted(self, pixels: SpanRect) -> SpanRect {
         let wider = |span: Span| Span {
             start: span.start,
             end: span.end + self.overlap(),
         };
-        PixelRect {
+        SpanRect {
             x: wider(pixels.x),
             y: wider(pixels.y),
         }
@@ -85,24 +85,24 @@ impl TileLayout {
     }
 
     /// The tile columns or rows for which a half-open, non-empty box of pixels is painted, clipped to the frame.
-    pub(crate) fn tiles_of(self, pixels: PixelRect) -> PixelRect {
+    pub(crate) fn tiles_of(self, pixels: SpanRect) -> SpanRect {
         let range = |span: Span, log2: u32, count: u32| Span {
             start: ((span.start - self.overlap()) >> log2).max(0),
             end: (((span.end - 1) >> log2) + 1).min(count.cast_signed()),
         };
-        PixelRect {
+        SpanRect {
             x: range(pixels.x, self.width_log2, self.columns),
             y: range(pixels.y, self.height_log2, self.rows),
         }
     }
 
     /// The pixels of a tile that are resolved, clipped to a frame of `size`.
-    pub(crate) fn pixels(self, column: u32, row: u32, size: [u32; 2]) -> PixelRect {
+    pub(crate) fn pixels(self, column: u32, row: u32, size: [u32; 2]) -> SpanRect {
         let span = |index: u32, log2: u32, limit: u32| Span {
             start: (index << log2).cast_signed(),
             end: ((index + 1) << log2).min(limit).cast_signed(),
         };
-        PixelRect {
+        SpanRect {
             x: span(column, self.width_log2, size[0]),
             y: span(row, self.height_log2, size[1]),
         }

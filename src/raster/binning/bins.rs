@@ -213,7 +213,7 @@ mod tests {
     use crate::raster::coverage::triangle::SortedTriangle;
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::shading::Paint;
-    use crate::raster::span::PixelRect;
+    use crate::raster::span::SpanRect;
     use crate::raster::tile_layout::TileLayout;
     use crate::raster::{RasterSettings, SamplePattern, SampleRate, SizedFilter};
     use crate::rules::Rules;
@@ -283,7 +283,7 @@ mod tests {
     }
 
     /// The samples that a chunk's triangles cover in a rectangle of pixels, counted from its first, by the row walker.
-    fn covered(chunk: &Chunk, context: &ListContext, rect: PixelRect) -> Vec<(i32, i32)> {
+    fn covered(chunk: &Chunk, context: &ListContext, rect: SpanRect) -> Vec<(i32, i32)> {
         let side = context.grid.side();
         let scaled = |span: Span| Span {
             start: span.start * side,

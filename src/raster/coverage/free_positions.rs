@@ -16,7 +16,7 @@ use crate::raster::coverage::sample_lanes::SampleLanes;
 use crate::raster::coverage::shape::Shape;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::{Position, SamplePositions};
-use crate::raster::span::{PixelRect, Reach, SampleBox, Span};
+use crate::raster::span::{Reach, Span, SpanRect};
 use crate::rules::Rules;
 use crate::simd;
 
@@ -61,7 +61,7 @@ impl FreePositions {
 
     /// Calls `visit` for every row of the tile `rect` with what the shape covers there, from top to bottom; no sample
     /// comes twice.
-    pub(crate) fn each(&mut self, shape: Shape<'_>, rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
+    pub(crate) fn each(&mut self, shape: Shape<'_>, rect: SpanRect, mut visit: impl FnMut(i32, Covered)) {
         match shape {
             Shape::Triangle(corners) => self.triangle(*corners, rect, visit),
             Shape::Float(float) => self.float(float, rect, visit),
@@ -81,7 +81,7 @@ impl FreePositions {
         }
     }
 
-    fn float(&mut self, float: &FloatShape, rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
+    fn float(&mut self, float: &FloatShape, rect: SpanRect, mut visit: impl FnMut(i32, Covered)) {
         let side = self.grid.side();
         let of_pixel = |at: i32| Span {
             start: at * side,
@@ -89,9 +89,9 @@ impl FreePositions {
         };
         for y in rect.y.start..rect.y.end {
             for x in rect.x.start..rect.x.end {
-                let samples = SampleBox {
-                    columns: of_pixel(x),
-                    rows: of_pixel(y),
+                let samples = SpanRect {
+                    x: of_pixel(x),
+                    y: of_pixel(y),
                 };
                 let covered = match float.reach(self.grid, samples) {
                     None => continue,
@@ -119,7 +119,7 @@ impl FreePositions {
         mask
     }
 
-    fn triangle(&mut self, corners: [GridPoint; 3], rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
+    fn triangle(&mut self, corners: [GridPoint; 3], rect: SpanRect, mut visit: impl FnMut(i32, Covered)) {
         let Some(scan) = TriangleScan::new(corners, rect, self.grid, self.rules) else {
             return;
         };

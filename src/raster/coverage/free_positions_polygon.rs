@@ -24,7 +24,7 @@ use crate::raster::coverage::shape::{MAX_SPANS, NumberedOutline};
 use crate::raster::coverage::windings::RowWindings;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::{Position, SamplePositions};
-use crate::raster::span::{PixelRect, SampleBox, Span};
+use crate::raster::span::{Span, SpanRect};
 use crate::simd;
 
 /// Remembers what outlines enclose in the tile row at work.
@@ -130,15 +130,15 @@ impl FreePositionsPolygon {
     }
 
     /// The pixels that hold any of an outline's samples in some rows of pixels.
-    fn area(&self, samples: SampleBox, rows: Span) -> PixelRect {
+    fn area(&self, samples: SpanRect, rows: Span) -> SpanRect {
         let side = self.sweep.grid.side();
         let pixels = |span: Span| Span {
             start: span.start.div_euclid(side),
             end: (span.end - 1).div_euclid(side) + 1,
         };
-        PixelRect {
-            x: pixels(samples.columns).intersection(self.columns),
-            y: pixels(samples.rows).intersection(rows),
+        SpanRect {
+            x: pixels(samples.x).intersection(self.columns),
+            y: pixels(samples.y).intersection(rows),
         }
     }
 
@@ -149,7 +149,7 @@ impl FreePositionsPolygon {
         simd: S,
         outline: OutlineWithEdges<'_>,
         samples: &mut PixelSamples<'_>,
-        area: PixelRect,
+        area: SpanRect,
     ) {
         for y in area.y.start..area.y.end {
             self.starts.push(self.runs.len());

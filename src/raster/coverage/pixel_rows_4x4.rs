@@ -9,7 +9,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i8x16, i8x64, i32x4, mask32x4, u32x4, u64x2};
 
 use crate::raster::coverage::span_rows::{Batch, SpanRows};
-use crate::raster::span::{PixelRect, Span, to_index};
+use crate::raster::span::{Span, SpanRect, to_index};
 use crate::raster::surface_id::{GROUP, LAST_GROUP};
 
 /// Samples along one side of a pixel.
@@ -79,7 +79,7 @@ pub(crate) enum Ends {
 pub(in crate::raster) fn each_row<S: Simd>(
     simd: S,
     rows: &mut impl SpanRows,
-    rect: PixelRect,
+    rect: SpanRect,
     mut paint: impl FnMut(&TileRow<'_>),
 ) {
     let (mut lines, mut ys) = ([Span::EMPTY; BATCH * ROWS], [0; BATCH]);

@@ -6,7 +6,7 @@ use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon::{OutlineEdge, OutlineWithEdges};
 use crate::raster::coverage::simple_polygon_rows::{Crossings, SimplePolygonRows};
-use crate::raster::span::{SMALL, SampleBox, Span, to_index};
+use crate::raster::span::{SMALL, Span, SpanRect, to_index};
 
 /// Most crossings of edges and rows that are held at once, where a row has no more: 16 MB.
 const MAX_CROSSINGS: usize = 1 << 22;
@@ -64,7 +64,7 @@ impl OutlineWithEdges<'_> {
             return None;
         }
         store.clear();
-        let SampleBox { columns, rows } = samples;
+        let SpanRect { x: columns, y: rows } = samples;
         let stored = scanner.scan(self, grid, samples, store);
         let found = store.get(stored);
         if !found.single {
@@ -95,11 +95,11 @@ impl RowScanner {
         &mut self,
         outline: OutlineWithEdges<'_>,
         grid: SubpixelGrid,
-        within: SampleBox,
+        within: SpanRect,
         store: &mut SpanStore,
     ) -> Stored {
         let OutlineWithEdges { outline, edges: all } = outline;
-        let (rows, end) = (within.rows.intersection(outline.samples.rows), within.columns.end);
+        let (rows, end) = (within.y.intersection(outline.samples.y), within.x.end);
         let (span, first) = (store.spans.len(), store.starts.len());
         let mut single = true;
         // All rows at once, unless so many edges might cross them that their crossings take too much memory.
@@ -115,7 +115,7 @@ impl RowScanner {
             self.numbers.count(edges.clone(), some);
             if some == rows && self.numbers.are_plain() {
                 self.plain
-                    .scan(edges, grid, SampleBox { rows, ..within }, &mut store.spans);
+                    .scan(edges, grid, SpanRect { y: rows, ..within }, &mut store.spans);
                 break;
             }
             self.sort_crossings(edges, grid, some, end);
@@ -306,9 +306,9 @@ mod tests {
         arbtest::arbtest(|u| {
             let grid = SubpixelGrid::new(u.int_in_range(1..=4)?);
             let extent = |end| Span { start: 0, end };
-            let frame = SampleBox {
-                columns: extent(40),
-                rows: extent(60),
+            let frame = SpanRect {
+                x: extent(40),
+                y: extent(60),
             };
             let mut edges = Vec::new();
             let mut builder = OutlineBuilder::new(grid, frame, &mut edges);
@@ -331,14 +331,14 @@ mod tests {
                 start,
                 end: u.int_in_range(start + 1..=60)?,
             }
-            .intersection(outline.samples.rows);
+            .intersection(outline.samples.y);
             if rows.is_empty() {
                 return Ok(());
             }
             let (mut scanner, mut store) = (RowScanner::default(), SpanStore::default());
-            let end = frame.columns.end;
+            let end = frame.x.end;
             let outline = outline.with_edges(&edges);
-            let found = scanner.scan(outline, grid, SampleBox { rows, ..frame }, &mut store);
+            let found = scanner.scan(outline, grid, SpanRect { y: rows, ..frame }, &mut store);
             scanner.numbers.count(outline.edges_in(rows), rows);
             if scanner.numbers.are_plain() {
                 plain += 1;

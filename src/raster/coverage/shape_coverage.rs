@@ -12,7 +12,7 @@ use crate::raster::coverage::pixel_rows_4x4::{SIDE, TileRow, each_row};
 use crate::raster::coverage::polygon_rows::{RowScanner, RowSpans, SpanStore, Stored};
 use crate::raster::coverage::shape::{MAX_SPANS, NumberedOutline, Shape};
 use crate::raster::coverage::span_rows::{MAX_SIDE, MaskRows, StoredRows, TriangleRows};
-use crate::raster::span::{PixelRect, SampleBox, Span, scaled};
+use crate::raster::span::{Span, SpanRect, scaled};
 use crate::rules::Rules;
 
 /// Remembers the spans of outlines in the tile row at work.
@@ -58,7 +58,7 @@ impl ShapeCoverage {
     /// Calls `visit` with what the shape covers in the tile `rect`, from top to bottom, each time with the row of pixels: each
     /// sample once, and a pixel as often as a sample row has spans in it.
     #[inline]
-    pub(crate) fn each(&mut self, shape: Shape<'_>, rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
+    pub(crate) fn each(&mut self, shape: Shape<'_>, rect: SpanRect, mut visit: impl FnMut(i32, Covered)) {
         let side = self.grid.side();
         match shape {
             Shape::Tile => (rect.y.start..rect.y.end).for_each(|y| visit(y, Covered::Whole(rect.x))),
@@ -88,7 +88,7 @@ impl ShapeCoverage {
         &mut self,
         simd: S,
         shape: Shape<'_>,
-        rect: PixelRect,
+        rect: SpanRect,
         paint: impl FnMut(&TileRow<'_>),
     ) {
         debug_assert_eq!(self.grid.side(), SIDE, "4 x 4 samples");
@@ -108,7 +108,7 @@ impl ShapeCoverage {
 
     /// The spans of an outline, or of a triangle by the rules of first drafts.
     #[inline]
-    fn stored(&mut self, shape: Shape<'_>, rect: PixelRect) -> RowSpans<'_> {
+    fn stored(&mut self, shape: Shape<'_>, rect: SpanRect) -> RowSpans<'_> {
         match shape {
             Shape::Outline(outline) => self.of_outline(outline, rect.y),
             Shape::Float(float) => self.of_float(float, rect),
@@ -117,10 +117,10 @@ impl ShapeCoverage {
     }
 
     /// The spans in one tile.
-    fn of_float(&mut self, float: &FloatShape, rect: PixelRect) -> RowSpans<'_> {
+    fn of_float(&mut self, float: &FloatShape, rect: SpanRect) -> RowSpans<'_> {
         let grid = self.grid;
         let (columns, rows) = (scaled(rect.x, grid.side()), scaled(rect.y, grid.side()));
-        let rows = rows.intersection(float.samples.rows);
+        let rows = rows.intersection(float.samples.y);
         self.single.clear();
         let stored = self.single.put_single(rows, |row| float.span(grid, row, columns));
         self.single.get(stored)
@@ -131,12 +131,12 @@ impl ShapeCoverage {
             self.store.clear();
         }
         let stored = self.found.get_or(of.number, || {
-            let within = SampleBox {
-                columns: Span {
+            let within = SpanRect {
+                x: Span {
                     start: 0,
                     end: self.columns,
                 },
-                rows: scaled(rows, self.grid.side()),
+                y: scaled(rows, self.grid.side()),
             };
             self.scanner.scan(of.outline, self.grid, within, &mut self.store)
         });
@@ -161,7 +161,7 @@ mod tests {
 
     /// Pixels of the frame, and the tile that is looked at.
     const FRAME: [i32; 2] = [14, 11];
-    const RECT: PixelRect = PixelRect {
+    const RECT: SpanRect = SpanRect {
         x: Span { start: 2, end: 11 },
         y: Span { start: 1, end: 10 },
     };
@@ -199,7 +199,7 @@ mod tests {
         rules: Rules,
         positions: SamplePositions,
         rows: ShapeCoverage,
-        frame: SampleBox,
+        frame: SpanRect,
         /// A contour, and the same on the grid.
         points: Vec<DVec2>,
         snapped: Vec<GridPoint>,
@@ -216,12 +216,12 @@ mod tests {
             let rate = SampleRate::new(*u.choose(rates)?).expect("a rate");
             let (grid, rules) = (lattice(pattern, rate), *u.choose(&Rules::ALL)?);
             let pixels = |end: i32| Span { start: 0, end };
-            let frame = SampleBox {
-                columns: scaled(pixels(FRAME[0]), grid.side()),
-                rows: scaled(pixels(FRAME[1]), grid.side()),
+            let frame = SpanRect {
+                x: scaled(pixels(FRAME[0]), grid.side()),
+                y: scaled(pixels(FRAME[1]), grid.side()),
             };
             let positions = SamplePositions::new(pattern, rate);
-            let mut rows = ShapeCoverage::new(grid, rules, frame.columns.end, 1);
+            let mut rows = ShapeCoverage::new(grid, rules, frame.x.end, 1);
             if pattern != SamplePattern::Grid {
                 let places = positions.clone();
                 rows = rows.with(FreePositions::new(grid, rules, places, 1, pixels(FRAME[0])));

@@ -7,7 +7,7 @@ use fearless_simd::{Simd, dispatch};
 use crate::geometry::edge::EdgeWalker;
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::coverage::polygon::OutlineEdge;
-use crate::raster::span::{SampleBox, Span, to_index};
+use crate::raster::span::{Span, SpanRect, to_index};
 use crate::simd;
 
 /// Looks at outlines, reusing its memory.
@@ -70,10 +70,10 @@ impl SimplePolygonRows {
         &mut self,
         edges: impl Iterator<Item = (&'c OutlineEdge, Span)>,
         grid: SubpixelGrid,
-        within: SampleBox,
+        within: SpanRect,
         spans: &mut Vec<Span>,
     ) {
-        let (rows, end) = (within.rows, within.columns.end);
+        let (rows, end) = (within.y, within.x.end);
         let count = to_index(rows.end - rows.start);
         self.least.clear();
         self.least.resize(count, Span::EMPTY.start);

@@ -16,7 +16,7 @@ use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon_rows::RowSpans;
 use crate::raster::coverage::triangle::{RowWalker, SortedTriangle};
 use crate::raster::sampling::rate::SampleRate;
-use crate::raster::span::{PixelRect, Span, scaled, to_index};
+use crate::raster::span::{Span, SpanRect, scaled, to_index};
 use crate::rules::Rules;
 
 /// Most samples along one side of a pixel.
@@ -81,7 +81,7 @@ impl TriangleRows {
         corners: [GridPoint; 3],
         grid: SubpixelGrid,
         rules: Rules,
-        rect: PixelRect,
+        rect: SpanRect,
         each: impl FnOnce(&mut Self),
     ) {
         if let Some(sorted) = SortedTriangle::new(corners, rules) {
@@ -105,7 +105,7 @@ impl MaskRows {
 impl<'a, const SIDE: usize> StoredRows<'a, SIDE> {
     /// Those in the tile `rect`.
     #[inline]
-    pub(in crate::raster) fn new(spans: RowSpans<'a>, side: i32, rect: PixelRect) -> Self {
+    pub(in crate::raster) fn new(spans: RowSpans<'a>, side: i32, rect: SpanRect) -> Self {
         Self {
             spans,
             rows: spans.rows.intersection(scaled(rect.y, side)),

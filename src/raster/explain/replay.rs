@@ -18,7 +18,7 @@ use crate::raster::list::context::ListContext;
 use crate::raster::paint::method::Method;
 use crate::raster::paint::recorder::{PaintedCommand, PaintedKind};
 use crate::raster::sampling::positions::Position;
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::span::{Span, SpanRect};
 use crate::raster::stats::SharedTally;
 use crate::raster::tile_layout::TileLayout;
 use crate::raster::tiles::Painters;
@@ -260,7 +260,7 @@ impl DisplayList<'_> {
     fn paint_alone<'s>(
         &'s self,
         [x, y]: [u32; 2],
-        paint: impl FnOnce(&mut Painters<'s>, &Pass<'_>, PixelRect),
+        paint: impl FnOnce(&mut Painters<'s>, &Pass<'_>, SpanRect),
     ) -> Painters<'s> {
         let at = [x, y].map(u32::cast_signed);
         let cancelled = AtomicBool::new(false);
@@ -280,7 +280,7 @@ impl DisplayList<'_> {
     }
 
     /// Paints a pixel of the frame as a tile of its own, the first of the pass.
-    fn alone<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, rect: PixelRect) -> u32 {
+    fn alone<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, rect: SpanRect) -> u32 {
         let mut pixel = [0];
         self.numbered_tile(pass, painters, 0, &mut PixelBlock::new(rect, &mut pixel, 1));
         pixel[0]
@@ -319,9 +319,9 @@ impl DisplayList<'_> {
 }
 
 /// The rectangle of one pixel.
-fn one_pixel([x, y]: [i32; 2]) -> PixelRect {
+fn one_pixel([x, y]: [i32; 2]) -> SpanRect {
     let one = |start: i32| Span { start, end: start + 1 };
-    PixelRect { x: one(x), y: one(y) }
+    SpanRect { x: one(x), y: one(y) }
 }
 
 /// The sums of colours, channel by channel.

@@ -14,7 +14,7 @@ use crate::raster::paint::wide::{WeighedPixels, WideResolve};
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::shading::Shader;
 use crate::raster::shading::context::ShadeContext;
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::span::{Span, SpanRect};
 
 /// Paints tiles, one after the other, reusing its memory.
 #[derive(Debug)]
@@ -54,7 +54,7 @@ impl<'a> PerSamplePainter<'a> {
     }
 
     /// Starts a tile.
-    pub(crate) fn begin(&mut self, rect: PixelRect, background: Premultiplied16) {
+    pub(crate) fn begin(&mut self, rect: SpanRect, background: Premultiplied16) {
         self.layers.restart().reset(rect, background);
     }
 
@@ -114,7 +114,7 @@ impl<'a> PerSamplePainter<'a> {
     ) -> (Vec<PaintedCommand>, Vec<(Premultiplied16, usize)>) {
         let one = |start: i32| Span { start, end: start + 1 };
         self.recorder = Some(Recorder::new(self.samples_per_pixel()));
-        let rect = PixelRect {
+        let rect = SpanRect {
             x: one(pixel[0]),
             y: one(pixel[1]),
         };
@@ -134,7 +134,7 @@ impl<'a> PerSamplePainter<'a> {
 
     /// The samples of a buffer's first pixel.
     fn pixel_samples(&self, buffer: &SampleColors) -> Vec<Premultiplied16> {
-        let PixelRect { x, y } = buffer.rect;
+        let SpanRect { x, y } = buffer.rect;
         let sample = |i| buffer.sample(x.start, y.start, i);
         (0..self.samples_per_pixel()).map(sample).collect()
     }
@@ -234,7 +234,7 @@ impl<'a> PerSamplePainter<'a> {
             self.colors.resize(count, Premultiplied16::TRANSPARENT);
         }
         self.samples_shaded += count as u64;
-        let PixelRect { x, y } = self.layers.base().rect;
+        let SpanRect { x, y } = self.layers.base().rect;
         let grid = self.context.samples_from([x.start, y.start]);
         shader.points(grid, &self.points, &mut self.colors[..count]);
         self.points.clear();

@@ -14,7 +14,7 @@ use crate::color::{LightResolver, Premultiplied16, ResolveSpace, Resolver};
 use crate::raster::SampleRate;
 use crate::raster::layers::Compositing;
 use crate::raster::sampling::mask::SampleMask;
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::span::{Span, SpanRect};
 use crate::rules::Rules;
 use crate::simd;
 
@@ -41,7 +41,7 @@ pub(crate) struct ShadedColors<'c> {
 /// The samples of a rectangle of pixels.
 #[derive(Debug)]
 pub(crate) struct SampleColors {
-    pub(crate) rect: PixelRect,
+    pub(crate) rect: SpanRect,
     width: usize,
     /// Samples per pixel.
     per_pixel: usize,
@@ -62,7 +62,7 @@ impl SampleColors {
     /// A tile of no pixels.
     pub(crate) fn new(rate: SampleRate, rules: Rules, space: ResolveSpace) -> Self {
         Self {
-            rect: PixelRect::EMPTY,
+            rect: SpanRect::EMPTY,
             width: 0,
             per_pixel: rate.samples() as usize,
             rules,
@@ -76,7 +76,7 @@ impl SampleColors {
     }
 
     /// Makes it the tile of `rect` with every sample in `color`.
-    pub(crate) fn reset(&mut self, rect: PixelRect, color: Premultiplied16) {
+    pub(crate) fn reset(&mut self, rect: SpanRect, color: Premultiplied16) {
         self.rect = rect;
         self.opaque = color.is_opaque();
         self.width = rect.x.length();

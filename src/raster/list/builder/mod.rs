@@ -19,7 +19,7 @@ use crate::raster::list::context::ListContext;
 use crate::raster::list::hairline::Hairline;
 use crate::raster::list::hidden::{Hidden, MOST_CORNERS, covers, drop_hidden, is_large};
 use crate::raster::shading::Paint;
-use crate::raster::span::{PixelRect, SampleBox};
+use crate::raster::span::SpanRect;
 use crate::rules::Rules;
 
 /// Fills one chunk.
@@ -29,7 +29,7 @@ pub struct ChunkBuilder<'a> {
     /// From places in the frame to where they are painted.
     shift: DVec2,
     /// The samples that are painted.
-    frame: SampleBox,
+    frame: SpanRect,
     chunk: Chunk,
     source: u32,
     /// The colour used last, as given and as stored.
@@ -157,7 +157,7 @@ impl<'a> ChunkBuilder<'a> {
         contours: impl Iterator<Item = impl Iterator<Item = DVec2>>,
         rule: FillRule,
         paint: &Paint,
-    ) -> Option<SampleBox> {
+    ) -> Option<SpanRect> {
         self.add_waiting();
         let (grid, frame) = (self.context.grid, self.frame);
         let mut builder = OutlineBuilder::new(grid, frame, &mut self.chunk.outline_edges);
@@ -192,7 +192,7 @@ impl<'a> ChunkBuilder<'a> {
     }
 
     /// Drops what a polygon of few corners hides that came last and holds `samples`.
-    fn drop_below_polygon(&mut self, points: impl Iterator<Item = DVec2>, samples: SampleBox) {
+    fn drop_below_polygon(&mut self, points: impl Iterator<Item = DVec2>, samples: SpanRect) {
         if self.hidden == Hidden::Kept || !is_large(samples, self.context) {
             return;
         }
@@ -243,7 +243,7 @@ impl<'a> ChunkBuilder<'a> {
     fn layer(&mut self, compositing: Option<Compositing>, command: fn(u32) -> DrawCommand) {
         self.add_waiting();
         let index = index(self.chunk.layers.len());
-        let area = PixelRect::EMPTY;
+        let area = SpanRect::EMPTY;
         self.chunk.layers.push(LayerMark {
             area,
             limits: false,

@@ -23,7 +23,7 @@ use crate::raster::paint::visibility::shading_queue::ShadingQueue;
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::sampling::positions::SamplePositions;
 use crate::raster::shading::context::ShadeContext;
-use crate::raster::span::PixelRect;
+use crate::raster::span::SpanRect;
 use crate::raster::surface_id::{MAX_SURFACES, SurfaceId};
 use crate::simd;
 
@@ -59,7 +59,7 @@ impl<'a> VisibilityPainter<'a> {
     }
 
     /// Starts a tile.
-    pub(crate) fn begin(&mut self, rect: PixelRect, background: Premultiplied16) {
+    pub(crate) fn begin(&mut self, rect: SpanRect, background: Premultiplied16) {
         self.surfaces.clear();
         let surface = self.surfaces.flat(background);
         self.layers.restart().reset(rect, surface);

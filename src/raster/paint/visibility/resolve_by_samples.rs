@@ -19,7 +19,7 @@ use crate::raster::paint::visibility::surface_color::Shaded;
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
 use crate::raster::shading::Shader;
-use crate::raster::span::PixelRect;
+use crate::raster::span::SpanRect;
 use crate::raster::surface_id::{MAX_SURFACES, SurfaceId, TWO_SURFACES};
 
 /// Fragments that are shaded together: so many that their samples stay in a core's cache.
@@ -28,7 +28,7 @@ const TOGETHER: usize = 64;
 impl VisibilityPainter<'_> {
     /// Shades what is seen and resolves the finished tile; how long shading took, if that is to be `timed`.
     pub(super) fn resolve_by_samples(&mut self, block: &mut PixelBlock<'_>, timed: bool) -> Duration {
-        let PixelRect { x, y } = self.layers.base().rect;
+        let SpanRect { x, y } = self.layers.base().rect;
         self.by_samples.shared.clear();
         for (y, row) in (y.start..y.end).zip(0..) {
             self.note_row(y, row, block.line(y));

@@ -20,7 +20,7 @@ pub(crate) use change::Composer;
 
 use crate::raster::paint::visibility::packed::{PER_WORD, lanes, of_two, splat};
 use crate::raster::paint::visibility::two_surfaces::{PixelIndex, TwoSurfacePixels, TwoSurfaceRow, TwoSurfaces};
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::span::{Span, SpanRect};
 use crate::raster::surface_id::{ROW, SPLIT, SurfaceId, TWO_SURFACES};
 
 /// Pixels of a block.
@@ -32,7 +32,7 @@ const MAX_TWO_SURFACE_SIDE: usize = 8;
 /// The surfaces of a rectangle of pixels.
 #[derive(Debug)]
 pub(crate) struct VisibilityBuffer {
-    pub(crate) rect: PixelRect,
+    pub(crate) rect: SpanRect,
     width: usize,
     /// Samples along one side of a pixel.
     side: usize,
@@ -79,7 +79,7 @@ impl VisibilityBuffer {
     pub(crate) fn new(side: i32) -> Self {
         let side = usize::try_from(side).unwrap_or(1);
         Self {
-            rect: PixelRect::EMPTY,
+            rect: SpanRect::EMPTY,
             width: 0,
             side,
             words: side.div_ceil(PER_WORD),
@@ -100,7 +100,7 @@ impl VisibilityBuffer {
     }
 
     /// Makes it the tile of `rect` in which every sample shows `surface`.
-    pub(crate) fn reset(&mut self, rect: PixelRect, surface: SurfaceId) {
+    pub(crate) fn reset(&mut self, rect: SpanRect, surface: SurfaceId) {
         self.rect = rect;
         self.width = rect.x.length();
         debug_assert!(self.width <= ROW, "a tile is {} pixels wide", self.width);
@@ -328,7 +328,7 @@ mod tests {
     use crate::raster::coverage::span_rows::MaskRows;
     use crate::raster::span::scaled;
 
-    const RECT: PixelRect = PixelRect {
+    const RECT: SpanRect = SpanRect {
         x: Span { start: 3, end: 14 },
         y: Span { start: 5, end: 12 },
     };

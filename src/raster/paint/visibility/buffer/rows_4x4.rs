@@ -212,7 +212,7 @@ mod tests {
     use crate::raster::coverage::polygon_rows::{RowSpans, SpanStore};
     use crate::raster::coverage::span_rows::StoredRows;
     use crate::raster::paint::visibility::buffer::Run;
-    use crate::raster::span::{PixelRect, Span};
+    use crate::raster::span::{Span, SpanRect};
     use crate::simd;
 
     const SIDE: i32 = 4;
@@ -241,7 +241,7 @@ mod tests {
     }
 
     /// Spans in the sample rows of a tile and around it, few or several in each.
-    fn shape(u: &mut Unstructured<'_>, rect: PixelRect) -> Result<(Span, Vec<Vec<Span>>)> {
+    fn shape(u: &mut Unstructured<'_>, rect: SpanRect) -> Result<(Span, Vec<Vec<Span>>)> {
         let start = u.int_in_range(0..=rect.y.end * SIDE - 1)?;
         let rows = Span {
             start,
@@ -300,7 +300,7 @@ mod tests {
                 let end = start + u.int_in_range(1..=most)?;
                 Ok(Span { start, end })
             };
-            let rect = PixelRect {
+            let rect = SpanRect {
                 x: extent(64)?,
                 y: extent(40)?,
             };

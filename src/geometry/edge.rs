@@ -217,9 +217,11 @@ impl SampleEdge {
     /// The edges of a triangle whose [`doubled_area`] is `area`, at the sample `first`.
     #[inline]
     pub fn of_triangle(
-        ([a, b, c], area): ([GridPoint; 3], i64),
+        [a, b, c]: [GridPoint; 3],
+        area: i64,
         first: GridPoint,
-        (grid, rules): (SubpixelGrid, Rules),
+        grid: SubpixelGrid,
+        rules: Rules,
     ) -> [Self; 3] {
         let [b, c] = if area < 0 { [c, b] } else { [b, c] };
         [(a, b), (b, c), (c, a)].map(|(from, to)| {

@@ -124,13 +124,18 @@ impl<'a> DisplayList<'a> {
 
     /// As [`DisplayList::shape_coverage`] by spans, for samples that are those of the grid.
     fn grid_rows(&self) -> ShapeCoverage {
-        let columns = self.context.samples().columns.end;
-        ShapeCoverage::new((self.context.grid, self.context.rules), columns, self.outlines())
+        let columns = self.context.samples().x.end;
+        ShapeCoverage::new(self.context.grid, self.context.rules, columns, self.outlines())
     }
 
     /// What finds coverage in some columns of pixels sample by sample, wherever samples lie.
     pub(in crate::raster) fn free_positions(&self, columns: Span) -> FreePositions {
-        let settings = (self.context.grid, self.context.rules);
-        FreePositions::new(settings, self.places(), self.outlines(), columns)
+        FreePositions::new(
+            self.context.grid,
+            self.context.rules,
+            self.places(),
+            self.outlines(),
+            columns,
+        )
     }
 }

@@ -155,7 +155,7 @@ mod tests {
                 Ok(frame)
             };
             let expected = draw(TileLayout::for_rate(pattern.nearest(rate), SIZE))?;
-            for sides in [(0, 0), (3, 3), (2, 4), (5, 1), (6, 7)] {
+            for sides in [[0, 0], [3, 3], [2, 4], [5, 1], [6, 7]] {
                 assert!(
                     draw(TileLayout::new(sides, SIZE))? == expected,
                     "tiles of 2^{sides:?} pixels, {pattern:?} {rate:?}"

@@ -23,12 +23,12 @@ impl DisplayList<'_> {
     /// Paints every tile that shares a pixel with `wanted`, those nearest to the pixel `from` first, and hands each to
     /// `publish`: its place in the frame and its pixels, row by row. Calls come from many threads at once; no pixel
     /// comes twice. `None` when `cancelled` was set meanwhile and tiles are missing.
-    pub fn rasterize_tiles(
+    pub fn rasterize_tiles<F: Fn(Region, &[u32]) + Sync>(
         &self,
         wanted: &[Region],
         from: [u32; 2],
         cancelled: &AtomicBool,
-        publish: &(impl Fn(Region, &[u32]) + Sync),
+        publish: &F,
     ) -> Option<RasterTimes> {
         let mut times = RasterTimes::default();
         if self.context.frame_size.contains(&0) {
@@ -78,11 +78,11 @@ impl DisplayList<'_> {
     }
 
     /// Each thread takes the next tile that no other has: a parallel iterator would start in the middle too.
-    fn paint_in_order(
+    fn paint_in_order<F: Fn(Region, &[u32]) + Sync>(
         &self,
         pass: &Pass<'_>,
         tiles_in_order: &[WantedTile],
-        publish: &(impl Fn(Region, &[u32]) + Sync),
+        publish: &F,
     ) {
         let next = AtomicUsize::new(0);
         let work = || {

@@ -11,7 +11,7 @@ use crate::rules::Rules;
 /// Sample columns and rows of the box that a small triangle fits in.
 pub(crate) const SMALL: i32 = 8;
 
-/// A half-open range of sample columns, or of sample rows.
+/// A half-open range of columns, or of rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Span {
     /// The first.
@@ -20,18 +20,13 @@ pub(crate) struct Span {
     pub(crate) end: i32,
 }
 
-/// A rectangle of pixels, half open.
+/// A half-open rectangle of columns and rows: of pixels, of samples or of tiles, as the name of what holds it says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct PixelRect {
+pub(crate) struct SpanRect {
+    /// The columns.
     pub(crate) x: Span,
+    /// The rows.
     pub(crate) y: Span,
-}
-
-/// The columns and rows of samples between the least and the greatest corner.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct SampleBox {
-    pub(crate) columns: Span,
-    pub(crate) rows: Span,
 }
 
 /// How much of a rectangle of samples a shape covers.
@@ -91,12 +86,18 @@ impl Default for Span {
     }
 }
 
-impl PixelRect {
-    /// No pixels: the union with it is the other rectangle.
+impl SpanRect {
+    /// Nothing: the union with it is the other rectangle.
     pub(crate) const EMPTY: Self = Self {
         x: Span::EMPTY,
         y: Span::EMPTY,
     };
+
+    /// Whether nothing is in it.
+    #[inline]
+    pub(crate) fn is_empty(self) -> bool {
+        self.x.is_empty() || self.y.is_empty()
+    }
 
     /// The smallest rectangle that holds both.
     pub(crate) fn union(self, other: Self) -> Self {
@@ -105,19 +106,18 @@ impl PixelRect {
             y: self.y.union(other.y),
         }
     }
-}
 
-impl SampleBox {
-    /// The box of a triangle; empty in a direction in which the triangle holds no sample.
+    /// The columns and rows of samples between a triangle's least and greatest corner; empty in a direction in which it holds
+    /// no sample.
     #[inline]
-    pub(crate) fn new([a, b, c]: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Self {
+    pub(crate) fn of_samples([a, b, c]: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Self {
         let span = |a: i32, b: i32, c: i32| Span {
             start: grid.sample_at_or_after(a.min(b).min(c)),
             end: end_of(grid, a.max(b).max(c), rules),
         };
         Self {
-            columns: span(a.x, b.x, c.x),
-            rows: span(a.y, b.y, c.y),
+            x: span(a.x, b.x, c.x),
+            y: span(a.y, b.y, c.y),
         }
     }
 
@@ -125,15 +125,15 @@ impl SampleBox {
     #[inline]
     pub(crate) fn intersection(self, other: Self) -> Self {
         Self {
-            columns: self.columns.intersection(other.columns),
-            rows: self.rows.intersection(other.rows),
+            x: self.x.intersection(other.x),
+            y: self.y.intersection(other.y),
         }
     }
 
-    /// Whether its samples fit the bits of a coverage mask.
+    /// Whether so many samples fit the bits of a coverage mask.
     #[inline]
     pub(crate) fn is_small(self) -> bool {
-        self.columns.end - self.columns.start <= SMALL && self.rows.end - self.rows.start <= SMALL
+        self.x.end - self.x.start <= SMALL && self.y.end - self.y.start <= SMALL
     }
 }
 

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::Work;
-use crate::raster::binning::visible::{first_visible, visible};
+use crate::raster::binning::visible::{EntryIndex, first_visible, visible};
 use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::display_list::{DisplayList, Pass};
 use crate::raster::frame::block::PixelBlock;
@@ -51,14 +51,14 @@ impl DisplayList<'_> {
     }
 
     /// How a tile is painted, of which the commands from `first` on are to be seen.
-    pub(in crate::raster) fn method(&self, pass: &Pass<'_>, tile: usize, first: (usize, usize)) -> Method {
+    pub(in crate::raster) fn method(&self, pass: &Pass<'_>, tile: usize, first: EntryIndex) -> Method {
         let commands = visible(&pass.bins, tile, first).map(|(chunk, commands)| (&self.chunks[chunk], commands));
         self.kinds
-            .method(&self.context, (self.settings.filter, self.settings.space), &commands)
+            .method(&self.context, self.settings.filter, self.settings.space, &commands)
     }
 
     /// The colour of a tile in which nothing else is to be seen, of the commands from `first` on.
-    fn only_color(&self, pass: &Pass<'_>, tile: usize, first: (usize, usize)) -> Option<Premultiplied16> {
+    fn only_color(&self, pass: &Pass<'_>, tile: usize, first: EntryIndex) -> Option<Premultiplied16> {
         let mut entries = visible(&pass.bins, tile, first)
             .flat_map(|(chunk, entries)| entries.iter().map(move |entry| (chunk, entry)));
         let (chunk, only) = entries.next()?;
@@ -154,14 +154,14 @@ impl DisplayList<'_> {
         let mut resolving = None;
         match self.method(pass, tile, first) {
             Method::Direct => {
-                let covered = pass.bins[first.0].of_tile(tile).get(first.1);
+                let covered = pass.bins[first.chunk].of_tile(tile).get(first.entry);
                 if !covered.is_some_and(|entry| entry.hides_tile()) {
                     block.fill(background.to_pixel(rules));
                 }
                 for (chunk, entries) in visible(&pass.bins, tile, first) {
                     painters
                         .direct
-                        .paint((&self.chunks[chunk], entries), &mut painters.shape_coverage, block);
+                        .paint(&self.chunks[chunk], entries, &mut painters.shape_coverage, block);
                 }
                 painters.tally.counters.samples_shaded += std::mem::take(&mut painters.direct.samples_shaded);
             }

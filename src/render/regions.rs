@@ -63,12 +63,12 @@ struct TileOrder<'a> {
     from: [u32; 2],
 }
 
-fn tiles(
+fn tiles<F: Fn(Region, &[u32]) + Sync>(
     subject: &Subject<'_>,
     size: [u32; 2],
     order: TileOrder<'_>,
     cancel: &CancelToken,
-    publish: &(impl Fn(Region, &[u32]) + Sync),
+    publish: &F,
 ) -> Option<FrameStats> {
     let start = Instant::now();
     let list = display_list(subject, size);

@@ -15,9 +15,16 @@ use fearless_simd::{Simd, i32x8};
 use super::PixelSampling;
 use super::bilinear::{FRACTION_BITS, per_tap, tap_offset, to_fixed};
 use super::filter_plan::{GridLevel, Plan};
-use super::sample_filter::{BLOCK, Cells, Source, by_fours};
+use super::sample_filter::{BLOCK, Cells, SampleVector, Source, by_fours};
 use super::simd_channels::{FromColors, Spread, both_columns, mean};
 use super::texel_coordinates::{Positions, columns_and_rows};
+
+/// Samples that are filtered together, and how.
+#[derive(Clone, Copy)]
+struct Block<'b> {
+    plan: &'b Plan<'b>,
+    points: &'b [[u16; 2]],
+}
 
 /// Where the samples of a block lie in a level, in fixed point: columns, then rows.
 type Centres = [[i32; BLOCK]; 2];
@@ -30,9 +37,10 @@ pub(super) fn filter_with<S: Simd, C: FromColors>(simd: S, plan: &Plan<'_>, poin
     for (points, out) in points.chunks(BLOCK).zip(out.chunks_mut(BLOCK)) {
         // Left and right columns of each sample.
         let mut sums = [i32x8::splat(simd, 0); BLOCK];
-        add(simd, (plan, &plan.finer), (spread, points), &mut sums);
+        let block = Block { plan, points };
+        add(simd, block, &plan.finer, spread, &mut sums);
         if let Some(level) = &plan.coarser {
-            add(simd, (plan, level), (spread, points), &mut sums);
+            add(simd, block, level, spread, &mut sums);
         }
         by_fours!(simd, out, |i| {
             let at = |k: usize| sums[(i + k) % BLOCK];
@@ -45,8 +53,9 @@ pub(super) fn filter_with<S: Simd, C: FromColors>(simd: S, plan: &Plan<'_>, poin
 #[inline(always)]
 fn add<S: Simd>(
     simd: S,
-    (plan, level): (&Plan<'_>, &GridLevel<'_>),
-    (spread, points): (Spread<S>, &[[u16; 2]]),
+    Block { plan, points }: Block<'_>,
+    level: &GridLevel<'_>,
+    spread: Spread<S>,
     sums: &mut [i32x8<S>; BLOCK],
 ) {
     let lanes = S::u32s::LEN;
@@ -77,7 +86,11 @@ fn add<S: Simd>(
             let rows = S::i32s::from_slice(simd, &centres[1][first..first + lanes]);
             let columns = (columns + x).max(number(0)).min(right) & kept;
             let rows = (rows + y).max(number(0)).min(bottom) & kept;
-            cells.note_fixed(simd, PixelSampling::Bilinear, level, ([columns, rows], first));
+            let vector = SampleVector {
+                at: [columns, rows],
+                first,
+            };
+            cells.note(simd, PixelSampling::Bilinear, level, vector);
         }
         let source = Source::new(level, &cells);
         for (i, sum) in sums.iter_mut().enumerate().take(points.len()) {

@@ -45,23 +45,23 @@ pub(super) fn to_fixed(texels: f64, last: f64) -> u32 {
 /// Neither counts as more than [`REACH`] texels beyond the level: from there on taps read its border.
 #[inline]
 pub(super) fn tap(texels: f64, offset: f64, last: f64) -> u32 {
-    let at = signed(texels, (-REACH, last + REACH)) + tap_offset(offset);
+    let at = signed(texels, -REACH, last + REACH) + tap_offset(offset);
     at.clamp(0, to_fixed(last, last).cast_signed()).cast_unsigned()
 }
 
 /// The distance of a tap from its sample in fixed point.
 #[inline]
 pub(super) fn tap_offset(texels: f64) -> i32 {
-    signed(texels, (-REACH, REACH))
+    signed(texels, -REACH, REACH)
 }
 
-/// A coordinate inside limits, rounded to fixed point.
+/// A coordinate, clamped to `least..=most` and rounded to fixed point.
 #[inline]
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the fixed-point number is in the lower half"
 )]
-fn signed(texels: f64, (least, most): (f64, f64)) -> i32 {
+fn signed(texels: f64, least: f64, most: f64) -> i32 {
     // One half more, so that negative numbers stand below it in two's complement.
     (texels.max(least).min(most) + 1.5 * TO_FIXED).to_bits() as i32
 }

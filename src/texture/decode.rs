@@ -161,7 +161,7 @@ fn png_rows(bytes: &[u8], mut put: impl FnMut(Run, &[[u8; 4]])) -> Result<(), De
     let mut reader = png_decoder(bytes).read_info()?;
     let (width, height) = reader.info().size();
     let (width, height) = (width as usize, height as usize);
-    let kind = reader.output_color_type();
+    let (color, depth) = reader.output_color_type();
     let passes = if reader.info().interlaced {
         &PASSES[..]
     } else {
@@ -177,14 +177,14 @@ fn png_rows(bytes: &[u8], mut put: impl FnMut(Run, &[[u8; 4]])) -> Result<(), De
             break;
         };
         pixels.clear();
-        straight(row.data(), kind, &mut pixels);
+        straight(row.data(), color, depth, &mut pixels);
         put(run, &pixels);
     }
     Ok(())
 }
 
 /// A row of a PNG as straight bytes; channels of 16 bits are rounded.
-fn straight(row: &[u8], (color, depth): (ColorType, BitDepth), pixels: &mut Vec<[u8; 4]>) {
+fn straight(row: &[u8], color: ColorType, depth: BitDepth, pixels: &mut Vec<[u8; 4]>) {
     /// Gathers the channels of each pixel.
     fn gather<const N: usize>(row: &[u8], wide: bool, pixel: impl Fn([u8; N]) -> [u8; 4], pixels: &mut Vec<[u8; 4]>) {
         if wide {

@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use super::bilinear::mass;
 use super::filter_plan::{Axis, GridLevel, PixelList, Plan, TapLine};
+use super::pyramid::NumberedLevel;
 use super::simd_channels::FromColors;
 use super::{MipLevel, MipPyramid, PixelSampling, Reading, SamplingSettings, Taps, UvMap};
 use super::{anisotropic_filter, bilinear, pixel_filter, sample_filter};
@@ -69,7 +70,11 @@ impl<'a> Filter<'a> {
         let mass = mass(choice.next_weight);
         let near = map.pivot.is_finite() && map.pivot.abs().max_element() < FARTHEST;
         let prepare = |number: usize, mass| {
-            let level = FilterLevel::new((&levels[number], number), mass, map, pixel);
+            let level = NumberedLevel {
+                level: &levels[number],
+                number,
+            };
+            let level = FilterLevel::new(level, mass, map, pixel);
             if near { level } else { level.flat() }
         };
         let (finer, coarser) = match mass {
@@ -140,7 +145,8 @@ impl<'a> Filter<'a> {
 }
 
 impl<'a> FilterLevel<'a> {
-    fn new((level, number): (&'a MipLevel, usize), mass: i32, map: &UvMap, pixel: PixelSampling) -> Self {
+    fn new(numbered: NumberedLevel<'a>, mass: i32, map: &UvMap, pixel: PixelSampling) -> Self {
+        let NumberedLevel { level, number } = numbered;
         let size = DVec2::new(f64::from(level.width()), f64::from(level.height()));
         let at_pivot = map.uv * size - bilinear::first_centre(pixel);
         let (dx, dy) = (map.dx * size, map.dy * size);

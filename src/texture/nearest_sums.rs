@@ -121,7 +121,8 @@ pub(super) fn sum<S: Simd, const N: usize>(
     simd: S,
     plan: &Plan<'_>,
     samples: &NearestSamples<'_, N>,
-    (list, sums): (PixelList<'_>, &mut [[u32; 4]]),
+    list: PixelList<'_>,
+    sums: &mut [[u32; 4]],
 ) {
     let lanes = S::u32s::LEN;
     let count = (samples.side * samples.side) as usize;
@@ -131,7 +132,7 @@ pub(super) fn sum<S: Simd, const N: usize>(
         distance: S::i16s::splat(simd, 0),
     };
     for (i, (pixels, sums)) in list.pixels.chunks(lanes).zip(sums.chunks_mut(lanes)).enumerate() {
-        found.find(simd, samples, (pixels, middle));
+        found.find(simd, samples, pixels, middle);
         let masks = list.masks.map(|masks| &masks[i * lanes..]);
         for (lane, (sum, pixel)) in sums.iter_mut().zip(pixels).enumerate() {
             let mask = masks.map(|masks| masks[lane]);
@@ -149,9 +150,9 @@ pub(super) fn sum<S: Simd, const N: usize>(
 }
 
 impl<S: Simd, const N: usize> Found<S, N> {
-    /// Finds the texels of up to a vector of pixels.
+    /// Finds the texels of up to a vector of pixels; `middle` is the centre of the pixel that lists are counted from.
     #[inline(always)]
-    fn find(&mut self, simd: S, samples: &NearestSamples<'_, N>, (pixels, middle): (&[[u16; 2]], DVec2)) {
+    fn find(&mut self, simd: S, samples: &NearestSamples<'_, N>, pixels: &[[u16; 2]], middle: DVec2) {
         let number = |value: i32| S::i32s::splat(simd, value);
         let side = S::f32s::splat(simd, samples.side as f32);
         let [columns, rows] = columns_and_rows(simd, pixels);

@@ -12,7 +12,7 @@ use arbtest::arbitrary::{Result, Unstructured};
 use glam::DVec2;
 
 use super::filter_plan::Plan;
-use super::sample_offsets::{Footing, Scale};
+use super::sample_offsets::{Footing, Footings, Scale};
 use super::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
 use super::{Filter, MipLevel, MipPyramid, SampleGrid, SamplingSettings, UvMap, bilinear, trace};
 use crate::color::Premultiplied16;
@@ -67,7 +67,7 @@ pub(super) fn pixel_sum(plan: &Plan<'_>, side: u32, pixel: [u32; 2], covered: im
         .map(|j| [j % side, j / side])
         .collect();
     let scale = Scale::new(side);
-    let Some((finer, coarser)) = Footing::of_plan(plan, scale) else {
+    let Some(Footings { finer, coarser }) = Footings::of_plan(plan, scale) else {
         let mut sums = [0; 4];
         for sample in samples {
             let color = point(plan, [pixel[0] * side + sample[0], pixel[1] * side + sample[1]]);
@@ -81,29 +81,22 @@ pub(super) fn pixel_sum(plan: &Plan<'_>, side: u32, pixel: [u32; 2], covered: im
     let part = coarser.as_ref().map_or(0, |coarser| {
         (total * coarser.level.mass + bilinear::MASS / 2) / bilinear::MASS
     });
+    let middle = f64::from(scale.side - 1) / 2.0;
+    let center = pixel.map(|pixel| f64::from(pixel) * f64::from(scale.side) + middle);
+    let center = plan.first + DVec2::from_array(center);
     let mut sums = [0; 4];
     for (footing, total) in [(Some(&finer), total - part), (coarser.as_ref(), part)] {
         if let Some(footing) = footing {
-            add_block(plan, (footing, total), pixel, &samples, &mut sums);
+            add_block(footing, total, center, &samples, &mut sums);
         }
     }
     let unit = f64::from(1 << scale.sample_bits);
     sums.map(|sum| (f64::from(sum) * 256.0 / unit + 0.5).floor() as u32)
 }
 
-/// Adds the 4 x 4 texels under a pixel, weighed so that the weights sum to `total`.
-fn add_block(
-    plan: &Plan<'_>,
-    (footing, total): (&Footing<'_>, i32),
-    pixel: [u32; 2],
-    samples: &[[u32; 2]],
-    sums: &mut [i32; 4],
-) {
-    let scale = footing.scale;
-    let one = 1 << scale.bits;
-    let middle = f64::from(scale.side - 1) / 2.0;
-    let center = pixel.map(|pixel| f64::from(pixel) * f64::from(scale.side) + middle);
-    let center = plan.first + DVec2::from_array(center);
+/// Adds the 4 x 4 texels under the pixel around `center`, weighed so that the weights sum to `total`.
+fn add_block(footing: &Footing<'_>, total: i32, center: DVec2, samples: &[[u32; 2]], sums: &mut [i32; 4]) {
+    let one = 1 << footing.scale.bits;
     let level = &footing.level;
     let axes = [(&level.x, &footing.x), (&level.y, &footing.y)];
     let placed = axes.map(|(axis, offsets)| {

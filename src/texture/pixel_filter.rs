@@ -12,7 +12,7 @@ use fearless_simd::{Simd, dispatch, i32x8, u8x16};
 use super::bilinear::{MASS, MASS_BITS};
 use super::filter_plan::{PixelList, Plan};
 use super::nearest_sums::{self, FEW, MANY, NearestSamples};
-use super::sample_offsets::{Footing, MAX_SIDE, Scale};
+use super::sample_offsets::{Footing, Footings, MAX_SIDE, Scale};
 use super::simd_channels::{self, Spread};
 use super::tent_weights::{Covered, Weighed, weigh};
 use super::texel_coordinates::{MAX_LANES, Positions, columns_and_rows};
@@ -41,26 +41,33 @@ struct Batch {
     pixel_count: usize,
 }
 
+/// The next sample of a list that is to be filtered: the number of its pixel, and its own in the pixel.
+#[derive(Clone, Copy)]
+struct NextSample {
+    pixel: usize,
+    sample: usize,
+}
+
 /// See [`super::Filter::sums`].
 pub(super) fn sum(level: Level, plan: &Plan<'_>, side: u32, list: PixelList<'_>, sums: &mut [[u32; 4]]) {
     let scale = Scale::new(side);
     let taps = plan.line.taps.count;
-    if plan.pixel == PixelSampling::Nearest && sum_nearest(level, plan, side, (list, &mut *sums)) {
+    if plan.pixel == PixelSampling::Nearest && sum_nearest(level, plan, side, list, sums) {
         return;
     }
-    match Footing::of_plan(plan, scale) {
-        Some(footings) => dispatch!(level, simd => sum_texels(simd, plan, scale, &footings, (list, sums))),
+    match Footings::of_plan(plan, scale) {
+        Some(footings) => dispatch!(level, simd => sum_texels(simd, plan, &footings, list, sums)),
         None if taps == 1 => dispatch!(level, simd => sum_samples::<_, false>(simd, plan, scale, list, sums)),
         None => dispatch!(level, simd => sum_samples::<_, true>(simd, plan, scale, list, sums)),
     }
 }
 
 /// Fetches a texel for every sample, where that is all; whether it is.
-fn sum_nearest(level: Level, plan: &Plan<'_>, side: u32, sums: (PixelList<'_>, &mut [[u32; 4]])) -> bool {
+fn sum_nearest(level: Level, plan: &Plan<'_>, side: u32, list: PixelList<'_>, sums: &mut [[u32; 4]]) -> bool {
     if (side * side) as usize > FEW {
-        sum_nearest_of::<MANY>(level, plan, side, sums)
+        sum_nearest_of::<MANY>(level, plan, side, list, sums)
     } else {
-        sum_nearest_of::<FEW>(level, plan, side, sums)
+        sum_nearest_of::<FEW>(level, plan, side, list, sums)
     }
 }
 
@@ -70,12 +77,13 @@ fn sum_nearest_of<const N: usize>(
     level: Level,
     plan: &Plan<'_>,
     side: u32,
-    sums: (PixelList<'_>, &mut [[u32; 4]]),
+    list: PixelList<'_>,
+    sums: &mut [[u32; 4]],
 ) -> bool {
     let Some(samples) = NearestSamples::<N>::new(plan, side) else {
         return false;
     };
-    dispatch!(level, simd => nearest_sums::sum(simd, plan, &samples, sums));
+    dispatch!(level, simd => nearest_sums::sum(simd, plan, &samples, list, sums));
     true
 }
 
@@ -99,8 +107,8 @@ fn sum_samples<S: Simd, const TAPS: bool>(
     let mut colors = [Premultiplied16::TRANSPARENT; BATCH];
     sums.fill([0; 4]);
     let mut batch = Batch::EMPTY;
-    let mut next = (0, 0);
-    while next.0 < list.pixels.len() {
+    let mut next = NextSample { pixel: 0, sample: 0 };
+    while next.pixel < list.pixels.len() {
         batch.fill(list, inside, scale.side, &mut next);
         let points = &batch.points[..batch.count];
         let colors = &mut colors[..batch.count];
@@ -121,13 +129,12 @@ impl Batch {
         pixel_count: 0,
     };
 
-    /// Takes samples, as many as fit, from sample `next.1` of pixel `next.0` on, and moves `next` on. In a pixel they lie
-    /// `inside`.
+    /// Takes samples, as many as fit, from `next` on, and moves it on. In a pixel they lie `inside`.
     #[inline(always)]
-    fn fill(&mut self, list: PixelList<'_>, inside: &[[u16; 2]], side: u32, next: &mut (usize, usize)) {
+    fn fill(&mut self, list: PixelList<'_>, inside: &[[u16; 2]], side: u32, next: &mut NextSample) {
         let side = u16::try_from(side).unwrap_or(1);
         (self.count, self.pixel_count) = (0, 0);
-        let (mut pixel, mut sample) = *next;
+        let NextSample { mut pixel, mut sample } = *next;
         while pixel < list.pixels.len() && self.count < BATCH && self.pixel_count < BATCH {
             let [left, top] = list.pixels[pixel].map(|at| at.saturating_mul(side));
             let mask = list.masks.map(|masks| masks[pixel]);
@@ -145,7 +152,7 @@ impl Batch {
                 (pixel, sample) = (pixel + 1, 0);
             }
         }
-        *next = (pixel, sample);
+        *next = NextSample { pixel, sample };
     }
 
     /// Adds the colours of the samples to the sums of their pixels.
@@ -171,10 +178,11 @@ impl Batch {
 fn sum_texels<S: Simd>(
     simd: S,
     plan: &Plan<'_>,
-    scale: Scale,
-    (finer, coarser): &(Footing<'_>, Option<Footing<'_>>),
-    (list, sums): (PixelList<'_>, &mut [[u32; 4]]),
+    Footings { finer, coarser }: &Footings<'_>,
+    list: PixelList<'_>,
+    sums: &mut [[u32; 4]],
 ) {
+    let scale = finer.scale;
     let lanes = S::u32s::LEN;
     let spread = Spread::new(simd);
     let middle = plan.first + f64::from(scale.side - 1) / 2.0;
@@ -189,10 +197,10 @@ fn sum_texels<S: Simd>(
         let part = coarser.as_ref().map_or(number(0), |coarser| {
             (total * number(coarser.level.mass) + number(MASS / 2)) >> MASS_BITS
         });
-        let fine = Blocks::outlined(simd, finer, &at, (covered, total - part));
+        let fine = Blocks::outlined(simd, finer, &at, covered, total - part);
         let coarse = coarser
             .as_ref()
-            .map(|coarser| (Blocks::outlined(simd, coarser, &at, (covered, part)), coarser));
+            .map(|coarser| (Blocks::outlined(simd, coarser, &at, covered, part), coarser));
         for (lane, sum) in sums.iter_mut().enumerate() {
             let mut channels = fine.sum(simd, spread, finer, lane);
             if let Some((coarse, coarser)) = &coarse {
@@ -233,19 +241,19 @@ fn cover<S: Simd>(simd: S, scale: Scale, masks: Option<&[u64]>) -> (Covered<S>, 
 impl<S: Simd> Blocks<S> {
     /// [`Blocks::new`], compiled once for the two levels.
     #[inline(never)]
-    fn outlined(simd: S, footing: &Footing<'_>, at: &Positions<S>, covered: (Covered<S>, S::i32s)) -> Self {
+    fn outlined(simd: S, footing: &Footing<'_>, at: &Positions<S>, covered: Covered<S>, total: S::i32s) -> Self {
         simd.vectorize(
             #[inline(always)]
-            || Self::new(simd, footing, at, covered),
+            || Self::new(simd, footing, at, covered, total),
         )
     }
 
     #[inline(always)]
-    fn new(simd: S, footing: &Footing<'_>, at: &Positions<S>, covered: (Covered<S>, S::i32s)) -> Self {
+    fn new(simd: S, footing: &Footing<'_>, at: &Positions<S>, covered: Covered<S>, total: S::i32s) -> Self {
         let Weighed { offsets, weights } = if footing.is_narrow() {
-            weigh::<S, 2>(simd, footing, at, covered)
+            weigh::<S, 2>(simd, footing, at, covered, total)
         } else {
-            weigh::<S, 3>(simd, footing, at, covered)
+            weigh::<S, 3>(simd, footing, at, covered, total)
         };
         let both = |row: usize, column: usize| weights[row][column] | weights[row + 1][column] << 16;
         let quarter =
@@ -301,7 +309,7 @@ mod tests {
             let grid = oracle::grid(u, &map)?;
             let filter = oracle::filter(u, &pyramid, &map)?;
             let plan = filter.plan(grid);
-            if Footing::of_plan(&plan, Scale::new(grid.side)).is_some() {
+            if Footings::of_plan(&plan, Scale::new(grid.side)).is_some() {
                 weighed += 1;
             } else {
                 filtered += 1;

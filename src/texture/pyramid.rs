@@ -49,6 +49,13 @@ pub struct MipLevel {
     texels: Vec<[u8; 4]>,
 }
 
+/// A level, and its number in its pyramid.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NumberedLevel<'a> {
+    pub(super) level: &'a MipLevel,
+    pub(super) number: usize,
+}
+
 /// All resolutions of an image; level 0 is the image itself, the last level is a single texel.
 #[derive(Clone, Debug)]
 pub struct MipPyramid {
@@ -177,8 +184,8 @@ impl MipPyramid {
         let mut exact: Option<ExactLevel> = None;
         while width > 1 || height > 1 {
             let (next, level) = match (&exact, &levels[0]) {
-                (Some(exact), _) => halve((width, height), width, &exact.texels),
-                (None, base) => halve((width, height), base.stride, &base.texels),
+                (Some(exact), _) => halve([width, height], width, &exact.texels),
+                (None, base) => halve([width, height], base.stride, &base.texels),
             };
             (width, height) = (next.width, next.height);
             exact = Some(next);
@@ -203,13 +210,13 @@ impl MipPyramid {
     }
 }
 
-/// The next coarser level of texels in rows of `stride`: half as wide and high, rounded down, at least one texel.
-fn halve<C: Copy + Into<f32> + Sync>(size: (u32, u32), stride: u32, texels: &[[C; 4]]) -> (ExactLevel, MipLevel) {
-    let (width, height) = ((size.0 / 2).max(1), (size.1 / 2).max(1));
-    let columns = shares(size.0, width);
-    let rows = shares(size.1, height);
-    let even = size.0.is_multiple_of(2) && size.1.is_multiple_of(2);
-    let line = |y: usize| &texels[y * stride as usize..][..size.0 as usize];
+/// The next coarser level of `size` texels in rows of `stride`: half as wide and high, rounded down, at least one texel.
+fn halve<C: Copy + Into<f32> + Sync>(size: [u32; 2], stride: u32, texels: &[[C; 4]]) -> (ExactLevel, MipLevel) {
+    let [width, height] = size.map(|side| (side / 2).max(1));
+    let columns = shares(size[0], width);
+    let rows = shares(size[1], height);
+    let even = size.iter().all(|side| side.is_multiple_of(2));
+    let line = |y: usize| &texels[y * stride as usize..][..size[0] as usize];
     let mut level = MipLevel::blank(width, height);
     let mut exact = vec![[0.0; 4]; width as usize * height as usize];
     let parts = exact.par_chunks_mut(width as usize).zip(level.rows_mut());

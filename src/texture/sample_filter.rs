@@ -28,6 +28,14 @@ pub(super) struct Cells {
     weights: [u64; BLOCK],
 }
 
+/// Where a vector of samples lies in a level, inside it and in fixed point.
+#[derive(Clone, Copy)]
+pub(super) struct SampleVector<S: Simd> {
+    pub(super) at: [S::i32s; 2],
+    /// The number of its first sample in the block.
+    pub(super) first: usize,
+}
+
 /// The texels of a level and where to read them.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
@@ -66,9 +74,14 @@ fn prepare<S: Simd>(simd: S, plan: &Plan<'_>, points: &[[u16; 2]], [finer, coars
         // The last vector begins earlier rather than to be short.
         let first = first.min(last);
         let at = Positions::new(simd, columns_and_rows(simd, &points[first..]), plan.first);
-        finer.note(simd, plan.pixel, &plan.finer, (&at, first));
+        finer.note(
+            simd,
+            plan.pixel,
+            &plan.finer,
+            SampleVector::new(simd, &at, &plan.finer, first),
+        );
         if let Some(level) = &plan.coarser {
-            coarser.note(simd, plan.pixel, level, (&at, first));
+            coarser.note(simd, plan.pixel, level, SampleVector::new(simd, &at, level, first));
         }
     }
 }
@@ -140,34 +153,32 @@ fn trilinear<S: Simd, C: FromColors>(simd: S, spread: Spread<S>, [finer, coarser
     });
 }
 
+impl<S: Simd> SampleVector<S> {
+    #[inline(always)]
+    fn new(simd: S, at: &Positions<S>, level: &GridLevel<'_>, first: usize) -> Self {
+        Self {
+            at: [at.fixed(simd, &level.x), at.fixed(simd, &level.y)],
+            first,
+        }
+    }
+}
+
 impl Cells {
     pub(super) const EMPTY: Self = Self {
         offsets: [0; BLOCK],
         weights: [0; BLOCK],
     };
 
-    /// Notes the cells of a vector of samples from number `first` on.
+    /// Notes the cells of a vector of samples.
     #[inline(always)]
-    fn note<S: Simd>(
+    pub(super) fn note<S: Simd>(
         &mut self,
         simd: S,
         pixel: PixelSampling,
         level: &GridLevel<'_>,
-        (at, first): (&Positions<S>, usize),
+        vector: SampleVector<S>,
     ) {
-        let (x, y) = (at.fixed(simd, &level.x), at.fixed(simd, &level.y));
-        self.note_fixed(simd, pixel, level, ([x, y], first));
-    }
-
-    /// As [`Cells::note`], for coordinates inside the level in fixed point.
-    #[inline(always)]
-    pub(super) fn note_fixed<S: Simd>(
-        &mut self,
-        simd: S,
-        pixel: PixelSampling,
-        level: &GridLevel<'_>,
-        ([x, y], first): ([S::i32s; 2], usize),
-    ) {
+        let SampleVector { at: [x, y], first } = vector;
         let lanes = S::u32s::LEN;
         let number = |value| S::i32s::splat(simd, value);
         let stride = number(level.level.stride().cast_signed());

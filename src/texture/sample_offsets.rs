@@ -33,6 +33,13 @@ pub(super) struct Footing<'a> {
     pub(super) lines: Option<Lines>,
 }
 
+/// The level that is read, and the next coarser one where two are mixed.
+#[derive(Clone, Debug)]
+pub(super) struct Footings<'a> {
+    pub(super) finer: Footing<'a>,
+    pub(super) coarser: Option<Footing<'a>>,
+}
+
 /// Which axis depends on the sample's column only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lines {
@@ -69,20 +76,24 @@ impl Scale {
     }
 }
 
-impl<'a> Footing<'a> {
-    /// The level or levels of a plan; `None` where each sample must be filtered: where samples are too far apart, have
+impl<'a> Footings<'a> {
+    /// Those of a plan; `None` where each sample must be filtered: where samples are too far apart, have
     /// several taps, or read single texels.
-    pub(super) fn of_plan(plan: &Plan<'a>, scale: Scale) -> Option<(Self, Option<Self>)> {
+    pub(super) fn of_plan(plan: &Plan<'a>, scale: Scale) -> Option<Self> {
         if plan.pixel == PixelSampling::Nearest || plan.line.taps.count > 1 {
             return None;
         }
-        let finer = Self::new(&plan.finer, scale)?;
-        match &plan.coarser {
-            None => Some((finer, None)),
-            Some(level) => Some((finer, Some(Self::new(level, scale)?))),
-        }
+        Some(Self {
+            finer: Footing::new(&plan.finer, scale)?,
+            coarser: match &plan.coarser {
+                None => None,
+                Some(level) => Some(Footing::new(level, scale)?),
+            },
+        })
     }
+}
 
+impl<'a> Footing<'a> {
     fn new(level: &GridLevel<'a>, scale: Scale) -> Option<Self> {
         let (x, y) = (Offsets::new(&level.x, scale)?, Offsets::new(&level.y, scale)?);
         let zero = |offsets: &[i16]| offsets.iter().all(|offset| *offset == 0);

@@ -57,20 +57,23 @@ pub(super) fn weigh<S: Simd, const T: usize>(
     simd: S,
     footing: &Footing<'_>,
     at: &Positions<S>,
-    (covered, totals): (Covered<S>, S::i32s),
+    covered: Covered<S>,
+    totals: S::i32s,
 ) -> Weighed<S> {
     let scale = footing.scale;
     let (first_x, x) = place(
         simd,
         scale,
         at.near(simd, &footing.level.x, scale.bits),
-        (&footing.x, footing.level.x.last),
+        &footing.x,
+        footing.level.x.last,
     );
     let (first_y, y) = place(
         simd,
         scale,
         at.near(simd, &footing.level.y, scale.bits),
-        (&footing.y, footing.level.y.last),
+        &footing.y,
+        footing.level.y.last,
     );
     let lines = match footing.lines {
         Some(Lines::Upright) => Some((&footing.x.columns, &footing.y.rows)),
@@ -83,7 +86,7 @@ pub(super) fn weigh<S: Simd, const T: usize>(
             let y = line::<S, T>(simd, scale, y, offsets.1);
             outer::<S, T>(simd, x, y)
         }
-        _ => products::<S, T>(simd, footing, (x, y), covered),
+        _ => products::<S, T>(simd, footing, x, y, covered),
     };
     let stride = S::i32s::splat(simd, footing.level.level.stride().cast_signed());
     Weighed {
@@ -94,7 +97,7 @@ pub(super) fn weigh<S: Simd, const T: usize>(
 
 /// The first texel that a pixel's samples read on an axis, and their place relative to it.
 #[inline(always)]
-fn place<S: Simd>(simd: S, scale: Scale, center: S::i32s, (offsets, last): (&Offsets, f64)) -> (S::i32s, Place<S>) {
+fn place<S: Simd>(simd: S, scale: Scale, center: S::i32s, offsets: &Offsets, last: f64) -> (S::i32s, Place<S>) {
     let number = |value: i32| S::i32s::splat(simd, value);
     let last = number(to_whole(last));
     let first = ((center + number(offsets.least)) >> scale.bits)
@@ -178,7 +181,8 @@ fn outer<S: Simd, const T: usize>(simd: S, x: [S::i32s; 4], y: [S::i32s; 4]) -> 
 fn products<S: Simd, const T: usize>(
     simd: S,
     footing: &Footing<'_>,
-    (x, y): (Place<S>, Place<S>),
+    x: Place<S>,
+    y: Place<S>,
     covered: Covered<S>,
 ) -> Products<S> {
     let mut sums = [[S::i32s::splat(simd, 0); 4]; 4];

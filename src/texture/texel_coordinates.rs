@@ -21,6 +21,14 @@ pub(super) struct Positions<S: Simd> {
     rows: [S::f64s; 2],
 }
 
+/// How coordinates become fixed point: clamped to `least..=most`, and rounded by adding `to_fixed`.
+#[derive(Clone, Copy)]
+struct Rounding {
+    least: f64,
+    most: f64,
+    to_fixed: f64,
+}
+
 /// Sample or pixel columns and rows as floats, of as many as a vector has lanes.
 #[inline(always)]
 pub(super) fn columns_and_rows<S: Simd>(simd: S, points: &[[u16; 2]]) -> [S::f32s; 2] {
@@ -57,40 +65,55 @@ impl<S: Simd> Positions<S> {
     /// Where samples lie on an axis, inside the level, in fixed point; see `bilinear::to_fixed`.
     #[inline(always)]
     pub(super) fn fixed(&self, simd: S, axis: &Axis) -> S::i32s {
-        self.round(simd, axis, (0.0, axis.last), TO_FIXED)
+        let rounding = Rounding {
+            least: 0.0,
+            most: axis.last,
+            to_fixed: TO_FIXED,
+        };
+        self.round(simd, axis, rounding)
     }
 
     /// Where samples lie on an axis, at most [`REACH`] texels outside the level, in fixed point; see `bilinear::tap`.
     #[inline(always)]
     pub(super) fn far(&self, simd: S, axis: &Axis) -> S::i32s {
-        self.round(simd, axis, (-REACH, axis.last + REACH), 1.5 * TO_FIXED)
+        self.around(simd, axis, REACH)
     }
 
     /// Where samples lie on an axis, at most two texels outside the level, with `bits` fractional bits.
     #[inline(always)]
     pub(super) fn near(&self, simd: S, axis: &Axis, bits: u32) -> S::i32s {
         // One half more than in `bilinear`, so that negative numbers stand below it in two's complement.
-        let to_fixed = 1.5 * (1_u64 << (52 - bits)) as f64;
-        self.round(simd, axis, (-2.0, axis.last + 2.0), to_fixed)
+        let rounding = Rounding {
+            least: -2.0,
+            most: axis.last + 2.0,
+            to_fixed: 1.5 * (1_u64 << (52 - bits)) as f64,
+        };
+        self.round(simd, axis, rounding)
     }
 
     /// As [`Positions::far`], at most `reach` texels outside the level.
     #[inline(always)]
     pub(super) fn around(&self, simd: S, axis: &Axis, reach: f64) -> S::i32s {
-        self.round(simd, axis, (-reach, axis.last + reach), 1.5 * TO_FIXED)
+        let rounding = Rounding {
+            least: -reach,
+            most: axis.last + reach,
+            to_fixed: 1.5 * TO_FIXED,
+        };
+        self.round(simd, axis, rounding)
     }
 
     #[inline(always)]
-    fn round(&self, simd: S, axis: &Axis, limits: (f64, f64), to_fixed: f64) -> S::i32s {
-        let half = self.round_half(simd, axis, limits, (0, to_fixed));
-        half.narrow(self.round_half(simd, axis, limits, (1, to_fixed)))
+    fn round(&self, simd: S, axis: &Axis, rounding: Rounding) -> S::i32s {
+        let half = self.round_half(simd, axis, rounding, 0);
+        half.narrow(self.round_half(simd, axis, rounding, 1))
     }
 
     #[inline(always)]
-    fn round_half(&self, simd: S, axis: &Axis, (least, most): (f64, f64), (half, to_fixed): (usize, f64)) -> S::i64s {
+    fn round_half(&self, simd: S, axis: &Axis, rounding: Rounding, half: usize) -> S::i64s {
         let right = self.columns[half] * S::f64s::splat(simd, axis.right);
         let down = self.rows[half] * S::f64s::splat(simd, axis.down);
         let at = (S::f64s::splat(simd, axis.at_pivot) + right) + down;
+        let Rounding { least, most, to_fixed } = rounding;
         let inside = at.max(S::f64s::splat(simd, least)).min(S::f64s::splat(simd, most));
         (inside + S::f64s::splat(simd, to_fixed)).bitcast()
     }

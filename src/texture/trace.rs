@@ -8,7 +8,8 @@ use glam::DVec2;
 use super::course_sampler::{Sampler, course_place, course_point};
 use super::filter::{Filter, SampleGrid};
 use super::filter_plan::{Axis, GridLevel, Plan};
-use super::{MipLevel, PixelSampling, bilinear};
+use super::pyramid::NumberedLevel;
+use super::{PixelSampling, bilinear};
 use crate::color::Premultiplied16;
 
 /// A texel that a sample read.
@@ -61,8 +62,12 @@ impl Filter<'_> {
             for tap in 0..count {
                 let place = place(&plan, level, point, tap);
                 notes.tap(level.number, place, plan.pixel);
+                let read = NumberedLevel {
+                    level: level.level,
+                    number: level.number,
+                };
                 bilinear::each(plan.pixel, place, level.mass, |x, y, weight| {
-                    notes.texel((level.level, level.number), [x, y], f64::from(weight));
+                    notes.texel(read, [x, y], f64::from(weight));
                 });
             }
         }
@@ -85,16 +90,24 @@ impl Sampler<'_> {
     pub fn course_reads(&self, u: f32, v: f32) -> TextureReads {
         let mut notes = Notes::new(f64::from(self.taps.count));
         let at = DVec2::new(f64::from(u), f64::from(v));
+        let finer = NumberedLevel {
+            level: self.finer,
+            number: self.number,
+        };
         for tap in 0..self.taps.count {
             let place = match self.taps.count {
                 1 => [u, v],
                 _ => (at + self.along * self.taps.place(tap)).as_vec2().to_array(),
             };
             match self.coarser {
-                None => notes.course((self.finer, self.number), self.pixel, place, 1.0),
-                Some((coarser, weight)) => {
-                    notes.course((self.finer, self.number), self.pixel, place, 1.0 - weight);
-                    notes.course((coarser, self.number + 1), self.pixel, place, weight);
+                None => notes.course(finer, self.pixel, place, 1.0),
+                Some((level, weight)) => {
+                    let coarser = NumberedLevel {
+                        level,
+                        number: self.number + 1,
+                    };
+                    notes.course(finer, self.pixel, place, 1.0 - weight);
+                    notes.course(coarser, self.pixel, place, weight);
                 }
             }
         }
@@ -116,7 +129,7 @@ impl Notes {
         self.reads.taps.push(TapRead { level, at });
     }
 
-    fn texel(&mut self, (level, number): (&MipLevel, usize), [x, y]: [i32; 2], weight: f64) {
+    fn texel(&mut self, NumberedLevel { level, number }: NumberedLevel<'_>, [x, y]: [i32; 2], weight: f64) {
         if weight <= 0.0 {
             return;
         }
@@ -129,16 +142,17 @@ impl Notes {
         });
     }
 
-    fn course(&mut self, level: (&MipLevel, usize), pixel: PixelSampling, uv: [f32; 2], weight: f32) {
-        let ([left, top], [s, t]) = course_place(level.0, pixel, uv);
-        let point = course_point(level.0, pixel, uv).map(f64::from);
+    fn course(&mut self, numbered: NumberedLevel<'_>, pixel: PixelSampling, uv: [f32; 2], weight: f32) {
+        let NumberedLevel { level, number } = numbered;
+        let ([left, top], [s, t]) = course_place(level, pixel, uv);
+        let point = course_point(level, pixel, uv).map(f64::from);
         // Beyond the level its last texel goes on.
-        let last = DVec2::new(f64::from(level.0.width()), f64::from(level.0.height())) - 0.5;
+        let last = DVec2::new(f64::from(level.width()), f64::from(level.height())) - 0.5;
         let at = (DVec2::from(point) + bilinear::first_centre(pixel)).min(last);
-        self.reads.taps.push(TapRead { level: level.1, at });
+        self.reads.taps.push(TapRead { level: number, at });
         // A nearest texel far beyond the level has no neighbour to its right, and reads none.
         let (right, bottom) = (left.saturating_add(1), top.saturating_add(1));
-        let mut read = |x, y, part: f32| self.texel(level, [x, y], f64::from(part * weight));
+        let mut read = |x, y, part: f32| self.texel(numbered, [x, y], f64::from(part * weight));
         read(left, top, (1.0 - s) * (1.0 - t));
         read(right, top, s * (1.0 - t));
         read(left, bottom, (1.0 - s) * t);

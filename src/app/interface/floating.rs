@@ -147,7 +147,7 @@ pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<
 pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Option<Rect> {
     let text = viewer.scene_list().words().filter(|_| viewer.chrome().about())?;
     let id = Id::unique("words");
-    let corner = corner_of_words(ui, viewer, (id, free));
+    let corner = corner_of_words(ui, viewer, id, free);
     let area = Area::new(id)
         .order(Order::Middle)
         .fixed_pos(corner.pos_in_rect(&free.shrink(TEXT_MARGIN)))
@@ -182,9 +182,9 @@ pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Com
     Some(area.response.rect)
 }
 
-/// The corner in which a scene's words cover no pinned pixel and no magnifier of it, if there is one. What follows the
-/// pointer gives way by itself.
-fn corner_of_words(ui: &Ui, viewer: &Viewer, (id, free): (Id, Rect)) -> Align2 {
+/// The corner of `free` in which a scene's words, whose area is `id`, cover no pinned pixel and no magnifier of it, if there
+/// is one. What follows the pointer gives way by itself.
+fn corner_of_words(ui: &Ui, viewer: &Viewer, id: Id, free: Rect) -> Align2 {
     let before = ui.ctx().memory(|memory| memory.area_rect(id));
     let Some(size) = before
         .map(|rect| rect.size())

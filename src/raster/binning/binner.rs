@@ -5,7 +5,7 @@
 //! everything painted there before.
 
 use crate::geometry::subpixel::GridPoint;
-use crate::raster::binning::polygon_tiles::OutlineTiles;
+use crate::raster::binning::polygon_tiles::{OutlineTiles, TileStrip};
 use crate::raster::binning::tile_command::TileCommand;
 use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::float_shape::FloatShape;
@@ -13,7 +13,7 @@ use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::list::chunk::{Chunk, DrawCommand, LayerMark};
 use crate::raster::list::context::ListContext;
 use crate::raster::shading::sources::PaintSources;
-use crate::raster::span::{PixelRect, Reach, SampleBox, Span, to_index};
+use crate::raster::span::{Reach, Span, SpanRect, to_index};
 use crate::raster::tile_layout::TileLayout;
 
 /// Walks over the commands of a chunk.
@@ -25,7 +25,7 @@ pub(crate) struct Binner<'a> {
     samples: Sides,
     pixels: Sides,
     /// The samples that are painted.
-    frame: SampleBox,
+    frame: SpanRect,
 }
 
 /// The sides of a tile, in samples or in pixels, and how to divide by them.
@@ -45,7 +45,7 @@ impl Sides {
 
     /// `unit` of them make a pixel.
     fn new(tiles: TileLayout, unit: u32) -> Self {
-        let (width_log2, height_log2) = tiles.sides_log2();
+        let [width_log2, height_log2] = tiles.sides_log2();
         let (width, height) = (unit << width_log2, unit << height_log2);
         // Rounded up, it is too large by less than one in `2^SHIFT`; no coordinate that is painted exceeds `2^23`, and no side
         // `2^14`. So the error of a quotient stays below `2^-16`, too little to carry it over a whole number.
@@ -118,7 +118,7 @@ impl<'a> Binner<'a> {
         }
         let (limits, columns) = (self.limits(), self.context.tiles.columns as usize);
         self.everywhere(sources, |tile, entry| {
-            let PixelRect { x, y } = limits[entry.command()];
+            let SpanRect { x, y } = limits[entry.command()];
             let (column, row) = (tile % columns, tile / columns + to_index(self.rows.start));
             let holds = |span: Span, at: usize| i32::try_from(at).is_ok_and(|at| (span.start..span.end).contains(&at));
             if holds(x, column) && holds(y, row) {
@@ -129,9 +129,9 @@ impl<'a> Binner<'a> {
 
     /// For each command the tiles in which it counts: those that the masks around it may change. What a mask holds elsewhere
     /// would cost time there, though it takes away from nothing.
-    fn limits(&self) -> Vec<PixelRect> {
+    fn limits(&self) -> Vec<SpanRect> {
         let tiles = self.context.tiles;
-        let all = PixelRect {
+        let all = SpanRect {
             x: Span {
                 start: 0,
                 end: tiles.columns.cast_signed(),
@@ -141,18 +141,13 @@ impl<'a> Binner<'a> {
                 end: tiles.rows.cast_signed(),
             },
         };
-        let inside = |around: PixelRect, layer: &LayerMark| {
-            let PixelRect { x, y } = layer.area;
+        let inside = |around: SpanRect, layer: &LayerMark| {
             if !layer.limits {
                 around
-            } else if x.is_empty() || y.is_empty() {
-                PixelRect::EMPTY
+            } else if layer.area.is_empty() {
+                SpanRect::EMPTY
             } else {
-                let own = tiles.tiles_of(layer.area);
-                PixelRect {
-                    x: own.x.intersection(around.x),
-                    y: own.y.intersection(around.y),
-                }
+                tiles.tiles_of(layer.area).intersection(around)
             }
         };
         let mut around = vec![all];
@@ -212,7 +207,7 @@ impl<'a> Binner<'a> {
                     let paint = self.chunk.outline_paint(index);
                     let opaque = paint.is_opaque(sources);
                     let entry = TileCommand::outline(i, index, paint.constant, opaque);
-                    self.outline(&mut tiles, (index, entry), depth == 0, &mut visit);
+                    self.outline(&mut tiles, entry, depth == 0, &mut visit);
                 }
                 DrawCommand::BeginLayer(index) | DrawCommand::EndLayer(index) => {
                     depth = match command {
@@ -264,13 +259,13 @@ impl<'a> Binner<'a> {
     fn outline(
         &self,
         tiles: &mut OutlineTiles,
-        (index, entry): (u32, TileCommand),
+        entry: TileCommand,
         base: bool,
         visit: &mut impl FnMut(usize, TileCommand),
     ) {
         let (grid, sides) = (self.context.grid, self.samples);
-        let outline = &self.chunk.outlines[index as usize];
-        let SampleBox { columns, rows } = outline.samples;
+        let outline = self.chunk.outlines[entry.primitive()].with_edges(&self.chunk.outline_edges);
+        let SpanRect { x: columns, y: rows } = outline.outline.samples;
         let ((left, right), (top, bottom)) = (sides.columns(columns), sides.rows(rows));
         let in_row = Span {
             start: left,
@@ -285,11 +280,15 @@ impl<'a> Binner<'a> {
             }
             return;
         }
-        let units = [width, sides.overlap].map(|samples| f64::from(samples << grid.bits()));
+        let units = |samples: i32| f64::from(samples << grid.bits());
         for row in tile_rows {
-            let all_rows = sides.painted(row, sides.height).intersection(self.frame.rows);
-            let outline = (outline, self.chunk.outline_edges.as_slice());
-            tiles.each(outline, grid, (all_rows, in_row, units), |column, reach| {
+            let strip = TileStrip {
+                rows: sides.painted(row, sides.height).intersection(self.frame.y),
+                tiles: in_row,
+                width: units(width),
+                overlap: units(sides.overlap),
+            };
+            tiles.each(outline, grid, strip, |column, reach| {
                 let entry = match reach {
                     Reach::Part => entry,
                     Reach::All => entry.covering(base && entry.is_opaque()),
@@ -302,7 +301,7 @@ impl<'a> Binner<'a> {
     /// Whether samples of that many columns or rows, `axis` 0 or 1, are too few to cover a tile.
     #[inline]
     fn covers_no_tile(&self, span: Span, side: i32, axis: usize) -> bool {
-        let frame = [self.frame.columns, self.frame.rows][axis];
+        let frame = [self.frame.x, self.frame.y][axis];
         span.end - span.start < side.min(frame.end)
     }
 
@@ -315,16 +314,16 @@ impl<'a> Binner<'a> {
         visit: &mut impl FnMut(usize, TileCommand),
     ) {
         let (grid, sides) = (self.context.grid, self.samples);
-        let samples = SampleBox::new(corners, grid, self.context.rules).intersection(self.frame);
-        if samples.columns.is_empty() || samples.rows.is_empty() {
+        let samples = SpanRect::of_samples(corners, grid, self.context.rules).intersection(self.frame);
+        if samples.is_empty() {
             return;
         }
-        let ((left, right), (top, bottom)) = (sides.columns(samples.columns), sides.rows(samples.rows));
+        let ((left, right), (top, bottom)) = (sides.columns(samples.x), sides.rows(samples.y));
         let tile_rows = top.max(self.rows.start)..=bottom.min(self.rows.end - 1);
         let height = sides.height.cast_signed();
         if (right - left + 1) * (bottom - top + 1) <= 2
-            && (self.covers_no_tile(samples.columns, sides.width.cast_signed(), 0)
-                || self.covers_no_tile(samples.rows, height, 1))
+            && (self.covers_no_tile(samples.x, sides.width.cast_signed(), 0)
+                || self.covers_no_tile(samples.y, height, 1))
         {
             for row in tile_rows {
                 (left..=right).for_each(|column| visit(self.tile(column, row), entry));
@@ -333,8 +332,8 @@ impl<'a> Binner<'a> {
         }
         let edges = TileRows::new(corners);
         for row in tile_rows {
-            let in_tile = sides.painted(row, sides.height).intersection(self.frame.rows);
-            let inside = in_tile.intersection(samples.rows);
+            let in_tile = sides.painted(row, sides.height).intersection(self.frame.y);
+            let inside = in_tile.intersection(samples.y);
             let bounds = edges.between(
                 grid.sample_coordinate(inside.start),
                 grid.sample_coordinate(inside.end - 1),
@@ -362,13 +361,13 @@ impl<'a> Binner<'a> {
     #[inline(never)]
     fn float(&self, float: &FloatShape, entry: TileCommand, base: bool, visit: &mut impl FnMut(usize, TileCommand)) {
         let (grid, sides) = (self.context.grid, self.samples);
-        let SampleBox { columns, rows } = float.samples;
+        let SpanRect { x: columns, y: rows } = float.samples;
         let ((left, right), (top, bottom)) = (sides.columns(columns), sides.rows(rows));
         for row in top.max(self.rows.start)..=bottom.min(self.rows.end - 1) {
             for column in left..=right {
-                let samples = SampleBox {
-                    columns: sides.painted(column, sides.width).intersection(self.frame.columns),
-                    rows: sides.painted(row, sides.height).intersection(self.frame.rows),
+                let samples = SpanRect {
+                    x: sides.painted(column, sides.width).intersection(self.frame.x),
+                    y: sides.painted(row, sides.height).intersection(self.frame.y),
                 };
                 let entry = match float.reach(grid, samples) {
                     None => continue,
@@ -420,15 +419,15 @@ impl<'a> Binner<'a> {
         let overlap = f64::from(self.samples.overlap << grid.bits());
         let mut end = whole((last + half - overlap) / width);
         // The frame may cut the last tile short.
-        if end == columns - 1 && f64::from(grid.sample_coordinate(self.frame.columns.end - 1)) <= last {
+        if end == columns - 1 && f64::from(grid.sample_coordinate(self.frame.x.end - 1)) <= last {
             end = columns;
         }
         Span { start, end }
     }
 
     /// An command in every tile of a rectangle of pixels.
-    fn rect(&self, area: PixelRect, entry: TileCommand, visit: &mut impl FnMut(usize, TileCommand)) {
-        if area.x.is_empty() || area.y.is_empty() {
+    fn rect(&self, area: SpanRect, entry: TileCommand, visit: &mut impl FnMut(usize, TileCommand)) {
+        if area.is_empty() {
             return;
         }
         let mut tiles = self.context.tiles.tiles_of(area);
@@ -487,7 +486,7 @@ mod tests {
             background: Rgba::WHITE,
             palette: None,
         };
-        let tiles = TileLayout::new((u.int_in_range(2..=6)?, u.int_in_range(2..=5)?), SIZE);
+        let tiles = TileLayout::new([u.int_in_range(2..=6)?, u.int_in_range(2..=5)?], SIZE);
         let context = ListContext::with_tiles(SIZE, &settings, tiles);
         let mut builder = ChunkBuilder::new(&context, 12);
         fill(&mut builder, u)?;
@@ -502,11 +501,12 @@ mod tests {
     }
 
     /// How many samples a triangle or outline covers in a rectangle of pixels.
-    fn covered(command: TileCommand, chunk: &Chunk, (context, rect): (&ListContext, PixelRect)) -> usize {
+    fn covered(command: TileCommand, chunk: &Chunk, context: &ListContext, rect: SpanRect) -> usize {
         let side = context.grid.side();
         let mut rows = ShapeCoverage::new(
-            (context.grid, context.rules),
-            context.samples().columns.end,
+            context.grid,
+            context.rules,
+            context.samples().x.end,
             chunk.outlines.len(),
         );
         let mut count = 0;
@@ -594,7 +594,7 @@ mod tests {
                 let whole = rect.x.length() * rect.y.length() * side * side;
                 for shape in &all {
                     let own = commands.iter().find(|command| command.command() == shape.command());
-                    let count = covered(*shape, &chunk, (&context, rect));
+                    let count = covered(*shape, &chunk, &context, rect);
                     assert!(
                         count == 0 || own.is_some(),
                         "tile {tile} knows command {}",

@@ -213,7 +213,7 @@ mod tests {
     use crate::raster::coverage::triangle::SortedTriangle;
     use crate::raster::list::builder::ChunkBuilder;
     use crate::raster::shading::Paint;
-    use crate::raster::span::PixelRect;
+    use crate::raster::span::SpanRect;
     use crate::raster::tile_layout::TileLayout;
     use crate::raster::{RasterSettings, SamplePattern, SampleRate, SizedFilter};
     use crate::rules::Rules;
@@ -284,7 +284,7 @@ mod tests {
     }
 
     /// The samples that a chunk's triangles cover in a rectangle of pixels, counted from its first, by the row walker.
-    fn covered(chunk: &Chunk, context: &ListContext, rect: PixelRect) -> Vec<(i32, i32)> {
+    fn covered(chunk: &Chunk, context: &ListContext, rect: SpanRect) -> Vec<(i32, i32)> {
         let side = context.grid.side();
         let scaled = |span: Span| Span {
             start: span.start * side,
@@ -330,7 +330,7 @@ mod tests {
         let (mut covering, mut crossing) = (0_u32, 0_u32);
         arbtest::arbtest(|u| {
             let settings = settings(u.int_in_range(1..=5)?, *u.choose(&Rules::ALL)?);
-            let sides = *u.choose(&[(3, 3), (6, 5), (2, 4), (0, 1)])?;
+            let sides = *u.choose(&[[3, 3], [6, 5], [2, 4], [0, 1]])?;
             let context = ListContext::with_tiles(SIZE, &settings, TileLayout::new(sides, SIZE));
             let (chunk, bins) = binned(&context, &[triangle(u)?]);
             for row in 0..context.tiles.rows {
@@ -370,7 +370,7 @@ mod tests {
         arbtest::arbtest(|u| {
             // First drafts know no stamps.
             let settings = settings(u.int_in_range(1..=4)?, *u.choose(&[Rules::Standard, Rules::Course])?);
-            let sides = *u.choose(&[(3, 3), (6, 5), (1, 2), (0, 0)])?;
+            let sides = *u.choose(&[[3, 3], [6, 5], [1, 2], [0, 0]])?;
             let context = ListContext::with_tiles(SIZE, &settings, TileLayout::new(sides, SIZE));
             let side = f64::from(context.grid.side());
             let corner = DVec2::new(
@@ -411,7 +411,7 @@ mod tests {
     fn slivers_cost_the_tiles_they_touch() {
         let settings = settings(1, Rules::Standard);
         let size = [1024, 1024];
-        let context = ListContext::with_tiles(size, &settings, TileLayout::new((5, 5), size));
+        let context = ListContext::with_tiles(size, &settings, TileLayout::new([5, 5], size));
         let far = |x: f64, y: f64| DVec2::new(x, y);
         let (_, bins) = binned(&context, &[[DVec2::ZERO, far(1023.0, 1024.0), far(1024.0, 1023.0)]]);
         let entries = bins.entries.len();

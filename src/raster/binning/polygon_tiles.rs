@@ -7,7 +7,7 @@
 use crate::geometry::FillRule;
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::coverage::edge_bounds::{Line, MARGIN};
-use crate::raster::coverage::polygon::{Outline, OutlineEdge};
+use crate::raster::coverage::polygon::OutlineWithEdges;
 use crate::raster::coverage::windings::RowWindings;
 use crate::raster::span::{Reach, Span, to_index};
 
@@ -21,6 +21,18 @@ pub(crate) struct OutlineTiles {
     rows: RowWindings,
 }
 
+/// A row of tiles, of which some may be touched.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TileStrip {
+    /// The sample rows that are painted for it.
+    pub(crate) rows: Span,
+    /// The columns of the tiles that may be touched.
+    pub(crate) tiles: Span,
+    /// How wide a tile is, in units of the grid, and by how much what is painted for it reaches into the next.
+    pub(crate) width: f64,
+    pub(crate) overlap: f64,
+}
+
 /// What changes at a tile.
 #[derive(Clone, Copy, Debug, Default)]
 struct Column {
@@ -31,21 +43,25 @@ struct Column {
 }
 
 impl OutlineTiles {
-    /// Calls `visit` with each tile column from `tiles.start` on that the outline may touch in the sample rows `all_rows`;
-    /// `width` is that of a tile in units of the grid, `overlap` by how much what is painted for it reaches into the next.
+    /// Calls `visit` with the column of each tile of a strip that the outline may touch.
     pub(crate) fn each(
         &mut self,
-        outline: (&Outline, &[OutlineEdge]),
+        outline: OutlineWithEdges<'_>,
         grid: SubpixelGrid,
-        (all_rows, tiles, [width, overlap]): (Span, Span, [f64; 2]),
+        strip: TileStrip,
         visit: impl FnMut(i32, Reach),
     ) {
-        let (outline, all) = outline;
+        let TileStrip {
+            rows: all_rows,
+            tiles,
+            width,
+            overlap,
+        } = strip;
         self.columns.clear();
         let count = (tiles.end - tiles.start).max(0).cast_unsigned() as usize;
         self.columns.resize(count + 1, Column::default());
         self.partial.clear();
-        for (edge, inside) in outline.edges_in(all, all_rows) {
+        for (edge, inside) in outline.edges_in(all_rows) {
             let line = Line::new(edge.top, edge.bottom);
             let at = |row| line.at(f64::from(grid.sample_coordinate(row)));
             let (first, last) = (at(inside.start), at(inside.end - 1));
@@ -63,7 +79,7 @@ impl OutlineTiles {
                 self.partial.push((right, inside, edge.winding));
             }
         }
-        self.sweep(outline.rule, all_rows, tiles, visit);
+        self.sweep(outline.outline.rule, all_rows, tiles, visit);
     }
 
     fn sweep(&mut self, rule: FillRule, all_rows: Span, tiles: Span, mut visit: impl FnMut(i32, Reach)) {

@@ -146,6 +146,12 @@ impl TileCommand {
         (self.head & Self::MAX_COMMAND) as usize
     }
 
+    /// Index of a triangle or outline among those of its chunk.
+    #[inline]
+    pub(crate) fn primitive(self) -> usize {
+        usize::try_from(self.bits).unwrap_or(usize::MAX)
+    }
+
     /// Whether the command is a triangle or polygon that covers every sample of the tile.
     #[inline]
     pub(crate) fn covers_tile(self) -> bool {
@@ -180,8 +186,7 @@ impl TileCommand {
             return Work::Flat(Shape::Pixels(coverage), self.color);
         }
         if self.head & Self::FLAT != 0 {
-            let index = usize::try_from(self.bits).unwrap_or(usize::MAX);
-            let triangle = Shape::Triangle(&chunk.triangles[index].corners);
+            let triangle = Shape::Triangle(&chunk.triangles[self.primitive()].corners);
             return Work::Flat(covered(triangle), self.color);
         }
         if self.head & Self::OUTLINE != 0 {

@@ -7,14 +7,14 @@ use glam::{DVec2, Vec2};
 
 use crate::geometry::float_edge::{FloatTriangle, first};
 use crate::geometry::subpixel::SubpixelGrid;
-use crate::raster::span::{Reach, SampleBox, Span};
+use crate::raster::span::{Reach, Span, SpanRect};
 
 /// A triangle in a chunk.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FloatShape {
     triangle: FloatTriangle,
     /// The samples that are painted in the box around it; never empty.
-    pub(crate) samples: SampleBox,
+    pub(crate) samples: SpanRect,
     /// Where the frame's first sample is in what is painted: floats round by their place in the frame.
     origin: i32,
 }
@@ -22,7 +22,7 @@ pub(crate) struct FloatShape {
 impl FloatShape {
     /// Its corners in the frame, around which `margin` pixels are painted on each side, `painted` in all; `None` where it has no
     /// area, or none of these samples lies in its box.
-    pub(crate) fn new(points: [DVec2; 3], grid: SubpixelGrid, (painted, margin): (SampleBox, u32)) -> Option<Self> {
+    pub(crate) fn new(points: [DVec2; 3], grid: SubpixelGrid, painted: SpanRect, margin: u32) -> Option<Self> {
         let origin = margin.cast_signed() * grid.side();
         let place = |index: i32| place(grid, index - origin);
         let triangle = FloatTriangle::new(points)?;
@@ -31,12 +31,11 @@ impl FloatShape {
             start: first(start, end, |index| place(index) >= low),
             end: first(start, end, |index| place(index) > high),
         };
-        let samples = SampleBox {
-            columns: span(low.x, high.x, painted.columns),
-            rows: span(low.y, high.y, painted.rows),
+        let samples = SpanRect {
+            x: span(low.x, high.x, painted.x),
+            y: span(low.y, high.y, painted.y),
         };
-        let any = !samples.columns.is_empty() && !samples.rows.is_empty();
-        any.then_some(Self {
+        (!samples.is_empty()).then_some(Self {
             triangle,
             samples,
             origin,
@@ -45,7 +44,7 @@ impl FloatShape {
 
     /// The covered columns of a sample row, of those in `columns`.
     pub(crate) fn span(&self, grid: SubpixelGrid, row: i32, columns: Span) -> Span {
-        let columns = columns.intersection(self.samples.columns);
+        let columns = columns.intersection(self.samples.x);
         if columns.is_empty() {
             return Span::EMPTY;
         }
@@ -57,12 +56,12 @@ impl FloatShape {
     }
 
     /// How much of some samples it covers; `None` where it is nothing for certain.
-    pub(crate) fn reach(&self, grid: SubpixelGrid, samples: SampleBox) -> Option<Reach> {
+    pub(crate) fn reach(&self, grid: SubpixelGrid, samples: SpanRect) -> Option<Reach> {
         let inside = samples.intersection(self.samples);
-        if inside.columns.is_empty() || inside.rows.is_empty() {
+        if inside.is_empty() {
             return None;
         }
-        let SampleBox { columns, rows } = samples;
+        let SpanRect { x: columns, y: rows } = samples;
         let corner = |column, row| self.point(grid, [column, row]);
         let corners = [
             corner(columns.start, rows.start),

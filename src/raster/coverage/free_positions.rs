@@ -16,7 +16,7 @@ use crate::raster::coverage::sample_lanes::SampleLanes;
 use crate::raster::coverage::shape::Shape;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::{Position, SamplePositions};
-use crate::raster::span::{PixelRect, Reach, SampleBox, Span};
+use crate::raster::span::{Reach, Span, SpanRect};
 use crate::rules::Rules;
 use crate::simd;
 
@@ -40,7 +40,8 @@ pub(crate) struct FreePositions {
 impl FreePositions {
     /// For a drawing of `outlines` outlines; of these only the pixel columns `columns` are ever asked for.
     pub(crate) fn new(
-        (grid, rules): (SubpixelGrid, Rules),
+        grid: SubpixelGrid,
+        rules: Rules,
         places: SamplePositions,
         outlines: usize,
         columns: Span,
@@ -51,7 +52,7 @@ impl FreePositions {
             all: SampleMask::all(places.count()),
             memory: Vec::with_capacity(SampleRate::MAX as usize),
             gains: Vec::with_capacity(SampleRate::MAX as usize),
-            outlines: FreePositionsPolygon::new(outlines, columns, places.count()),
+            outlines: FreePositionsPolygon::new(grid, outlines, columns, places.count()),
             lanes: SampleLanes::new(places.clone()),
             found: Vec::new(),
             places,
@@ -60,7 +61,7 @@ impl FreePositions {
 
     /// Calls `visit` for every row of the tile `rect` with what the shape covers there, from top to bottom; no sample
     /// comes twice.
-    pub(crate) fn each(&mut self, shape: Shape<'_>, rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
+    pub(crate) fn each(&mut self, shape: Shape<'_>, rect: SpanRect, mut visit: impl FnMut(i32, Covered)) {
         match shape {
             Shape::Triangle(corners) => self.triangle(*corners, rect, visit),
             Shape::Float(float) => self.float(float, rect, visit),
@@ -71,7 +72,7 @@ impl FreePositions {
                     Some(lanes) => PixelSamples::Few(lanes),
                     None => PixelSamples::Many(&self.places, &mut self.memory),
                 };
-                self.outlines.find(outline, (self.grid, samples), rect.y);
+                self.outlines.find(outline, samples, rect.y);
                 for y in rect.y.start..rect.y.end {
                     self.outlines
                         .each(outline.number, y, rect.x, |covered| visit(y, covered));
@@ -80,7 +81,7 @@ impl FreePositions {
         }
     }
 
-    fn float(&mut self, float: &FloatShape, rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
+    fn float(&mut self, float: &FloatShape, rect: SpanRect, mut visit: impl FnMut(i32, Covered)) {
         let side = self.grid.side();
         let of_pixel = |at: i32| Span {
             start: at * side,
@@ -88,9 +89,9 @@ impl FreePositions {
         };
         for y in rect.y.start..rect.y.end {
             for x in rect.x.start..rect.x.end {
-                let samples = SampleBox {
-                    columns: of_pixel(x),
-                    rows: of_pixel(y),
+                let samples = SpanRect {
+                    x: of_pixel(x),
+                    y: of_pixel(y),
                 };
                 let covered = match float.reach(self.grid, samples) {
                     None => continue,
@@ -118,8 +119,8 @@ impl FreePositions {
         mask
     }
 
-    fn triangle(&mut self, corners: [GridPoint; 3], rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
-        let Some(scan) = TriangleScan::new(corners, rect, (self.grid, self.rules)) else {
+    fn triangle(&mut self, corners: [GridPoint; 3], rect: SpanRect, mut visit: impl FnMut(i32, Covered)) {
+        let Some(scan) = TriangleScan::new(corners, rect, self.grid, self.rules) else {
             return;
         };
         let Some(lanes) = &mut self.lanes else {
@@ -253,7 +254,7 @@ mod tests {
             shape_coverage = shape_coverage.with(list.free_positions(column));
         }
         let mut painter = PerSamplePainter::new(list.shade_context(), list.places());
-        let (painted, samples) = painter.replay(&chunks, (pixel, list.background()), &mut shape_coverage);
+        let (painted, samples) = painter.replay(&chunks, pixel, list.background(), &mut shape_coverage);
         (painted, samples.into_iter().map(|(color, _)| color).collect())
     }
 

@@ -18,13 +18,13 @@ use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::coverage::covered::Covered;
 use crate::raster::coverage::edge_bounds::{Line, MARGIN};
 use crate::raster::coverage::outline_cache::OutlineCache;
-use crate::raster::coverage::polygon::{Outline, OutlineEdge};
+use crate::raster::coverage::polygon::OutlineWithEdges;
 use crate::raster::coverage::sample_lanes::{PixelEdge, SampleLanes};
-use crate::raster::coverage::shape::{MAX_SPANS, OutlineOf};
+use crate::raster::coverage::shape::{MAX_SPANS, NumberedOutline};
 use crate::raster::coverage::windings::RowWindings;
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::sampling::positions::{Position, SamplePositions};
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::span::{Span, SpanRect};
 use crate::simd;
 
 /// Remembers what outlines enclose in the tile row at work.
@@ -40,7 +40,6 @@ pub(in crate::raster) struct FreePositionsPolygon {
     /// All samples of a pixel.
     all: SampleMask,
     sweep: Sweep,
-    windings: RowWindings,
 }
 
 /// What was found for one outline.
@@ -58,15 +57,22 @@ struct Run {
     mask: Option<u32>,
 }
 
-/// Edges of an outline in one row of pixels, reusing its memory.
-#[derive(Debug, Default)]
+/// An outline in one row of pixels, reusing its memory.
+#[derive(Debug)]
 struct Sweep {
+    grid: SubpixelGrid,
+    rule: FillRule,
+    /// The row, and its pixels that the outline may touch.
+    y: i32,
+    columns: Span,
     /// By the first pixel that each may cross.
     edges: Vec<LocalEdge>,
     /// Those that may cross the pixel at work, by number.
     active: Vec<u32>,
     /// On which side of them samples lie: bits of those around which the edge winds, and how.
     sides: Vec<(u64, i32)>,
+    /// How often those edges wind around each row of lattice points that lie left of the pixel at work as a whole.
+    windings: RowWindings,
     /// How often each sample of a pixel is wound around, and each row.
     around: Vec<i32>,
     rows: Vec<i32>,
@@ -91,7 +97,7 @@ pub(in crate::raster) enum PixelSamples<'p> {
 
 impl FreePositionsPolygon {
     /// For a drawing of `outlines` outlines, in some columns of pixels with `count` samples each.
-    pub(in crate::raster) fn new(outlines: usize, columns: Span, count: usize) -> Self {
+    pub(in crate::raster) fn new(grid: SubpixelGrid, outlines: usize, columns: Span, count: usize) -> Self {
         Self {
             columns,
             found: OutlineCache::new(outlines),
@@ -99,18 +105,12 @@ impl FreePositionsPolygon {
             runs: Vec::new(),
             masks: Vec::new(),
             all: SampleMask::all(count),
-            sweep: Sweep::default(),
-            windings: RowWindings::default(),
+            sweep: Sweep::new(grid),
         }
     }
 
     /// Makes sure that an outline is known in some rows of pixels.
-    pub(in crate::raster) fn find(
-        &mut self,
-        of: OutlineOf<'_>,
-        (grid, mut samples): (SubpixelGrid, PixelSamples<'_>),
-        rows: Span,
-    ) {
+    pub(in crate::raster) fn find(&mut self, of: NumberedOutline<'_>, mut samples: PixelSamples<'_>, rows: Span) {
         let Self { found, runs, .. } = self;
         if found.go_to(rows, runs.len() > MAX_SPANS / 4) {
             self.starts.clear();
@@ -119,26 +119,26 @@ impl FreePositionsPolygon {
         }
         // Where it is found the first time, its runs come last.
         let (first, mut is_new) = (self.starts.len(), false);
-        let area = self.area(&of, grid, rows);
+        let area = self.area(of.outline.outline.samples, rows);
         self.found.get_or(of.number, || {
             is_new = true;
             Stored { rows: area.y, first }
         });
         if is_new {
-            dispatch!(simd::level(), simd => self.scan(simd, of, (grid, &mut samples), area));
+            dispatch!(simd::level(), simd => self.scan(simd, of.outline, &mut samples, area));
         }
     }
 
-    /// The pixels that an outline may touch in some rows of pixels.
-    fn area(&self, of: &OutlineOf<'_>, grid: SubpixelGrid, rows: Span) -> PixelRect {
-        let side = grid.side();
+    /// The pixels that hold any of an outline's samples in some rows of pixels.
+    fn area(&self, samples: SpanRect, rows: Span) -> SpanRect {
+        let side = self.sweep.grid.side();
         let pixels = |span: Span| Span {
             start: span.start.div_euclid(side),
             end: (span.end - 1).div_euclid(side) + 1,
         };
-        PixelRect {
-            x: pixels(of.outline.samples.columns).intersection(self.columns),
-            y: pixels(of.outline.samples.rows).intersection(rows),
+        SpanRect {
+            x: pixels(samples.x).intersection(self.columns),
+            y: pixels(samples.y).intersection(rows),
         }
     }
 
@@ -147,14 +147,14 @@ impl FreePositionsPolygon {
     fn scan<S: Simd>(
         &mut self,
         simd: S,
-        of: OutlineOf<'_>,
-        (grid, samples): (SubpixelGrid, &mut PixelSamples<'_>),
-        area: PixelRect,
+        outline: OutlineWithEdges<'_>,
+        samples: &mut PixelSamples<'_>,
+        area: SpanRect,
     ) {
         for y in area.y.start..area.y.end {
             self.starts.push(self.runs.len());
-            self.sweep.gather((of.outline, of.edges), grid, area.x, y);
-            self.row(simd, of.outline.rule, (grid, samples), (area.x, y));
+            self.sweep.gather(outline, area.x, y);
+            self.row(simd, samples);
         }
         self.starts.push(self.runs.len());
     }
@@ -176,23 +176,20 @@ impl FreePositionsPolygon {
         }
     }
 
-    /// Adds the runs of row `y`, whose edges were gathered.
+    /// Adds the runs of the row whose edges were gathered.
     #[inline(always)]
-    fn row<S: Simd>(
-        &mut self,
-        simd: S,
-        rule: FillRule,
-        (grid, samples): (SubpixelGrid, &mut PixelSamples<'_>),
-        (columns, y): (Span, i32),
-    ) {
+    fn row<S: Simd>(&mut self, simd: S, samples: &mut PixelSamples<'_>) {
         let first_run = self.runs.len();
-        self.windings.begin(grid.side());
+        let Sweep {
+            grid, rule, y, columns, ..
+        } = self.sweep;
+        self.sweep.windings.begin(grid.side());
         let mut next = 0;
         let mut x = columns.start;
         while x < columns.end {
-            next = self.sweep.go_to(x, next, &mut self.windings);
+            next = self.sweep.go_to(x, next);
             if self.sweep.active.is_empty()
-                && let Some(winding) = self.windings.even()
+                && let Some(winding) = self.sweep.windings.even()
             {
                 let end = self
                     .sweep
@@ -207,15 +204,10 @@ impl FreePositionsPolygon {
             }
             let mask = match samples {
                 PixelSamples::Few(lanes) => {
-                    let bits = self
-                        .sweep
-                        .enclosed_bits(simd, (rule, &self.windings), (grid, [x, y]), lanes);
-                    SampleMask::of_bits(bits)
+                    lanes.go_to([x, y]);
+                    SampleMask::of_bits(self.sweep.enclosed_bits(simd, x, lanes))
                 }
-                PixelSamples::Many(places, memory) => {
-                    let places = places.of_pixel([x, y], memory);
-                    self.sweep.enclosed((rule, &self.windings), (grid, [x, y]), places)
-                }
+                PixelSamples::Many(places, memory) => self.sweep.enclosed(x, places.of_pixel([x, y], memory)),
             };
             let pixel = Span { start: x, end: x + 1 };
             if mask == self.all {
@@ -225,7 +217,9 @@ impl FreePositionsPolygon {
             }
             x += 1;
         }
-        self.windings.forget(self.sweep.edges.iter().map(|edge| edge.rows));
+        self.sweep
+            .windings
+            .forget(self.sweep.edges.iter().map(|edge| edge.rows));
     }
 
     #[inline]
@@ -244,9 +238,26 @@ impl FreePositionsPolygon {
 }
 
 impl Sweep {
+    fn new(grid: SubpixelGrid) -> Self {
+        Self {
+            grid,
+            rule: FillRule::NonZero,
+            y: 0,
+            columns: Span::EMPTY,
+            edges: Vec::new(),
+            active: Vec::new(),
+            sides: Vec::new(),
+            windings: RowWindings::default(),
+            around: Vec::new(),
+            rows: Vec::new(),
+        }
+    }
+
     /// Finds where the edges of an outline lie in row `y` of pixels, of which only `columns` count.
     #[inline(always)]
-    fn gather(&mut self, (outline, all): (&Outline, &[OutlineEdge]), grid: SubpixelGrid, columns: Span, y: i32) {
+    fn gather(&mut self, outline: OutlineWithEdges<'_>, columns: Span, y: i32) {
+        let grid = self.grid;
+        (self.rule, self.columns, self.y) = (outline.outline.rule, columns, y);
         self.edges.clear();
         self.active.clear();
         let (top, width) = (y * grid.side(), grid.units_per_pixel());
@@ -254,7 +265,7 @@ impl Sweep {
             start: top,
             end: top + grid.side(),
         };
-        for (edge, inside) in outline.edges_in(all, rows) {
+        for (edge, inside) in outline.edges_in(rows) {
             let line = Line::new(edge.top, edge.bottom);
             let at = |row| line.at(f64::from(grid.sample_coordinate(row)));
             let (first, last) = (at(inside.start), at(inside.end - 1));
@@ -276,14 +287,14 @@ impl Sweep {
     /// Finds the edges that may cross a pixel, where `next` is the first edge that none before it reached: those that lie left
     /// of it from now on wind around whole rows. The first edge that this pixel does not reach.
     #[inline(always)]
-    fn go_to(&mut self, x: i32, mut next: usize, windings: &mut RowWindings) -> usize {
+    fn go_to(&mut self, x: i32, mut next: usize) -> usize {
         while let Some(edge) = self.edges.get(next)
             && edge.from <= x
         {
             self.active.push(u32::try_from(next).unwrap_or(u32::MAX));
             next += 1;
         }
-        let edges = &self.edges;
+        let (edges, windings) = (&self.edges, &mut self.windings);
         self.active.retain(|number| {
             let edge = &edges[*number as usize];
             let is_here = edge.to >= x;
@@ -295,21 +306,24 @@ impl Sweep {
         next
     }
 
-    /// The samples of a pixel that are inside, as bits.
+    /// The first lattice point of the pixel in column `x`.
     #[inline(always)]
-    fn enclosed_bits<S: Simd>(
-        &mut self,
-        simd: S,
-        (rule, windings): (FillRule, &RowWindings),
-        (grid, pixel): (SubpixelGrid, [i32; 2]),
-        lanes: &mut SampleLanes,
-    ) -> u64 {
-        lanes.go_to(pixel);
-        let [x, y] = pixel.map(|pixel| grid.sample_coordinate(pixel * grid.side()));
+    fn first_point(&self, x: i32) -> GridPoint {
+        let first = |pixel: i32| self.grid.sample_coordinate(pixel * self.grid.side());
+        GridPoint {
+            x: first(x),
+            y: first(self.y),
+        }
+    }
+
+    /// The samples of the pixel in column `x` that are inside, as bits; `lanes` stand at it.
+    #[inline(always)]
+    fn enclosed_bits<S: Simd>(&mut self, simd: S, x: i32, lanes: &SampleLanes) -> u64 {
+        let (grid, rule, first) = (self.grid, self.rule, self.first_point(x));
         self.sides.clear();
         for number in &self.active {
             let edge = &self.edges[*number as usize];
-            let value = edge_value(edge.top, edge.bottom, GridPoint { x, y });
+            let value = edge_value(edge.top, edge.bottom, first);
             // What edges gain from sample to sample are multiples of their distance: divided by that, and rounded down, the
             // side does not change. Downwards, the right of the edge on the screen is where the edge function is negative.
             let left_of_sample = PixelEdge {
@@ -323,10 +337,10 @@ impl Sweep {
             }
             self.sides.push((bits, edge.winding));
         }
-        if let Some(winding) = windings.even() {
+        if let Some(winding) = self.windings.even() {
             return enclosed_of(rule, winding, lanes.all(), &self.sides);
         }
-        windings.of_rows(&mut self.rows);
+        self.windings.of_rows(&mut self.rows);
         let (mut rest, mut enclosed) = (lanes.all(), 0);
         while rest != 0 {
             // All samples in rows that are wound around alike.
@@ -344,25 +358,20 @@ impl Sweep {
         enclosed
     }
 
-    /// The samples of a pixel that are inside, one after the other.
-    fn enclosed(
-        &mut self,
-        (rule, windings): (FillRule, &RowWindings),
-        (grid, pixel): (SubpixelGrid, [i32; 2]),
-        places: &[Position],
-    ) -> SampleMask {
+    /// The samples of the pixel in column `x` that are inside, one after the other.
+    fn enclosed(&mut self, x: i32, places: &[Position]) -> SampleMask {
+        let (grid, first) = (self.grid, self.first_point(x));
         self.around.clear();
-        if let Some(winding) = windings.even() {
+        if let Some(winding) = self.windings.even() {
             self.around.resize(places.len(), winding);
         } else {
-            windings.of_rows(&mut self.rows);
+            self.windings.of_rows(&mut self.rows);
             let rows = places.iter().map(|place| self.rows[usize::from(place[1])]);
             self.around.extend(rows);
         }
-        let [x, y] = pixel.map(|pixel| grid.sample_coordinate(pixel * grid.side()));
         for number in &self.active {
             let edge = &self.edges[*number as usize];
-            let value = edge_value(edge.top, edge.bottom, GridPoint { x, y });
+            let value = edge_value(edge.top, edge.bottom, first);
             let [dx, dy] = [edge.bottom.x - edge.top.x, edge.bottom.y - edge.top.y];
             let [right, down] = [-i64::from(dy), i64::from(dx)].map(|step| step << grid.bits());
             // Downwards, the right of the edge on the screen is where the edge function is negative.
@@ -378,7 +387,7 @@ impl Sweep {
             }
         }
         let mut mask = SampleMask::default();
-        mask.set_each(places.len(), |sample| rule.encloses(self.around[sample]));
+        mask.set_each(places.len(), |sample| self.rule.encloses(self.around[sample]));
         mask
     }
 }

@@ -15,7 +15,7 @@ use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::coverage::edge_bounds::TileRows;
 use crate::raster::coverage::sample_lanes::{PixelEdge, SampleLanes};
 use crate::raster::sampling::positions::Position;
-use crate::raster::span::{PixelRect, SampleBox, Span};
+use crate::raster::span::{Span, SpanRect};
 use crate::rules::Rules;
 
 /// A triangle and the pixels of a tile that it may touch.
@@ -63,14 +63,14 @@ const INSIDE: i64 = i64::MAX / 2;
 
 impl TriangleScan {
     /// Prepares a triangle; `None` where it touches nothing of the tile `rect`.
-    pub(super) fn new(corners: [GridPoint; 3], rect: PixelRect, (grid, rules): (SubpixelGrid, Rules)) -> Option<Self> {
+    pub(super) fn new(corners: [GridPoint; 3], rect: SpanRect, grid: SubpixelGrid, rules: Rules) -> Option<Self> {
         let area = doubled_area(corners);
         if area == 0 {
             return None;
         }
         let side = grid.side();
-        let samples = SampleBox::new(corners, grid, rules);
-        if samples.columns.is_empty() || samples.rows.is_empty() {
+        let samples = SpanRect::of_samples(corners, grid, rules);
+        if samples.is_empty() {
             return None;
         }
         let pixels = |span: Span, within: Span| {
@@ -80,20 +80,20 @@ impl TriangleScan {
             }
             .intersection(within)
         };
-        let (columns, rows) = (pixels(samples.columns, rect.x), pixels(samples.rows, rect.y));
+        let (columns, rows) = (pixels(samples.x, rect.x), pixels(samples.y, rect.y));
         if columns.is_empty() || rows.is_empty() {
             return None;
         }
         let first = grid.sample_coordinate(0);
         let first = GridPoint { x: first, y: first };
-        let edges = SampleEdge::of_triangle((corners, area), first, (grid, rules));
+        let edges = SampleEdge::of_triangle(corners, area, first, grid, rules);
         Some(Self {
             grid,
             edges: edges.map(|edge| LatticeEdge::new(edge, side)),
             lines: (columns.end - columns.start > 2).then(|| TileRows::new(corners)),
             columns,
             rows,
-            sample_rows: samples.rows,
+            sample_rows: samples.y,
         })
     }
 

@@ -5,7 +5,7 @@
 
 use crate::geometry::edge::{SampleEdge, doubled_area};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-use crate::raster::span::{SMALL, SampleBox, Span};
+use crate::raster::span::{SMALL, Span, SpanRect};
 use crate::rules::Rules;
 
 /// The samples that a small triangle covers, or any other few samples or pixels.
@@ -32,10 +32,10 @@ struct SmallEdge {
 impl CoverageMask {
     /// What a triangle covers whose box is `samples`, which must be small.
     #[inline]
-    pub(crate) fn new(corners: [GridPoint; 3], samples: SampleBox, grid: SubpixelGrid, rules: Rules) -> Self {
-        let (column, row) = (samples.columns.start, samples.rows.start);
+    pub(crate) fn new(corners: [GridPoint; 3], samples: SpanRect, grid: SubpixelGrid, rules: Rules) -> Self {
+        let (column, row) = (samples.x.start, samples.y.start);
         let mut coverage = Self { column, row, mask: 0 };
-        if samples.columns.is_empty() || samples.rows.is_empty() {
+        if samples.is_empty() {
             return coverage;
         }
         let area = doubled_area(corners);
@@ -46,9 +46,9 @@ impl CoverageMask {
             x: grid.sample_coordinate(column),
             y: grid.sample_coordinate(row),
         };
-        let edges = SampleEdge::of_triangle((corners, area), first, (grid, rules)).map(SmallEdge::new);
-        let wide = samples.columns.end - column > 4;
-        for j in 0..samples.rows.end - row {
+        let edges = SampleEdge::of_triangle(corners, area, first, grid, rules).map(SmallEdge::new);
+        let wide = samples.x.end - column > 4;
+        for j in 0..samples.y.end - row {
             let mut bits = group_of_four(&edges, 0, j);
             if wide {
                 bits |= group_of_four(&edges, 4, j) << 4;
@@ -175,7 +175,7 @@ mod tests {
 
     /// The coverage of a triangle whose box holds at most [`SMALL`] columns and rows of samples; `None` for a larger one.
     fn coverage_mask(corners: [GridPoint; 3], grid: SubpixelGrid, rules: Rules) -> Option<CoverageMask> {
-        let samples = SampleBox::new(corners, grid, rules);
+        let samples = SpanRect::of_samples(corners, grid, rules);
         samples
             .is_small()
             .then(|| CoverageMask::new(corners, samples, grid, rules))

@@ -14,7 +14,7 @@ use glam::DVec2;
 
 use crate::geometry::subpixel::{GUARD, SubpixelGrid};
 use crate::raster::coverage::mask8x8::CoverageMask;
-use crate::raster::span::SampleBox;
+use crate::raster::span::SpanRect;
 use crate::rules::Rules;
 use crate::simd;
 
@@ -104,7 +104,7 @@ impl TriangleBatch {
     }
 
     /// What the triangles cover of a frame of these samples.
-    pub(crate) fn coverage(&self, frame: SampleBox, grid: SubpixelGrid, rules: Rules) -> BatchCoverage {
+    pub(crate) fn coverage(&self, frame: SpanRect, grid: SubpixelGrid, rules: Rules) -> BatchCoverage {
         let lattice = Lattice::new(frame, grid, rules);
         dispatch!(simd::level(), simd => coverage(simd, self, &lattice))
     }
@@ -133,7 +133,7 @@ impl BatchCoverage {
 }
 
 impl Lattice {
-    fn new(frame: SampleBox, grid: SubpixelGrid, rules: Rules) -> Self {
+    fn new(frame: SpanRect, grid: SubpixelGrid, rules: Rules) -> Self {
         let distance = f64::from(1 << grid.bits());
         let (tie, beyond) = match rules {
             Rules::Standard | Rules::Float => (1.0, 0.0),
@@ -145,7 +145,7 @@ impl Lattice {
             inverse: 1.0 / distance,
             tie,
             beyond,
-            ends: [frame.columns.end, frame.rows.end].map(f64::from),
+            ends: [frame.x.end, frame.y.end].map(f64::from),
         }
     }
 }
@@ -304,7 +304,7 @@ mod tests {
                 start: 0,
                 end: end * grid.side(),
             });
-            let frame = SampleBox { columns, rows };
+            let frame = SpanRect { x: columns, y: rows };
             let mut batch = TriangleBatch::default();
             for lane in 0..LANES {
                 batch.set(lane, triangle(u, size, grid)?);
@@ -321,7 +321,7 @@ mod tests {
                     known += 1;
                     covered += u32::from(found.mask != 0);
                     let corners = points.map(|point| grid.snap(point));
-                    let samples = SampleBox::new(corners, grid, rules);
+                    let samples = SpanRect::of_samples(corners, grid, rules);
                     assert!(
                         samples.is_small() && samples.intersection(frame) == samples,
                         "{points:?} fits"

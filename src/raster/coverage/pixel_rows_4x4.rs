@@ -9,7 +9,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, i8x16, i8x64, i32x4, mask32x4, u32x4, u64x2};
 
 use crate::raster::coverage::span_rows::{Batch, SpanRows};
-use crate::raster::span::{PixelRect, Span, to_index};
+use crate::raster::span::{Span, SpanRect, to_index};
 use crate::raster::surface_id::{GROUP, LAST_GROUP};
 
 /// Samples along one side of a pixel.
@@ -79,7 +79,7 @@ pub(crate) enum Ends {
 pub(in crate::raster) fn each_row<S: Simd>(
     simd: S,
     rows: &mut impl SpanRows,
-    rect: PixelRect,
+    rect: SpanRect,
     mut paint: impl FnMut(&TileRow<'_>),
 ) {
     let (mut lines, mut ys) = ([Span::EMPTY; BATCH * ROWS], [0; BATCH]);
@@ -91,7 +91,7 @@ pub(in crate::raster) fn each_row<S: Simd>(
         });
         let fours = &lines.as_chunks().0[..count.next_multiple_of(2)];
         let y = |i: usize| to_index(ys[i % BATCH] - rect.y.start);
-        each(simd, (fours, rect.x), y, &mut paint);
+        each(simd, fours, rect.x, y, &mut paint);
         if count < BATCH {
             return;
         }
@@ -105,7 +105,8 @@ pub(in crate::raster) fn each_row<S: Simd>(
 #[expect(clippy::inline_always, reason = "a few instructions for every row of pixels")]
 fn each<S: Simd>(
     simd: S,
-    (fours, columns): (&[Four], Span),
+    fours: &[Four],
+    columns: Span,
     y_of: impl Fn(usize) -> usize,
     paint: &mut impl FnMut(&TileRow<'_>),
 ) {
@@ -179,7 +180,8 @@ impl TileRow<'_> {
 pub(crate) fn each_window<S: Simd>(
     simd: S,
     row: &TileRow<'_>,
-    (xs, ends): (Range<usize>, Ends),
+    xs: Range<usize>,
+    ends: Ends,
     mut visit: impl FnMut(Window),
 ) {
     let [a, b, c, d] = row.spans;
@@ -253,7 +255,7 @@ mod tests {
     /// The masks of the pixels of two rows, as the windows say.
     fn masks<S: Simd>(simd: S, fours: &[Four; 2], columns: Span) -> [[u64; ROW]; 2] {
         let mut found = [[0; ROW]; 2];
-        each(simd, (fours, columns), |i| i, &mut |row: &TileRow<'_>| {
+        each(simd, fours, columns, |i| i, &mut |row: &TileRow<'_>| {
             assert_eq!(row.spans, &fours[row.y], "its spans");
             let mut times = [0; ROW];
             let mut add = |window: Window, partial: bool| {
@@ -269,13 +271,13 @@ mod tests {
                 }
             };
             if row.full.is_empty() {
-                each_window(simd, row, (row.touched.clone(), Ends::Both), |window| {
+                each_window(simd, row, row.touched.clone(), Ends::Both, |window| {
                     add(window, false);
                 });
             } else {
                 let (before, after) = row.beside_full();
-                each_window(simd, row, (before, Ends::Left), |window| add(window, true));
-                each_window(simd, row, (after, Ends::Right), |window| add(window, true));
+                each_window(simd, row, before, Ends::Left, |window| add(window, true));
+                each_window(simd, row, after, Ends::Right, |window| add(window, true));
                 for x in row.full.clone() {
                     times[x] += 1;
                     found[row.y][x] = 0xFFFF;

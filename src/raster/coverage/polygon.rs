@@ -12,7 +12,7 @@ use glam::DVec2;
 use crate::geometry::FillRule;
 use crate::geometry::clip::{clip_edge, in_guard};
 use crate::geometry::subpixel::{GUARD, GridPoint, SubpixelGrid};
-use crate::raster::span::{SampleBox, Span};
+use crate::raster::span::{Span, SpanRect};
 
 /// A polygon in a chunk.
 #[derive(Clone, Debug)]
@@ -20,10 +20,17 @@ pub(crate) struct Outline {
     /// Its edges among those of the chunk, by their first rows.
     pub(in crate::raster) edges: Range<usize>,
     /// The box of its samples, in the frame; never empty.
-    pub(crate) samples: SampleBox,
+    pub(crate) samples: SpanRect,
     pub(crate) rule: FillRule,
     /// The most rows that an edge crosses.
     tallest: i32,
+}
+
+/// An outline and the edges of its chunk, into which it points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OutlineWithEdges<'c> {
+    pub(crate) outline: &'c Outline,
+    pub(crate) edges: &'c [OutlineEdge],
 }
 
 /// An edge of a polygon that crosses any sample row of the frame.
@@ -41,7 +48,7 @@ pub(crate) struct OutlineEdge {
 #[derive(Debug)]
 pub(crate) struct OutlineBuilder<'a> {
     grid: SubpixelGrid,
-    frame: SampleBox,
+    frame: SpanRect,
     edges: &'a mut Vec<OutlineEdge>,
     start: usize,
     low: GridPoint,
@@ -52,7 +59,7 @@ pub(crate) struct OutlineBuilder<'a> {
 
 impl<'a> OutlineBuilder<'a> {
     /// Adds edges that touch the samples of `frame` to `edges`.
-    pub(crate) fn new(grid: SubpixelGrid, frame: SampleBox, edges: &'a mut Vec<OutlineEdge>) -> Self {
+    pub(crate) fn new(grid: SubpixelGrid, frame: SpanRect, edges: &'a mut Vec<OutlineEdge>) -> Self {
         let everywhere = |at: i32| GridPoint { x: at, y: at };
         Self {
             grid,
@@ -117,9 +124,9 @@ impl<'a> OutlineBuilder<'a> {
             start: self.grid.sample_at_or_after(top.y),
             end: self.grid.sample_at_or_after(bottom.y),
         };
-        let rows = rows.intersection(self.frame.rows);
+        let rows = rows.intersection(self.frame.y);
         // What crosses right of the frame winds around nothing in it.
-        if rows.is_empty() || self.grid.sample_at_or_after(from.x.min(to.x)) >= self.frame.columns.end {
+        if rows.is_empty() || self.grid.sample_at_or_after(from.x.min(to.x)) >= self.frame.x.end {
             return;
         }
         self.edges.push(OutlineEdge {
@@ -140,12 +147,12 @@ impl<'a> OutlineBuilder<'a> {
         if edges.is_empty() {
             return None;
         }
-        let samples = SampleBox {
-            columns: span(self.low.x, self.high.x),
-            rows: span(self.low.y, self.high.y),
+        let samples = SpanRect {
+            x: span(self.low.x, self.high.x),
+            y: span(self.low.y, self.high.y),
         }
         .intersection(self.frame);
-        if !self.finite || samples.columns.is_empty() || samples.rows.is_empty() {
+        if !self.finite || samples.is_empty() {
             self.edges.truncate(self.start);
             return None;
         }
@@ -178,7 +185,21 @@ impl Corner {
     }
 }
 
+impl<'c> OutlineWithEdges<'c> {
+    /// The edges that may cross any of `rows`, each with those of them that it crosses.
+    #[inline]
+    pub(crate) fn edges_in(self, rows: Span) -> impl Iterator<Item = (&'c OutlineEdge, Span)> + Clone + use<'c> {
+        self.outline.edges_in(self.edges, rows)
+    }
+}
+
 impl Outline {
+    /// The outline with the edges of its chunk.
+    #[inline]
+    pub(crate) fn with_edges<'c>(&'c self, edges: &'c [OutlineEdge]) -> OutlineWithEdges<'c> {
+        OutlineWithEdges { outline: self, edges }
+    }
+
     /// The edges that may cross any of `rows`; `all` are those of the chunk.
     #[inline]
     pub(crate) fn edges_in<'c>(

@@ -4,9 +4,9 @@ use crate::geometry::FillRule;
 use crate::geometry::edge::EdgeWalker;
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::coverage::mask8x8::CoverageMask;
-use crate::raster::coverage::polygon::{Outline, OutlineEdge};
+use crate::raster::coverage::polygon::{OutlineEdge, OutlineWithEdges};
 use crate::raster::coverage::simple_polygon_rows::{Crossings, SimplePolygonRows};
-use crate::raster::span::{SMALL, SampleBox, Span, to_index};
+use crate::raster::span::{SMALL, Span, SpanRect, to_index};
 
 /// Most crossings of edges and rows that are held at once, where a row has no more: 16 MB.
 const MAX_CROSSINGS: usize = 1 << 22;
@@ -51,21 +51,21 @@ pub(crate) struct Stored {
     single: bool,
 }
 
-impl Outline {
+impl OutlineWithEdges<'_> {
     /// What an outline of a few samples covers, if those of each row lie side by side; `None` for any other.
     pub(crate) fn coverage_mask(
-        &self,
-        all: &[OutlineEdge],
+        self,
         grid: SubpixelGrid,
-        scanner: &mut (RowScanner, SpanStore),
+        scanner: &mut RowScanner,
+        store: &mut SpanStore,
     ) -> Option<CoverageMask> {
-        if !self.samples.is_small() {
+        let samples = self.outline.samples;
+        if !samples.is_small() {
             return None;
         }
-        let (scanner, store) = scanner;
         store.clear();
-        let SampleBox { columns, rows } = self.samples;
-        let stored = scanner.scan(self, (all, grid), (rows, columns.end), store);
+        let SpanRect { x: columns, y: rows } = samples;
+        let stored = scanner.scan(self, grid, samples, store);
         let found = store.get(stored);
         if !found.single {
             return None;
@@ -89,16 +89,17 @@ impl Outline {
 }
 
 impl RowScanner {
-    /// Finds the samples that an outline encloses in those of `rows` that its box has, left of the frame's end at column
-    /// `end`; `all` are the edges of its chunk.
+    /// Finds the samples that an outline encloses in those rows of `within` that its box has, from the frame's left side to
+    /// the end of the columns of `within`.
     pub(crate) fn scan(
         &mut self,
-        outline: &Outline,
-        (all, grid): (&[OutlineEdge], SubpixelGrid),
-        (rows, end): (Span, i32),
+        outline: OutlineWithEdges<'_>,
+        grid: SubpixelGrid,
+        within: SpanRect,
         store: &mut SpanStore,
     ) -> Stored {
-        let rows = rows.intersection(outline.samples.rows);
+        let OutlineWithEdges { outline, edges: all } = outline;
+        let (rows, end) = (within.y.intersection(outline.samples.y), within.x.end);
         let (span, first) = (store.spans.len(), store.starts.len());
         let mut single = true;
         // All rows at once, unless so many edges might cross them that their crossings take too much memory.
@@ -113,7 +114,8 @@ impl RowScanner {
             let edges = outline.edges_in(all, some);
             self.numbers.count(edges.clone(), some);
             if some == rows && self.numbers.are_plain() {
-                self.plain.scan(edges, grid, (rows, end), &mut store.spans);
+                self.plain
+                    .scan(edges, grid, SpanRect { y: rows, ..within }, &mut store.spans);
                 break;
             }
             self.sort_crossings(edges, grid, some, end);
@@ -304,9 +306,9 @@ mod tests {
         arbtest::arbtest(|u| {
             let grid = SubpixelGrid::new(u.int_in_range(1..=4)?);
             let extent = |end| Span { start: 0, end };
-            let frame = SampleBox {
-                columns: extent(40),
-                rows: extent(60),
+            let frame = SpanRect {
+                x: extent(40),
+                y: extent(60),
             };
             let mut edges = Vec::new();
             let mut builder = OutlineBuilder::new(grid, frame, &mut edges);
@@ -329,21 +331,22 @@ mod tests {
                 start,
                 end: u.int_in_range(start + 1..=60)?,
             }
-            .intersection(outline.samples.rows);
+            .intersection(outline.samples.y);
             if rows.is_empty() {
                 return Ok(());
             }
             let (mut scanner, mut store) = (RowScanner::default(), SpanStore::default());
-            let end = frame.columns.end;
-            let found = scanner.scan(&outline, (&edges, grid), (rows, end), &mut store);
-            scanner.numbers.count(outline.edges_in(&edges, rows), rows);
+            let end = frame.x.end;
+            let outline = outline.with_edges(&edges);
+            let found = scanner.scan(outline, grid, SpanRect { y: rows, ..frame }, &mut store);
+            scanner.numbers.count(outline.edges_in(rows), rows);
             if scanner.numbers.are_plain() {
                 plain += 1;
             } else {
                 sorted += 1;
             }
             let mut oracle = SpanStore::default();
-            scanner.sort_crossings(outline.edges_in(&edges, rows), grid, rows, end);
+            scanner.sort_crossings(outline.edges_in(rows), grid, rows, end);
             let single = scanner.spans_of_rows(rule, end, &mut oracle);
             oracle.starts.push(index(oracle.spans.len()));
             assert_eq!(found.single, single, "whether rows have one span: {edges:?}");

@@ -3,7 +3,7 @@
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
-use crate::raster::coverage::polygon::{Outline, OutlineEdge};
+use crate::raster::coverage::polygon::OutlineWithEdges;
 
 /// Spans of outlines that are remembered at most, about 8 MB.
 pub(in crate::raster) const MAX_SPANS: usize = 1 << 20;
@@ -20,17 +20,15 @@ pub(crate) enum Shape<'c> {
     /// The corners of a triangle.
     Triangle(&'c [GridPoint; 3]),
     /// A polygon.
-    Outline(OutlineOf<'c>),
+    Outline(NumberedOutline<'c>),
     /// A triangle by the rules of first drafts.
     Float(&'c FloatShape),
 }
 
-/// An outline and what it needs to be looked at.
+/// An outline and how it is remembered.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct OutlineOf<'c> {
-    pub(crate) outline: &'c Outline,
-    /// The edges that it points into.
-    pub(crate) edges: &'c [OutlineEdge],
+pub(crate) struct NumberedOutline<'c> {
+    pub(crate) outline: OutlineWithEdges<'c>,
     /// Its number among all outlines of the drawing.
     pub(crate) number: usize,
 }

@@ -10,16 +10,17 @@ use crate::raster::coverage::outline_cache::OutlineCache;
 use crate::raster::coverage::pixel_rows::each_covered;
 use crate::raster::coverage::pixel_rows_4x4::{SIDE, TileRow, each_row};
 use crate::raster::coverage::polygon_rows::{RowScanner, RowSpans, SpanStore, Stored};
-use crate::raster::coverage::shape::{MAX_SPANS, OutlineOf, Shape};
+use crate::raster::coverage::shape::{MAX_SPANS, NumberedOutline, Shape};
 use crate::raster::coverage::span_rows::{MAX_SIDE, MaskRows, StoredRows, TriangleRows};
-use crate::raster::span::{PixelRect, Span, scaled};
+use crate::raster::span::{Span, SpanRect, scaled};
 use crate::rules::Rules;
 
 /// Remembers the spans of outlines in the tile row at work.
 #[derive(Debug)]
 pub(crate) struct ShapeCoverage {
-    /// By whose rules triangles cover samples.
-    settings: (SubpixelGrid, Rules),
+    grid: SubpixelGrid,
+    /// By which triangles cover samples.
+    rules: Rules,
     /// Columns of samples in the frame.
     columns: i32,
     found: OutlineCache<Stored>,
@@ -33,9 +34,10 @@ pub(crate) struct ShapeCoverage {
 
 impl ShapeCoverage {
     /// For a drawing of `outlines` outlines in a frame with `columns` columns of samples, which are those of the grid.
-    pub(crate) fn new(settings: (SubpixelGrid, Rules), columns: i32, outlines: usize) -> Self {
+    pub(crate) fn new(grid: SubpixelGrid, rules: Rules, columns: i32, outlines: usize) -> Self {
         Self {
-            settings,
+            grid,
+            rules,
             columns,
             found: OutlineCache::new(outlines),
             scanner: RowScanner::default(),
@@ -56,8 +58,8 @@ impl ShapeCoverage {
     /// Calls `visit` with what the shape covers in the tile `rect`, from top to bottom, each time with the row of pixels: each
     /// sample once, and a pixel as often as a sample row has spans in it.
     #[inline]
-    pub(crate) fn each(&mut self, shape: Shape<'_>, rect: PixelRect, mut visit: impl FnMut(i32, Covered)) {
-        let side = self.settings.0.side();
+    pub(crate) fn each(&mut self, shape: Shape<'_>, rect: SpanRect, mut visit: impl FnMut(i32, Covered)) {
+        let side = self.grid.side();
         match shape {
             Shape::Tile => (rect.y.start..rect.y.end).for_each(|y| visit(y, Covered::Whole(rect.x))),
             Shape::Pixels(pixels) => pixels
@@ -68,7 +70,7 @@ impl ShapeCoverage {
                 each_covered(&mut MaskRows::new(samples), side, rect.x, visit);
             }
             _ if let Some(free_positions) = &mut self.free_positions => free_positions.each(shape, rect, visit),
-            Shape::Triangle(corners) => TriangleRows::of(*corners, self.settings, rect, |rows| {
+            Shape::Triangle(corners) => TriangleRows::of(*corners, self.grid, self.rules, rect, |rows| {
                 each_covered(rows, side, rect.x, visit);
             }),
             Shape::Outline(_) | Shape::Float(_) => {
@@ -85,14 +87,16 @@ impl ShapeCoverage {
     pub(crate) fn each_row_of_four<S: Simd>(
         &mut self,
         simd: S,
-        (shape, rect): (Shape<'_>, PixelRect),
+        shape: Shape<'_>,
+        rect: SpanRect,
         paint: impl FnMut(&TileRow<'_>),
     ) {
-        debug_assert_eq!(self.settings.0.side(), SIDE, "4 x 4 samples");
+        debug_assert_eq!(self.grid.side(), SIDE, "4 x 4 samples");
         if let Shape::Triangle(corners) = shape {
             return TriangleRows::of(
                 *corners,
-                self.settings,
+                self.grid,
+                self.rules,
                 rect,
                 #[inline(always)]
                 |rows| each_row(simd, rows, rect, paint),
@@ -104,7 +108,7 @@ impl ShapeCoverage {
 
     /// The spans of an outline, or of a triangle by the rules of first drafts.
     #[inline]
-    fn stored(&mut self, shape: Shape<'_>, rect: PixelRect) -> RowSpans<'_> {
+    fn stored(&mut self, shape: Shape<'_>, rect: SpanRect) -> RowSpans<'_> {
         match shape {
             Shape::Outline(outline) => self.of_outline(outline, rect.y),
             Shape::Float(float) => self.of_float(float, rect),
@@ -113,23 +117,28 @@ impl ShapeCoverage {
     }
 
     /// The spans in one tile.
-    fn of_float(&mut self, float: &FloatShape, rect: PixelRect) -> RowSpans<'_> {
-        let grid = self.settings.0;
+    fn of_float(&mut self, float: &FloatShape, rect: SpanRect) -> RowSpans<'_> {
+        let grid = self.grid;
         let (columns, rows) = (scaled(rect.x, grid.side()), scaled(rect.y, grid.side()));
-        let rows = rows.intersection(float.samples.rows);
+        let rows = rows.intersection(float.samples.y);
         self.single.clear();
         let stored = self.single.put_single(rows, |row| float.span(grid, row, columns));
         self.single.get(stored)
     }
 
-    fn of_outline(&mut self, of: OutlineOf<'_>, rows: Span) -> RowSpans<'_> {
+    fn of_outline(&mut self, of: NumberedOutline<'_>, rows: Span) -> RowSpans<'_> {
         if self.found.go_to(rows, self.store.len() > MAX_SPANS) {
             self.store.clear();
         }
         let stored = self.found.get_or(of.number, || {
-            let grid = self.settings.0;
-            let rows = (scaled(rows, grid.side()), self.columns);
-            self.scanner.scan(of.outline, (of.edges, grid), rows, &mut self.store)
+            let within = SpanRect {
+                x: Span {
+                    start: 0,
+                    end: self.columns,
+                },
+                y: scaled(rows, self.grid.side()),
+            };
+            self.scanner.scan(of.outline, self.grid, within, &mut self.store)
         });
         self.store.get(stored)
     }
@@ -147,12 +156,12 @@ mod tests {
     use crate::raster::coverage::mask8x8::CoverageMask;
     use crate::raster::coverage::polygon::OutlineBuilder;
     use crate::raster::sampling::positions::{Position, SamplePositions, lattice};
-    use crate::raster::span::{SampleBox, to_index};
+    use crate::raster::span::to_index;
     use crate::raster::{SamplePattern, SampleRate};
 
     /// Pixels of the frame, and the tile that is looked at.
     const FRAME: [i32; 2] = [14, 11];
-    const RECT: PixelRect = PixelRect {
+    const RECT: SpanRect = SpanRect {
         x: Span { start: 2, end: 11 },
         y: Span { start: 1, end: 10 },
     };
@@ -190,7 +199,7 @@ mod tests {
         rules: Rules,
         positions: SamplePositions,
         rows: ShapeCoverage,
-        frame: SampleBox,
+        frame: SpanRect,
         /// A contour, and the same on the grid.
         points: Vec<DVec2>,
         snapped: Vec<GridPoint>,
@@ -207,15 +216,15 @@ mod tests {
             let rate = SampleRate::new(*u.choose(rates)?).expect("a rate");
             let (grid, rules) = (lattice(pattern, rate), *u.choose(&Rules::ALL)?);
             let pixels = |end: i32| Span { start: 0, end };
-            let frame = SampleBox {
-                columns: scaled(pixels(FRAME[0]), grid.side()),
-                rows: scaled(pixels(FRAME[1]), grid.side()),
+            let frame = SpanRect {
+                x: scaled(pixels(FRAME[0]), grid.side()),
+                y: scaled(pixels(FRAME[1]), grid.side()),
             };
             let positions = SamplePositions::new(pattern, rate, crate::raster::Seed::default());
-            let mut rows = ShapeCoverage::new((grid, rules), frame.columns.end, 1);
+            let mut rows = ShapeCoverage::new(grid, rules, frame.x.end, 1);
             if pattern != SamplePattern::Grid {
                 let places = positions.clone();
-                rows = rows.with(FreePositions::new((grid, rules), places, 1, pixels(FRAME[0])));
+                rows = rows.with(FreePositions::new(grid, rules, places, 1, pixels(FRAME[0])));
             }
             let points = contour(u, corners, grid)?;
             let snapped = points.iter().map(|point| grid.snap(*point)).collect();
@@ -248,9 +257,8 @@ mod tests {
             let mut builder = OutlineBuilder::new(self.grid, self.frame, &mut edges);
             builder.contour(self.points.iter().copied());
             if let Some(outline) = builder.finish(rule) {
-                let of = OutlineOf {
-                    outline: &outline,
-                    edges: &edges,
+                let of = NumberedOutline {
+                    outline: outline.with_edges(&edges),
                     number: 0,
                 };
                 self.check(Shape::Outline(of), |drawing, at| {
@@ -261,7 +269,7 @@ mod tests {
 
         fn float(&mut self) {
             let points = [self.points[0], self.points[1], self.points[2]];
-            if let Some(float) = FloatShape::new(points, self.grid, (self.frame, 0)) {
+            if let Some(float) = FloatShape::new(points, self.grid, self.frame, 0) {
                 self.check(Shape::Float(&float), |drawing, at| float.covers(drawing.grid, at));
             }
         }

@@ -7,7 +7,7 @@ use fearless_simd::{Simd, dispatch};
 use crate::geometry::edge::EdgeWalker;
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::coverage::polygon::OutlineEdge;
-use crate::raster::span::{Span, to_index};
+use crate::raster::span::{Span, SpanRect, to_index};
 use crate::simd;
 
 /// Looks at outlines, reusing its memory.
@@ -64,15 +64,16 @@ impl Crossings {
 }
 
 impl SimplePolygonRows {
-    /// Adds the span of each of `rows` to `spans`, left of the frame's end at column `end`; the rows' crossings must be
-    /// [plain](Crossings::are_plain). `edges` come with those of the rows that they cross.
+    /// Adds the span of each row of `within` to `spans`, from the frame's left side to the end of its columns; the rows'
+    /// crossings must be [plain](Crossings::are_plain). `edges` come with those of the rows that they cross.
     pub(in crate::raster) fn scan<'c>(
         &mut self,
         edges: impl Iterator<Item = (&'c OutlineEdge, Span)>,
         grid: SubpixelGrid,
-        (rows, end): (Span, i32),
+        within: SpanRect,
         spans: &mut Vec<Span>,
     ) {
+        let (rows, end) = (within.y, within.x.end);
         let count = to_index(rows.end - rows.start);
         self.least.clear();
         self.least.resize(count, Span::EMPTY.start);

@@ -16,7 +16,7 @@ use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon_rows::RowSpans;
 use crate::raster::coverage::triangle::{RowWalker, SortedTriangle};
 use crate::raster::sampling::rate::SampleRate;
-use crate::raster::span::{PixelRect, Span, scaled, to_index};
+use crate::raster::span::{Span, SpanRect, scaled, to_index};
 use crate::rules::Rules;
 
 /// Most samples along one side of a pixel.
@@ -79,8 +79,9 @@ impl TriangleRows {
     #[expect(clippy::inline_always, reason = "a few instructions for every triangle")]
     pub(in crate::raster) fn of(
         corners: [GridPoint; 3],
-        (grid, rules): (SubpixelGrid, Rules),
-        rect: PixelRect,
+        grid: SubpixelGrid,
+        rules: Rules,
+        rect: SpanRect,
         each: impl FnOnce(&mut Self),
     ) {
         if let Some(sorted) = SortedTriangle::new(corners, rules) {
@@ -104,7 +105,7 @@ impl MaskRows {
 impl<'a, const SIDE: usize> StoredRows<'a, SIDE> {
     /// Those in the tile `rect`.
     #[inline]
-    pub(in crate::raster) fn new(spans: RowSpans<'a>, side: i32, rect: PixelRect) -> Self {
+    pub(in crate::raster) fn new(spans: RowSpans<'a>, side: i32, rect: SpanRect) -> Self {
         Self {
             spans,
             rows: spans.rows.intersection(scaled(rect.y, side)),

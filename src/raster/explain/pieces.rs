@@ -109,7 +109,7 @@ impl DisplayList<'_> {
                 let triangle = &chunk.triangles[index as usize];
                 let float = chunk.floats.get(index as usize);
                 let paint = &chunk.paints[triangle.paint as usize].paint;
-                Some(seen.triangle((triangle, float), paint, weights))
+                Some(seen.triangle(triangle, float, paint, weights))
             }
             DrawCommand::Outline(index) => Some(seen.outline(chunk, index)),
             DrawCommand::Hairline(_) | DrawCommand::Pixels(_) | DrawCommand::Samples(_) => Some(PieceShape::Pixels),
@@ -171,7 +171,8 @@ impl SeenFrom<'_> {
 
     fn triangle(
         &self,
-        (triangle, float): (&ScreenTriangle, Option<&FloatShape>),
+        triangle: &ScreenTriangle,
+        float: Option<&FloatShape>,
         paint: &Paint,
         weights: Option<&Paint>,
     ) -> PieceShape {
@@ -209,7 +210,7 @@ impl SeenFrom<'_> {
 
     fn outline(&self, chunk: &Chunk, index: u32) -> PieceShape {
         let grid = self.grid();
-        let outline = &chunk.outlines[index as usize];
+        let outline = chunk.outline(index).outline;
         let shader = Shader::new(&self.context, &NO_CORNERS, &chunk.outline_paint(index).paint);
         let winding = |sample: ShadedSample| {
             let [column, row] = sample.in_frame();
@@ -218,14 +219,14 @@ impl SeenFrom<'_> {
                 end: row + 1,
             };
             outline
-                .edges_in(&chunk.outline_edges, rows)
+                .edges_in(rows)
                 .filter(|(edge, _)| EdgeWalker::new(grid, edge.top, edge.bottom, row).at_or_after() <= column)
                 // What runs up on the left of a point goes around it clockwise.
                 .map(|(edge, _)| -edge.winding)
                 .sum()
         };
         PieceShape::Outline {
-            rule: outline.rule,
+            rule: outline.outline.rule,
             windings: self.samples().map(winding).collect(),
             attributes: self.samples().map(|sample| shader.interpolated(sample)).collect(),
         }

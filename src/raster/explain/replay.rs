@@ -18,7 +18,7 @@ use crate::raster::list::context::ListContext;
 use crate::raster::paint::method::Method;
 use crate::raster::paint::recorder::{PaintedCommand, PaintedKind};
 use crate::raster::sampling::positions::Position;
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::span::{Span, SpanRect};
 use crate::raster::stats::SharedTally;
 use crate::raster::tile_layout::TileLayout;
 use crate::raster::tiles::Painters;
@@ -151,7 +151,7 @@ impl DisplayList<'_> {
             .collect();
         painters
             .per_sample
-            .replay(&chunks, (at, self.background()), &mut painters.shape_coverage)
+            .replay(&chunks, at, self.background(), &mut painters.shape_coverage)
     }
 
     /// Paints pixel `(x, y)` again; `None` outside the frame.
@@ -165,7 +165,7 @@ impl DisplayList<'_> {
         let (painted, samples) = self.own_samples(at, &bins, &mut painters);
         let positions = self.positions(at);
         if !self.settings.filter.is_plain() {
-            return Some(self.replay_around([x, y], painted, (positions, samples)));
+            return Some(self.replay_around([x, y], painted, positions, samples));
         }
         let cancelled = AtomicBool::new(false);
         let pass = Pass {
@@ -202,7 +202,8 @@ impl DisplayList<'_> {
         &self,
         pixel: [u32; 2],
         painted: Vec<PaintedCommand>,
-        (positions, samples): (Vec<[f64; 2]>, Vec<(Premultiplied16, usize)>),
+        positions: Vec<[f64; 2]>,
+        samples: Vec<(Premultiplied16, usize)>,
     ) -> PixelReplay {
         let mut resolved = [0];
         let painters = self.paint_alone(pixel, |painters, pass, rect| {
@@ -259,7 +260,7 @@ impl DisplayList<'_> {
     fn paint_alone<'s>(
         &'s self,
         [x, y]: [u32; 2],
-        paint: impl FnOnce(&mut Painters<'s>, &Pass<'_>, PixelRect),
+        paint: impl FnOnce(&mut Painters<'s>, &Pass<'_>, SpanRect),
     ) -> Painters<'s> {
         let at = [x, y].map(u32::cast_signed);
         let cancelled = AtomicBool::new(false);
@@ -279,7 +280,7 @@ impl DisplayList<'_> {
     }
 
     /// Paints a pixel of the frame as a tile of its own, the first of the pass.
-    fn alone<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, rect: PixelRect) -> u32 {
+    fn alone<'s>(&'s self, pass: &Pass<'_>, painters: &mut Painters<'s>, rect: SpanRect) -> u32 {
         let mut pixel = [0];
         self.numbered_tile(pass, painters, 0, &mut PixelBlock::new(rect, &mut pixel, 1));
         pixel[0]
@@ -293,7 +294,7 @@ impl DisplayList<'_> {
     /// The commands that touch a tile of one pixel, which begins there, and `margin` around it.
     pub(in crate::raster) fn bins_of_pixel(&self, pixel: [i32; 2], margin: u32) -> Vec<Arc<Bins>> {
         let context = ListContext {
-            tiles: TileLayout::new((0, 0), self.context.size).with_margin(margin),
+            tiles: TileLayout::new([0, 0], self.context.size).with_margin(margin),
             ..self.context
         };
         let bins = |chunk| {
@@ -318,9 +319,9 @@ impl DisplayList<'_> {
 }
 
 /// The rectangle of one pixel.
-fn one_pixel([x, y]: [i32; 2]) -> PixelRect {
+fn one_pixel([x, y]: [i32; 2]) -> SpanRect {
     let one = |start: i32| Span { start, end: start + 1 };
-    PixelRect { x: one(x), y: one(y) }
+    SpanRect { x: one(x), y: one(y) }
 }
 
 /// The sums of colours, channel by channel.

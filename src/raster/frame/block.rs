@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, dispatch};
 
 use crate::raster::coverage::mask8x8::CoverageMask;
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::span::{Span, SpanRect};
 use crate::simd;
 
 /// So many pixels of a stamp are set one by one.
@@ -13,7 +13,7 @@ const FEW: usize = 6;
 #[derive(Debug)]
 pub(crate) struct PixelBlock<'p> {
     /// Which pixels of the frame these are.
-    pub(crate) rect: PixelRect,
+    pub(crate) rect: SpanRect,
     /// From the first pixel of the rectangle on.
     pixels: &'p mut [u32],
     /// Distance between two rows.
@@ -22,13 +22,13 @@ pub(crate) struct PixelBlock<'p> {
 
 impl<'p> PixelBlock<'p> {
     /// The rectangle `rect` of a frame; `pixels` begins with its first pixel, and its rows lie `stride` apart.
-    pub(crate) fn new(rect: PixelRect, pixels: &'p mut [u32], stride: usize) -> Self {
+    pub(crate) fn new(rect: SpanRect, pixels: &'p mut [u32], stride: usize) -> Self {
         Self { rect, pixels, stride }
     }
 
     /// The rectangle `rect` of a frame; `pixels` are rows of the frame, the rectangle's first one and more, and `stride`
     /// wide.
-    pub(crate) fn in_rows(rect: PixelRect, pixels: &'p mut [u32], stride: usize) -> Self {
+    pub(crate) fn in_rows(rect: SpanRect, pixels: &'p mut [u32], stride: usize) -> Self {
         let left = usize::try_from(rect.x.start).unwrap_or(0);
         Self::new(rect, &mut pixels[left..], stride)
     }
@@ -67,7 +67,7 @@ impl<'p> PixelBlock<'p> {
             self.pixels[origin + bit / 8 * self.stride + bit % 8] = pixel;
             stamp.mask &= stamp.mask - 1;
         }
-        let PixelRect { x, y } = self.rect;
+        let SpanRect { x, y } = self.rect;
         let stamp = stamp.moved(x.start, y.start);
         stamp.each_run(|y, xs| self.span(y, xs).fill(pixel));
     }
@@ -102,7 +102,7 @@ mod tests {
     fn stamps_set_the_pixels_of_their_bits() {
         const WIDTH: usize = 20;
         let span = |start: i32, end: i32| Span { start, end };
-        let rect = PixelRect {
+        let rect = SpanRect {
             x: span(100, 120),
             y: span(50, 62),
         };

@@ -1,6 +1,6 @@
 //! Rectangles of a frame's pixels.
 
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::span::{Span, SpanRect};
 
 /// A rectangle of a frame's pixels: it covers `[x, x + width) x [y, y + height)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -54,7 +54,7 @@ impl Region {
     }
 
     /// The pixels of a tile, which lie inside the frame.
-    pub(in crate::raster) fn of_tile(rect: PixelRect) -> Self {
+    pub(in crate::raster) fn of_tile(rect: SpanRect) -> Self {
         let length = |span: Span| (span.end - span.start).max(0).cast_unsigned();
         Self {
             x: rect.x.start.max(0).cast_unsigned(),

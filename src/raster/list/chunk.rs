@@ -11,13 +11,13 @@ use crate::geometry::subpixel::GridPoint;
 use crate::raster::coverage::float_shape::FloatShape;
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon::{Outline, OutlineEdge};
-use crate::raster::coverage::shape::OutlineOf;
+use crate::raster::coverage::shape::NumberedOutline;
 use crate::raster::layers::Compositing;
 use crate::raster::list::context::ListContext;
 use crate::raster::list::hairline::Hairline;
 use crate::raster::shading::Paint;
 use crate::raster::shading::sources::PaintSources;
-use crate::raster::span::{PixelRect, SampleBox, Span, scaled};
+use crate::raster::span::{Span, SpanRect, scaled};
 
 /// A paint of a chunk's triangles and polygons.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +46,7 @@ pub(crate) struct Stamp {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LayerMark {
     /// The pixels that the layer may change.
-    pub(crate) area: PixelRect,
+    pub(crate) area: SpanRect,
     /// At the begin of the layer, whether what is in it counts in that area only: a mask's does.
     pub(crate) limits: bool,
     /// At the end of the layer, how it is composited.
@@ -104,10 +104,9 @@ impl Chunk {
 
     /// The outline at `index`, with what it needs.
     #[inline]
-    pub(crate) fn outline(&self, index: u32) -> OutlineOf<'_> {
-        OutlineOf {
-            outline: &self.outlines[index as usize],
-            edges: &self.outline_edges,
+    pub(crate) fn outline(&self, index: u32) -> NumberedOutline<'_> {
+        NumberedOutline {
+            outline: self.outlines[index as usize].with_edges(&self.outline_edges),
             number: self.first_outline + index as usize,
         }
     }
@@ -123,29 +122,29 @@ impl Chunk {
     }
 
     /// The pixels that an command may touch, clipped to the frame; `None` when there are none.
-    pub(crate) fn area(&self, command: DrawCommand, context: &ListContext) -> Option<PixelRect> {
+    pub(crate) fn area(&self, command: DrawCommand, context: &ListContext) -> Option<SpanRect> {
         context.pixels_of(self.sample_box(command, context)?)
     }
 
     /// The box of the samples that an command may touch, clipped to the frame; `None` when there are none.
-    pub(crate) fn sample_box(&self, command: DrawCommand, context: &ListContext) -> Option<SampleBox> {
+    pub(crate) fn sample_box(&self, command: DrawCommand, context: &ListContext) -> Option<SpanRect> {
         let side = context.grid.side();
-        let of_pixels = |columns, rows| SampleBox {
-            columns: scaled(columns, side),
-            rows: scaled(rows, side),
+        let of_pixels = |columns, rows| SpanRect {
+            x: scaled(columns, side),
+            y: scaled(rows, side),
         };
         let samples = match command {
             DrawCommand::Triangle(index) => {
                 let corners = self.triangles[index as usize].corners;
                 let float = self.floats.get(index as usize).map(|float| float.samples);
-                float.unwrap_or_else(|| SampleBox::new(corners, context.grid, context.rules))
+                float.unwrap_or_else(|| SpanRect::of_samples(corners, context.grid, context.rules))
             }
             DrawCommand::Outline(index) => self.outlines[index as usize].samples,
             DrawCommand::Samples(index) => {
                 let coverage = self.stamps[index as usize].coverage;
-                SampleBox {
-                    columns: coverage.columns(),
-                    rows: coverage.rows(),
+                SpanRect {
+                    x: coverage.columns(),
+                    y: coverage.rows(),
                 }
             }
             DrawCommand::Pixels(index) => {
@@ -153,9 +152,9 @@ impl Chunk {
                 of_pixels(coverage.columns(), coverage.rows())
             }
             DrawCommand::Hairline(index) => {
-                let mut area: Option<PixelRect> = None;
+                let mut area: Option<SpanRect> = None;
                 self.hairlines[index as usize].blocks(context.size, |pixels| {
-                    let pixels = PixelRect {
+                    let pixels = SpanRect {
                         x: pixels.columns(),
                         y: pixels.rows(),
                     };
@@ -166,14 +165,14 @@ impl Chunk {
             }
             DrawCommand::BeginLayer(index) | DrawCommand::EndLayer(index) => {
                 let area = self.layers[index as usize].area;
-                if area.x.is_empty() || area.y.is_empty() {
+                if area.is_empty() {
                     return None;
                 }
                 of_pixels(area.x, area.y)
             }
         }
         .intersection(context.samples());
-        (!samples.columns.is_empty() && !samples.rows.is_empty()).then_some(samples)
+        (!samples.is_empty()).then_some(samples)
     }
 }
 
@@ -184,7 +183,7 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
     if !chunks.iter().any(Chunk::has_layers) {
         return;
     }
-    let frame = PixelRect {
+    let frame = SpanRect {
         x: Span {
             start: 0,
             end: context.size[0].cast_signed(),
@@ -194,14 +193,14 @@ pub(crate) fn measure_layers(chunks: &mut [Chunk], context: &ListContext) {
             end: context.size[1].cast_signed(),
         },
     };
-    let mut open: Vec<(usize, usize, PixelRect)> = Vec::new();
+    let mut open: Vec<(usize, usize, SpanRect)> = Vec::new();
     let mut open_before = Vec::with_capacity(chunks.len());
     for at in 0..chunks.len() {
         let marks = open.iter().map(|(chunk, begin, _)| (*chunk, *begin));
         open_before.push(marks.collect::<Vec<_>>());
         for command in 0..chunks[at].commands.len() {
             match chunks[at].commands[command] {
-                DrawCommand::BeginLayer(begin) => open.push((at, begin as usize, PixelRect::EMPTY)),
+                DrawCommand::BeginLayer(begin) => open.push((at, begin as usize, SpanRect::EMPTY)),
                 DrawCommand::EndLayer(end) => {
                     let Some((begin_chunk, begin, mut area)) = open.pop() else {
                         continue;

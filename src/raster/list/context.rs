@@ -7,7 +7,7 @@ use crate::raster::sampling::pattern::{SamplePattern, Seed};
 use crate::raster::sampling::positions::lattice;
 use crate::raster::sampling::rate::SampleRate;
 use crate::raster::settings::RasterSettings;
-use crate::raster::span::{PixelRect, SampleBox, Span};
+use crate::raster::span::{Span, SpanRect};
 use crate::raster::tile_layout::TileLayout;
 use crate::rules::Rules;
 
@@ -68,19 +68,19 @@ impl ListContext {
     }
 
     /// The samples that are painted.
-    pub(crate) fn samples(&self) -> SampleBox {
+    pub(crate) fn samples(&self) -> SpanRect {
         let all = |pixels: u32| Span {
             start: 0,
             end: pixels.cast_signed() * self.grid.side(),
         };
-        SampleBox {
-            columns: all(self.size[0]),
-            rows: all(self.size[1]),
+        SpanRect {
+            x: all(self.size[0]),
+            y: all(self.size[1]),
         }
     }
 
     /// The pixels that hold any sample of a box, clipped to what is painted; `None` when there are none.
-    pub(crate) fn pixels_of(&self, samples: SampleBox) -> Option<PixelRect> {
+    pub(crate) fn pixels_of(&self, samples: SpanRect) -> Option<SpanRect> {
         let side = self.grid.side();
         let frame = self.samples();
         let pixels = |span: Span, frame: Span| {
@@ -90,9 +90,9 @@ impl ListContext {
                 end: (inside.end - 1) / side + 1,
             })
         };
-        Some(PixelRect {
-            x: pixels(samples.columns, frame.columns)?,
-            y: pixels(samples.rows, frame.rows)?,
+        Some(SpanRect {
+            x: pixels(samples.x, frame.x)?,
+            y: pixels(samples.y, frame.y)?,
         })
     }
 }

@@ -32,7 +32,7 @@ struct Gatherer<F: FnMut(CoverageMask)> {
 impl Hairline {
     /// The line between two screen-space points; `None` when it misses the `size` that is painted, of which `margin` pixels
     /// on each side lie beyond the frame. It keeps its place in the frame, so that it rounds alike whatever the margin.
-    pub(crate) fn new(ends: [DVec2; 2], (size, margin): ([u32; 2], u32), color: Premultiplied16) -> Option<Self> {
+    pub(crate) fn new(ends: [DVec2; 2], size: [u32; 2], margin: u32, color: Premultiplied16) -> Option<Self> {
         let [from, to] = cut(ends, size, margin)?;
         let (from, to) = if from[0] > to[0] { (to, from) } else { (from, to) };
         Some(Self {
@@ -180,7 +180,7 @@ mod tests {
 
     fn line(from: (f64, f64), to: (f64, f64), size: [u32; 2]) -> Option<Hairline> {
         let ends = [DVec2::from(from), DVec2::from(to)];
-        Hairline::new(ends, (size, 0), Premultiplied16::TRANSPARENT)
+        Hairline::new(ends, size, 0, Premultiplied16::TRANSPARENT)
     }
 
     fn pixels(from: (f64, f64), to: (f64, f64)) -> Vec<[i32; 2]> {

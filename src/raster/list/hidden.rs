@@ -9,7 +9,7 @@ use crate::geometry::edge::{EdgeTest, doubled_area};
 use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
 use crate::raster::list::chunk::{Chunk, DrawCommand};
 use crate::raster::list::context::ListContext;
-use crate::raster::span::SampleBox;
+use crate::raster::span::SpanRect;
 use crate::rules::Rules;
 
 /// How many commands before a shape are looked at.
@@ -28,7 +28,7 @@ pub enum Hidden {
 }
 
 /// Drops commands of a chunk that are wholly hidden by samples `cover`, all of which the last `above` commands hide.
-pub(crate) fn drop_hidden(chunk: &mut Chunk, context: &ListContext, cover: SampleBox, above: usize) {
+pub(crate) fn drop_hidden(chunk: &mut Chunk, context: &ListContext, cover: SpanRect, above: usize) {
     let end = chunk.commands.len().saturating_sub(above);
     let first = end.saturating_sub(LOOK_BACK);
     // What was painted before a layer, or in it, is not below what comes after.
@@ -48,20 +48,19 @@ pub(crate) fn drop_hidden(chunk: &mut Chunk, context: &ListContext, cover: Sampl
     chunk.sources.drain(kept..end);
 }
 
-fn holds(outer: SampleBox, inner: SampleBox) -> bool {
+fn holds(outer: SpanRect, inner: SpanRect) -> bool {
     inner.intersection(outer) == inner
 }
 
 /// Whether samples are so many that looking back costs little beside painting them.
-pub(crate) fn is_large(samples: SampleBox, context: &ListContext) -> bool {
-    let (width, height) = context.tiles.sides_log2();
+pub(crate) fn is_large(samples: SpanRect, context: &ListContext) -> bool {
+    let [width, height] = context.tiles.sides_log2();
     let side = context.grid.side();
-    samples.columns.end - samples.columns.start >= side << width
-        && samples.rows.end - samples.rows.start >= side << height
+    samples.x.end - samples.x.start >= side << width && samples.y.end - samples.y.start >= side << height
 }
 
 /// Whether a shape of three or four corners is convex and covers all of some samples: those at their corners, and so all.
-pub(crate) fn covers(corners: &[GridPoint], samples: SampleBox, grid: SubpixelGrid, rules: Rules) -> bool {
+pub(crate) fn covers(corners: &[GridPoint], samples: SpanRect, grid: SubpixelGrid, rules: Rules) -> bool {
     let count = corners.len();
     let corner = |i: usize| corners[i % count];
     let turn = |i: usize| doubled_area([corner(i), corner(i + 1), corner(i + 2)]).signum();
@@ -69,7 +68,7 @@ pub(crate) fn covers(corners: &[GridPoint], samples: SampleBox, grid: SubpixelGr
     if way == 0 || (1..count).any(|i| turn(i) != way) {
         return false;
     }
-    let SampleBox { columns, rows } = samples;
+    let SpanRect { x: columns, y: rows } = samples;
     [columns.start, columns.end - 1].into_iter().all(|column| {
         [rows.start, rows.end - 1].into_iter().all(|row| {
             let point = GridPoint {

@@ -9,7 +9,7 @@ use crate::raster::frame::block::PixelBlock;
 use crate::raster::list::chunk::Chunk;
 use crate::raster::shading::context::{Pixels, ShadeContext};
 use crate::raster::shading::{Paint, Shader};
-use crate::raster::span::PixelRect;
+use crate::raster::span::SpanRect;
 
 /// Paints opaque primitives at one sample per pixel.
 #[derive(Debug)]
@@ -36,7 +36,8 @@ impl<'a> DirectPainter<'a> {
     /// Paints the commands of one chunk that touch the tile; all must be opaque.
     pub(crate) fn paint(
         &mut self,
-        (chunk, entries): (&Chunk, &[TileCommand]),
+        chunk: &Chunk,
+        entries: &[TileCommand],
         shape_coverage: &mut ShapeCoverage,
         block: &mut PixelBlock<'_>,
     ) {
@@ -58,7 +59,7 @@ impl<'a> DirectPainter<'a> {
                 Work::Shaded(shape, corners, paint) => {
                     let mut places = std::mem::take(&mut self.places);
                     places.clear();
-                    let PixelRect { x: left, y: top } = block.rect;
+                    let SpanRect { x: left, y: top } = block.rect;
                     let inside = |from: i32, to: i32| u16::try_from(to - from).unwrap_or(u16::MAX);
                     shape_coverage.each(shape, block.rect, |y, covered| {
                         if let Covered::Whole(xs) = covered {
@@ -84,7 +85,7 @@ impl<'a> DirectPainter<'a> {
         self.samples_shaded += places.len() as u64;
         self.shaded.resize(self.shaded.len().max(places.len()), 0);
         let values = &mut self.shaded[..places.len()];
-        let PixelRect { x, y } = block.rect;
+        let SpanRect { x, y } = block.rect;
         let pixels = Pixels {
             grid: self.context.samples_from([x.start, y.start]),
             places,

@@ -66,11 +66,12 @@ impl Kinds {
 
     /// How a tile is painted of which these commands are to be seen, chunk by chunk; its samples are weighted by `filter` and
     /// averaged in `space`.
-    pub(in crate::raster) fn method<'c>(
+    pub(in crate::raster) fn method<'c, I: Iterator<Item = (&'c Chunk, &'c [TileCommand])> + Clone>(
         self,
         context: &ListContext,
-        (filter, space): (SizedFilter, ResolveSpace),
-        commands: &(impl Iterator<Item = (&'c Chunk, &'c [TileCommand])> + Clone),
+        filter: SizedFilter,
+        space: ResolveSpace,
+        commands: &I,
     ) -> Method {
         let all = |is_so: fn(&TileCommand, &Chunk) -> bool| {
             let mut commands = commands.clone();

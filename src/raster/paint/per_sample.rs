@@ -9,12 +9,12 @@ use crate::raster::frame::block::PixelBlock;
 use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
 use crate::raster::paint::recorder::{PaintedCommand, PaintedKind, Recorder};
-use crate::raster::paint::sample_colors::SampleColors;
+use crate::raster::paint::sample_colors::{SampleColors, ShadedColors};
 use crate::raster::paint::wide::{WeighedPixels, WideResolve};
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::shading::Shader;
 use crate::raster::shading::context::ShadeContext;
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::span::{Span, SpanRect};
 
 /// Paints tiles, one after the other, reusing its memory.
 #[derive(Debug)]
@@ -54,7 +54,7 @@ impl<'a> PerSamplePainter<'a> {
     }
 
     /// Starts a tile.
-    pub(crate) fn begin(&mut self, rect: PixelRect, background: Premultiplied16) {
+    pub(crate) fn begin(&mut self, rect: SpanRect, background: Premultiplied16) {
         self.layers.restart().reset(rect, background);
     }
 
@@ -108,12 +108,13 @@ impl<'a> PerSamplePainter<'a> {
     pub(crate) fn replay(
         &mut self,
         chunks: &[(&Chunk, &[TileCommand])],
-        (pixel, background): ([i32; 2], Premultiplied16),
+        pixel: [i32; 2],
+        background: Premultiplied16,
         shape_coverage: &mut ShapeCoverage,
     ) -> (Vec<PaintedCommand>, Vec<(Premultiplied16, usize)>) {
         let one = |start: i32| Span { start, end: start + 1 };
         self.recorder = Some(Recorder::new(self.samples_per_pixel()));
-        let rect = PixelRect {
+        let rect = SpanRect {
             x: one(pixel[0]),
             y: one(pixel[1]),
         };
@@ -133,7 +134,7 @@ impl<'a> PerSamplePainter<'a> {
 
     /// The samples of a buffer's first pixel.
     fn pixel_samples(&self, buffer: &SampleColors) -> Vec<Premultiplied16> {
-        let PixelRect { x, y } = buffer.rect;
+        let SpanRect { x, y } = buffer.rect;
         let sample = |i| buffer.sample(x.start, y.start, i);
         (0..self.samples_per_pixel()).map(sample).collect()
     }
@@ -152,12 +153,9 @@ impl<'a> PerSamplePainter<'a> {
             _ => (now.clone(), None),
         };
         if let Some(recorder) = &mut self.recorder {
-            recorder.next(
-                (chunk.sources[entry.command()], entry.command()),
-                PaintedKind::of(&work),
-                &now,
-                on,
-            );
+            let index = entry.command();
+            recorder.next(chunk.sources[index], index, PaintedKind::of(&work), &now);
+            recorder.paint_on(on);
             if let Some(colors) = layer {
                 recorder.paint_all(colors);
             }
@@ -236,7 +234,7 @@ impl<'a> PerSamplePainter<'a> {
             self.colors.resize(count, Premultiplied16::TRANSPARENT);
         }
         self.samples_shaded += count as u64;
-        let PixelRect { x, y } = self.layers.base().rect;
+        let SpanRect { x, y } = self.layers.base().rect;
         let grid = self.context.samples_from([x.start, y.start]);
         shader.points(grid, &self.points, &mut self.colors[..count]);
         self.points.clear();
@@ -250,10 +248,14 @@ impl<'a> PerSamplePainter<'a> {
             };
             let (colors, others) = rest.split_at(count);
             rest = others;
+            let shaded = ShadedColors {
+                colors,
+                opaque: shader.opaque,
+            };
             match covered {
-                Covered::Whole(xs) if repeats => self.layers.top().repeat(xs, y, colors, shader.opaque),
-                Covered::Whole(xs) => self.layers.top().write(xs, y, colors, shader.opaque),
-                Covered::Part(x, mask) => self.layers.top().write_mask(x, y, mask, (colors, shader.opaque)),
+                Covered::Whole(xs) if repeats => self.layers.top().repeat(xs, y, shaded),
+                Covered::Whole(xs) => self.layers.top().write(xs, y, shaded),
+                Covered::Part(x, mask) => self.layers.top().write_mask(x, y, mask, shaded),
             }
             if let Some(recorder) = &mut self.recorder {
                 recorder.paint(covered, |i| colors[i]);
@@ -264,5 +266,5 @@ impl<'a> PerSamplePainter<'a> {
 
 /// A buffer of no pixels.
 fn buffer(context: &ShadeContext<'_>) -> SampleColors {
-    SampleColors::new(context.rate, (context.sampling.rules, context.space))
+    SampleColors::new(context.rate, context.sampling.rules, context.space)
 }

@@ -91,17 +91,9 @@ impl Recorder {
         }
     }
 
-    /// An command begins, by its source and its index, that paints on samples which hold `on`; `now` is what those of the
-    /// topmost layer hold.
-    pub(in crate::raster) fn next(
-        &mut self,
-        (source, command): (u32, usize),
-        kind: PaintedKind,
-        now: &[Premultiplied16],
-        on: Vec<Premultiplied16>,
-    ) {
+    /// A command begins; `now` is what samples of the topmost layer hold.
+    pub(in crate::raster) fn next(&mut self, source: u32, command: usize, kind: PaintedKind, now: &[Premultiplied16]) {
         let layers = self.close(now);
-        self.before = on;
         self.painted.push(PaintedCommand {
             source,
             command,
@@ -110,6 +102,11 @@ impl Recorder {
             fragments: Vec::new(),
             count: 0,
         });
+    }
+
+    /// The command that begins paints on samples which hold this.
+    pub(in crate::raster) fn paint_on(&mut self, before: Vec<Premultiplied16>) {
+        self.before = before;
     }
 
     /// Ends the command at work, after which its layer holds `after`; how many layers are open then.

@@ -14,7 +14,7 @@ use crate::color::{LightResolver, Premultiplied16, ResolveSpace, Resolver};
 use crate::raster::SampleRate;
 use crate::raster::layers::Compositing;
 use crate::raster::sampling::mask::SampleMask;
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::span::{Span, SpanRect};
 use crate::rules::Rules;
 use crate::simd;
 
@@ -30,10 +30,18 @@ pub(in crate::raster) enum PixelColors<'s> {
     Split(&'s [Premultiplied16]),
 }
 
+/// Colours of samples that were shaded together.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShadedColors<'c> {
+    pub(crate) colors: &'c [Premultiplied16],
+    /// Whether all of them are opaque for certain.
+    pub(crate) opaque: bool,
+}
+
 /// The samples of a rectangle of pixels.
 #[derive(Debug)]
 pub(crate) struct SampleColors {
-    pub(crate) rect: PixelRect,
+    pub(crate) rect: SpanRect,
     width: usize,
     /// Samples per pixel.
     per_pixel: usize,
@@ -52,9 +60,9 @@ pub(crate) struct SampleColors {
 
 impl SampleColors {
     /// A tile of no pixels.
-    pub(crate) fn new(rate: SampleRate, (rules, space): (Rules, ResolveSpace)) -> Self {
+    pub(crate) fn new(rate: SampleRate, rules: Rules, space: ResolveSpace) -> Self {
         Self {
-            rect: PixelRect::EMPTY,
+            rect: SpanRect::EMPTY,
             width: 0,
             per_pixel: rate.samples() as usize,
             rules,
@@ -68,7 +76,7 @@ impl SampleColors {
     }
 
     /// Makes it the tile of `rect` with every sample in `color`.
-    pub(crate) fn reset(&mut self, rect: PixelRect, color: Premultiplied16) {
+    pub(crate) fn reset(&mut self, rect: SpanRect, color: Premultiplied16) {
         self.rect = rect;
         self.opaque = color.is_opaque();
         self.width = rect.x.length();
@@ -122,29 +130,29 @@ impl SampleColors {
         }
     }
 
-    /// Paints all samples of the pixels `xs` of row `y` with a colour each, pixel by pixel; `opaque` says that all of these are.
+    /// Paints all samples of the pixels `xs` of row `y` with a colour each, pixel by pixel.
     #[inline]
-    pub(crate) fn write(&mut self, xs: Span, y: i32, colors: &[Premultiplied16], opaque: bool) {
+    pub(crate) fn write(&mut self, xs: Span, y: i32, shaded: ShadedColors<'_>) {
         let (first, rules) = (self.index(xs.start, y), self.rules);
         let last = first + offset(xs.end - xs.start);
         if self.per_pixel == 1 {
-            paint(&mut self.whole[first..last], colors, opaque, rules);
+            paint(&mut self.whole[first..last], shaded, rules);
         } else {
-            paint(self.split_pixels(first..last, opaque), colors, opaque, rules);
+            paint(self.split_pixels(first..last, shaded.opaque), shaded, rules);
         }
     }
 
-    /// Paints all samples of each of the pixels `xs` of row `y` with the same colours; `opaque` says that all of these are.
-    pub(crate) fn repeat(&mut self, xs: Span, y: i32, colors: &[Premultiplied16], opaque: bool) {
+    /// Paints all samples of each of the pixels `xs` of row `y` with the same colours.
+    pub(crate) fn repeat(&mut self, xs: Span, y: i32, shaded: ShadedColors<'_>) {
         let (first, rules) = (self.index(xs.start, y), self.rules);
         let last = first + offset(xs.end - xs.start);
         let samples = if self.per_pixel == 1 {
             &mut self.whole[first..last]
         } else {
-            self.split_pixels(first..last, opaque)
+            self.split_pixels(first..last, shaded.opaque)
         };
-        for samples in samples.chunks_exact_mut(colors.len().max(1)) {
-            paint(samples, colors, opaque, rules);
+        for samples in samples.chunks_exact_mut(shaded.colors.len().max(1)) {
+            paint(samples, shaded, rules);
         }
     }
 
@@ -171,21 +179,15 @@ impl SampleColors {
         }
     }
 
-    /// Paints some samples of pixel `x` in row `y` with a colour each; `opaque` says that all of these are.
+    /// Paints some samples of pixel `x` in row `y` with a colour each.
     #[inline]
-    pub(crate) fn write_mask(
-        &mut self,
-        x: i32,
-        y: i32,
-        mask: SampleMask,
-        (colors, opaque): (&[Premultiplied16], bool),
-    ) {
+    pub(crate) fn write_mask(&mut self, x: i32, y: i32, mask: SampleMask, shaded: ShadedColors<'_>) {
         let rules = self.rules;
         let samples = self.samples_of(x, y);
-        let mut rest = colors;
+        let mut rest = shaded.colors;
         mask.each_run(|run| {
             let (colors, others) = rest.split_at(run.len());
-            paint(&mut samples[run], colors, opaque, rules);
+            paint(&mut samples[run], ShadedColors { colors, ..shaded }, rules);
             rest = others;
         });
     }
@@ -351,7 +353,8 @@ impl SampleColors {
 
 /// Paints colours over samples.
 #[inline]
-fn paint(samples: &mut [Premultiplied16], colors: &[Premultiplied16], opaque: bool, rules: Rules) {
+fn paint(samples: &mut [Premultiplied16], shaded: ShadedColors<'_>, rules: Rules) {
+    let ShadedColors { colors, opaque } = shaded;
     if opaque {
         samples.copy_from_slice(colors);
         return;

@@ -17,7 +17,7 @@ use crate::geometry::{FillRule, Polygon};
 use crate::raster::coverage::polygon::OutlineBuilder;
 use crate::raster::list::builder::ChunkBuilder;
 use crate::raster::shading::Paint;
-use crate::raster::span::{PixelRect, SampleBox, Span};
+use crate::raster::span::{Span, SpanRect};
 
 impl ChunkBuilder<'_> {
     /// As [`ChunkBuilder::polygon`], but each pixel is covered with all its samples if its middle is inside, and not at all
@@ -26,7 +26,7 @@ impl ChunkBuilder<'_> {
         let shift = self.shift;
         let runs = self.runs_of_pixels(polygon, |point| place(point) + shift);
         let corner = |x: i32, y: i32| DVec2::new(x.into(), y.into());
-        let contours = runs.iter().map(|PixelRect { x, y }| {
+        let contours = runs.iter().map(|SpanRect { x, y }| {
             [
                 corner(x.start, y.start),
                 corner(x.end, y.start),
@@ -40,25 +40,27 @@ impl ChunkBuilder<'_> {
 
     /// The pixels whose middles a polygon holds, as rectangles that do not overlap; `place` brings points to where they are
     /// painted.
-    fn runs_of_pixels(&mut self, polygon: &Polygon, place: impl Fn(DVec2) -> DVec2) -> Vec<PixelRect> {
+    fn runs_of_pixels(&mut self, polygon: &Polygon, place: impl Fn(DVec2) -> DVec2) -> Vec<SpanRect> {
         let grid = SubpixelGrid::new(1);
         let [columns, rows] = self.context.size.map(|pixels| Span {
             start: 0,
             end: pixels.cast_signed(),
         });
         let mut edges = Vec::new();
-        let mut builder = OutlineBuilder::new(grid, SampleBox { columns, rows }, &mut edges);
+        let mut builder = OutlineBuilder::new(grid, SpanRect { x: columns, y: rows }, &mut edges);
         for contour in polygon.contours() {
             builder.contour(contour.iter().map(|point| place(*point)));
         }
         let Some(outline) = builder.finish(polygon.rule()) else {
             return Vec::new();
         };
-        let (scanner, store) = &mut self.scanner;
-        store.clear();
-        let stored = scanner.scan(&outline, (&edges, grid), (rows, columns.end), store);
-        let found = store.get(stored);
-        let mut runs: Vec<PixelRect> = Vec::new();
+        self.spans.clear();
+        let outline = outline.with_edges(&edges);
+        let stored = self
+            .scanner
+            .scan(outline, grid, SpanRect { x: columns, y: rows }, &mut self.spans);
+        let found = self.spans.get(stored);
+        let mut runs: Vec<SpanRect> = Vec::new();
         // Where the runs of the row before begin: rows with the same ones share their rectangles.
         let mut before = 0;
         for row in found.rows.start..found.rows.end {
@@ -71,7 +73,7 @@ impl ChunkBuilder<'_> {
                 continue;
             }
             before = runs.len();
-            runs.extend(spans.map(|span| PixelRect {
+            runs.extend(spans.map(|span| SpanRect {
                 x: *span,
                 y: Span {
                     start: row,

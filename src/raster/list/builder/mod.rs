@@ -19,7 +19,7 @@ use crate::raster::list::context::ListContext;
 use crate::raster::list::hairline::Hairline;
 use crate::raster::list::hidden::{Hidden, MOST_CORNERS, covers, drop_hidden, is_large};
 use crate::raster::shading::Paint;
-use crate::raster::span::{PixelRect, SampleBox};
+use crate::raster::span::SpanRect;
 use crate::rules::Rules;
 
 /// Fills one chunk.
@@ -29,13 +29,14 @@ pub struct ChunkBuilder<'a> {
     /// From places in the frame to where they are painted.
     shift: DVec2,
     /// The samples that are painted.
-    frame: SampleBox,
+    frame: SpanRect,
     chunk: Chunk,
     source: u32,
     /// The colour used last, as given and as stored.
     color: (Rgba, Premultiplied16),
     /// Memory for the spans of small polygons.
-    scanner: (RowScanner, SpanStore),
+    scanner: RowScanner,
+    spans: SpanStore,
     /// Whether small shapes become stamps.
     stamps: bool,
     /// Whether fragments are counted rather than painted.
@@ -71,7 +72,8 @@ impl<'a> ChunkBuilder<'a> {
             },
             source: 0,
             color: (Rgba::BLACK, stored),
-            scanner: Default::default(),
+            scanner: RowScanner::default(),
+            spans: SpanStore::default(),
             // A few points of a finer lattice need not be samples, and stamps are exact.
             stamps: context.is_grid() && context.rules != Rules::Float,
             counts: false,
@@ -155,7 +157,7 @@ impl<'a> ChunkBuilder<'a> {
         contours: impl Iterator<Item = impl Iterator<Item = DVec2>>,
         rule: FillRule,
         paint: &Paint,
-    ) -> Option<SampleBox> {
+    ) -> Option<SpanRect> {
         self.add_waiting();
         let (grid, frame) = (self.context.grid, self.frame);
         let mut builder = OutlineBuilder::new(grid, frame, &mut self.chunk.outline_edges);
@@ -165,7 +167,10 @@ impl<'a> ChunkBuilder<'a> {
         let outline = builder.finish(rule)?;
         if self.stamps
             && let Some(color) = paint.constant()
-            && let Some(coverage) = outline.coverage_mask(&self.chunk.outline_edges, grid, &mut self.scanner)
+            && let Some(coverage) =
+                outline
+                    .with_edges(&self.chunk.outline_edges)
+                    .coverage_mask(grid, &mut self.scanner, &mut self.spans)
         {
             outline.drop_edges(&mut self.chunk.outline_edges);
             if coverage.mask != 0 {
@@ -187,7 +192,7 @@ impl<'a> ChunkBuilder<'a> {
     }
 
     /// Drops what a polygon of few corners hides that came last and holds `samples`.
-    fn drop_below_polygon(&mut self, points: impl Iterator<Item = DVec2>, samples: SampleBox) {
+    fn drop_below_polygon(&mut self, points: impl Iterator<Item = DVec2>, samples: SpanRect) {
         if self.hidden == Hidden::Kept || !is_large(samples, self.context) {
             return;
         }
@@ -203,7 +208,7 @@ impl<'a> ChunkBuilder<'a> {
     pub fn hairline(&mut self, ends: [DVec2; 2], color: Rgba) {
         self.add_waiting();
         let color = self.color(color);
-        if let Some(line) = Hairline::new(ends, (self.context.size, self.context.margin), color) {
+        if let Some(line) = Hairline::new(ends, self.context.size, self.context.margin, color) {
             let index = index(self.chunk.hairlines.len());
             self.chunk.hairlines.push(line);
             self.push(DrawCommand::Hairline(index));
@@ -238,7 +243,7 @@ impl<'a> ChunkBuilder<'a> {
     fn layer(&mut self, compositing: Option<Compositing>, command: fn(u32) -> DrawCommand) {
         self.add_waiting();
         let index = index(self.chunk.layers.len());
-        let area = PixelRect::EMPTY;
+        let area = SpanRect::EMPTY;
         self.chunk.layers.push(LayerMark {
             area,
             limits: false,

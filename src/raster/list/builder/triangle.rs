@@ -13,7 +13,7 @@ use crate::raster::list::builder::{ChunkBuilder, index};
 use crate::raster::list::chunk::{DrawCommand, ScreenTriangle};
 use crate::raster::list::hidden::{Hidden, covers, drop_hidden, is_large, joined};
 use crate::raster::shading::{Paint, TexturePaint};
-use crate::raster::span::SampleBox;
+use crate::raster::span::SpanRect;
 use crate::rules::Rules;
 use crate::texture::Footprint;
 
@@ -131,15 +131,15 @@ impl ChunkBuilder<'_> {
             return self.float(points, paint);
         }
         let corners = points.map(|point| grid.snap(point));
-        let samples = SampleBox::new(corners, grid, rules);
+        let samples = SpanRect::of_samples(corners, grid, rules);
         let inside = samples.intersection(self.frame);
-        if inside.columns.is_empty() || inside.rows.is_empty() {
+        if inside.is_empty() {
             return;
         }
         if samples.is_small() {
             let mut coverage = CoverageMask::new(corners, samples, grid, rules);
             if inside != samples {
-                coverage = coverage.within(self.frame.columns, self.frame.rows);
+                coverage = coverage.within(self.frame.x, self.frame.y);
             }
             if coverage.mask == 0 {
                 return;
@@ -175,8 +175,8 @@ impl ChunkBuilder<'_> {
         let corners = points.map(|point| grid.snap(point));
         // Exact: they have 32 bits.
         let in_frame = points.map(|point| point - self.shift);
-        let painted = (self.frame, self.context.margin);
-        let Some(float) = FloatShape::new(in_frame, grid, painted).filter(|_| doubled_area(corners) != 0) else {
+        let float = FloatShape::new(in_frame, grid, self.frame, self.context.margin);
+        let Some(float) = float.filter(|_| doubled_area(corners) != 0) else {
             return;
         };
         let paint = self.paint(paint);
@@ -200,7 +200,7 @@ impl ChunkBuilder<'_> {
     /// Drops what a triangle of one colour hides that came last, alone or with the one before.
     fn drop_below_triangle(&mut self, corners: [GridPoint; 3]) {
         let (grid, rules) = (self.context.grid, self.context.rules);
-        let samples = SampleBox::new(corners, grid, rules);
+        let samples = SpanRect::of_samples(corners, grid, rules);
         let inside = samples.intersection(self.frame);
         // The halves of a large rectangle have its box, so that one look is enough for nearly all triangles.
         if !is_large(inside, self.context) {
@@ -221,12 +221,8 @@ impl ChunkBuilder<'_> {
             .is_some_and(|last| last.paint == before.paint)
             && let Some(group) = joined(before.corners, corners)
         {
-            let [a, b] = [before.corners, corners].map(|corners| SampleBox::new(corners, grid, rules));
-            let both = SampleBox {
-                columns: a.columns.union(b.columns),
-                rows: a.rows.union(b.rows),
-            };
-            let inside = both.intersection(self.frame);
+            let [a, b] = [before.corners, corners].map(|corners| SpanRect::of_samples(corners, grid, rules));
+            let inside = a.union(b).intersection(self.frame);
             if is_large(inside, self.context) && covers(&group, inside, grid, rules) {
                 drop_hidden(&mut self.chunk, self.context, inside, 2);
             }

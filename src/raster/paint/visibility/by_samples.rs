@@ -96,21 +96,22 @@ impl BySamples {
 }
 
 impl SampleShades {
-    /// Adds the samples of a fragment.
+    /// Adds the samples of a fragment of a tile whose samples `grid` counts.
     #[inline]
     pub(super) fn gather(
         &mut self,
         fragment: &Fragment,
         places: &[[u16; 2]],
-        (positions, origin, side): (&SamplePositions, [i32; 2], u32),
+        positions: &SamplePositions,
+        grid: SampleGrid,
     ) {
         let place = match fragment.part {
             Part::Whole { place } => place,
             Part::Masked { pixel, .. } => places[pixel as usize],
         };
-        let pixel = [0, 1].map(|i| origin[i] + i32::from(place[i]));
+        let pixel = [0, 1].map(|i| grid.origin[i] + i32::from(place[i]));
         // No tile has more than `2^14` points of a lattice along a side.
-        let [left, top] = place.map(|at| u16::try_from(u32::from(at) * side).unwrap_or(u16::MAX));
+        let [left, top] = place.map(|at| u16::try_from(u32::from(at) * grid.side).unwrap_or(u16::MAX));
         let first = self.points.len();
         match fragment.part {
             Part::Whole { .. } if !self.same.is_empty() => self.points.extend_from_slice(&self.same),

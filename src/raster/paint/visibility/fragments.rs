@@ -49,8 +49,8 @@ impl FragmentSums {
         }
     }
 
-    /// Shades the fragments that were gathered.
-    pub(super) fn shade_parts(&mut self, (grid, first): (SampleGrid, u32), shader: &Shader<'_>) {
+    /// Shades the fragments that were gathered, of the 64 samples from `first` on.
+    pub(super) fn shade_parts(&mut self, grid: SampleGrid, first: u32, shader: &Shader<'_>) {
         self.make_sums();
         if !self.places.is_empty() {
             let places = &self.places;

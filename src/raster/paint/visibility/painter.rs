@@ -23,7 +23,7 @@ use crate::raster::paint::visibility::shading_queue::ShadingQueue;
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::sampling::positions::SamplePositions;
 use crate::raster::shading::context::ShadeContext;
-use crate::raster::span::PixelRect;
+use crate::raster::span::SpanRect;
 use crate::raster::surface_id::{MAX_SURFACES, SurfaceId};
 use crate::simd;
 
@@ -59,7 +59,7 @@ impl<'a> VisibilityPainter<'a> {
     }
 
     /// Starts a tile.
-    pub(crate) fn begin(&mut self, rect: PixelRect, background: Premultiplied16) {
+    pub(crate) fn begin(&mut self, rect: SpanRect, background: Premultiplied16) {
         self.surfaces.clear();
         let surface = self.surfaces.flat(background);
         self.layers.restart().reset(rect, surface);
@@ -92,7 +92,7 @@ impl<'a> VisibilityPainter<'a> {
         if matches!(shape, Shape::Tile) {
             tile.cover(surface);
         } else if by_four {
-            dispatch!(simd::level(), simd => opaque_four(simd, (shape, shape_coverage), tile, surface));
+            dispatch!(simd::level(), simd => opaque_four(simd, shape, shape_coverage, tile, surface));
         } else {
             shape_coverage.each(
                 shape,
@@ -107,14 +107,15 @@ impl<'a> VisibilityPainter<'a> {
         let by_four = self.has_four_rows(shape);
         let (tile, surfaces) = (self.layers.top(), &mut self.surfaces);
         surfaces.next_paint();
+        let tint = Tint { surfaces, color };
         if by_four {
-            dispatch!(simd::level(), simd => translucent_four(simd, (shape, shape_coverage), tile, (surfaces, color)));
+            dispatch!(simd::level(), simd => translucent_four(simd, shape, shape_coverage, tile, tint));
         } else {
             shape_coverage.each(
                 shape,
                 tile.rect,
                 #[inline(always)]
-                |y, covered| tile.change(y, covered, |surface| surfaces.under(surface, color)),
+                |y, covered| tile.change(y, covered, |surface| tint.surfaces.under(surface, tint.color)),
             );
         }
     }
@@ -160,6 +161,12 @@ impl<'a> VisibilityPainter<'a> {
     }
 }
 
+/// A translucent colour, and the surfaces that it makes of those below it.
+struct Tint<'t, 'a> {
+    surfaces: &'t mut SurfaceTable<'a>,
+    color: Premultiplied16,
+}
+
 /// A buffer of no pixels.
 fn buffer(context: &ShadeContext<'_>) -> VisibilityBuffer {
     VisibilityBuffer::new(context.rate.side().cast_signed())
@@ -170,7 +177,8 @@ fn buffer(context: &ShadeContext<'_>) -> VisibilityBuffer {
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn opaque_four<S: Simd>(
     simd: S,
-    (shape, shape_coverage): (Shape<'_>, &mut ShapeCoverage),
+    shape: Shape<'_>,
+    shape_coverage: &mut ShapeCoverage,
     tile: &mut VisibilityBuffer,
     surface: SurfaceId,
 ) {
@@ -179,7 +187,8 @@ fn opaque_four<S: Simd>(
         || {
             shape_coverage.each_row_of_four(
                 simd,
-                (shape, tile.rect),
+                shape,
+                tile.rect,
                 #[inline(always)]
                 |row| tile.paint_four(simd, row, surface),
             );
@@ -192,16 +201,18 @@ fn opaque_four<S: Simd>(
 #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
 fn translucent_four<S: Simd>(
     simd: S,
-    (shape, shape_coverage): (Shape<'_>, &mut ShapeCoverage),
+    shape: Shape<'_>,
+    shape_coverage: &mut ShapeCoverage,
     tile: &mut VisibilityBuffer,
-    (surfaces, color): (&mut SurfaceTable<'_>, Premultiplied16),
+    Tint { surfaces, color }: Tint<'_, '_>,
 ) {
     simd.vectorize(
         #[inline(always)]
         || {
             shape_coverage.each_row_of_four(
                 simd,
-                (shape, tile.rect),
+                shape,
+                tile.rect,
                 #[inline(always)]
                 |row| tile.change_four(simd, row, |surface| surfaces.under(surface, color)),
             );

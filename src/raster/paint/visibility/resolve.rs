@@ -14,7 +14,7 @@ use crate::raster::paint::visibility::surface_color::{Shaded, Spread};
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
 use crate::raster::shading::Shader;
-use crate::raster::span::PixelRect;
+use crate::raster::span::SpanRect;
 use crate::raster::surface_id::{MAX_SURFACES, ROW, TWO_SURFACES};
 use crate::simd;
 
@@ -22,7 +22,7 @@ impl VisibilityPainter<'_> {
     /// Shades what is seen and resolves the finished tile; how long shading took, if that is to be `timed`.
     pub(crate) fn resolve(&mut self, block: &mut PixelBlock<'_>, timed: bool) -> Duration {
         self.unresolved.clear();
-        let PixelRect { x, y } = self.layers.base().rect;
+        let SpanRect { x, y } = self.layers.base().rect;
         if !self.surfaces.any_shaded {
             if self.by_samples.is_linear() {
                 self.resolve_light(block);
@@ -59,7 +59,7 @@ impl VisibilityPainter<'_> {
             return None;
         }
         self.unresolved.clear();
-        let PixelRect { x, y } = self.layers.base().rect;
+        let SpanRect { x, y } = self.layers.base().rect;
         self.resolve_row(y.start, 0, &mut [0]);
         self.unresolved.sort(self.surfaces.len());
         let mut whole = None;
@@ -208,7 +208,7 @@ impl VisibilityPainter<'_> {
                     .iter()
                     .map(|mask| u64::from(mask.count_ones()))
                     .sum::<u64>();
-                shading.shade_parts((grid, first), &shader);
+                shading.shade_parts(grid, first, &shader);
                 for ((target, found), mask) in shading.targets.iter().zip(&shading.sums).zip(&shading.masks) {
                     let found = shown.over_shaded(*found, kept, mask.count_ones());
                     for (sum, channel) in sums[*target as usize].iter_mut().zip(found) {

@@ -19,7 +19,7 @@ use crate::raster::paint::visibility::surface_color::Shaded;
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
 use crate::raster::shading::Shader;
-use crate::raster::span::PixelRect;
+use crate::raster::span::SpanRect;
 use crate::raster::surface_id::{MAX_SURFACES, SurfaceId, TWO_SURFACES};
 
 /// Fragments that are shaded together: so many that their samples stay in a core's cache.
@@ -28,7 +28,7 @@ const TOGETHER: usize = 64;
 impl VisibilityPainter<'_> {
     /// Shades what is seen and resolves the finished tile; how long shading took, if that is to be `timed`.
     pub(super) fn resolve_by_samples(&mut self, block: &mut PixelBlock<'_>, timed: bool) -> Duration {
-        let PixelRect { x, y } = self.layers.base().rect;
+        let SpanRect { x, y } = self.layers.base().rect;
         self.by_samples.shared.clear();
         for (y, row) in (y.start..y.end).zip(0..) {
             self.note_row(y, row, block.line(y));
@@ -70,7 +70,7 @@ impl VisibilityPainter<'_> {
                     for x in columns {
                         let TwoSurfaces { mask, first, second } = row_of_two.get(usize::from(x));
                         let samples = (0..count).map(|i| if mask >> i & 1 == 1 { second } else { first });
-                        if let Some(flat) = note_shared(samples, surfaces, ([x, row], unresolved), shared) {
+                        if let Some(flat) = note_shared(samples, surfaces, [x, row], unresolved, shared) {
                             line[usize::from(x)] = mean.pixel(&shared[flat..]);
                             shared.truncate(flat);
                         }
@@ -79,7 +79,7 @@ impl VisibilityPainter<'_> {
                 Run::Split => {
                     for x in columns {
                         let samples = tile.samples(usize::from(x), y);
-                        if let Some(flat) = note_shared(samples, surfaces, ([x, row], unresolved), shared) {
+                        if let Some(flat) = note_shared(samples, surfaces, [x, row], unresolved, shared) {
                             line[usize::from(x)] = mean.pixel(&shared[flat..]);
                             shared.truncate(flat);
                         }
@@ -126,7 +126,7 @@ impl VisibilityPainter<'_> {
                         }
                         row = Some(place[1]);
                     }
-                    shades.gather(fragment, places, (positions, origin, grid.side));
+                    shades.gather(fragment, places, positions, grid);
                 }
                 shades.shade(&shader, grid);
                 self.samples_shaded += shades.points.len() as u64;
@@ -255,7 +255,8 @@ impl FlatLight<'_> {
 fn note_shared(
     samples: impl Iterator<Item = SurfaceId> + Clone,
     surfaces: &SurfaceTable<'_>,
-    (place, unresolved): ([u16; 2], &mut ShadingQueue),
+    place: [u16; 2],
+    unresolved: &mut ShadingQueue,
     shared: &mut Vec<Premultiplied16>,
 ) -> Option<usize> {
     let first = shared.len();

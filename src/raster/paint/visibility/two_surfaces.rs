@@ -11,6 +11,13 @@ use crate::raster::paint::visibility::packed::{joined, lanes};
 /// Most samples along the side of a pixel whose masks take 16 bits.
 const NARROW_SIDE: usize = 4;
 
+/// A pixel of a tile: its row and its column, counted from the tile's first pixel.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PixelIndex {
+    pub(crate) y: usize,
+    pub(crate) x: usize,
+}
+
 /// Four pixels side by side, in the lower half of a vector.
 pub(crate) type Group<S> = u16x8<S>;
 
@@ -24,6 +31,14 @@ pub(crate) struct TwoSurfaces {
     pub(crate) mask: u64,
     pub(crate) first: SurfaceId,
     pub(crate) second: SurfaceId,
+}
+
+/// The same of four pixels side by side, with narrow masks.
+#[derive(Clone, Copy)]
+pub(crate) struct TwoSurfaceGroup<S: Simd> {
+    pub(crate) masks: Group<S>,
+    pub(crate) firsts: Group<S>,
+    pub(crate) seconds: Group<S>,
 }
 
 /// Two surfaces for each pixel of a tile, of account or not.
@@ -78,18 +93,18 @@ impl TwoSurfacePixels {
         }
     }
 
-    /// That of column `x` in row `y`.
+    /// That of a pixel.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
-    pub(crate) fn get(&self, (y, x): (usize, usize)) -> TwoSurfaces {
+    pub(crate) fn get(&self, PixelIndex { y, x }: PixelIndex) -> TwoSurfaces {
         self.row(y).get(x)
     }
 
-    /// Sets that of column `x` in row `y`.
+    /// Sets that of a pixel.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
     #[expect(clippy::cast_possible_truncation, reason = "narrow masks have sixteen bits")]
-    pub(crate) fn set(&mut self, (y, x): (usize, usize), two: TwoSurfaces) {
+    pub(crate) fn set(&mut self, PixelIndex { y, x }: PixelIndex, two: TwoSurfaces) {
         let (row, x) = (&mut self.rows[y], x % ROW);
         if self.is_wide {
             self.wide[y][x] = two.mask;
@@ -100,24 +115,25 @@ impl TwoSurfacePixels {
         row.seconds[x] = two.second;
     }
 
-    /// Sets those of the pixels from column `x` on in row `y` that `which` names; masks must be narrow.
+    /// Sets those of the four pixels from `first` on that `which` names; masks must be narrow.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
     pub(crate) fn set_group<S: Simd>(
         &mut self,
         simd: S,
-        ((y, x), which): ((usize, usize), GroupMask<S>),
-        (masks, firsts, seconds): (Group<S>, Group<S>, Group<S>),
+        first: PixelIndex,
+        which: GroupMask<S>,
+        two: TwoSurfaceGroup<S>,
     ) {
         debug_assert!(!self.is_wide, "masks of sixteen bits");
-        let row = &mut self.rows[y];
+        let row = &mut self.rows[first.y];
         for (all, new) in [
-            (&mut row.masks, masks),
-            (&mut row.firsts, firsts),
-            (&mut row.seconds, seconds),
+            (&mut row.masks, two.masks),
+            (&mut row.firsts, two.firsts),
+            (&mut row.seconds, two.seconds),
         ] {
-            let old = group(simd, word_at(all, x));
-            put(all, x, which.select(new, old));
+            let old = group(simd, word_at(all, first.x));
+            put(all, first.x, which.select(new, old));
         }
     }
 

@@ -6,6 +6,13 @@ use crate::raster::paint::wide::flat::FlatPixels;
 use crate::raster::resolve::axis_weights::AxisWeights;
 use crate::raster::sampling::positions::{Position, SamplePositions};
 
+/// Where the samples of a pixel lie, and what a sample weighs by its place.
+#[derive(Debug)]
+pub(super) struct WeighedPositions {
+    pub(super) positions: SamplePositions,
+    pub(super) weights: AxisWeights,
+}
+
 /// Sums up weighted samples, reusing its memory.
 #[derive(Debug)]
 pub(super) struct FreeSums {
@@ -23,7 +30,8 @@ pub(super) struct FreeSums {
 }
 
 impl FreeSums {
-    pub(super) fn new(space: ResolveSpace, weights: &AxisWeights, positions: &SamplePositions) -> Self {
+    pub(super) fn new(space: ResolveSpace, samples: &WeighedPositions) -> Self {
+        let WeighedPositions { positions, weights } = samples;
         let margin = weights.margin();
         let around = (-margin..=margin).flat_map(|below| (-margin..=margin).map(move |right| [right, below]));
         let mut memory = Vec::new();
@@ -50,17 +58,17 @@ impl FreeSums {
     pub(super) fn each(
         &mut self,
         colors: &SampleColors,
-        (positions, weights): (&SamplePositions, &AxisWeights),
+        samples: &WeighedPositions,
         flat: &FlatPixels,
         put: &mut impl FnMut([usize; 2], WeightedSum),
     ) {
         if self.same.is_empty() {
-            self.find_places(colors, positions);
+            self.find_places(colors, &samples.positions);
         }
         for y in 0..flat.height() {
             for (x, is_flat) in flat.row(y).iter().enumerate() {
                 if !is_flat {
-                    put([x, y], self.sum(colors, weights, [x, y]));
+                    put([x, y], self.sum(colors, &samples.weights, [x, y]));
                 }
             }
         }

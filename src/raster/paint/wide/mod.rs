@@ -21,7 +21,7 @@ use crate::color::{Premultiplied16, ResolveSpace, WeightedSum};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::sample_colors::{PixelColors, SampleColors};
 use crate::raster::paint::wide::flat::FlatPixels;
-use crate::raster::paint::wide::free::FreeSums;
+use crate::raster::paint::wide::free::{FreeSums, WeighedPositions};
 use crate::raster::paint::wide::separable::SeparableSums;
 use crate::raster::resolve::axis_weights::AxisWeights;
 use crate::raster::sampling::positions::{Position, SamplePositions};
@@ -31,8 +31,7 @@ use crate::rules::Rules;
 /// Resolves tiles, one after the other, reusing its memory.
 #[derive(Debug)]
 pub(in crate::raster) struct WideResolve {
-    weights: AxisWeights,
-    positions: SamplePositions,
+    samples: WeighedPositions,
     space: ResolveSpace,
     rules: Rules,
     flat: FlatPixels,
@@ -67,16 +66,18 @@ impl WideResolve {
     /// For one drawing.
     pub(in crate::raster) fn new(context: &ShadeContext<'_>, positions: &SamplePositions) -> Self {
         let side = context.grid.side();
-        let weights = AxisWeights::new(context.filter, side);
+        let samples = WeighedPositions {
+            positions: positions.clone(),
+            weights: AxisWeights::new(context.filter, side),
+        };
         let is_grid = (side * side).cast_unsigned() == context.rate.samples();
         let sums = match context.space {
-            _ if !is_grid => Sums::Free(FreeSums::new(context.space, &weights, positions)),
-            ResolveSpace::Stored => Sums::Stored(SeparableSums::new(context.space, &weights, side)),
-            ResolveSpace::Linear => Sums::Light(SeparableSums::new(context.space, &weights, side)),
+            _ if !is_grid => Sums::Free(FreeSums::new(context.space, &samples)),
+            ResolveSpace::Stored => Sums::Stored(SeparableSums::new(context.space, &samples.weights, side)),
+            ResolveSpace::Linear => Sums::Light(SeparableSums::new(context.space, &samples.weights, side)),
         };
         Self {
-            weights,
-            positions: positions.clone(),
+            samples,
             space: context.space,
             rules: context.sampling.rules,
             flat: FlatPixels::default(),
@@ -86,7 +87,7 @@ impl WideResolve {
 
     /// Resolves the pixels of `block` from the samples around them.
     pub(in crate::raster) fn resolve(&mut self, colors: &SampleColors, block: &mut PixelBlock<'_>) {
-        let margin = self.weights.margin().cast_unsigned() as usize;
+        let margin = self.samples.weights.margin().cast_unsigned() as usize;
         self.flat.find(colors, margin);
         self.put_flat(colors, block);
         if self.flat.are_all() {
@@ -105,13 +106,13 @@ impl WideResolve {
         match &mut self.sums {
             Sums::Stored(sums) => sums.each(colors, &self.flat, &mut put),
             Sums::Light(sums) => sums.each(colors, &self.flat, &mut put),
-            Sums::Free(sums) => sums.each(colors, (&self.positions, &self.weights), &self.flat, &mut put),
+            Sums::Free(sums) => sums.each(colors, &self.samples, &self.flat, &mut put),
         }
     }
 
     /// Resolves what needs no sum.
     fn put_flat(&self, colors: &SampleColors, block: &mut PixelBlock<'_>) {
-        let margin = self.weights.margin().cast_unsigned() as usize;
+        let margin = self.samples.weights.margin().cast_unsigned() as usize;
         for (y, row) in (0..).zip(block.rect.y.start..block.rect.y.end) {
             let first = (y + margin) * colors.width() + margin;
             for ((x, is_flat), pixel) in self.flat.row(y).iter().enumerate().zip(block.line(row)) {
@@ -124,14 +125,15 @@ impl WideResolve {
 
     /// The samples of a tile of one pixel and its margin, with what each weighs.
     pub(in crate::raster) fn neighbourhood(&self, colors: &SampleColors) -> WeighedPixels {
-        let margin = self.weights.margin();
-        let count = self.positions.count();
+        let margin = self.samples.weights.margin();
+        let WeighedPositions { positions, weights } = &self.samples;
+        let count = positions.count();
         let corner = [colors.rect.x.start, colors.rect.y.start];
         let mut memory = Vec::new();
         let mut of_pixel = |[right, below]: [i32; 2]| {
             let pixel = [corner[0] + margin + right, corner[1] + margin + below];
-            let places: &[Position] = self.positions.of_pixel(pixel, &mut memory);
-            let weights = self.weights.of_samples([right, below], places);
+            let places: &[Position] = positions.of_pixel(pixel, &mut memory);
+            let weights = weights.of_samples([right, below], places);
             let colors = (0..count).map(|sample| colors.sample(pixel[0], pixel[1], sample));
             weights.zip(colors).collect::<Vec<_>>()
         };

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use crate::raster::coverage::covered::Covered;
-use crate::raster::paint::visibility::buffer::{PixelIndex, VisibilityBuffer, offset, run_length};
+use crate::raster::paint::visibility::buffer::{VisibilityBuffer, offset, run_length};
 use crate::raster::paint::visibility::packed::{PER_WORD, changed, joined, lanes, of_two, splat};
-use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
+use crate::raster::paint::visibility::two_surfaces::{PixelIndex, TwoSurfaces};
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::surface_id::{SPLIT, SurfaceId, TWO_SURFACES};
 
@@ -26,7 +26,10 @@ impl VisibilityBuffer {
         let y = offset(self.rect.y.start, y);
         match covered {
             Covered::Whole(xs) => self.change_whole(y, self.columns(xs), &mut change),
-            Covered::Part(x, mask) => self.change_samples((y, offset(self.rect.x.start, x)), mask, &mut change),
+            Covered::Part(x, mask) => {
+                let x = offset(self.rect.x.start, x);
+                self.change_samples(PixelIndex { y, x }, mask, &mut change);
+            }
         }
     }
 
@@ -39,7 +42,7 @@ impl VisibilityBuffer {
         covered: SampleMask,
         change: &mut impl FnMut(SurfaceId) -> SurfaceId,
     ) {
-        let shown = self.whole[pixel.0][pixel.1];
+        let shown = self.whole[pixel.y][pixel.x];
         if shown != SPLIT && self.all != 0 && self.change_two(pixel, covered.low(), change) {
             return;
         }
@@ -59,7 +62,7 @@ impl VisibilityBuffer {
     /// Lets samples of a pixel that is not split show what `change` makes of what they show; false, and nothing done,
     /// where the pixel would show three surfaces or more.
     fn change_two(&mut self, pixel: PixelIndex, covered: u64, change: &mut impl FnMut(SurfaceId) -> SurfaceId) -> bool {
-        let shown = self.whole[pixel.0][pixel.1];
+        let shown = self.whole[pixel.y][pixel.x];
         let two = if shown == TWO_SURFACES {
             let TwoSurfaces { mask, first, second } = self.two_surfaces.get(pixel);
             let (of_first, of_second) = (self.all & !mask, mask);
@@ -97,16 +100,17 @@ impl VisibilityBuffer {
             match shown {
                 SPLIT => {
                     let per_pixel = self.side * self.words;
-                    let first = self.first_packed((y, start));
+                    let first = self.first_packed(PixelIndex { y, x: start });
                     for word in &mut self.samples[first..first + (end - start) * per_pixel] {
                         *word = changed(*word, u64::MAX, change);
                     }
                 }
                 TWO_SURFACES => {
                     for x in start..end {
-                        let TwoSurfaces { mask, first, second } = self.two_surfaces.get((y, x));
+                        let pixel = PixelIndex { y, x };
+                        let TwoSurfaces { mask, first, second } = self.two_surfaces.get(pixel);
                         let (first, second) = (change(first), change(second));
-                        self.two_surfaces.set((y, x), TwoSurfaces { mask, first, second });
+                        self.two_surfaces.set(pixel, TwoSurfaces { mask, first, second });
                     }
                 }
                 _ => row[start..end].fill(change(shown)),
@@ -125,7 +129,7 @@ impl VisibilityBuffer {
                 let end = start + run_length(&line[start..], above);
                 if above == SPLIT || above == TWO_SURFACES {
                     for x in start..end {
-                        self.composite_pixel((y, x), layer, composer);
+                        self.composite_pixel(PixelIndex { y, x }, layer, composer);
                     }
                 } else if !composer.keeps_below(above) {
                     self.change_whole(y, start..end, &mut |below| composer.composited(below, above));
@@ -177,7 +181,7 @@ impl VisibilityBuffer {
     /// Renumbers all surfaces in use: `renumber` is called once for each, in no particular order.
     pub(crate) fn renumber(&mut self, renumber: impl Fn(SurfaceId) -> SurfaceId) {
         for pixel in self.places() {
-            match self.whole[pixel.0][pixel.1] {
+            match self.whole[pixel.y][pixel.x] {
                 TWO_SURFACES => {
                     let TwoSurfaces { mask, first, second } = self.two_surfaces.get(pixel);
                     let (first, second) = (renumber(first), renumber(second));
@@ -189,7 +193,7 @@ impl VisibilityBuffer {
                         *word = joined(lanes(*word).map(&renumber));
                     }
                 }
-                whole => self.whole[pixel.0][pixel.1] = renumber(whole),
+                whole => self.whole[pixel.y][pixel.x] = renumber(whole),
             }
         }
     }
@@ -197,7 +201,7 @@ impl VisibilityBuffer {
     /// Calls `seen` with every surface in use, often several times.
     pub(crate) fn each_surface(&self, mut seen: impl FnMut(SurfaceId)) {
         for pixel in self.places() {
-            match self.whole[pixel.0][pixel.1] {
+            match self.whole[pixel.y][pixel.x] {
                 SPLIT => {
                     for word in &self.samples[self.first_packed(pixel)..][..self.side * self.words] {
                         lanes(*word).into_iter().for_each(&mut seen);

@@ -19,8 +19,8 @@ use std::ops::Range;
 pub(crate) use change::Composer;
 
 use crate::raster::paint::visibility::packed::{PER_WORD, lanes, of_two, splat};
-use crate::raster::paint::visibility::two_surfaces::{TwoSurfacePixels, TwoSurfaceRow, TwoSurfaces};
-use crate::raster::span::{PixelRect, Span};
+use crate::raster::paint::visibility::two_surfaces::{PixelIndex, TwoSurfacePixels, TwoSurfaceRow, TwoSurfaces};
+use crate::raster::span::{Span, SpanRect};
 use crate::raster::surface_id::{ROW, SPLIT, SurfaceId, TWO_SURFACES};
 
 /// Pixels of a block.
@@ -32,7 +32,7 @@ const MAX_TWO_SURFACE_SIDE: usize = 8;
 /// The surfaces of a rectangle of pixels.
 #[derive(Debug)]
 pub(crate) struct VisibilityBuffer {
-    pub(crate) rect: PixelRect,
+    pub(crate) rect: SpanRect,
     width: usize,
     /// Samples along one side of a pixel.
     side: usize,
@@ -63,9 +63,6 @@ pub(crate) struct Shown<'a> {
     pub(crate) two_surfaces: TwoSurfaceRow<'a>,
 }
 
-/// A pixel of a tile: its row and its column, counted from the tile's first pixel.
-type PixelIndex = (usize, usize);
-
 /// Pixels side by side in a row that show the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Run {
@@ -82,7 +79,7 @@ impl VisibilityBuffer {
     pub(crate) fn new(side: i32) -> Self {
         let side = usize::try_from(side).unwrap_or(1);
         Self {
-            rect: PixelRect::EMPTY,
+            rect: SpanRect::EMPTY,
             width: 0,
             side,
             words: side.div_ceil(PER_WORD),
@@ -103,7 +100,7 @@ impl VisibilityBuffer {
     }
 
     /// Makes it the tile of `rect` in which every sample shows `surface`.
-    pub(crate) fn reset(&mut self, rect: PixelRect, surface: SurfaceId) {
+    pub(crate) fn reset(&mut self, rect: SpanRect, surface: SurfaceId) {
         self.rect = rect;
         self.width = rect.x.length();
         debug_assert!(self.width <= ROW, "a tile is {} pixels wide", self.width);
@@ -120,7 +117,7 @@ impl VisibilityBuffer {
     /// Makes a pixel a [`TWO_SURFACES`] or [`SPLIT`].
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
-    fn share(&mut self, (y, x): PixelIndex, kind: SurfaceId) {
+    fn share(&mut self, PixelIndex { y, x }: PixelIndex, kind: SurfaceId) {
         self.whole[y][x % ROW] = kind;
         self.shared[y] |= 1 << (x % ROW);
     }
@@ -130,9 +127,9 @@ impl VisibilityBuffer {
     #[expect(clippy::inline_always, reason = "a few instructions for every pixel on an edge")]
     fn set_two(&mut self, pixel: PixelIndex, two: TwoSurfaces) {
         if two.mask == 0 {
-            self.whole[pixel.0][pixel.1] = two.first;
+            self.whole[pixel.y][pixel.x] = two.first;
         } else if two.mask == self.all {
-            self.whole[pixel.0][pixel.1] = two.second;
+            self.whole[pixel.y][pixel.x] = two.second;
         } else {
             self.share(pixel, TWO_SURFACES);
             self.two_surfaces.set(pixel, two);
@@ -149,13 +146,13 @@ impl VisibilityBuffer {
     /// All pixels.
     fn places(&self) -> impl Iterator<Item = PixelIndex> + use<> {
         let width = self.width;
-        (0..self.whole.len()).flat_map(move |y| (0..width).map(move |x| (y, x)))
+        (0..self.whole.len()).flat_map(move |y| (0..width).map(move |x| PixelIndex { y, x }))
     }
 
     /// What a pixel shows that is not split; a single surface twice, with no bit set.
     #[inline]
     fn one_or_two(&self, pixel: PixelIndex) -> Option<TwoSurfaces> {
-        match self.whole[pixel.0][pixel.1] {
+        match self.whole[pixel.y][pixel.x] {
             SPLIT => None,
             TWO_SURFACES => Some(self.two_surfaces.get(pixel)),
             surface => Some(TwoSurfaces {
@@ -195,7 +192,10 @@ impl VisibilityBuffer {
     /// Makes sure that there is room for the samples of all pixels.
     #[inline]
     fn make_room(&mut self) {
-        let count = self.first_packed((self.whole.len(), 0));
+        let count = self.first_packed(PixelIndex {
+            y: self.whole.len(),
+            x: 0,
+        });
         if self.samples.len() < count {
             self.samples.resize(count, 0);
         }
@@ -203,7 +203,7 @@ impl VisibilityBuffer {
 
     /// Where the samples of a split pixel begin.
     #[inline]
-    fn first_packed(&self, (y, x): PixelIndex) -> usize {
+    fn first_packed(&self, PixelIndex { y, x }: PixelIndex) -> usize {
         (y * self.width + x) * self.side * self.words
     }
 
@@ -288,7 +288,10 @@ impl VisibilityBuffer {
 
     #[inline]
     fn words(&self, x: usize, y: i32) -> &[u64] {
-        let first = self.first_packed((offset(self.rect.y.start, y), x));
+        let first = self.first_packed(PixelIndex {
+            y: offset(self.rect.y.start, y),
+            x,
+        });
         &self.samples[first..][..self.side * self.words]
     }
 }
@@ -325,7 +328,7 @@ mod tests {
     use crate::raster::coverage::span_rows::MaskRows;
     use crate::raster::span::scaled;
 
-    const RECT: PixelRect = PixelRect {
+    const RECT: SpanRect = SpanRect {
         x: Span { start: 3, end: 14 },
         y: Span { start: 5, end: 12 },
     };

@@ -1,9 +1,9 @@
 //! Opaque paint: lets covered samples show a surface.
 
 use crate::raster::coverage::covered::Covered;
-use crate::raster::paint::visibility::buffer::{PixelIndex, VisibilityBuffer, offset};
+use crate::raster::paint::visibility::buffer::{VisibilityBuffer, offset};
 use crate::raster::paint::visibility::packed::{PER_WORD, of_two, splat, spread};
-use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
+use crate::raster::paint::visibility::two_surfaces::{PixelIndex, TwoSurfaces};
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::surface_id::{ROW, SPLIT, SurfaceId, TWO_SURFACES};
 
@@ -24,7 +24,8 @@ impl VisibilityBuffer {
                 self.whole[y][xs].fill(surface);
             }
             Covered::Part(x, mask) => {
-                let pixel = (y, offset(self.rect.x.start, x));
+                let x = offset(self.rect.x.start, x);
+                let pixel = PixelIndex { y, x };
                 if self.all == 0 {
                     self.paint_split(pixel, mask, surface);
                 } else {
@@ -38,7 +39,7 @@ impl VisibilityBuffer {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a dozen instructions for every pixel on an edge")]
     pub(super) fn paint_samples(&mut self, pixel: PixelIndex, covered: u64, surface: SurfaceId) {
-        let shown = self.whole[pixel.0][pixel.1 % ROW];
+        let shown = self.whole[pixel.y][pixel.x % ROW];
         if shown == surface {
             return;
         }
@@ -57,7 +58,7 @@ impl VisibilityBuffer {
     /// As [`VisibilityBuffer::paint_samples`] where samples differ already.
     #[inline(never)]
     fn paint_shared(&mut self, pixel: PixelIndex, covered: u64, surface: SurfaceId) {
-        let shown = self.whole[pixel.0][pixel.1];
+        let shown = self.whole[pixel.y][pixel.x];
         if shown == TWO_SURFACES && self.paint_two(pixel, covered, surface) {
             return;
         }

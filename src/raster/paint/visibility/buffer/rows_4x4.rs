@@ -7,9 +7,11 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
 use crate::raster::coverage::pixel_rows_4x4::{Ends, TileRow, Window, each_window};
-use crate::raster::paint::visibility::buffer::{PixelIndex, VisibilityBuffer};
+use crate::raster::paint::visibility::buffer::VisibilityBuffer;
 use crate::raster::paint::visibility::packed::{lanes, splat};
-use crate::raster::paint::visibility::two_surfaces::{Group, GroupMask, group, put, word_at};
+use crate::raster::paint::visibility::two_surfaces::{
+    Group, GroupMask, PixelIndex, TwoSurfaceGroup, group, put, word_at,
+};
 use crate::raster::sampling::mask::SampleMask;
 use crate::raster::surface_id::{ROW, SurfaceId, TWO_SURFACES};
 
@@ -72,22 +74,26 @@ impl VisibilityBuffer {
         let whole = &mut self.whole[y];
         let word = word_at(whole, x);
         if word & live & PERHAPS_SHARED != 0 {
-            return self.paint_shared_group((y, x), masks, surface);
+            return self.paint_shared_group(PixelIndex { y, x }, masks, surface);
         }
         let number = |number| Group::splat(simd, number);
         let (shown, covered) = (group(simd, word), group(simd, masks));
         let painted = in_part(simd, covered) & !shown.simd_eq(number(surface));
         put(whole, x, painted.select(number(TWO_SURFACES), shown));
-        self.two_surfaces
-            .set_group(simd, ((y, x), painted), (covered, shown, number(surface)));
+        let two = TwoSurfaceGroup {
+            masks: covered,
+            firsts: shown,
+            seconds: number(surface),
+        };
+        self.two_surfaces.set_group(simd, PixelIndex { y, x }, painted, two);
     }
 
     /// As [`VisibilityBuffer::paint_group`] pixel by pixel.
     #[inline(never)]
-    fn paint_shared_group(&mut self, (y, x): PixelIndex, masks: u64, surface: SurfaceId) {
+    fn paint_shared_group(&mut self, PixelIndex { y, x }: PixelIndex, masks: u64, surface: SurfaceId) {
         for (x, covered) in (x..).zip(lanes(masks)) {
             if covered != 0 {
-                self.paint_samples((y, x), u64::from(covered), surface);
+                self.paint_samples(PixelIndex { y, x }, u64::from(covered), surface);
             }
         }
     }
@@ -106,7 +112,7 @@ impl VisibilityBuffer {
         let word = word_at(whole, x);
         let [first, ..] = lanes(word >> (live.trailing_zeros() % 64));
         if first >= TWO_SURFACES || (word ^ splat(first)) & live != 0 {
-            return self.change_shared_group((y, x), masks, change);
+            return self.change_shared_group(PixelIndex { y, x }, masks, change);
         }
         if masks == 0 {
             return;
@@ -115,15 +121,24 @@ impl VisibilityBuffer {
         let (shown, covered) = (group(simd, word), group(simd, masks));
         let changed = in_part(simd, covered);
         put(whole, x, changed.select(number(TWO_SURFACES), shown));
-        self.two_surfaces
-            .set_group(simd, ((y, x), changed), (covered, shown, number(change(first))));
+        let two = TwoSurfaceGroup {
+            masks: covered,
+            firsts: shown,
+            seconds: number(change(first)),
+        };
+        self.two_surfaces.set_group(simd, PixelIndex { y, x }, changed, two);
     }
 
     /// As [`VisibilityBuffer::change_group`] pixel by pixel.
-    fn change_shared_group(&mut self, (y, x): PixelIndex, masks: u64, change: &mut impl FnMut(SurfaceId) -> SurfaceId) {
+    fn change_shared_group(
+        &mut self,
+        PixelIndex { y, x }: PixelIndex,
+        masks: u64,
+        change: &mut impl FnMut(SurfaceId) -> SurfaceId,
+    ) {
         for (x, covered) in (x..).zip(lanes(masks)) {
             if covered != 0 {
-                self.change_samples((y, x), SampleMask::of_bits(covered.into()), change);
+                self.change_samples(PixelIndex { y, x }, SampleMask::of_bits(covered.into()), change);
             }
         }
     }
@@ -138,20 +153,22 @@ impl VisibilityBuffer {
 )]
 fn each_partial_window<S: Simd>(simd: S, row: &TileRow<'_>, mut visit: impl FnMut(Window)) {
     if row.full.is_empty() {
-        return each_window(simd, row, (row.touched.clone(), Ends::Both), visit);
+        return each_window(simd, row, row.touched.clone(), Ends::Both, visit);
     }
     let (before, after) = row.beside_full();
     each_window(
         simd,
         row,
-        (before, Ends::Left),
+        before,
+        Ends::Left,
         #[inline(always)]
         |window| visit(window),
     );
     each_window(
         simd,
         row,
-        (after, Ends::Right),
+        after,
+        Ends::Right,
         #[inline(always)]
         |window| visit(window),
     );
@@ -195,7 +212,7 @@ mod tests {
     use crate::raster::coverage::polygon_rows::{RowSpans, SpanStore};
     use crate::raster::coverage::span_rows::StoredRows;
     use crate::raster::paint::visibility::buffer::Run;
-    use crate::raster::span::{PixelRect, Span};
+    use crate::raster::span::{Span, SpanRect};
     use crate::simd;
 
     const SIDE: i32 = 4;
@@ -224,7 +241,7 @@ mod tests {
     }
 
     /// Spans in the sample rows of a tile and around it, few or several in each.
-    fn shape(u: &mut Unstructured<'_>, rect: PixelRect) -> Result<(Span, Vec<Vec<Span>>)> {
+    fn shape(u: &mut Unstructured<'_>, rect: SpanRect) -> Result<(Span, Vec<Vec<Span>>)> {
         let start = u.int_in_range(0..=rect.y.end * SIDE - 1)?;
         let rows = Span {
             start,
@@ -283,7 +300,7 @@ mod tests {
                 let end = start + u.int_in_range(1..=most)?;
                 Ok(Span { start, end })
             };
-            let rect = PixelRect {
+            let rect = SpanRect {
                 x: extent(64)?,
                 y: extent(40)?,
             };

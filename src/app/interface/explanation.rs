@@ -376,7 +376,7 @@ fn lines(ui: &mut Ui, lines: &[String]) -> Response {
         job.append(text, 0.0, format);
     };
     // Rows of numbers keep their columns, in letters that are small enough.
-    let longest = lines.iter().filter(|line| is_row(line)).map(|line| line.len()).max();
+    let longest = lines.iter().filter(|line| is_row(line)).map(String::len).max();
     let width = ui.available_width() / longest.unwrap_or(1) as f32;
     let of_rows = FontId::monospace((width / MONOSPACE).clamp(SIZE / 2.0, SIZE - 1.0));
     for (i, line) in lines.iter().enumerate() {

@@ -255,22 +255,27 @@ impl Inspector {
         } else {
             &[None]
         };
-        corners.iter().find_map(|corner| {
-            let large = ring.and_then(|ring| self.first_place(beside_ring(), &ring, area, &size, *corner));
-            large.or_else(|| self.first_place(all(), shown, area, &size, *corner))
+        corners.iter().find_map(|only| {
+            let room = |taken| Room {
+                area,
+                taken,
+                only: *only,
+            };
+            let large = ring
+                .as_ref()
+                .and_then(|ring| self.first_place(beside_ring(), &room(ring), &size));
+            large.or_else(|| self.first_place(all(), &room(shown), &size))
         })
     }
 
-    /// Places the first of these insets that has room inside `area` beside `taken`, rather without its large pixel than
-    /// a smaller one; in `only` this corner, if there is one.
+    /// Places the first of these insets that has room, rather without its large pixel than a smaller one.
     fn first_place(
         &mut self,
         insets: impl Iterator<Item = Inset>,
-        taken: &PixelRect,
-        area: &PixelRect,
+        room: &Room<'_>,
         size: &impl Fn(&Inset) -> [u32; 2],
-        only: Option<Corner>,
     ) -> Option<PlacedInset> {
+        let Room { area, taken, only } = *room;
         let longest = (f64::from(area.width.min(area.height)) * SHARE).max(LEAST);
         for inset in insets {
             for inset in [inset, inset.without_detail()] {
@@ -289,6 +294,13 @@ impl Inspector {
         }
         None
     }
+}
+
+/// Where an inset may go: inside `area`, beside what is `taken`, in this corner if there is one.
+struct Room<'a> {
+    area: &'a PixelRect,
+    taken: &'a PixelRect,
+    only: Option<Corner>,
 }
 
 /// A pinned pixel with so much room around it.

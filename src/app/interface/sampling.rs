@@ -45,9 +45,10 @@ fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], now: &Settings, comma
         }
         row(ui, first.panel.label, |ui| {
             let gaps = (group.len() - 1) as f32 * 4.0;
-            let width = (ui.available_width() - gaps) / group.len() as f32;
+            let parts: f32 = group.iter().map(|shown| shown.panel.control.part()).sum();
+            let width = (ui.available_width() - gaps) / parts;
             for shown in group {
-                control(ui, *shown, now, width, commands);
+                control(ui, *shown, now, width * shown.panel.control.part(), commands);
             }
         });
     }

@@ -179,6 +179,7 @@ impl Lessons<'_> {
         self.inspector.magnifier.pin = None;
         if let Some(place) = pin {
             self.inspector.pin_place(place, self.scene_list);
+            self.inspector.magnifier.revealed = true;
         }
     }
 

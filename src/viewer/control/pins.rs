@@ -93,7 +93,8 @@ impl Hand<'_> {
         self.inspector.pin(pixel, &self.layout(), self.chrome);
     }
 
-    fn keep_pin_in_place(&mut self) {
+    /// The pinned place of the scene falls into another pixel where the view is another.
+    pub(in crate::viewer) fn keep_pin_in_place(&mut self) {
         let layout = self.layout();
         self.inspector
             .keep_pin_in_place(self.scene_list, &layout, &mut self.chrome.messages);
@@ -296,19 +297,40 @@ impl Hand<'_> {
         let pane = layout.panes().first;
         let free = pane.area.intersection(&free);
         let now = camera.transform(&context).to_pixels(place).floor();
-        let inside = |axis: usize, from: i64, to: i64| {
-            let (low, high) = (
-                from - pane.corner[axis] + PANEL_ROOM,
-                to - pane.corner[axis] - 1 - PANEL_ROOM,
-            );
-            now[axis].min(high as f64).max(low as f64)
+        let inside_of = |axis: usize, from: i64, to: i64| {
+            let low = from - pane.corner[axis] + PANEL_ROOM;
+            let high = to - pane.corner[axis] - 1 - PANEL_ROOM;
+            low as f64..=high as f64
         };
-        let at = DVec2::new(inside(0, free.x, free.right()), inside(1, free.y, free.bottom()));
-        if at == now {
+        let inside = |axis: usize, from: i64, to: i64| {
+            let room = inside_of(axis, from, to);
+            now[axis].min(*room.end()).max(*room.start())
+        };
+        let [zero, end] = [DVec2::ZERO, context.canvas];
+        let corners = [zero, end, DVec2::new(zero.x, end.y), DVec2::new(end.x, zero.y)];
+        let corners = corners.map(|corner| camera.transform(&context).to_pixels(corner));
+        // By whole pixels. A canvas that has room is shown whole, and its pin with it.
+        let by = |axis: usize, from: i64, to: i64| {
+            let (low, high) = ((from - pane.corner[axis]) as f64, (to - pane.corner[axis]) as f64);
+            let along = corners.map(|corner| corner[axis]);
+            let least = along.into_iter().fold(f64::INFINITY, f64::min).floor();
+            let most = along.into_iter().fold(f64::NEG_INFINITY, f64::max).ceil();
+            let whole = 0.0_f64.max(low - least).min(high - most);
+            let of_pin = inside(axis, from, to) - now[axis];
+            // Outside of the canvas a pin may lie anywhere.
+            let keeps_pin = inside_of(axis, from, to).contains(&(now[axis] + whole));
+            if most - least <= high - low && keeps_pin {
+                whole
+            } else {
+                of_pin
+            }
+        };
+        let by = DVec2::new(by(0, free.x, free.right()), by(1, free.y, free.bottom()));
+        if by == DVec2::ZERO {
             return;
         }
         let mut moved = camera;
-        moved.pan(at - now, &context);
+        moved.pan(by, &context);
         self.inspector.magnifier.kept_view = Some([camera, moved]);
         self.scene_list.look(layout.frame_size(), |camera, _| *camera = moved);
     }

@@ -148,6 +148,7 @@ impl Viewer {
 /// Sets the view of a lesson's step where that is due; its pin stays in sight.
 pub(in crate::viewer) fn follow_lesson(viewer: &mut Viewer) {
     if viewer.opening().lessons().follow() {
+        viewer.hand().keep_pin_in_place();
         viewer.hand().reveal_pin();
         viewer.opening().lessons().take_view();
     }

@@ -112,6 +112,16 @@ pub enum Control {
     },
 }
 
+impl Control {
+    /// How much of a row it takes beside others: names are longer than numbers.
+    pub fn part(&self) -> f32 {
+        match self {
+            Self::List => 1.7,
+            _ => 1.0,
+        }
+    }
+}
+
 /// A command that keys, palette and scripts know a setting by.
 #[derive(Debug)]
 pub struct SettingCommand {

@@ -83,6 +83,10 @@ impl Explanation {
     }
 
     fn thin_parts(&self) -> Option<String> {
+        if self.resolve.around.is_some() {
+            // Neighbours' samples decide, too: the pixel may show too much of it as well as too little.
+            return None;
+        }
         let thin = self.missed.iter().filter(|missed| self.is_thin(missed));
         let area: f64 = thin.map(|missed| missed.area).sum();
         (area > 0.0).then(|| {

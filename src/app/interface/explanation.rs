@@ -356,10 +356,10 @@ fn section(ui: &mut Ui, id: &str, title: &str, open: bool, contents: impl FnOnce
 /// Width of a letter that is as wide as all others, in its sizes; a little more than that.
 const MONOSPACE: f32 = 0.62;
 
-/// Whether a line is numbers and nothing else: a row of a table.
+/// Whether a line is numbers, or percentages, and nothing else: a row of a table.
 fn is_row(line: &str) -> bool {
     let mut words = line.split_whitespace();
-    words.clone().count() > 1 && words.all(|word| word.parse::<f64>().is_ok())
+    words.clone().count() > 1 && words.all(|word| word.trim_end_matches('%').parse::<f64>().is_ok())
 }
 
 /// Lines of the report. What stands before a gap is a name, and drawn weaker than what it names.

@@ -54,7 +54,14 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect])
         Color32::WHITE,
         (free.width() - 40.0).max(60.0),
     );
-    let taken = [taken, &things(viewer, ui.pixels_per_point())].concat();
+    // The button beside a magnifier comes and goes with the pointer, and this text is not to.
+    let insets = insets(viewer, ui.pixels_per_point());
+    let buttons: Vec<Rect> = insets
+        .first()
+        .map(|inset| place_of_close(*inset, free))
+        .into_iter()
+        .collect();
+    let taken = [taken, &things(viewer, ui.pixels_per_point()), &buttons].concat();
     let back = free_corner(free, galley.size() + vec2(16.0, 10.0), &taken)?;
     ui.painter().rect_filled(back, 5.0, Color32::from_black_alpha(170));
     ui.painter().galley(back.min + vec2(8.0, 5.0), galley, Color32::WHITE);

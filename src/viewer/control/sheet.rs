@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::figure::{InsetPlace, InsetSpec};
+use crate::figure::{Inset, InsetPlace, InsetSpec};
 use crate::geometry::rounded_place;
 use crate::viewer::control::recipes::Recipes;
 use crate::viewer::export::restored::Grammar;
@@ -12,6 +12,16 @@ use crate::viewer::export::sheet::desk::SheetDesk;
 use crate::viewer::export::sheet::preview::{KnownScene, SheetQuestion};
 use crate::viewer::export::spec::{PictureSpec, output_name, shell_line};
 use crate::viewer::inspector::Inspector;
+
+/// A number of pixels, smaller by a factor up to 1.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "no more than it was"
+)]
+fn scaled(pixels: u32, factor: f64) -> u32 {
+    (f64::from(pixels) * factor).round() as u32
+}
 
 impl Recipes<'_> {
     /// The `rasterscope sheet` command that makes the sheet, quoted for a POSIX shell; `None` without a scene or without pixels.
@@ -61,6 +71,10 @@ impl Recipes<'_> {
         let Inspector {
             region, magnification, ..
         } = pixels.inspector.magnifier;
+        // In a smaller panel it is as much smaller as the picture, and hides no more of it.
+        let ratio = |axis: usize| f64::from(panel.size[axis]) / f64::from(both.layout.frame_size()[axis].max(1));
+        let least = *Inset::MAGNIFICATION.start();
+        let magnification = scaled(magnification, ratio(0).min(ratio(1)).min(1.0)).max(least);
         let inset = InsetSpec::around(place, region, magnification);
         inset.fitted(panel.size, &panel.view.transform(context.canvas, panel.size))
     }

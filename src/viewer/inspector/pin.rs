@@ -99,8 +99,10 @@ impl Inspection {
             Some((place, of)) if of == scene => {
                 let before = layout.in_frame(pin.pixel);
                 pin.pixel = window_pixel(view.to_pixels(place));
-                if before.is_some() && layout.in_frame(pin.pixel).is_none() {
-                    messages.done(PIN_OUTSIDE.to_owned());
+                match (before, layout.in_frame(pin.pixel)) {
+                    (Some(_), None) => messages.done(PIN_OUTSIDE.to_owned()),
+                    (None, Some(_)) => messages.retract(PIN_OUTSIDE),
+                    _ => {}
                 }
             }
             _ => {

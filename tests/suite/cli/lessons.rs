@@ -86,7 +86,10 @@ fn lesson_is_walked_by_keys_and_closed_by_escape() {
     // Frames of odd sides show it moved by half a pixel, so that their pixels are those of even ones.
     let half = dvec2(0.25, 0.25) + 1e-9;
     let is_near = (numbers.center - dvec2(50.0, 50.0)).abs().cmple(half).all();
-    assert!(is_near && (numbers.scale - 2.0).abs() < 1e-9, "the step's view, not {numbers:?}");
+    assert!(
+        is_near && (numbers.scale - 2.0).abs() < 1e-9,
+        "the step's view, not {numbers:?}"
+    );
     assert_eq!(session.viewer.settings().dialect, DialectChoice::Svg);
     assert_eq!(session.viewer.ab().arrangement(), Arrangement::SideBySide);
     let b = session.viewer.ab().other_settings(session.viewer.settings());

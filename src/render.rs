@@ -2,33 +2,33 @@
 
 mod legend;
 mod nearby;
+mod parts;
 mod regions;
 mod replay;
+mod screen;
 mod tiles;
 mod visualisation;
 
-use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use glam::DVec2;
-use rayon::prelude::*;
-
 use crate::color::{BlendMode, ResolveSpace, Rgba};
-use crate::geometry::{Polygon, ViewTransform};
+use crate::geometry::ViewTransform;
 use crate::raster::{
     self, Chunk, ChunkBuilder, Compositing, Counters, DisplayList, FilterRadius, Framebuffer, Hidden, ListContext,
     PaintSources, PlacedGradient, RasterSettings, RasterTimes, ResolveFilter, SamplePattern, SampleRate, Seed,
     SizedFilter,
 };
 use crate::rules::Rules;
-use crate::scene::{Composite, Fill, Gradient, MaskKind, Paint, Primitive, PrimitiveKind, Scene};
+use crate::scene::{Composite, Fill, Gradient, MaskKind, Paint, PrimitiveKind, Scene};
 use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, SamplingSettings};
 
 pub use legend::{Legend, LegendKey};
 pub use nearby::Nearby;
+use parts::chunks;
 pub use regions::{Subject, draw_regions, refine};
 pub use replay::{Explainer, Neighbourhood, OpenSample, replay};
+use screen::Screen;
 pub use visualisation::Visualisation;
 use visualisation::Visualiser;
 
@@ -215,17 +215,6 @@ fn rasterized(
     })
 }
 
-/// Fewest points that are worth another thread.
-const MIN_POINTS: usize = 192;
-
-/// Most primitives of a part, and fewest of one of a large scene.
-const MAX_PRIMITIVES: usize = 65_536;
-const LARGE: usize = 1024;
-
-/// Parts into which a large scene is cut; a small one into as many as there are threads, since tiles have to look at all
-/// of them.
-const PARTS: usize = 64;
-
 /// What paints a frame of `size` pixels: the picture, or what it shows instead.
 fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
     let Subject { scene, view, settings } = *subject;
@@ -310,45 +299,6 @@ fn sources<'a>(scene: &'a Scene, view: &ViewTransform, settings: &RenderSettings
             .map(|pattern| tiles::placed(pattern, view, settings))
             .collect(),
     }
-}
-
-/// What `make` makes of each part of a scene, in painter's order: of the number of its first primitive and its primitives.
-fn chunks(scene: &Scene, make: impl Fn(usize, &[Primitive]) -> Chunk + Sync) -> Vec<Chunk> {
-    let parts = parts(&scene.primitives, rayon::current_num_threads());
-    let make = |part: Range<usize>| make(part.start, &scene.primitives[part]);
-    parts.into_par_iter().map(make).collect()
-}
-
-/// Cuts primitives into parts for several threads: those of a small scene have about as many points each, those of a large
-/// one as many primitives.
-fn parts(primitives: &[Primitive], threads: usize) -> Vec<Range<usize>> {
-    let count = primitives.len();
-    if count > LARGE * threads {
-        let length = (count / PARTS).clamp(LARGE, MAX_PRIMITIVES);
-        return (0..count)
-            .step_by(length)
-            .map(|start| start..count.min(start + length))
-            .collect();
-    }
-    let points = |primitive: &Primitive| match &primitive.kind {
-        PrimitiveKind::Triangle { points, .. } => points.len(),
-        PrimitiveKind::Polygon { polygon, .. } => polygon.points().len(),
-        _ => 1,
-    };
-    let all: usize = primitives.iter().map(points).sum();
-    let most = all.div_ceil(threads).max(MIN_POINTS);
-    let (mut parts, mut start, mut held) = (Vec::with_capacity(threads), 0, 0);
-    for (i, primitive) in primitives.iter().enumerate() {
-        held += points(primitive);
-        if held >= most {
-            parts.push(start..i + 1);
-            (start, held) = (i + 1, 0);
-        }
-    }
-    if start < count {
-        parts.push(start..count);
-    }
-    parts
 }
 
 /// The outline of the canvas, where one is wanted.
@@ -445,154 +395,6 @@ fn paint(paint: &Paint) -> raster::Paint {
         Paint::Vertex(colors) => raster::Paint::vertex(colors),
         Paint::Texture { texture, uv, opacity } => {
             raster::Paint::texture(texture.0, uv.map(|uv| uv.to_array()), opacity)
-        }
-    }
-}
-
-/// Pixels per user unit, in the direction in which there are most.
-fn pixels_per_unit(view: &ViewTransform) -> f64 {
-    let matrix = view.scene_to_pixels.matrix2;
-    matrix.x_axis.length().max(matrix.y_axis.length())
-}
-
-/// User space to screen space, by whose rules.
-struct Screen<'a> {
-    view: &'a ViewTransform,
-    rules: Rules,
-    /// Samples per user unit, in the direction in which there are most.
-    scale: f64,
-    /// Pixels of the frame.
-    size: [u32; 2],
-    /// Pixels that are painted on each side of it.
-    margin: f64,
-}
-
-impl<'a> Screen<'a> {
-    fn new(view: &'a ViewTransform, settings: &RenderSettings, size: [u32; 2]) -> Self {
-        Self {
-            view,
-            rules: settings.rules,
-            scale: pixels_per_unit(view) * f64::from(settings.sample_rate.side()),
-            size,
-            margin: settings.margin(),
-        }
-    }
-
-    /// Calls `draw` with a polygon whose edges are fine enough for this view.
-    fn with_edges<T>(&self, polygon: &Polygon, draw: impl FnOnce(&Polygon) -> T) -> T {
-        let finer = if polygon.curves().is_some() && self.shows(polygon) {
-            polygon.at_scale(self.scale)
-        } else {
-            None
-        };
-        draw(finer.as_deref().unwrap_or(polygon))
-    }
-
-    /// The same with edges so much finer that the area in a pixel is known to three digits; those of many points stay the
-    /// picture's.
-    fn with_true_edges<T>(&self, polygon: &Polygon, measure: impl FnOnce(&Polygon) -> T) -> T {
-        /// Of a pixel's side.
-        const TOLERANCE: f64 = 5e-4;
-        /// They become several times as many, and are cut into triangles.
-        const MOST_POINTS: usize = 2_000;
-        match polygon.curves().filter(|_| polygon.points().len() <= MOST_POINTS) {
-            // Not remembered by the polygon: frames would have to find theirs again.
-            Some(curves) => {
-                let tolerance = TOLERANCE / pixels_per_unit(self.view);
-                measure(&Polygon::new(curves.flattened(tolerance), polygon.rule()))
-            }
-            None => self.with_edges(polygon, measure),
-        }
-    }
-
-    /// Whether any of a polygon may lie in what is painted.
-    fn shows(&self, polygon: &Polygon) -> bool {
-        let [low, high] = polygon.bounds();
-        let corners =
-            [low, high, DVec2::new(low.x, high.y), DVec2::new(high.x, low.y)].map(|corner| self.place(corner));
-        let [first, last] = corners
-            .iter()
-            .fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[first, last], corner| {
-                [first.min(*corner), last.max(*corner)]
-            });
-        first.cmple(DVec2::from(self.size.map(f64::from)) + self.margin).all()
-            && last.cmpge(DVec2::splat(-self.margin)).all()
-    }
-
-    fn place(&self, point: DVec2) -> DVec2 {
-        let exact = self.view.to_pixels(point);
-        match self.rules {
-            Rules::Standard => exact,
-            Rules::Course | Rules::Float => exact.as_vec2().as_dvec2(),
-        }
-    }
-
-    /// The four hairlines just outside the canvas, as the course draws them.
-    fn outline(&self, canvas: DVec2) -> [[DVec2; 2]; 4] {
-        let corner = |x: f64, y: f64, dx: f64, dy: f64| self.place(DVec2::new(x, y)) + DVec2::new(dx, dy);
-        let a = corner(0.0, 0.0, -1.0, 1.0);
-        let b = corner(canvas.x, 0.0, 1.0, 1.0);
-        let c = corner(0.0, canvas.y, -1.0, -1.0);
-        let d = corner(canvas.x, canvas.y, 1.0, -1.0);
-        [[a, b], [a, c], [d, b], [d, c]]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::{DialectChoice, NoResources, ReadOptions, read};
-
-    /// A scene of polygons with so many corners each.
-    fn scene(corners: impl Iterator<Item = usize>) -> Scene {
-        let polygon = |count: usize| format!("<polygon points='{}'/>", "1,2 7,3 5,8 ".repeat(count.div_ceil(3)));
-        let polygons = corners.map(polygon).collect::<Vec<_>>().concat();
-        let document = format!("<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'>{polygons}</svg>");
-        let options = ReadOptions {
-            dialect: DialectChoice::Svg,
-        };
-        read(document.as_bytes(), "polygons", options, &NoResources).expect("a good document")
-    }
-
-    fn points(primitives: &[Primitive]) -> usize {
-        let of = |primitive: &Primitive| match &primitive.kind {
-            PrimitiveKind::Polygon { polygon, .. } => polygon.points().len(),
-            PrimitiveKind::Triangle { points, .. } => points.len(),
-            _ => 0,
-        };
-        primitives.iter().map(of).sum()
-    }
-
-    #[test]
-    fn parts_hold_each_primitive_once_and_small_scenes_as_many_points_in_each() {
-        let small = scene((0..90).map(|i| if i < 80 { 3 } else { 240 }));
-        let few = scene([30].into_iter());
-        let large = scene((0..5000).map(|_| 6));
-        for threads in 1..=4 {
-            for scene in [&small, &few, &large] {
-                let parts = parts(&scene.primitives, threads);
-                let all: Vec<usize> = parts.iter().cloned().flatten().collect();
-                assert_eq!(
-                    all,
-                    (0..scene.primitives.len()).collect::<Vec<_>>(),
-                    "each once, in order"
-                );
-            }
-            let parts_of_small = parts(&small.primitives, threads);
-            assert_eq!(parts_of_small.len(), threads, "one for each thread");
-            let share = points(&small.primitives) / threads;
-            for part in parts_of_small {
-                let held = points(&small.primitives[part]);
-                assert!(
-                    held.abs_diff(share) <= 240 * threads,
-                    "{held} points of {share} by {threads}"
-                );
-            }
-            assert_eq!(
-                parts(&few.primitives, threads).len(),
-                1,
-                "nobody is woken up for so little"
-            );
         }
     }
 }

@@ -125,7 +125,7 @@ fn settings() -> String {
         }
         format!("| `--{}` | {values} | {default} | {means} |\n", setting.option)
     };
-    picture::all().iter().map(line).collect()
+    picture::all().map(line).collect()
 }
 
 /// The sample patterns as a table in Markdown.

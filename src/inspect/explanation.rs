@@ -3,16 +3,13 @@
 use glam::DVec2;
 
 use super::depth;
-use super::model::{
-    Edge, Explanation, Fragment, Interpolated, Missed, Paint, Pinhole, RampStop, Sample, Shape, Source, Tap, Texel,
-    Texture, TileTexel, VERSION, Verdict, View,
-};
+use super::model::{Explanation, Fragment, Missed, Paint, Pinhole, Sample, Shape, Source, Texture, VERSION, View};
 use super::numbers::one_line;
 use super::resolve::{levels, resolve};
 use super::samples::{SampleHit, shape_of, straight};
-use crate::color::{BlendMode, Rgba};
+use super::triangle_views::{edges, interpolated, triangle_view};
+use crate::color::BlendMode;
 use crate::geometry::FillRule;
-use crate::geometry::edge::{EdgeKind, EdgeTest};
 use crate::raster::{Attributes, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay, SampleOfTriangle};
 use crate::render::{self, Explainer, OpenSample, Subject};
 use crate::rules::Rules;
@@ -344,107 +341,6 @@ fn mark_masks(paints: &mut [Paint]) {
             }
             _ => {}
         }
-    }
-}
-
-fn triangle_view(sample: &SampleOfTriangle, corners: &[DVec2; 3], rules: Rules) -> View {
-    View::Triangle {
-        edges: edges(sample, corners, rules),
-        weights: sample.weights,
-        value: interpolated(&sample.attributes),
-    }
-}
-
-/// What the edges of a triangle with these corners say of a sample.
-fn edges(sample: &SampleOfTriangle, corners: &[DVec2; 3], rules: Rules) -> [Edge; 3] {
-    [0, 1, 2].map(|i| {
-        let test = sample.edges[i];
-        let length = corners[i].distance(corners[(i + 1) % 3]);
-        let square_pixels = test.value as f64 / (sample.units_per_pixel * sample.units_per_pixel);
-        let float = sample.floats.map(|floats| floats[i]);
-        Edge {
-            value: test.value,
-            float,
-            distance: if length > 0.0 { square_pixels / length } else { 0.0 },
-            verdict: float.map_or_else(|| verdict(test, rules), float_verdict),
-        }
-    })
-}
-
-fn verdict(test: EdgeTest, rules: Rules) -> Verdict {
-    match (test.value.signum(), rules, test.kind) {
-        (1, ..) => Verdict::Inside,
-        (-1, ..) => Verdict::Outside,
-        (_, Rules::Course, _) => Verdict::TieInclusive,
-        (_, Rules::Standard | Rules::Float, EdgeKind::Top) => Verdict::TieTop,
-        (_, Rules::Standard | Rules::Float, EdgeKind::Left) => Verdict::TieLeft,
-        (_, Rules::Standard | Rules::Float, EdgeKind::Other) => Verdict::TieNeither,
-    }
-}
-
-/// By the float rules, which only ask whether a value is above zero.
-fn float_verdict(value: f32) -> Verdict {
-    if value > 0.0 {
-        Verdict::Inside
-    } else if value < 0.0 {
-        Verdict::Outside
-    } else {
-        Verdict::TieUndecided
-    }
-}
-
-fn interpolated(attributes: &Attributes) -> Interpolated {
-    match attributes {
-        Attributes::None => Interpolated::Flat,
-        Attributes::Color(rgba) => Interpolated::Color { rgba: *rgba },
-        Attributes::Pattern { size, read } => Interpolated::Pattern {
-            copy: read.copy,
-            size: *size,
-            texels: read
-                .texels
-                .iter()
-                .map(|(at, weight)| TileTexel {
-                    at: *at,
-                    weight: *weight,
-                })
-                .collect(),
-        },
-        Attributes::Gradient { place, mix } => {
-            let stop = |i: usize| RampStop {
-                number: mix.stops[i],
-                offset: mix.ends[i].offset,
-                color: mix.ends[i].color.to_bytes(Rules::Standard),
-            };
-            let Rgba { r, g, b, a } = mix.color;
-            Interpolated::Gradient {
-                t: *place,
-                at: mix.at,
-                stops: [stop(0), stop(1)],
-                weight: mix.weight,
-                rgba: [r, g, b, a],
-            }
-        }
-        Attributes::Texture { uv, reads } => Interpolated::Texture {
-            uv: *uv,
-            taps: reads
-                .taps
-                .iter()
-                .map(|tap| Tap {
-                    level: tap.level,
-                    at: tap.at.to_array(),
-                })
-                .collect(),
-            texels: reads
-                .texels
-                .iter()
-                .map(|texel| Texel {
-                    level: texel.level,
-                    at: texel.at,
-                    color: texel.color,
-                    weight: texel.weight,
-                })
-                .collect(),
-        },
     }
 }
 

@@ -17,11 +17,13 @@ mod numbers;
 mod part_words;
 mod pinholes;
 mod resolve;
+mod resolve_words;
 mod samples;
 mod seams;
 mod seen;
 mod servers;
 mod text;
+mod triangle_views;
 mod words;
 
 pub use accumulation::Convergence;

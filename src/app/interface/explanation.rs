@@ -1,20 +1,17 @@
 //! Why the pinned pixel has its colour: a tree beside the picture. What the pointer is over is outlined in the scene.
 
 use crate::viewer::{ExportCommand, InspectorCommand};
-use egui::text::{LayoutJob, TextFormat};
-use egui::{
-    Button, CollapsingHeader, Color32, FontId, Pos2, Rect, Response, RichText, ScrollArea, Sense, Shape, Stroke, Ui,
-    pos2, vec2,
-};
+use egui::{Button, CollapsingHeader, Color32, Pos2, Rect, Response, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
 
 use super::controls::{command_button, tip};
+use super::hovered::{Hovered, OUTLINE};
 use super::look::opaque;
 use super::look::{self, CONTROL};
-use super::places::{around, points};
+use super::report::{lines, section};
 use super::{compare, scrubber, texture_view};
-use crate::inspect::{Difference, Explanation, Paint, TexelPlace};
+use crate::inspect::{Difference, Explanation, Paint};
 use crate::render::Visualisation;
-use crate::viewer::{Arrangement, Command, Toggle, Viewer};
+use crate::viewer::{Command, Toggle, Viewer};
 
 /// Width of the panel where no hand gave it another, in points, frame included.
 pub(super) const WIDTH: f32 = 312.0;
@@ -24,14 +21,6 @@ pub(super) const LEAST_WIDTH: f32 = 300.0;
 const LEAST_REST: f32 = 300.0;
 /// Side of the magnified pixel with its samples, in points.
 const PIXEL_SIDE: f32 = 132.0;
-/// Letters of the report, in points.
-const SIZE: f32 = 12.0;
-/// What outlines are drawn with, over anything: a light line on a dark one.
-const OUTLINE: [(f32, Color32); 2] = [
-    (4.0, Color32::from_black_alpha(170)),
-    (1.5, Color32::from_rgb(255, 214, 10)),
-];
-
 /// What the panel remembers.
 #[derive(Debug, Default)]
 pub(super) struct ExplanationPanel {
@@ -47,17 +36,6 @@ pub(super) struct ExplanationPanel {
     pub(super) has_comparison: bool,
     /// Whether it is a page of a lesson's panel, whose tabs lead away from it.
     pub(super) is_page: bool,
-}
-
-/// What the pointer is over.
-#[derive(Debug, Default)]
-pub(super) struct Hovered {
-    /// A primitive of the scene.
-    primitive: Option<u32>,
-    /// A sample.
-    sample: Option<usize>,
-    /// A texel.
-    texel: Option<TexelPlace>,
 }
 
 /// What is told of the pinned pixel.
@@ -346,64 +324,6 @@ fn title(ui: &mut Ui, viewer: &Viewer, is_page: bool, commands: &mut Vec<Command
     ui.add_space(2.0);
 }
 
-fn section(ui: &mut Ui, id: &str, title: &str, open: bool, contents: impl FnOnce(&mut Ui)) {
-    CollapsingHeader::new(RichText::new(title).size(12.0))
-        .id_salt(id)
-        .default_open(open)
-        .show(ui, contents);
-}
-
-/// Width of a letter that is as wide as all others, in its sizes; a little more than that.
-const MONOSPACE: f32 = 0.62;
-
-/// Whether a line is numbers, or percentages, and nothing else: a row of a table.
-fn is_row(line: &str) -> bool {
-    let mut words = line.split_whitespace();
-    words.clone().count() > 1 && words.all(|word| word.trim_end_matches('%').parse::<f64>().is_ok())
-}
-
-/// Lines of the report. What stands before a gap is a name, and drawn weaker than what it names.
-fn lines(ui: &mut Ui, lines: &[String]) -> Response {
-    /// Longest name, in bytes.
-    const NAME: usize = 18;
-    let (weak, normal) = (ui.visuals().weak_text_color(), ui.visuals().text_color());
-    let mut job = LayoutJob::default();
-    let mut append = |text: &str, font: FontId, color| {
-        let format = TextFormat {
-            line_height: Some(SIZE + 4.5),
-            ..TextFormat::simple(font, color)
-        };
-        job.append(text, 0.0, format);
-    };
-    // Rows of numbers keep their columns, in letters that are small enough.
-    let longest = lines.iter().filter(|line| is_row(line)).map(String::len).max();
-    let width = ui.available_width() / longest.unwrap_or(1) as f32;
-    let of_rows = FontId::monospace((width / MONOSPACE).clamp(SIZE / 2.0, SIZE - 1.0));
-    for (i, line) in lines.iter().enumerate() {
-        if i > 0 {
-            append("\n", FontId::proportional(SIZE), normal);
-        }
-        if is_row(line) {
-            append(line, of_rows.clone(), normal);
-            continue;
-        }
-        let mut add = |text: &str, color| append(text, FontId::proportional(SIZE), color);
-        match line
-            .trim_start()
-            .split_once("  ")
-            .filter(|(name, _)| name.len() <= NAME)
-        {
-            Some((name, value)) => {
-                add(name, weak);
-                add("   ", weak);
-                add(value.trim_start(), normal);
-            }
-            None => add(line.trim_start(), normal),
-        }
-    }
-    ui.label(job)
-}
-
 fn draw_samples(ui: &Ui, explanation: &Explanation, rect: Rect, told: Option<usize>) {
     // Off the grid samples may lie at the border, and their discs reach over it.
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
@@ -434,53 +354,6 @@ fn draw_samples(ui: &Ui, explanation: &Explanation, rect: Rect, told: Option<usi
 #[expect(clippy::cast_possible_truncation, reason = "places on a screen")]
 fn at_part(rect: Rect, [x, y]: [f64; 2]) -> Pos2 {
     rect.min + vec2(rect.width() * x as f32, rect.height() * y as f32)
-}
-
-impl Hovered {
-    /// Tells the viewer which texel the pointer is over.
-    pub(super) fn point_at_texel(&self, viewer: &Viewer, commands: &mut Vec<Command>) {
-        if self.texel != viewer.inspector().pointed_texel() {
-            commands.push(Command::Inspector(InspectorCommand::PointAtTexel(self.texel)));
-        }
-    }
-
-    /// Outlines the primitive that the pointer is over in the picture, where no panel covers it; but for a texel, whose
-    /// pixels are lit instead.
-    pub(super) fn outline(&self, ui: &Ui, viewer: &Viewer, free: Rect) {
-        let Some(primitive) = self.primitive.filter(|_| self.texel.is_none()) else {
-            return;
-        };
-        let scale = f64::from(ui.pixels_per_point());
-        #[expect(clippy::cast_possible_truncation, reason = "what is far outside is clipped")]
-        let point = |[x, y]: [f64; 2]| {
-            let near = |at: f64| (at / scale).clamp(-1e5, 1e5) as f32;
-            pos2(near(x), near(y))
-        };
-        let contours: Vec<Vec<Pos2>> = viewer
-            .both()
-            .outline_of(primitive)
-            .iter()
-            .map(|contour| contour.iter().map(|at| point(*at)).collect())
-            .collect();
-        let inset = viewer
-            .inspector()
-            .inset()
-            .map(|placed| points(&placed.rect, ui.pixels_per_point()));
-        let shown = match viewer.ab().arrangement() {
-            Arrangement::SideBySide => free.with_max_x(free.center().x),
-            _ => free,
-        };
-        for part in around(shown, inset) {
-            let painter = ui.painter().with_clip_rect(part);
-            for (width, color) in OUTLINE {
-                for contour in &contours {
-                    // Closed lines have spikes at sharp corners, as long as the sides of the line take to meet.
-                    let closed = contour.iter().chain(contour.first()).copied().collect();
-                    painter.add(Shape::line(closed, Stroke::new(width, color)));
-                }
-            }
-        }
-    }
 }
 
 /// Whether there is room for the panel beside what must stay free of the picture, in `width` points.

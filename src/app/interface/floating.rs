@@ -94,9 +94,7 @@ fn overlay_words(viewer: &Viewer) -> Vec<String> {
     if !words.is_empty() {
         lines.push(words.join(", "));
     }
-    let others = picture::all()
-        .iter()
-        .filter(|setting| setting.told == Told::IfChanged && setting.about == About::Samples);
+    let others = picture::all().filter(|setting| setting.told == Told::IfChanged && setting.about == About::Samples);
     for setting in others {
         // The pattern stands beside the number of samples.
         if setting.option != "pattern" && !setting.is_default(viewer.settings()) {

@@ -18,6 +18,7 @@ mod explanation;
 mod explanation_side;
 mod floating;
 mod hits;
+mod hovered;
 mod lesson;
 mod look;
 mod menu;
@@ -25,8 +26,11 @@ mod messages;
 mod modal;
 mod open_dialog;
 mod palette;
+mod panels;
 mod pin;
 mod places;
+mod report;
+mod room;
 mod sampling;
 mod scenes;
 mod scrubber;
@@ -40,15 +44,16 @@ mod view_numbers;
 mod widths;
 
 use crate::viewer::WindowCommand;
-use egui::{Area, Context, Frame, Id, Margin, Order, Panel, Pos2, Rect, ScrollArea, Sense, Ui};
+use egui::{Area, Context, Frame, Id, Margin, Order, Panel, Pos2, Rect, Sense, Ui};
 use glam::DVec2;
 
-use crate::viewer::{Arrangement, Command, PixelRect, Theme, ViewNumbers, Viewer};
+use crate::viewer::{Command, PixelRect, Theme, ViewNumbers, Viewer};
 use compare_marks::Marks;
 use dialogs::Dialogs;
-use explanation::{ExplanationPanel, Hovered};
-use explanation_side::{Room, Side};
+use explanation::ExplanationPanel;
+use explanation_side::Side;
 use floating::CloseOfInset;
+use hovered::Hovered;
 use messages::{Messages, Taken};
 use scenes::Thumbnails;
 use side_panel::PanelMemory;
@@ -186,60 +191,6 @@ impl Interface {
     /// Whether a list of values hangs open, which Esc closes.
     pub(super) fn list_is_open(&self) -> bool {
         egui::Popup::is_any_open(&self.ctx)
-    }
-
-    /// Whether a side panel beside the canvas of the default view leaves all of it free, in a window of `size` points.
-    pub(super) fn panel_fits(size: [f32; 2]) -> bool {
-        let canvas = size[0].min(size[1]) / 1.2;
-        (size[0] - canvas) / 2.0 >= SizedPanel::Side.first()
-    }
-
-    /// Whether the explanation of a pixel has room in a window of that many points in width only without the side panel.
-    pub(super) fn explanation_needs_panel(&self, viewer: &Viewer, window: f32) -> bool {
-        let width = self.beside_lesson(viewer, window);
-        explanation::fits(width) && !explanation::fits(width - self.widths.of(SizedPanel::Side, window))
-    }
-
-    /// What a lesson leaves of a window of that many points in width.
-    fn beside_lesson(&self, viewer: &Viewer, window: f32) -> f32 {
-        let lesson = self.widths.of(SizedPanel::Lesson, window);
-        let has_panel = viewer.lesson().is_some() && window >= lesson + LEAST_PICTURE;
-        if has_panel { window - lesson } else { window }
-    }
-
-    /// Whether a lesson leaves no room for the explanation of a pixel in a window of that many points in width: then both
-    /// are pages of one panel.
-    pub(super) fn lesson_shares_panel(&self, viewer: &Viewer, window: f32) -> bool {
-        let beside = self.beside_lesson(viewer, window);
-        beside < window && !explanation::fits(beside)
-    }
-
-    /// Whether a lesson and the side panel leave too little of the picture in a window of that many points in width.
-    pub(super) fn lesson_crowds_panel(&self, viewer: &Viewer, window: f32) -> bool {
-        let beside = self.beside_lesson(viewer, window);
-        beside < window && beside - self.widths.of(SizedPanel::Side, window) < USEFUL_PICTURE / 2.0
-    }
-
-    /// Whether the explanation of a pixel has room in a window of that many points in width.
-    pub(super) fn has_room_to_explain(&self, viewer: &Viewer, window: f32) -> bool {
-        if self.lesson_shares_panel(viewer, window) {
-            return true;
-        }
-        let panel = if viewer.chrome().panel() {
-            self.widths.of(SizedPanel::Side, window)
-        } else {
-            0.0
-        };
-        explanation::fits(self.beside_lesson(viewer, window) - panel)
-    }
-
-    /// Whether the side panel of a window of that many points in width leaves the pinned pixel in sight.
-    pub(super) fn panel_leaves_pin(&self, viewer: &Viewer, window: f32, pixels_per_point: f32) -> bool {
-        let left = window - self.widths.of(SizedPanel::Side, window) - pin::ROOM;
-        let places = viewer.pixels().pinned_places();
-        places
-            .iter()
-            .all(|place| places::points(place, pixels_per_point).right() < left)
     }
 
     /// Takes the viewer's theme; to be called before a pass, which keeps the one that it begins with.
@@ -382,111 +333,6 @@ impl Interface {
         }
         self.covered.extend(&messages);
         self.told = messages;
-    }
-
-    /// The lesson beside the picture. Where it leaves no room for the explanation of a pixel, that is a page of its panel,
-    /// and what the pointer is over there is returned.
-    fn lesson_panel(&mut self, ui: &mut Ui, viewer: &Viewer, window: f32, asked: &mut Asked) -> Option<Hovered> {
-        let shares = self.lesson_shares_panel(viewer, window);
-        let commands = &mut asked.commands;
-        let memory = &mut self.explanation;
-        let panel = Panel::left("lesson panel")
-            .resizable(false)
-            .exact_size(self.widths.of(SizedPanel::Lesson, window))
-            .frame(panel_frame(ui, look::scrolling_margin(8)))
-            .show(ui, |ui| {
-                look::bars_beside(ui);
-                look::beside_bar(ui, |ui| lesson::head(ui, viewer, commands));
-                if shares && viewer.pixels().pinned().is_some() {
-                    look::beside_bar(ui, |ui| lesson::pages(ui, viewer, commands));
-                    if lesson::is_turned(viewer) {
-                        (memory.has_comparison, memory.is_page) = (viewer.ab().other().is_some(), true);
-                        return memory.show(ui, viewer, commands);
-                    }
-                }
-                lesson::text(ui, viewer, commands);
-                Hovered::default()
-            });
-        self.cover(ui, SizedPanel::Lesson, true, panel.response.rect);
-        shares.then_some(panel.inner)
-    }
-
-    /// On the left, unless that would cover the pinned pixel. The panel keeps its side as long as it is to be seen, so that
-    /// its buttons stay under the pointer.
-    fn compare_panel(&mut self, ui: &mut Ui, viewer: &Viewer, window: f32, asked: &mut Asked) {
-        let width = self.widths.of(SizedPanel::Comparison, window);
-        let room = ui.available_rect_before_wrap();
-        let scale = ui.pixels_per_point();
-        let on_right = *self.comparison_on_right.get_or_insert_with(|| {
-            if viewer.ab().arrangement() == Arrangement::SideBySide {
-                // Both halves lie beside it, wherever it is.
-                return false;
-            }
-            let places = viewer.pixels().pinned_places();
-            let pin = places.first().map(|place| places::points(place, scale).center().x);
-            pin.is_some_and(|x| {
-                let beside_left = x - room.left() - width;
-                let beside_right = room.right() - width - x;
-                beside_left < pin::ROOM && beside_left < beside_right
-            })
-        });
-        let panel = if on_right {
-            Panel::right("compare panel on the right")
-        } else {
-            Panel::left("compare panel")
-        };
-        let panel = panel
-            .resizable(false)
-            .exact_size(width)
-            .frame(panel_frame(ui, look::scrolling_margin(4)))
-            .show(ui, |ui| {
-                look::bars_beside(ui);
-                let area = ScrollArea::vertical().id_salt("compare").auto_shrink(false);
-                area.show(ui, |ui| compare::show(ui, viewer, &mut asked.commands));
-            });
-        self.cover(ui, SizedPanel::Comparison, !on_right, panel.response.rect);
-    }
-
-    /// Notes that a panel covers the picture, and lets its edge be dragged.
-    fn cover(&mut self, ui: &Ui, panel: SizedPanel, is_left: bool, rect: Rect) {
-        let grip = self.widths.edge(ui, panel, is_left, rect);
-        self.covered.extend([rect, grip]);
-    }
-
-    /// Why the pinned pixel has its colour, beside the picture.
-    fn explanation(&mut self, ui: &mut Ui, viewer: &Viewer, whole: Rect, asked: &mut Asked) -> Hovered {
-        let free = ui.available_rect_before_wrap().intersect(whole);
-        if !explanation::is_shown(viewer, free.width()) {
-            self.explanation_side = None;
-            return Hovered::default();
-        }
-        let width = self.widths.of(SizedPanel::Explanation, whole.width());
-        let width = explanation::fitted(width, free.width());
-        let room = Room {
-            free,
-            panel: width,
-            window: whole.width(),
-        };
-        let side = Side::choose(self.explanation_side, viewer, room, ui.pixels_per_point());
-        // The place of a pin is not known before its scene is.
-        self.explanation_side = Some(side).filter(|_| viewer.both().view_numbers().is_some());
-        let panel = if side.is_left {
-            Panel::left("explanation")
-        } else {
-            Panel::right("explanation on the right")
-        };
-        let memory = &mut self.explanation;
-        memory.is_page = false;
-        let panel = panel
-            .resizable(false)
-            .exact_size(width)
-            .frame(panel_frame(ui, look::scrolling_margin(8)))
-            .show(ui, |ui| {
-                look::bars_beside(ui);
-                memory.show(ui, viewer, &mut asked.commands)
-            });
-        self.cover(ui, SizedPanel::Explanation, side.is_left, panel.response.rect);
-        panel.inner
     }
 }
 

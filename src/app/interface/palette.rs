@@ -78,7 +78,6 @@ pub(super) fn find(text: &str, viewer: &Viewer) -> (String, Vec<Entry>) {
         .collect();
     if wanted.chars().count() >= LEAST_LETTERS {
         let others = picture::all()
-            .iter()
             .flat_map(|setting| values(setting, viewer))
             .chain(scenes(viewer));
         found.extend(others.filter_map(|entry| Some((rank_of_name(&entry.name, &wanted)?, entry))));

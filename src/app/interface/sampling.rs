@@ -16,9 +16,7 @@ const BELOW: f64 = 0.5;
 
 /// Shows the settings and adds what was changed to `commands`.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
-    let (document, sampling): (Vec<_>, Vec<_>) = picture::all()
-        .iter()
-        .partition(|setting| setting.about == About::Document);
+    let (document, sampling): (Vec<_>, Vec<_>) = picture::all().partition(|setting| setting.about == About::Document);
     heading(ui, "Sampling");
     rows(ui, &sampling, viewer.settings(), commands);
     rows(ui, &document, viewer.settings(), commands);

@@ -112,7 +112,7 @@ impl SheetDialog {
             .selected_text(name.replace('-', " "))
             .height(f32::INFINITY)
             .show_ui(ui, |ui| {
-                let all = std::iter::once("nothing").chain(picture::all().iter().map(|setting| setting.option));
+                let all = std::iter::once("nothing").chain(picture::all().map(|setting| setting.option));
                 for other in all {
                     let label = other.replace('-', " ");
                     if ui.selectable_label(other == name, label).clicked() && other != name {

@@ -33,7 +33,6 @@ fn menu_has_every_command_in_every_window() {
             let [width, height] = window.map(f64::from);
             let mut seen = names(&mut session);
             let lists: Vec<String> = picture::all()
-                .iter()
                 .map(|setting| capital(setting.label))
                 .filter(|name| seen.contains(name))
                 .collect();

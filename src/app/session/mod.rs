@@ -18,12 +18,16 @@ mod input;
 #[cfg(test)]
 mod lessons;
 #[cfg(test)]
+mod magnifiers;
+#[cfg(test)]
 mod menus;
 #[cfg(test)]
 mod overlaps;
 #[cfg(test)]
 mod panel_edges;
 mod room;
+#[cfg(test)]
+mod scene_list;
 #[cfg(test)]
 mod small_windows;
 mod stage;

@@ -87,7 +87,7 @@ fn option(setting: &'static PictureSetting) -> Arg {
 
 impl Args for SamplingOptions {
     fn augment_args(command: Command) -> Command {
-        command.args(picture::all().iter().map(option))
+        command.args(picture::all().map(option))
     }
 
     fn augment_args_for_update(command: Command) -> Command {

@@ -22,9 +22,7 @@ type Differing = (&'static str, String, String);
 
 /// What differs.
 fn differing(a: &Settings, b: &Settings) -> Vec<Differing> {
-    let unequal = picture::all()
-        .iter()
-        .filter(|setting| setting.value(a) != setting.value(b));
+    let unequal = picture::all().filter(|setting| setting.value(a) != setting.value(b));
     unequal
         .map(|setting| (setting.label, setting.shown(a), setting.shown(b)))
         .collect()

@@ -23,7 +23,7 @@ pub struct Gesture {
 /// The whole table, in the order of help and menus: each heading's own lines, and those of the picture settings.
 pub fn all() -> &'static [CommandSpec] {
     static ALL: LazyLock<Vec<CommandSpec>> = LazyLock::new(|| {
-        let of_settings: Vec<CommandSpec> = picture::all().iter().flat_map(of_setting).collect();
+        let of_settings: Vec<CommandSpec> = picture::all().flat_map(of_setting).collect();
         let mut all = Vec::new();
         for group in Group::ALL {
             let own = table::of(group).iter().copied();

@@ -90,7 +90,7 @@ impl PictureSpec {
             dialect: self.dialect,
             ..Settings::default()
         };
-        let changed = picture::all().iter().filter(|setting| !setting.is_default(&settings));
+        let changed = picture::all().filter(|setting| !setting.is_default(&settings));
         changed
             .map(|setting| (setting.option, setting.value(&settings)))
             .collect()

@@ -186,7 +186,7 @@ fn step(
 
 fn setting(name: &str, key: &Key<'_>, value: &Value<'_>) -> Found<SettingChange> {
     let Some(setting) = picture::find(name) else {
-        let options = picture::all().iter().map(|setting| setting.option);
+        let options = picture::all().map(|setting| setting.option);
         let known: Vec<&str> = KEYS.into_iter().chain(options).collect();
         let problem = format!("`{}` is unknown; a step has {}", short(name), known.join(", "));
         return mistake(key.span(), problem);

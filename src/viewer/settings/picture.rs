@@ -6,16 +6,16 @@
 pub use super::row::{About, Control, PanelRow, PictureSetting, SettingChange, SettingCommand, Told, Values};
 
 use super::Settings;
-use super::table::PICTURE_SETTINGS;
+use super::table::picture_settings;
 
 /// The settings, in the order of menus and of the command line.
-pub fn all() -> &'static [PictureSetting] {
-    PICTURE_SETTINGS
+pub fn all() -> impl Iterator<Item = &'static PictureSetting> {
+    picture_settings()
 }
 
 /// The setting with the option `name`.
 pub fn find(name: &str) -> Option<&'static PictureSetting> {
-    PICTURE_SETTINGS.iter().find(|setting| setting.option == name)
+    all().find(|setting| setting.option == name)
 }
 
 /// The settings about this that are not at their defaults and that are not told always, in few words each, such as `pattern
@@ -38,9 +38,7 @@ pub(in crate::viewer) fn title_words(settings: &Settings) -> Vec<String> {
 }
 
 fn told(told: Told, about: About) -> impl Iterator<Item = &'static PictureSetting> {
-    PICTURE_SETTINGS
-        .iter()
-        .filter(move |setting| (setting.told, setting.about) == (told, about))
+    all().filter(move |setting| (setting.told, setting.about) == (told, about))
 }
 
 /// The changes that settings such as `sample-rate 16, dialect svg` ask for; `None` where one of them is none.
@@ -88,7 +86,7 @@ mod tests {
             for value in setting.some_values() {
                 let settings = after(setting.option, value);
                 assert_eq!(setting.value(&settings), value, "{setting:?}");
-                let others = all().iter().filter(|other| *other != setting);
+                let others = all().filter(|other| *other != setting);
                 for other in others {
                     assert!(other.is_default(&settings), "{setting:?} leaves {other:?} alone");
                 }

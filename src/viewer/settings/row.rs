@@ -122,6 +122,13 @@ impl Control {
     }
 }
 
+impl PanelRow {
+    /// A row that shows `label`, and that readers of screens call `name`.
+    pub(super) const fn new(label: &'static str, name: &'static str, control: Control) -> Self {
+        Self { label, name, control }
+    }
+}
+
 /// A command that keys, palette and scripts know a setting by.
 #[derive(Debug)]
 pub struct SettingCommand {
@@ -139,6 +146,21 @@ pub struct SettingCommand {
     pub step: Option<f64>,
     /// Whether a value may follow.
     pub takes_value: bool,
+}
+
+impl SettingCommand {
+    /// A command without keys that does nothing yet.
+    pub(super) const fn new(id: &'static str, name: &'static str, help: &'static str) -> Self {
+        Self {
+            id,
+            name,
+            help,
+            more: "",
+            keys: &[],
+            step: None,
+            takes_value: false,
+        }
+    }
 }
 
 /// A change of a picture's settings.

@@ -8,6 +8,9 @@ use super::Toggle;
 use crate::color::Rgba;
 use crate::rules::Rules;
 
+/// What stands for a level that nobody fixed, or a radius.
+pub(super) const AUTO: &str = "auto";
+
 /// The value of `all` that is called `text`.
 pub(in crate::viewer) fn named<T: Copy>(all: &[T], name: impl Fn(T) -> &'static str, text: &str) -> Option<T> {
     all.iter().copied().find(|value| name(*value) == text)

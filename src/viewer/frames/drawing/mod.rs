@@ -9,6 +9,8 @@
 //! Frames that are known to be quick can be drawn by the event loop, straight into the surface that it presents.
 
 #[cfg(test)]
+mod surface_tests;
+#[cfg(test)]
 mod tests;
 
 use std::io;

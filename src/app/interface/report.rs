@@ -1,0 +1,66 @@
+//! Sections and lines of a report.
+
+use egui::text::{LayoutJob, TextFormat};
+use egui::{CollapsingHeader, FontId, Response, RichText, Ui};
+
+/// Letters of the report, in points.
+const SIZE: f32 = 12.0;
+
+/// Width of a letter that is as wide as all others, in its sizes; a little more than that.
+const MONOSPACE: f32 = 0.62;
+
+/// A part of a report that can be folded.
+pub(super) fn section(ui: &mut Ui, id: &str, title: &str, open: bool, contents: impl FnOnce(&mut Ui)) {
+    CollapsingHeader::new(RichText::new(title).size(12.0))
+        .id_salt(id)
+        .default_open(open)
+        .show(ui, contents);
+}
+
+/// Whether a line is numbers, or percentages, and nothing else: a row of a table.
+fn is_row(line: &str) -> bool {
+    let mut words = line.split_whitespace();
+    words.clone().count() > 1 && words.all(|word| word.trim_end_matches('%').parse::<f64>().is_ok())
+}
+
+/// Lines of the report. What stands before a gap is a name, and drawn weaker than what it names.
+pub(super) fn lines(ui: &mut Ui, lines: &[String]) -> Response {
+    /// Longest name, in bytes.
+    const NAME: usize = 18;
+    let (weak, normal) = (ui.visuals().weak_text_color(), ui.visuals().text_color());
+    let mut job = LayoutJob::default();
+    let mut append = |text: &str, font: FontId, color| {
+        let format = TextFormat {
+            line_height: Some(SIZE + 4.5),
+            ..TextFormat::simple(font, color)
+        };
+        job.append(text, 0.0, format);
+    };
+    // Rows of numbers keep their columns, in letters that are small enough.
+    let longest = lines.iter().filter(|line| is_row(line)).map(String::len).max();
+    let width = ui.available_width() / longest.unwrap_or(1) as f32;
+    let of_rows = FontId::monospace((width / MONOSPACE).clamp(SIZE / 2.0, SIZE - 1.0));
+    for (i, line) in lines.iter().enumerate() {
+        if i > 0 {
+            append("\n", FontId::proportional(SIZE), normal);
+        }
+        if is_row(line) {
+            append(line, of_rows.clone(), normal);
+            continue;
+        }
+        let mut add = |text: &str, color| append(text, FontId::proportional(SIZE), color);
+        match line
+            .trim_start()
+            .split_once("  ")
+            .filter(|(name, _)| name.len() <= NAME)
+        {
+            Some((name, value)) => {
+                add(name, weak);
+                add("   ", weak);
+                add(value.trim_start(), normal);
+            }
+            None => add(line.trim_start(), normal),
+        }
+    }
+    ui.label(job)
+}

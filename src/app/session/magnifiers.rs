@@ -1,0 +1,178 @@
+//! Magnifiers under a hand: where they lie, what closes them, what the wheel does over them.
+
+#![expect(clippy::cast_possible_truncation, reason = "inside the window")]
+
+use crate::viewer::{AbCommand, Against, InspectorCommand};
+
+use glam::{DVec2, dvec2};
+
+use super::comparing::{CLOSE, WINDOWS, side_by_side};
+use super::hands::session;
+use super::small_windows::{click_on, comparing, right_click};
+use super::*;
+use crate::viewer::script::Stage as _;
+use crate::viewer::{Arrangement, Toggle};
+
+#[test]
+fn magnifiers_lie_beside_both_pictures() {
+    for window in WINDOWS {
+        for part in [0.25, 0.3, 0.7, 0.8] {
+            let mut session = side_by_side(window);
+            let free = session.free_area.expect("there is room");
+            let x = (free.x as f64 + f64::from(free.width) * part).round();
+            right_click(&mut session, [x, f64::from(window[1]) * 0.45]);
+            click_on(&mut session, CLOSE);
+            let insets = [
+                session.viewer.inspector().inset(),
+                session.viewer.inspector().other_inset(),
+            ];
+            let insets = insets.map(|placed| placed.expect("there is room").rect);
+            let free = session.free_area.expect("there is room");
+            let half = free.width / 2;
+            let corner = |place: DVec2| place.to_array().map(|at| at.floor() as i64);
+            let canvas = session
+                .viewer
+                .scene_list()
+                .canvas_in_frame(&session.viewer.both().layout())
+                .expect("a scene");
+            let [low, high] = canvas.map(corner);
+            for (index, inset) in insets.iter().enumerate() {
+                let left = free.x + i64::from(half + 2) * i64::try_from(index).expect("two");
+                let pane = PixelRect {
+                    x: left,
+                    width: half - 1,
+                    ..free
+                };
+                assert_eq!(inset.intersection(&pane), *inset, "in its half of {window:?}");
+                let picture = PixelRect {
+                    x: pane.x + low[0],
+                    y: pane.y + low[1],
+                    width: u32::try_from(high[0] - low[0]).expect("a width"),
+                    height: u32::try_from(high[1] - low[1]).expect("a height"),
+                };
+                let common = inset.intersection(&picture);
+                let covered = f64::from(common.width) * f64::from(common.height);
+                let whole = f64::from(picture.width) * f64::from(picture.height);
+                assert!(covered < whole * 0.05, "{inset:?} over {picture:?} in {window:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn magnifiers_follow_their_pictures_to_the_other_half() {
+    let mut session = side_by_side([1366, 768]);
+    session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+    session.command(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
+    session.settle();
+    let free = session.free_area.expect("there is room");
+    right_click(&mut session, [free.x as f64 + f64::from(free.width) * 0.3, 350.0]);
+    click_on(&mut session, CLOSE);
+    for own_is_left in [true, false] {
+        let free = session.free_area.expect("there is room");
+        let middle = free.x + i64::from(free.width / 2);
+        let [own, other] = [
+            session.viewer.inspector().inset(),
+            session.viewer.inspector().other_inset(),
+        ]
+        .map(|placed| placed.expect("room").rect);
+        assert_eq!(
+            own.right() <= middle,
+            own_is_left,
+            "A's lies in A's half: {own:?} of {free:?}"
+        );
+        assert_eq!(
+            other.right() <= middle,
+            !own_is_left,
+            "B's in B's: {other:?} of {free:?}"
+        );
+        session.command(Command::Ab(AbCommand::Swap));
+        session.settle();
+    }
+}
+
+#[test]
+fn outline_lies_over_the_first_of_both() {
+    let session = side_by_side([1280, 800]);
+    let free = session.free_area.expect("there is room");
+    let [low, _] = session
+        .viewer
+        .scene_list()
+        .canvas_in_frame(&session.viewer.both().layout())
+        .expect("a scene");
+    // The ground of the scene: half of its canvas.
+    let outline = session.viewer.both().outline_of(0).concat();
+    let corner = outline.into_iter().map(DVec2::from).reduce(DVec2::min);
+    let expected = low + dvec2(free.x as f64, free.y as f64);
+    let off = corner.expect("a triangle") - expected;
+    assert!(off.length() < 1.5, "{corner:?}, not {expected}");
+}
+
+#[test]
+fn magnifier_is_closed_with_a_pin_out_of_sight() {
+    let mut session = comparing([1280, 800]);
+    session.command(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
+    session.pointer(Some(dvec2(640.0, 380.0)));
+    for _ in 0..3 {
+        session.wheel(3.0);
+    }
+    session.command(Command::Inspector(InspectorCommand::Pin([290, 300])));
+    session.command(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
+    session.settle();
+    assert!(
+        session.viewer.inspector().inset().is_some(),
+        "magnified while it is in sight"
+    );
+    session.command(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
+    session.settle();
+    assert_eq!(session.viewer.pixels().pinned(), None, "outside of both halves");
+    assert!(session.viewer.inspector().inset().is_none() && session.viewer.inspector().other_inset().is_none());
+    session.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
+    session.settle();
+    assert!(
+        session.viewer.inspector().inset().is_some(),
+        "it comes back with the pin"
+    );
+}
+
+#[test]
+fn magnifier_that_follows_the_pointer_has_a_button_that_closes_it() {
+    for window in WINDOWS {
+        let mut session = session(Vec::new(), window);
+        session.command(Command::Inspector(InspectorCommand::Show(Toggle::On)));
+        session.pointer(Some(dvec2(300.0, 300.0)));
+        session.settle();
+        assert!(session.viewer.inspector().inset().is_some(), "open in {window:?}");
+        click_on(&mut session, "Close the inspector");
+        assert!(session.viewer.inspector().inset().is_none(), "closed in {window:?}");
+    }
+}
+
+#[test]
+fn magnifiers_stay_where_the_wheel_turns_over_them() {
+    for arrangement in [Arrangement::SideBySide, Arrangement::Wipe] {
+        for window in [[800, 600], [1280, 800], [1920, 1080]] {
+            let mut session = comparing(window);
+            session.command(Command::Ab(AbCommand::Arrange(arrangement)));
+            session.settle();
+            let free = session.free_area.expect("there is room");
+            let at = [free.x as f64 + 60.0, free.y as f64 + f64::from(free.height) / 2.0];
+            right_click(&mut session, at);
+            let placed = |session: &Session| session.viewer.inspector().inset().expect("there is room").rect;
+            let first = placed(&session);
+            let middle = dvec2(
+                first.x as f64 + f64::from(first.width) / 2.0,
+                first.y as f64 + f64::from(first.height) / 2.0,
+            );
+            session.pointer(Some(middle));
+            for clicks in [1.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0, -1.0] {
+                session.wheel(clicks);
+                session.settle();
+                let now = placed(&session);
+                let touches =
+                    now.x < first.right() && first.x < now.right() && now.y < first.bottom() && first.y < now.bottom();
+                assert!(touches, "{now:?} after {first:?} at {window:?}, {arrangement:?}");
+            }
+        }
+    }
+}

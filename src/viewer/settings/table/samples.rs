@@ -1,0 +1,141 @@
+//! Where samples lie, and how many.
+
+use crate::raster::{SamplePattern, SampleRate, Seed};
+use crate::viewer::key_chords::Chord;
+use crate::viewer::settings::row::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
+use crate::viewer::settings::{Settings, values};
+
+/// The rows.
+pub(super) const ROWS: &[PictureSetting] = &[
+    PictureSetting {
+        option: "sample-rate",
+        label: "sample rate",
+        placeholder: "N",
+        help: "Samples per pixel: a square number up to 256; with patterns such as halton and sobol any number up to that",
+        values: Values::Open {
+            form: "a whole number from 1 to 256",
+            range: "1, 4, 9 ... 256",
+            some: &["1", "4", "16"],
+            offered: rates,
+        },
+        about: About::Samples,
+        told: Told::Always,
+        panel: Some(PanelRow::new(
+            "Samples per pixel",
+            "Samples per pixel",
+            Control::WideButtons(usize::MAX),
+        )),
+        commands: &[
+            SettingCommand {
+                step: Some(-1.0),
+                keys: &[Chord::char('-')],
+                ..SettingCommand::new("rate-down", "Lower sample rate", "Takes fewer samples per pixel")
+            },
+            SettingCommand {
+                step: Some(1.0),
+                keys: &[Chord::char('='), Chord::anywhere('+')],
+                ..SettingCommand::new("rate-up", "Higher sample rate", "Takes more samples per pixel")
+            },
+            SettingCommand {
+                takes_value: true,
+                ..SettingCommand::new(
+                    "rate",
+                    "Sample rate",
+                    "Sets the samples per pixel: 1, 4, 9, 16 ... 256; with patterns such as halton and sobol any number",
+                )
+            },
+        ],
+        signed: false,
+        goes_round: false,
+        former: |_| None,
+        get: |settings| settings.render.sample_rate.samples().to_string(),
+        set: |settings, text| {
+            settings.render.sample_rate = values::whole(text).and_then(SampleRate::new)?;
+            Some(())
+        },
+        step: |settings, by| {
+            let rate = settings.render.sample_rate;
+            settings.render.sample_rate = if by < 0.0 { rate.lower() } else { rate.higher() };
+        },
+    },
+    PictureSetting {
+        help: "Where the samples of a pixel lie",
+        about: About::Samples,
+        told: Told::IfChanged,
+        panel: Some(PanelRow::new("Pattern", "Sample pattern", Control::List)),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "Off the grid, edges that are nearly upright or level get more shades, and jitter turns aliases into noise",
+            keys: &[Chord::char('a')],
+            ..SettingCommand::new(
+                "pattern",
+                "Sample pattern",
+                "Moves the samples inside their pixels, by the next pattern",
+            )
+        }],
+        ..named!("pattern", "pattern", SamplePattern, render.pattern)
+    },
+    PictureSetting {
+        option: "seed",
+        label: "seed",
+        placeholder: "N",
+        help: "Which places samples have where chance decides about them: 0 to 65535",
+        values: Values::Open {
+            form: "a whole number from 0 to 65535",
+            range: "0 ... 65535",
+            some: &["0", "1", "2", "3"],
+            offered: |_| Vec::new(),
+        },
+        about: About::Samples,
+        told: Told::IfChanged,
+        panel: Some(PanelRow::new(
+            "",
+            "Seed of random patterns",
+            Control::Number {
+                range: [0.0, 65_535.0],
+                digits: 0,
+                prefix: "seed ",
+                none: None,
+            },
+        )),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "Patterns without chance stay as they are: grid, rotated, halton, hammersley and r2",
+            ..SettingCommand::new(
+                "seed",
+                "Seed of random patterns",
+                "Places the samples of random patterns otherwise, by the next seed",
+            )
+        }],
+        signed: false,
+        goes_round: true,
+        former: |_| None,
+        get: |settings| settings.render.seed.number().to_string(),
+        set: |settings, text| {
+            settings.render.seed = values::whole(text).and_then(Seed::new)?;
+            Some(())
+        },
+        step: |settings, by| {
+            let seed = settings.render.seed.number();
+            let next = if by < 0.0 { seed.wrapping_sub(1) } else { seed + 1 };
+            settings.render.seed = Seed::new(next % (Seed::MAX + 1)).unwrap_or_default();
+        },
+    },
+];
+
+/// The rates that keys reach, and the current one if it lies beyond.
+fn rates(settings: &Settings) -> Vec<String> {
+    let current = settings.render.sample_rate;
+    let mut rates = vec![SampleRate::ONE];
+    while let Some(last) = rates.last()
+        && last.higher() != *last
+    {
+        rates.push(last.higher());
+    }
+    if !rates.contains(&current) {
+        rates.push(current);
+    }
+    rates.into_iter().map(|rate| rate.samples().to_string()).collect()
+}

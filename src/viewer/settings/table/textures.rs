@@ -1,0 +1,226 @@
+//! How textures are sampled.
+
+use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
+use crate::viewer::key_chords::Chord;
+use crate::viewer::settings::row::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
+use crate::viewer::settings::{Settings, values};
+
+/// The rows.
+pub(super) const ROWS: &[PictureSetting] = &[
+    PictureSetting {
+        help: "How a texture is read inside a mip level",
+        about: About::Textures,
+        told: Told::Always,
+        panel: Some(PanelRow::new("Pixel", "Pixel sampling", Control::Buttons)),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            keys: &[Chord::char('p')],
+            ..SettingCommand::new(
+                "pixel-sampling",
+                "Pixel sampling",
+                "Switches between nearest and bilinear texels",
+            )
+        }],
+        ..named!("pixel-sampling", "pixel sampling", PixelSampling, render.pixel_sampling)
+    },
+    PictureSetting {
+        help: "Which mip levels of a texture are read",
+        about: About::Textures,
+        told: Told::Always,
+        panel: Some(PanelRow::new("Level", "Level sampling", Control::Buttons)),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            keys: &[Chord::char('l')],
+            ..SettingCommand::new(
+                "level-sampling",
+                "Level sampling",
+                "Switches between mip level zero, nearest and linear",
+            )
+        }],
+        ..named!("level-sampling", "level sampling", LevelSampling, render.level_sampling)
+    },
+    PictureSetting {
+        option: "anisotropy",
+        label: "anisotropy",
+        placeholder: "N",
+        help: "The most taps along a footprint that is longer than wide: 1 (off) to 64",
+        values: Values::Open {
+            form: "a whole number from 1, which is off, to 64",
+            range: "1 ... 64",
+            some: &["1", "4", "16"],
+            offered: taps,
+        },
+        about: About::Textures,
+        told: Told::IfChanged,
+        panel: Some(PanelRow::new("Anisotropy", "Anisotropy", Control::Buttons)),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "The level then fits the footprint's width, so that floors stay sharp towards the horizon",
+            keys: &[Chord::char('t')],
+            ..SettingCommand::new(
+                "anisotropy",
+                "Anisotropy",
+                "Doubles the most texture taps along a footprint that is longer than wide: 1, which is off, to 64",
+            )
+        }],
+        signed: false,
+        goes_round: true,
+        former: |_| None,
+        get: |settings| settings.render.anisotropy.taps().to_string(),
+        set: |settings, text| {
+            settings.render.anisotropy = values::whole(text).and_then(Anisotropy::new)?;
+            Some(())
+        },
+        step: |settings, by| {
+            let taps = settings.render.anisotropy;
+            settings.render.anisotropy = if by < 0.0 {
+                values::next_of(&Anisotropy::STEPS, taps, by)
+            } else {
+                taps.doubled()
+            };
+        },
+    },
+    PictureSetting {
+        option: "lod-bias",
+        label: "bias",
+        placeholder: "B",
+        help: "Levels added to a texture's level of detail: -16 to 16; below zero sharpens",
+        values: Values::Open {
+            form: "a number of levels from -16 to 16",
+            range: "-16 ... 16",
+            some: &["-1", "0", "1"],
+            offered: |_| Vec::new(),
+        },
+        about: About::Textures,
+        told: Told::IfChanged,
+        panel: Some(PanelRow::new(
+            "Level bias",
+            "Level of detail bias",
+            Control::Number {
+                range: [-LodBias::MAX, LodBias::MAX],
+                digits: 2,
+                prefix: "",
+                none: None,
+            },
+        )),
+        commands: &[
+            SettingCommand {
+                takes_value: true,
+                more: "Below zero textures are sharper and shimmer, above zero they are blurred; level sampling zero has no level to change",
+                ..SettingCommand::new(
+                    "lod-bias",
+                    "Level of detail bias",
+                    "Adds to the level of detail of every texture",
+                )
+            },
+            SettingCommand {
+                step: Some(-0.5),
+                keys: &[Chord::char(',')],
+                ..SettingCommand::new(
+                    "sharper",
+                    "Sharper textures",
+                    "Lowers the bias of the level of detail by a half",
+                )
+            },
+            SettingCommand {
+                step: Some(0.5),
+                keys: &[Chord::char('.')],
+                ..SettingCommand::new(
+                    "softer",
+                    "Softer textures",
+                    "Raises the bias of the level of detail by a half",
+                )
+            },
+        ],
+        signed: true,
+        goes_round: false,
+        former: |_| None,
+        get: |settings| settings.render.detail.bias.levels().to_string(),
+        set: |settings, text| {
+            settings.render.detail.bias = values::number(text).and_then(LodBias::new)?;
+            Some(())
+        },
+        step: |settings, by| settings.render.detail.bias = settings.render.detail.bias.stepped(by),
+    },
+    PictureSetting {
+        option: "lod-level",
+        label: "level",
+        placeholder: "L",
+        help: "The level of detail instead of the footprint's: auto, or 0 to 16",
+        values: Values::Open {
+            form: "auto, or a number from 0, the base, to 16",
+            range: "`auto`, 0 ... 16",
+            some: &["0", "1", "2"],
+            offered: |_| Vec::new(),
+        },
+        about: About::Textures,
+        told: Told::IfChanged,
+        panel: Some(PanelRow::new(
+            "",
+            "Fixed level",
+            Control::Number {
+                range: [0.0, FixedLevel::MAX],
+                digits: 2,
+                prefix: "level ",
+                none: Some(values::AUTO),
+            },
+        )),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "Level sampling linear also takes levels between two, up to 16; a texture with fewer levels shows its last",
+            keys: &[Chord::char('m')],
+            ..SettingCommand::new(
+                "lod-level",
+                "Fixed level",
+                "Reads every texture at one mip level instead of the one that fits: auto, 0, 1, 2 ... 8",
+            )
+        }],
+        signed: false,
+        goes_round: true,
+        former: |_| None,
+        get: |settings| {
+            let level = settings.render.detail.fixed;
+            level.map_or(values::AUTO.to_owned(), |level| level.level().to_string())
+        },
+        set: |settings, text| {
+            settings.render.detail.fixed = match text {
+                values::AUTO => None,
+                _ => Some(values::number(text).and_then(FixedLevel::new)?),
+            };
+            Some(())
+        },
+        step: |settings, _| settings.render.detail.fixed = FixedLevel::after(settings.render.detail.fixed),
+    },
+    PictureSetting {
+        help: "Whether a footprint is a pixel's or a sample's",
+        about: About::Textures,
+        told: Told::IfChanged,
+        panel: Some(PanelRow::new("Level per", "Level of detail per", Control::Buttons)),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "Per sample, higher rates read finer levels and leave the averaging to the samples",
+            ..SettingCommand::new(
+                "lod-per",
+                "Level of detail per",
+                "Switches between the level of detail of a pixel's footprint and of a sample's",
+            )
+        }],
+        ..named!("lod-per", "level per", Derivatives, render.detail.derivatives)
+    },
+];
+
+/// The steps, with the current number in the place of the next lower one, so that the row does not get longer.
+fn taps(settings: &Settings) -> Vec<String> {
+    let current = settings.render.anisotropy;
+    let mut steps = Anisotropy::STEPS;
+    if !steps.contains(&current) {
+        let at = steps.iter().rposition(|step| *step < current).unwrap_or(0);
+        steps[at] = current;
+    }
+    steps.map(|step| step.taps().to_string()).to_vec()
+}

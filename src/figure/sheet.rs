@@ -207,6 +207,24 @@ impl SheetLayout<'_> {
         TextBlock::new(text, self.style, Some(self.plan.panel[0]))
     }
 
+    /// What stands beside the rows: in smaller letters where a word would have to be broken.
+    fn labels(&self) -> Vec<TextBlock> {
+        /// Of the usual size.
+        const SMALLEST: f32 = 0.8;
+        let width = self.style.size * (LABEL_WIDTH - GAP);
+        let words = self.plan.rows.iter().flat_map(|text| text.split_inclusive([' ', '-']));
+        let widest = words
+            .map(|word| self.style.advance_of(word.trim_end()))
+            .fold(width - 1.0, f32::max);
+        let style = TextStyle {
+            // Down to whole pixels and a little less: a word that fits exactly is broken where sums are rounded otherwise.
+            size: self.style.size * ((width - 1.0) / widest).clamp(SMALLEST, 1.0),
+            ..self.style
+        };
+        let label = |text: &String| TextBlock::new(text, style, Some(whole(width)));
+        self.plan.rows.iter().map(label).collect()
+    }
+
     /// Left edge of a column.
     fn column(&self, column: usize) -> u32 {
         let column = u32::try_from(column).unwrap_or(0);
@@ -242,9 +260,7 @@ impl SheetLayout<'_> {
                 self.draw_header(&mut sheet, text, &self.panel(number));
             }
         }
-        let label_width = whole(self.style.size * (LABEL_WIDTH - GAP));
-        for (row, text) in self.plan.rows.iter().enumerate() {
-            let label = TextBlock::new(text, self.style, Some(label_width));
+        for (row, label) in self.labels().iter().enumerate() {
             let y = i64::from(self.tops[row]) + (i64::from(self.plan.panel[1]) - i64::from(label.size()[1])) / 2;
             label.draw(&mut sheet, [whole(self.style.size).into(), y], Anchor::Left);
         }
@@ -338,6 +354,7 @@ fn whole(length: f32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::SamplePattern;
 
     fn plan(columns: usize, rows: usize, panel: [u32; 2]) -> SheetPlan {
         SheetPlan {
@@ -348,6 +365,24 @@ mod tests {
             caption: "What all of it shows, in a line that is broken to the width of the sheet.".to_owned(),
             legend: None,
             ground: Ground::Light,
+        }
+    }
+
+    #[test]
+    fn labels_break_no_pattern_in_a_word() {
+        for columns in 1..5 {
+            let side = SheetPlan::page_panel(columns, true);
+            let mut plan = plan(columns as usize, 1, [side; 2]);
+            for pattern in SamplePattern::ALL {
+                plan.rows = vec![format!("pattern {}", pattern.name())];
+                let layout = plan.layout().expect("small");
+                let label = &layout.labels()[0];
+                let whole: Vec<&str> = plan.rows[0].split_inclusive([' ', '-']).map(str::trim_end).collect();
+                // Several parts of a name may share a line.
+                let is_broken = |word: &&str| !word.split_inclusive('-').all(|part| whole.contains(&part));
+                let broken = label.lines().flat_map(|line| line.split(' ')).find(is_broken);
+                assert_eq!(broken, None, "{label:?} beside {columns} columns");
+            }
         }
     }
 

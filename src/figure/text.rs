@@ -116,7 +116,7 @@ impl TextStyle {
     }
 
     /// Width of a line in pixels, not rounded.
-    fn advance_of(self, line: &str) -> f32 {
+    pub(super) fn advance_of(self, line: &str) -> f32 {
         let pairs = std::iter::once(None).chain(line.chars().map(Some)).zip(line.chars());
         pairs.map(|(before, character)| self.advance(before, character)).sum()
     }

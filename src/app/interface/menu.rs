@@ -4,7 +4,7 @@
 //! for it in the palette.
 
 use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Button, PopupCloseBehavior, ScrollArea, Ui};
+use egui::{Button, PopupCloseBehavior, RectAlign, RichText, ScrollArea, Tooltip, Ui};
 
 use super::look;
 use super::standing::{self, Standing};
@@ -129,8 +129,8 @@ fn values(ui: &mut Ui, viewer: &Viewer, setting: &'static PictureSetting) -> Opt
     chosen
 }
 
-/// A command with its keys, marked while what it switches is on. True if it was chosen and needs an argument first; commands that only keys or scripts can give
-/// have no line.
+/// A command with its keys, marked while what it switches is on. True if it was chosen and needs an argument first; commands
+/// that only keys or scripts can give have no line.
 fn entry(ui: &mut Ui, viewer: &Viewer, spec: &'static CommandSpec, commands: &mut Vec<Command>) -> bool {
     let command = spec.command();
     if command == Some(Command::Window(WindowCommand::Escape)) || (command.is_none() && spec.argument.is_none()) {
@@ -140,14 +140,22 @@ fn entry(ui: &mut Ui, viewer: &Viewer, spec: &'static CommandSpec, commands: &mu
     let standing = command
         .as_ref()
         .map_or_else(Standing::default, |command| standing::of(viewer, command));
-    let button = Button::new(format!("{}{dots}", spec.name)).shortcut_text(spec.keys_text());
-    let button = if standing.is_on { button.selected(true) } else { button };
-    let response = ui.add_enabled(standing.idle.is_none(), button);
-    let response = response.on_hover_text(spec.help).accessible_name(spec.name);
-    let response = match standing.idle {
-        Some(why) => response.on_disabled_hover_text(format!("{}. {why}.", spec.help)),
-        None => response,
+    let keys = RichText::new(spec.keys_text());
+    // Weak letters cannot be read on a marked line.
+    let keys = if standing.is_on {
+        keys.color(ui.visuals().selection.stroke.color)
+    } else {
+        keys
     };
+    let button = Button::new(format!("{}{dots}", spec.name)).shortcut_text(keys);
+    let button = if standing.is_on { button.selected(true) } else { button };
+    let response = ui
+        .add_enabled(standing.idle.is_none(), button)
+        .accessible_name(spec.name);
+    match standing.idle {
+        Some(why) => tip_beside(Tooltip::for_disabled(&response), format!("{}. {why}.", spec.help)),
+        None => tip_beside(Tooltip::for_enabled(&response), spec.help),
+    }
     if !response.clicked() {
         return false;
     }
@@ -155,6 +163,12 @@ fn entry(ui: &mut Ui, viewer: &Viewer, spec: &'static CommandSpec, commands: &mu
     let asks = command.is_none();
     commands.extend(command);
     asks
+}
+
+/// A tool tip beside a line of a list, where it covers none of the next lines.
+fn tip_beside(mut tip: Tooltip<'_>, text: impl Into<RichText>) {
+    tip.popup = tip.popup.align(RectAlign::RIGHT_START);
+    tip.show(|ui| ui.label(text.into()));
 }
 
 /// With a capital at the start, as names in menus have it.

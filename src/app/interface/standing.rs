@@ -2,8 +2,8 @@
 
 use crate::compare::Gain;
 use crate::viewer::{
-    AbCommand, Arrangement, Command, ExportCommand, InspectorCommand, InterfaceScale, LessonCommand, Other,
-    SceneCommand, ViewCommand, Viewer, WindowCommand,
+    AbCommand, Arrangement, Command, ExportCommand, InspectorCommand, LessonCommand, Other, SceneCommand, ViewCommand,
+    Viewer, WindowCommand,
 };
 
 /// How a command stands.
@@ -80,10 +80,6 @@ fn idle(viewer: &Viewer, command: &Command) -> Option<&'static str> {
             let now = viewer.chrome().interface_scale();
             (now.step(*up) == now, "There is no such size")
         }
-        Command::Window(WindowCommand::SetInterfaceScale(InterfaceScale::ORIGINAL)) => (
-            viewer.chrome().interface_scale() == InterfaceScale::ORIGINAL,
-            "It is so already",
-        ),
         _ => (false, ""),
     };
     is_idle.then_some(why)

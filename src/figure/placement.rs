@@ -23,6 +23,18 @@ impl Corner {
     /// Every corner.
     pub const ALL: [Self; 4] = [Self::TopRight, Self::BottomRight, Self::TopLeft, Self::BottomLeft];
 
+    /// The one of `area` that is nearest to a point.
+    pub fn nearest(area: &PixelRect, [x, y]: [i64; 2]) -> Self {
+        let right = 2 * (x - area.x) >= i64::from(area.width);
+        let below = 2 * (y - area.y) >= i64::from(area.height);
+        match (right, below) {
+            (false, false) => Self::TopLeft,
+            (true, false) => Self::TopRight,
+            (false, true) => Self::BottomLeft,
+            (true, true) => Self::BottomRight,
+        }
+    }
+
     /// Its name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
@@ -90,11 +102,7 @@ pub fn place(area: &PixelRect, size: [u32; 2], shown: &PixelRect, preferred: Cor
 }
 
 /// The places for something of `size` in the corners of `area`, `preferred` first; none where it is larger than that.
-pub(super) fn corners(
-    area: &PixelRect,
-    size: [u32; 2],
-    preferred: Corner,
-) -> impl Iterator<Item = (Corner, PixelRect)> {
+pub fn corners(area: &PixelRect, size: [u32; 2], preferred: Corner) -> impl Iterator<Item = (Corner, PixelRect)> {
     // Without a margin a tight area may still have room.
     let corners = [MARGIN, 0].into_iter().flat_map(move |margin| {
         std::iter::once(preferred)

@@ -35,6 +35,8 @@ pub(super) struct PanelMemory {
     reports: bool,
     /// The panel's height in the last pass, in points.
     height: f32,
+    /// Whether the list is another one than in the last pass: then nothing is left of where the panel was scrolled to.
+    is_new: bool,
 }
 
 impl PanelMemory {
@@ -45,8 +47,10 @@ impl PanelMemory {
             .scenes()
             .first()
             .map(|first| (viewer.scene_list().scenes().len(), &first.source));
-        if self.list.as_ref().map(|(count, first)| (*count, first)) != list {
+        self.is_new = self.list.as_ref().map(|(count, first)| (*count, first)) != list;
+        if self.is_new {
             *self = Self {
+                is_new: true,
                 list: list.map(|(count, first)| (count, first.clone())),
                 height: self.height,
                 readings: Readings::of_list(viewer.scene_list().scenes()),
@@ -83,9 +87,9 @@ impl Interface {
                         self.settings(ui, viewer, asked);
                         // Scrolling to the scene would scroll the settings away.
                         self.scenes(ui, viewer, false, asked);
-                        // A scene with less to say leaves the panel scrolled as far as it is.
+                        // A scene of the same list with less to say leaves the panel scrolled as far as it is.
                         let rest = seen.max.y - ui.min_rect().height();
-                        if rest > 0.0 && (before - height).abs() < 0.5 {
+                        if rest > 0.0 && (before - height).abs() < 0.5 && !self.panel.is_new {
                             ui.add_space(rest);
                         }
                     });

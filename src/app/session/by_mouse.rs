@@ -3,6 +3,7 @@
 use crate::viewer::{AbCommand, InspectorCommand, ViewCommand, WindowCommand};
 use std::path::PathBuf;
 
+use egui::{pos2, vec2};
 use glam::{DVec2, dvec2};
 
 use super::hands::{place_of, session};
@@ -230,21 +231,87 @@ fn second_click_in_the_inset_unpins_what_the_first_one_pinned() {
 }
 
 #[test]
-fn drag_that_begins_in_the_magnifier_moves_the_picture() {
-    let mut session = session(Vec::new(), [1366, 768]);
-    right_click(&mut session, [570.0, 300.0]);
-    let inset = session.viewer.inspector().inset().expect("a magnifier").rect;
-    let middle = |from: i64, size: u32| from as f64 + f64::from(size) / 2.0;
-    let at = dvec2(middle(inset.x, inset.width), middle(inset.y, inset.height));
-    session.pointer(Some(at));
-    assert!(session.viewer.pixels().over_inset(), "the pointer is in the magnifier");
-    let before = session.viewer.both().view_numbers().expect("a view").center;
-    session.button(PointerButton::Primary, true);
-    session.pointer(Some(at + dvec2(40.0, 0.0)));
-    session.button(PointerButton::Primary, false);
-    let after = session.viewer.both().view_numbers().expect("a view").center;
-    assert!(
-        after.x < before.x,
-        "{after} from {before}: the picture follows the hand"
-    );
+fn drag_moves_the_magnifier_to_another_corner() {
+    for window in [[800, 600], [1366, 768]] {
+        let mut session = session(Vec::new(), window);
+        right_click(&mut session, [300.0, 300.0]);
+        let rect = |session: &Session| session.viewer.inspector().inset().expect("a magnifier").rect;
+        let middle = |rect: PixelRect| {
+            let middle = |from: i64, size: u32| from as f64 + f64::from(size) / 2.0;
+            dvec2(middle(rect.x, rect.width), middle(rect.y, rect.height))
+        };
+        let before = session.viewer.both().view_numbers();
+        let pin = session.viewer.pixels().pinned();
+        let first = rect(&session);
+        let free = session.free_area.expect("there is room");
+        let right = free.right() as f64 - 5.0;
+        let below = f64::from(free.height) - 5.0;
+        let mut places = vec![first];
+        for to in [dvec2(right, below), dvec2(right, 5.0)] {
+            session.pointer(Some(middle(rect(&session))));
+            assert!(session.viewer.pixels().over_inset(), "the pointer is in the magnifier");
+            session.button(PointerButton::Primary, true);
+            session.pointer(Some(to));
+            session.button(PointerButton::Primary, false);
+            session.settle();
+            places.push(rect(&session));
+        }
+        assert_ne!(places[1], places[2], "{places:?} in {window:?}");
+        assert!(places[1].y > places[2].y, "below, then above: {places:?} in {window:?}");
+        assert_eq!(
+            session.viewer.both().view_numbers(),
+            before,
+            "the picture stays in {window:?}"
+        );
+        assert_eq!(session.viewer.pixels().pinned(), pin, "and the pin in {window:?}");
+    }
+}
+
+#[test]
+fn wheel_that_zooms_goes_on_zooming() {
+    // A large magnifier, and a pin that the zoom drives into its corner: it has to go elsewhere.
+    for at in [[300.0, 310.0], [250.0, 450.0], [420.0, 120.0]] {
+        let mut session = session(Vec::new(), [800, 600]);
+        session.command(Command::Inspector(InspectorCommand::SetMagnification(24)));
+        right_click(&mut session, [200.0, 300.0]);
+        session.pointer(Some(DVec2::from(at)));
+        if session.viewer.pixels().over_inset() {
+            continue;
+        }
+        for notch in 0..8 {
+            let before = session.viewer.both().view_numbers().expect("a view").scale;
+            session.wheel(1.0);
+            session.settle();
+            let after = session.viewer.both().view_numbers().expect("a view").scale;
+            assert!(after > 1.2 * before, "notch {notch} at {at:?}: {after} from {before}");
+            assert!(
+                !session.viewer.pixels().over_inset(),
+                "notch {notch} at {at:?}: the magnifier came"
+            );
+        }
+    }
+}
+
+#[test]
+fn magnifier_leaves_the_ring_of_its_pin_free() {
+    for window in [[800, 600], [1280, 800], [1366, 768], [1920, 1080]] {
+        for magnification in [20, 28, 48, 96] {
+            for [x, y] in [[0.2, 0.5], [0.4, 0.66], [0.3, 0.3], [0.15, 0.65]] {
+                let mut session = session(Vec::new(), window);
+                session.command(Command::Inspector(InspectorCommand::SetMagnification(magnification)));
+                right_click(&mut session, [x * f64::from(window[0]), y * f64::from(window[1])]);
+                let inset = session.viewer.inspector().inset().expect("a magnifier").rect;
+                for ring in session.interface.rings(&session.viewer) {
+                    let inset = Rect::from_min_size(
+                        pos2(inset.x as f32, inset.y as f32),
+                        vec2(inset.width as f32, inset.height as f32),
+                    );
+                    assert!(
+                        !ring.intersects(inset),
+                        "{ring:?} under {inset:?} in {window:?} at {magnification}"
+                    );
+                }
+            }
+        }
+    }
 }

@@ -338,3 +338,26 @@ fn next_difference_without_b_says_what_is_missing() {
     assert!(session.viewer.ab().other().is_none(), "nothing begins by itself");
     assert!(says(&mut session, "no B yet"), "but the user is told");
 }
+
+#[test]
+fn side_by_side_and_back_moves_no_picture() {
+    for window in WINDOWS {
+        for x in [300.0, 600.0] {
+            let mut session = session(Vec::new(), window);
+            session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+            session.settle();
+            right_click(&mut session, [x, 0.6 * f64::from(window[1])]);
+            session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+            session.wait(Duration::from_secs(10));
+            session.settle();
+            let before = session.viewer.both().view_numbers();
+            let pin = session.viewer.pixels().pinned();
+            session.command(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
+            session.settle();
+            session.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
+            session.settle();
+            assert_eq!(session.viewer.both().view_numbers(), before, "{x} in {window:?}");
+            assert_eq!(session.viewer.pixels().pinned(), pin, "{x} in {window:?}");
+        }
+    }
+}

@@ -1,6 +1,6 @@
 //! The list of scenes under a hand: nothing moves under the pointer, whatever the next scene has to say.
 
-use crate::viewer::{AbCommand, SceneCommand, WindowCommand};
+use crate::viewer::{AbCommand, LessonCommand, LessonSource, SceneCommand, WindowCommand};
 
 use glam::dvec2;
 
@@ -226,4 +226,30 @@ fn arrows_that_lead_nowhere_are_grey() {
             assert_eq!(arrow.is_disabled(), count == 1, "{name} of {count}");
         }
     }
+}
+
+#[test]
+fn panel_begins_anew_with_another_list() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.settle();
+    session.pointer(Some(dvec2(1150.0, 500.0)));
+    for _ in 0..40 {
+        session.wheel(-10.0);
+        session.settle();
+    }
+    let top_of_settings = |session: &mut Session| place_of(session, "Sample pattern").y;
+    assert!(top_of_settings(&mut session) < 0.0, "scrolled to the end");
+    session.command(Command::Window(WindowCommand::Panel(Toggle::Off)));
+    session.settle();
+    session.command(Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(1))));
+    session.wait(Duration::from_secs(10));
+    session.settle();
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.settle();
+    let seen = place_of(&mut session, "Centre x").y;
+    assert!(
+        (0.0..800.0).contains(&seen),
+        "the panel shows its end, not nothing: {seen}"
+    );
 }

@@ -118,7 +118,7 @@ fn markdown_key(key: &str) -> String {
 pub const GESTURES: &[Gesture] = &[
     Gesture {
         gesture: "drag",
-        help: "Moves the picture with the pointer",
+        help: "Moves the picture with the pointer; on the inspector moves that to another corner",
     },
     Gesture {
         gesture: "wheel, pinch",

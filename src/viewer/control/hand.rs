@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::figure::Corner;
 use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::chrome::Chrome;
 use crate::viewer::control::both::Both;
@@ -12,7 +13,7 @@ use crate::viewer::inspector::state::Inspection;
 use crate::viewer::library::state::SceneList;
 use crate::viewer::settings::Settings;
 use crate::viewer::view::layout::WindowLayout;
-use crate::viewer::view::pointer::{Pointer, PointerButton, window_pixel};
+use crate::viewer::view::pointer::{Pointer, PointerButton, WheelTarget, window_pixel};
 use crate::viewer::{PointerCommand, ViewCommand};
 
 /// What one click of the wheel zooms by.
@@ -69,7 +70,7 @@ impl Hand<'_> {
                 self.pointer_pressed(button);
             }
             PointerCommand::Released(PointerButton::Primary) => {
-                (self.pointer.dragging, self.ab.drags_line) = (false, false);
+                (self.pointer.dragging, self.pointer.drags_inset, self.ab.drags_line) = (false, false, false);
             }
             PointerCommand::Released(PointerButton::Secondary) => {}
             PointerCommand::Wheel { clicks } => self.wheel(clicks),
@@ -95,11 +96,15 @@ impl Hand<'_> {
         }
         let from = self.pointer.at.replace(to);
         if from != Some(to) {
-            (self.pointer.wheels_inset, self.pointer.pinned_through_inset) = (false, None);
+            (self.pointer.wheels, self.pointer.pinned_through_inset) = (None, None);
             self.inspector.magnifier.let_go();
         }
         if self.ab.drags_line {
             self.ab.drag_line(to.x, &self.layout());
+        } else if self.pointer.drags_inset {
+            let area = self.layout().free_window();
+            let corner = Corner::nearest(&area, window_pixel(to));
+            (self.inspector.magnifier.corner, self.inspector.magnifier.chosen) = (corner, Some(corner));
         } else if let Some(from) = from.filter(|_| self.pointer.dragging) {
             self.viewing().pan(to - from);
         }
@@ -122,20 +127,26 @@ impl Hand<'_> {
         match button {
             PointerButton::Primary => {
                 self.ab.drags_line = self.pixels().over_line();
-                self.pointer.dragging = self.pointer.at.is_some() && !self.ab.drags_line;
+                self.pointer.drags_inset = !self.ab.drags_line && self.pixels().over_inset();
+                self.pointer.dragging = self.pointer.at.is_some() && !self.ab.drags_line && !self.pointer.drags_inset;
             }
             PointerButton::Secondary => self.pin_under_pointer(),
         }
     }
 
     fn wheel(&mut self, clicks: f64) {
-        self.pointer.wheels_inset |= self.pixels().over_inset();
-        self.pointer.wheels_inset &= self.inspector.inset.is_some();
-        if self.pointer.wheels_inset {
+        let over = if self.pixels().over_inset() {
+            WheelTarget::Inset
+        } else {
+            WheelTarget::Picture
+        };
+        let target = *self.pointer.wheels.get_or_insert(over);
+        if target == WheelTarget::Inset && self.inspector.inset.is_some() {
             self.inspector.magnifier.wheel(clicks);
         } else if clicks.is_finite() {
             let factor = WHEEL_FACTOR.powf(clicks.clamp(-MAX_CLICKS, MAX_CLICKS));
             let at = self.pointer.at;
+            self.inspector.magnifier.spared = at.map(window_pixel);
             self.viewing().zoom(at, factor);
         }
     }

@@ -309,7 +309,8 @@ impl Hand<'_> {
         let [zero, end] = [DVec2::ZERO, context.canvas];
         let corners = [zero, end, DVec2::new(zero.x, end.y), DVec2::new(end.x, zero.y)];
         let corners = corners.map(|corner| camera.transform(&context).to_pixels(corner));
-        // By whole pixels. A canvas that has room is shown whole, and its pin with it.
+        // By whole pixels. In a half of the window a canvas that has room is shown whole, and its pin with it.
+        let in_halves = layout.panes().second.is_some();
         let by = |axis: usize, from: i64, to: i64| {
             let (low, high) = ((from - pane.corner[axis]) as f64, (to - pane.corner[axis]) as f64);
             let along = corners.map(|corner| corner[axis]);
@@ -319,7 +320,7 @@ impl Hand<'_> {
             let of_pin = inside(axis, from, to) - now[axis];
             // Outside of the canvas a pin may lie anywhere.
             let keeps_pin = inside_of(axis, from, to).contains(&(now[axis] + whole));
-            if most - least <= high - low && keeps_pin {
+            if in_halves && most - least <= high - low && keeps_pin {
                 whole
             } else {
                 of_pin

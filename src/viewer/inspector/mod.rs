@@ -13,7 +13,7 @@ pub(in crate::viewer) mod status;
 
 use glam::DVec2;
 
-use crate::figure::{Corner, Inset, PixelRect, place};
+use crate::figure::{Corner, Inset, PixelRect, corners};
 use crate::viewer::view::camera::Camera;
 
 /// The magnifications that the wheel steps through.
@@ -75,12 +75,17 @@ pub struct Inspector {
     extent: u32,
     /// Where the inset was last.
     pub(in crate::viewer) corner: Corner,
+    /// The corner that a hand dragged it to.
+    pub(in crate::viewer) chosen: Option<Corner>,
     /// The part beside a picture in a half of the window where the inset was last.
     band: usize,
     /// Turns of the wheel that did not make a whole step yet.
     rest: f64,
     /// Whether the wheel turned since the pointer last moved: what it turns over stays where it is.
     wheeled: bool,
+    /// Where the pointer has rested while the wheel turned over the picture: the inset does not go there, if it can go
+    /// elsewhere.
+    pub(in crate::viewer) spared: Option<[i64; 2]>,
 }
 
 /// Where in the window a hand asked about a pixel.
@@ -141,9 +146,11 @@ impl Default for Inspector {
             last: None,
             extent: region * (magnification + 1),
             corner: Corner::default(),
+            chosen: None,
             band: 0,
             rest: 0.0,
             wheeled: false,
+            spared: None,
         }
     }
 }
@@ -188,7 +195,7 @@ impl Inspector {
 
     /// The pointer moved: the inset may give way again.
     pub(in crate::viewer) fn let_go(&mut self) {
-        self.wheeled = false;
+        (self.wheeled, self.spared) = (false, None);
     }
 
     fn apply(&mut self, limits: Inset) {
@@ -242,30 +249,50 @@ impl Inspector {
         let smallest = *Inset::REGION.start();
         let inset = |region, magnification| Inset::new(center, region, magnification);
         let regions = |least: u32| (least..=region).rev().map(move |region| inset(region, magnification));
-        // The ring is worth a somewhat smaller inset, not a tiny one.
         let ring = (self.ring_room > 0).then(|| with_ring(shown, self.ring_room));
-        let beside_ring = || regions((region * 2).div_ceil(3).max(smallest));
         let all = || {
             let magnifications = (*Inset::MAGNIFICATION.start()..magnification).rev();
             let smaller = magnifications.map(|magnification| inset(smallest, magnification));
             regions(smallest).chain(smaller)
         };
+        let side = |inset: &Inset| inset.without_detail().size()[0];
+        let largest = f64::from(area.width.min(area.height)) * SHARE;
+        let least = f64::from(side(&inset(region, magnification))).min(largest) / 2.0;
+        // The ring is worth an inset of half the size, not a tiny one.
+        let beside_ring = || all().take_while(|inset| f64::from(side(inset)) >= least);
+        if let Some(chosen) = self.chosen {
+            let room = Room {
+                area,
+                taken: ring.as_ref().unwrap_or(shown),
+                only: Some(chosen),
+                spared: self.spared,
+            };
+            if let Some(placed) = self.first_place(beside_ring(), &room, &size) {
+                return Some(placed);
+            }
+        }
         let corners: &[Option<Corner>] = if self.wheeled {
             &[Some(self.corner), None]
         } else {
             &[None]
         };
-        corners.iter().find_map(|only| {
-            let room = |taken| Room {
-                area,
-                taken,
-                only: *only,
-            };
-            let large = ring
-                .as_ref()
-                .and_then(|ring| self.first_place(beside_ring(), &room(ring), &size));
-            large.or_else(|| self.first_place(all(), &room(shown), &size))
-        })
+        let spared = [self.spared, None];
+        let spared = &spared[usize::from(self.spared.is_none())..];
+        corners
+            .iter()
+            .flat_map(|only| spared.iter().map(move |spared| (only, spared)))
+            .find_map(|(only, spared)| {
+                let room = |taken| Room {
+                    area,
+                    taken,
+                    only: *only,
+                    spared: *spared,
+                };
+                let large = ring
+                    .as_ref()
+                    .and_then(|ring| self.first_place(beside_ring(), &room(ring), &size));
+                large.or_else(|| self.first_place(all(), &room(shown), &size))
+            })
     }
 
     /// Places the first of these insets that has room, rather without its large pixel than a smaller one.
@@ -275,7 +302,12 @@ impl Inspector {
         room: &Room<'_>,
         size: &impl Fn(&Inset) -> [u32; 2],
     ) -> Option<PlacedInset> {
-        let Room { area, taken, only } = *room;
+        let Room {
+            area,
+            taken,
+            only,
+            spared,
+        } = *room;
         let longest = (f64::from(area.width.min(area.height)) * SHARE).max(LEAST);
         for inset in insets {
             for inset in [inset, inset.without_detail()] {
@@ -283,8 +315,11 @@ impl Inspector {
                 if f64::from(whole[0].max(whole[1])) > longest {
                     continue;
                 }
-                let found = place(area, whole, taken, self.corner);
-                if let Some((corner, rect)) = found.filter(|(corner, _)| only.is_none_or(|only| only == *corner)) {
+                let suits = |(corner, rect): &(Corner, PixelRect)| {
+                    let is_free = !rect.overlaps(taken) && spared.is_none_or(|at| !rect.contains(at));
+                    is_free && only.is_none_or(|only| only == *corner)
+                };
+                if let Some((corner, rect)) = corners(area, whole, self.corner).find(suits) {
                     self.corner = corner;
                     let height = inset.size()[1];
                     let rect = PixelRect { height, ..rect };
@@ -296,11 +331,13 @@ impl Inspector {
     }
 }
 
-/// Where an inset may go: inside `area`, beside what is `taken`, in this corner if there is one.
+/// Where an inset may go: inside `area`, beside what is `taken` and the point that is `spared`, in this corner if there is
+/// one.
 struct Room<'a> {
     area: &'a PixelRect,
     taken: &'a PixelRect,
     only: Option<Corner>,
+    spared: Option<[i64; 2]>,
 }
 
 /// A pinned pixel with so much room around it.

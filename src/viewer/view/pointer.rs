@@ -11,6 +11,15 @@ pub enum PointerButton {
     Secondary,
 }
 
+/// What the wheel turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::viewer) enum WheelTarget {
+    /// The magnification of the inset.
+    Inset,
+    /// The scale of the picture.
+    Picture,
+}
+
 /// Where the pointer is and what it does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::viewer) struct Pointer {
@@ -18,9 +27,10 @@ pub(in crate::viewer) struct Pointer {
     pub(in crate::viewer) at: Option<DVec2>,
     /// Whether a drag moves the picture.
     pub(in crate::viewer) dragging: bool,
-    /// Whether the wheel turned over the inset and the pointer has rested since: it goes on turning that, wherever the inset
-    /// goes.
-    pub(in crate::viewer) wheels_inset: bool,
+    /// Whether a drag moves the inset from corner to corner.
+    pub(in crate::viewer) drags_inset: bool,
+    /// What the wheel turned while the pointer has rested: it goes on turning that, wherever the inset goes.
+    pub(in crate::viewer) wheels: Option<WheelTarget>,
     /// The pin that was set through the inset, which then went elsewhere, while the pointer has rested: the same click unpins
     /// it.
     pub(in crate::viewer) pinned_through_inset: Option<u64>,

@@ -29,10 +29,33 @@ pub(in crate::raster) fn each_covered(
     rows: &mut impl SpanRows,
     side: i32,
     columns: Span,
+    visit: impl FnMut(i32, Covered),
+) {
+    match side {
+        2 => each_of_side::<2>(rows, side, columns, visit),
+        3 => each_of_side::<3>(rows, side, columns, visit),
+        _ => each_of_side::<ANY>(rows, side, columns, visit),
+    }
+}
+
+/// Any number of samples along the side of a pixel.
+const ANY: usize = 0;
+
+/// As [`each_covered`] where the compiler knows the side, if it is not [`ANY`]: the rows of a pixel are no loops then.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "what paints is to be seen by the compiler")]
+fn each_of_side<const SIDE: usize>(
+    rows: &mut impl SpanRows,
+    side: i32,
+    columns: Span,
     mut visit: impl FnMut(i32, Covered),
 ) {
     let (mut lines, mut ys) = ([Span::EMPTY; MAX_SIDE], [0; MAX_SIDE]);
-    let in_pixel = side.cast_unsigned() as usize;
+    let in_pixel = if SIDE == ANY {
+        side.cast_unsigned() as usize
+    } else {
+        SIDE
+    };
     let room = MAX_SIDE / in_pixel;
     let divisor = Divisor::new(side.cast_unsigned());
     loop {
@@ -42,7 +65,7 @@ pub(in crate::raster) fn each_covered(
             ys: &mut ys[..room],
         });
         for (spans, y) in lines.chunks_exact(in_pixel).zip(&ys[..count]) {
-            pixel_row(
+            pixel_row::<SIDE>(
                 spans,
                 divisor,
                 columns,
@@ -86,7 +109,8 @@ impl Divisor {
 
 /// Calls `visit` with what spans, one for each sample row, cover of the pixels `columns` in a row.
 #[inline]
-fn pixel_row(spans: &[Span], divisor: Divisor, columns: Span, mut visit: impl FnMut(Covered)) {
+fn pixel_row<const SIDE: usize>(spans: &[Span], divisor: Divisor, columns: Span, mut visit: impl FnMut(Covered)) {
+    let spans = if SIDE == ANY { spans } else { &spans[..SIDE] };
     if let [only] = *spans {
         let whole = only.intersection(columns);
         if !whole.is_empty() {

@@ -238,14 +238,14 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
     if visualiser.has_overlay() {
         let mut veil = ChunkBuilder::new(&context, 2);
         Visualiser::add_veil(&mut veil, size, raster.background);
-        list.push(veil.finish());
+        list.push(veil.finish_uncounted());
         list.extend(chunks(scene, |index, primitives| {
             let mut builder = ChunkBuilder::new(&context, primitives.len());
             for primitive in (index..).take(primitives.len()) {
                 builder.set_source(number(primitive));
                 visualiser.add_overlay(&mut builder, &screen, primitive);
             }
-            builder.finish()
+            builder.finish_uncounted()
         }));
     }
     if kind.has_outline() {

@@ -4,6 +4,7 @@ use crate::viewer::{ExportCommand, InspectorCommand};
 use egui::{Button, CollapsingHeader, Color32, Pos2, Rect, Response, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
 
 use super::controls::{command_button, tip};
+use super::floating::shows_other_than_set;
 use super::hovered::{Hovered, OUTLINE};
 use super::look::opaque;
 use super::look::{self, CONTROL};
@@ -11,7 +12,7 @@ use super::report::{lines, section};
 use super::{compare, scrubber, texture_view};
 use crate::inspect::{Difference, Explanation, Paint};
 use crate::render::Visualisation;
-use crate::viewer::{Command, Toggle, Viewer};
+use crate::viewer::{Arrangement, Command, Toggle, Viewer};
 
 /// Width of the panel where no hand gave it another, in points, frame included.
 pub(super) const WIDTH: f32 = 312.0;
@@ -232,6 +233,10 @@ impl ExplanationPanel {
 
 /// Says so where the window shows other colours than those that are explained, and leads back to them.
 fn other_view(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
+    if viewer.ab().arrangement() == Arrangement::Alone && shows_other_than_set(viewer) {
+        let note = "The window shows B. The explanation is about A, the picture of the settings.";
+        ui.label(RichText::new(note).color(ui.visuals().warn_fg_color));
+    }
     let name = match viewer.settings().render.visualisation {
         Visualisation::Color => return,
         Visualisation::Primitive => "primitives",

@@ -15,7 +15,7 @@ use super::pin;
 use super::places::{insets, points};
 use crate::raster::SamplePattern;
 use crate::viewer::picture::{self, About, Told, changed_words};
-use crate::viewer::{Arrangement, Command, Toggle, Viewer};
+use crate::viewer::{Arrangement, Command, Other, Toggle, Viewer};
 
 /// How far a pointer moves that rests no more, in points.
 const REST: f32 = 5.0;
@@ -68,9 +68,9 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect])
     Some(back)
 }
 
-/// The settings; none while A and B share the window, where tags tell them.
+/// The settings; none while A and B share the window, where tags tell them, nor while a B fills it that has others.
 fn overlay_words(viewer: &Viewer) -> Vec<String> {
-    if viewer.ab().arrangement() != Arrangement::Alone {
+    if viewer.ab().arrangement() != Arrangement::Alone || shows_other_than_set(viewer) {
         return Vec::new();
     }
     let render = &viewer.settings().render;
@@ -102,6 +102,12 @@ fn overlay_words(viewer: &Viewer) -> Vec<String> {
         }
     }
     lines
+}
+
+/// Whether the window is filled by a B that is no picture of the current settings: the truth, or a picture from outside.
+pub(super) fn shows_other_than_set(viewer: &Viewer) -> bool {
+    let ab = viewer.ab();
+    ab.shows_b() && matches!(ab.other(), Some(Other::Truth(_) | Other::Picture(_)))
 }
 
 /// A thin bar along the picture's upper edge: how far a refinement is that takes long.

@@ -361,3 +361,26 @@ fn side_by_side_and_back_moves_no_picture() {
         }
     }
 }
+
+#[test]
+fn words_over_the_picture_are_about_what_it_shows() {
+    let mut session = session(Vec::new(), [1920, 1080]);
+    right_click(&mut session, [700.0, 500.0]);
+    session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+    session.wait(Duration::from_secs(10));
+    session.command(Command::Ab(AbCommand::Arrange(Arrangement::Alone)));
+    session.settle();
+    let note = "The explanation is about A";
+    assert!(!says(&mut session, note), "A fills the window");
+    let is_high = |label: &Rect| label.height() > 40.0;
+    assert!(session.interface.labels().iter().any(is_high), "the settings, in lines");
+    session.command(Command::Ab(AbCommand::Swap));
+    session.settle();
+    assert!(session.viewer.ab().shows_b(), "B fills the window");
+    assert!(says(&mut session, note), "and the explanation says that it is about A");
+    let labels = session.interface.labels();
+    assert!(
+        !labels.iter().any(is_high),
+        "no settings of A over the picture of B: {labels:?}"
+    );
+}

@@ -144,7 +144,15 @@ impl Pointing<'_> {
     /// A pixel of the frame on the screen, as a question.
     pub(in crate::viewer) fn question(&self, pixel: [u32; 2]) -> Option<Asked> {
         let target = self.target(pixel)?;
-        let file = self.both.scene_list.current()?.label.clone();
+        let entry = self.both.scene_list.current()?;
+        // The frame of the scene before may still be on the screen: its shapes are in no line of this one's file.
+        if !entry
+            .scene()
+            .is_some_and(|scene| Arc::ptr_eq(scene, &target.picture.scene))
+        {
+            return None;
+        }
+        let file = entry.label.clone();
         let own = &target.picture;
         let other = self.both.other_picture(own);
         Some(Asked { target, other, file })

@@ -531,3 +531,23 @@ fn clip_paths_take_fragments_away() {
         assert_eq!(pixel(&shown, at[0], at[1]), expected, "{count} fragments at {at:?}");
     }
 }
+
+#[test]
+fn visualisations_count_what_the_picture_counts() {
+    let scene = gallery("texmap/test1.svg");
+    let view = View::Default.transform(scene.canvas, [64, 64]);
+    let count = |visualisation| {
+        let mut frame = Framebuffer::new(64, 64);
+        draw(&scene, &view, &showing(visualisation), &mut frame).triangles
+    };
+    let of_picture = count(Visualisation::Color);
+    for visualisation in Visualisation::ALL {
+        // Edges are lines.
+        let found = count(visualisation);
+        assert!(
+            found <= of_picture && (found > 0 || visualisation == Visualisation::Wireframe),
+            "{found}, not {of_picture} as {}",
+            visualisation.name()
+        );
+    }
+}

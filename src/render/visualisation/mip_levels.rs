@@ -40,14 +40,16 @@ impl Show for MipLevels {
     fn add(&self, source: &Source<'_>, target: Target<'_, '_>, index: usize) {
         source.each_textured(target, index, |builder, triangle| {
             builder.triangle(triangle.points, &triangle.paint);
-            builder.measured_triangle(triangle.points, triangle.uv, &|footprint| {
-                let levels = Reading::new(footprint, triangle.pyramid, &source.sampling).levels;
-                let (finer, coarser) = (color(levels.level), color(levels.level + 1));
-                let a = TINT;
-                Rgba {
-                    a,
-                    ..mix(finer, coarser, levels.next_weight)
-                }
+            builder.untold(|builder| {
+                builder.measured_triangle(triangle.points, triangle.uv, &|footprint| {
+                    let levels = Reading::new(footprint, triangle.pyramid, &source.sampling).levels;
+                    let (finer, coarser) = (color(levels.level), color(levels.level + 1));
+                    let a = TINT;
+                    Rgba {
+                        a,
+                        ..mix(finer, coarser, levels.next_weight)
+                    }
+                });
             });
         });
     }

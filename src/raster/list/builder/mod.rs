@@ -97,6 +97,15 @@ impl<'a> ChunkBuilder<'a> {
         self
     }
 
+    /// What `add` adds is told of nowhere: it lies over something of the scene that was added before.
+    pub fn untold(&mut self, add: impl FnOnce(&mut Self)) {
+        self.add_waiting();
+        let told = self.chunk.triangle_count;
+        add(self);
+        self.add_waiting();
+        self.chunk.triangle_count = told;
+    }
+
     /// What `add` adds is painted, though fragments are counted otherwise.
     pub fn uncounted(&mut self, add: impl FnOnce(&mut Self)) {
         self.add_waiting();

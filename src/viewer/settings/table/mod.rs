@@ -5,7 +5,7 @@
 
 use super::row::PictureSetting;
 
-/// A setting whose values have names; `$field` is where [`Settings`] keep it.
+/// A setting whose values have names; `$field` is where the settings keep it.
 macro_rules! named {
     ($option:literal, $label:literal, $kind:ty, $($field:ident).+) => {
         PictureSetting {

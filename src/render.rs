@@ -237,15 +237,15 @@ fn display_list<'a>(subject: &Subject<'a>, size: [u32; 2]) -> DisplayList<'a> {
     });
     if visualiser.has_overlay() {
         let mut veil = ChunkBuilder::new(&context, 2);
-        Visualiser::add_veil(&mut veil, size, raster.background);
-        list.push(veil.finish_uncounted());
+        veil.untold(|veil| Visualiser::add_veil(veil, size, raster.background));
+        list.push(veil.finish());
         list.extend(chunks(scene, |index, primitives| {
             let mut builder = ChunkBuilder::new(&context, primitives.len());
             for primitive in (index..).take(primitives.len()) {
                 builder.set_source(number(primitive));
-                visualiser.add_overlay(&mut builder, &screen, primitive);
+                builder.untold(|builder| visualiser.add_overlay(builder, &screen, primitive));
             }
-            builder.finish_uncounted()
+            builder.finish()
         }));
     }
     if kind.has_outline() {

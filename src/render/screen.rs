@@ -57,7 +57,7 @@ impl<'a> Screen<'a> {
     }
 
     /// Whether any of a polygon may lie in what is painted.
-    pub(super) fn shows(&self, polygon: &Polygon) -> bool {
+    fn shows(&self, polygon: &Polygon) -> bool {
         let [low, high] = polygon.bounds();
         let corners =
             [low, high, DVec2::new(low.x, high.y), DVec2::new(high.x, low.y)].map(|corner| self.place(corner));

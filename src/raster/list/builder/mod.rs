@@ -144,14 +144,6 @@ impl<'a> ChunkBuilder<'a> {
         self.chunk
     }
 
-    /// The chunk, whose triangles and polygons are told of nowhere: they are none of the scene's, or not for the first time.
-    pub fn finish_uncounted(self) -> Chunk {
-        Chunk {
-            triangle_count: 0,
-            ..self.finish()
-        }
-    }
-
     /// Adds a polygon, its points brought to screen space by `place`; nothing where any of them is not finite there. Its
     /// paint must be one that needs no corners to interpolate between.
     pub fn polygon(&mut self, polygon: &Polygon, place: impl Fn(DVec2) -> DVec2, paint: &Paint) {

@@ -57,6 +57,7 @@ fn each_of_side<const SIDE: usize>(
         SIDE
     };
     let room = MAX_SIDE / in_pixel;
+    let divisor = Divisor::new(side.cast_unsigned());
     loop {
         let count = rows.take(Batch {
             side,
@@ -66,6 +67,7 @@ fn each_of_side<const SIDE: usize>(
         for (spans, y) in lines.chunks_exact(in_pixel).zip(&ys[..count]) {
             pixel_row::<SIDE>(
                 spans,
+                divisor,
                 columns,
                 #[inline(always)]
                 |covered| visit(*y, covered),
@@ -78,9 +80,37 @@ fn each_of_side<const SIDE: usize>(
     }
 }
 
+/// Divides by the same number over and over. With plain divisions, rates 25 and 64 take 2 % longer, and what surrounds them
+/// grows so much that it is inlined no more: jitter then costs 12 to 16 % more instructions.
+///
+/// After Granlund and Montgomery, "Division by Invariant Integers using Multiplication" (1994), section 4.
+#[derive(Clone, Copy, Debug)]
+struct Divisor {
+    by: u32,
+    /// `2^32 / by`, rounded up.
+    reciprocal: u64,
+}
+
+impl Divisor {
+    /// By a number of samples along the side of a pixel, 1 to 16.
+    fn new(by: u32) -> Self {
+        let by = by.max(1);
+        Self {
+            by,
+            reciprocal: (1_u64 << 32).div_ceil(by.into()),
+        }
+    }
+
+    /// The quotient, rounded down. Exact below `2^28`, since what the reciprocal is too large by stays under a sixteenth.
+    #[inline]
+    fn quotient(self, of: u32) -> u32 {
+        ((u64::from(of) * self.reciprocal) >> 32) as u32
+    }
+}
+
 /// Calls `visit` with what spans, one for each sample row, cover of the pixels `columns` in a row.
 #[inline]
-fn pixel_row<const SIDE: usize>(spans: &[Span], columns: Span, mut visit: impl FnMut(Covered)) {
+fn pixel_row<const SIDE: usize>(spans: &[Span], divisor: Divisor, columns: Span, mut visit: impl FnMut(Covered)) {
     let spans = if SIDE == ANY { spans } else { &spans[..SIDE] };
     if let [only] = *spans {
         let whole = only.intersection(columns);
@@ -95,11 +125,11 @@ fn pixel_row<const SIDE: usize>(spans: &[Span], columns: Span, mut visit: impl F
         inner = inner.intersection(*span);
     }
     // Columns of a frame are never negative, so that division rounds down.
-    let side = u32::try_from(spans.len()).unwrap_or(1);
+    let side = divisor.by;
     let (first, last) = (columns.start * side.cast_signed(), columns.end * side.cast_signed());
     let inside = |column: i32| column.clamp(first, last).cast_unsigned();
-    let down = |column: i32| (inside(column) / side).cast_signed();
-    let up = |column: i32| inside(column).div_ceil(side).cast_signed();
+    let down = |column: i32| divisor.quotient(inside(column)).cast_signed();
+    let up = |column: i32| divisor.quotient(inside(column) + (side - 1)).cast_signed();
     let (start, end) = (down(outer.start), up(outer.end));
     if start >= end {
         return;
@@ -155,4 +185,21 @@ fn mask(x: i32, spans: &[Span], sides: Sides) -> SampleMask {
         mask.add(first, of_row(span));
     }
     mask
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn divisors_divide_every_column_of_a_frame() {
+        for by in 1..=16 {
+            let divisor = Divisor::new(by);
+            let last = 65_536 * by + by;
+            let steps = (0..last).step_by(977).chain(last - 1000..last).chain(0..1000);
+            for of in steps.chain([(1 << 28) - 1]) {
+                assert_eq!(divisor.quotient(of), of / by, "{of} / {by}");
+            }
+        }
+    }
 }

@@ -6,7 +6,7 @@
     reason = "inside the window"
 )]
 
-use crate::viewer::{AbCommand, Against, InspectorCommand, SceneCommand, WindowCommand};
+use crate::viewer::{AbCommand, Against, InspectorCommand, SceneCommand, ViewCommand, WindowCommand};
 use std::path::PathBuf;
 
 use glam::dvec2;
@@ -358,6 +358,59 @@ fn side_by_side_and_back_moves_no_picture() {
             session.settle();
             assert_eq!(session.viewer.both().view_numbers(), before, "{x} in {window:?}");
             assert_eq!(session.viewer.pixels().pinned(), pin, "{x} in {window:?}");
+        }
+    }
+}
+
+#[test]
+fn another_arrangement_keeps_the_middle_of_a_dragged_picture() {
+    use Arrangement::{Alone, Difference, SideBySide, Wipe};
+    for window in WINDOWS {
+        for (first, pinned) in [(Wipe, false), (Wipe, true), (SideBySide, false), (SideBySide, true)] {
+            let mut session = comparing(window);
+            session.command(Command::Ab(AbCommand::Arrange(first)));
+            session.command(Command::View(ViewCommand::PanBy { by: dvec2(33.0, -21.0) }));
+            session.settle();
+            if pinned {
+                let free = session.free_area.expect("room");
+                let middle = [free.x as f64 + f64::from(free.width) * 0.3, f64::from(window[1]) * 0.5];
+                right_click(&mut session, middle);
+                session.settle();
+            }
+            // The place in the middle of the free picture, and where samples lie in their pixels.
+            let seen = |session: &Session| {
+                let both = session.viewer.both();
+                let view = both.view_numbers().expect("a scene");
+                let frame = both.layout().frame_size();
+                let ([corner, size], half) = (both.layout().free_part(), DVec2::from(frame.map(f64::from)) / 2.0);
+                let middle = view.center + (corner + size / 2.0 - half) / view.scale;
+                (middle, (half - view.center * view.scale).fract_gl(), view.scale)
+            };
+            let (middle, phase, scale) = seen(&session);
+            let (view, pin) = (session.viewer.both().view_numbers(), session.viewer.pixels().pinned());
+            for next in [Wipe, SideBySide, Difference, SideBySide, Alone, first] {
+                session.command(Command::Ab(AbCommand::Arrange(next)));
+                session.settle();
+                let (now, now_phase, _) = seen(&session);
+                let apart = (now - middle).abs() * scale;
+                // An explained pixel near the edge of a narrow half comes into sight.
+                assert!(
+                    pinned || apart.max_element() <= 1.0,
+                    "{apart} pixels, {first:?} to {next:?} in {window:?}"
+                );
+                let slip = (now_phase - phase).abs();
+                let slip = slip.min(DVec2::ONE - slip);
+                assert!(
+                    slip.max_element() < 1e-6,
+                    "{slip}, {first:?} to {next:?} in {window:?}, {pinned}"
+                );
+            }
+            assert_eq!(
+                session.viewer.both().view_numbers(),
+                view,
+                "{first:?} in {window:?}, {pinned}"
+            );
+            assert_eq!(session.viewer.pixels().pinned(), pin, "{first:?} in {window:?}");
         }
     }
 }

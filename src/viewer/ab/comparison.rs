@@ -15,7 +15,7 @@ use crate::viewer::frames::job::Drawn;
 use crate::viewer::jobs::mailbox::Mailbox;
 use crate::viewer::settings::PixelZoom;
 use crate::viewer::view::layout::{Sharing, WindowLayout};
-use crate::viewer::view::panes::Moved;
+use crate::viewer::view::panes::{Arranged, Moved};
 
 impl Comparison {
     pub(in crate::viewer) fn new(drawn: Mailbox<Drawn>, measuring: Measuring) -> Self {
@@ -35,6 +35,7 @@ impl Comparison {
             postponed: None,
             loading: None,
             moved: Moved::default(),
+            arranged: None,
             others: 0,
             swaps: 0,
             measuring,
@@ -75,6 +76,8 @@ pub struct Comparison {
     pub(in crate::viewer) loading: Option<PathBuf>,
     /// Where pictures from outside are.
     pub(in crate::viewer) moved: Moved,
+    /// The view that a hand set in another arrangement.
+    pub(in crate::viewer) arranged: Option<Arranged>,
     /// How many B there were.
     pub(in crate::viewer) others: u64,
     /// How often both changed places.

@@ -80,9 +80,10 @@ impl Viewer {
         Vec::new()
     }
 
-    /// Carries out a command; what is explained stays in sight.
+    /// Carries out a command; what is looked at and explained stays in sight.
     fn apply_ab(&mut self, command: AbCommand) {
-        let panes = self.pixels().explains().then(|| self.both().layout.panes());
+        // Before: the other frames may leave the pixel outside.
+        let (before, explains) = (self.both().layout, self.pixels().explains());
         let jumps = command == AbCommand::NextDifference;
         Comparing {
             settings: &mut self.settings,
@@ -96,9 +97,7 @@ impl Viewer {
         if jumps {
             self.hand().jump();
         }
-        if panes.is_some_and(|before| before != self.both().layout.panes()) {
-            self.hand().keep_explained_pin_in_sight();
-        }
+        self.hand().follow_arrangement(&before, explains);
         self.ab.touch();
     }
 

@@ -4,6 +4,7 @@
 //! small struct that borrows just those, such as [`both::Both`] or [`hand::Hand`]; `contexts` hands them out.
 
 pub(in crate::viewer) mod apply;
+pub(in crate::viewer) mod arranging;
 pub(in crate::viewer) mod both;
 pub(in crate::viewer) mod comparing;
 pub(in crate::viewer) mod contexts;

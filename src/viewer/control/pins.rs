@@ -1,4 +1,4 @@
-//! The pinned pixel while panels come and go and A and B are arranged anew: it stays what it is, and in sight.
+//! The pinned pixel while panels come and go: it stays what it is, and in sight.
 
 use glam::DVec2;
 
@@ -17,9 +17,6 @@ const NO_PICTURE: &str = "no picture to explain: this scene could not be read";
 
 /// Frame pixels that stay free beside a pinned one in a frame that becomes smaller.
 const PIN_ROOM: i64 = 24;
-
-/// Frame pixels that stay free between a panel and a pixel that another arrangement brings near it.
-const PANEL_ROOM: i64 = 12;
 
 /// Probing samples of a scene with this many primitives takes less than a millisecond: dots that come at once do not flicker.
 const FEW: usize = 4000;
@@ -278,62 +275,6 @@ impl Hand<'_> {
         // By whole frame pixels, so that the pinned one stays what it is.
         self.viewing().pan((by / zoom).round() * zoom);
         self.keep_pin_in_place();
-    }
-
-    /// Another arrangement of A and B has other frames: takes back what the room for an explanation made of the view, and
-    /// brings the explained pixel into sight where it would be outside or behind a panel.
-    pub(in crate::viewer) fn keep_explained_pin_in_sight(&mut self) {
-        let layout = self.layout();
-        if let Some(views) = self.inspector.magnifier.kept_view.take() {
-            self.scene_list.look_back(layout.frame_size(), views);
-        }
-        let place = self.inspector.magnifier.pin.and_then(|pin| pin.place);
-        let (Some((place, _)), Some(context), None) = (place, self.both().view_context(), self.ab.fixed_size()) else {
-            return;
-        };
-        let Some((camera, free)) = self.scene_list.camera().zip(layout.free_screen()) else {
-            return;
-        };
-        let pane = layout.panes().first;
-        let free = pane.area.intersection(&free);
-        let now = camera.transform(&context).to_pixels(place).floor();
-        let inside_of = |axis: usize, from: i64, to: i64| {
-            let low = from - pane.corner[axis] + PANEL_ROOM;
-            let high = to - pane.corner[axis] - 1 - PANEL_ROOM;
-            low as f64..=high as f64
-        };
-        let inside = |axis: usize, from: i64, to: i64| {
-            let room = inside_of(axis, from, to);
-            now[axis].min(*room.end()).max(*room.start())
-        };
-        let [zero, end] = [DVec2::ZERO, context.canvas];
-        let corners = [zero, end, DVec2::new(zero.x, end.y), DVec2::new(end.x, zero.y)];
-        let corners = corners.map(|corner| camera.transform(&context).to_pixels(corner));
-        // By whole pixels. In a half of the window a canvas that has room is shown whole, and its pin with it.
-        let in_halves = layout.panes().second.is_some();
-        let by = |axis: usize, from: i64, to: i64| {
-            let (low, high) = ((from - pane.corner[axis]) as f64, (to - pane.corner[axis]) as f64);
-            let along = corners.map(|corner| corner[axis]);
-            let least = along.into_iter().fold(f64::INFINITY, f64::min).floor();
-            let most = along.into_iter().fold(f64::NEG_INFINITY, f64::max).ceil();
-            let whole = 0.0_f64.max(low - least).min(high - most);
-            let of_pin = inside(axis, from, to) - now[axis];
-            // Outside of the canvas a pin may lie anywhere.
-            let keeps_pin = inside_of(axis, from, to).contains(&(now[axis] + whole));
-            if in_halves && most - least <= high - low && keeps_pin {
-                whole
-            } else {
-                of_pin
-            }
-        };
-        let by = DVec2::new(by(0, free.x, free.right()), by(1, free.y, free.bottom()));
-        if by == DVec2::ZERO {
-            return;
-        }
-        let mut moved = camera;
-        moved.pan(by, &context);
-        self.inspector.magnifier.kept_view = Some([camera, moved]);
-        self.scene_list.look(layout.frame_size(), |camera, _| *camera = moved);
     }
 
     /// Goes to the pixel that differs most, or from there to the next, as soon as both are measured.

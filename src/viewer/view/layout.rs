@@ -118,7 +118,7 @@ impl WindowLayout {
     }
 
     /// The part of the frame that no panel covers: its corner and size in frame pixels.
-    pub(in crate::viewer) fn free_part(&self) -> [DVec2; 2] {
+    pub(crate) fn free_part(&self) -> [DVec2; 2] {
         let zoom = f64::from(self.zoom());
         let free = self.free_window;
         if self.panes.second.is_some() || self.fixed_size.is_some() {

@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use crate::figure::PixelRect;
 use crate::raster::Region;
+use crate::viewer::view::camera::Camera;
 
 /// Where a frame lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +45,21 @@ impl Panes {
         let in_second = self.second.filter(|pane| pane.area.contains(pixel));
         in_second.unwrap_or(self.first)
     }
+}
+
+/// The view that a hand has set, while A and B are arranged in other ways than there.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::viewer) struct Arranged {
+    /// That view.
+    pub(in crate::viewer) own: Camera,
+    /// What the explanation keeps of it.
+    pub(in crate::viewer) kept: Option<[Camera; 2]>,
+    /// Where its frames lay.
+    pub(in crate::viewer) panes: Panes,
+    /// The middle of the free part of the first of them, in screen pixels.
+    pub(in crate::viewer) middle: Option<DVec2>,
+    /// The view that stands in its place now; it counts until a hand sets another.
+    pub(in crate::viewer) set: Camera,
 }
 
 /// Screen pixels of a picture from outside that stay in sight.

@@ -102,7 +102,7 @@ impl Explanation {
         let (part, area) = (self.covered_part(paint), paint.area.filter(|_| !paint.is_crisp())?);
         ((part - area).abs() > WRONG).then(|| {
             format!(
-                "The samples say that {} covers {} of the pixel; in truth it is {}.",
+                "By its samples {} covers {} of the pixel; by area, {}.",
                 paint.name(),
                 percent(part),
                 percent(area)

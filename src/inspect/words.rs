@@ -188,11 +188,11 @@ impl Explanation {
             let whole = if self.covered_part(found) > 0.0 { "all" } else { "none" };
             let area = percent(area);
             lines.push(format!(
-                "covers {area} of the pixel in truth, and {whole} of it as drawn: shape-rendering asks for one sample per pixel"
+                "covers {area} of the pixel's area, and {whole} of it as drawn: shape-rendering asks for one sample per pixel"
             ));
         } else if let Some(area) = found.area {
             lines.push(format!(
-                "covers {} of the pixel in truth, {} by its samples",
+                "covers {} of the pixel's area, {} of its samples",
                 percent(area),
                 percent(self.covered_part(found))
             ));

@@ -8,7 +8,7 @@ use super::floating::shows_other_than_set;
 use super::hovered::{Hovered, OUTLINE};
 use super::look::opaque;
 use super::look::{self, CONTROL};
-use super::report::{lines, section};
+use super::report::{bring_into_sight, lines, section};
 use super::{compare, scrubber, texture_view};
 use crate::inspect::{Difference, Explanation, Paint};
 use crate::render::Visualisation;
@@ -224,6 +224,7 @@ impl ExplanationPanel {
                     ui.indent("fragment", |ui| lines(ui, &explanation.fragment_lines(number, sample)));
                 }
             });
+        bring_into_sight(ui, &header);
         let inside = header.body_response.as_ref().is_some_and(Response::contains_pointer);
         if header.header_response.contains_pointer() || inside {
             hovered.primitive = Some(paint.primitive);

@@ -1,7 +1,8 @@
 //! Sections and lines of a report.
 
+use egui::collapsing_header::CollapsingState;
 use egui::text::{LayoutJob, TextFormat};
-use egui::{CollapsingHeader, FontId, Response, RichText, Ui};
+use egui::{CollapsingHeader, CollapsingResponse, FontId, Response, RichText, Ui};
 
 /// Letters of the report, in points.
 const SIZE: f32 = 12.0;
@@ -11,10 +12,23 @@ const MONOSPACE: f32 = 0.62;
 
 /// A part of a report that can be folded.
 pub(super) fn section(ui: &mut Ui, id: &str, title: &str, open: bool, contents: impl FnOnce(&mut Ui)) {
-    CollapsingHeader::new(RichText::new(title).size(12.0))
+    let section = CollapsingHeader::new(RichText::new(title).size(12.0))
         .id_salt(id)
         .default_open(open)
         .show(ui, contents);
+    bring_into_sight(ui, &section);
+}
+
+/// What a click unfolds below the last visible line comes into sight while it grows, as far as it has room below its title.
+pub(super) fn bring_into_sight<R>(ui: &Ui, section: &CollapsingResponse<R>) {
+    let (header, grows) = (&section.header_response, section.openness < 1.0);
+    let opens = || CollapsingState::load(ui.ctx(), header.id).is_some_and(|state| state.is_open());
+    if let Some(body) = &section.body_response
+        && (header.clicked() || grows)
+        && opens()
+    {
+        ui.scroll_to_rect(header.rect.union(body.rect), None);
+    }
 }
 
 /// Whether a line is numbers, or percentages, and nothing else: a row of a table.

@@ -42,7 +42,7 @@ pub(super) fn show(ui: &mut Ui, explanation: &Explanation, accumulated: &mut Opt
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width() - 4.0, HEIGHT), Sense::hover());
     plot(ui, rect, &convergence.parts, convergence.area, count);
     let words = format!(
-        "{}: {:.1} % of {count} samples; {:.1} % in truth (line)",
+        "{}: {:.1} % of {count} samples; {:.1} % of the area (line)",
         convergence.name,
         convergence.parts[count - 1] * 100.0,
         convergence.area * 100.0

@@ -6,7 +6,7 @@ use egui::accesskit::Node;
 use glam::{DVec2, dvec2};
 
 use super::hands::{click, nodes, place_of, session};
-use super::small_windows::{right_click, says};
+use super::small_windows::{click_on, right_click, says};
 use super::*;
 use crate::viewer::script::Stage as _;
 
@@ -88,4 +88,29 @@ fn explanation_of_a_texture_stays_in_its_panel() {
             "{widest} points wide in {window:?}"
         );
     }
+}
+
+#[test]
+fn what_a_click_unfolds_comes_into_sight() {
+    const FOLD: &str = "Sample by sample";
+    let mut seen = 0;
+    for height in (420..900).step_by(24) {
+        let mut session = session(Vec::new(), [1280, height]);
+        session.command(Command::set("sample-rate", "16").expect("a rate"));
+        session.settle();
+        right_click(&mut session, [900.0, 300.0]);
+        let end = f64::from(height);
+        let before = place_of(&mut session, FOLD).y;
+        if !(end - 90.0..end - 50.0).contains(&before) {
+            continue;
+        }
+        seen += 1;
+        click_on(&mut session, FOLD);
+        let after = place_of(&mut session, FOLD).y;
+        assert!(
+            after < before - 10.0 && after > 0.0,
+            "{before}, then {after} of {height}"
+        );
+    }
+    assert!(seen > 0, "a window in which the fold is the last that is to be seen");
 }

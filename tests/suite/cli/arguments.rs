@@ -494,7 +494,7 @@ fn cli_inspect_explains_a_pixel_in_words_and_numbers() {
         "two.svg:3:1",
         "3 | <polygon id=\"tip\"",
         "paints 3 of 4 samples: 1-3",
-        "covers 75 % of the pixel in truth, 75 % by its samples",
+        "covers 75 % of the pixel's area, 75 % of its samples",
     ] {
         let joined = text.split_whitespace().collect::<Vec<_>>().join(" ");
         let expected = expected.split_whitespace().collect::<Vec<_>>().join(" ");

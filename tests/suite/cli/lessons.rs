@@ -6,8 +6,12 @@ use std::path::Path;
 use std::process::Command as Process;
 
 use glam::dvec2;
-use rasterscope::render::{LegendKey, Visualisation};
-use rasterscope::scene::{Dialect, DialectChoice, Scene};
+use rasterscope::geometry::View;
+use rasterscope::raster::{Framebuffer, SampleRate};
+use rasterscope::render::{LegendKey, RenderSettings, Visualisation, draw};
+use rasterscope::scene::{Dialect, DialectChoice, ReadOptions, Scene};
+use rasterscope::texture::{Anisotropy, LevelSampling, PixelSampling};
+use rasterscope::viewer::gallery::{SCENES, Textures};
 use rasterscope::viewer::{Arrangement, BUILT_IN, Command, LessonSource, Viewer};
 
 use crate::support::session::{SQUARE, Session, TRIANGLES};
@@ -72,7 +76,7 @@ fn lesson_is_walked_by_keys_and_closed_by_escape() {
     );
     assert_eq!(
         session.viewer.settings().render.pixel_sampling,
-        rasterscope::texture::PixelSampling::default(),
+        PixelSampling::default(),
         "the others have their defaults"
     );
     let pinned = session.viewer.pixels().pinned().expect("the step's pin");
@@ -218,9 +222,9 @@ fn lesson_slides_are_numbered_pictures() {
     assert_eq!(found.err(), None, "as it was looked at");
 }
 
-fn rasterscope_frame(path: &Path) -> rasterscope::raster::Framebuffer {
+fn rasterscope_frame(path: &Path) -> Framebuffer {
     let image = image::open(path).unwrap().into_rgba8();
-    let mut frame = rasterscope::raster::Framebuffer::new(image.width(), image.height());
+    let mut frame = Framebuffer::new(image.width(), image.height());
     for (to, from) in frame.pixels_mut().iter_mut().zip(image.pixels()) {
         let [r, g, b, a] = from.0;
         *to = u32::from_be_bytes([a, r, g, b]);
@@ -316,6 +320,60 @@ fn lesson_titles_do_not_count_steps() {
         for step in source.read().unwrap().steps {
             let counts = step.title.starts_with(|first: char| first.is_ascii_digit());
             assert!(!counts, "{name}: {}", step.title);
+        }
+    }
+}
+
+/// The channel of a pixel that differs most.
+fn apart(a: u32, b: u32) -> u32 {
+    let channels = a.to_be_bytes().into_iter().zip(b.to_be_bytes());
+    channels.map(|(a, b)| u32::from(a.abs_diff(b))).max().unwrap_or(0)
+}
+
+#[test]
+fn taps_help_the_pixel_that_the_lesson_on_them_pins_in_windows_of_any_size() {
+    let lesson = LessonSource::named("anisotropy").unwrap().read().unwrap();
+    let pins: Vec<_> = lesson.steps.iter().filter_map(|step| step.pin).collect();
+    assert_eq!(pins.len(), 5, "steps that pin a pixel");
+    let name = "study/11_city_floor.svg";
+    let document = SCENES.iter().find(|scene| scene.name == name).unwrap().document;
+    let options = ReadOptions {
+        dialect: DialectChoice::Auto,
+    };
+    let scene = rasterscope::scene::read(document.as_bytes(), name, options, &Textures).unwrap();
+    let one_tap = RenderSettings {
+        pixel_sampling: PixelSampling::Bilinear,
+        level_sampling: LevelSampling::Linear,
+        ..RenderSettings::default()
+    };
+    let taps = RenderSettings {
+        anisotropy: Anisotropy::new(16).unwrap(),
+        ..one_tap
+    };
+    let truth = RenderSettings {
+        sample_rate: SampleRate::new(256).unwrap(),
+        level_sampling: LevelSampling::Zero,
+        ..one_tap
+    };
+    for pin in pins {
+        for step in 0..40 {
+            let (scale, part) = (0.5 + 0.05 * f64::from(step), f64::from(step) / 40.0);
+            let view = View::At {
+                center: pin + dvec2(part - 0.5, 0.3 - part) / scale * 0.9,
+                scale,
+                rotation: 0.0,
+            };
+            let middle = |settings: &RenderSettings| {
+                let mut frame = Framebuffer::new(3, 3);
+                draw(&scene, &view.transform(scene.canvas, [3, 3]), settings, &mut frame);
+                frame.pixels()[4]
+            };
+            let truth = middle(&truth);
+            let (one, many) = (apart(middle(&one_tap), truth), apart(middle(&taps), truth));
+            assert!(
+                many + 16 <= one,
+                "{many} levels off with taps, {one} without, at scale {scale}"
+            );
         }
     }
 }

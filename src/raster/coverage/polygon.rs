@@ -12,12 +12,13 @@ use glam::DVec2;
 use crate::geometry::FillRule;
 use crate::geometry::clip::{clip_edge, in_guard};
 use crate::geometry::subpixel::{GUARD, GridPoint, SubpixelGrid};
-use crate::raster::span::{Span, SpanRect};
+use crate::raster::span::{Span, SpanRect, to_index};
 
 /// A polygon in a chunk.
 #[derive(Clone, Debug)]
 pub(crate) struct Outline {
-    /// Its edges among those of the chunk, by their first rows.
+    /// Its edges among those of the chunk, by the [blocks](block) of their first rows; inside a block as they come along the
+    /// contours.
     pub(in crate::raster) edges: Range<usize>,
     /// The box of its samples, in the frame; never empty.
     pub(crate) samples: SpanRect,
@@ -156,7 +157,7 @@ impl<'a> OutlineBuilder<'a> {
             self.edges.truncate(self.start);
             return None;
         }
-        edges.sort_unstable_by_key(|edge| edge.rows.start);
+        sort_by_blocks(edges, samples.y);
         let tallest = edges.iter().map(|edge| edge.rows.end - edge.rows.start).max();
         Some(Outline {
             edges: self.start..self.edges.len(),
@@ -164,6 +165,39 @@ impl<'a> OutlineBuilder<'a> {
             rule,
             tallest: tallest.unwrap_or(0),
         })
+    }
+}
+
+/// The block of sample rows that a row lies in: about a row of tiles.
+///
+/// Edges are not sorted any finer. Contours mostly lie side by side, as letters do, and so the crossings of a row are nearly
+/// sorted as they come.
+#[inline]
+fn block(row: i32) -> i32 {
+    row >> 8
+}
+
+/// Sorts edges, whose first rows lie in `rows`, by the blocks of these; those of a block keep their order.
+fn sort_by_blocks(edges: &mut [OutlineEdge], rows: Span) {
+    let first = block(rows.start);
+    let count = to_index(block(rows.end - 1) - first) + 1;
+    let place = |edge: &OutlineEdge| to_index(block(edge.rows.start) - first);
+    if count == 1 || edges.is_sorted_by_key(place) {
+        return;
+    }
+    let mut next = vec![0; count];
+    for edge in &*edges {
+        next[place(edge)] += 1;
+    }
+    let mut sum = 0;
+    for next in &mut next {
+        sum += std::mem::replace(next, sum);
+    }
+    let unsorted = edges.to_vec();
+    for edge in unsorted {
+        let next = &mut next[place(&edge)];
+        edges[*next] = edge;
+        *next += 1;
     }
 }
 
@@ -210,8 +244,9 @@ impl Outline {
         let edges = &all[self.edges.clone()];
         // Few are looked at faster than searched.
         let edges = if edges.len() > 16 {
-            let first = edges.partition_point(|edge| edge.rows.start + self.tallest <= rows.start);
-            let last = edges.partition_point(|edge| edge.rows.start < rows.end);
+            let (lowest, highest) = (block(rows.start - self.tallest + 1), block(rows.end - 1));
+            let first = edges.partition_point(|edge| block(edge.rows.start) < lowest);
+            let last = edges.partition_point(|edge| block(edge.rows.start) <= highest);
             &edges[first..last.max(first)]
         } else {
             edges

@@ -22,6 +22,12 @@ pub(super) trait Composite: Copy {
     /// Composites many samples of the layer with those below it.
     #[inline]
     fn composite(self, layer: &[Premultiplied16], below: &mut [Premultiplied16], rules: Rules) {
+        self.each(layer, below, rules);
+    }
+
+    /// The same, one after the other.
+    #[inline]
+    fn each(self, layer: &[Premultiplied16], below: &mut [Premultiplied16], rules: Rules) {
         for (below, sample) in below.iter_mut().zip(layer) {
             // Most samples are where the layer is not. Under the course's rules painting nothing truncates, too.
             let nothing = sample.0[3] == 0 && self.keeps_below() && rules != Rules::Course;

@@ -2,6 +2,10 @@
 
 use crate::color::{Premultiplied16, unit_to_16};
 use crate::raster::layers::composite::Composite;
+use crate::rules::Rules;
+
+/// Samples that are looked at together.
+const TOGETHER: usize = 16;
 
 /// The opacity, of [`Premultiplied16::ONE`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +23,22 @@ impl Composite for Opacity {
         sample.faded(self.0)
     }
 
+    #[inline]
+    fn composite(self, layer: &[Premultiplied16], below: &mut [Premultiplied16], rules: Rules) {
+        if self.0 != Premultiplied16::ONE || rules == Rules::Course {
+            return self.each(layer, below, rules);
+        }
+        // An isolated group is opaque or absent at most samples, and its neighbours are as it is.
+        for (layer, below) in layer.chunks(TOGETHER).zip(below.chunks_mut(TOGETHER)) {
+            let all = |is: fn(&Premultiplied16) -> bool| layer.iter().fold(true, |all, sample| all & is(sample));
+            if all(|sample| sample.is_opaque()) {
+                below.copy_from_slice(layer);
+            } else if !all(|sample| sample.0[3] == 0) {
+                self.each(layer, below, rules);
+            }
+        }
+    }
+
     fn opacity(self) -> f64 {
         f64::from(self.0) / f64::from(Premultiplied16::ONE)
     }
@@ -28,7 +48,6 @@ impl Composite for Opacity {
 mod tests {
     use super::*;
     use crate::raster::layers::Compositing;
-    use crate::rules::Rules;
 
     #[test]
     fn half_of_an_opaque_layer_lets_half_of_what_is_below_through() {
@@ -44,5 +63,31 @@ mod tests {
             1.0_f64.to_bits(),
             "clamped"
         );
+    }
+
+    #[test]
+    fn many_samples_are_composited_as_each_alone() {
+        arbtest::arbtest(|u| {
+            let mut color = || -> arbtest::arbitrary::Result<Premultiplied16> {
+                let alpha = *u.choose(&[0, Premultiplied16::ONE, Premultiplied16::ONE, 300])?;
+                Ok(Premultiplied16([u.int_in_range(0..=alpha)?, 0, alpha, alpha]))
+            };
+            // Some stretches are all opaque, or all absent.
+            let mut layer = (0..40).map(|_| color()).collect::<Result<Vec<_>, _>>()?;
+            let below = (0..97).map(|_| color()).collect::<Result<Vec<_>, _>>()?;
+            layer.extend([Premultiplied16::TRANSPARENT; 25]);
+            layer.extend([Premultiplied16::from_bytes([9, 8, 7, 255]); 32]);
+            for rules in [Rules::Standard, Rules::Course] {
+                for opacity in [1.0, 0.4] {
+                    let way = Opacity::new(opacity);
+                    let (mut together, mut alone) = (below.clone(), below.clone());
+                    way.composite(&layer, &mut together, rules);
+                    way.each(&layer, &mut alone, rules);
+                    assert_eq!(together, alone, "{rules:?}, {opacity}");
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(100);
     }
 }

@@ -13,8 +13,17 @@ pub(super) struct LayerEnd<'s, 'a> {
     compositing: Compositing,
     /// What was made so far.
     made: HashMap<[SurfaceId; 2], SurfaceId>,
-    /// The latest: most samples are like their neighbours.
-    last: Option<([SurfaceId; 2], SurfaceId)>,
+    /// The latest, each in the [place](place) of its pair: most samples are like their neighbours, or those above them.
+    latest: [Option<([SurfaceId; 2], SurfaceId)>; LATEST],
+}
+
+/// How many pairs are found without a search; a power of two.
+const LATEST: usize = 64;
+
+/// The place of a pair among the latest.
+#[inline]
+fn place([below, above]: [SurfaceId; 2]) -> usize {
+    (usize::from(below) * 7 + usize::from(above)) % LATEST
 }
 
 impl<'s, 'a> LayerEnd<'s, 'a> {
@@ -23,7 +32,7 @@ impl<'s, 'a> LayerEnd<'s, 'a> {
             surfaces,
             compositing,
             made: HashMap::new(),
-            last: None,
+            latest: [None; LATEST],
         }
     }
 }
@@ -35,8 +44,8 @@ impl Composer for LayerEnd<'_, '_> {
 
     fn composited(&mut self, below: SurfaceId, above: SurfaceId) -> SurfaceId {
         let pair = [below, above];
-        if let Some((last, result)) = self.last
-            && last == pair
+        if let Some((known, result)) = self.latest[place(pair)]
+            && known == pair
         {
             return result;
         }
@@ -46,7 +55,7 @@ impl Composer for LayerEnd<'_, '_> {
         let sample = self.surfaces.get(above).flat;
         let make = || self.surfaces.composited(below, sample, self.compositing);
         let result = *self.made.entry(pair).or_insert_with(make);
-        self.last = Some((pair, result));
+        self.latest[place(pair)] = Some((pair, result));
         result
     }
 }

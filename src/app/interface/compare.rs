@@ -123,7 +123,7 @@ fn what(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
         .words(viewer.settings())
         .is_some_and(|words| words.is_empty())
     {
-        let hint = "Both have the same settings: change A with its keys.";
+        let hint = "Both have the same settings: change one, and A shows it.";
         ui.label(RichText::new(hint).small().color(ui.visuals().warn_fg_color));
     }
 }
@@ -298,7 +298,7 @@ fn next_difference(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             commands.push(Command::Ab(AbCommand::NextDifference));
         }
         if let Some(index) = viewer.pixels().pinned_difference() {
-            let place = format!("{} of {count}", index + 1);
+            let place = format!("place {} of {count}", index + 1);
             ui.label(RichText::new(place).small().weak());
         }
     });

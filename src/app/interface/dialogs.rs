@@ -2,7 +2,7 @@
 
 use crate::viewer::{AbCommand, Against, WindowCommand};
 use egui::text::{CCursor, CCursorRange};
-use egui::{Align, Align2, Area, Button, Context, Id, Key, Layout, Modal, Order, RichText, ScrollArea};
+use egui::{Align, Align2, Area, Button, Context, Id, Key, Layout, Modal, Order, Rect, RichText, ScrollArea};
 use egui::{TextEdit, Ui, vec2};
 
 use super::chooser::Chooser;
@@ -32,6 +32,9 @@ pub(super) struct Dialogs {
     begins_with: Option<&'static CommandSpec>,
 }
 
+/// What the palette's area is called.
+const PALETTE: &str = "palette area";
+
 /// A question for the argument of a command.
 struct Question {
     title: &'static str,
@@ -47,6 +50,23 @@ struct Question {
     command: &'static str,
     /// Whether the answer is a picture of the folder that is listed, too.
     lists_pictures: bool,
+}
+
+/// The titles of the dialogs that ask for something.
+const GO_TO_PIXEL: &str = "Go to pixel";
+const COMPARE_PICTURE: &str = "Compare with a picture";
+
+/// Where the open dialog was in the last pass, in points.
+pub(super) fn place(ctx: &Context, viewer: &Viewer) -> Option<Rect> {
+    let name = match viewer.chrome().dialog()? {
+        Dialog::Help => "help",
+        Dialog::Palette => PALETTE,
+        Dialog::Open => "open",
+        Dialog::GoToPixel => GO_TO_PIXEL,
+        Dialog::ComparePicture => COMPARE_PICTURE,
+        Dialog::Sheet => "sheet",
+    };
+    ctx.memory(|memory| memory.area_rect(Id::unique(name)))
 }
 
 impl Dialogs {
@@ -87,7 +107,7 @@ impl Dialogs {
             Some(Dialog::GoToPixel) => {
                 let [width, height] = viewer.both().layout().frame_size();
                 let question = Question {
-                    title: "Go to pixel",
+                    title: GO_TO_PIXEL,
                     name: "Pixel",
                     hint: format!("x, y below {width}, {height}"),
                     missing: "type the pixel's column and row first",
@@ -99,7 +119,7 @@ impl Dialogs {
             }
             Some(Dialog::ComparePicture) => {
                 let question = Question {
-                    title: "Compare with a picture",
+                    title: COMPARE_PICTURE,
                     name: "Path",
                     hint: "path of a PNG or JPEG; or choose one below".to_owned(),
                     missing: "type the path of a picture first, or choose one",
@@ -212,7 +232,7 @@ impl Dialogs {
     fn palette(&mut self, ctx: &Context, viewer: &Viewer, just_opened: bool, commands: &mut Vec<Command>) {
         let (up, down) = arrows(ctx);
         let screen = ctx.content_rect();
-        let area = Area::new(Id::unique("palette area"))
+        let area = Area::new(Id::unique(PALETTE))
             .order(Order::Foreground)
             .anchor(Align2::CENTER_TOP, vec2(0.0, (screen.height() * 0.08).round()))
             .fade_in(false);

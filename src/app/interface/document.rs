@@ -126,6 +126,7 @@ pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
             ("transform", stats.transform),
             ("bin", stats.bin),
             ("raster", stats.raster),
+            ("resolve", stats.resolve),
         ];
         bar(ui, &stages.map(|(_, time)| time));
         let words = stages.map(|(name, time)| format!("{name} {}", number(time)));
@@ -155,7 +156,7 @@ fn bar(ui: &mut Ui, parts: &[Duration]) {
     let whole: f32 = parts.iter().map(Duration::as_secs_f32).sum();
     let accent = ui.visuals().selection.bg_fill;
     let mut left = rect.left();
-    for (part, strength) in parts.iter().zip([1.0, 0.45, 0.75]) {
+    for (part, strength) in parts.iter().zip([1.0, 0.45, 0.75, 0.3]) {
         let width = rect.width() * part.as_secs_f32() / whole.max(f32::MIN_POSITIVE);
         let piece = egui::Rect::from_min_size(egui::pos2(left, rect.top()), vec2(width, rect.height()));
         ui.painter().rect_filled(piece, 0.0, accent.gamma_multiply(strength));

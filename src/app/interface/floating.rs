@@ -4,7 +4,8 @@
 use crate::viewer::{InspectorCommand, ViewCommand, WindowCommand};
 
 use egui::{
-    Align2, Area, Button, Color32, FontId, Frame, Id, Label, Order, Pos2, Rect, RichText, ScrollArea, Ui, Vec2,
+    Align2, Area, Button, Color32, FontId, Frame, Id, Label, Order, Pos2, Rect, RichText, ScrollArea, TextStyle, Ui,
+    Vec2,
 };
 use egui::{pos2, vec2};
 
@@ -24,10 +25,14 @@ const REST: f32 = 5.0;
 const BAR_HEIGHT: f32 = 3.0;
 /// Width of the way back, in points.
 const WAY_BACK_WIDTH: f32 = 230.0;
+/// The least width in which its words can be read, in points.
+const LEAST_WAY_BACK: f32 = 170.0;
 /// Its height, in points.
 const WAY_BACK_HEIGHT: f32 = 84.0;
-/// Width of a scene's own words at most, in points.
-const WORDS_WIDTH: f32 = 320.0;
+/// Widths of a scene's own words at most, in points; a narrower one is taken where a wider one has no room.
+const WORDS_WIDTHS: [f32; 3] = [320.0, 230.0, 150.0];
+/// What the frame, the name and the button of these words add to their size, in points.
+const WORDS_FRAME: Vec2 = vec2(16.0, 84.0);
 /// Width of what is said over an outdated picture at most, in points.
 const OUTDATED_WIDTH: f32 = 520.0;
 /// Free space around the text over the picture, in points.
@@ -123,10 +128,12 @@ pub(super) fn progress(ui: &Ui, viewer: &Viewer, free: Rect) {
     ui.painter().rect_filled(bar, 0.0, ui.visuals().selection.bg_fill);
 }
 
-/// Where nothing of the canvas is in sight: how to come back to it.
-pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) {
-    if viewer.scene_list().canvas_in_sight(&viewer.both().layout()) {
-        return;
+/// Where nothing of the canvas is in sight: how to come back to it; left out where there is no room. Returns where it stands.
+pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Option<Rect> {
+    let room = free.shrink(TEXT_MARGIN);
+    let has_room = room.width() >= LEAST_WAY_BACK && room.height() >= WAY_BACK_HEIGHT;
+    if !has_room || viewer.scene_list().canvas_in_sight(&viewer.both().layout()) {
+        return None;
     }
     let insets = insets(viewer, ui.pixels_per_point());
     let size = vec2(WAY_BACK_WIDTH + 2.0 * TEXT_MARGIN, WAY_BACK_HEIGHT);
@@ -136,10 +143,11 @@ pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<
     let is_free = |place: &&Rect| insets.iter().all(|inset| !inset.intersects(**place));
     let place = [middle, above, below];
     let place = place.iter().find(is_free).unwrap_or(&middle);
-    Area::new(Id::unique("way back"))
+    let area = Area::new(Id::unique("way back"))
         .order(Order::Middle)
         .fixed_pos(place.center())
         .pivot(Align2::CENTER_CENTER)
+        .constrain_to(free)
         .fade_in(false)
         .show(ui.ctx(), |ui| {
             Frame::popup(ui.style()).show(ui, |ui| {
@@ -152,14 +160,14 @@ pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<
                 });
             });
         });
+    Some(area.response.rect)
 }
 
 /// What the scene says about itself, until it is closed. Returns where it stands.
 pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Option<Rect> {
     let text = viewer.scene_list().words().filter(|_| viewer.chrome().about())?;
-    let id = Id::unique("words");
-    let corner = corner_of_words(ui, viewer, id, free);
-    let area = Area::new(id)
+    let (corner, size) = place_of_words(ui, viewer, free, &text);
+    let area = Area::new(Id::unique("words"))
         .order(Order::Middle)
         .fixed_pos(corner.pos_in_rect(&free.shrink(TEXT_MARGIN)))
         .pivot(corner)
@@ -167,16 +175,16 @@ pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Com
         .fade_in(false)
         .show(ui.ctx(), |ui| {
             Frame::popup(ui.style()).show(ui, |ui| {
-                ui.set_width(WORDS_WIDTH.min(free.width() - 4.0 * TEXT_MARGIN));
+                ui.set_width(size.x);
                 ui.horizontal(|ui| {
                     let name = viewer.scene_list().current().map_or("", |entry| entry.label.as_str());
                     ui.add(Label::new(RichText::new(name).small().weak()).truncate());
                 });
                 look::bars_beside(ui);
-                let height = (free.height() * 0.5).max(60.0);
                 // Another scene's words begin at their beginning.
                 let area = ScrollArea::vertical().id_salt(("words", viewer.scene_list().current_index()));
-                area.max_height(height).show(ui, |ui| {
+                let area = area.max_height(size.y).min_scrolled_height(size.y);
+                area.show(ui, |ui| {
                     for paragraph in text.lines() {
                         ui.label(paragraph);
                     }
@@ -193,21 +201,38 @@ pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Com
     Some(area.response.rect)
 }
 
-/// The corner of `free` in which a scene's words, whose area is `id`, cover no pinned pixel and no magnifier of it, if there
-/// is one. What follows the pointer gives way by itself.
-fn corner_of_words(ui: &Ui, viewer: &Viewer, id: Id, free: Rect) -> Align2 {
-    let before = ui.ctx().memory(|memory| memory.area_rect(id));
-    let Some(size) = before
-        .map(|rect| rect.size())
-        .filter(|_| viewer.pixels().pinned().is_some())
-    else {
-        return Align2::LEFT_BOTTOM;
+/// The corner of `free` in which a scene's words cover no pinned pixel and no magnifier of it, and how large they may be there:
+/// as large as they are or, where no corner has room for that, as it has. What follows the pointer gives way by itself.
+fn place_of_words(ui: &Ui, viewer: &Viewer, free: Rect, text: &str) -> (Align2, Vec2) {
+    /// Less of a text is not worth its frame, in points.
+    const LEAST: f32 = 34.0;
+    let (taken, room) = (things(viewer, ui.pixels_per_point()), free.shrink(TEXT_MARGIN));
+    let font = TextStyle::Body.resolve(ui.style());
+    let size = |width: f32| {
+        let lines = text.lines().map(|line| {
+            let galley = ui
+                .painter()
+                .layout(line.to_owned(), font.clone(), Color32::WHITE, width);
+            galley.size().y + ui.spacing().item_spacing.y
+        });
+        vec2(width, lines.sum::<f32>().min((free.height() * 0.5).max(60.0)))
     };
-    let taken = things(viewer, ui.pixels_per_point());
-    let room = free.shrink(TEXT_MARGIN);
-    let is_free = |corner: &Align2| {
-        let place = corner.align_size_within_rect(size, room);
-        taken.iter().all(|other| !other.intersects(place))
+    let widths = WORDS_WIDTHS.map(|width| width.min(free.width() - 4.0 * TEXT_MARGIN));
+    let first = (Align2::LEFT_BOTTOM, size(widths[0]));
+    if viewer.pixels().pinned().is_none() {
+        return first;
+    }
+    // What is free of the room's height in a corner.
+    let height = |corner: Align2, width: f32| {
+        let column = corner.align_size_within_rect(vec2(width + WORDS_FRAME.x, room.height()), room);
+        let beside = taken
+            .iter()
+            .filter(|other| other.x_range().intersects(column.x_range()));
+        if corner.y() == egui::Align::TOP {
+            beside.fold(room.bottom(), |end, other| end.min(other.top())) - room.top()
+        } else {
+            room.bottom() - beside.fold(room.top(), |end, other| end.max(other.bottom()))
+        }
     };
     let corners = [
         Align2::LEFT_BOTTOM,
@@ -215,7 +240,20 @@ fn corner_of_words(ui: &Ui, viewer: &Viewer, id: Id, free: Rect) -> Align2 {
         Align2::RIGHT_BOTTOM,
         Align2::RIGHT_TOP,
     ];
-    corners.into_iter().find(is_free).unwrap_or(Align2::LEFT_BOTTOM)
+    let mut best: Option<(Align2, Vec2)> = None;
+    for size in widths.map(size) {
+        for corner in corners {
+            let height = height(corner, size.x) - WORDS_FRAME.y;
+            if height >= size.y {
+                return (corner, size);
+            }
+            let smaller = vec2(size.x, height);
+            if height >= LEAST && best.is_none_or(|(_, best)| best.x * best.y < smaller.x * smaller.y) {
+                best = Some((corner, smaller));
+            }
+        }
+    }
+    best.unwrap_or(first)
 }
 
 /// Over a picture whose file cannot be read any more: why, for as long as that is so.

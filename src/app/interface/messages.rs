@@ -67,7 +67,10 @@ impl Messages {
                     let all = [&things, taken.words].concat();
                     place(free, &all, size).or_else(|| place(free, &things, size))
                 })
-                .unwrap_or_else(|| above(free, &covered, size(ui, message, WIDTHS[0])));
+                .unwrap_or_else(|| {
+                    let width = WIDTHS[0].min(free.width() - 2.0 * MARGIN);
+                    above(free, &covered, size(ui, message, width.max(WIDTHS[4])))
+                });
             let end = before.map_or(now + seconds, |(end, _)| end);
             self.shown.insert(message.id, (end, place));
             let (rect, clicked) = toast(ui, message, place);

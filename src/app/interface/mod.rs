@@ -256,10 +256,10 @@ impl Interface {
                 free,
                 ui.pixels_per_point(),
             )))));
-        self.float(ui, viewer, free, asked);
+        let cards = self.float(ui, viewer, free, asked);
         let taken = Taken {
             free,
-            things: &[],
+            things: &cards,
             words: &words,
         };
         self.words(ui, viewer, taken, asked);
@@ -268,8 +268,9 @@ impl Interface {
         self.dialogs.show(&ctx, viewer, &mut asked.commands);
     }
 
-    /// What floats over the picture, but for words.
-    fn float(&mut self, ui: &Ui, viewer: &Viewer, free: Rect, asked: &mut Asked) {
+    /// What floats over the picture, but for words. Returns where cards are.
+    fn float(&mut self, ui: &Ui, viewer: &Viewer, free: Rect, asked: &mut Asked) -> Vec<Rect> {
+        let mut cards = Vec::new();
         let hidden = viewer.chrome().everything_hidden();
         if !hidden {
             floating::progress(ui, viewer, free);
@@ -278,12 +279,13 @@ impl Interface {
         floating::pixel_labels(ui, viewer);
         if !hidden {
             floating::outdated(ui, viewer, free);
-            floating::way_back(ui, viewer, free, &mut asked.commands);
+            cards.extend(floating::way_back(ui, viewer, free, &mut asked.commands));
             start::card(ui, viewer, free, &mut asked.commands);
         }
         contributions::show(ui, viewer, free);
         hits::hits(ui, viewer);
         self.close_of_inset.show(ui, viewer, free, &mut asked.commands);
+        cards
     }
 
     /// A click beside an open list closes it, and presses nothing that lies below.
@@ -308,22 +310,24 @@ impl Interface {
         } else {
             floating::words(ui, viewer, free, &mut asked.commands)
         };
+        let cards: Vec<Rect> = before.things.iter().copied().chain(about).collect();
         let things = floating::things(viewer, ui.pixels_per_point());
-        let things: Vec<Rect> = things.into_iter().chain(about).collect();
+        let things = things.into_iter().chain(cards.iter().copied());
+        let things: Vec<Rect> = things.chain(dialogs::place(ui.ctx(), viewer)).collect();
         let taken = Taken {
             things: &things,
             ..before
         };
         let messages = self.messages.show(ui, viewer, taken, &mut asked.commands);
         if !hidden {
-            let told: Vec<Rect> = messages.iter().copied().chain(about).collect();
+            let told: Vec<Rect> = messages.iter().chain(&cards).copied().collect();
             let Marks { labels, line, handle } = compare_marks::show(ui, viewer, free, &told);
             let taken: Vec<Rect> = labels
                 .iter()
                 .chain(&messages)
                 .chain(&line)
+                .chain(&cards)
                 .copied()
-                .chain(about)
                 .collect();
             (self.labels, self.line, self.handle) = (labels, line, handle);
             // The card would cover it in a small window.

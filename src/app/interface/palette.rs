@@ -65,10 +65,7 @@ impl Entry {
 /// What the typed text may mean, best first, and what follows a command's word.
 pub(super) fn find(text: &str, viewer: &Viewer) -> (String, Vec<Entry>) {
     let text = text.trim_start();
-    if let Some((word, argument)) = text.split_once(char::is_whitespace)
-        && let Some(spec) = commands::find(word)
-        && spec.argument.is_some()
-    {
+    if let Some((spec, argument)) = with_argument(text) {
         return (argument.to_owned(), vec![Entry::of_command(spec)]);
     }
     let wanted = text.trim_end().to_lowercase();
@@ -84,6 +81,28 @@ pub(super) fn find(text: &str, viewer: &Viewer) -> (String, Vec<Entry>) {
     }
     found.sort_by_key(|(rank, _)| *rank);
     (String::new(), found.into_iter().map(|(_, entry)| entry).collect())
+}
+
+/// The command whose word or name the text begins with, and what follows it.
+fn with_argument(text: &str) -> Option<(&'static CommandSpec, &str)> {
+    let after = |name: &str| {
+        let (head, rest) = text.split_at_checked(name.len())?;
+        let rest = rest.strip_prefix(char::is_whitespace)?;
+        head.eq_ignore_ascii_case(name).then_some(rest)
+    };
+    let takes_one = commands::all().iter().filter(|spec| spec.argument.is_some());
+    let mut found = takes_one.filter_map(|spec| {
+        let name = spec.name.trim_end_matches([' ', '\u{2026}']);
+        // A single word may as well be the first of what is looked for.
+        let by_name = || after(name).filter(|_| name.contains(' '));
+        Some((spec, after(spec.id).or_else(by_name)?))
+    });
+    // Of two names the longer one is meant.
+    let first = found.next()?;
+    Some(found.fold(
+        first,
+        |best, next| if next.1.len() < best.1.len() { next } else { best },
+    ))
 }
 
 /// The values of a setting that can be listed.

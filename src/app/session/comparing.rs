@@ -416,6 +416,27 @@ fn another_arrangement_keeps_the_middle_of_a_dragged_picture() {
 }
 
 #[test]
+fn a_window_that_was_small_for_a_while_gives_back_the_view() {
+    for window in [[1366, 768], [1920, 1080]] {
+        let mut session = comparing(window);
+        session.command(Command::View(ViewCommand::PanBy { by: dvec2(33.0, -21.0) }));
+        session.settle();
+        right_click(&mut session, [500.0, 300.0]);
+        let (before, pin) = (session.viewer.both().view_numbers(), session.viewer.pixels().pinned());
+        session.command(Command::Ab(AbCommand::Arrange(Arrangement::SideBySide)));
+        for size in [[1001, 707], window] {
+            session.settle();
+            session.resize(size);
+        }
+        session.settle();
+        session.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
+        session.settle();
+        assert_eq!(session.viewer.both().view_numbers(), before, "{window:?}");
+        assert_eq!(session.viewer.pixels().pinned(), pin, "{window:?}");
+    }
+}
+
+#[test]
 fn words_over_the_picture_are_about_what_it_shows() {
     let mut session = session(Vec::new(), [1920, 1080]);
     right_click(&mut session, [700.0, 500.0]);

@@ -1,13 +1,14 @@
 //! A lesson walked through by mouse: what its text speaks of can be reached, in small windows too.
 
-use crate::viewer::{AbCommand, InspectorCommand, LessonCommand, SceneCommand, WindowCommand};
+use crate::viewer::{AbCommand, InspectorCommand, LessonCommand, SceneCommand, ViewCommand, WindowCommand};
+use glam::dvec2;
 use std::path::PathBuf;
 
 use super::hands::{key, place_of, session};
 use super::small_windows::{click_on, right_click, says};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Against, Arrangement, InterfaceScale, LessonSource, Toggle};
+use crate::viewer::{Against, Arrangement, InterfaceScale, LessonSource, PixelZoom, Toggle};
 
 /// What opens the explanation where it is a page of the lesson's panel, and what opens the text.
 const PAGES: [&str; 2] = ["Page: Why this colour", "Page: Text"];
@@ -182,5 +183,44 @@ fn needles_that_the_first_steps_speak_of_are_hit_in_every_window() {
                 "step {step} in {window:?} pins paper"
             );
         }
+    }
+}
+
+#[test]
+fn lessons_show_pixels_of_their_own_size_and_no_old_messages() {
+    for window in [[800, 600], [1280, 800]] {
+        let mut session = session(Vec::new(), window);
+        session.command(Command::View(ViewCommand::SetPixelZoom(
+            PixelZoom::new(2).expect("a zoom"),
+        )));
+        session.command(Command::Scenes(SceneCommand::Open(vec![PathBuf::from(
+            "lesson:six-tasks",
+        )])));
+        session.settle();
+        assert_eq!(session.viewer.settings().pixel_zoom.factor(), 1, "in {window:?}");
+        assert!(
+            session.viewer.pixels().pinned().is_some(),
+            "the needle's tip in {window:?}"
+        );
+        let outside = "the pinned pixel is outside";
+        let told = |session: &Session| {
+            session
+                .viewer
+                .chrome()
+                .messages()
+                .iter()
+                .any(|told| told.text.starts_with(outside))
+        };
+        assert!(!told(&session), "in {window:?}");
+        // A hand drags it away, and goes on.
+        session.command(Command::View(ViewCommand::PanBy { by: dvec2(9e4, 0.0) }));
+        session.settle();
+        assert!(told(&session), "outside in {window:?}");
+        session.command(Command::Lesson(LessonCommand::Step(3)));
+        session.settle();
+        assert!(!told(&session), "step 4 pins nothing, in {window:?}");
+        session.command(Command::Window(WindowCommand::Escape));
+        session.settle();
+        assert_eq!(session.viewer.settings().pixel_zoom.factor(), 2, "as before the lesson");
     }
 }

@@ -3,15 +3,18 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "inside the window")]
 
-use crate::viewer::{AbCommand, ExportCommand, InspectorCommand, WindowCommand};
+use crate::viewer::{AbCommand, ExportCommand, InspectorCommand, ViewCommand, WindowCommand};
 
 use egui::{pos2, vec2};
+use glam::dvec2;
 
+use super::hands::session;
 use super::lessons::at_step;
 use super::small_windows::comparing;
 use super::*;
+use crate::viewer::picture::SettingChange;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Arrangement, MessageKind, NO_ROOM, Toggle};
+use crate::viewer::{Arrangement, Dialog, InterfaceScale, MessageKind, NO_ROOM, Toggle};
 
 /// Everything over the picture, by name.
 fn things(session: &Session) -> Vec<(&'static str, Rect)> {
@@ -132,5 +135,92 @@ fn letters_of_magnifiers_stay_in_the_picture() {
         let inside = [label.min, label.max - vec2(1.0, 1.0)];
         let inside = inside.map(|at| free.contains([at.x as i64, at.y as i64]));
         assert_eq!(inside, [true; 2], "{label:?} in {free:?}");
+    }
+}
+
+/// A card over the picture by its name.
+fn card(session: &Session, name: &str) -> Rect {
+    let rect = session.ctx().memory(|memory| memory.area_rect(egui::Id::unique(name)));
+    rect.expect(name)
+}
+
+/// What of the window is free, in points.
+fn free(session: &Session) -> Rect {
+    let free = session.free_area.expect("there is room");
+    let scale = session.scale();
+    let corner = pos2(free.x as f32, free.y as f32) / scale;
+    Rect::from_min_size(corner, vec2(free.width as f32, free.height as f32) / scale)
+}
+
+#[test]
+fn words_of_a_scene_leave_pins_free_in_large_letters() {
+    for (window, percent) in [
+        ([1366, 768], 200),
+        ([1366, 768], 150),
+        ([1024, 700], 150),
+        ([1920, 1080], 250),
+    ] {
+        let mut session = session(Vec::new(), window);
+        let scale = InterfaceScale::from_percent(percent);
+        session.command(Command::Window(WindowCommand::SetInterfaceScale(scale)));
+        session.command(Command::Window(WindowCommand::About(Toggle::On)));
+        session.settle();
+        for at in places(&session).into_iter().step_by(7) {
+            session.command(Command::Inspector(InspectorCommand::Pin(at)));
+            session.settle();
+            let words = card(&session, "words").shrink(0.5);
+            for (name, rect) in things(&session) {
+                let what = format!("{name} {rect:?} under {words:?}, {at:?} of {window:?} at {percent} %");
+                assert!(!rect.intersects(words), "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn way_back_lies_in_what_is_free_and_beside_all_words() {
+    for percent in [100, 150, 200, 250] {
+        for window in [[800, 600], [1280, 800]] {
+            let mut session = session(Vec::new(), window);
+            let scale = InterfaceScale::from_percent(percent);
+            session.command(Command::Window(WindowCommand::SetInterfaceScale(scale)));
+            session.command(Command::View(ViewCommand::PanBy { by: dvec2(9e4, 0.0) }));
+            session.command(Command::Set(SettingChange::of("rules", "float").expect("a setting")));
+            session.viewer.tell(MessageKind::Done, NO_ROOM.to_owned());
+            session.settle();
+            let area = free(&session);
+            if area.width() < 190.0 || area.height() < 104.0 {
+                continue;
+            }
+            let card = card(&session, "way back");
+            assert!(
+                area.expand(0.5).contains_rect(card),
+                "{card:?} in {area:?} at {percent} % of {window:?}"
+            );
+            for (name, rect) in things(&session) {
+                let apart = !rect.shrink(0.5).intersects(card);
+                assert!(apart, "{name} {rect:?} over {card:?} at {percent} % of {window:?}");
+            }
+            for message in session.interface.told() {
+                assert!(area.contains_rect(*message), "{message:?} in {area:?} at {percent} %");
+            }
+        }
+    }
+}
+
+#[test]
+fn messages_lie_beside_dialogs_where_there_is_room() {
+    for window in [[800, 600], [1280, 800]] {
+        let mut session = session(Vec::new(), window);
+        session.viewer.tell(MessageKind::Done, NO_ROOM.to_owned());
+        session.command(Command::Window(WindowCommand::ToggleDialog(Dialog::GoToPixel)));
+        session.settle();
+        session.quiet_turn();
+        let dialog = card(&session, "Go to pixel");
+        let told = session.interface.told();
+        assert!(!told.is_empty(), "a message");
+        for message in told {
+            assert!(!message.intersects(dialog), "{message:?} over {dialog:?}");
+        }
     }
 }

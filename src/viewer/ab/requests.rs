@@ -42,7 +42,7 @@ impl Comparison {
             Against::Settings => {
                 self.set_other(Some(Other::with(context.settings)));
                 context.messages.done(format!(
-                    "{KEPT}; now change A with its keys. R swaps both, W wipes, D shows the difference"
+                    "{KEPT}; change a setting, and A shows it. Wipe (W) and difference (D) compare both"
                 ));
             }
             Against::Changed(changes) => {

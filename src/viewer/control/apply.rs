@@ -108,7 +108,7 @@ impl Viewer {
                 screen.window = size;
                 // Panels may cover more of a smaller window.
                 let magnifier = &mut self.inspector.magnifier;
-                magnifier.revealed |= magnifier.pin.is_some();
+                (magnifier.resized, magnifier.revealed) = (true, magnifier.revealed || magnifier.pin.is_some());
             }
             WindowCommand::SetFreeArea(area) => {
                 self.hand().set_free_area(area);

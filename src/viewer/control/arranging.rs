@@ -39,14 +39,13 @@ impl Hand<'_> {
             return;
         }
         let kept = self.inspector.magnifier.kept_view;
-        let by_hand = |camera: Camera| {
-            !kept
-                .filter(|[_, set]| *set == camera)
-                .map_or(camera, |[own, _]| own)
-                .is_untouched()
-        };
+        // What room for an explanation and a smaller window made of a view is no hand's.
+        let own = |camera: Camera| kept.filter(|[_, set]| *set == camera).map_or(camera, |[own, _]| own);
         let is_drawn = before.fixed_size().is_none() && layout.fixed_size().is_none();
-        let moved = self.scene_list.camera().filter(|camera| is_drawn && by_hand(*camera));
+        let moved = self
+            .scene_list
+            .camera()
+            .filter(|camera| is_drawn && !own(*camera).is_untouched());
         let Some(camera) = moved else {
             if explains {
                 self.take_back_room_for_explanation(&layout);
@@ -54,13 +53,16 @@ impl Hand<'_> {
             }
             return;
         };
-        let first = self.ab.arranged.filter(|arranged| arranged.set == camera);
+        let first = self.ab.arranged.filter(|arranged| {
+            let [shifted, in_sight] = arranged.set;
+            [shifted, in_sight].contains(&camera) || [shifted, in_sight].contains(&own(camera))
+        });
         let first = first.unwrap_or_else(|| Arranged {
             own: camera,
             kept,
             panes: before.panes(),
             middle: middle(before),
-            set: camera,
+            set: [camera; 2],
         });
         let set = if first.panes == layout.panes() {
             self.inspector.magnifier.kept_view = first.kept;
@@ -77,10 +79,11 @@ impl Hand<'_> {
         if let Some(set) = set {
             self.scene_list.look(layout.frame_size(), |camera, _| *camera = set);
         }
+        let shifted = self.scene_list.camera().unwrap_or(first.own);
         if explains {
             self.keep_explained_pin_in_sight(false);
         }
-        let set = self.scene_list.camera().unwrap_or(first.own);
+        let set = [shifted, self.scene_list.camera().unwrap_or(shifted)];
         self.ab.arranged = Some(Arranged { set, ..first });
     }
 

@@ -20,7 +20,7 @@ use crate::viewer::lesson::walk::{Before, Walk};
 use crate::viewer::library;
 use crate::viewer::library::state::SceneList;
 use crate::viewer::library::{SceneEntry, SceneState};
-use crate::viewer::settings::Settings;
+use crate::viewer::settings::{PixelZoom, Settings};
 use crate::viewer::view::camera::Camera;
 
 /// The open lesson, and what its steps set.
@@ -152,6 +152,8 @@ impl Lessons<'_> {
         self.ab.forget_looks();
         self.settings.render = RenderSettings::default();
         self.settings.dialect = DialectChoice::default();
+        // Views of steps are in frame pixels.
+        self.settings.pixel_zoom = PixelZoom::ONE;
         let LessonStep {
             settings,
             pin,
@@ -179,7 +181,7 @@ impl Lessons<'_> {
         self.inspector.magnifier.pin = None;
         if let Some(place) = pin {
             self.inspector.pin_place(place, self.scene_list);
-            self.inspector.magnifier.revealed = true;
+            (self.inspector.magnifier.revealed, self.inspector.magnifier.resized) = (true, false);
         }
     }
 

@@ -273,8 +273,16 @@ impl Hand<'_> {
         // The place that was pinned moves along.
         self.keep_pin_in_place();
         // By whole frame pixels, so that the pinned one stays what it is.
+        let before = self.scene_list.camera();
         self.viewing().pan((by / zoom).round() * zoom);
         self.keep_pin_in_place();
+        let both = before.zip(self.scene_list.camera());
+        let comes_back = self.inspector.magnifier.resized && self.inspector.magnifier.asked && self.pixels().explains();
+        if let Some((before, now)) = both.filter(|_| comes_back) {
+            // Nobody asked for another view: the one before comes back with the end of the explanation.
+            let kept = self.inspector.magnifier.kept_view.filter(|[_, set]| *set == before);
+            self.inspector.magnifier.kept_view = Some([kept.map_or(before, |[first, _]| first), now]);
+        }
     }
 
     /// Goes to the pixel that differs most, or from there to the next, as soon as both are measured.

@@ -59,6 +59,8 @@ pub struct Inspector {
     pub(in crate::viewer) ring_room: u32,
     /// Whether the pin was jumped to, and is to stay in the part of the window that is free, until a hand moves the picture.
     pub(in crate::viewer) revealed: bool,
+    /// Whether that is because the window has another size.
+    pub(in crate::viewer) resized: bool,
     /// Whether a hand asked about the pinned pixel: the view rests while the explanation takes its room.
     pub(in crate::viewer) asked: bool,
     /// Where in the window a hand asked about it.
@@ -138,6 +140,7 @@ impl Default for Inspector {
             pin: None,
             ring_room: 0,
             revealed: false,
+            resized: false,
             asked: false,
             asked_at: None,
             kept_view: None,

@@ -37,7 +37,7 @@ impl Inspection {
             pixel: pixel.map(i64::from),
             place: None,
         });
-        magnifier.revealed = false;
+        (magnifier.revealed, magnifier.resized) = (false, false);
         magnifier.asked_at = None;
         magnifier.pins += 1;
         magnifier.came_with_pin |= !magnifier.open;
@@ -86,6 +86,7 @@ impl Inspection {
         messages: &mut Messages,
     ) {
         let Some(mut pin) = self.magnifier.pin else {
+            messages.retract(PIN_OUTSIDE);
             return;
         };
         let context = scenes.view_context(layout.frame_size());
@@ -101,13 +102,14 @@ impl Inspection {
                 pin.pixel = window_pixel(view.to_pixels(place));
                 match (before, layout.in_frame(pin.pixel)) {
                     (Some(_), None) => messages.done(PIN_OUTSIDE.to_owned()),
-                    (None, Some(_)) => messages.retract(PIN_OUTSIDE),
-                    _ => {}
+                    (_, Some(_)) => messages.retract(PIN_OUTSIDE),
+                    (None, None) => {}
                 }
             }
             _ => {
                 let centre = DVec2::new(pin.pixel[0] as f64, pin.pixel[1] as f64) + 0.5;
                 pin.place = Some((view.to_scene(centre), scene));
+                messages.retract(PIN_OUTSIDE);
             }
         }
         self.magnifier.pin = Some(pin);

@@ -58,8 +58,9 @@ pub(in crate::viewer) struct Arranged {
     pub(in crate::viewer) panes: Panes,
     /// The middle of the free part of the first of them, in screen pixels.
     pub(in crate::viewer) middle: Option<DVec2>,
-    /// The view that stands in its place now; it counts until a hand sets another.
-    pub(in crate::viewer) set: Camera,
+    /// The views that stand in its place now, before and after a pin was brought into sight; they count until a hand sets
+    /// another.
+    pub(in crate::viewer) set: [Camera; 2],
 }
 
 /// Screen pixels of a picture from outside that stay in sight.

@@ -61,8 +61,8 @@ pub(super) static WINDOW: &[CommandSpec] = &[
     .run(&Command::Window(WindowCommand::StepInterfaceScale { up: false })),
     spec(
         "interface-scale",
-        "Interface at 100 %",
-        "Panels and letters as large as the monitor has them",
+        "Interface scale",
+        "Panels and letters as large as the monitor has them, or by a percentage",
         Group::Window,
     )
     .run(&Command::Window(WindowCommand::SetInterfaceScale(

@@ -3,7 +3,7 @@
 use crate::viewer::SceneCommand;
 use std::time::Duration;
 
-use egui::{RichText, Sense, Ui, vec2};
+use egui::{Label, RichText, Sense, Ui, vec2};
 
 use super::controls::{command_button, heading};
 use crate::viewer::{Command, SceneEntry, Viewer};
@@ -130,7 +130,8 @@ pub(super) fn timing(ui: &mut Ui, viewer: &Viewer, timed: bool) {
         ];
         bar(ui, &stages.map(|(_, time)| time));
         let words = stages.map(|(name, time)| format!("{name} {}", number(time)));
-        ui.label(RichText::new(words.join("  ·  ")).small().weak());
+        // On one line, so that what is below does not move.
+        ui.add(Label::new(RichText::new(words.join(" · ")).small().weak()).truncate());
     } else {
         ui.add_space(4.0);
     }

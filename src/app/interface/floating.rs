@@ -166,7 +166,7 @@ pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<
 /// What the scene says about itself, until it is closed. Returns where it stands.
 pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Option<Rect> {
     let text = viewer.scene_list().words().filter(|_| viewer.chrome().about())?;
-    let (corner, size) = place_of_words(ui, viewer, free, &text);
+    let (corner, size) = place_of_words(ui, viewer, free, text);
     let area = Area::new(Id::unique("words"))
         .order(Order::Middle)
         .fixed_pos(corner.pos_in_rect(&free.shrink(TEXT_MARGIN)))

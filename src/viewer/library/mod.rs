@@ -396,4 +396,26 @@ mod tests {
             "an empty folder is told"
         );
     }
+
+    #[test]
+    fn scene_that_is_being_read_is_not_read_a_second_time_for_its_thumbnail() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("a.svg");
+        let document =
+            "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'><rect width='5' height='5'/></svg>";
+        fs::write(&path, document).expect("a small file");
+        let options = crate::viewer::ViewerOptions {
+            paths: vec![path],
+            ..Default::default()
+        };
+        let mut viewer = crate::viewer::Viewer::new(options).expect("threads");
+        viewer.update();
+        // What is found out meanwhile is taken in by the next poll only.
+        assert!(viewer.scene_list.is_reading(), "it has begun");
+        viewer.request_thumbnail(0);
+        assert!(!viewer.scene_list.readers.has_thumbnails_pending(), "it waits");
+        viewer.finish();
+        viewer.request_thumbnail(0);
+        assert!(viewer.scene_list.readers.has_thumbnails_pending(), "then it is drawn");
+    }
 }

@@ -5,7 +5,7 @@ use crate::viewer::chrome::Chrome;
 use crate::viewer::library::dialects::WantedDialects;
 use crate::viewer::library::readers::{Order, ReadScene, Side, Thumbnail};
 use crate::viewer::library::state::SceneList;
-use crate::viewer::library::{SceneSource, SceneState};
+use crate::viewer::library::{SceneEntry, SceneSource, SceneState};
 
 /// Scenes kept in memory besides the current one.
 const KEPT: usize = 3;
@@ -163,7 +163,9 @@ impl SceneList {
     pub(in crate::viewer) fn request_thumbnail(&mut self, index: usize, choice: DialectChoice) {
         let generation = self.generation;
         let dialect = self.reading_of(index, choice);
-        let Some(entry) = self.scenes.get_mut(index).filter(|entry| !entry.thumbnail_asked) else {
+        // What is being read is not read a second time for its thumbnail, nor is what cannot be read: the panels ask again.
+        let is_due = |entry: &&mut SceneEntry| !entry.thumbnail_asked && !entry.is_reading() && !entry.has_no_picture();
+        let Some(entry) = self.scenes.get_mut(index).filter(is_due) else {
             return;
         };
         entry.thumbnail_asked = true;

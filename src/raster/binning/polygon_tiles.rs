@@ -17,8 +17,10 @@ pub(crate) struct OutlineTiles {
     columns: Vec<Column>,
     /// Edges that cross only some of the rows: the first tile column to their right, those rows, and the winding.
     partial: Vec<(i32, Span, i32)>,
-    /// The same, by these columns.
+    /// Memory to sort them by these columns.
     sorted: Vec<(i32, Span, i32)>,
+    /// Where those of each column belong.
+    next: Vec<usize>,
     /// How often each row winds around the tile at work, beyond what all rows do.
     rows: RowWindings,
 }
@@ -42,8 +44,6 @@ struct Column {
     lying: i32,
     /// The windings of the edges that lie left of this tile, and of no tile before, and cross all rows.
     winding: i32,
-    /// How many edges that cross only some of the rows have this as the first tile to their right.
-    partial: u32,
 }
 
 impl OutlineTiles {
@@ -80,7 +80,6 @@ impl OutlineTiles {
             if inside == all_rows {
                 self.columns[to_index(right - tiles.start)].winding += edge.winding;
             } else {
-                self.columns[to_index(right - tiles.start)].partial += 1;
                 self.partial.push((right, inside, edge.winding));
             }
         }
@@ -89,8 +88,8 @@ impl OutlineTiles {
 
     fn sweep(&mut self, rule: FillRule, all_rows: Span, tiles: Span, mut visit: impl FnMut(i32, Reach)) {
         let (mut lying, mut winding) = (0, 0);
-        self.sort(tiles.start);
-        let mut partial = self.sorted.as_slice();
+        self.sort_partial(tiles.start);
+        let mut partial = self.partial.as_slice();
         self.rows.begin(all_rows.end - all_rows.start);
         let from_first = |rows: Span| Span {
             start: rows.start - all_rows.start,
@@ -113,23 +112,35 @@ impl OutlineTiles {
                 Some(_) => {}
             }
         }
-        let passed = self.sorted.len() - partial.len();
+        let passed = self.partial.len() - partial.len();
         self.rows
-            .forget(self.sorted[..passed].iter().map(|(_, rows, _)| from_first(*rows)));
+            .forget(self.partial[..passed].iter().map(|(_, rows, _)| from_first(*rows)));
     }
 
     /// Sorts the edges that cross only some of the rows by the first tile column to their right; columns begin at `first`.
-    fn sort(&mut self, first: i32) {
+    fn sort_partial(&mut self, first: i32) {
+        /// So many are counted faster than compared.
+        const MANY: usize = 32;
+        if self.partial.len() < MANY {
+            return self.partial.sort_unstable_by_key(|(column, ..)| *column);
+        }
+        let place = |(column, ..): &(i32, Span, i32)| to_index(column - first);
+        self.next.clear();
+        self.next.resize(self.columns.len(), 0);
+        for edge in &self.partial {
+            self.next[place(edge)] += 1;
+        }
         let mut sum = 0;
-        for column in &mut self.columns {
-            sum += std::mem::replace(&mut column.partial, sum);
+        for next in &mut self.next {
+            sum += std::mem::replace(next, sum);
         }
         self.sorted.clone_from(&self.partial);
         for edge in &self.partial {
-            let next = &mut self.columns[to_index(edge.0 - first)].partial;
-            self.sorted[*next as usize] = *edge;
+            let next = &mut self.next[place(edge)];
+            self.sorted[*next] = *edge;
             *next += 1;
         }
+        std::mem::swap(&mut self.partial, &mut self.sorted);
     }
 }
 

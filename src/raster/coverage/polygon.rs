@@ -17,8 +17,8 @@ use crate::raster::span::{Span, SpanRect, to_index};
 /// A polygon in a chunk.
 #[derive(Clone, Debug)]
 pub(crate) struct Outline {
-    /// Its edges among those of the chunk, by the [blocks](block) of their first rows; inside a block as they come along the
-    /// contours.
+    /// Its edges among those of the chunk: if there are more than [`FEW`], by the [blocks](block) of their first rows; inside a
+    /// block as they come along the contours.
     pub(in crate::raster) edges: Range<usize>,
     /// The box of its samples, in the frame; never empty.
     pub(crate) samples: SpanRect,
@@ -168,6 +168,9 @@ impl<'a> OutlineBuilder<'a> {
     }
 }
 
+/// So few edges are looked at faster than searched, in any order.
+const FEW: usize = 16;
+
 /// The block of sample rows that a row lies in: about a row of tiles.
 ///
 /// Edges are not sorted any finer. Contours mostly lie side by side, as letters do, and so the crossings of a row are nearly
@@ -182,7 +185,7 @@ fn sort_by_blocks(edges: &mut [OutlineEdge], rows: Span) {
     let first = block(rows.start);
     let count = to_index(block(rows.end - 1) - first) + 1;
     let place = |edge: &OutlineEdge| to_index(block(edge.rows.start) - first);
-    if count == 1 || edges.is_sorted_by_key(place) {
+    if count == 1 || edges.len() <= FEW || edges.is_sorted_by_key(place) {
         return;
     }
     let mut next = vec![0; count];
@@ -242,8 +245,7 @@ impl Outline {
         rows: Span,
     ) -> impl Iterator<Item = (&'c OutlineEdge, Span)> + Clone + use<'c> {
         let edges = &all[self.edges.clone()];
-        // Few are looked at faster than searched.
-        let edges = if edges.len() > 16 {
+        let edges = if edges.len() > FEW {
             let (lowest, highest) = (block(rows.start - self.tallest + 1), block(rows.end - 1));
             let first = edges.partition_point(|edge| block(edge.rows.start) < lowest);
             let last = edges.partition_point(|edge| block(edge.rows.start) <= highest);

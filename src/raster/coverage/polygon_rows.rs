@@ -11,6 +11,12 @@ use crate::raster::span::{SMALL, Span, SpanRect, to_index};
 /// Most crossings of edges and rows that are held at once, where a row has no more: 16 MB.
 const MAX_CROSSINGS: usize = 1 << 22;
 
+/// So few crossings of a row are sorted in any order as fast as in a good one.
+const FEW: usize = 20;
+
+/// Edges that cross so many rows on average are sorted before they are walked down.
+const LONG: usize = 16;
+
 /// The samples that an outline encloses in some rows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RowSpans<'a> {
@@ -168,6 +174,29 @@ impl RowScanner {
         }));
         self.crossings.clear();
         self.crossings.resize(total as usize, 0);
+        let count = edges.clone().count();
+        if count > FEW && total as usize / LONG >= count {
+            let column = |(edge, inside): &(&OutlineEdge, Span)| {
+                let middle = i32::midpoint(inside.start, inside.end - 1);
+                EdgeWalker::new(grid, edge.top, edge.bottom, middle).at_or_after()
+            };
+            // Long edges that do not cross each other cross all rows in this order, and others nearly do.
+            let mut sorted: Vec<_> = edges.map(|edge| (column(&edge), edge)).collect();
+            sorted.sort_unstable_by_key(|(column, _)| *column);
+            self.cross(sorted.into_iter().map(|(_, edge)| edge), grid, rows, end);
+        } else {
+            self.cross(edges, grid, rows, end);
+        }
+    }
+
+    /// Notes the crossings of edges with `rows`, in the order of the edges.
+    fn cross<'c>(
+        &mut self,
+        edges: impl Iterator<Item = (&'c OutlineEdge, Span)>,
+        grid: SubpixelGrid,
+        rows: Span,
+        end: i32,
+    ) {
         for (edge, inside) in edges {
             let mut walker = EdgeWalker::new(grid, edge.top, edge.bottom, inside.start);
             let down = i32::from(edge.winding > 0);
@@ -184,9 +213,13 @@ impl RowScanner {
 /// Sorts crossings that mostly are where they belong, or nearly there: they come contour by contour, and those of letters and
 /// the like lie side by side.
 fn sort_nearly_sorted(crossings: &mut [i32]) {
-    /// How far each may have to go, on average.
-    const NEAR: usize = 8;
-    let mut steps = NEAR * crossings.len();
+    /// How far each may have to go, on average, and how far all in the beginning.
+    const NEAR: usize = 4;
+    const FAR: usize = 64;
+    if crossings.len() <= FEW {
+        return crossings.sort_unstable();
+    }
+    let mut steps = FAR;
     for i in 1..crossings.len() {
         let crossing = crossings[i];
         let mut at = i;
@@ -195,7 +228,7 @@ fn sort_nearly_sorted(crossings: &mut [i32]) {
             at -= 1;
         }
         crossings[at] = crossing;
-        steps = match steps.checked_sub(i - at) {
+        steps = match (steps + NEAR).checked_sub(i - at) {
             Some(steps) => steps,
             None => return crossings.sort_unstable(),
         };

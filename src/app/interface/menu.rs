@@ -7,7 +7,7 @@ use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, PopupCloseBehavior, RectAlign, RichText, ScrollArea, Tooltip, Ui};
 
 use super::look;
-use super::standing::{self, Standing};
+use super::standing;
 use crate::plain;
 use crate::viewer::{
     Action, Argument, Command, CommandSpec, Group, PictureSetting, SceneCommand, Viewer, WindowCommand, commands,
@@ -137,9 +137,10 @@ fn entry(ui: &mut Ui, viewer: &Viewer, spec: &'static CommandSpec, commands: &mu
         return false;
     }
     let dots = if command.is_none() { " \u{2026}" } else { "" };
-    let standing = command
-        .as_ref()
-        .map_or_else(Standing::default, |command| standing::of(viewer, command));
+    let standing = match &command {
+        Some(command) => standing::of(viewer, command),
+        None => standing::of_asking(viewer, spec),
+    };
     let keys = RichText::new(spec.keys_text());
     // Weak letters cannot be read on a marked line.
     let keys = if standing.is_on {

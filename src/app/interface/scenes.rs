@@ -220,7 +220,9 @@ fn picture(ui: &mut Ui, viewer: &Viewer, index: usize, cell: Vec2, pictures: &mu
     let (rect, response) = ui.allocate_exact_size(cell, Sense::click());
     let current = index == viewer.scene_list().current_index();
     if current && requests.follow && thumbnails.shown != Some(index) {
-        response.scroll_to_me(Some(egui::Align::Center));
+        // What a hand clicks stays below the pointer.
+        let in_sight = ui.is_rect_visible(rect);
+        response.scroll_to_me((!in_sight).then_some(egui::Align::Center));
         thumbnails.shown = Some(index);
     }
     if !ui.is_rect_visible(rect) {

@@ -2,9 +2,12 @@
 
 use crate::compare::Gain;
 use crate::viewer::{
-    AbCommand, Arrangement, Command, ExportCommand, InspectorCommand, LessonCommand, Other, SceneCommand, ViewCommand,
-    Viewer, WindowCommand,
+    AbCommand, Arrangement, Command, CommandSpec, ExportCommand, InspectorCommand, LessonCommand, Other, SceneCommand,
+    ViewCommand, Viewer, WindowCommand,
 };
+
+/// Why commands about lessons would do nothing.
+const NO_LESSON: &str = "No lesson is open";
 
 /// How a command stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,6 +23,15 @@ pub(super) fn of(viewer: &Viewer, command: &Command) -> Standing {
     Standing {
         is_on: is_on(viewer, command),
         idle: idle(viewer, command),
+    }
+}
+
+/// That of a command that asks for its argument first.
+pub(super) fn of_asking(viewer: &Viewer, spec: &CommandSpec) -> Standing {
+    let needs_lesson = spec.id == "lesson-step";
+    Standing {
+        is_on: false,
+        idle: (needs_lesson && viewer.lesson().is_none()).then_some(NO_LESSON),
     }
 }
 
@@ -58,7 +70,7 @@ fn idle(viewer: &Viewer, command: &Command) -> Option<&'static str> {
             ab.arrangement() != Arrangement::Difference,
             "The difference is not shown",
         ),
-        Command::Lesson(LessonCommand::Close) => (viewer.lesson().is_none(), "No lesson is open"),
+        Command::Lesson(LessonCommand::Close) => (viewer.lesson().is_none(), NO_LESSON),
         Command::Scenes(SceneCommand::Next) => match viewer.lesson() {
             Some((lesson, at)) => (at + 1 == lesson.steps.len(), "This is the last step"),
             None => (viewer.scene_list().scenes().len() < 2, "There is no other scene"),

@@ -83,13 +83,13 @@ fn menu_does_what_keys_do() {
     assert!(!session.interface.list_is_open(), "which closes the lists");
     open(&mut session, &[Group::Inspector.name(), "Pin pixel"]);
     assert_eq!(session.viewer.chrome().dialog(), None, "it needs no argument");
-    open(&mut session, &[Group::Scenes.name(), "Step of the lesson"]);
+    open(&mut session, &[Group::View.name(), "Rotate by"]);
     assert_eq!(
         session.viewer.chrome().dialog(),
         Some(Dialog::Palette),
-        "it asks for the number"
+        "it asks for the angle"
     );
-    assert!(says(&mut session, "type a step's number"), "and says so");
+    assert!(says(&mut session, "type DEGREES"), "and says so");
     key(&mut session, "Escape");
     open(&mut session, &[Group::Scenes.name(), "Open"]);
     assert_eq!(
@@ -178,6 +178,11 @@ fn menu_says_what_is_on_and_what_does_nothing() {
         entry(&scenes, "Close the lesson", &mut session),
         (false, true),
         "none open"
+    );
+    assert_eq!(
+        entry(&scenes, "Step of the lesson", &mut session),
+        (false, true),
+        "of which"
     );
     session.command(Command::Ab(AbCommand::Compare(Against::Settings)));
     session.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));

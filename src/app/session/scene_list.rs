@@ -2,7 +2,7 @@
 
 use crate::viewer::{AbCommand, LessonCommand, LessonSource, SceneCommand, WindowCommand};
 
-use glam::dvec2;
+use glam::{DVec2, dvec2};
 
 use super::hands::{click, nodes, place_of, session};
 use super::small_windows::{click_on, right_click, says};
@@ -252,4 +252,34 @@ fn panel_begins_anew_with_another_list() {
         (0.0..800.0).contains(&seen),
         "the panel shows its end, not nothing: {seen}"
     );
+}
+
+#[test]
+fn clicked_scene_stays_below_the_pointer() {
+    let mut session = session(Vec::new(), [1920, 1080]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.settle();
+    let shown = |session: &mut Session| -> Vec<(String, DVec2)> {
+        let scenes = nodes(session).into_iter().filter_map(|node| {
+            let (name, bounds) = (node.label()?.to_owned(), node.bounds()?);
+            let is_scene = name.starts_with("Scene ") && name.ends_with(".svg");
+            is_scene.then(|| (name, dvec2(bounds.x0 + bounds.x1, bounds.y0 + bounds.y1) / 2.0))
+        });
+        scenes.collect()
+    };
+    let places = shown(&mut session);
+    // Rows at the ends of the list are cut.
+    let middle = places.iter().map(|(_, at)| *at).sum::<DVec2>() / places.len() as f64;
+    for clicks in [-1.0, -2.0, -1.0, -0.5] {
+        session.pointer(Some(middle));
+        session.wheel(clicks);
+        session.settle();
+        let places = shown(&mut session);
+        let near = |(_, at): &&(String, DVec2)| (at.y - middle.y).abs();
+        let nearest = places.iter().min_by(|a, b| near(a).total_cmp(&near(b)));
+        let (name, before) = nearest.expect("a scene").clone();
+        click(&mut session, before);
+        session.settle();
+        assert_eq!(place_of(&mut session, &name), before, "{name}");
+    }
 }

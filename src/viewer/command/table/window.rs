@@ -61,7 +61,7 @@ pub(super) static WINDOW: &[CommandSpec] = &[
     .run(&Command::Window(WindowCommand::StepInterfaceScale { up: false })),
     spec(
         "interface-scale",
-        "Interface scale",
+        "Interface at 100 %",
         "Panels and letters as large as the monitor has them, or by a percentage",
         Group::Window,
     )

@@ -421,4 +421,82 @@ mod tests {
             "both kinds were looked at: {plain} and {sorted}"
         );
     }
+
+    /// Contours like letters and like needles, side by side or anywhere.
+    fn contour(u: &mut arbtest::arbitrary::Unstructured<'_>, number: u32) -> arbtest::arbitrary::Result<Vec<DVec2>> {
+        let mut within = |from: i32, to: i32| Ok(f64::from(u.int_in_range(8 * from..=8 * to)?) / 8.0);
+        let (is_letter, is_beside) = (within(0, 1)? < 0.5, within(0, 1)? < 0.8);
+        let left = if is_beside {
+            f64::from(number) * 9.0
+        } else {
+            within(-10, 190)?
+        };
+        let top = if is_letter { within(0, 800)? } else { within(-20, 40)? };
+        let height = if is_letter { 12 } else { 900 };
+        let corners = if is_letter { 9 } else { 3 };
+        (0..corners)
+            .map(|_| Ok(DVec2::new(left + within(0, 7)?, top + within(0, height)?)))
+            .collect()
+    }
+
+    #[test]
+    fn edges_in_any_order_enclose_what_their_crossings_say() {
+        let (mut blocks, mut long, mut unsorted) = (0, 0, 0);
+        arbtest::arbtest(|u| {
+            let grid = SubpixelGrid::new(u.int_in_range(1..=2)?);
+            let extent = |end| Span { start: 0, end };
+            let frame = SpanRect {
+                x: extent(200),
+                y: extent(900),
+            };
+            let mut edges = Vec::new();
+            let mut builder = OutlineBuilder::new(grid, frame, &mut edges);
+            for number in 0..u.int_in_range(1..=24)? {
+                builder.contour(contour(u, number)?.into_iter());
+            }
+            let rule = *u.choose(&[FillRule::NonZero, FillRule::EvenOdd])?;
+            let Some(outline) = builder.finish(rule) else {
+                return Ok(());
+            };
+            let start = u.int_in_range(0..=899)?;
+            let end = u.int_in_range(start + 1..=900)?;
+            let rows = Span { start, end }.intersection(outline.samples.y);
+            if rows.is_empty() {
+                return Ok(());
+            }
+            let (mut scanner, mut store) = (RowScanner::default(), SpanStore::default());
+            let of_outline = outline.with_edges(&edges);
+            let found = scanner.scan(of_outline, grid, SpanRect { y: rows, ..frame }, &mut store);
+            let right = frame.x.end;
+            for row in rows.start..rows.end {
+                let crosses = |edge: &&OutlineEdge| (edge.rows.start..edge.rows.end).contains(&row);
+                let crossing = |edge: &OutlineEdge| {
+                    let column = EdgeWalker::new(grid, edge.top, edge.bottom, row).at_or_after();
+                    column.clamp(0, right) << 1 | i32::from(edge.winding > 0)
+                };
+                let mut crossings: Vec<i32> = edges.iter().filter(crosses).map(crossing).collect();
+                unsorted += usize::from(crossings.len() > FEW && !crossings.is_sorted());
+                crossings.sort_unstable();
+                let mut expected = Vec::new();
+                enclosed(&crossings, rule, right, &mut expected);
+                if expected.is_empty() {
+                    expected.push(Span::EMPTY);
+                }
+                assert_eq!(store.get(found).of_row(row), expected, "row {row} of {edges:?}");
+            }
+            let count = of_outline.edges_in(rows).count();
+            let total: u32 = {
+                scanner.numbers.count(of_outline.edges_in(rows), rows);
+                scanner.numbers.numbers().sum()
+            };
+            long += usize::from(count > FEW && total as usize / LONG >= count);
+            blocks += usize::from(outline.samples.y.length() > 512 && edges.len() > FEW);
+            Ok(())
+        })
+        .budget_ms(1500);
+        assert!(
+            blocks > 20 && long > 20 && unsorted > 20,
+            "all kinds were looked at: {blocks}, {long}, {unsorted}"
+        );
+    }
 }

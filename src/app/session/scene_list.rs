@@ -262,7 +262,7 @@ fn clicked_scene_stays_below_the_pointer() {
     let shown = |session: &mut Session| -> Vec<(String, DVec2)> {
         let scenes = nodes(session).into_iter().filter_map(|node| {
             let (name, bounds) = (node.label()?.to_owned(), node.bounds()?);
-            let is_scene = name.starts_with("Scene ") && name.ends_with(".svg");
+            let is_scene = name.starts_with("Scene ") && name.contains(".svg");
             is_scene.then(|| (name, dvec2(bounds.x0 + bounds.x1, bounds.y0 + bounds.y1) / 2.0))
         });
         scenes.collect()

@@ -17,7 +17,7 @@ use crate::raster::span::{Span, SpanRect, to_index};
 /// A polygon in a chunk.
 #[derive(Clone, Debug)]
 pub(crate) struct Outline {
-    /// Its edges among those of the chunk: if there are more than [`FEW`], by the [blocks](block) of their first rows; inside a
+    /// Its edges among those of the chunk: if there are more than [`FEW`], by the [blocks](block()) of their first rows; inside a
     /// block as they come along the contours.
     pub(in crate::raster) edges: Range<usize>,
     /// The box of its samples, in the frame; never empty.

@@ -13,7 +13,7 @@ pub(super) struct LayerEnd<'s, 'a> {
     compositing: Compositing,
     /// What was made so far.
     made: HashMap<[SurfaceId; 2], SurfaceId>,
-    /// The latest, each in the [place](place) of its pair: most samples are like their neighbours, or those above them.
+    /// The latest, each in the [place] of its pair: most samples are like their neighbours, or those above them.
     latest: [Option<([SurfaceId; 2], SurfaceId)>; LATEST],
 }
 

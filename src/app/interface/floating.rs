@@ -25,7 +25,7 @@ const REST: f32 = 5.0;
 const BAR_HEIGHT: f32 = 3.0;
 /// Width of the way back, in points.
 const WAY_BACK_WIDTH: f32 = 230.0;
-/// The least width in which its words can be read, in points.
+/// The least width in which it can be read, in points.
 const LEAST_WAY_BACK: f32 = 170.0;
 /// Its height, in points.
 const WAY_BACK_HEIGHT: f32 = 84.0;
@@ -206,7 +206,6 @@ pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Com
 fn place_of_words(ui: &Ui, viewer: &Viewer, free: Rect, text: &str) -> (Align2, Vec2) {
     /// Less of a text is not worth its frame, in points.
     const LEAST: f32 = 34.0;
-    let (taken, room) = (things(viewer, ui.pixels_per_point()), free.shrink(TEXT_MARGIN));
     let font = TextStyle::Body.resolve(ui.style());
     let size = |width: f32| {
         let lines = text.lines().map(|line| {
@@ -222,6 +221,7 @@ fn place_of_words(ui: &Ui, viewer: &Viewer, free: Rect, text: &str) -> (Align2, 
     if viewer.pixels().pinned().is_none() {
         return first;
     }
+    let (taken, room) = (things(viewer, ui.pixels_per_point()), free.shrink(TEXT_MARGIN));
     // What is free of the room's height in a corner.
     let height = |corner: Align2, width: f32| {
         let column = corner.align_size_within_rect(vec2(width + WORDS_FRAME.x, room.height()), room);

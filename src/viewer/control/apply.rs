@@ -10,6 +10,7 @@ use crate::viewer::command::{Command, Effect};
 use crate::viewer::control::comparing::Comparing;
 use crate::viewer::control::copy::Copied;
 use crate::viewer::control::update::follow_lesson;
+use crate::viewer::inspector::Reveal;
 use crate::viewer::settings::values::next_of;
 use crate::viewer::settings::{Theme, Toggle};
 use crate::viewer::state::Viewer;
@@ -108,7 +109,9 @@ impl Viewer {
                 screen.window = size;
                 // Panels may cover more of a smaller window.
                 let magnifier = &mut self.inspector.magnifier;
-                (magnifier.resized, magnifier.revealed) = (true, magnifier.revealed || magnifier.pin.is_some());
+                if magnifier.pin.is_some() {
+                    magnifier.reveal = Some(Reveal::Resized);
+                }
             }
             WindowCommand::SetFreeArea(area) => {
                 self.hand().set_free_area(area);

@@ -66,7 +66,7 @@ impl Hand<'_> {
             PointerCommand::Moved { at } => self.pointer_moved(at),
             PointerCommand::Left => self.pointer.at = None,
             PointerCommand::Pressed(button) => {
-                (self.inspector.magnifier.revealed, self.inspector.magnifier.resized) = (false, false);
+                self.inspector.magnifier.reveal = None;
                 self.pointer_pressed(button);
             }
             PointerCommand::Released(PointerButton::Primary) => {

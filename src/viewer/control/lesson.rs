@@ -13,6 +13,7 @@ use crate::viewer::ab::other::Against;
 use crate::viewer::ab::requests::ComparisonContext;
 use crate::viewer::chrome::Chrome;
 use crate::viewer::chrome::messages::NO_ROOM;
+use crate::viewer::inspector::Reveal;
 use crate::viewer::inspector::state::Inspection;
 use crate::viewer::lesson::model::{Lesson, LessonStep};
 use crate::viewer::lesson::source::LessonSource;
@@ -181,7 +182,7 @@ impl Lessons<'_> {
         self.inspector.magnifier.pin = None;
         if let Some(place) = pin {
             self.inspector.pin_place(place, self.scene_list);
-            (self.inspector.magnifier.revealed, self.inspector.magnifier.resized) = (true, false);
+            self.inspector.magnifier.reveal = Some(Reveal::Jumped);
         }
     }
 

@@ -6,8 +6,8 @@ use crate::viewer::InspectorCommand;
 use crate::viewer::PixelRect;
 use crate::viewer::ab::other::Arrangement;
 use crate::viewer::control::hand::Hand;
-use crate::viewer::inspector::Pin;
 use crate::viewer::inspector::pin::InsetSurroundings;
+use crate::viewer::inspector::{Pin, Reveal};
 use crate::viewer::settings::Toggle;
 use crate::viewer::view::camera::ViewContext;
 use crate::viewer::view::panes::Panes;
@@ -258,7 +258,11 @@ impl Hand<'_> {
 
     /// Moves the picture so that a pixel that was jumped to lies in the middle of what is free, where a panel covers it.
     pub(in crate::viewer) fn reveal_pin(&mut self) {
-        let Some(pixel) = self.pixels().pinned().filter(|_| self.inspector.magnifier.revealed) else {
+        let Some(pixel) = self
+            .pixels()
+            .pinned()
+            .filter(|_| self.inspector.magnifier.reveal.is_some())
+        else {
             return;
         };
         let layout = self.layout();
@@ -277,7 +281,8 @@ impl Hand<'_> {
         self.viewing().pan((by / zoom).round() * zoom);
         self.keep_pin_in_place();
         let both = before.zip(self.scene_list.camera());
-        let comes_back = self.inspector.magnifier.resized && self.inspector.magnifier.asked && self.pixels().explains();
+        let resized = self.inspector.magnifier.reveal == Some(Reveal::Resized);
+        let comes_back = resized && self.inspector.magnifier.asked && self.pixels().explains();
         if let Some((before, now)) = both.filter(|_| comes_back) {
             // Nobody asked for another view: the one before comes back with the end of the explanation.
             let kept = self.inspector.magnifier.kept_view.filter(|[_, set]| *set == before);
@@ -299,7 +304,7 @@ impl Hand<'_> {
         match place {
             Some(place) => {
                 self.pin(place.at.map(i64::from));
-                self.inspector.magnifier.revealed = true;
+                self.inspector.magnifier.reveal = Some(Reveal::Jumped);
                 self.reveal_pin();
             }
             None => self

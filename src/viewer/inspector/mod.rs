@@ -41,6 +41,15 @@ pub(in crate::viewer) const RING_ROOM: u32 = 24;
 /// Free pixels around a label.
 const LABEL_MARGIN: f32 = 2.0;
 
+/// Why a pin is kept in sight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::viewer) enum Reveal {
+    /// It was jumped to.
+    Jumped,
+    /// The window has another size, and panels may cover more of it.
+    Resized,
+}
+
 /// State of the pixel inspector.
 #[expect(
     clippy::struct_excessive_bools,
@@ -57,10 +66,8 @@ pub struct Inspector {
     pub(in crate::viewer) pin: Option<Pin>,
     /// Window pixels around the pinned one that a ring takes which marks it in the picture.
     pub(in crate::viewer) ring_room: u32,
-    /// Whether the pin was jumped to, and is to stay in the part of the window that is free, until a hand moves the picture.
-    pub(in crate::viewer) revealed: bool,
-    /// Whether that is because the window has another size.
-    pub(in crate::viewer) resized: bool,
+    /// Why the pin is to stay in the part of the window that is free, if it is, until a hand moves the picture.
+    pub(in crate::viewer) reveal: Option<Reveal>,
     /// Whether a hand asked about the pinned pixel: the view rests while the explanation takes its room.
     pub(in crate::viewer) asked: bool,
     /// Where in the window a hand asked about it.
@@ -139,8 +146,7 @@ impl Default for Inspector {
             magnification,
             pin: None,
             ring_room: 0,
-            revealed: false,
-            resized: false,
+            reveal: None,
             asked: false,
             asked_at: None,
             kept_view: None,

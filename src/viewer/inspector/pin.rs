@@ -37,7 +37,7 @@ impl Inspection {
             pixel: pixel.map(i64::from),
             place: None,
         });
-        (magnifier.revealed, magnifier.resized) = (false, false);
+        magnifier.reveal = None;
         magnifier.asked_at = None;
         magnifier.pins += 1;
         magnifier.came_with_pin |= !magnifier.open;

@@ -38,6 +38,13 @@ pub fn draw_legend(legend: &Legend, size: f32) -> Framebuffer {
     picture
 }
 
+/// How large words are that belong to a picture of so many pixels: 1 as in the window.
+pub(super) fn size_of_words(picture: [u32; 2]) -> f32 {
+    let side = picture[0].min(picture[1]) as f32;
+    let size = (side / FULL_SIDE * 4.0).round() / 4.0;
+    size.clamp(SIZES.0, SIZES.1)
+}
+
 /// Legends for a picture of `picture` pixels, and where they go: into corners of `area`, over none of the rectangles that
 /// `spared` holds and not over each other. Those for which there is no room, even small, are left out.
 pub fn place_legends(
@@ -46,9 +53,7 @@ pub fn place_legends(
     area: &PixelRect,
     spared: &[PixelRect],
 ) -> Vec<(PixelRect, Framebuffer)> {
-    let side = picture[0].min(picture[1]) as f32;
-    let size = (side / FULL_SIDE * 4.0).round() / 4.0;
-    let size = size.clamp(SIZES.0, SIZES.1);
+    let size = size_of_words(picture);
     let mut taken = spared.to_vec();
     let mut placed = Vec::new();
     for legend in legends {

@@ -16,6 +16,7 @@ mod samples;
 mod sheet;
 mod shrink;
 mod snippets;
+mod tag;
 mod text;
 mod vacancy;
 
@@ -33,4 +34,5 @@ pub use samples::{SampleMark, is_dark};
 pub use sheet::{Ground, PAGE_WIDTH, SheetLayout, SheetPlan, draw_legends};
 pub use shrink::shrunk;
 pub use snippets::{Figure, html, latex, markdown};
+pub use tag::{Tag, add_tags, tag_unit};
 pub use text::{Anchor, TextBlock, TextStyle, Typeface};

@@ -1,19 +1,18 @@
 //! What lies over the picture while A and B share the window: the line of the wipe, and which picture is which.
 
+use std::sync::Arc;
+
 use egui::text::LayoutJob;
-use egui::{Align2, Color32, CursorIcon, FontId, Pos2, Rangef, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, Color32, CursorIcon, FontId, Galley, Pos2, Rangef, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
 
 use super::floating::things;
 use super::pin;
 use super::places::{insets, points};
+use crate::figure::{Anchor, Tag};
 use crate::viewer::{Arrangement, Viewer};
 
-/// Free space between a tag and what is beside it, in points.
-const MARGIN: f32 = 10.0;
 /// Space inside a tag, in points.
-const PADDING: Vec2 = vec2(8.0, 4.0);
-/// Width below which a tag is its letter alone, in points.
-const LEAST_WORDS: f32 = 48.0;
+const PADDING: Vec2 = vec2(Tag::PADDING[0], Tag::PADDING[1]);
 /// Part of the picture's height that a tag takes at most; what is left of its words becomes dots.
 const MOST_HEIGHT: f32 = 0.3;
 /// Side of the letter beside an inset, in points.
@@ -36,58 +35,29 @@ pub(super) struct Marks {
 
 /// Draws line, letters and tags inside `free`, the tags where nothing is `taken`.
 pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Marks {
-    let Some([a, b]) = viewer.ab().sides(viewer.settings()) else {
-        return Marks::default();
-    };
-    let [front, back] = if viewer.ab().is_swapped() { [b, a] } else { [a, b] };
     let scale = ui.pixels_per_point();
     #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
     let line = viewer.both().wipe_line().map(|line| line as f32 / scale);
     let letters = letters(ui, viewer, free);
     let (mut drawn, mut handle) = (Vec::new(), None);
     let taken = [taken, &letters, &things(viewer, scale)].concat();
-    let left = free.left() + MARGIN;
-    let half = (free.width() / 2.0 - 2.0 * MARGIN).max(40.0);
-    let tag = |text, x, align, wide| Tag { text, x, align, wide };
-    let places: Vec<Tag> = match viewer.ab().arrangement() {
-        Arrangement::Alone if !viewer.ab().is_swapped() => return Marks::default(),
-        Arrangement::Alone => vec![tag(front, left, Align2::LEFT_TOP, half)],
-        Arrangement::Wipe => {
-            let Some(line) = line else {
-                return Marks::default();
-            };
-            let before = [insets(viewer, scale), letters.clone()].concat();
-            (drawn, handle) = draw_line(ui, viewer, free, line, &before);
-            // Each on its own side: where there is little room its words give way, never the side.
-            let beside = |room: f32| (room - 2.0 * MARGIN - 2.0 * PADDING.x).min(half);
-            vec![
-                tag(front, line - MARGIN, Align2::RIGHT_TOP, beside(line - free.left())),
-                tag(back, line + MARGIN, Align2::LEFT_TOP, beside(free.right() - line)),
-            ]
-        }
-        Arrangement::SideBySide => {
-            let middle = free.center().x + MARGIN;
-            vec![
-                tag(front, left, Align2::LEFT_TOP, half),
-                tag(back, middle, Align2::LEFT_TOP, half),
-            ]
-        }
-        Arrangement::Difference => {
-            let order = if viewer.ab().is_swapped() {
-                "A \u{2212} B"
-            } else {
-                "B \u{2212} A"
-            };
-            let what = format!("{order}, {}", viewer.ab().difference_style().measure.name());
-            vec![tag(what, left, Align2::LEFT_TOP, half)]
-        }
-        Arrangement::Flip => {
-            let is_front = viewer.ab().shows_b() == viewer.ab().is_swapped();
-            let seen = if is_front { front } else { back };
-            vec![tag(seen, left, Align2::LEFT_TOP, half)]
-        }
-    };
-    let tags = places.iter().filter_map(|tag| tag.show(ui, free, &taken));
+    if viewer.ab().arrangement() == Arrangement::Wipe {
+        let Some(line) = line else {
+            return Marks::default();
+        };
+        let before = [insets(viewer, scale), letters.clone()].concat();
+        (drawn, handle) = draw_line(ui, viewer, free, line, &before);
+    }
+    let tags = viewer.both().tags([free.left(), free.right()], line);
+    let tags = tags.into_iter().map(|tag| Words {
+        align: if tag.anchor == Anchor::Right {
+            Align2::RIGHT_TOP
+        } else {
+            Align2::LEFT_TOP
+        },
+        tag,
+    });
+    let tags = tags.filter_map(|words| words.show(ui, free, &taken));
     Marks {
         labels: tags.chain(letters).collect(),
         line: drawn,
@@ -226,59 +196,64 @@ fn free_pieces(free: Rect, x: f32, insets: &[Rect]) -> Vec<Rangef> {
     pieces
 }
 
-/// A tag over the picture: whose it is.
-struct Tag {
-    text: String,
-    /// Its left or right end, as it is aligned.
-    x: f32,
+/// A tag over the picture in the window, in points.
+struct Words {
+    tag: Tag,
     align: Align2,
-    /// The room for its words.
-    wide: f32,
 }
 
-impl Tag {
+impl Words {
     /// Words on a dark ground at `x`, at most so wide, as high up as nothing is in their way; shortened where they do not fit,
     /// at last to their first letter, and none where there is not even room for that.
     fn show(&self, ui: &Ui, free: Rect, taken: &[Rect]) -> Option<Rect> {
-        let Self { text, x, align, wide } = self;
-        let (x, align, wide) = (*x, *align, *wide);
-        let lines = |rows| {
-            let mut job = LayoutJob::simple(text.to_owned(), FontId::proportional(12.0), Color32::WHITE, wide);
-            job.wrap.max_rows = rows;
-            ui.painter().layout_job(job)
-        };
-        let letter = || {
-            let first = text.chars().next().map(String::from).unwrap_or_default();
-            ui.painter()
-                .layout_no_wrap(first, FontId::proportional(12.0), Color32::WHITE)
-        };
-        let galley = if wide < LEAST_WORDS {
-            letter()
-        } else {
-            let line = ui.fonts_mut(|fonts| fonts.row_height(&FontId::proportional(12.0)));
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few")]
-            let rows = (free.height() * MOST_HEIGHT / line) as usize;
-            lines(rows.max(2))
-        };
-        let is_short = galley.elided || wide < LEAST_WORDS;
-        if galley.size().x > wide + 1.0 {
-            return None;
-        }
-        let size = galley.size() + 2.0 * PADDING;
-        let mut place = align.anchor_size(pos2(x, free.top() + MARGIN), size);
-        while let Some(other) = taken.iter().find(|other| other.intersects(place)) {
-            place = place.translate(vec2(0.0, other.bottom() + MARGIN - place.top()));
-        }
-        if !free.contains_rect(place) {
-            return None;
-        }
+        let (galley, place) = [self.words(ui, free), Some(self.letter(ui))]
+            .into_iter()
+            .flatten()
+            .find_map(|galley| {
+                let place = self.place(galley.size(), free, taken)?;
+                Some((galley, place))
+            })?;
+        let is_short = galley.elided || galley.text() != self.tag.text;
         ui.painter().rect_filled(place, 5.0, Color32::from_black_alpha(190));
         ui.painter().galley(place.min + PADDING, galley, Color32::WHITE);
         if is_short {
-            let id = ui.scope_id().with(("tag", text));
-            ui.interact(place, id, Sense::hover()).on_hover_text(text);
+            let id = ui.scope_id().with(("tag", &self.tag.text));
+            ui.interact(place, id, Sense::hover()).on_hover_text(&self.tag.text);
         }
         Some(place)
+    }
+
+    /// All words, in as many lines as a tag may have; `None` where it is too narrow for words.
+    fn words(&self, ui: &Ui, free: Rect) -> Option<Arc<Galley>> {
+        if self.tag.room < Tag::LEAST_WORDS {
+            return None;
+        }
+        let font = FontId::proportional(12.0);
+        let line = ui.fonts_mut(|fonts| fonts.row_height(&font));
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few")]
+        let rows = (free.height() * MOST_HEIGHT / line) as usize;
+        let mut job = LayoutJob::simple(self.tag.text.clone(), font, Color32::WHITE, self.tag.room);
+        job.wrap.max_rows = rows.max(2);
+        Some(ui.painter().layout_job(job))
+    }
+
+    fn letter(&self, ui: &Ui) -> Arc<Galley> {
+        let first = self.tag.text.chars().next().map(String::from).unwrap_or_default();
+        ui.painter()
+            .layout_no_wrap(first, FontId::proportional(12.0), Color32::WHITE)
+    }
+
+    /// Where words of such a size go; `None` where there is no room.
+    fn place(&self, words: Vec2, free: Rect, taken: &[Rect]) -> Option<Rect> {
+        if words.x > self.tag.room + 1.0 {
+            return None;
+        }
+        let size = words + 2.0 * PADDING;
+        let mut place = self.align.anchor_size(pos2(self.tag.x, free.top() + Tag::MARGIN), size);
+        while let Some(other) = taken.iter().find(|other| other.intersects(place)) {
+            place = place.translate(vec2(0.0, other.bottom() + Tag::MARGIN - place.top()));
+        }
+        free.contains_rect(place).then_some(place)
     }
 }
 

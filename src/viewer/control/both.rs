@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::figure::{Anchor, Tag};
 use crate::plain;
 use crate::raster::Framebuffer;
 use crate::render::{Legend, RenderSettings, Visualisation};
@@ -76,11 +77,65 @@ impl<'a> Both<'a> {
 
     /// Where the line of the wipe is, in window pixels from the left; `None` where there is none.
     pub fn wipe_line(&self) -> Option<f64> {
+        Some(self.wipe_column()? as f64 * f64::from(self.layout.zoom()))
+    }
+
+    /// The same in screen pixels.
+    pub(in crate::viewer) fn wipe_column(&self) -> Option<i64> {
         let wipes = self.ab.arrangement() == Arrangement::Wipe;
         let [front, _] = self.pair().filter(|_| wipes)?;
         let column = i64::from(self.ab.wipe_column(front.width(), &self.layout));
-        let column = column + self.layout.panes().first.corner[0];
-        Some(column as f64 * f64::from(self.layout.zoom()))
+        Some(column + self.layout.panes().first.corner[0])
+    }
+
+    /// Which picture is whose: the tags of A and B along the upper edge of what shows them, from `within[0]` to `within[1]`.
+    /// `line` parts a wipe. All lengths are in the unit of [`Tag`].
+    pub fn tags(&self, within: [f32; 2], line: Option<f32>) -> Vec<Tag> {
+        /// A tag that stands alone may be as wide as this.
+        const LEAST_HALF: f32 = 40.0;
+        let Some([a, b]) = self.ab.sides(self.settings) else {
+            return Vec::new();
+        };
+        let [left, right] = within;
+        let swapped = self.ab.is_swapped();
+        let [front, back] = if swapped { [b, a] } else { [a, b] };
+        let half = ((right - left) / 2.0 - 2.0 * Tag::MARGIN).max(LEAST_HALF);
+        let tag = |text: String, x: f32| Tag {
+            text,
+            x: x + Tag::MARGIN,
+            anchor: Anchor::Left,
+            room: half,
+        };
+        match self.ab.arrangement() {
+            Arrangement::Alone if !swapped => Vec::new(),
+            Arrangement::Alone => vec![tag(front, left)],
+            Arrangement::Wipe => {
+                let Some(line) = line else { return Vec::new() };
+                // Each on its own side: where there is little room its words give way, never the side.
+                let beside = |room: f32| (room - 2.0 * Tag::MARGIN - 2.0 * Tag::PADDING[0]).min(half);
+                let front = Tag {
+                    text: front,
+                    x: line - Tag::MARGIN,
+                    anchor: Anchor::Right,
+                    room: beside(line - left),
+                };
+                let back = Tag {
+                    room: beside(right - line),
+                    ..tag(back, line)
+                };
+                vec![front, back]
+            }
+            Arrangement::SideBySide => vec![tag(front, left), tag(back, left.midpoint(right))],
+            Arrangement::Difference => {
+                let order = if swapped { "A \u{2212} B" } else { "B \u{2212} A" };
+                let what = format!("{order}, {}", self.ab.difference_style().measure.name());
+                vec![tag(what, left)]
+            }
+            Arrangement::Flip => {
+                let seen = if self.ab.shows_b() == swapped { front } else { back };
+                vec![tag(seen, left)]
+            }
+        }
     }
 
     /// What the current camera looks at; `None` before the scene was read.

@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::figure::{Guard, InsetPlace, InsetSpec, Record, add_legends};
+use crate::figure::{Guard, InsetPlace, InsetSpec, PixelRect, Record, add_legends, add_tags, tag_unit};
+use crate::raster::Framebuffer;
 use crate::viewer::ab::other::Other;
 use crate::viewer::control::both::Both;
 use crate::viewer::control::pointing::Pointing;
@@ -109,13 +110,38 @@ impl Recipes<'_> {
                 legends: self.both.legends_of_picture(),
             };
         }
-        if self.pixels.inspector.inset.is_some() {
-            // The inset is in window pixels.
-            return Shot::Ready(self.window().picture());
+        Shot::Ready(self.picture_of_both())
+    }
+
+    /// What A and B share, with its tags and legends; the whole window where insets lie over it.
+    fn picture_of_both(&self) -> Framebuffer {
+        let inspector = self.pixels.inspector;
+        let zoom = i64::from(self.both.layout.zoom());
+        let insets = [inspector.inset, inspector.other_inset].map(|placed| placed.map(|placed| placed.rect));
+        let has_insets = insets.iter().any(Option::is_some);
+        let composite = self.both.composite();
+        // Insets and legends of the window are in window pixels.
+        let (mut picture, origin, zoom) = if has_insets {
+            (self.window().picture(), 0, zoom)
+        } else {
+            (composite.picture(), composite.bounds().x, 1)
+        };
+        let legends = has_insets.then(|| self.both.frames.legend_places());
+        let spared: Vec<PixelRect> = insets
+            .into_iter()
+            .flatten()
+            .chain(legends.into_iter().flatten())
+            .collect();
+        let unit = tag_unit([picture.width(), picture.height()]);
+        let bounds = composite.bounds();
+        let length = |x: i64| ((x - origin) * zoom) as f32 / unit;
+        let line = self.both.wipe_column().map(length);
+        let tags = self.both.tags([length(bounds.x), length(bounds.right())], line);
+        let taken = add_tags(&mut picture, &tags, &spared);
+        if !has_insets {
+            add_legends(&mut picture, &self.both.legends_of_picture(), &taken);
         }
-        let mut picture = self.both.composite().picture();
-        add_legends(&mut picture, &self.both.legends_of_picture(), &[]);
-        Shot::Ready(picture)
+        picture
     }
 
     /// Protects what is shown: the scene with its textures, and a picture that is compared with it.

@@ -112,10 +112,15 @@ impl<'a> Composite<'a> {
         }
     }
 
+    /// What of the screen the panes fill.
+    pub(in crate::viewer) fn bounds(&self) -> PixelRect {
+        let places = self.parts().map(|(_, _, seen)| seen);
+        places.reduce(|one, other| union(&one, &other)).unwrap_or_default()
+    }
+
     /// The panes as a picture: what lies between and around them is cut off where nothing is to be seen.
     pub(in crate::viewer) fn picture(&self) -> Framebuffer {
-        let places = self.parts().map(|(_, _, seen)| seen);
-        let bounds = places.reduce(|one, other| union(&one, &other)).unwrap_or_default();
+        let bounds = self.bounds();
         let mut picture = Framebuffer::new(bounds.width, bounds.height);
         let columns = unsigned(bounds.x)..unsigned(bounds.right());
         let rows = picture.pixels_mut().chunks_exact_mut((bounds.width as usize).max(1));

@@ -212,47 +212,47 @@ impl Inspector {
         self.magnification = limits.magnification;
     }
 
-    /// Where the inset for the frame pixel `center` goes: inside `area`, never over that pixel as the window shows it in
-    /// `shown`, beside the ring of a pinned one where there is room, and never most of the area. In a tight window the large pixel goes first, then the region shrinks, then the
-    /// magnification. Remembers the corner, so that the inset only moves when it must.
-    pub(in crate::viewer) fn place(
-        &mut self,
-        center: [u32; 2],
-        shown: &PixelRect,
-        area: &PixelRect,
-    ) -> Option<PlacedInset> {
-        self.place_stack(center, shown, area, Inset::size)
+    /// Where the inset for the frame pixel `center` goes: inside the area, never over that pixel, beside the ring of a
+    /// pinned one and beside the picture where there is room, and never most of the area. In a tight window the large pixel
+    /// goes first, then the region shrinks, then the magnification. Remembers the corner, so that the inset only moves when
+    /// it must.
+    pub(in crate::viewer) fn place(&mut self, center: [u32; 2], beside: &Beside) -> Option<PlacedInset> {
+        self.place_group(center, beside, Inset::size)
     }
 
-    /// As [`Inspector::place`] for two insets of the same pixel, one above the other; the lower has no large pixel.
+    /// As [`Inspector::place`] for two insets of the same pixel, the second without a large pixel.
+    ///
+    /// They lie next to each other, A's to the left unless `swapped`, so that neither picture of a wipe loses its whole
+    /// side.
     pub(in crate::viewer) fn place_both(
         &mut self,
         center: [u32; 2],
-        shown: &PixelRect,
-        area: &PixelRect,
+        beside: &Beside,
+        swapped: bool,
     ) -> Option<[PlacedInset; 2]> {
-        let height = |inset: &Inset| inset.size()[1];
-        let upper = self.place_stack(center, shown, area, |inset| {
-            let both = height(inset) + BETWEEN + height(&inset.without_detail());
-            [inset.size()[0], both]
+        let mut first = self.place_group(center, beside, |inset| {
+            let [width, height] = inset.size();
+            [2 * width + BETWEEN, height]
         })?;
-        let inset = upper.inset.without_detail();
+        let inset = first.inset.without_detail();
         let rect = PixelRect {
-            y: upper.rect.bottom() + i64::from(BETWEEN),
-            height: height(&inset),
-            ..upper.rect
+            height: inset.size()[1],
+            ..first.rect
         };
-        Some([upper, PlacedInset { inset, rect }])
+        let mut second = PlacedInset { inset, rect };
+        let right = if swapped { &mut first } else { &mut second };
+        right.rect.x += i64::from(rect.width + BETWEEN);
+        Some([first, second])
     }
 
-    /// Places what is as large as `size` says for an inset, which stands at its upper end.
-    fn place_stack(
+    /// Places what is as large as `size` says for an inset, which stands in its upper left corner.
+    fn place_group(
         &mut self,
         center: [u32; 2],
-        shown: &PixelRect,
-        area: &PixelRect,
+        beside: &Beside,
         size: impl Fn(&Inset) -> [u32; 2],
     ) -> Option<PlacedInset> {
+        let Beside { area, shown, .. } = beside;
         let center = center.map(i64::from);
         let (region, magnification) = (self.region, self.magnification);
         let smallest = *Inset::REGION.start();
@@ -271,7 +271,7 @@ impl Inspector {
         let beside_ring = || all().take_while(|inset| f64::from(side(inset)) >= least);
         if let Some(chosen) = self.chosen {
             let room = Room {
-                area,
+                beside,
                 taken: ring.as_ref().unwrap_or(shown),
                 only: Some(chosen),
                 spared: self.spared,
@@ -292,7 +292,7 @@ impl Inspector {
             .flat_map(|only| spared.iter().map(move |spared| (only, spared)))
             .find_map(|(only, spared)| {
                 let room = |taken| Room {
-                    area,
+                    beside,
                     taken,
                     only: *only,
                     spared: *spared,
@@ -312,7 +312,7 @@ impl Inspector {
         size: &impl Fn(&Inset) -> [u32; 2],
     ) -> Option<PlacedInset> {
         let Room {
-            area,
+            beside: Beside { area, picture, .. },
             taken,
             only,
             spared,
@@ -328,10 +328,12 @@ impl Inspector {
                     let is_free = !rect.overlaps(taken) && spared.is_none_or(|at| !rect.contains(at));
                     is_free && only.is_none_or(|only| only == *corner)
                 };
-                if let Some((corner, rect)) = corners(area, whole, self.corner).find(suits) {
+                let free = || corners(area, whole, self.corner).filter(suits);
+                let beside_picture = free().find(|(_, rect)| !rect.overlaps(picture));
+                if let Some((corner, rect)) = beside_picture.or_else(|| free().next()) {
                     self.corner = corner;
-                    let height = inset.size()[1];
-                    let rect = PixelRect { height, ..rect };
+                    let [width, height] = inset.size();
+                    let rect = PixelRect { width, height, ..rect };
                     return Some(PlacedInset { inset, rect });
                 }
             }
@@ -340,10 +342,20 @@ impl Inspector {
     }
 }
 
-/// Where an inset may go: inside `area`, beside what is `taken` and the point that is `spared`, in this corner if there is
-/// one.
+/// What insets lie in and beside, in window pixels.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::viewer) struct Beside {
+    /// The part of the window that is free for them.
+    pub(in crate::viewer) area: PixelRect,
+    /// The magnified pixel in the picture.
+    pub(in crate::viewer) shown: PixelRect,
+    /// The canvas of the picture.
+    pub(in crate::viewer) picture: PixelRect,
+}
+
+/// Where an inset may go: beside what is `taken` and the point that is `spared`, in this corner if there is one.
 struct Room<'a> {
-    area: &'a PixelRect,
+    beside: &'a Beside,
     taken: &'a PixelRect,
     only: Option<Corner>,
     spared: Option<[i64; 2]>,
@@ -421,7 +433,7 @@ mod tests {
     fn place_gives_way_and_shrinks() {
         let mut inspector = Inspector::default();
         let area = PixelRect::of_size([800, 600]);
-        let mut place = |at: [u32; 2], area: &PixelRect| inspector.place(at, &pixel(at), area);
+        let mut place = |at: [u32; 2], area: &PixelRect| inspector.place(at, &beside(at, area));
         let far = place([10, 500], &area).expect("there is room");
         assert_eq!(far.inset.region, 15, "as chosen");
         let near = place([700, 100], &area).expect("there is room");
@@ -439,18 +451,18 @@ mod tests {
         let area = PixelRect::of_size([800, 600]);
         let mut inspector = Inspector::default();
         let far = inspector
-            .place([10, 500], &pixel([10, 500]), &area)
+            .place([10, 500], &beside([10, 500], &area))
             .expect("there is room");
         // Beside the inset by a few pixels: only the ring is in its way.
         let at = [u32::try_from(far.rect.x).expect("inside") - 3, 100];
-        let free = inspector.place(at, &pixel(at), &area).expect("there is room");
+        let free = inspector.place(at, &beside(at, &area)).expect("there is room");
         assert_eq!(free.rect, far.rect, "without a ring it stays");
         inspector.ring_room = RING_ROOM;
-        let pinned = inspector.place(at, &pixel(at), &area).expect("there is room");
+        let pinned = inspector.place(at, &beside(at, &area)).expect("there is room");
         assert!(!pinned.rect.overlaps(&with_ring(&pixel(at), RING_ROOM)), "{pinned:?}");
         assert_eq!(pinned.inset.region, 15, "as large as before");
         let tight = PixelRect::of_size([120, 120]);
-        let small = inspector.place([60, 60], &pixel([60, 60]), &tight);
+        let small = inspector.place([60, 60], &beside([60, 60], &tight));
         assert!(small.is_some(), "where only the ring has no room, it is covered");
     }
 
@@ -464,22 +476,65 @@ mod tests {
         }
     }
 
+    fn beside(at: [u32; 2], area: &PixelRect) -> Beside {
+        Beside {
+            area: *area,
+            shown: pixel(at),
+            ..Beside::default()
+        }
+    }
+
     #[test]
-    fn place_both_stacks_them_in_the_free_area() {
-        let mut inspector = Inspector::default();
-        for (size, at) in [([800, 600], [700, 100]), ([1280, 1000], [5, 5]), ([300, 260], [40, 40])] {
-            let area = PixelRect::of_size(size);
-            let [a, b] = inspector.place_both(at, &pixel(at), &area).expect("there is room");
-            for placed in [&a, &b] {
-                assert_eq!(placed.rect.intersection(&area), placed.rect, "inside {size:?}");
-                assert!(!placed.rect.overlaps(&pixel(at)), "beside the pixel");
-                assert_eq!([placed.rect.width, placed.rect.height], placed.inset.size(), "its size");
+    fn place_leaves_the_picture_uncovered_where_a_corner_is_free() {
+        let area = PixelRect::of_size([800, 600]);
+        for (x, y) in [(0, 0), (650, 0), (0, 450), (650, 450)] {
+            let picture = PixelRect {
+                x,
+                y,
+                width: 150,
+                height: 150,
+            };
+            for corner in Corner::ALL {
+                let mut inspector = Inspector {
+                    corner,
+                    ..Inspector::default()
+                };
+                let beside = Beside {
+                    picture,
+                    ..beside([400, 300], &area)
+                };
+                let placed = inspector.place([400, 300], &beside).expect("there is room");
+                assert!(!placed.rect.overlaps(&picture), "{placed:?} covers {picture:?}");
+                assert_eq!(placed.inset.magnification, 20, "no smaller for that");
             }
-            assert!(
-                a.rect.bottom() < b.rect.y && a.rect.x == b.rect.x,
-                "one above the other"
-            );
-            assert_eq!(a.inset.source(), b.inset.source(), "the same pixels");
+        }
+    }
+
+    #[test]
+    fn place_both_lays_them_into_the_free_area() {
+        let mut inspector = Inspector::default();
+        let cases = [
+            ([800, 600], [700, 100]),
+            ([704, 772], [600, 386]),
+            ([704, 772], [352, 386]),
+            ([1280, 1000], [5, 5]),
+            ([300, 260], [40, 40]),
+            ([260, 600], [40, 40]),
+        ];
+        for (size, at) in cases {
+            let area = PixelRect::of_size(size);
+            for swapped in [false, true] {
+                let both = inspector.place_both(at, &beside(at, &area), swapped);
+                let [a, b] = both.expect("there is room");
+                for placed in [&a, &b] {
+                    assert_eq!(placed.rect.intersection(&area), placed.rect, "inside {size:?}");
+                    assert!(!placed.rect.overlaps(&pixel(at)), "beside the pixel");
+                    assert_eq!([placed.rect.width, placed.rect.height], placed.inset.size(), "its size");
+                }
+                assert!(!a.rect.overlaps(&b.rect) && a.rect.y == b.rect.y, "next to each other");
+                assert_eq!(a.inset.source(), b.inset.source(), "the same pixels");
+                assert_eq!(a.rect.x > b.rect.x, swapped, "A's on the side of A");
+            }
         }
     }
 }

@@ -7,10 +7,11 @@ use crate::viewer::ab::comparison::Comparison;
 use crate::viewer::chrome::Chrome;
 use crate::viewer::chrome::messages::Messages;
 use crate::viewer::inspector::state::Inspection;
-use crate::viewer::inspector::{Pin, PlacedInset, RING_ROOM};
+use crate::viewer::inspector::{Beside, Pin, PlacedInset, RING_ROOM};
 use crate::viewer::library::state::SceneList;
 use crate::viewer::settings::Toggle;
 use crate::viewer::view::layout::{WindowLayout, magnified};
+use crate::viewer::view::panes::Pane;
 use crate::viewer::view::pointer::window_pixel;
 
 /// What is said when the pinned place leaves the window, and with it its ring and its explanation.
@@ -135,33 +136,54 @@ impl Inspection {
         } else {
             self.inset = self
                 .magnifier
-                .place(center, &layout.shown_at(center), &layout.free_window());
+                .place(center, &around.beside(center, &layout.panes().first));
         }
     }
 
     /// Where the magnifiers of a pixel of both go.
     fn place_magnifiers(&mut self, center: [u32; 2], around: &InsetSurroundings<'_>) -> Option<[PlacedInset; 2]> {
-        let layout = around.layout;
-        let (shown, panes) = (layout.shown_at(center), layout.panes());
-        let Some((second, canvas)) = panes.second.zip(around.scenes.canvas_in_frame(layout)) else {
-            return self.magnifier.place_both(center, &shown, &layout.free_window());
+        let panes = around.layout.panes();
+        let swapped = around.ab.swapped;
+        let Some(second) = panes.second else {
+            let beside = around.beside(center, &panes.first);
+            return self.magnifier.place_both(center, &beside, swapped);
         };
         // The magnifier of A lies in A's half, whichever that is.
-        let (own, other) = if around.ab.swapped {
+        let (own, other) = if swapped {
             (second, panes.first)
         } else {
             (panes.first, second)
         };
-        let [low, high] = canvas.map(|place| screen_place(place, own.corner));
-        let side = |axis: usize| u32::try_from(high[axis] - low[axis]).unwrap_or_default();
-        let canvas = PixelRect {
-            x: low[0],
-            y: low[1],
-            width: side(0),
-            height: side(1),
+        let [half, other] = [own.area, other.area].map(|area| magnified(&area, around.layout.zoom()));
+        let beside = Beside {
+            area: half,
+            ..around.beside(center, &own)
         };
-        let [canvas, own, other] = [canvas, own.area, other.area].map(|rect| magnified(&rect, layout.zoom()));
-        self.magnifier.place_in_halves(center, &shown, &canvas, [&own, &other])
+        self.magnifier.place_in_halves(center, &beside, [other.x, other.y])
+    }
+}
+
+impl InsetSurroundings<'_> {
+    /// What insets of this frame pixel lie in and beside where a pane shows the picture.
+    fn beside(&self, center: [u32; 2], pane: &Pane) -> Beside {
+        let layout = self.layout;
+        let picture = self.scenes.canvas_in_frame(layout).map(|canvas| {
+            let [low, high] = canvas.map(|place| screen_place(place, pane.corner));
+            let side = |axis: usize| u32::try_from(high[axis] - low[axis]).unwrap_or_default();
+            let [x, y] = low;
+            let rect = PixelRect {
+                x,
+                y,
+                width: side(0),
+                height: side(1),
+            };
+            magnified(&rect, layout.zoom())
+        });
+        Beside {
+            area: layout.free_window(),
+            shown: layout.shown_in(pane, center),
+            picture: picture.unwrap_or_default(),
+        }
     }
 }
 

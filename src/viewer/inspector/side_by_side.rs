@@ -1,43 +1,36 @@
 //! The magnifiers of two pictures side by side: each lies in its picture's half, beside the picture where there is room.
 
 use crate::figure::{Inset, PixelRect, place};
-use crate::viewer::inspector::{Inspector, LEAST, PlacedInset, SHARE, with_ring};
+use crate::viewer::inspector::{Beside, Inspector, LEAST, PlacedInset, SHARE, with_ring};
 
 impl Inspector {
-    /// As [`Inspector::place`] for two pictures side by side: each inset lies in its picture's half, beside the picture in
-    /// `canvas` where there is room. `shown` and `canvas` lie in the first half; those of the second are alike.
+    /// As [`Inspector::place`] for two pictures side by side: each inset lies in its picture's half, beside the picture
+    /// where there is room. What A's inset lies beside is in its half; B's, whose corner lies at `other`, is alike.
     pub(in crate::viewer) fn place_in_halves(
         &mut self,
         center: [u32; 2],
-        shown: &PixelRect,
-        canvas: &PixelRect,
-        halves: [&PixelRect; 2],
+        beside: &Beside,
+        other: [i64; 2],
     ) -> Option<[PlacedInset; 2]> {
-        let [half, other] = halves;
         let first = self
-            .place_beside(center, shown, canvas, half)
-            .or_else(|| self.place(center, shown, half))?;
+            .place_beside(center, beside)
+            .or_else(|| self.place(center, beside))?;
         let inset = first.inset.without_detail();
         let rect = PixelRect {
-            x: first.rect.x + other.x - half.x,
+            x: first.rect.x + other[0] - beside.area.x,
             height: inset.size()[1],
             ..first.rect
         };
         Some([first, PlacedInset { inset, rect }])
     }
 
-    /// Places an inset in the part of `half` that the picture in `canvas` leaves free; `None` where there is room only for
-    /// a tiny one.
-    fn place_beside(
-        &mut self,
-        center: [u32; 2],
-        shown: &PixelRect,
-        canvas: &PixelRect,
-        half: &PixelRect,
-    ) -> Option<PlacedInset> {
+    /// Places an inset in the part of the area that the picture leaves free; `None` where there is room only for a tiny
+    /// one.
+    fn place_beside(&mut self, center: [u32; 2], beside: &Beside) -> Option<PlacedInset> {
         /// What is left of the magnification at least.
         const LEAST_PART: u32 = 3;
-        let longest = (f64::from(half.width.min(half.height)) * SHARE).max(LEAST);
+        let Beside { area, shown, picture } = beside;
+        let longest = (f64::from(area.width.min(area.height)) * SHARE).max(LEAST);
         let taken = with_ring(shown, self.ring_room);
         let smallest = *Inset::REGION.start();
         let inset = |region, magnification| Inset::new(center.map(i64::from), region, magnification);
@@ -49,7 +42,7 @@ impl Inspector {
             .flat_map(|inset| [inset, inset.without_detail()])
             .filter(|inset| f64::from(inset.size()[0].max(inset.size()[1])) <= longest)
             .collect();
-        let bands: Vec<(usize, PixelRect)> = bands_around(half, canvas).into_iter().enumerate().collect();
+        let bands: Vec<(usize, PixelRect)> = bands_around(area, picture).into_iter().enumerate().collect();
         // What the wheel turns over stays in its band, where there is room for any inset.
         let same = bands.get(self.band..=self.band).filter(|_| self.wheeled);
         let (found, corner, number) = [same.unwrap_or_default(), &bands].into_iter().find_map(|bands| {
@@ -65,8 +58,8 @@ impl Inspector {
     }
 }
 
-/// What is free of `half` below, above and beside `canvas`.
-fn bands_around(half: &PixelRect, canvas: &PixelRect) -> [PixelRect; 4] {
+/// What is free of `area` below, above and beside `picture`.
+fn bands_around(area: &PixelRect, picture: &PixelRect) -> [PixelRect; 4] {
     let from_to = |[left, top]: [i64; 2], [right, bottom]: [i64; 2]| {
         let side = |from: i64, to: i64| u32::try_from(to - from).unwrap_or_default();
         PixelRect {
@@ -76,11 +69,11 @@ fn bands_around(half: &PixelRect, canvas: &PixelRect) -> [PixelRect; 4] {
             height: side(top, bottom),
         }
     };
-    let (right, bottom) = (half.right(), half.bottom());
+    let (right, bottom) = (area.right(), area.bottom());
     [
-        from_to([half.x, canvas.bottom().max(half.y)], [right, bottom]),
-        from_to([half.x, half.y], [right, canvas.y.min(bottom)]),
-        from_to([canvas.right().max(half.x), half.y], [right, bottom]),
-        from_to([half.x, half.y], [canvas.x.min(right), bottom]),
+        from_to([area.x, picture.bottom().max(area.y)], [right, bottom]),
+        from_to([area.x, area.y], [right, picture.y.min(bottom)]),
+        from_to([picture.right().max(area.x), area.y], [right, bottom]),
+        from_to([area.x, area.y], [picture.x.min(right), bottom]),
     ]
 }

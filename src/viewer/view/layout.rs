@@ -78,6 +78,11 @@ impl WindowLayout {
 
     /// Where a frame pixel is to be seen, in window pixels.
     pub fn shown_at(&self, pixel: [u32; 2]) -> PixelRect {
+        self.shown_in(&self.panes.first, pixel)
+    }
+
+    /// Where a pane shows a frame pixel, in window pixels.
+    pub(in crate::viewer) fn shown_in(&self, pane: &Pane, pixel: [u32; 2]) -> PixelRect {
         let [x, y] = pixel;
         let place = Region {
             x,
@@ -85,7 +90,7 @@ impl WindowLayout {
             width: 1,
             height: 1,
         };
-        magnified(&self.panes.first.place(place), self.zoom())
+        magnified(&pane.place(place), self.zoom())
     }
 
     pub(in crate::viewer) fn panes(&self) -> Panes {

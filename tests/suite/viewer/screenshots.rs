@@ -62,6 +62,48 @@ fn screenshot_tells_how_it_was_made() {
 }
 
 #[test]
+fn screenshot_of_both_says_which_is_whose() {
+    use rasterscope::viewer::Arrangement;
+    let mut session = Session::open(&[TRIANGLES], [640, 480]);
+    session.run(Command::Ab(AbCommand::Compare(Against::Settings)));
+    session.keys(&["="]);
+    // Tags lie along the upper edge, white on a ground that darkens what is below.
+    let marked = |saved: &[[u8; 4]], shown: &[[u8; 4]], columns: std::ops::Range<usize>| {
+        let row = |y: usize| (columns.clone()).map(move |x| y * 640 + x);
+        let differs = |at: &usize| saved[*at] != shown[*at];
+        let above = (0..60).flat_map(row).filter(differs).count();
+        let below = (60..480).flat_map(row).filter(differs).count();
+        assert_eq!(below, 0, "only tags lie over the picture");
+        above
+    };
+    let arrangements = [
+        (Arrangement::Wipe, [true, true]),
+        (Arrangement::SideBySide, [true, true]),
+        (Arrangement::Difference, [true, false]),
+        (Arrangement::Flip, [true, false]),
+    ];
+    for (index, (arrangement, halves)) in arrangements.into_iter().enumerate() {
+        session.run(Command::Ab(AbCommand::Arrange(arrangement)));
+        session.keys(&["s"]);
+        let (saved, shown) = (
+            read(&session.pictures()[index]),
+            rgba(&session.viewer.window().picture()),
+        );
+        assert_eq!(saved.len(), shown.len(), "{arrangement:?}");
+        for (columns, has_tag) in [0..320, 320..640].into_iter().zip(halves) {
+            let count = marked(&saved, &shown, columns);
+            assert_eq!(count > 300, has_tag, "{arrangement:?}: {count} pixels of a tag");
+        }
+    }
+    session.run(Command::Ab(AbCommand::Arrange(Arrangement::Alone)));
+    session.keys(&["s"]);
+    assert!(
+        read(&session.pictures()[4]) == rgba(session.pixels()),
+        "A alone has none"
+    );
+}
+
+#[test]
 fn screenshot_waits_for_the_frame_it_was_asked_for() {
     let mut session = Session::open(&[TRIANGLES], [80, 60]);
     let _ = session

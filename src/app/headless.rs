@@ -111,7 +111,7 @@ pub(super) fn run(options: &ViewOptions) -> Result<Option<String>, AppError> {
     session.settle();
     match session.viewer().chrome().messages().last() {
         Some(Message {
-            kind: MessageKind::Done,
+            kind: MessageKind::Saved,
             text,
             ..
         }) => Ok(Some(text.clone())),

@@ -31,6 +31,45 @@ fn window_after(steps: &str, folder: &Path) -> Framebuffer {
     frame
 }
 
+#[cfg(unix)]
+#[test]
+fn folder_of_saved_pictures_opens_in_the_file_manager() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = tempfile::tempdir().unwrap();
+    // What stands for the desktop's file manager writes down what it is to show.
+    let (bin, shown) = (folder.path().join("bin"), folder.path().join("shown"));
+    std::fs::create_dir(&bin).unwrap();
+    let manager = bin.join("xdg-open");
+    std::fs::write(
+        &manager,
+        format!("#!/bin/sh\nprintf %s \"$1\" > '{}'\n", shown.display()),
+    )
+    .unwrap();
+    std::fs::set_permissions(&manager, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
+    let here = folder.path().canonicalize().unwrap();
+    let scene = flat();
+    let program = Program::open_where(folder, &[&scene], &["--do", "hide on"], &[("PATH", &path)]);
+    program.shows(&viewed(&scene, &[]), "the picture");
+    program.desktop.type_char('s', &[]);
+    let is_picture = |file: &std::path::PathBuf| file.extension().is_some_and(|ending| ending == "png");
+    until("the picture", || {
+        let mut files = std::fs::read_dir(&here).unwrap().map(|file| file.unwrap().path());
+        files.find(is_picture)
+    });
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    program.desktop.type_char('p', &[keysym::CONTROL, keysym::SHIFT]);
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    for character in "open-folder".chars() {
+        program.desktop.type_char(character, &[]);
+    }
+    program.desktop.press(keysym::RETURN, &[]);
+    let told = until("the file manager", || {
+        std::fs::read_to_string(&shown).ok().filter(|told| !told.is_empty())
+    });
+    assert_eq!(Path::new(&told).canonicalize().unwrap(), here);
+}
+
 #[test]
 fn keys_put_a_sheet_together_and_save_it() {
     let path = flat();

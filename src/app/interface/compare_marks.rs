@@ -5,9 +5,10 @@ use std::sync::Arc;
 use egui::text::LayoutJob;
 use egui::{Align2, Color32, CursorIcon, FontId, Galley, Pos2, Rangef, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
 
+use super::compare_letters;
 use super::floating::things;
 use super::pin;
-use super::places::{insets, points};
+use super::places::insets;
 use crate::figure::{Anchor, Tag};
 use crate::viewer::{Arrangement, Viewer};
 
@@ -15,8 +16,6 @@ use crate::viewer::{Arrangement, Viewer};
 const PADDING: Vec2 = vec2(Tag::PADDING[0], Tag::PADDING[1]);
 /// Part of the picture's height that a tag takes at most; what is left of its words becomes dots.
 const MOST_HEIGHT: f32 = 0.3;
-/// Side of the letter beside an inset, in points.
-const LETTER: f32 = 20.0;
 /// Radius of the line's handle, in points.
 const HANDLE: f32 = 9.0;
 /// Free space between the handle and the ring of a pin, in points.
@@ -38,7 +37,8 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Mark
     let scale = ui.pixels_per_point();
     #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
     let line = viewer.both().wipe_line().map(|line| line as f32 / scale);
-    let letters = letters(ui, viewer, free);
+    let line_place = line.map(|x| Rect::from_x_y_ranges(x - HANDLE..=x + HANDLE, free.y_range()));
+    let letters = compare_letters::show(ui, viewer, free, line_place);
     let (mut drawn, mut handle) = (Vec::new(), None);
     let taken = [taken, &letters, &things(viewer, scale)].concat();
     if viewer.ab().arrangement() == Arrangement::Wipe {
@@ -49,71 +49,24 @@ pub(super) fn show(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect]) -> Mark
         (drawn, handle) = draw_line(ui, viewer, free, line, &before);
     }
     let tags = viewer.both().tags([free.left(), free.right()], line);
-    let tags = tags.into_iter().map(|tag| Words {
-        align: if tag.anchor == Anchor::Right {
-            Align2::RIGHT_TOP
-        } else {
-            Align2::LEFT_TOP
-        },
-        tag,
+    let tags = tags
+        .into_iter()
+        .map(|tag| Words::new(tag, ui, free))
+        .collect::<Vec<_>>();
+    // Side by side both lie as high, if that keeps both clear.
+    let places: Vec<Option<Rect>> = tags.iter().map(|words| words.place(free, &taken)).collect();
+    let lowest = places.iter().flatten().map(Rect::top).fold(f32::NEG_INFINITY, f32::max);
+    let tags = tags.iter().zip(&places).filter_map(|(words, place)| {
+        let place = (*place)?;
+        let level = place.translate(vec2(0.0, lowest - place.top()));
+        let is_free = free.contains_rect(level) && taken.iter().all(|other| !other.intersects(level));
+        Some(words.show(ui, if is_free { level } else { place }))
     });
-    let tags = tags.filter_map(|words| words.show(ui, free, &taken));
     Marks {
         labels: tags.chain(letters).collect(),
         line: drawn,
         handle,
     }
-}
-
-/// Which inset is whose: a letter outside, where no magnified pixel is, in the half of its picture, and beside the line and
-/// the ring of a pin where there is room. Returns where the letters are.
-fn letters(ui: &Ui, viewer: &Viewer, free: Rect) -> Vec<Rect> {
-    let Some(other) = viewer.inspector().other_inset() else {
-        return Vec::new();
-    };
-    let scale = ui.pixels_per_point();
-    #[expect(clippy::cast_possible_truncation, reason = "inside the window")]
-    let line = viewer.both().wipe_line().map(|line| line as f32 / scale);
-    let line = line.map(|x| Rect::from_x_y_ranges(x - HANDLE..=x + HANDLE, free.y_range()));
-    let taken: Vec<Rect> = things(viewer, scale).into_iter().chain(line).collect();
-    let mut places = Vec::new();
-    for (letter, placed) in viewer
-        .inspector()
-        .inset()
-        .map(|own| ("A", own))
-        .into_iter()
-        .chain([("B", other)])
-    {
-        let inset = points(&placed.rect, ui.pixels_per_point());
-        let middle = free.center().x;
-        let home = match viewer.ab().arrangement() {
-            Arrangement::SideBySide if inset.center().x < middle => free.with_max_x(middle),
-            Arrangement::SideBySide => free.with_min_x(middle),
-            _ => free,
-        };
-        let size = vec2(LETTER, LETTER);
-        let sides = [
-            inset.left_top() - vec2(LETTER, 0.0),
-            inset.right_top(),
-            inset.left_bottom() - size,
-            inset.right_bottom() - vec2(0.0, LETTER),
-            // Above and below, where the inset is as wide as its half.
-            inset.left_top() - vec2(0.0, LETTER),
-            inset.left_bottom(),
-        ];
-        let sides = sides.map(|corner| Rect::from_min_size(corner, size));
-        let inside = |place: &&Rect| home.contains_rect(**place);
-        // Its own inset touches it.
-        let is_free = |place: &&Rect| taken.iter().all(|other| !other.shrink(0.5).intersects(**place));
-        let place = sides.iter().filter(inside).find(is_free);
-        let place = place.or_else(|| sides.iter().find(inside)).copied().unwrap_or(sides[1]);
-        ui.painter().rect_filled(place, 0.0, Color32::from_black_alpha(190));
-        let font = FontId::proportional(13.0);
-        ui.painter()
-            .text(place.center(), Align2::CENTER_CENTER, letter, font, Color32::WHITE);
-        places.push(place);
-    }
-    places
 }
 
 /// The line with its handle; the pointer tells that it can be dragged. It passes behind the insets, where no hand can
@@ -199,67 +152,73 @@ fn free_pieces(free: Rect, x: f32, insets: &[Rect]) -> Vec<Rangef> {
 /// A tag over the picture in the window, in points.
 struct Words {
     tag: Tag,
-    align: Align2,
+    /// All words in as many lines as a tag may have, unless it is too narrow for words; then their first letter.
+    galleys: Vec<Arc<Galley>>,
 }
 
 impl Words {
-    /// Words on a dark ground at `x`, at most so wide, as high up as nothing is in their way; shortened where they do not fit,
-    /// at last to their first letter, and none where there is not even room for that.
-    fn show(&self, ui: &Ui, free: Rect, taken: &[Rect]) -> Option<Rect> {
-        let (galley, place) = [self.words(ui, free), Some(self.letter(ui))]
-            .into_iter()
-            .flatten()
-            .find_map(|galley| {
-                let place = self.place(galley.size(), free, taken)?;
-                Some((galley, place))
-            })?;
-        let is_short = galley.elided || galley.text() != self.tag.text;
-        ui.painter().rect_filled(place, 5.0, Color32::from_black_alpha(190));
-        ui.painter().galley(place.min + PADDING, galley, Color32::WHITE);
-        if is_short {
-            let id = ui.scope_id().with(("tag", &self.tag.text));
-            ui.interact(place, id, Sense::hover()).on_hover_text(&self.tag.text);
-        }
-        Some(place)
-    }
-
-    /// All words, in as many lines as a tag may have; `None` where it is too narrow for words.
-    fn words(&self, ui: &Ui, free: Rect) -> Option<Arc<Galley>> {
-        if self.tag.room < Tag::LEAST_WORDS {
-            return None;
-        }
+    fn new(tag: Tag, ui: &Ui, free: Rect) -> Self {
         let font = FontId::proportional(12.0);
         let line = ui.fonts_mut(|fonts| fonts.row_height(&font));
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few")]
         let rows = (free.height() * MOST_HEIGHT / line) as usize;
-        let mut job = LayoutJob::simple(self.tag.text.clone(), font, Color32::WHITE, self.tag.room);
-        job.wrap.max_rows = rows.max(2);
-        Some(ui.painter().layout_job(job))
+        let whole = (tag.room >= Tag::LEAST_WORDS).then(|| {
+            let mut job = LayoutJob::simple(tag.text.clone(), font.clone(), Color32::WHITE, tag.room);
+            job.wrap.max_rows = rows.max(2);
+            ui.painter().layout_job(job)
+        });
+        let first = tag.text.chars().next().map(String::from).unwrap_or_default();
+        let letter = ui.painter().layout_no_wrap(first, font, Color32::WHITE);
+        Self {
+            galleys: whole.into_iter().chain([letter]).collect(),
+            tag,
+        }
     }
 
-    fn letter(&self, ui: &Ui) -> Arc<Galley> {
-        let first = self.tag.text.chars().next().map(String::from).unwrap_or_default();
-        ui.painter()
-            .layout_no_wrap(first, FontId::proportional(12.0), Color32::WHITE)
+    /// Where the tag goes, as high up as nothing is in its way: with its words, or with the letter where they have no room;
+    /// `None` where there is not even room for that.
+    fn place(&self, free: Rect, taken: &[Rect]) -> Option<Rect> {
+        let align = if self.tag.anchor == Anchor::Right {
+            Align2::RIGHT_TOP
+        } else {
+            Align2::LEFT_TOP
+        };
+        let fitting = self
+            .galleys
+            .iter()
+            .filter(|galley| galley.size().x <= self.tag.room + 1.0);
+        let mut places = fitting.map(|galley| {
+            let top = pos2(self.tag.x, free.top() + Tag::MARGIN);
+            let mut place = align.anchor_size(top, galley.size() + 2.0 * PADDING);
+            while let Some(other) = taken.iter().find(|other| other.intersects(place)) {
+                place = place.translate(vec2(0.0, other.bottom() + Tag::MARGIN - place.top()));
+            }
+            place
+        });
+        places.find(|place| free.contains_rect(*place))
     }
 
-    /// Where words of such a size go; `None` where there is no room.
-    fn place(&self, words: Vec2, free: Rect, taken: &[Rect]) -> Option<Rect> {
-        if words.x > self.tag.room + 1.0 {
-            return None;
+    /// Draws the words that are as large as `place` on a dark ground, and returns that.
+    fn show(&self, ui: &Ui, place: Rect) -> Rect {
+        let fits = |galley: &&Arc<Galley>| (galley.size() + 2.0 * PADDING - place.size()).length() < 1.0;
+        if let Some(galley) = self.galleys.iter().find(fits) {
+            ui.painter().rect_filled(place, 5.0, Color32::from_black_alpha(190));
+            ui.painter()
+                .galley(place.min + PADDING, Arc::clone(galley), Color32::WHITE);
+            if galley.elided || galley.text() != self.tag.text {
+                let id = ui.scope_id().with(("tag", &self.tag.text));
+                ui.interact(place, id, Sense::hover()).on_hover_text(&self.tag.text);
+            }
         }
-        let size = words + 2.0 * PADDING;
-        let mut place = self.align.anchor_size(pos2(self.tag.x, free.top() + Tag::MARGIN), size);
-        while let Some(other) = taken.iter().find(|other| other.intersects(place)) {
-            place = place.translate(vec2(0.0, other.bottom() + Tag::MARGIN - place.top()));
-        }
-        free.contains_rect(place).then_some(place)
+        place
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::interface::compare_letters::LETTER;
+    use crate::app::interface::places::points;
     use crate::texture::PixelSampling;
     use crate::viewer::{AbCommand, InspectorCommand, WindowCommand};
     use crate::viewer::{Against, Command, PixelRect, Toggle, ViewerOptions};

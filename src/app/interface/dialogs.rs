@@ -48,6 +48,8 @@ struct Question {
     button: &'static str,
     /// The command that takes the answer.
     command: &'static str,
+    /// Whether the answer is a path, which may be long.
+    takes_path: bool,
     /// Whether the answer is a picture of the folder that is listed, too.
     lists_pictures: bool,
 }
@@ -55,6 +57,7 @@ struct Question {
 /// The titles of the dialogs that ask for something.
 const GO_TO_PIXEL: &str = "Go to pixel";
 const COMPARE_PICTURE: &str = "Compare with a picture";
+const SAVE_AS: &str = "Save picture as";
 
 /// Where the open dialog was in the last pass, in points.
 pub(super) fn place(ctx: &Context, viewer: &Viewer) -> Option<Rect> {
@@ -64,6 +67,7 @@ pub(super) fn place(ctx: &Context, viewer: &Viewer) -> Option<Rect> {
         Dialog::Open => "open",
         Dialog::GoToPixel => GO_TO_PIXEL,
         Dialog::ComparePicture => COMPARE_PICTURE,
+        Dialog::SaveAs => SAVE_AS,
         Dialog::Sheet => "sheet",
     };
     ctx.memory(|memory| memory.area_rect(Id::unique(name)))
@@ -113,6 +117,7 @@ impl Dialogs {
                     missing: "type the pixel's column and row first",
                     button: "Pin",
                     command: "pin",
+                    takes_path: false,
                     lists_pictures: false,
                 };
                 self.ask(ctx, &question, just_opened, commands);
@@ -125,6 +130,7 @@ impl Dialogs {
                     missing: "type the path of a picture first, or choose one",
                     button: "Compare",
                     command: "against",
+                    takes_path: true,
                     lists_pictures: true,
                 };
                 if just_opened {
@@ -132,6 +138,23 @@ impl Dialogs {
                 }
                 self.ask(ctx, &question, just_opened, commands);
                 self.path.clone_from(&self.text);
+            }
+            Some(Dialog::SaveAs) => {
+                if just_opened && let Some(path) = viewer.new_picture_path() {
+                    self.text = path.display().to_string();
+                    self.caret_to_end = true;
+                }
+                let question = Question {
+                    title: SAVE_AS,
+                    name: "File",
+                    hint: "path of a new PNG file".to_owned(),
+                    missing: "type the path of a new PNG file first",
+                    button: "Save",
+                    command: "save-as",
+                    takes_path: true,
+                    lists_pictures: false,
+                };
+                self.ask(ctx, &question, just_opened, commands);
             }
             Some(Dialog::Sheet) => self.sheet.show(ctx, viewer, commands),
             None => {}
@@ -170,7 +193,7 @@ impl Dialogs {
     /// Asks for the argument of a command.
     fn ask(&mut self, ctx: &Context, question: &Question, just_opened: bool, commands: &mut Vec<Command>) {
         let modal = modal(question.title).show(ctx, |ui| {
-            let width = if question.lists_pictures { 420.0 } else { 300.0_f32 };
+            let width = if question.takes_path { 420.0 } else { 300.0_f32 };
             ui.set_width(width.min(ctx.content_rect().width() - 40.0));
             ui.heading(question.title);
             let enter = self.line(ui, question.name, &question.hint, just_opened);

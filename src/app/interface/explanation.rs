@@ -318,6 +318,9 @@ fn title(ui: &mut Ui, viewer: &Viewer, is_page: bool, commands: &mut Vec<Command
             );
         }
         ui.label(RichText::new(format!("Pixel {x}, {y}")).strong().size(14.0));
+        if viewer.ab().other().is_some() {
+            ui.label("of A");
+        }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if !is_page && command_button(ui, "explanation", "Close").clicked() {
                 commands.push(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));

@@ -186,7 +186,8 @@ pub(super) fn words(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Com
                 let area = area.max_height(size.y).min_scrolled_height(size.y);
                 area.show(ui, |ui| {
                     for paragraph in text.lines() {
-                        ui.label(paragraph);
+                        // A key and the colon behind it stay on one line.
+                        ui.label(paragraph.replace(" : ", "\u{a0}: "));
                     }
                 });
                 ui.add_space(2.0);

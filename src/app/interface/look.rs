@@ -1,4 +1,4 @@
-//! How the panels look: sizes, type and colours of both themes, set once per change of theme.
+//! How the panels look: sizes, type and colours of both themes, with and without the presenter look, set once per change.
 
 use egui::style::{ScrollFadeStyle, ScrollStyle};
 use egui::{Color32, Context, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Ui, Vec2, vec2};
@@ -51,6 +51,32 @@ const DARK: Palette = Palette {
     shadow: 90,
 };
 
+/// What differs in the presenter look: a projector in a lit room makes grey of dark, and eats thin lines.
+const DARK_CONTRAST: Palette = Palette {
+    panel: Color32::BLACK,
+    field: Color32::BLACK,
+    control: Color32::from_rgb(52, 54, 60),
+    line: Color32::from_rgb(150, 154, 162),
+    text: Color32::from_rgb(245, 246, 248),
+    weak: Color32::from_rgb(214, 217, 222),
+    strong: Color32::WHITE,
+    tick_box: Color32::from_rgb(120, 125, 135),
+    ..DARK
+};
+
+const LIGHT_CONTRAST: Palette = Palette {
+    panel: Color32::WHITE,
+    control: Color32::from_rgb(222, 222, 219),
+    line: Color32::from_rgb(110, 112, 116),
+    text: Color32::from_rgb(8, 9, 10),
+    weak: Color32::from_rgb(52, 54, 58),
+    strong: Color32::BLACK,
+    tick_box: Color32::from_rgb(150, 150, 146),
+    warning: Color32::from_rgb(120, 72, 0),
+    error: Color32::from_rgb(156, 20, 16),
+    ..LIGHT
+};
+
 const LIGHT: Palette = Palette {
     panel: Color32::from_rgb(246, 246, 244),
     field: Color32::from_rgb(255, 255, 255),
@@ -72,7 +98,7 @@ const LIGHT: Palette = Palette {
 /// Sets sizes and type, and what holds for both themes. `animated` is false where pictures must not depend on time.
 pub(super) fn install(ctx: &Context, animated: bool) {
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
-    for (theme, palette) in [(egui::Theme::Dark, &DARK), (egui::Theme::Light, &LIGHT)] {
+    for theme in [egui::Theme::Dark, egui::Theme::Light] {
         ctx.style_mut_of(theme, |style| {
             let font = |size| FontId::new(size, FontFamily::Proportional);
             style.text_styles = [
@@ -97,7 +123,6 @@ pub(super) fn install(ctx: &Context, animated: bool) {
                 style.visuals.text_cursor.blink = false;
                 style.scroll_animation = egui::style::ScrollAnimation::none();
             }
-            paint(&mut style.visuals, palette);
         });
     }
 }
@@ -140,8 +165,16 @@ pub(super) fn beside_bar<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) ->
     .inner
 }
 
-/// Chooses the theme.
-pub(super) fn set_theme(ctx: &Context, theme: Theme) {
+/// Chooses the theme, and whether it is the one for a projector.
+pub(super) fn set_look(ctx: &Context, (theme, presenter): (Theme, bool)) {
+    let [dark, light] = if presenter {
+        [&DARK_CONTRAST, &LIGHT_CONTRAST]
+    } else {
+        [&DARK, &LIGHT]
+    };
+    for (theme, palette) in [(egui::Theme::Dark, dark), (egui::Theme::Light, light)] {
+        ctx.style_mut_of(theme, |style| paint(&mut style.visuals, palette));
+    }
     ctx.set_theme(match theme {
         Theme::Dark => egui::Theme::Dark,
         Theme::Light => egui::Theme::Light,

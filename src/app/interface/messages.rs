@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use egui::{Align2, Area, Color32, Frame, Id, Order, Rect, RichText, Sense, TextStyle, Ui, Vec2, vec2};
 
-use crate::viewer::{ASKS_FOR, Command, Message, MessageKind, Viewer, WindowCommand};
+use crate::viewer::{ASKS_FOR, Command, ExportCommand, Message, MessageKind, Viewer, WindowCommand};
 
 /// Seconds that a message stays.
 const DONE_SECONDS: f64 = 5.0;
@@ -53,7 +53,7 @@ impl Messages {
         let mut covered: Vec<Rect> = Vec::new();
         for message in viewer.chrome().messages() {
             let seconds = match message.kind {
-                MessageKind::Done => DONE_SECONDS,
+                MessageKind::Done | MessageKind::Saved => DONE_SECONDS,
                 MessageKind::Error => ERROR_SECONDS,
                 MessageKind::Question => ASKS_FOR.as_secs_f64(),
             };
@@ -63,18 +63,22 @@ impl Messages {
                 .map(|(_, place)| place)
                 .filter(|place| is_free(free, *place, &things))
                 .or_else(|| {
-                    let size = |width| size(ui, message, width);
+                    let size = |width| size(ui, viewer, message, width);
                     let all = [&things, taken.words].concat();
                     place(free, &all, size).or_else(|| place(free, &things, size))
                 })
                 .unwrap_or_else(|| {
                     let width = WIDTHS[0].min(free.width() - 2.0 * MARGIN);
-                    above(free, &covered, size(ui, message, width.max(WIDTHS[4])))
+                    above(free, &covered, size(ui, viewer, message, width.max(WIDTHS[4])))
                 });
             let end = before.map_or(now + seconds, |(end, _)| end);
             self.shown.insert(message.id, (end, place));
-            let (rect, clicked) = toast(ui, message, place);
-            if now >= end || clicked {
+            let offers_folder = offers_folder(viewer, message);
+            let (rect, clicked) = toast(ui, message, place, offers_folder);
+            if clicked == Some(Clicked::Folder) {
+                commands.push(Command::Export(ExportCommand::OpenFolder));
+            }
+            if now >= end || clicked.is_some() {
                 commands.push(Command::Window(WindowCommand::DismissMessage(message.id)));
             } else {
                 let rest = std::time::Duration::from_secs_f64((end - now).clamp(0.02, 60.0));
@@ -87,12 +91,35 @@ impl Messages {
 }
 
 /// How large a message is that may be so wide.
-fn size(ui: &Ui, message: &Message, width: f32) -> Vec2 {
+fn size(ui: &Ui, viewer: &Viewer, message: &Message, width: f32) -> Vec2 {
     let font = TextStyle::Body.resolve(ui.style());
     let text = message.text.clone();
     let galley = ui.painter().layout(text, font, Color32::WHITE, width - 2.0 * PADDING);
     let frame = 2.0 * (PADDING + ui.visuals().window_stroke.width);
-    galley.size().ceil() + Vec2::splat(frame)
+    let button = if offers_folder(viewer, message) {
+        ui.spacing().interact_size.y + ui.spacing().item_spacing.y
+    } else {
+        0.0
+    };
+    galley.size().ceil() + Vec2::splat(frame) + vec2(0.0, button)
+}
+
+/// Whether a message offers to show the folder of what was saved: the last one that tells of that, so that there is no doubt
+/// which folder it is.
+fn offers_folder(viewer: &Viewer, message: &Message) -> bool {
+    let mut messages = viewer.chrome().messages().iter().rev();
+    messages
+        .find(|message| message.kind == MessageKind::Saved)
+        .is_some_and(|last| last.id == message.id)
+}
+
+/// What was clicked of a message.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Clicked {
+    /// Itself, to close it.
+    Message,
+    /// Its button.
+    Folder,
 }
 
 /// Whether a message may be there.
@@ -129,12 +156,13 @@ fn above(free: Rect, messages: &[Rect], size: Vec2) -> Rect {
     Align2::LEFT_BOTTOM.anchor_size(egui::pos2(free.left() + MARGIN, bottom), size)
 }
 
-fn toast(ui: &Ui, message: &Message, place: Rect) -> (Rect, bool) {
+fn toast(ui: &Ui, message: &Message, place: Rect, offers_folder: bool) -> (Rect, Option<Clicked>) {
     let visuals = ui.visuals();
     let color = match message.kind {
-        MessageKind::Done | MessageKind::Question => visuals.strong_text_color(),
+        MessageKind::Done | MessageKind::Saved | MessageKind::Question => visuals.strong_text_color(),
         MessageKind::Error => visuals.error_fg_color,
     };
+    let mut folder = false;
     let text = RichText::new(&message.text).color(color);
     let frame = vec2(PADDING, PADDING) + Vec2::splat(ui.visuals().window_stroke.width);
     let response = Area::new(Id::unique(("message", message.id)))
@@ -148,11 +176,15 @@ fn toast(ui: &Ui, message: &Message, place: Rect) -> (Rect, bool) {
             Frame::popup(ui.style()).inner_margin(PADDING).show(ui, |ui| {
                 ui.set_max_width(place.width() - 2.0 * frame.x);
                 ui.label(text);
+                folder = offers_folder && ui.button("Open folder").clicked();
             });
         })
         .response;
     let response = response.on_hover_text("Click to close");
-    (response.rect, response.clicked())
+    let clicked = folder
+        .then_some(Clicked::Folder)
+        .or_else(|| response.clicked().then_some(Clicked::Message));
+    (response.rect, clicked)
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@
 
 mod chooser;
 mod compare;
+mod compare_letters;
 mod compare_marks;
 mod compare_numbers;
 mod contributions;
@@ -17,6 +18,7 @@ mod document;
 mod explanation;
 mod explanation_side;
 mod floating;
+mod focus;
 mod hits;
 mod hovered;
 mod lesson;
@@ -47,12 +49,13 @@ use crate::viewer::WindowCommand;
 use egui::{Area, Context, Frame, Id, Margin, Order, Panel, Pos2, Rect, Sense, Ui};
 use glam::DVec2;
 
-use crate::viewer::{Command, PixelRect, Theme, ViewNumbers, Viewer};
+use crate::viewer::{Chrome, Command, KeyPress, PixelRect, Theme, ViewNumbers, Viewer};
 use compare_marks::Marks;
 use dialogs::Dialogs;
 use explanation::ExplanationPanel;
 use explanation_side::Side;
 use floating::CloseOfInset;
+use focus::FocusPanel;
 use hovered::Hovered;
 use messages::{Messages, Taken};
 use scenes::Thumbnails;
@@ -69,7 +72,7 @@ const USEFUL_PICTURE: f32 = 560.0;
 #[derive(Debug)]
 pub(super) struct Interface {
     ctx: Context,
-    theme: Option<Theme>,
+    look: Option<(Theme, bool)>,
     /// Whether times of redraws are shown: pictures that must be alike leave them out.
     timed: bool,
     thumbnails: Thumbnails,
@@ -115,7 +118,7 @@ impl Interface {
         look::install(&ctx, timed);
         Self {
             ctx,
-            theme: None,
+            look: None,
             timed,
             thumbnails: Thumbnails::default(),
             view: ViewNumbers {
@@ -194,10 +197,11 @@ impl Interface {
     }
 
     /// Takes the viewer's theme; to be called before a pass, which keeps the one that it begins with.
-    pub(super) fn follow_theme(&mut self, theme: Theme) {
-        if self.theme != Some(theme) {
-            self.theme = Some(theme);
-            look::set_theme(&self.ctx, theme);
+    pub(super) fn follow_theme(&mut self, chrome: &Chrome) {
+        let look = (chrome.theme(), chrome.presenter());
+        if self.look != Some(look) {
+            self.look = Some(look);
+            look::set_look(&self.ctx, look);
         }
     }
 
@@ -214,7 +218,10 @@ impl Interface {
             let line = Panel::bottom("status")
                 .resizable(false)
                 .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 4)))
-                .show(ui, |ui| status::show(ui, viewer, &mut asked.commands));
+                .show(ui, |ui| {
+                    FocusPanel::Status.head(ui);
+                    status::show(ui, viewer, &mut asked.commands)
+                });
             self.covered.push(line.response.rect);
             if let Some(spec) = line.inner {
                 self.dialogs.ask_for(spec, &mut asked.commands);
@@ -266,6 +273,24 @@ impl Interface {
         self.hold_clicks();
         let ctx = self.ctx.clone();
         self.dialogs.show(&ctx, viewer, &mut asked.commands);
+        focus::outline(&ctx);
+    }
+
+    /// The next panel has the keyboard, or the one before; behind the last the picture.
+    pub(super) fn step_focus(&self, viewer: &Viewer, back: bool) {
+        if viewer.chrome().dialog().is_none() && !self.list_is_open() {
+            focus::step(&self.ctx, back);
+        }
+    }
+
+    /// The picture has the keyboard.
+    pub(super) fn leave_panels(&self) {
+        focus::leave(&self.ctx);
+    }
+
+    /// Whether the control that has the focus wants this key.
+    pub(super) fn takes_key(&self, press: &KeyPress) -> bool {
+        focus::takes(&self.ctx, press)
     }
 
     /// What floats over the picture, but for words. Returns where cards are.

@@ -3,6 +3,7 @@
 use egui::{Panel, Rect, ScrollArea, Ui};
 
 use super::explanation_side::{Room, Side};
+use super::focus::FocusPanel;
 use super::widths::SizedPanel;
 use super::{Asked, Hovered, Interface, compare, explanation, lesson, look, panel_frame, pin, places};
 use crate::viewer::{Arrangement, Viewer};
@@ -25,6 +26,7 @@ impl Interface {
             .exact_size(self.widths.of(SizedPanel::Lesson, window))
             .frame(panel_frame(ui, look::scrolling_margin(8)))
             .show(ui, |ui| {
+                FocusPanel::Lesson.head(ui);
                 look::bars_beside(ui);
                 look::beside_bar(ui, |ui| lesson::head(ui, viewer, commands));
                 if shares && viewer.pixels().pinned().is_some() {
@@ -70,6 +72,7 @@ impl Interface {
             .exact_size(width)
             .frame(panel_frame(ui, look::scrolling_margin(4)))
             .show(ui, |ui| {
+                FocusPanel::Comparison.head(ui);
                 look::bars_beside(ui);
                 let area = ScrollArea::vertical().id_salt("compare").auto_shrink(false);
                 area.show(ui, |ui| compare::show(ui, viewer, &mut asked.commands));
@@ -112,6 +115,7 @@ impl Interface {
             .exact_size(width)
             .frame(panel_frame(ui, look::scrolling_margin(8)))
             .show(ui, |ui| {
+                FocusPanel::Explanation.head(ui);
                 look::bars_beside(ui);
                 memory.show(ui, viewer, &mut asked.commands)
             });

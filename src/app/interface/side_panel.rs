@@ -9,6 +9,7 @@ use egui::style::ScrollStyle;
 use egui::{Panel, ScrollArea, Ui};
 
 use super::document::Readings;
+use super::focus::FocusPanel;
 use super::scenes::{self, Wishes};
 use super::{Asked, Interface, SizedPanel, compare, document, look, panel_frame, sampling, view_numbers};
 use crate::viewer::{SceneEntry, SceneSource, Viewer};
@@ -70,6 +71,7 @@ impl Interface {
             .exact_size(self.widths.of(SizedPanel::Side, window))
             .frame(panel_frame(ui, look::scrolling_margin(4)))
             .show(ui, |ui| {
+                FocusPanel::Side.head(ui);
                 look::bars_beside(ui);
                 self.panel.follow(viewer);
                 let height = ui.available_height();

@@ -55,6 +55,7 @@ fn is_on(viewer: &Viewer, command: &Command) -> bool {
             WindowCommand::Panel(_) => chrome.panel(),
             WindowCommand::About(_) => chrome.about(),
             WindowCommand::StartCard(_) => chrome.start_card(),
+            WindowCommand::Presenter(_) => chrome.presenter(),
             WindowCommand::SetInterfaceScale(scale) => chrome.interface_scale() == *scale,
             _ => false,
         },

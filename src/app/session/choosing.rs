@@ -8,7 +8,7 @@ use super::hands::{click, nodes, place_of, session};
 use super::small_windows::{click_on, says};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Dialog, LessonCommand, LessonSource, Other, Toggle};
+use crate::viewer::{Dialog, ExportCommand, LessonCommand, LessonSource, Other, Toggle, ViewerOptions};
 
 /// Two clicks at one place, as fast as a hand makes them.
 fn double_click(session: &mut Session, name: &str) {
@@ -147,4 +147,30 @@ fn steps_of_a_lesson_are_a_list_to_choose_from() {
     click_on(&mut session, &title);
     assert_eq!(session.viewer().lesson().map(|(_, at)| at), Some(4), "the fifth");
     assert!(has(&mut session, "step 5 of 10"), "as the button says");
+}
+
+#[test]
+fn message_of_a_saved_picture_opens_its_folder() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for window in comparing::WINDOWS {
+        let options = ViewerOptions {
+            window,
+            screenshot_dir: Some(folder.path().to_owned()),
+            ..ViewerOptions::default()
+        };
+        let viewer = Viewer::new(options).expect("threads");
+        let mut session = Session::new(viewer, 1.0, Clock::Simulated(0.0));
+        session.ctx().enable_accesskit();
+        session.settle();
+        for _ in 0..2 {
+            session.command(Command::Export(ExportCommand::Screenshot));
+            session.settle();
+        }
+        let offers = nodes(&mut session);
+        let offers = offers.iter().filter(|node| node.label() == Some("Open folder"));
+        assert_eq!(offers.count(), 1, "the last message offers it in {window:?}");
+        click_on(&mut session, "Open folder");
+        assert_eq!(session.take_folder().as_deref(), Some(folder.path()), "{window:?}");
+        assert_eq!(session.take_folder(), None, "once");
+    }
 }

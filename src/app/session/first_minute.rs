@@ -5,6 +5,7 @@ use glam::dvec2;
 use super::hands::{click, key, place_of, session};
 use super::small_windows::{click_on, says};
 use super::*;
+use crate::viewer::Theme;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{Dialog, Toggle, ViewCommand};
 
@@ -277,5 +278,52 @@ fn scene_tells_what_to_look_at() {
         session.settle();
         click_on(&mut session, "Close the scene's words");
         assert!(!says(&mut session, words), "the button closes them");
+    }
+}
+
+#[test]
+fn presenter_look_is_larger_and_has_more_contrast() {
+    let mut session = session(Vec::new(), [1920, 1080]);
+    session.command(Command::Inspector(InspectorCommand::Pin([900, 500])));
+    session.settle();
+    let ring = |session: &Session| session.interface.rings(&session.viewer)[0].width() * session.scale();
+    let luminance = |color: egui::Color32| {
+        let [red, green, blue, _] = egui::Rgba::from(color).to_array();
+        0.2126 * red + 0.7152 * green + 0.0722 * blue
+    };
+    // The contrast of WCAG 2, section 1.4.3, of plain and of weak letters on panels.
+    let contrasts = |session: &Session| {
+        let visuals = session.ctx().global_style().visuals.clone();
+        [visuals.text_color(), visuals.weak_text_color()].map(|color| {
+            let [a, b] = [color, visuals.panel_fill].map(|color| luminance(color) + 0.05);
+            a.max(b) / a.min(b)
+        })
+    };
+    for theme in [Theme::Dark, Theme::Light] {
+        session.command(Command::Window(WindowCommand::SetTheme(theme)));
+        session.settle();
+        let before = (session.scale(), ring(&session), contrasts(&session));
+        session.command(Command::Window(WindowCommand::Presenter(Toggle::On)));
+        session.settle();
+        let (scale, wide, [text, weak]) = (session.scale(), ring(&session), contrasts(&session));
+        assert!(scale >= before.0 * 1.49, "{scale} for {}", before.0);
+        assert!(
+            wide >= before.1 * 1.8,
+            "a ring of {wide} pixels for one of {}",
+            before.1
+        );
+        assert!(
+            text > before.2[0] && weak > before.2[1],
+            "{text}, {weak} for {:?}",
+            before.2
+        );
+        assert!(text >= 15.0 && weak >= 10.0, "{theme:?}: {text}, {weak}");
+        session.command(Command::Window(WindowCommand::Presenter(Toggle::Flip)));
+        session.settle();
+        assert_eq!(
+            (session.scale(), ring(&session), contrasts(&session)),
+            before,
+            "and back"
+        );
     }
 }

@@ -12,6 +12,9 @@ impl Session {
         if press.logical == Some(Key::Escape) && self.interface.list_is_open() {
             return None;
         }
+        if self.viewer.chrome().dialog().is_none() && self.interface.takes_key(press) {
+            return None;
+        }
         let command = commands::for_key(press)?;
         let typing = self.interface.has_keyboard();
         let asks = matches!(
@@ -43,6 +46,7 @@ impl Session {
     /// A button of the mouse at the pointer's place. True if the picture took it.
     pub(in crate::app) fn pointer_button(&mut self, button: PointerButton, down: bool) -> bool {
         if down && self.is_on_picture() {
+            self.interface.leave_panels();
             self.holds_picture = button == PointerButton::Primary;
             self.run(Command::Pointer(PointerCommand::Pressed(button)));
             return true;

@@ -176,3 +176,39 @@ fn magnifiers_stay_where_the_wheel_turns_over_them() {
         }
     }
 }
+
+#[test]
+fn magnifiers_of_a_wipe_leave_both_sides_in_sight() {
+    for window in WINDOWS {
+        for part in [0.2, 0.4, 0.6, 0.8] {
+            let mut session = comparing(window);
+            session.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
+            session.settle();
+            let free = session.free_area.expect("there is room");
+            let x = (free.x as f64 + f64::from(free.width) * part).round();
+            right_click(&mut session, [x, f64::from(window[1]) * 0.45]);
+            let free = session.free_area.expect("there is room");
+            let line = session.viewer.both().wipe_line().expect("a wipe") as i64;
+            let insets = [
+                session.viewer.inspector().inset(),
+                session.viewer.inspector().other_inset(),
+            ]
+            .map(|placed| placed.expect("there is room").rect);
+            assert!(insets[0].right() <= insets[1].x, "A's to the left: {insets:?}");
+            for (left, right) in [(free.x, line), (line, free.right())] {
+                let side = PixelRect {
+                    x: left,
+                    width: u32::try_from(right - left).unwrap_or_default(),
+                    ..free
+                };
+                let area = |rect: &PixelRect| f64::from(rect.width) * f64::from(rect.height);
+                let covered: f64 = insets.iter().map(|inset| area(&inset.intersection(&side))).sum();
+                assert!(
+                    covered <= 0.6 * area(&side),
+                    "{covered} of {} in {window:?} at {part}",
+                    area(&side)
+                );
+            }
+        }
+    }
+}

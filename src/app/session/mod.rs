@@ -16,6 +16,8 @@ mod first_minute;
 mod hands;
 mod input;
 #[cfg(test)]
+mod keyboard;
+#[cfg(test)]
 mod lessons;
 #[cfg(test)]
 mod magnifiers;
@@ -38,6 +40,7 @@ mod tests;
 use crate::viewer::{InspectorCommand, PointerCommand, SheetCommand, WindowCommand};
 use std::collections::VecDeque;
 use std::io::Write as _;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use egui::{Event, PlatformOutput, Pos2, RawInput, Rect, ViewportId, vec2};
@@ -134,6 +137,8 @@ struct Outbox {
     pictures: u32,
     copied: Option<String>,
     copied_picture: Option<Framebuffer>,
+    /// The folder to show in the file manager.
+    folder: Option<PathBuf>,
 }
 
 impl Session {
@@ -253,6 +258,11 @@ impl Session {
         self.outbox.copied_picture.take()
     }
 
+    /// The folder that is to be shown in the file manager.
+    pub(super) fn take_folder(&mut self) -> Option<PathBuf> {
+        self.outbox.folder.take()
+    }
+
     /// Another size of the window, in device pixels, or another scale of the panels.
     pub(super) fn set_size(&mut self, size: [u32; 2], scale: f32) {
         self.native_scale = scale;
@@ -267,21 +277,22 @@ impl Session {
     fn scale(&self) -> f32 {
         let [width, height] = self.viewer.chrome().window_size().map(|side| side as f32);
         let largest = (width / LEAST_WINDOW[0]).min(height / LEAST_WINDOW[1]);
-        let wanted = self.native_scale * self.viewer.chrome().interface_scale().factor();
+        let wanted = self.native_scale * self.viewer.chrome().interface_factor();
         wanted.min(largest.max(self.native_scale))
     }
 
     /// Runs a command and carries out its effects.
     pub(super) fn run(&mut self, command: Command) {
         let (wanted, command) = self.wanted(command);
-        let before = (self.viewer.lesson().is_some(), self.viewer.chrome().interface_scale());
+        let fold = |viewer: &Viewer| (viewer.lesson().is_some(), viewer.chrome().interface_factor());
+        let before = fold(&self.viewer);
         let asks_by_hand = matches!(
             command,
             Command::Inspector(InspectorCommand::PinUnderPointer | InspectorCommand::PinEdge)
                 | Command::Pointer(PointerCommand::Pressed(PointerButton::Secondary))
         );
         self.apply(command);
-        if before != (self.viewer.lesson().is_some(), self.viewer.chrome().interface_scale()) {
+        if before != fold(&self.viewer) {
             self.fold_panel();
         }
         self.share_room(wanted);
@@ -296,6 +307,8 @@ impl Session {
                 Effect::CopyText(text) => self.outbox.copied = Some(text),
                 Effect::CopyPicture(picture) => self.outbox.copied_picture = Some(picture),
                 Effect::PictureOfWindow => self.outbox.pictures = self.outbox.pictures.saturating_add(1),
+                Effect::OpenFolder(folder) => self.outbox.folder = Some(folder),
+                Effect::FocusPanel { back } => self.interface.step_focus(&self.viewer, back),
                 Effect::Quit => self.outbox.quit = true,
             }
         }
@@ -327,7 +340,7 @@ impl Session {
             viewport.native_pixels_per_point = Some(self.native_scale);
             let mut asked = Asked::default();
             let (interface, viewer) = (&mut self.interface, &self.viewer);
-            interface.follow_theme(viewer.chrome().theme());
+            interface.follow_theme(viewer.chrome());
             let ctx = interface.ctx().clone();
             ctx.options_mut(|options| options.zoom_factor = scale / self.native_scale);
             let start = Instant::now();

@@ -97,7 +97,8 @@ impl Session {
     }
 
     /// Lets the side panel and the explanation make way for each other where both have no room: what was wanted last is
-    /// to be seen. A panel that made way comes back, unless it would cover the pinned pixel.
+    /// to be seen. A panel that made way comes back, unless it would cover the pinned pixel; while that is out of sight
+    /// nothing changes, since a turn of the wheel may bring it there and back, with the pointer where the panel would be.
     pub(super) fn share_room(&mut self, wanted: Wanted) {
         let (panel, explains) = (self.viewer.chrome().panel(), self.viewer.pixels().explains());
         let is_narrow = self.is_narrow();
@@ -118,7 +119,8 @@ impl Session {
                 && !self.viewer.chrome().everything_hidden() =>
             {
                 let width = self.viewer.chrome().window_size()[0] as f32 / self.scale();
-                let is_free = !explains && self.interface.panel_leaves_pin(&self.viewer, width, self.scale());
+                let is_closed = !explains && !self.viewer.pixels().explains_out_of_sight();
+                let is_free = is_closed && self.interface.panel_leaves_pin(&self.viewer, width, self.scale());
                 if is_free || !is_narrow {
                     self.room.gave_way = false;
                     self.apply(Command::Window(WindowCommand::Panel(Toggle::On)));

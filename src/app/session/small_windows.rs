@@ -288,6 +288,31 @@ fn explanation_of_another_view_leads_back_to_the_picture() {
 }
 
 #[test]
+fn panel_does_not_come_under_the_pointer_that_zooms() {
+    let mut session = session(Vec::new(), [800, 600]);
+    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+    session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+    session.settle();
+    right_click(&mut session, [420.0, 300.0]);
+    assert!(!session.viewer.chrome().panel(), "the panel made way");
+    let at = dvec2(700.0, 250.0);
+    session.pointer(Some(at));
+    let scale = |session: &Session| session.viewer.both().view_numbers().expect("a scene").scale;
+    let mut before = scale(&session);
+    for turn in 0..12 {
+        session.wheel(1.0);
+        session.settle();
+        assert!(!session.viewer.chrome().panel(), "after turn {turn}");
+        let now = scale(&session);
+        assert!(now > before * 1.05, "turn {turn} zooms: {before} to {now}");
+        before = now;
+    }
+    assert_eq!(session.viewer.pixels().pinned(), None, "the pin went out of sight");
+    session.command(Command::Inspector(InspectorCommand::Unpin));
+    assert!(session.viewer.chrome().panel(), "without a pin it comes back");
+}
+
+#[test]
 fn panel_that_is_closed_leaves_the_picture() {
     let mut session = session(Vec::new(), [800, 600]);
     session.command(Command::Window(WindowCommand::Panel(Toggle::On)));

@@ -116,6 +116,9 @@ impl Handler {
             InterfaceScale::from_percent((wanted / scale * 100.0).round().clamp(0.0, 1000.0) as u32)
         });
         session.run(Command::Window(WindowCommand::SetInterfaceScale(interface)));
+        if self.remembered.presenter {
+            session.run(Command::Window(WindowCommand::Presenter(Toggle::On)));
+        }
         session.run(Command::Scenes(SceneCommand::RememberOpened(
             self.remembered.recent.clone(),
         )));
@@ -174,6 +177,7 @@ impl Handler {
         if self.options.scale.is_none() {
             now.set_interface_scale(viewer.chrome().interface_scale());
         }
+        now.presenter = viewer.chrome().presenter();
         now.panel = opened.session.panel_choice().or(now.panel);
         now.panel_widths = opened.session.panel_widths();
         if self.options.size.is_none() && !viewer.chrome().window_size().contains(&0) {

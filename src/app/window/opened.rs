@@ -4,6 +4,7 @@
 //! follows it. Nothing is drawn unless something changed.
 
 use std::num::NonZeroU32;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -241,11 +242,23 @@ fn run_panels(session: &mut Session, egui: &mut egui_winit::State, window: &Wind
             .commands
             .push(OutputCommand::CopyImage(image_of(&picture)));
     }
+    if let Some(folder) = session.take_folder() {
+        show_folder(session, &folder);
+    }
     egui.handle_platform_output(window, turn.platform);
     if let Some(text) = session.take_copied() {
         egui.set_clipboard_text(text);
     }
     (turn.times, turn.next)
+}
+
+/// Opens a folder in the desktop's file manager; says so where there is none.
+fn show_folder(session: &mut Session, folder: &Path) {
+    if let Err(error) = open::that_detached(folder) {
+        let folder = folder.display();
+        let problem = format!("{folder}: no file manager shows this folder: {error}; open it by hand");
+        session.tell_problem(problem);
+    }
 }
 
 /// The number of the picture that the next frame will show.

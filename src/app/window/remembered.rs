@@ -33,6 +33,9 @@ pub(super) struct Remembered {
     /// Size of panels and letters in percent.
     #[serde(skip_serializing_if = "Option::is_none")]
     interface_scale: Option<u32>,
+    /// Whether the window looks as a projector needs it.
+    #[serde(skip_serializing_if = "is_first")]
+    pub(super) presenter: bool,
     /// Whether the side panel is open, where the user chose.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) panel: Option<bool>,
@@ -168,6 +171,7 @@ mod tests {
         };
         remembered.set_theme(Theme::Light);
         remembered.set_interface_scale(InterfaceScale::from_percent(150));
+        remembered.presenter = true;
         let many: Vec<PathBuf> = (0..40)
             .map(|i| PathBuf::from(format!("/scenes/a \"b\" {i}.svg")))
             .collect();

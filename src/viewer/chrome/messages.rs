@@ -24,6 +24,8 @@ pub struct Message {
 pub enum MessageKind {
     /// Something was done.
     Done,
+    /// Something was saved; its folder can be opened.
+    Saved,
     /// Something could not be done.
     Error,
     /// Waits [`crate::viewer::chrome::ending::ASKS_FOR`] for the same key again.
@@ -56,6 +58,10 @@ impl Messages {
 
     pub(in crate::viewer) fn done(&mut self, text: String) {
         self.add(MessageKind::Done, text);
+    }
+
+    pub(in crate::viewer) fn saved(&mut self, text: String) {
+        self.add(MessageKind::Saved, text);
     }
 
     pub(in crate::viewer) fn question(&mut self, text: String) {

@@ -23,6 +23,8 @@ pub enum Dialog {
     GoToPixel,
     /// Asks for a picture's path.
     ComparePicture,
+    /// Asks where the picture is to be saved.
+    SaveAs,
     /// Puts a sheet together.
     Sheet,
 }
@@ -40,6 +42,8 @@ pub struct Chrome {
     /// Whether the ways on for newcomers lie over the picture.
     pub(in crate::viewer) start_card: bool,
     pub(in crate::viewer) interface_scale: InterfaceScale,
+    /// Whether the window is to be read from afar.
+    pub(in crate::viewer) presenter: bool,
     pub(in crate::viewer) messages: Messages,
     pub(in crate::viewer) ending: Ending,
 }
@@ -60,6 +64,7 @@ impl Chrome {
             },
             start_card: false,
             interface_scale: InterfaceScale::default(),
+            presenter: false,
             messages: Messages::default(),
             ending: Ending::default(),
         }
@@ -102,6 +107,18 @@ impl Chrome {
     /// How large panels and their letters are.
     pub fn interface_scale(&self) -> InterfaceScale {
         self.interface_scale
+    }
+
+    /// Whether the window looks as a projector needs it: larger, with more contrast.
+    pub fn presenter(&self) -> bool {
+        self.presenter
+    }
+
+    /// How many times as large as the monitor has them panels and letters are to be.
+    pub fn interface_factor(&self) -> f32 {
+        /// What the presenter look adds.
+        const LARGER: f32 = 1.5;
+        self.interface_scale.factor() * if self.presenter { LARGER } else { 1.0 }
     }
 
     /// Whether the ways on for newcomers lie over the picture.

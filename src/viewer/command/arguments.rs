@@ -1,9 +1,10 @@
 //! Arguments that a person types after a command's word, in scripts and in the palette: text to [`Command`].
 
 use crate::viewer::{
-    AbCommand, InspectorCommand, LessonCommand, SceneCommand, SheetCommand, ViewCommand, WindowCommand,
+    AbCommand, ExportCommand, InspectorCommand, LessonCommand, SceneCommand, SheetCommand, ViewCommand, WindowCommand,
 };
 use std::borrow::Cow;
+use std::path::PathBuf;
 
 use crate::color::ResolveSpace;
 use crate::compare::Measure;
@@ -161,6 +162,25 @@ pub(in crate::viewer) const OPEN: Argument = argument("a path", |text| {
     (!text.is_empty()).then(|| Command::Scenes(SceneCommand::Open(vec![path(text)])))
 });
 
+pub(in crate::viewer) const SAVE_AS: Argument = argument("the path of a new PNG file", |text| {
+    new_png(path(text)).map(ExportCommand::SaveAs).map(Command::Export)
+});
+
+/// A path that names a PNG file, with its ending where none was typed.
+fn new_png(mut path: PathBuf) -> Option<PathBuf> {
+    let is_folder = path.file_name().is_none() || path.as_os_str().to_string_lossy().ends_with(std::path::is_separator);
+    if is_folder {
+        return None;
+    }
+    match path.extension() {
+        None => {
+            path.set_extension("png");
+            Some(path)
+        }
+        Some(ending) => ending.eq_ignore_ascii_case("png").then_some(path),
+    }
+}
+
 pub(in crate::viewer) const INSPECTOR: Argument = argument(Toggle::FORM, |text| {
     toggle(text).map(InspectorCommand::Show).map(Command::Inspector)
 });
@@ -197,6 +217,10 @@ pub(in crate::viewer) const ABOUT: Argument = argument(Toggle::FORM, |text| {
 
 pub(in crate::viewer) const START_CARD: Argument = argument(Toggle::FORM, |text| {
     toggle(text).map(WindowCommand::StartCard).map(Command::Window)
+});
+
+pub(in crate::viewer) const PRESENTER: Argument = argument(Toggle::FORM, |text| {
+    toggle(text).map(WindowCommand::Presenter).map(Command::Window)
 });
 
 pub(in crate::viewer) const INTERFACE_SCALE: Argument = argument("a percentage from 50 to 300", |text| {
@@ -266,6 +290,18 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
+
+    #[test]
+    fn pictures_are_saved_as_png_files() {
+        let file = |text| SAVE_AS.parse(text).ok();
+        let at = |path: &str| Some(Command::Export(ExportCommand::SaveAs(path.into())));
+        assert_eq!(file("a b/c.png"), at("a b/c.png"));
+        assert_eq!(file("c.PNG"), at("c.PNG"));
+        assert_eq!(file("c"), at("c.png"), "the ending need not be typed");
+        for wrong in ["", "c.jpg", "folder/", "..", "/"] {
+            assert_eq!(file(wrong), None, "{wrong}");
+        }
+    }
 
     #[test]
     fn paths_are_read_as_people_type_them() {

@@ -9,6 +9,8 @@ pub(in crate::viewer) mod parts;
 pub(in crate::viewer) mod spec;
 pub(in crate::viewer) mod table;
 
+use std::path::PathBuf;
+
 use crate::raster::Framebuffer;
 use crate::viewer::settings::picture::SettingChange;
 
@@ -67,6 +69,13 @@ pub enum Effect {
     CopyPicture(Framebuffer),
     /// Give the picture of the whole window to [`crate::viewer::state::Viewer::save_window_picture`].
     PictureOfWindow,
+    /// Show this folder in the platform's file manager.
+    OpenFolder(PathBuf),
+    /// Give the keyboard to the next panel.
+    FocusPanel {
+        /// To the one before.
+        back: bool,
+    },
     /// End the program.
     Quit,
 }

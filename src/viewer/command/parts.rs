@@ -170,7 +170,7 @@ pub enum InspectorCommand {
 }
 
 /// What leaves the program.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum ExportCommand {
     /// Copies place and colour of the inspected pixel.
     CopyPixel,
@@ -184,6 +184,10 @@ pub enum ExportCommand {
     CopyCommandLine,
     /// Saves the frame, with the inspector's inset where it is open.
     Screenshot,
+    /// Saves the same in this PNG file, which must not exist yet.
+    SaveAs(PathBuf),
+    /// Opens the folder where a picture was saved last, or would be.
+    OpenFolder,
     /// Saves the whole window with overlay and panels.
     WindowScreenshot,
 }
@@ -232,6 +236,13 @@ pub enum WindowCommand {
     StepInterfaceScale {
         /// Larger, not smaller.
         up: bool,
+    },
+    /// Larger type, a thick ring around the pin and more contrast, for a projector, or none of that.
+    Presenter(Toggle),
+    /// The next panel has the keyboard; behind the last the picture.
+    FocusPanel {
+        /// The panel before.
+        back: bool,
     },
     /// Removes a message from the screen.
     DismissMessage(u64),

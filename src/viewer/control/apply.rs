@@ -64,9 +64,13 @@ impl Viewer {
             Command::Lesson(command) => self.opening().lessons().apply(command),
             Command::Inspector(command) => self.hand().apply_inspector(command),
             Command::Export(ExportCommand::WindowScreenshot) => return vec![Effect::PictureOfWindow],
+            Command::Export(ExportCommand::OpenFolder) => {
+                return vec![Effect::OpenFolder(self.export.saver.folder_to_show())];
+            }
             Command::Export(command) => {
+                let saves = matches!(command, ExportCommand::Screenshot | ExportCommand::SaveAs(_));
                 let copied = self.saving().export(command);
-                if command == ExportCommand::Screenshot {
+                if saves {
                     // No preview, and no rest: the picture of this moment, even if the view goes on moving.
                     self.drawings().set_hurry(true);
                 }
@@ -138,6 +142,8 @@ impl Viewer {
             WindowCommand::StartCard(toggle) => screen.start_card = toggle.of(screen.start_card),
             WindowCommand::SetInterfaceScale(scale) => screen.interface_scale = scale,
             WindowCommand::StepInterfaceScale { up } => screen.interface_scale = screen.interface_scale.step(up),
+            WindowCommand::Presenter(toggle) => screen.presenter = toggle.of(screen.presenter),
+            WindowCommand::FocusPanel { back } => return vec![Effect::FocusPanel { back }],
             WindowCommand::DismissMessage(id) => self.chrome.messages.dismiss(id),
             WindowCommand::Escape => return self.escape(),
             WindowCommand::Quit => return vec![Effect::Quit],

@@ -96,6 +96,12 @@ impl Pointing<'_> {
         self.inspector.explains(self.chrome, both.scene_list, &both.layout)
     }
 
+    /// Whether there would be an explanation if its pixel were in sight.
+    pub fn explains_out_of_sight(&self) -> bool {
+        let has_pin = self.inspector.magnifier.open && self.inspector.magnifier.pin.is_some();
+        has_pin && self.chrome.shown.explanation && self.pinned().is_none()
+    }
+
     /// Whether there is a pinned pixel that the panels of a sheet can magnify.
     pub fn sheet_has_inset(&self) -> bool {
         self.inspector.magnifier.open && self.pinned().is_some()

@@ -1,5 +1,7 @@
 //! Screenshots and sheets: asked for now, made when the frame and the scene of this state are there.
 
+use std::path::{Path, PathBuf};
+
 use crate::viewer::chrome::Dialog;
 use crate::viewer::control::copy::Copied;
 use crate::viewer::control::recipes::Recipes;
@@ -7,7 +9,9 @@ use crate::viewer::export::saver::Work;
 use crate::viewer::export::sheet::desk::SheetDesk;
 use crate::viewer::export::sheet::preview::SheetQuestion;
 use crate::viewer::export::sheet::saving::SheetJob;
+use crate::viewer::export::spec::output_name;
 use crate::viewer::export::state::Export;
+use crate::viewer::state::Viewer;
 use crate::viewer::{ExportCommand, SheetCommand};
 
 /// What saves, and what it saves.
@@ -29,15 +33,39 @@ pub(in crate::viewer) enum Screenshots {
     NoPicture,
 }
 
+impl Viewer {
+    /// A file that does not exist yet, for the picture that is shown: named like its scene, where the last one was saved.
+    /// `None` without a scene.
+    pub fn new_picture_path(&self) -> Option<PathBuf> {
+        /// Names that are tried.
+        const ATTEMPTS: u32 = 1000;
+        let name = output_name(&self.scene_list.current()?.label);
+        let stem = name.strip_suffix(".png").unwrap_or(&name);
+        let folder = self.export.saver.folder_to_show();
+        let names = std::iter::once(format!("{stem}.png")).chain((2..=ATTEMPTS).map(|n| format!("{stem}-{n}.png")));
+        let mut paths = names.map(|name| folder.join(name));
+        let path = paths.find(|path| !path.exists())?;
+        Some(path.strip_prefix(".").map_or_else(|_| path.clone(), Path::to_owned))
+    }
+}
+
 impl Saving<'_> {
     /// What a command puts on the clipboard, if it does, or why it cannot; a screenshot is noted.
     pub(in crate::viewer) fn export(&mut self, command: ExportCommand) -> Option<Result<Copied, String>> {
         let recipes = &self.recipes;
         match command {
-            // The program around the viewer makes it.
-            ExportCommand::WindowScreenshot => None,
+            // The program around the viewer does these.
+            ExportCommand::WindowScreenshot | ExportCommand::OpenFolder => None,
             ExportCommand::Screenshot => {
-                self.export.saver.ask(recipes.both.frames.drawing.newest_request());
+                self.export
+                    .saver
+                    .ask(recipes.both.frames.drawing.newest_request(), None);
+                None
+            }
+            ExportCommand::SaveAs(path) => {
+                self.export
+                    .saver
+                    .ask(recipes.both.frames.drawing.newest_request(), Some(path));
                 None
             }
             ExportCommand::Copy if recipes.pixels.inspector.magnifier.open => Copied::pixel(&recipes.pixels).map(Ok),
@@ -79,16 +107,20 @@ impl Saving<'_> {
             if !drawing.is_current() {
                 return Screenshots::Wait;
             }
-            saver.waiting = 0;
+            saver.waiting.clear();
             return Screenshots::NoPicture;
         };
         if both.ab.shows_both() && !both.ab.is_current() {
             return Screenshots::Wait;
         }
         let recipe = self.recipes.recipe_of_frame(frame, both.ab.shows_both());
-        for _ in 0..std::mem::take(&mut saver.waiting) {
+        for file in std::mem::take(&mut saver.waiting) {
             let shot = self.recipes.shot_of(frame, recipe.as_ref());
-            saver.push(Work::Picture(shot, recipe.clone().map(Box::new)));
+            saver.push(Work::Picture {
+                shot,
+                recipe: recipe.clone().map(Box::new),
+                file,
+            });
         }
         Screenshots::Saved
     }

@@ -137,9 +137,11 @@ impl Viewer {
                 .error("nothing to save: the window has no pixels; make it larger".to_owned());
         } else {
             let recipe = self.recipes().recipe_of_window();
-            self.export
-                .saver
-                .push(Work::Picture(Shot::Ready(window), recipe.map(Box::new)));
+            self.export.saver.push(Work::Picture {
+                shot: Shot::Ready(window),
+                recipe: recipe.map(Box::new),
+                file: None,
+            });
         }
         self.update();
     }

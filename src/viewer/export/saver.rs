@@ -34,9 +34,11 @@ pub(in crate::viewer) struct Saver {
     /// Where pictures go; `None` is the current folder.
     folder: Option<PathBuf>,
     name: NameTemplate,
-    /// Screenshots that wait for a final frame, and the request that it must not be older than: what was to be seen when
-    /// the last was asked for.
-    pub(in crate::viewer) waiting: u32,
+    /// Where the last picture went.
+    last_folder: Option<PathBuf>,
+    /// Screenshots that wait for a final frame, with their files where those were chosen, and the request that the frame
+    /// must not be older than: what was to be seen when the last was asked for.
+    pub(in crate::viewer) waiting: Vec<Option<PathBuf>>,
     pub(in crate::viewer) since: u64,
     /// Pictures at work.
     running: u32,
@@ -50,7 +52,12 @@ pub(in crate::viewer) struct Job {
 }
 
 pub(in crate::viewer) enum Work {
-    Picture(Shot, Option<Box<Recipe>>),
+    Picture {
+        shot: Shot,
+        recipe: Option<Box<Recipe>>,
+        /// The file; one with a name of its own in the folder where there is none.
+        file: Option<PathBuf>,
+    },
     Sheet(Box<SheetJob>),
 }
 
@@ -102,25 +109,32 @@ impl Saver {
             workers: WorkerPool::start("save", 1, AtEnd::Complete, work)?,
             folder,
             name,
-            waiting: 0,
+            last_folder: None,
+            waiting: Vec::new(),
             since: 0,
             running: 0,
         })
     }
 
     pub(in crate::viewer) fn is_idle(&self) -> bool {
-        self.waiting == 0 && self.running == 0
+        self.waiting.is_empty() && self.running == 0
     }
 
-    /// A screenshot of the frame of this request, or of a later one, is to be saved.
-    pub(in crate::viewer) fn ask(&mut self, request: u64) {
-        self.waiting = self.waiting.saturating_add(1);
+    /// A screenshot of the frame of this request, or of a later one, is to be saved, in this file if one was chosen.
+    pub(in crate::viewer) fn ask(&mut self, request: u64, file: Option<PathBuf>) {
+        self.waiting.push(file);
         self.since = request;
+    }
+
+    /// The folder where the last picture went, or the next will go.
+    pub(in crate::viewer) fn folder_to_show(&self) -> PathBuf {
+        let folder = self.last_folder.as_ref().or(self.folder.as_ref());
+        folder.cloned().unwrap_or_else(|| PathBuf::from("."))
     }
 
     /// Whether a screenshot waits for its frame.
     pub(in crate::viewer) fn is_waiting(&self) -> bool {
-        self.waiting > 0
+        !self.waiting.is_empty()
     }
 
     /// Takes in what became of a picture, and tells the user.
@@ -128,7 +142,10 @@ impl Saver {
         self.running = self.running.saturating_sub(1);
         match saved {
             Ok((path, [width, height])) => {
-                messages.done(format!("saved {}, {width} x {height} pixels", path.display()));
+                let (name, folder) = (path.file_name().unwrap_or_default(), folder_of(&path));
+                let (name, place) = (name.display(), folder.display());
+                messages.saved(format!("saved {name}, {width} x {height} pixels, in {place}"));
+                self.last_folder = Some(folder);
             }
             Err(problem) => messages.error(problem),
         }
@@ -167,8 +184,13 @@ impl Shot {
 impl Job {
     fn save(self) -> Result<(PathBuf, [u32; 2]), String> {
         match self.work {
-            Work::Picture(picture, recipe) => {
-                save_new(&self.folder, &self.name, &picture.picture()?, recipe.as_deref())
+            Work::Picture {
+                shot,
+                recipe,
+                file: Some(file),
+            } => save_at(&file, &shot.picture()?, recipe.as_deref()),
+            Work::Picture { shot, recipe, .. } => {
+                save_new(&self.folder, &self.name, &shot.picture()?, recipe.as_deref())
             }
             Work::Sheet(sheet) => {
                 let stem = self.name.name(Some(sheet.spec()), &now());
@@ -203,6 +225,30 @@ fn zone() -> TimeZone {
         return TimeZone::UTC;
     }
     TimeZone::system()
+}
+
+/// The whole path of the folder that holds a file, as far as it can be told.
+fn folder_of(file: &Path) -> PathBuf {
+    let folder = file.parent().unwrap_or(Path::new("."));
+    std::path::absolute(folder.join(".")).map_or_else(|_| folder.to_owned(), |whole| whole.components().collect())
+}
+
+/// Saves `picture` in a file that does not exist yet.
+fn save_at(path: &Path, picture: &Framebuffer, recipe: Option<&Recipe>) -> Result<(PathBuf, [u32; 2]), String> {
+    let record = recipe.map(|recipe| recipe.record(path));
+    let bytes =
+        encode_png(picture, record.as_ref()).map_err(|error| format!("cannot make a PNG of this picture: {error}"))?;
+    match write_new(path, &bytes) {
+        Ok(()) => Ok((path.to_owned(), [picture.width(), picture.height()])),
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Err(format!(
+            "{}: this file exists and is not replaced; choose another name",
+            path.display()
+        )),
+        Err(error) => Err(format!(
+            "{}: cannot save here: {error}; choose another place",
+            path.display()
+        )),
+    }
 }
 
 /// Saves `picture` in `folder` under a name that did not exist.

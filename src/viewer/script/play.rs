@@ -167,6 +167,8 @@ impl Stage for ViewerStage<'_> {
                     let picture = self.viewer.window().picture();
                     self.viewer.save_window_picture(picture);
                 }
+                // Nor a desktop, nor panels.
+                Effect::OpenFolder(_) | Effect::FocusPanel { .. } => {}
                 Effect::Quit => self.has_quit = true,
             }
         }

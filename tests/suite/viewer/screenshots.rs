@@ -104,6 +104,44 @@ fn screenshot_of_both_says_which_is_whose() {
 }
 
 #[test]
+fn save_as_makes_the_file_that_was_named_and_replaces_none() {
+    let mut session = Session::open(&[TRIANGLES], [80, 60]);
+    let elsewhere = tempfile::tempdir().unwrap();
+    let file = elsewhere.path().join("figure.png");
+    session.run(step("sample-rate", 1.0));
+    session.run(Command::Export(ExportCommand::SaveAs(file.clone())));
+    assert!(read(&file) == rgba(session.pixels()), "every pixel");
+    assert_eq!(Record::of_file(&file).unwrap().unwrap().size, [80, 60]);
+    assert!(session.pictures().is_empty(), "nowhere else");
+    let last = |session: &Session| session.viewer.chrome().messages().last().unwrap().clone();
+    let folder = elsewhere.path().to_str().unwrap();
+    let said = last(&session);
+    assert_eq!(said.kind, MessageKind::Saved);
+    assert!(said.text.ends_with(folder), "{} names the folder", said.text);
+    assert_eq!(
+        session.run(Command::Export(ExportCommand::OpenFolder)),
+        [Effect::OpenFolder(elsewhere.path().to_owned())],
+        "the last one"
+    );
+    let before = std::fs::read(&file).unwrap();
+    session.keys(&["="]);
+    session.run(Command::Export(ExportCommand::SaveAs(file.clone())));
+    let said = last(&session);
+    assert_eq!(said.kind, MessageKind::Error);
+    assert!(said.text.contains("figure.png: this file exists"), "{}", said.text);
+    assert_eq!(std::fs::read(&file).unwrap(), before, "left as it was");
+    let proposed = session.viewer.new_picture_path().unwrap();
+    assert_eq!(proposed, elsewhere.path().join("1.png"), "named like the scene");
+    session.run(Command::Export(ExportCommand::SaveAs(proposed)));
+    let next = session.viewer.new_picture_path().unwrap();
+    assert_eq!(next, elsewhere.path().join("1-2.png"), "one that is not there yet");
+    session.run(Command::Export(ExportCommand::SaveAs(
+        elsewhere.path().join("no/such.png"),
+    )));
+    assert!(last(&session).text.contains("cannot save here"), "{:?}", last(&session));
+}
+
+#[test]
 fn screenshot_waits_for_the_frame_it_was_asked_for() {
     let mut session = Session::open(&[TRIANGLES], [80, 60]);
     let _ = session

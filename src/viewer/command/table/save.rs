@@ -24,6 +24,21 @@ pub(super) static SAVE: &[CommandSpec] = &[
     .keys(&[Chord::char('s')])
     .run(&Command::Export(ExportCommand::Screenshot)),
     spec(
+        "save-as",
+        "Save picture as",
+        "Saves the same in a file of your choice, which must not exist yet",
+        Group::Save,
+    )
+    .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::SaveAs)))
+    .argument(arguments::SAVE_AS),
+    spec(
+        "open-folder",
+        "Open the folder of saved pictures",
+        "Shows the folder of what was saved last in the file manager",
+        Group::Save,
+    )
+    .run(&Command::Export(ExportCommand::OpenFolder)),
+    spec(
         "window-screenshot",
         "Save window",
         "Saves the whole window as PNG, panels included",

@@ -10,6 +10,7 @@ use crate::viewer::command::spec::Group;
 use crate::viewer::command::spec::spec;
 use crate::viewer::key_chords::Chord;
 use crate::viewer::key_chords::Key;
+use crate::viewer::key_chords::Modifiers;
 use crate::viewer::settings::Toggle;
 
 /// The lines under this heading, in the order of help and menus.
@@ -35,6 +36,22 @@ pub(super) static WINDOW: &[CommandSpec] = &[
     spec("panel", "Side panel", "Shows or hides the side panel", Group::Window)
         .run(&Command::Window(WindowCommand::Panel(Toggle::Flip)))
         .argument(arguments::PANEL),
+    spec(
+        "next-panel",
+        "Next panel",
+        "Gives the keyboard to the next panel, where Tab goes from control to control; Esc gives it back to the picture",
+        Group::Window,
+    )
+    .keys(&[Chord::named(Key::F(6))])
+    .run(&Command::Window(WindowCommand::FocusPanel { back: false })),
+    spec(
+        "previous-panel",
+        "Previous panel",
+        "Gives the keyboard to the panel before this one",
+        Group::Window,
+    )
+    .keys(&[Chord::new(Key::F(6), Modifiers::SHIFT)])
+    .run(&Command::Window(WindowCommand::FocusPanel { back: true })),
     spec(
         "theme",
         "Theme",
@@ -69,6 +86,14 @@ pub(super) static WINDOW: &[CommandSpec] = &[
         InterfaceScale::ORIGINAL,
     )))
     .argument(arguments::INTERFACE_SCALE),
+    spec(
+        "presenter",
+        "Presenter look",
+        "Larger letters, a thick ring around the pin and more contrast, to be read from the back row",
+        Group::Window,
+    )
+    .run(&Command::Window(WindowCommand::Presenter(Toggle::Flip)))
+    .argument(arguments::PRESENTER),
     spec(
         "start-card",
         "Start card",

@@ -1,0 +1,128 @@
+//! The keyboard in panels: a key goes from panel to panel, Tab from control to control inside them, and what has the focus is
+//! outlined.
+//!
+//! Every panel begins with a head that is not to be seen and can have the focus, as `Sense::focusable_noninteractive` is for:
+//! from there Tab finds the panel's first control.
+
+use egui::{Color32, Context, CornerRadius, Id, Order, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo};
+
+use crate::viewer::{Key, KeyPress, Modifiers};
+
+/// Width of the outline of what has the focus, in points; a second line of half that width tells it from any ground.
+const OUTLINE: f32 = 2.0;
+
+/// A panel that the keyboard can go to, in the order of the key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FocusPanel {
+    Lesson,
+    Explanation,
+    Comparison,
+    Side,
+    Status,
+}
+
+impl FocusPanel {
+    const ALL: [Self; 5] = [
+        Self::Lesson,
+        Self::Explanation,
+        Self::Comparison,
+        Self::Side,
+        Self::Status,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Lesson => "Panel: lesson",
+            Self::Explanation => "Panel: explanation",
+            Self::Comparison => "Panel: comparison",
+            Self::Side => "Panel: settings",
+            Self::Status => "Panel: status",
+        }
+    }
+
+    fn id(self) -> Id {
+        Id::unique(self.name())
+    }
+
+    /// Begins the panel: to be called before anything else in it.
+    pub(super) fn head(self, ui: &Ui) {
+        let response = ui.interact(ui.max_rect(), self.id(), Sense::focusable_noninteractive());
+        response.widget_info(|| WidgetInfo::labeled(Role::Pane, true, self.name()));
+    }
+
+    /// Where the panel was in the last pass; `None` while it is not to be seen.
+    fn place(self, ctx: &Context) -> Option<Rect> {
+        ctx.read_response(self.id()).map(|response| response.rect)
+    }
+}
+
+/// Gives the focus to the head of the next panel, or of the one before; behind the last the picture has the keys again.
+pub(super) fn step(ctx: &Context, back: bool) {
+    let mut panels: Vec<(FocusPanel, Rect)> = FocusPanel::ALL
+        .into_iter()
+        .filter_map(|panel| Some((panel, panel.place(ctx)?)))
+        .collect();
+    if back {
+        panels.reverse();
+    }
+    let now = focused(ctx).map(|place| place.center());
+    let next = match now.and_then(|at| panels.iter().position(|(_, place)| place.contains(at))) {
+        Some(at) => panels.get(at + 1),
+        None => panels.first(),
+    };
+    match next {
+        Some((panel, _)) => ctx.memory_mut(|memory| memory.request_focus(panel.id())),
+        None => leave(ctx),
+    }
+}
+
+/// Takes the focus from panels.
+pub(super) fn leave(ctx: &Context) {
+    ctx.memory_mut(|memory| {
+        if let Some(id) = memory.focused() {
+            memory.surrender_focus(id);
+        }
+    });
+}
+
+/// Where what has the focus lies; `None` while the picture has the keys.
+fn focused(ctx: &Context) -> Option<Rect> {
+    let id = ctx.memory(|memory| memory.focused())?;
+    ctx.read_response(id).map(|response| response.rect)
+}
+
+/// Whether a panel wants this key: those that go from control to control and press them, while one has the focus.
+pub(super) fn takes(ctx: &Context, press: &KeyPress) -> bool {
+    let is_plain = !press.modifiers.contains(Modifiers::CTRL) && !press.modifiers.contains(Modifiers::ALT);
+    let steers = matches!(
+        press.logical,
+        Some(Key::Tab | Key::Space | Key::Enter | Key::Escape | Key::Left | Key::Right | Key::Up | Key::Down)
+    );
+    is_plain && steers && focused(ctx).is_some()
+}
+
+/// Outlines what has the focus, above everything.
+pub(super) fn outline(ctx: &Context) {
+    let Some(place) = focused(ctx).filter(|_| !ctx.text_edit_focused()) else {
+        return;
+    };
+    let (accent, ground) = ctx
+        .global_style()
+        .visuals
+        .dark_mode
+        .then_some(Color32::BLACK)
+        .map_or_else(
+            || (ctx.global_style().visuals.selection.bg_fill, Color32::WHITE),
+            |ground| (Color32::from_rgb(120, 178, 255), ground),
+        );
+    let painter = ctx.layer_painter(egui::LayerId::new(Order::Tooltip, Id::unique("focus")));
+    let place = place.expand(OUTLINE).intersect(ctx.content_rect().shrink(OUTLINE));
+    for (width, color) in [(2.0 * OUTLINE, ground), (OUTLINE, accent)] {
+        painter.rect_stroke(
+            place,
+            CornerRadius::same(4),
+            Stroke::new(width, color),
+            StrokeKind::Middle,
+        );
+    }
+}

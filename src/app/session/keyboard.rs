@@ -1,0 +1,118 @@
+//! Panels without a mouse: a key goes from panel to panel, Tab inside them.
+
+use glam::dvec2;
+
+use super::hands::{key, nodes, session};
+use super::small_windows::right_click;
+use super::*;
+use crate::viewer::script::Stage as _;
+use crate::viewer::{AbCommand, Against, Toggle};
+
+/// The name of what has the keyboard; `None` for the picture.
+fn focused(session: &mut Session) -> Option<String> {
+    let update = session.quiet_turn().platform.accesskit_update?;
+    let (_, node) = update.nodes.into_iter().find(|(id, _)| *id == update.focus)?;
+    node.label().map(str::to_owned).filter(|name| !name.is_empty())
+}
+
+#[test]
+fn a_key_goes_through_all_panels_and_back_to_the_picture() {
+    let mut session = session(Vec::new(), [1920, 1080]);
+    session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+    session.settle();
+    right_click(&mut session, [800.0, 500.0]);
+    let nobody = focused(&mut session);
+    let mut seen = Vec::new();
+    for _ in 0..6 {
+        key(&mut session, "F6");
+        seen.push(focused(&mut session));
+    }
+    let mut panels: Vec<&str> = seen.iter().flatten().map(String::as_str).collect();
+    panels.retain(|name| name.starts_with("Panel: "));
+    assert_eq!(
+        panels[..3],
+        ["Panel: explanation", "Panel: settings", "Panel: status"],
+        "{seen:?}"
+    );
+    assert_eq!(seen[3], nobody, "behind the last the picture");
+    assert_eq!(seen[4].as_deref(), Some("Panel: explanation"), "and round");
+    key(&mut session, "Shift+F6");
+    assert_eq!(focused(&mut session).as_deref(), Some("Panel: explanation"), "one back");
+}
+
+#[test]
+fn tab_goes_through_a_panel_that_has_the_keyboard_and_hides_panels_otherwise() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    let nobody = focused(&mut session);
+    key(&mut session, "F6");
+    assert_eq!(focused(&mut session).as_deref(), Some("Panel: settings"));
+    let mut controls = Vec::new();
+    for _ in 0..4 {
+        key(&mut session, "Tab");
+        controls.push(focused(&mut session).expect("a control"));
+    }
+    assert!(!session.viewer.chrome().everything_hidden(), "Tab is the panel's");
+    assert!(controls.iter().all(|name| !name.starts_with("Panel: ")), "{controls:?}");
+    let rate = session.viewer.settings().render.sample_rate;
+    // The fourth is the fourth of the sample rates; the space bar presses it and does not show the canvas.
+    key(&mut session, "Space");
+    session.settle();
+    assert_ne!(
+        session.viewer.settings().render.sample_rate,
+        rate,
+        "pressed {controls:?}"
+    );
+    key(&mut session, "Shift+Tab");
+    assert_eq!(focused(&mut session).as_ref(), Some(&controls[2]), "one back");
+    key(&mut session, "v");
+    session.settle();
+    assert_ne!(
+        session.viewer.settings().render.visualisation,
+        crate::render::Visualisation::Color,
+        "other keys do what they always do"
+    );
+    key(&mut session, "Escape");
+    assert_eq!(
+        focused(&mut session),
+        nobody,
+        "Esc gives the keyboard back to the picture"
+    );
+    assert!(!session.viewer.chrome().everything_hidden());
+    key(&mut session, "Tab");
+    assert!(
+        session.viewer.chrome().everything_hidden(),
+        "there Tab hides the panels"
+    );
+}
+
+#[test]
+fn what_has_the_keyboard_is_outlined_and_a_click_on_the_picture_takes_it() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    session.command(Command::Window(WindowCommand::StartCard(Toggle::Off)));
+    session.settle();
+    let before = session.picture();
+    key(&mut session, "F6");
+    key(&mut session, "Tab");
+    session.quiet_turn();
+    let focus = session.picture();
+    let name = focused(&mut session).expect("a control");
+    let bounds = nodes(&mut session)
+        .into_iter()
+        .find(|node| node.label() == Some(&name))
+        .and_then(|node| node.bounds())
+        .expect("its place");
+    let changed = |x: u32, y: u32| before.rgba(x, y) != focus.rgba(x, y);
+    let around = (bounds.x0 as u32 - 2..bounds.x1 as u32 + 2).filter(|x| changed(*x, bounds.y0 as u32 - 2));
+    assert!(
+        around.count() + 4 >= (bounds.x1 - bounds.x0) as usize,
+        "{name} is outlined at {bounds:?}"
+    );
+    session.pointer(Some(dvec2(500.0, 400.0)));
+    for down in [true, false] {
+        session.button(PointerButton::Primary, down);
+    }
+    session.settle();
+    session.pointer(None);
+    session.quiet_turn();
+    assert!(session.picture() == before, "the click took the keyboard away");
+}

@@ -6,9 +6,11 @@ use egui::{Align, Align2, Area, Button, Context, Id, Key, Layout, Modal, Order, 
 use egui::{TextEdit, Ui, vec2};
 
 use super::chooser::Chooser;
+use super::gallery;
 use super::look::{self, CONTROL};
 use super::modal::{BACKDROP, beside, modal};
 use super::palette::{self, BETWEEN_ENTRIES, Does, ENTRY};
+use super::scenes::Thumbnails;
 use super::sheet::SheetDialog;
 use super::start;
 use crate::viewer::commands::{self, GESTURES};
@@ -28,6 +30,8 @@ pub(super) struct Dialogs {
     sheet: SheetDialog,
     /// The folder to open files from: it is listed where it was left.
     pub(super) chooser: Chooser,
+    /// The pictures of the page of scenes.
+    pub(super) thumbnails: Thumbnails,
     /// The command that the palette opens with, to ask for its argument.
     begins_with: Option<&'static CommandSpec>,
 }
@@ -68,6 +72,7 @@ pub(super) fn place(ctx: &Context, viewer: &Viewer) -> Option<Rect> {
         Dialog::GoToPixel => GO_TO_PIXEL,
         Dialog::ComparePicture => COMPARE_PICTURE,
         Dialog::SaveAs => SAVE_AS,
+        Dialog::Scenes => gallery::NAME,
         Dialog::Sheet => "sheet",
     };
     ctx.memory(|memory| memory.area_rect(Id::unique(name)))
@@ -80,8 +85,8 @@ impl Dialogs {
         commands.push(Command::Window(WindowCommand::ToggleDialog(Dialog::Palette)));
     }
 
-    /// Shows the dialog that is open.
-    pub(super) fn show(&mut self, ctx: &Context, viewer: &Viewer, commands: &mut Vec<Command>) {
+    /// Shows the dialog that is open. Returns the scenes whose thumbnails it misses.
+    pub(super) fn show(&mut self, ctx: &Context, viewer: &Viewer, commands: &mut Vec<Command>) -> Vec<usize> {
         let just_opened = self.open != viewer.chrome().dialog();
         if just_opened {
             let begins_with = self.begins_with.take();
@@ -93,6 +98,7 @@ impl Dialogs {
                 caret_to_end: is_path,
                 path,
                 chooser: std::mem::take(&mut self.chooser),
+                thumbnails: std::mem::take(&mut self.thumbnails),
                 ..Self::default()
             };
             if let Some(spec) = begins_with.filter(|_| viewer.chrome().dialog() == Some(Dialog::Palette)) {
@@ -156,9 +162,11 @@ impl Dialogs {
                 };
                 self.ask(ctx, &question, just_opened, commands);
             }
+            Some(Dialog::Scenes) => return self.gallery(ctx, viewer, just_opened, commands),
             Some(Dialog::Sheet) => self.sheet.show(ctx, viewer, commands),
             None => {}
         }
+        Vec::new()
     }
 
     /// A line of text that has the keyboard. True when Enter was pressed.

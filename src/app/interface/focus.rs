@@ -6,6 +6,7 @@
 
 use egui::{Color32, Context, CornerRadius, Id, Order, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo};
 
+use super::look;
 use crate::viewer::{Key, KeyPress, Modifiers};
 
 /// Width of the outline of what has the focus, in points; a second line of half that width tells it from any ground.
@@ -46,7 +47,8 @@ impl FocusPanel {
 
     /// Begins the panel: to be called before anything else in it.
     pub(super) fn head(self, ui: &Ui) {
-        let response = ui.interact(ui.max_rect(), self.id(), Sense::focusable_noninteractive());
+        let whole = ui.max_rect().expand(f32::from(look::MARGIN)).intersect(ui.clip_rect());
+        let response = ui.interact(whole, self.id(), Sense::focusable_noninteractive());
         response.widget_info(|| WidgetInfo::labeled(Role::Pane, true, self.name()));
     }
 

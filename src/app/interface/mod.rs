@@ -19,6 +19,7 @@ mod explanation;
 mod explanation_side;
 mod floating;
 mod focus;
+mod gallery;
 mod hits;
 mod hovered;
 mod lesson;
@@ -272,7 +273,8 @@ impl Interface {
         self.words(ui, viewer, taken, asked);
         self.hold_clicks();
         let ctx = self.ctx.clone();
-        self.dialogs.show(&ctx, viewer, &mut asked.commands);
+        let thumbnails = self.dialogs.show(&ctx, viewer, &mut asked.commands);
+        asked.thumbnails.extend(thumbnails);
         focus::outline(&ctx);
     }
 

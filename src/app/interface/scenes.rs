@@ -9,10 +9,10 @@ use std::sync::Arc;
 use egui::{Align2, Color32, ColorImage, CornerRadius, FontId, Rect, RichText, Sense, StrokeKind, TextureHandle};
 use egui::{TextureOptions, Ui, Vec2, pos2, vec2};
 
-use super::controls::{command_button, heading};
+use super::controls::{command_button, heading, tip};
 use crate::figure::shrunk;
 use crate::raster::Framebuffer;
-use crate::viewer::{Command, SceneEntry, SceneSource, Toggle, Viewer, WindowCommand};
+use crate::viewer::{Command, Dialog, SceneEntry, SceneSource, Toggle, Viewer, WindowCommand};
 
 /// Thumbnails side by side.
 const COLUMNS: usize = 3;
@@ -111,7 +111,11 @@ pub(super) fn title(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
                 viewer.scene_list().current_index() + 1,
                 viewer.scene_list().scenes().len()
             );
-            ui.label(RichText::new(place).weak().small());
+            let place = egui::Button::new(RichText::new(place).weak().small()).frame(false);
+            let all = ui.add(place).on_hover_text(tip("all-scenes"));
+            if all.accessible_name("All scenes").clicked() {
+                commands.push(Command::Window(WindowCommand::ToggleDialog(Dialog::Scenes)));
+            }
         });
     });
 }
@@ -166,9 +170,14 @@ pub(super) fn list(
     commands: &mut Vec<Command>,
 ) {
     let width = ((ui.available_width() - GAP * (COLUMNS - 1) as f32) / COLUMNS as f32).floor();
-    let cell = vec2(width, PICTURE_HEIGHT + NAME_HEIGHT);
+    let cell = vec2(width, IN_LIST.height());
     ui.spacing_mut().item_spacing = vec2(GAP, GAP);
-    let mut pictures = Pictures { thumbnails, requests };
+    let mut pictures = Pictures {
+        thumbnails,
+        requests,
+        cell: IN_LIST,
+        chosen: None,
+    };
     for (heading, scenes) in groups(viewer.scene_list().scenes()) {
         if let Some(heading) = heading {
             ui.label(RichText::new(heading).weak().small());
@@ -189,7 +198,7 @@ pub(super) fn list(
 /// Scenes of one folder that follow each other, under the folder's name. Files that were opened one by one have no folder in
 /// their labels: beside others they stand under the name of the folder that they lie in, and without a heading while there
 /// is nothing else.
-fn groups(scenes: &[SceneEntry]) -> Vec<(Option<String>, Range<usize>)> {
+pub(super) fn groups(scenes: &[SceneEntry]) -> Vec<(Option<String>, Range<usize>)> {
     let mut groups = Vec::new();
     let mut start = 0;
     for alike in scenes.chunk_by(|a, b| folder(a) == folder(b)) {
@@ -207,16 +216,46 @@ fn groups(scenes: &[SceneEntry]) -> Vec<(Option<String>, Range<usize>)> {
     groups
 }
 
+/// How high the place of a scene is, in points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cell {
+    /// The picture.
+    pub(super) picture: f32,
+    /// The room for the name below it.
+    pub(super) name: f32,
+    /// Lines that the name may take; what is left of it becomes dots.
+    pub(super) name_lines: usize,
+}
+
+impl Cell {
+    /// All of it.
+    pub(super) fn height(self) -> f32 {
+        self.picture + self.name
+    }
+}
+
+/// What places of the panel's list are like.
+const IN_LIST: Cell = Cell {
+    picture: PICTURE_HEIGHT,
+    name: NAME_HEIGHT,
+    name_lines: 1,
+};
+
 /// The pictures of scenes in small, and what is wanted of them.
-struct Pictures<'a> {
-    thumbnails: &'a mut Thumbnails,
-    requests: &'a mut Wishes,
+pub(super) struct Pictures<'a> {
+    pub(super) thumbnails: &'a mut Thumbnails,
+    pub(super) requests: &'a mut Wishes,
+    /// What their places are like.
+    pub(super) cell: Cell,
+    /// The one that arrows have chosen.
+    pub(super) chosen: Option<usize>,
 }
 
 /// One scene: picture and name. True when it was clicked.
 fn picture(ui: &mut Ui, viewer: &Viewer, index: usize, cell: Vec2, pictures: &mut Pictures<'_>) -> bool {
-    let Pictures { thumbnails, requests } = pictures;
-    let entry = &viewer.scene_list().scenes()[index];
+    let Pictures {
+        thumbnails, requests, ..
+    } = pictures;
     let (rect, response) = ui.allocate_exact_size(cell, Sense::click());
     let current = index == viewer.scene_list().current_index();
     if current && requests.follow && thumbnails.shown != Some(index) {
@@ -228,6 +267,18 @@ fn picture(ui: &mut Ui, viewer: &Viewer, index: usize, cell: Vec2, pictures: &mu
     if !ui.is_rect_visible(rect) {
         return false;
     }
+    show_picture(ui, viewer, index, response, pictures)
+}
+
+/// Shows a scene where its place is: picture, name, and more under the pointer. True when it was clicked.
+pub(super) fn show_picture(
+    ui: &Ui,
+    viewer: &Viewer,
+    index: usize,
+    response: egui::Response,
+    pictures: &mut Pictures<'_>,
+) -> bool {
+    let entry = &viewer.scene_list().scenes()[index];
     paint(ui, viewer, index, &response, pictures);
     let key = if index < 9 {
         format!(" ({})", index + 1)
@@ -245,17 +296,17 @@ fn picture(ui: &mut Ui, viewer: &Viewer, index: usize, cell: Vec2, pictures: &mu
 }
 
 /// Paints one scene: its thumbnail, its frame, its name.
-fn paint(
-    ui: &Ui,
-    viewer: &Viewer,
-    index: usize,
-    response: &egui::Response,
-    Pictures { thumbnails, requests }: &mut Pictures<'_>,
-) {
+fn paint(ui: &Ui, viewer: &Viewer, index: usize, response: &egui::Response, pictures: &mut Pictures<'_>) {
+    let Pictures {
+        thumbnails,
+        requests,
+        cell,
+        chosen,
+    } = pictures;
     let entry = &viewer.scene_list().scenes()[index];
     let (rect, current) = (response.rect, index == viewer.scene_list().current_index());
     let visuals = ui.visuals();
-    let frame = Rect::from_min_size(rect.min, vec2(rect.width(), PICTURE_HEIGHT));
+    let frame = Rect::from_min_size(rect.min, vec2(rect.width(), cell.picture));
     ui.painter().rect_filled(frame, CornerRadius::same(4), Color32::WHITE);
     if let Some(source) = &entry.thumbnail {
         let scale = ui.pixels_per_point();
@@ -278,7 +329,7 @@ fn paint(
     }
     let line = if current {
         egui::Stroke::new(2.0, visuals.selection.bg_fill)
-    } else if response.hovered() {
+    } else if response.hovered() || *chosen == Some(index) {
         egui::Stroke::new(1.0, visuals.widgets.hovered.fg_stroke.color)
     } else {
         visuals.widgets.noninteractive.bg_stroke
@@ -290,19 +341,18 @@ fn paint(
     } else {
         visuals.weak_text_color()
     };
-    name_below(ui, rect, name(entry), color);
+    let below = Rect::from_min_max(pos2(rect.left(), frame.bottom() + 1.0), rect.max);
+    name_below(ui, below, (name(entry), cell.name_lines), color);
 }
 
-/// The name, shortened to the width of the cell.
-fn name_below(ui: &Ui, cell: Rect, name: &str, color: Color32) {
+/// The name in the middle of its room, in as many lines as it may take.
+fn name_below(ui: &Ui, room: Rect, (name, lines): (&str, usize), color: Color32) {
     let mut job = egui::text::LayoutJob::simple_singleline(name.to_owned(), FontId::proportional(11.0), color);
-    job.wrap = egui::text::TextWrapping::truncate_at_width(cell.width());
+    job.wrap = egui::text::TextWrapping::truncate_at_width(room.width());
+    job.wrap.max_rows = lines;
+    job.halign = egui::Align::Center;
     let galley = ui.painter().layout_job(job);
-    let at = pos2(
-        cell.center().x - galley.size().x / 2.0,
-        cell.top() + PICTURE_HEIGHT + 1.0,
-    );
-    ui.painter().galley(at, galley, color);
+    ui.painter().galley(room.center_top(), galley, color);
 }
 
 /// The folder part of a scene's label; where there is none, the folder that its file lies in.

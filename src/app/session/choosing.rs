@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::dvec2;
 
-use super::hands::{click, nodes, place_of, session};
+use super::hands::{click, key, nodes, place_of, session};
 use super::small_windows::{click_on, says};
 use super::*;
 use crate::viewer::script::Stage as _;
@@ -172,5 +172,71 @@ fn message_of_a_saved_picture_opens_its_folder() {
         click_on(&mut session, "Open folder");
         assert_eq!(session.take_folder().as_deref(), Some(folder.path()), "{window:?}");
         assert_eq!(session.take_folder(), None, "once");
+    }
+}
+
+#[test]
+fn page_of_all_scenes_finds_one_by_its_name_or_by_a_click() {
+    for window in [[800, 600], [1280, 800], [1920, 1080]] {
+        let mut session = session(Vec::new(), window);
+        key(&mut session, "g");
+        session.settle();
+        assert_eq!(
+            session.viewer.chrome().dialog(),
+            Some(Dialog::Scenes),
+            "open in {window:?}"
+        );
+        session.type_text("zone");
+        session.settle();
+        let shown = nodes(&mut session);
+        let shown = shown.iter().filter_map(|node| node.label());
+        assert!(
+            shown.into_iter().any(|name| name == "Scene study/01_zone_plate.svg"),
+            "found"
+        );
+        key(&mut session, "Enter");
+        session.settle();
+        let label = |session: &Session| session.viewer.scene_list().current().map(|entry| entry.label.clone());
+        assert_eq!(
+            label(&session).as_deref(),
+            Some("study/01_zone_plate.svg"),
+            "{window:?}"
+        );
+        assert_eq!(session.viewer.chrome().dialog(), None, "and closed");
+        key(&mut session, "g");
+        session.settle();
+        session.type_text("transforms");
+        session.settle();
+        key(&mut session, "Right");
+        key(&mut session, "Enter");
+        session.settle();
+        let second = session.viewer.scene_list().scenes();
+        let second = second
+            .iter()
+            .filter(|entry| entry.label.starts_with("transforms/"))
+            .nth(1);
+        assert_eq!(
+            label(&session),
+            second.map(|entry| entry.label.clone()),
+            "the second of them"
+        );
+        key(&mut session, "g");
+        session.settle();
+        session.type_text("edge_fan");
+        session.settle();
+        let found = nodes(&mut session).into_iter();
+        let found = found.filter(|node| node.label() == Some("Scene study/03_edge_fan.svg"));
+        let place = found
+            .filter_map(|node| node.bounds())
+            .max_by(|a, b| a.width().total_cmp(&b.width()));
+        let place = place.expect("its picture");
+        assert!(place.width() > 130.0, "a large one: {place:?}");
+        click(&mut session, dvec2(place.x0 + place.x1, place.y0 + place.y1) / 2.0);
+        session.settle();
+        assert_eq!(label(&session).as_deref(), Some("study/03_edge_fan.svg"), "by a click");
+        key(&mut session, "g");
+        session.settle();
+        key(&mut session, "Escape");
+        assert_eq!(session.viewer.chrome().dialog(), None, "Esc closes it");
     }
 }

@@ -19,7 +19,14 @@ impl Session {
         let typing = self.interface.has_keyboard();
         let asks = matches!(
             self.viewer.chrome().dialog(),
-            Some(Dialog::Palette | Dialog::Open | Dialog::GoToPixel | Dialog::ComparePicture)
+            Some(
+                Dialog::Palette
+                    | Dialog::Open
+                    | Dialog::Scenes
+                    | Dialog::GoToPixel
+                    | Dialog::ComparePicture
+                    | Dialog::SaveAs
+            )
         );
         let passes = match press.logical {
             _ if !typing && !asks => true,

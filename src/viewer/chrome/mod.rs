@@ -23,6 +23,8 @@ pub enum Dialog {
     GoToPixel,
     /// Asks for a picture's path.
     ComparePicture,
+    /// All scenes as large pictures.
+    Scenes,
     /// Asks where the picture is to be saved.
     SaveAs,
     /// Puts a sheet together.

@@ -47,6 +47,14 @@ pub(super) static SCENES: &[CommandSpec] = &[
     .keys(&[Chord::named(Key::PageDown)])
     .run(&Command::Scenes(SceneCommand::Next)),
     spec(
+        "all-scenes",
+        "All scenes",
+        "Shows all scenes as large pictures, by folder; a part of a name finds one",
+        Group::Scenes,
+    )
+    .keys(&[Chord::char('g')])
+    .run(&Command::Window(WindowCommand::ToggleDialog(Dialog::Scenes))),
+    spec(
         "open",
         "Open",
         "Opens a file, or every scene in a folder",

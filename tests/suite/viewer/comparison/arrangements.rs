@@ -276,7 +276,7 @@ fn comparison_saves_what_is_on_the_screen() {
     let [wipe, difference] = [0, 1].map(|i| image::open(&session.pictures()[i]).unwrap().into_rgba8());
     let [a, b] = frames(&session);
     // Above, tags say which is whose.
-    let below_tags = |(_, y, _): &(u32, u32, &image::Rgba<u8>)| *y >= 32;
+    let below_tags = |(_, y, _): &(u32, u32, &image::Rgba<u8>)| *y >= 44;
     for (x, y, pixel) in wipe.enumerate_pixels().filter(below_tags) {
         let from = if x < 80 { &a } else { &b };
         assert_eq!(Some(pixel.0), from.rgba(x, y), "{x}, {y} of the wipe");

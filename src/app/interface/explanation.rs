@@ -65,7 +65,8 @@ impl ExplanationPanel {
                 ui.add_space(2.0);
             }
         });
-        let explanation = viewer.inspector().explanation();
+        let in_sight = viewer.pixels().explains();
+        let explanation = viewer.inspector().explanation().filter(|_| in_sight);
         let mut area = ScrollArea::vertical().id_salt("explanation").auto_shrink(false);
         if let Some(explanation) = explanation.filter(|explanation| self.pixel != Some(explanation.pixel)) {
             *self = Self {
@@ -82,7 +83,14 @@ impl ExplanationPanel {
             (self.chosen, self.accumulated) = (None, None);
         }
         area.show(ui, |ui| {
-            if let Some(explanation) = explanation {
+            if !in_sight {
+                ui.label("The pinned pixel is outside the window now. It comes back with the view.");
+                ui.add_space(2.0);
+                if command_button(ui, "unpin", "Unpin").clicked() {
+                    commands.push(Command::Inspector(InspectorCommand::Unpin));
+                }
+                self.comparison(ui, viewer, commands);
+            } else if let Some(explanation) = explanation {
                 self.report(ui, Reported { viewer, explanation }, commands, &mut hovered);
             } else {
                 ui.label(RichText::new("finding out …").weak());
@@ -306,8 +314,9 @@ fn is_topmost(explanation: &Explanation, paint: usize) -> bool {
 
 fn title(ui: &mut Ui, viewer: &Viewer, is_page: bool, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
-        let [x, y] = viewer.pixels().inspected().unwrap_or_default();
-        if let Some(color) = viewer.inspector().explanation().map(|explanation| explanation.color) {
+        let in_sight = viewer.pixels().explains();
+        let explanation = viewer.inspector().explanation().filter(|_| in_sight);
+        if let Some(color) = explanation.map(|explanation| explanation.color) {
             let (rect, _) = ui.allocate_exact_size(vec2(16.0, 16.0), Sense::hover());
             ui.painter().rect_filled(rect, 2.0, opaque(color));
             ui.painter().rect_stroke(
@@ -317,7 +326,9 @@ fn title(ui: &mut Ui, viewer: &Viewer, is_page: bool, commands: &mut Vec<Command
                 egui::StrokeKind::Outside,
             );
         }
-        ui.label(RichText::new(format!("Pixel {x}, {y}")).strong().size(14.0));
+        let pixel = viewer.pixels().inspected().filter(|_| in_sight);
+        let name = pixel.map_or("Pinned pixel".to_owned(), |[x, y]| format!("Pixel {x}, {y}"));
+        ui.label(RichText::new(name).strong().size(14.0));
         if viewer.ab().other().is_some() {
             ui.label("of A");
         }
@@ -325,7 +336,8 @@ fn title(ui: &mut Ui, viewer: &Viewer, is_page: bool, commands: &mut Vec<Command
             if !is_page && command_button(ui, "explanation", "Close").clicked() {
                 commands.push(Command::Inspector(InspectorCommand::Explanation(Toggle::Off)));
             }
-            if command_button(ui, "copy-explanation", "Copy").clicked() {
+            let copy = ui.add_enabled_ui(in_sight, |ui| command_button(ui, "copy-explanation", "Copy"));
+            if copy.inner.clicked() {
                 commands.push(Command::Export(ExportCommand::CopyExplanation));
             }
         });
@@ -377,5 +389,5 @@ pub(super) fn fitted(width: f32, room: f32) -> f32 {
 
 /// Whether there is a pixel to explain, and room for the panel in `width` points.
 pub(super) fn is_shown(viewer: &Viewer, width: f32) -> bool {
-    viewer.pixels().explains() && fits(width)
+    viewer.pixels().has_explanation_open() && fits(width)
 }

@@ -26,7 +26,7 @@ const INDENT: f32 = 18.0;
 
 /// Whether the explanation's page is open. A step that explains a pixel begins with its text.
 pub(super) fn is_turned(viewer: &Viewer) -> bool {
-    viewer.pixels().explains() && viewer.inspector().asks_about_pixel()
+    viewer.pixels().has_explanation_open() && viewer.inspector().asks_about_pixel()
 }
 
 /// The two pages of a panel that lesson and explanation share.

@@ -16,6 +16,8 @@ const WIDTHS: [f32; 5] = [520.0, 400.0, 300.0, 220.0, 160.0];
 const GAP: f32 = 6.0;
 /// Free space between messages and the border of the picture, in points.
 const MARGIN: f32 = 10.0;
+/// What stays free around the pointer where a message comes, in points.
+const POINTER: f32 = 48.0;
 /// Space inside a message, in points.
 const PADDING: f32 = 8.0;
 
@@ -30,15 +32,26 @@ pub(super) struct Taken<'a> {
     pub(super) words: &'a [Rect],
 }
 
-/// The messages on the screen: when each vanishes, in egui's seconds, and where it is.
+/// A message on the screen.
+#[derive(Clone, Copy, Debug)]
+struct Shown {
+    /// When it vanishes, in egui's seconds.
+    end: f64,
+    /// Where it is, in points.
+    place: Rect,
+    /// What panels left free when it came there.
+    free: Rect,
+}
+
+/// The messages on the screen.
 #[derive(Debug, Default)]
 pub(super) struct Messages {
-    shown: HashMap<u64, (f64, Rect)>,
+    shown: HashMap<u64, Shown>,
 }
 
 impl Messages {
     /// Shows the messages, at the foot of the picture where there is room, and dismisses the old ones. None moves while it
-    /// can stay.
+    /// can stay and panels leave the same free: what came while they moved may lie where the picture is looked at.
     pub(super) fn show(
         &mut self,
         ui: &Ui,
@@ -60,10 +73,14 @@ impl Messages {
             let things = [taken.things, &covered].concat();
             let before = self.shown.get(&message.id).copied();
             let place = before
-                .map(|(_, place)| place)
-                .filter(|place| is_free(free, *place, &things))
+                .filter(|shown| shown.free == free && is_free(free, shown.place, &things))
+                .map(|shown| shown.place)
                 .or_else(|| {
                     let size = |width| size(ui, viewer, message, width);
+                    // One that comes under the pointer would take its clicks and the turns of its wheel.
+                    let pointer = ui.input(|input| input.pointer.latest_pos());
+                    let pointer = pointer.map(|at| Rect::from_center_size(at, Vec2::splat(POINTER)));
+                    let things: Vec<Rect> = things.iter().copied().chain(pointer).collect();
                     let all = [&things, taken.words].concat();
                     place(free, &all, size).or_else(|| place(free, &things, size))
                 })
@@ -71,8 +88,8 @@ impl Messages {
                     let width = WIDTHS[0].min(free.width() - 2.0 * MARGIN);
                     above(free, &covered, size(ui, viewer, message, width.max(WIDTHS[4])))
                 });
-            let end = before.map_or(now + seconds, |(end, _)| end);
-            self.shown.insert(message.id, (end, place));
+            let end = before.map_or(now + seconds, |shown| shown.end);
+            self.shown.insert(message.id, Shown { end, place, free });
             let offers_folder = offers_folder(viewer, message);
             let (rect, clicked) = toast(ui, message, place, offers_folder);
             if clicked == Some(Clicked::Folder) {

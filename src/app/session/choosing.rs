@@ -186,7 +186,7 @@ fn page_of_all_scenes_finds_one_by_its_name_or_by_a_click() {
             Some(Dialog::Scenes),
             "open in {window:?}"
         );
-        session.type_text("zone");
+        session.type_text("zone pl");
         session.settle();
         let shown = nodes(&mut session);
         let shown = shown.iter().filter_map(|node| node.label());

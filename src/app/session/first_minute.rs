@@ -5,8 +5,8 @@ use glam::dvec2;
 use super::hands::{click, key, place_of, session};
 use super::small_windows::{click_on, says};
 use super::*;
-use crate::viewer::Theme;
 use crate::viewer::script::Stage as _;
+use crate::viewer::{AbCommand, Against, MessageKind, Theme};
 use crate::viewer::{Dialog, Toggle, ViewCommand};
 
 const WINDOWS: [[u32; 2]; 4] = [[480, 360], [800, 600], [1280, 800], [1920, 1080]];
@@ -325,5 +325,44 @@ fn presenter_look_is_larger_and_has_more_contrast() {
             before,
             "and back"
         );
+    }
+}
+
+#[test]
+fn messages_lie_at_the_foot_however_letters_grow() {
+    for window in [[1366, 768], [1920, 1080]] {
+        let mut session = session(Vec::new(), window);
+        session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+        session.settle();
+        session.command(Command::Inspector(InspectorCommand::Pin([700, 400])));
+        session.settle();
+        let error = "/a/folder/of/pictures/that/is/named: no file manager shows this folder: No such file or directory (os \
+                     error 2); open it by hand";
+        session.viewer.tell(MessageKind::Error, error.to_owned());
+        session.settle();
+        // The lower edge of the message above the line at the foot, in device pixels.
+        let above_foot = |session: &Session| {
+            let newest = session.viewer.chrome().messages().last().expect("it is there").id;
+            let area = egui::Id::unique(("message", newest));
+            let place = session
+                .ctx()
+                .memory(|memory| memory.area_rect(area))
+                .expect("a message");
+            let free = session.free_area.expect("there is room");
+            free.bottom() as f32 - place.bottom() * session.scale()
+        };
+        for on in [Toggle::On, Toggle::Off] {
+            session.command(Command::Window(WindowCommand::Presenter(on)));
+            session.settle();
+            let kept = above_foot(&session);
+            let newest = session.viewer.chrome().messages().last().expect("it is there").id;
+            session.command(Command::Window(WindowCommand::DismissMessage(newest)));
+            session.settle();
+            session.viewer.tell(MessageKind::Error, error.to_owned());
+            session.settle();
+            let fresh = above_foot(&session);
+            assert!(kept < fresh + 1.0, "{kept}, one that comes now {fresh}, in {window:?}");
+            assert!(kept < 100.0 * session.scale(), "at the foot: {kept} in {window:?}");
+        }
     }
 }

@@ -85,7 +85,7 @@ impl Session {
     pub(super) fn wanted(&mut self, command: Command) -> (Wanted, Command) {
         let wanted = Wanted::of(&command);
         self.room.follows &= wanted != Wanted::Panel;
-        let is_hidden = self.viewer.chrome().panel() && self.viewer.pixels().explains() && self.is_narrow();
+        let is_hidden = self.viewer.chrome().panel() && self.viewer.pixels().has_explanation_open() && self.is_narrow();
         self.room.hid_explanation = is_hidden;
         let is_unseen = is_hidden || self.is_page_not_turned();
         match command {
@@ -97,10 +97,12 @@ impl Session {
     }
 
     /// Lets the side panel and the explanation make way for each other where both have no room: what was wanted last is
-    /// to be seen. A panel that made way comes back, unless it would cover the pinned pixel; while that is out of sight
-    /// nothing changes, since a turn of the wheel may bring it there and back, with the pointer where the panel would be.
+    /// to be seen. A panel that made way comes back, unless it would cover the pinned pixel.
     pub(super) fn share_room(&mut self, wanted: Wanted) {
-        let (panel, explains) = (self.viewer.chrome().panel(), self.viewer.pixels().explains());
+        let (panel, explains) = (
+            self.viewer.chrome().panel(),
+            self.viewer.pixels().has_explanation_open(),
+        );
         let is_narrow = self.is_narrow();
         match wanted {
             Wanted::Panel => {
@@ -119,8 +121,7 @@ impl Session {
                 && !self.viewer.chrome().everything_hidden() =>
             {
                 let width = self.viewer.chrome().window_size()[0] as f32 / self.scale();
-                let is_closed = !explains && !self.viewer.pixels().explains_out_of_sight();
-                let is_free = is_closed && self.interface.panel_leaves_pin(&self.viewer, width, self.scale());
+                let is_free = !explains && self.interface.panel_leaves_pin(&self.viewer, width, self.scale());
                 if is_free || !is_narrow {
                     self.room.gave_way = false;
                     self.apply(Command::Window(WindowCommand::Panel(Toggle::On)));
@@ -133,7 +134,7 @@ impl Session {
     /// Tells whoever asked why a pixel has its colour that there is no room for the answer.
     pub(super) fn tell_no_room(&mut self, wanted: Wanted) {
         let width = self.viewer.chrome().window_size()[0] as f32 / self.scale();
-        let asks = wanted == Wanted::Explanation && self.viewer.pixels().explains();
+        let asks = wanted == Wanted::Explanation && self.viewer.pixels().has_explanation_open();
         if asks && !self.interface.has_room_to_explain(&self.viewer, width) {
             self.viewer.tell(MessageKind::Done, NO_ROOM.to_owned());
         }
@@ -143,7 +144,7 @@ impl Session {
     fn is_page_not_turned(&self) -> bool {
         let width = self.viewer.chrome().window_size()[0] as f32 / self.scale();
         let is_shared = self.interface.lesson_shares_panel(&self.viewer, width);
-        is_shared && self.viewer.pixels().explains() && !self.viewer.inspector().asks_about_pixel()
+        is_shared && self.viewer.pixels().has_explanation_open() && !self.viewer.inspector().asks_about_pixel()
     }
 
     /// Whether the window has room for the explanation only without the side panel.

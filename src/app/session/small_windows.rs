@@ -288,28 +288,81 @@ fn explanation_of_another_view_leads_back_to_the_picture() {
 }
 
 #[test]
-fn panel_does_not_come_under_the_pointer_that_zooms() {
-    let mut session = session(Vec::new(), [800, 600]);
-    session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
-    session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
-    session.settle();
-    right_click(&mut session, [420.0, 300.0]);
-    assert!(!session.viewer.chrome().panel(), "the panel made way");
-    let at = dvec2(700.0, 250.0);
-    session.pointer(Some(at));
-    let scale = |session: &Session| session.viewer.both().view_numbers().expect("a scene").scale;
-    let mut before = scale(&session);
-    for turn in 0..12 {
-        session.wheel(1.0);
-        session.settle();
-        assert!(!session.viewer.chrome().panel(), "after turn {turn}");
-        let now = scale(&session);
-        assert!(now > before * 1.05, "turn {turn} zooms: {before} to {now}");
-        before = now;
+fn no_panel_comes_or_goes_under_a_pointer_that_zooms() {
+    let mut zooms = 0;
+    for window in [[800, 600], [1280, 800]] {
+        for compares in [false, true] {
+            for (pin, at) in [
+                ([0.6, 0.5], [0.9, 0.4]),
+                ([0.4, 0.5], [0.55, 0.9]),
+                ([0.6, 0.6], [0.3, 0.3]),
+            ] {
+                let mut session = session(Vec::new(), window);
+                session.command(Command::Window(WindowCommand::StartCard(Toggle::Off)));
+                session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+                if compares {
+                    session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+                }
+                session.settle();
+                let within = |session: &Session, [x, y]: [f64; 2]| {
+                    let free = session.free_area.expect("there is room");
+                    let at = [free.x as f64 + f64::from(free.width) * x, f64::from(free.height) * y];
+                    at.map(f64::round)
+                };
+                let pin = within(&session, pin);
+                right_click(&mut session, pin);
+                let free = session.free_area;
+                let at = DVec2::from(within(&session, at));
+                session.pointer(Some(at));
+                session.settle();
+                if !session.is_on_picture() || session.viewer.pixels().over_inset() {
+                    // Over the magnifier the wheel magnifies.
+                    continue;
+                }
+                zooms += 1;
+                let scale = |session: &Session| session.viewer.both().view_numbers().expect("a scene").scale;
+                let first = scale(&session);
+                let mut before = first;
+                for (turn, clicks) in [1.0; 10].into_iter().chain([-1.0; 10]).enumerate() {
+                    session.wheel(clicks);
+                    session.settle();
+                    let what = format!("turn {turn} at {at} of {window:?}, compares {compares}");
+                    assert_eq!(session.free_area, free, "panels stay: {what}");
+                    let now = scale(&session);
+                    assert!((now - before) * clicks > before * 0.05, "{before} to {now}: {what}");
+                    before = now;
+                }
+                assert!((before - first).abs() < 1e-6 * first, "and back");
+                assert!(session.viewer.pixels().pinned().is_some(), "the pin is there again");
+            }
+        }
     }
-    assert_eq!(session.viewer.pixels().pinned(), None, "the pin went out of sight");
-    session.command(Command::Inspector(InspectorCommand::Unpin));
-    assert!(session.viewer.chrome().panel(), "without a pin it comes back");
+    assert!(zooms >= 6, "{zooms} zooms over the picture");
+}
+
+#[test]
+fn explanation_says_that_its_pixel_is_out_of_sight() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    right_click(&mut session, [700.0, 300.0]);
+    assert!(says(&mut session, "Pixel 700, 300"), "explained");
+    session.pointer(Some(dvec2(450.0, 700.0)));
+    for _ in 0..10 {
+        session.wheel(1.0);
+    }
+    session.settle();
+    assert_eq!(session.viewer.pixels().pinned(), None, "out of sight");
+    assert!(
+        says(&mut session, "The pinned pixel is outside the window now"),
+        "it says so"
+    );
+    key(&mut session, "e");
+    session.settle();
+    assert!(!says(&mut session, "The pinned pixel is outside"), "a key closes it");
+    session.command(Command::Inspector(InspectorCommand::Explanation(Toggle::On)));
+    session.settle();
+    click_on(&mut session, "Unpin");
+    session.settle();
+    assert!(!session.viewer.pixels().has_explanation_open(), "unpinned, and closed");
 }
 
 #[test]

@@ -143,7 +143,7 @@ impl Hand<'_> {
     /// Shows or hides the explanation. The switch goes by what is to be seen: it never closes what nobody sees, and where no
     /// pixel is pinned it pins one, since it would seem to do nothing otherwise.
     fn show_explanation(&mut self, toggle: Toggle) {
-        let shown = toggle.of(self.pixels().explains());
+        let shown = toggle.of(self.pixels().has_explanation_open());
         if toggle == Toggle::Flip && self.refuses_to_explain() {
             return;
         }

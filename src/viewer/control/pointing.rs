@@ -96,10 +96,10 @@ impl Pointing<'_> {
         self.inspector.explains(self.chrome, both.scene_list, &both.layout)
     }
 
-    /// Whether there would be an explanation if its pixel were in sight.
-    pub fn explains_out_of_sight(&self) -> bool {
-        let has_pin = self.inspector.magnifier.open && self.inspector.magnifier.pin.is_some();
-        has_pin && self.chrome.shown.explanation && self.pinned().is_none()
+    /// The same, whether or not the pinned place is in sight: the panel stays while a wheel turns, since it would come and
+    /// go under the pointer.
+    pub fn has_explanation_open(&self) -> bool {
+        self.inspector.has_explanation_open(self.chrome, self.both.scene_list)
     }
 
     /// Whether there is a pinned pixel that the panels of a sheet can magnify.

@@ -147,7 +147,12 @@ impl Inspection {
 
     /// Whether there is to be an explanation in the window.
     pub(in crate::viewer) fn explains(&self, chrome: &Chrome, scenes: &SceneList, layout: &WindowLayout) -> bool {
+        self.has_explanation_open(chrome, scenes) && self.pinned_pixel(layout).is_some()
+    }
+
+    /// The same, whether or not the pinned place is in sight.
+    pub(in crate::viewer) fn has_explanation_open(&self, chrome: &Chrome, scenes: &SceneList) -> bool {
         let is_open = self.magnifier.open && !chrome.hidden && !scenes.has_no_picture();
-        is_open && chrome.shown.explanation && self.pinned_pixel(layout).is_some()
+        is_open && chrome.shown.explanation && self.magnifier.pin.is_some()
     }
 }

@@ -114,59 +114,36 @@ impl Dialogs {
                 self.choose(ctx, just_opened, commands);
             }
             Some(Dialog::Palette) => self.palette(ctx, viewer, just_opened, commands),
-            Some(Dialog::GoToPixel) => {
-                let [width, height] = viewer.both().layout().frame_size();
-                let question = Question {
-                    title: GO_TO_PIXEL,
-                    name: "Pixel",
-                    hint: format!("x, y below {width}, {height}"),
-                    missing: "type the pixel's column and row first",
-                    button: "Pin",
-                    command: "pin",
-                    takes_path: false,
-                    lists_pictures: false,
-                };
+            Some(asking @ (Dialog::GoToPixel | Dialog::ComparePicture | Dialog::SaveAs)) => {
+                self.ask_what(asking, viewer, just_opened);
+                let question = question(asking, viewer);
                 self.ask(ctx, &question, just_opened, commands);
-            }
-            Some(Dialog::ComparePicture) => {
-                let question = Question {
-                    title: COMPARE_PICTURE,
-                    name: "Path",
-                    hint: "path of a PNG or JPEG; or choose one below".to_owned(),
-                    missing: "type the path of a picture first, or choose one",
-                    button: "Compare",
-                    command: "against",
-                    takes_path: true,
-                    lists_pictures: true,
-                };
-                if just_opened {
-                    self.chooser.begin(viewer);
+                if asking == Dialog::ComparePicture {
+                    self.path.clone_from(&self.text);
                 }
-                self.ask(ctx, &question, just_opened, commands);
-                self.path.clone_from(&self.text);
-            }
-            Some(Dialog::SaveAs) => {
-                if just_opened && let Some(path) = viewer.new_picture_path() {
-                    self.text = path.display().to_string();
-                    self.caret_to_end = true;
-                }
-                let question = Question {
-                    title: SAVE_AS,
-                    name: "File",
-                    hint: "path of a new PNG file".to_owned(),
-                    missing: "type the path of a new PNG file first",
-                    button: "Save",
-                    command: "save-as",
-                    takes_path: true,
-                    lists_pictures: false,
-                };
-                self.ask(ctx, &question, just_opened, commands);
             }
             Some(Dialog::Scenes) => return self.gallery(ctx, viewer, just_opened, commands),
             Some(Dialog::Sheet) => self.sheet.show(ctx, viewer, commands),
             None => {}
         }
         Vec::new()
+    }
+
+    /// Gets ready to ask for something.
+    fn ask_what(&mut self, asking: Dialog, viewer: &Viewer, just_opened: bool) {
+        if !just_opened {
+            return;
+        }
+        match asking {
+            Dialog::ComparePicture => self.chooser.begin(viewer),
+            Dialog::SaveAs => {
+                if let Some(path) = viewer.new_picture_path() {
+                    self.text = path.display().to_string();
+                    self.caret_to_end = true;
+                }
+            }
+            _ => {}
+        }
     }
 
     /// A line of text that has the keyboard. True when Enter was pressed.
@@ -302,6 +279,45 @@ impl Dialogs {
             });
         if beside(&modal.backdrop_response) {
             commands.push(Command::Window(WindowCommand::CloseDialog));
+        }
+    }
+}
+
+/// What a dialog asks for.
+fn question(asking: Dialog, viewer: &Viewer) -> Question {
+    match asking {
+        Dialog::ComparePicture => Question {
+            title: COMPARE_PICTURE,
+            name: "Path",
+            hint: "path of a PNG or JPEG; or choose one below".to_owned(),
+            missing: "type the path of a picture first, or choose one",
+            button: "Compare",
+            command: "against",
+            takes_path: true,
+            lists_pictures: true,
+        },
+        Dialog::SaveAs => Question {
+            title: SAVE_AS,
+            name: "File",
+            hint: "path of a new PNG file".to_owned(),
+            missing: "type the path of a new PNG file first",
+            button: "Save",
+            command: "save-as",
+            takes_path: true,
+            lists_pictures: false,
+        },
+        _ => {
+            let [width, height] = viewer.both().layout().frame_size();
+            Question {
+                title: GO_TO_PIXEL,
+                name: "Pixel",
+                hint: format!("x, y below {width}, {height}"),
+                missing: "type the pixel's column and row first",
+                button: "Pin",
+                command: "pin",
+                takes_path: false,
+                lists_pictures: false,
+            }
         }
     }
 }

@@ -89,7 +89,7 @@ pub(super) fn leave(ctx: &Context) {
 
 /// Where what has the focus lies; `None` while the picture has the keys.
 fn focused(ctx: &Context) -> Option<Rect> {
-    let id = ctx.memory(|memory| memory.focused())?;
+    let id = ctx.memory(egui::Memory::focused)?;
     ctx.read_response(id).map(|response| response.rect)
 }
 

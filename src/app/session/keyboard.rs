@@ -1,5 +1,11 @@
 //! Panels without a mouse: a key goes from panel to panel, Tab inside them.
 
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "inside the window"
+)]
+
 use glam::dvec2;
 
 use super::hands::{key, nodes, session};

@@ -32,6 +32,7 @@ pub enum Dialog {
 }
 
 /// What is to be seen in the window besides the picture.
+#[expect(clippy::struct_excessive_bools, reason = "each is so or not on its own")]
 #[derive(Debug)]
 pub struct Chrome {
     pub(in crate::viewer) window: [u32; 2],

@@ -160,15 +160,13 @@ impl Stage for ViewerStage<'_> {
         for effect in self.viewer.apply(command) {
             match effect {
                 Effect::CopyText(text) => self.clipboard = Some(text),
-                // There is no clipboard without a window.
-                Effect::CopyPicture(_) => {}
+                // Without a window there is no clipboard for pictures, no desktop, and there are no panels.
+                Effect::CopyPicture(_) | Effect::OpenFolder(_) | Effect::FocusPanel { .. } => {}
                 Effect::PictureOfWindow => {
                     self.viewer.finish();
                     let picture = self.viewer.window().picture();
                     self.viewer.save_window_picture(picture);
                 }
-                // Nor a desktop, nor panels.
-                Effect::OpenFolder(_) | Effect::FocusPanel { .. } => {}
                 Effect::Quit => self.has_quit = true,
             }
         }

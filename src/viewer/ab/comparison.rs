@@ -95,7 +95,37 @@ pub(in crate::viewer) struct Paint {
     pub(in crate::viewer) frames: Option<[u64; 3]>,
 }
 
+/// A comparison that is put aside.
+#[derive(Debug)]
+pub(in crate::viewer) struct Kept {
+    other: Option<Other>,
+    swapped: bool,
+    arrangement: Arrangement,
+    style: DifferenceStyle,
+    gain: f32,
+    wipe: Option<f64>,
+}
+
 impl Comparison {
+    /// What a lesson puts aside.
+    pub(in crate::viewer) fn keep(&self) -> Kept {
+        Kept {
+            other: self.other.clone(),
+            swapped: self.swapped,
+            arrangement: self.arrangement,
+            style: self.style,
+            gain: self.gain,
+            wipe: self.wipe,
+        }
+    }
+
+    /// Takes up what was put aside.
+    pub(in crate::viewer) fn take_up(&mut self, kept: Kept) {
+        self.set_other(kept.other);
+        (self.swapped, self.arrangement, self.wipe) = (kept.swapped, kept.arrangement, kept.wipe);
+        (self.style, self.gain) = (kept.style, kept.gain);
+    }
+
     /// What A is compared with.
     pub fn other(&self) -> Option<&Other> {
         self.other.as_ref()

@@ -237,7 +237,7 @@ impl Comparison {
         }
     }
 
-    fn set_other(&mut self, other: Option<Other>) {
+    pub(in crate::viewer) fn set_other(&mut self, other: Option<Other>) {
         self.other = other;
         self.swapped = false;
         self.held = None;

@@ -98,6 +98,9 @@ impl Lessons<'_> {
         let before = match self.lesson.take() {
             Some(walk) => walk.before,
             None => Before {
+                comparison: self.ab.keep(),
+                pin: self.pinned_place(),
+                inspector: self.inspector.magnifier.open,
                 scenes: std::mem::take(&mut self.scene_list.scenes),
                 current: self.scene_list.current,
                 settings: *self.settings,
@@ -256,8 +259,18 @@ impl Lessons<'_> {
         self.scene_list.current = before.current.min(self.scene_list.scenes.len().saturating_sub(1));
         *self.settings = before.settings;
         self.chrome.shown.explanation = before.explanation;
-        (self.inspector.magnifier.pin, self.inspector.magnifier.open) = (None, false);
+        self.ab.take_up(before.comparison);
+        (self.inspector.magnifier.pin, self.inspector.magnifier.open) = (None, before.inspector);
+        if let Some(place) = before.pin {
+            self.inspector.pin_place(place, self.scene_list);
+        }
         true
+    }
+
+    /// The place that is pinned in the current scene, in user units.
+    fn pinned_place(&self) -> Option<DVec2> {
+        let (place, scene) = self.inspector.magnifier.pin?.place?;
+        (scene == self.scene_list.identity()).then_some(place)
     }
 
     fn compare(&mut self, against: Against) {

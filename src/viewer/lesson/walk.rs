@@ -4,6 +4,7 @@ use std::path::Path;
 
 use glam::DVec2;
 
+use crate::viewer::ab::comparison::Kept;
 use crate::viewer::lesson::model::Lesson;
 use crate::viewer::lesson::source::LessonSource;
 use crate::viewer::library::SceneEntry;
@@ -50,4 +51,9 @@ pub(in crate::viewer) struct Before {
     pub(in crate::viewer) current: usize,
     pub(in crate::viewer) settings: Settings,
     pub(in crate::viewer) explanation: bool,
+    pub(in crate::viewer) comparison: Kept,
+    /// The pinned place of the current scene, in user units.
+    pub(in crate::viewer) pin: Option<DVec2>,
+    /// Whether the pixel inspector was open.
+    pub(in crate::viewer) inspector: bool,
 }

@@ -129,6 +129,44 @@ fn lesson_is_walked_by_keys_and_closed_by_escape() {
 }
 
 #[test]
+fn lesson_gives_back_comparison_and_pin() {
+    use rasterscope::viewer::{AbCommand, Against, InspectorCommand, Other};
+    let folder = folder();
+    let file = LessonSource::File(folder.path().join("lesson.toml"));
+    for arrangement in Arrangement::ALL {
+        for swapped in [false, true] {
+            let mut session = Session::open(&[TRIANGLES], [400, 300]);
+            session.run(Command::Ab(AbCommand::Compare(Against::Settings)));
+            session.keys(&["="]);
+            session.run(Command::Ab(AbCommand::Arrange(arrangement)));
+            session.run(Command::Ab(AbCommand::SetWipe(0.3)));
+            if swapped {
+                session.run(Command::Ab(AbCommand::Swap));
+            }
+            session.run(Command::Inspector(InspectorCommand::Pin([120, 80])));
+            let state = |session: &Session| {
+                let ab = session.viewer.ab();
+                let pinned = session.viewer.pixels().pinned();
+                (ab.other().cloned(), ab.arrangement(), ab.is_swapped(), pinned)
+            };
+            let before = (state(&session), session.viewer.window().picture());
+            assert!(matches!(before.0.0, Some(Other::Settings { .. })) && before.0.3 == Some([120, 80]));
+            session.run(Command::Lesson(LessonCommand::Open(file.clone())));
+            session.keys(&["PageDown"]);
+            assert_ne!(state(&session).3, before.0.3, "the lesson has its own");
+            session.run(Command::Lesson(LessonCommand::Close));
+            assert_eq!(state(&session), before.0, "{arrangement:?}, swapped {swapped}");
+            // What flips by itself shows A first.
+            let flips = arrangement == Arrangement::Flip;
+            assert!(
+                flips || session.viewer.window().picture() == before.1,
+                "{arrangement:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn lesson_shows_the_canvas_where_no_panel_is_until_a_hand_moves_it() {
     use rasterscope::viewer::PixelRect;
     let folder = folder();

@@ -113,7 +113,7 @@ pub(super) static SCENES: &[CommandSpec] = &[
     spec(
         "close-lesson",
         "Close the lesson",
-        "Brings back the scenes and settings from before the lesson",
+        "Brings back the scenes, settings, comparison and pin from before the lesson",
         Group::Scenes,
     )
     .run(&Command::Lesson(LessonCommand::Close)),

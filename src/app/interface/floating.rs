@@ -63,7 +63,7 @@ pub(super) fn overlay_text(ui: &Ui, viewer: &Viewer, free: Rect, taken: &[Rect])
     let insets = insets(viewer, ui.pixels_per_point());
     let buttons: Vec<Rect> = insets
         .first()
-        .map(|inset| place_of_close(*inset, free))
+        .map(|inset| place_of_close(*inset, insets.get(1).copied(), free))
         .into_iter()
         .collect();
     let taken = [taken, &things(viewer, ui.pixels_per_point()), &buttons].concat();
@@ -335,18 +335,20 @@ pub(super) struct CloseOfInset {
     shown: bool,
 }
 
-/// Where the button goes: beside the inset's upper end, so that it covers no magnified pixel; in the inset where no side has
-/// room.
-fn place_of_close(inset: Rect, free: Rect) -> Rect {
+/// Where the button goes: beside the inset's upper end, so that it covers no magnified pixel of this inset or the `other`;
+/// in the inset where no side has room.
+fn place_of_close(inset: Rect, other: Option<Rect>, free: Rect) -> Rect {
     const APART: f32 = 3.0;
     let size = CONTROL;
     let places = [
         inset.right_top() + vec2(APART, 0.0),
+        inset.right_top() - vec2(size.x, APART + size.y),
         inset.left_top() - vec2(APART + size.x, 0.0),
     ];
     let mut places = places.map(|corner| Rect::from_min_size(corner, size)).into_iter();
     let inside = Rect::from_min_size(inset.right_top() + vec2(-APART - size.x, APART), size);
-    places.find(|place| free.contains_rect(*place)).unwrap_or(inside)
+    let is_free = |place: &Rect| free.contains_rect(*place) && !other.is_some_and(|other| other.intersects(*place));
+    places.find(is_free).unwrap_or(inside)
 }
 
 impl CloseOfInset {
@@ -359,7 +361,9 @@ impl CloseOfInset {
             .filter(|_| viewer.pixels().pinned().is_some());
         let inset = pinned.map_or(Rect::NOTHING, |placed| points(&placed.rect, scale));
         let pointer = ui.input(|input| input.pointer.latest_pos());
-        let button = place_of_close(inset, free);
+        let other = viewer.inspector().other_inset();
+        let other = other.map(|placed| points(&placed.rect, scale));
+        let button = place_of_close(inset, other, free);
         // On the way to the button the pointer leaves the inset.
         let around = if self.shown { inset.union(button) } else { inset };
         let before = std::mem::replace(&mut self.last, pointer.map(|at| (around, at)));
@@ -401,6 +405,33 @@ fn middle(start: i64, length: u32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn close_covers_no_magnified_pixel() {
+        let free = Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0));
+        let inset = |x, y| Rect::from_min_size(pos2(x, y), vec2(100.0, 100.0));
+        let place = |inset, other| place_of_close(inset, other, free);
+        for (own, other) in [
+            (inset(100.0, 100.0), None),
+            (inset(100.0, 100.0), Some(inset(204.0, 100.0))),
+            (inset(204.0, 100.0), Some(inset(100.0, 100.0))),
+            (inset(100.0, 12.0), Some(inset(204.0, 12.0))),
+            (inset(290.0, 100.0), Some(inset(186.0, 100.0))),
+        ] {
+            let close = place(own, other);
+            assert!(free.contains_rect(close), "{close:?}");
+            assert!(!close.intersects(own), "{close:?} beside {own:?}");
+            assert!(
+                other.is_none_or(|other| !close.intersects(other)),
+                "{close:?} beside {other:?}"
+            );
+        }
+        let all = inset(0.0, 0.0).union(free);
+        assert!(
+            all.contains_rect(place(all, None)),
+            "inside where there is no room beside it"
+        );
+    }
 
     #[test]
     fn text_goes_where_nothing_is() {

@@ -6,7 +6,6 @@ use egui::{Align, Align2, Area, Button, Context, Id, Key, Layout, Modal, Order, 
 use egui::{TextEdit, Ui, vec2};
 
 use super::chooser::Chooser;
-use super::gallery;
 use super::look::{self, CONTROL};
 use super::modal::{BACKDROP, beside, modal};
 use super::palette::{self, BETWEEN_ENTRIES, Does, ENTRY};
@@ -35,6 +34,9 @@ pub(super) struct Dialogs {
     /// The command that the palette opens with, to ask for its argument.
     begins_with: Option<&'static CommandSpec>,
 }
+
+/// What the area of the page of scenes is called.
+pub(super) const ALL_SCENES: &str = "all scenes";
 
 /// What the palette's area is called.
 const PALETTE: &str = "palette area";
@@ -72,7 +74,7 @@ pub(super) fn place(ctx: &Context, viewer: &Viewer) -> Option<Rect> {
         Dialog::GoToPixel => GO_TO_PIXEL,
         Dialog::ComparePicture => COMPARE_PICTURE,
         Dialog::SaveAs => SAVE_AS,
-        Dialog::Scenes => gallery::NAME,
+        Dialog::Scenes => ALL_SCENES,
         Dialog::Sheet => "sheet",
     };
     ctx.memory(|memory| memory.area_rect(Id::unique(name)))

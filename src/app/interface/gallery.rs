@@ -2,7 +2,7 @@
 
 use egui::{Context, Key, Modifiers, RichText, ScrollArea, Sense, Ui, vec2};
 
-use super::dialogs::Dialogs;
+use super::dialogs::{ALL_SCENES, Dialogs};
 use super::look;
 use super::modal::{beside, modal};
 use super::scenes::{self, Cell, Pictures, Wishes};
@@ -39,7 +39,7 @@ impl Dialogs {
         let turn = arrows(ctx);
         let screen = ctx.content_rect();
         let mut wishes = Wishes::default();
-        let modal = modal(NAME).show(ctx, |ui| {
+        let modal = modal(ALL_SCENES).show(ctx, |ui| {
             let width = (screen.width() - 60.0).min(WIDTH);
             ui.set_width(width);
             ui.heading("Scenes");
@@ -93,9 +93,6 @@ impl Dialogs {
         wishes.thumbnails
     }
 }
-
-/// What the page's area is called.
-pub(super) const NAME: &str = "all scenes";
 
 /// Scenes beside each other, each so wide; which was clicked.
 fn row_of(

@@ -60,7 +60,10 @@ impl Dialogs {
             let mut taken = chosen.filter(|_| enter);
             let height = (screen.height() * 0.86 - REST).max(CELL.height());
             look::bars_beside(ui);
-            let area = ScrollArea::vertical().auto_shrink(false);
+            // What another text finds begins at its beginning.
+            let area = ScrollArea::vertical()
+                .id_salt(("scenes", &self.text))
+                .auto_shrink(false);
             area.max_height(height).min_scrolled_height(height).show(ui, |ui| {
                 if groups.is_empty() {
                     ui.label(RichText::new("no scene of that name").weak());

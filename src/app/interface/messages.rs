@@ -8,6 +8,8 @@ use crate::viewer::{ASKS_FOR, Command, ExportCommand, Message, MessageKind, View
 
 /// Seconds that a message stays.
 const DONE_SECONDS: f64 = 5.0;
+/// Seconds that a message stays which offers something.
+const OFFER_SECONDS: f64 = 12.0;
 /// Seconds that a message about a fault stays.
 const ERROR_SECONDS: f64 = 15.0;
 /// Widths of a message at most, in points; a narrower one is taken where a wider one has no room.
@@ -66,7 +68,8 @@ impl Messages {
         let mut covered: Vec<Rect> = Vec::new();
         for message in viewer.chrome().messages() {
             let seconds = match message.kind {
-                MessageKind::Done | MessageKind::Saved => DONE_SECONDS,
+                MessageKind::Done => DONE_SECONDS,
+                MessageKind::Saved => OFFER_SECONDS,
                 MessageKind::Error => ERROR_SECONDS,
                 MessageKind::Question => ASKS_FOR.as_secs_f64(),
             };

@@ -240,3 +240,26 @@ fn page_of_all_scenes_finds_one_by_its_name_or_by_a_click() {
         assert_eq!(session.viewer.chrome().dialog(), None, "Esc closes it");
     }
 }
+
+#[test]
+fn page_of_all_scenes_begins_with_what_was_found() {
+    let mut session = session(Vec::new(), [800, 600]);
+    key(&mut session, "g");
+    session.settle();
+    session.pointer(Some(dvec2(400.0, 350.0)));
+    for _ in 0..15 {
+        session.wheel(-1.0);
+        session.quiet_turn();
+    }
+    session.settle();
+    session.type_text("map");
+    session.settle();
+    let page = egui::Id::unique("all scenes");
+    let page = session.ctx().memory(|memory| memory.area_rect(page)).expect("the page");
+    let place = place_of(&mut session, "Scene vector/02_city_map.svg");
+    let below = place.y - f64::from(page.top());
+    assert!(
+        (100.0..200.0).contains(&below),
+        "the first that was found is whole: {below} points below the page's upper edge"
+    );
+}

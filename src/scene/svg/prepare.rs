@@ -7,6 +7,7 @@ use super::check;
 use super::edits::Edits;
 use super::elements::Elements;
 use super::listener::Listener;
+use super::styles;
 use super::values::WHITENS;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, SkippedKind, attributes, numbers};
@@ -86,6 +87,7 @@ pub(super) fn prepare<'doc, L: Listener>(
     text: &str,
     listener: &mut L,
 ) -> Result<Prepared<'doc>, Fault> {
+    styles::bounded(root, listener)?;
     let mut preparation = Preparation {
         text,
         edits: Edits::default(),

@@ -10,6 +10,11 @@ use super::listener::Listener;
 use crate::scene::error::Fault;
 use crate::scene::{Problem, attributes};
 
+/// Most bytes that may be passed over while styles are read, some seconds' worth.
+const MAX_PASSED: u64 = 3_000_000_000;
+/// How often a `style` attribute is read, here and by usvg; and how often a style sheet.
+const READINGS: [u64; 2] = [5, 3];
+
 /// Most steps of comparing elements with the rules of style sheets.
 const MAX_STEPS: u64 = 60_000_000;
 
@@ -119,6 +124,31 @@ impl<'doc> Styles<'doc> {
         }
         paints
     }
+}
+
+/// Refuses styles that take too long to read: at the end of every value simplecss counts lines from the beginning of its
+/// style, so that time grows with the square of a style's length.
+pub(super) fn bounded<L: Listener>(root: Node<'_, '_>, listener: &L) -> Result<(), Fault> {
+    let mut passed = 0_u64;
+    for node in root.descendants().filter(Node::is_element) {
+        let sheet = (node.tag_name().name() == "style").then(|| node.text()).flatten();
+        for (style, readings) in [node.attribute("style"), sheet].into_iter().zip(READINGS) {
+            let style = style.unwrap_or("").as_bytes();
+            let values = style
+                .iter()
+                .filter(|byte| matches!(byte, b':' | b';' | b'{' | b'}'))
+                .count() as u64
+                / 2;
+            // On average half of the style lies before a value.
+            passed = passed.saturating_add(values.saturating_mul(style.len() as u64) / 2 * readings);
+        }
+        if passed > MAX_PASSED {
+            let what = "bytes to pass over while styles are read, where each value counts all before it";
+            let limit = usize::try_from(MAX_PASSED).unwrap_or(usize::MAX);
+            return Err(listener.fault(Problem::TooMany { what, limit }, node, "style"));
+        }
+    }
+    Ok(())
 }
 
 /// Elements that keep the width of their lines, whatever their transforms (`vector-effect: non-scaling-stroke`).

@@ -31,6 +31,44 @@ fn chain(count: usize, one: impl Fn(&str, &str) -> String) -> String {
 }
 
 #[test]
+fn long_styles_end_soon() {
+    let attribute = |count: usize, one: &str| {
+        let style = one.repeat(count);
+        outcome(
+            &format!("{count} x {one}"),
+            &format!("<rect width='50' height='50' style='{style}'/>"),
+        )
+    };
+    assert_eq!(attribute(500, "fill:red;"), "", "as long as no tool writes them: drawn");
+    assert_eq!(attribute(5_000, "fill:red;"), "", "drawn");
+    for (count, one) in [
+        (45_000, "fill:red;"),
+        (100_000, "a:b;"),
+        (400_000, ";"),
+        (200_000, "a:"),
+    ] {
+        let line = attribute(count, one);
+        assert!(
+            line.is_empty() || line.contains("while styles are read"),
+            "{one}: {line}"
+        );
+    }
+    let sheet = |rules: usize| {
+        let rule = |i: usize| format!(".cls-{i}{{fill:#{i:06x};stroke:none;opacity:1;}}\n");
+        let rules: String = (0..rules).map(rule).collect();
+        let body = format!("<style>{rules}</style><rect class='cls-3' width='50' height='50'/>");
+        outcome("a style sheet", &body)
+    };
+    assert_eq!(
+        sheet(1_500),
+        "",
+        "a drawing with many colours, as Illustrator writes it"
+    );
+    let line = sheet(40_000);
+    assert!(line.contains("while styles are read"), "{line}");
+}
+
+#[test]
 fn references_in_circles_end() {
     let circle = |kind: &str, attribute: &str, length: usize| -> String {
         let one = |i: usize| {

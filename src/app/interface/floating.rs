@@ -340,11 +340,15 @@ pub(super) struct CloseOfInset {
 fn place_of_close(inset: Rect, other: Option<Rect>, free: Rect) -> Rect {
     const APART: f32 = 3.0;
     let size = CONTROL;
-    let places = [
-        inset.right_top() + vec2(APART, 0.0),
-        inset.right_top() - vec2(size.x, APART + size.y),
-        inset.left_top() - vec2(APART + size.x, 0.0),
-    ];
+    let right = inset.right_top() + vec2(APART, 0.0);
+    let left = inset.left_top() - vec2(APART + size.x, 0.0);
+    let above = inset.right_top() - vec2(size.x, APART + size.y);
+    // On the outer side of one of two is its letter.
+    let places = if other.is_some() {
+        [right, above, left]
+    } else {
+        [right, left, above]
+    };
     let mut places = places.map(|corner| Rect::from_min_size(corner, size)).into_iter();
     let inside = Rect::from_min_size(inset.right_top() + vec2(-APART - size.x, APART), size);
     let is_free = |place: &Rect| free.contains_rect(*place) && !other.is_some_and(|other| other.intersects(*place));

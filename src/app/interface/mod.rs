@@ -91,6 +91,8 @@ pub(super) struct Interface {
     comparison_on_right: Option<bool>,
     /// On which side the explanation is, while there is one.
     explanation_side: Option<Side>,
+    /// Whether a lesson was open in the last pass.
+    in_lesson: bool,
     /// What the panels covered in the last pass, in points.
     covered: Vec<Rect>,
     /// Where words stood over the picture in the last pass, in points.
@@ -135,6 +137,7 @@ impl Interface {
             panel: PanelMemory::default(),
             comparison_on_right: None,
             explanation_side: None,
+            in_lesson: false,
             covered: Vec::new(),
             labels: Vec::new(),
             line: Vec::new(),

@@ -89,6 +89,11 @@ impl Interface {
     /// Why the pinned pixel has its colour, beside the picture.
     pub(super) fn explanation(&mut self, ui: &mut Ui, viewer: &Viewer, whole: Rect, asked: &mut Asked) -> Hovered {
         let free = ui.available_rect_before_wrap().intersect(whole);
+        let in_lesson = viewer.lesson().is_some();
+        if std::mem::replace(&mut self.in_lesson, in_lesson) && !in_lesson {
+            // A lesson's side is for its pin.
+            self.explanation_side = None;
+        }
         if !explanation::is_shown(viewer, free.width()) {
             self.explanation_side = None;
             return Hovered::default();

@@ -224,3 +224,27 @@ fn lessons_show_pixels_of_their_own_size_and_no_old_messages() {
         assert_eq!(session.viewer.settings().pixel_zoom.factor(), 2, "as before the lesson");
     }
 }
+
+#[test]
+fn explanation_comes_back_on_its_side_behind_a_lesson() {
+    for at in [[600.0, 450.0], [850.0, 540.0]] {
+        let mut session = session(Vec::new(), [1280, 800]);
+        session.command(Command::Ab(AbCommand::Compare(Against::Truth(None))));
+        session.settle();
+        right_click(&mut session, at);
+        let state = |session: &Session| {
+            let numbers = session.viewer.both().view_numbers().expect("a scene");
+            (session.free_area, session.viewer.pixels().pinned(), numbers)
+        };
+        let before = state(&session);
+        session.command(Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(0))));
+        session.settle();
+        for _ in 0..2 {
+            session.command(Command::Scenes(SceneCommand::Next));
+            session.settle();
+        }
+        session.command(Command::Lesson(LessonCommand::Close));
+        session.settle();
+        assert_eq!(state(&session), before, "room, pin and view of the pixel at {at:?}");
+    }
+}

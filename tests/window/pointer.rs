@@ -6,6 +6,7 @@ use std::time::Duration;
 use glam::DVec2;
 use rasterscope::viewer::Command;
 
+use super::desktop::keysym;
 use super::program::{Program, SIZE, SMALL_INSET, SMALL_INSET_COMMANDS, flat, inset, until, viewed};
 
 /// Where the tests point, in window pixels.
@@ -105,4 +106,24 @@ fn resize_storm_ends_sharp() {
         let picture = viewed(&path, &[Command::Window(WindowCommand::Resize(size))]);
         program.shows(&picture, &format!("sharp at {size:?}"));
     }
+}
+
+#[test]
+fn pointer_that_rests_presses_what_grew_under_it() {
+    /// What the menu covers once it is open.
+    const COVERED: [u16; 4] = [40, 400, 60, 80];
+    let program = Program::open(&[&flat()], &["--theme", "dark"]);
+    program.resize([800, 600]);
+    // On the button of the menu, before and after.
+    program.desktop.point(60, 583);
+    for _ in 0..2 {
+        program.desktop.press('='.into(), &[keysym::CONTROL]);
+        std::thread::sleep(Duration::from_millis(300));
+    }
+    let closed = program.desktop.part(program.window, COVERED);
+    program.desktop.button(1, true);
+    program.desktop.button(1, false);
+    until("the menu", || {
+        (program.desktop.part(program.window, COVERED) != closed).then_some(())
+    });
 }

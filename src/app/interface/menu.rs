@@ -27,16 +27,17 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) ->
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let button = MenuButton::from_button(Button::new("Menu").small()).config(config);
     let (response, _) = button.ui(ui, |ui| {
-        ui.set_min_width(WIDTH);
-        for group in Group::ALL {
-            ui.menu_button(group.name(), |ui| {
-                asks = list(ui, |ui| of_group(ui, viewer, group, commands)).or(asks.take());
-            });
-        }
-        ui.separator();
-        for spec in FIRST_HELP.into_iter().filter_map(commands::find) {
-            entry(ui, viewer, spec, commands);
-        }
+        list(ui, |ui| {
+            for group in Group::ALL {
+                ui.menu_button(group.name(), |ui| {
+                    asks = list(ui, |ui| of_group(ui, viewer, group, commands)).or(asks.take());
+                });
+            }
+            ui.separator();
+            for spec in FIRST_HELP.into_iter().filter_map(commands::find) {
+                entry(ui, viewer, spec, commands);
+            }
+        });
     });
     response.accessible_name("Menu");
     asks

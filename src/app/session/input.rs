@@ -50,9 +50,19 @@ impl Session {
         on_picture
     }
 
+    /// Puts the pointer on the picture where a panel that lay between them went away; true if that is so.
+    pub(super) fn find_pointer(&mut self) -> bool {
+        let found = self.pointer.is_some() && self.viewer.pixels().pointer().is_none() && self.is_on_picture();
+        if found {
+            self.pointer_at(self.pointer);
+        }
+        found
+    }
+
     /// A button of the mouse at the pointer's place. True if the picture took it.
     pub(in crate::app) fn pointer_button(&mut self, button: PointerButton, down: bool) -> bool {
         if down && self.is_on_picture() {
+            self.find_pointer();
             self.interface.leave_panels();
             self.holds_picture = button == PointerButton::Primary;
             self.run(Command::Pointer(PointerCommand::Pressed(button)));
@@ -71,6 +81,7 @@ impl Session {
     pub(in crate::app) fn turn_wheel(&mut self, clicks: f64) -> bool {
         let on_picture = self.is_on_picture();
         if on_picture {
+            self.find_pointer();
             self.run(Command::Pointer(PointerCommand::Wheel { clicks }));
         }
         on_picture
@@ -80,6 +91,7 @@ impl Session {
     pub(in crate::app) fn pinch(&mut self, factor: f64) -> bool {
         let on_picture = self.is_on_picture();
         if on_picture {
+            self.find_pointer();
             self.run(Command::Pointer(PointerCommand::Pinch { factor }));
         }
         on_picture

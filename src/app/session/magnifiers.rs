@@ -212,3 +212,83 @@ fn magnifiers_of_a_wipe_leave_both_sides_in_sight() {
         }
     }
 }
+
+/// Where the magnifiers lie that are to be seen.
+fn lying(session: &Session) -> Vec<PixelRect> {
+    let inspector = session.viewer.inspector();
+    let insets = inspector.inset().into_iter().chain(inspector.other_inset());
+    insets.map(|placed| placed.rect).collect()
+}
+
+/// A pinned pixel of one picture, and of two in both arrangements.
+fn magnifying(window: [u32; 2], at: [f64; 2]) -> Vec<Session> {
+    let mut alone = session(Vec::new(), window);
+    alone.settle();
+    let mut wiped = comparing(window);
+    wiped.command(Command::Ab(AbCommand::Arrange(Arrangement::Wipe)));
+    let mut sessions = vec![alone, wiped, side_by_side(window)];
+    for session in &mut sessions {
+        session.settle();
+        let free = session.free_area.expect("there is room");
+        let place = |axis: usize, start: i64, length: u32| (start as f64 + f64::from(length) * at[axis]).round();
+        right_click(session, [place(0, free.x, free.width), place(1, free.y, free.height)]);
+    }
+    sessions
+}
+
+#[test]
+fn magnifiers_stay_under_a_wheel_and_the_hand_at_it() {
+    for window in WINDOWS {
+        for at in [[0.3, 0.4], [0.45, 0.5], [0.2, 0.75]] {
+            for mut session in magnifying(window, at) {
+                let Some(first) = lying(&session).first().copied() else {
+                    continue;
+                };
+                let near = |at: i64, length: u32| (at + i64::from(length / 2)) as f64;
+                let hand = dvec2(near(first.x, first.width), near(first.y, first.height));
+                let canvas = |session: &Session| {
+                    let layout = session.viewer.both().layout();
+                    session.viewer.scene_list().canvas_in_frame(&layout)
+                };
+                let before = canvas(&session);
+                for (turn, clicks) in [1.0; 9].into_iter().chain([-1.0; 9]).zip(1..).map(|(a, b)| (b, a)) {
+                    // Between two turns a hand is never quite still.
+                    let shake = f64::from(turn % 2);
+                    session.pointer(Some(hand + dvec2(shake, 0.0)));
+                    session.wheel(clicks);
+                    session.settle();
+                    session.pointer(Some(hand + dvec2(1.0 - shake, 0.0)));
+                    session.settle();
+                    let now = lying(&session);
+                    let over = |rect: &PixelRect| rect.contains([hand.x as i64, hand.y as i64]);
+                    assert!(
+                        now.iter().any(over),
+                        "turn {turn}: {now:?}, from {first:?} in {window:?}"
+                    );
+                    assert_eq!(canvas(&session), before, "the picture does not move");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn wheel_turns_back_from_the_largest_magnifier_at_once() {
+    for window in WINDOWS {
+        for mut session in magnifying(window, [0.3, 0.4]) {
+            let Some(first) = lying(&session).first().copied() else {
+                continue;
+            };
+            session.pointer(Some(dvec2(first.x as f64 + 30.0, first.y as f64 + 30.0)));
+            for _ in 0..12 {
+                session.wheel(1.0);
+                session.settle();
+            }
+            let shown = |session: &Session| session.viewer.inspector().inset().map(|placed| placed.inset);
+            let largest = shown(&session);
+            session.wheel(-1.0);
+            session.settle();
+            assert_ne!(shown(&session), largest, "the first turn back is seen in {window:?}");
+        }
+    }
+}

@@ -208,3 +208,54 @@ fn menu_says_what_is_on_and_what_does_nothing() {
         "which nobody sees"
     );
 }
+
+#[test]
+fn pointer_that_rests_is_on_the_picture_once_a_list_is_closed() {
+    for name in ["Theme", "Larger interface"] {
+        let mut session = session(Vec::new(), [800, 600]);
+        session.pointer(Some(dvec2(700.0, 500.0)));
+        session.settle();
+        open(&mut session, &[Group::Window.name()]);
+        let at = place_of(&mut session, name);
+        click(&mut session, at);
+        session.settle();
+        assert!(!session.interface.list_is_open(), "{name} closes the lists");
+        assert_eq!(
+            session.viewer.pixels().pointer(),
+            Some(at),
+            "under no list after {name}"
+        );
+        session.button(PointerButton::Secondary, true);
+        session.button(PointerButton::Secondary, false);
+        let pinned = session.viewer.pixels().pinned().expect("a pixel");
+        let under = at.to_array().map(|side| side as u32);
+        assert_eq!(pinned, under, "{name}: what is under the pointer");
+    }
+}
+
+#[test]
+fn menu_fits_windows_with_large_letters() {
+    for window in [[480, 360], [800, 600], [1280, 800]] {
+        let mut session = session(Vec::new(), window);
+        for _ in 0..8 {
+            session.command(Command::Window(WindowCommand::StepInterfaceScale { up: true }));
+            session.settle();
+            let scale = f64::from(session.scale());
+            // Screen readers are told points.
+            let button = place_of(&mut session, "Menu") * scale;
+            click(&mut session, button);
+            session.settle();
+            assert!(session.interface.list_is_open(), "open at {scale} in {window:?}");
+            let bottom = f64::from(window[1]) / scale;
+            session.pointer(Some(dvec2(60.0, 60.0)));
+            session.wheel(-9.0);
+            session.settle();
+            let last = place_of(&mut session, "Command palette").y;
+            assert!(last < bottom - 8.0, "{last} of {bottom} at {scale} in {window:?}");
+            click(&mut session, button);
+            session.settle();
+            assert!(!session.interface.list_is_open(), "closed at {scale} in {window:?}");
+            assert_eq!(session.viewer.chrome().dialog(), None, "nothing else is hit");
+        }
+    }
+}

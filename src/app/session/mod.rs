@@ -115,6 +115,8 @@ pub(super) struct Session {
     composed: VecDeque<Damage>,
     free_area: Option<PixelRect>,
     pointer: Option<DVec2>,
+    /// The scale at which the panels know where it is.
+    pointer_scale: f32,
     /// A drag that began on the picture stays with it.
     holds_picture: bool,
     /// Whether the side panel folds by itself.
@@ -155,6 +157,7 @@ impl Session {
             composed: VecDeque::new(),
             free_area: None,
             pointer: None,
+            pointer_scale: 0.0,
             holds_picture: false,
             room: PanelRoom::default(),
             modifiers: Modifiers::NONE,
@@ -335,6 +338,14 @@ impl Session {
             input.time = Some(self.now());
             let scale = self.scale();
             let points = vec2(size[0] as f32, size[1] as f32) / scale;
+            // At another scale a pointer that rests is at other points.
+            if std::mem::replace(&mut self.pointer_scale, scale)
+                .total_cmp(&scale)
+                .is_ne()
+                && let Some(at) = self.pointer
+            {
+                input.events.insert(0, Event::PointerMoved(self.to_points(at)));
+            }
             input.screen_rect = Some(Rect::from_min_size(Pos2::ZERO, points));
             let viewport = input.viewports.entry(ViewportId::ROOT).or_default();
             viewport.native_pixels_per_point = Some(self.native_scale);
@@ -378,6 +389,9 @@ impl Session {
             if !self.carry_out(asked) {
                 break;
             }
+        }
+        if self.find_pointer() {
+            turn.next = Duration::ZERO;
         }
         self.save_pictures();
         turn

@@ -330,6 +330,12 @@ impl Opened {
 
     /// Pointer, wheel, gestures, and what only the panels care for.
     fn pointer_event(&mut self, event: &WindowEvent) {
+        if matches!(event, WindowEvent::CursorMoved { .. } | WindowEvent::CursorLeft { .. }) {
+            self.pointer = Some(event.clone());
+            self.pointer_scale = self.session.ctx().pixels_per_point();
+        } else {
+            self.place_pointer();
+        }
         let taken = match event {
             WindowEvent::CursorMoved { position, .. } => {
                 self.session.pointer_at(Some(DVec2::new(position.x, position.y)));

@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use egui::{Color32, ColorImage, OutputCommand};
 use softbuffer::{Context, Rect, SoftBufferError, Surface};
 use winit::dpi::PhysicalSize;
+use winit::event::WindowEvent;
 use winit::event_loop::OwnedDisplayHandle;
 use winit::window::Window;
 
@@ -44,6 +45,9 @@ pub(super) struct Opened {
     next_wish: Option<Instant>,
     /// When the first event came that nothing was shown for.
     event: Option<Instant>,
+    /// Where the pointer was last, as the window system told, and the scale of the panels then.
+    pub(super) pointer: Option<WindowEvent>,
+    pub(super) pointer_scale: f32,
     log: Option<FrameLog>,
 }
 
@@ -89,6 +93,8 @@ impl Opened {
             rhythm: Rhythm::default(),
             next_wish: None,
             event: None,
+            pointer: None,
+            pointer_scale: 0.0,
             log: None,
         };
         opened.session.lend_surface();
@@ -118,6 +124,21 @@ impl Opened {
     /// The scale of the monitor changed; the size follows in an event of its own.
     pub(super) fn rescaled(&mut self) {
         self.resized(self.size);
+    }
+
+    /// Tells the panels' input where a pointer is that rests: they know it in points, of which the panels have another size
+    /// now.
+    pub(super) fn place_pointer(&mut self) {
+        let scale = self.session.ctx().pixels_per_point();
+        if self.pointer_scale.total_cmp(&scale).is_eq() {
+            return;
+        }
+        self.pointer_scale = scale;
+        if let Some(moved) = &self.pointer
+            && self.egui.on_window_event(&self.window, moved).repaint
+        {
+            self.dirty = true;
+        }
     }
 
     /// Something is to be shown anew.

@@ -141,8 +141,10 @@ impl Hand<'_> {
             WheelTarget::Picture
         };
         let target = *self.pointer.wheels.get_or_insert(over);
-        if target == WheelTarget::Inset && self.inspector.inset.is_some() {
-            self.inspector.magnifier.wheel(clicks);
+        if target == WheelTarget::Inset
+            && let Some(placed) = self.inspector.inset
+        {
+            self.inspector.magnifier.wheel(clicks, &placed.inset);
         } else if clicks.is_finite() {
             let factor = WHEEL_FACTOR.powf(clicks.clamp(-MAX_CLICKS, MAX_CLICKS));
             let at = self.pointer.at;

@@ -90,8 +90,10 @@ pub struct Inspector {
     band: usize,
     /// Turns of the wheel that did not make a whole step yet.
     rest: f64,
-    /// Whether the wheel turned since the pointer last moved: what it turns over stays where it is.
+    /// Whether the wheel turned over it: it stays where it is.
     wheeled: bool,
+    /// What it lay beside then: once that changes, it may go elsewhere.
+    wheeled_beside: Option<Beside>,
     /// Where the pointer has rested while the wheel turned over the picture: the inset does not go there, if it can go
     /// elsewhere.
     pub(in crate::viewer) spared: Option<[i64; 2]>,
@@ -159,6 +161,7 @@ impl Default for Inspector {
             band: 0,
             rest: 0.0,
             wheeled: false,
+            wheeled_beside: None,
             spared: None,
         }
     }
@@ -192,19 +195,33 @@ impl Inspector {
         }
     }
 
-    /// Turns of the wheel over the inset: every whole one is a step.
-    pub(in crate::viewer) fn wheel(&mut self, clicks: f64) {
+    /// Turns of the wheel over the inset, which was `placed`: every whole one is a step, from what is to be seen and not from
+    /// what had no room.
+    pub(in crate::viewer) fn wheel(&mut self, clicks: f64, placed: &Inset) {
+        if clicks.is_nan() {
+            return;
+        }
         let turned = (self.rest + clicks).clamp(-100.0, 100.0);
         let whole = turned.trunc();
         self.rest = turned - whole;
-        self.wheeled = true;
+        (self.wheeled, self.wheeled_beside) = (true, None);
+        if whole != 0.0 {
+            self.magnification = self.magnification.min(placed.magnification);
+        }
         #[expect(clippy::cast_possible_truncation, reason = "clamped to 100 steps")]
         self.step(whole as i32);
     }
 
-    /// The pointer moved: the inset may give way again.
+    /// The pointer moved: the inset may lie where it rested.
     pub(in crate::viewer) fn let_go(&mut self) {
-        (self.wheeled, self.spared) = (false, None);
+        self.spared = None;
+    }
+
+    /// Whether it is to stay where it is: since the wheel turned over it nothing changed that it lies beside.
+    fn stays(&mut self, beside: &Beside) -> bool {
+        self.wheeled &= self.wheeled_beside.is_none_or(|before| before == *beside);
+        self.wheeled_beside = self.wheeled.then_some(*beside);
+        self.wheeled
     }
 
     fn apply(&mut self, limits: Inset) {
@@ -280,7 +297,7 @@ impl Inspector {
                 return Some(placed);
             }
         }
-        let corners: &[Option<Corner>] = if self.wheeled {
+        let corners: &[Option<Corner>] = if self.stays(beside) {
             &[Some(self.corner), None]
         } else {
             &[None]
@@ -343,7 +360,7 @@ impl Inspector {
 }
 
 /// What insets lie in and beside, in window pixels.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::viewer) struct Beside {
     /// The part of the window that is free for them.
     pub(in crate::viewer) area: PixelRect,
@@ -417,16 +434,23 @@ mod tests {
         let mut inspector = Inspector::default();
         let side = |inspector: &Inspector| inspector.region * (inspector.magnification + 1);
         let before = side(&inspector);
-        inspector.wheel(0.5);
+        let wheel = |inspector: &mut Inspector, clicks: f64| {
+            let placed = Inset::new([0, 0], inspector.region, inspector.magnification);
+            inspector.wheel(clicks, &placed);
+        };
+        wheel(&mut inspector, 0.5);
         assert_eq!(inspector.magnification, 20, "half a click is no step");
-        inspector.wheel(0.5);
+        wheel(&mut inspector, 0.5);
         assert_eq!(inspector.magnification, 24, "two halves are one");
         assert!(side(&inspector).abs_diff(before) <= 20, "{inspector:?}");
-        inspector.wheel(-1.0);
+        wheel(&mut inspector, -1.0);
         assert_eq!((inspector.magnification, inspector.region), (20, 15), "and back");
-        inspector.wheel(1e300);
-        inspector.wheel(f64::NAN);
+        wheel(&mut inspector, 1e300);
+        wheel(&mut inspector, f64::NAN);
         assert_eq!((inspector.magnification, inspector.region), (96, 8), "the end");
+        let small = Inset::new([0, 0], 8, 37);
+        inspector.wheel(-1.0, &small);
+        assert_eq!(inspector.magnification, 32, "the step below what was to be seen");
     }
 
     #[test]

@@ -44,7 +44,8 @@ impl Inspector {
             .collect();
         let bands: Vec<(usize, PixelRect)> = bands_around(area, picture).into_iter().enumerate().collect();
         // What the wheel turns over stays in its band, where there is room for any inset.
-        let same = bands.get(self.band..=self.band).filter(|_| self.wheeled);
+        let stays = self.stays(beside);
+        let same = bands.get(self.band..=self.band).filter(|_| stays);
         let (found, corner, number) = [same.unwrap_or_default(), &bands].into_iter().find_map(|bands| {
             insets.iter().find_map(|inset| {
                 bands.iter().find_map(|(number, band)| {

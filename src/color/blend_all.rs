@@ -43,7 +43,11 @@ fn kernel<S: Simd>(simd: S, mode: BlendMode, above: &[Premultiplied16], below: &
     for (above, below) in above.chunks(LANES).zip(below.chunks_mut(LANES)) {
         let (upper, lower) = (Sixteen::load(simd, above), Sixteen::load(simd, below));
         let (upper_levels, lower_levels) = (upper.levels(), lower.levels());
-        let zero = f32x16::splat(simd, 0.0);
+        let (zero, one) = (f32x16::splat(simd, 0.0), f32x16::splat(simd, ONE));
+        if (upper_levels[3].simd_eq(one) & lower_levels[3].simd_eq(one)).all_true() {
+            Sixteen::rounded(blended_opaque(mode, upper_levels, lower_levels)).store(below);
+            continue;
+        }
         let blended = Sixteen::rounded(blended(mode, upper_levels, lower_levels));
         // Where one of the two is transparent, the other one stays.
         let nothing_above = upper_levels[3].simd_eq(zero);
@@ -75,6 +79,19 @@ fn blended<S: Simd>(mode: BlendMode, upper: Colors<S, 4>, lower: Colors<S, 4>) -
         levels[i] = sum.max(f32x16::splat(simd, 0.0)).min(alpha) * 255.0;
     }
     levels[3] = alpha.max(f32x16::splat(simd, 0.0)).min(one) * 255.0;
+    levels
+}
+
+/// The same where both colours are opaque: nothing is left of either alone.
+#[inline(always)]
+fn blended_opaque<S: Simd>(mode: BlendMode, upper: Colors<S, 4>, lower: Colors<S, 4>) -> Colors<S, 4> {
+    let simd = upper[3].simd;
+    let (zero, one) = (f32x16::splat(simd, 0.0), f32x16::splat(simd, 1.0));
+    let mixed = mixed(mode, straight(lower), straight(upper));
+    let mut levels = [one * 255.0; 4];
+    for i in 0..3 {
+        levels[i] = mixed[i].max(zero).min(one) * 255.0;
+    }
     levels
 }
 
@@ -295,8 +312,9 @@ mod tests {
                     _ => u.int_in_range(0..=Premultiplied16::ONE)?,
                 })
             };
+            let all_opaque = channel()? == 0;
             let mut color = || -> arbtest::arbitrary::Result<Premultiplied16> {
-                let alpha = channel()?;
+                let alpha = if all_opaque { Premultiplied16::ONE } else { channel()? };
                 Ok(Premultiplied16([
                     channel()?.min(alpha),
                     channel()?.min(alpha),

@@ -292,3 +292,53 @@ fn wheel_turns_back_from_the_largest_magnifier_at_once() {
         }
     }
 }
+
+/// Drags from the middle of A's magnifier to a place of the window; where it lies before and after.
+fn drag(session: &mut Session, to: [f64; 2]) -> [PixelRect; 2] {
+    let before = lying(session)[0];
+    let middle = |from: i64, length: u32| from as f64 + f64::from(length / 2);
+    session.pointer(Some(dvec2(
+        middle(before.x, before.width),
+        middle(before.y, before.height),
+    )));
+    session.button(PointerButton::Primary, true);
+    session.pointer(Some(DVec2::from(to)));
+    session.button(PointerButton::Primary, false);
+    session.settle();
+    [before, lying(session)[0]]
+}
+
+#[test]
+fn magnifier_that_is_dragged_to_the_pin_stays_where_it_was() {
+    let mut session = session(Vec::new(), [1280, 800]);
+    right_click(&mut session, [400.0, 150.0]);
+    let free = session.free_area.expect("there is room");
+    let left = free.x as f64 + 60.0;
+    for turn in 0..2 {
+        let [first, below] = drag(&mut session, [left, 700.0]);
+        assert!(turn > 0 || first.y < below.y, "{first:?}, {below:?}");
+        let [_, after] = drag(&mut session, [left, 200.0]);
+        assert_eq!(after, below, "no room beside the pin");
+        // Neither after the wheel turned over it.
+        session.pointer(Some(dvec2(below.x as f64 + 40.0, below.y as f64 + 40.0)));
+        session.wheel(1.0);
+        session.wheel(-1.0);
+        session.settle();
+    }
+}
+
+#[test]
+fn magnifiers_side_by_side_are_dragged_to_other_corners() {
+    let mut session = side_by_side([1280, 800]);
+    let free = session.free_area.expect("there is room");
+    right_click(&mut session, [free.x as f64 + f64::from(free.width) * 0.7, 300.0]);
+    let free = session.free_area.expect("there is room");
+    let half = [free.x as f64, free.x as f64 + f64::from(free.width) / 2.0];
+    for (to, is_above) in [([half[0] + 20.0, 20.0], true), ([half[1] - 20.0, 700.0], false)] {
+        let [_, after] = drag(&mut session, to);
+        assert_eq!(after.y < 300, is_above, "{after:?} after a drag to {to:?}");
+        let is_left = (after.x as f64) - half[0] < half[1] - after.right() as f64;
+        assert_eq!(is_left, is_above, "{after:?} after a drag to {to:?}, in {half:?}");
+        assert_eq!(lying(&session)[1].y, after.y, "B's lies alike");
+    }
+}

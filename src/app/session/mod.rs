@@ -56,8 +56,9 @@ use room::{PanelRoom, Wanted};
 
 /// Passes of the panels for one change: a command of a panel changes what the panels show.
 const MAX_PASSES: u32 = 4;
-/// The least window in points that panels make sense in: a larger interface stops there.
-const LEAST_WINDOW: [f32; 2] = [320.0, 240.0];
+/// The least window in points that panels make sense in: a larger interface stops there. Lists of the menu, three of which may
+/// be open, lie beside each other in it.
+const LEAST_WINDOW: [f32; 2] = [520.0, 390.0];
 /// Surfaces have two or three buffers; one that was shown longer ago is written whole.
 const LONGEST_AGE: usize = 3;
 

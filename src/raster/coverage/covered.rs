@@ -2,7 +2,7 @@
 //! on an edge.
 
 use crate::raster::sampling::mask::SampleMask;
-use crate::raster::span::Span;
+use crate::raster::span::{Span, SpanRect};
 
 /// What a shape covers in a row of pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +14,19 @@ pub(crate) enum Covered {
 }
 
 impl Covered {
+    /// The pixels, in row `y`.
+    #[inline]
+    pub(crate) fn pixels(&self, y: i32) -> SpanRect {
+        let one = |start: i32| Span { start, end: start + 1 };
+        SpanRect {
+            x: match self {
+                Self::Whole(xs) => *xs,
+                Self::Part(x, _) => one(*x),
+            },
+            y: one(y),
+        }
+    }
+
     /// How many samples these are, where a pixel has so many.
     #[inline]
     pub(crate) fn count(&self, per_pixel: usize) -> usize {

@@ -1,5 +1,7 @@
 //! The part of a frame that one tile is painted into.
 
+use std::ops::Range;
+
 use fearless_simd::{Simd, dispatch};
 
 use crate::raster::coverage::mask8x8::CoverageMask;
@@ -51,6 +53,13 @@ impl<'p> PixelBlock<'p> {
     #[inline]
     pub(crate) fn put(&mut self, [x, y]: [u16; 2], value: u32) {
         self.pixels[usize::from(y) * self.stride + usize::from(x)] = value;
+    }
+
+    /// Sets the pixels of some columns of row `y` of the rectangle.
+    #[inline]
+    pub(crate) fn put_run(&mut self, y: u16, columns: Range<u16>, value: u32) {
+        let row = usize::from(y) * self.stride;
+        self.pixels[row + usize::from(columns.start)..row + usize::from(columns.end)].fill(value);
     }
 
     /// Sets the pixels of a stamp, counted from the rectangle's first.

@@ -47,6 +47,10 @@ impl Composite for Blend {
         }
     }
 
+    fn is_copied(self, _: &[Premultiplied16], below: Premultiplied16, rules: Rules) -> bool {
+        self.opacity == Premultiplied16::ONE && rules != Rules::Course && below == Premultiplied16::TRANSPARENT
+    }
+
     fn hides(self, fragment: Premultiplied16) -> bool {
         self.mode == BlendMode::Normal && fragment.is_opaque()
     }

@@ -47,6 +47,11 @@ pub(super) trait Composite: Copy {
         self.keeps_below() && sample == Premultiplied16::TRANSPARENT
     }
 
+    /// Whether samples of the layer over one colour become what the layer holds.
+    fn is_copied(self, _layer: &[Premultiplied16], _below: Premultiplied16, _rules: Rules) -> bool {
+        false
+    }
+
     /// Whether nothing of what is below is left under such a fragment.
     fn hides(self, fragment: Premultiplied16) -> bool {
         fragment.is_opaque()

@@ -61,6 +61,12 @@ macro_rules! composites {
                 }
             }
 
+            fn is_copied(self, layer: &[Premultiplied16], below: Premultiplied16, rules: Rules) -> bool {
+                match self {
+                    $(Self::$kind(own) => own.is_copied(layer, below, rules),)+
+                }
+            }
+
             fn hides(self, fragment: Premultiplied16) -> bool {
                 match self {
                     $(Self::$kind(own) => own.hides(fragment),)+
@@ -128,6 +134,12 @@ impl Compositing {
     #[inline]
     pub(crate) fn keeps_under(self, sample: Premultiplied16) -> bool {
         self.0.keeps_under(sample)
+    }
+
+    /// Whether samples of the layer over one colour become what the layer holds.
+    #[inline]
+    pub(crate) fn is_copied(self, layer: &[Premultiplied16], below: Premultiplied16, rules: Rules) -> bool {
+        self.0.is_copied(layer, below, rules)
     }
 
     /// Whether nothing of what is below is left under such a fragment.

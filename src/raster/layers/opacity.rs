@@ -39,6 +39,12 @@ impl Composite for Opacity {
         }
     }
 
+    fn is_copied(self, layer: &[Premultiplied16], below: Premultiplied16, rules: Rules) -> bool {
+        self.0 == Premultiplied16::ONE
+            && rules != Rules::Course
+            && (below == Premultiplied16::TRANSPARENT || layer.iter().all(|sample| sample.is_opaque()))
+    }
+
     fn opacity(self) -> f64 {
         f64::from(self.0) / f64::from(Premultiplied16::ONE)
     }

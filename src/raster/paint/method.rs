@@ -15,8 +15,9 @@ use crate::rules::Rules;
 ///
 /// With one sample per pixel, and where everything is flat, all methods give the same bytes, so each tile takes the
 /// fastest. Where samples of the grid are shaded, the visibility method rounds once per primitive and pixel, blending once
-/// per sample: tiles that shade anything take the one or the other for the whole list. Off the grid, and in linear light,
-/// every sample is rounded for itself, and both give the same bytes where nothing is to be seen through what is shaded.
+/// per sample: tiles that shade anything take the one or the other for the whole list, unless sums of what they shade are
+/// those of its rounded samples. Off the grid, and in linear light, every sample is rounded for itself, and both give the same
+/// bytes where nothing is to be seen through what is shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::raster) enum Method {
     /// Opaque primitives straight into the frame.
@@ -27,19 +28,26 @@ pub(in crate::raster) enum Method {
     PerSample,
 }
 
+/// Which tiles must blend shaded samples one by one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Blended {
+    /// None: nothing that is shaded is mixed with anything.
+    Nowhere,
+    /// Those in which something is mixed, and those where it would make a difference to sum up before rounding.
+    WhereItMatters,
+    /// All of them.
+    Everywhere,
+}
+
 /// What the primitives of a list are like.
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "what is so of all of a list, each on its own"
-)]
 #[derive(Clone, Copy, Debug)]
 pub(in crate::raster) struct Kinds {
     /// All are opaque, and none is in a layer.
     opaque: bool,
     /// None has more than one colour.
     flat: bool,
-    /// Samples that are shaded must be blended one by one.
-    blended: bool,
+    /// Where samples that are shaded must be blended one by one.
+    blended: Blended,
 }
 
 impl Kinds {
@@ -59,8 +67,15 @@ impl Kinds {
         Self {
             opaque: !translucent && shaded_opaque && !layers,
             flat: !shaded,
-            // The course truncates every sample; layers do not know what would be below a sample that shows through.
-            blended: !shaded_opaque || shaded && (layers || rules == Rules::Course),
+            blended: if shaded && rules == Rules::Course {
+                // The course truncates every sample.
+                Blended::Everywhere
+            } else if !shaded_opaque || shaded && layers {
+                // Layers do not know what would be below a sample that shows through.
+                Blended::WhereItMatters
+            } else {
+                Blended::Nowhere
+            },
         }
     }
 
@@ -78,6 +93,7 @@ impl Kinds {
             commands.all(|(chunk, commands)| commands.iter().all(|command| is_so(command, chunk)))
         };
         let all_opaque = || self.opaque || all(|command, _| command.is_opaque());
+        let exact = || all(|command, chunk| command.is_opaque() && is_summed_exactly(&command.work(chunk)));
         let all_flat = || self.flat || all(|command, chunk| !matches!(command.work(chunk), Work::Shaded(..)));
         let rate_one = context.rate == SampleRate::ONE;
         if !filter.is_plain() {
@@ -92,11 +108,26 @@ impl Kinds {
             };
         }
         if rate_one && all_opaque() {
-            Method::Direct
-        } else if !self.blended || all_flat() {
+            return Method::Direct;
+        }
+        let visibility = match self.blended {
+            Blended::Nowhere => true,
+            Blended::WhereItMatters => all_flat() || exact(),
+            Blended::Everywhere => all_flat(),
+        };
+        if visibility {
             Method::Visibility
         } else {
             Method::PerSample
         }
+    }
+}
+
+/// Whether the sum of a pixel's samples that show nothing else is that of their rounded colours.
+fn is_summed_exactly(work: &Work<'_>) -> bool {
+    match work {
+        Work::Flat(..) => true,
+        Work::Shaded(_, _, paint) => paint.is_summed_exactly(),
+        Work::BeginLayer | Work::EndLayer(_) => false,
     }
 }

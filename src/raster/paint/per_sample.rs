@@ -170,14 +170,16 @@ impl<'a> PerSamplePainter<'a> {
         shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>,
     ) {
         let rect = self.layers.base().rect;
-        let mut prepared = None;
+        let (mut prepared, mut painted) = (None, SpanRect::EMPTY);
         shape_coverage.each(shape, rect, |y, covered| {
+            painted = painted.union(covered.pixels(y));
             let shader = prepared.get_or_insert_with(|| shader(&self.context));
             match shader.constant() {
                 Some(color) => self.fill(y, covered, color),
                 None => self.gather(y, covered, shader.is_level()),
             }
         });
+        self.layers.top().note_painted(painted.intersection(rect));
         if let Some(shader) = prepared {
             self.shade(&shader);
         }

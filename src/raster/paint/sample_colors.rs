@@ -42,6 +42,8 @@ pub(crate) struct ShadedColors<'c> {
 #[derive(Debug)]
 pub(crate) struct SampleColors {
     pub(crate) rect: SpanRect,
+    /// Pixels outside of it are as they were at the start.
+    painted: SpanRect,
     width: usize,
     /// Samples per pixel.
     per_pixel: usize,
@@ -63,6 +65,7 @@ impl SampleColors {
     pub(crate) fn new(rate: SampleRate, rules: Rules, space: ResolveSpace) -> Self {
         Self {
             rect: SpanRect::EMPTY,
+            painted: SpanRect::EMPTY,
             width: 0,
             per_pixel: rate.samples() as usize,
             rules,
@@ -78,6 +81,11 @@ impl SampleColors {
     /// Makes it the tile of `rect` with every sample in `color`.
     pub(crate) fn reset(&mut self, rect: SpanRect, color: Premultiplied16) {
         self.rect = rect;
+        self.painted = if color == Premultiplied16::TRANSPARENT {
+            SpanRect::EMPTY
+        } else {
+            rect
+        };
         self.opaque = color.is_opaque();
         self.width = rect.x.length();
         let pixels = self.width * rect.y.length();
@@ -101,6 +109,11 @@ impl SampleColors {
             self.rect
         );
         offset(y - self.rect.y.start) * self.width + offset(x - self.rect.x.start)
+    }
+
+    /// Notes that pixels of this rectangle are painted.
+    pub(crate) fn note_painted(&mut self, pixels: SpanRect) {
+        self.painted = self.painted.union(pixels);
     }
 
     /// Paints all samples of the pixels `xs` of row `y` with one colour.
@@ -225,29 +238,66 @@ impl SampleColors {
 
     /// Composites another tile of the same rectangle with this one.
     pub(crate) fn composite(&mut self, layer: &Self, compositing: Compositing) {
-        let count = self.whole.len();
         self.opaque &= compositing.keeps_below();
-        let mut first = 0;
-        while first < count {
-            // Pixels side by side that are alike, so that their samples lie side by side.
-            let kind = |pixel: usize| (layer.split[pixel], self.split[pixel] && !layer.split[pixel]);
-            let last = (first + 1..count)
+        let changed = if self.rules == Rules::Course {
+            // Painting nothing truncates, too.
+            self.rect
+        } else if compositing.keeps_below() {
+            layer.painted
+        } else {
+            // What is transparent stays so.
+            self.painted
+        };
+        if changed.is_empty() {
+            return;
+        }
+        self.note_painted(changed);
+        for y in changed.y.start..changed.y.end {
+            let first = self.index(changed.x.start, y);
+            self.composite_pixels(first..first + changed.x.length(), layer, compositing);
+        }
+    }
+
+    /// The same for some pixels side by side.
+    fn composite_pixels(&mut self, pixels: Range<usize>, layer: &Self, compositing: Compositing) {
+        let mut first = pixels.start;
+        while first < pixels.end {
+            // Pixels that are alike, so that their samples lie side by side.
+            let kind = |pixel: usize| (layer.split[pixel], self.split[pixel]);
+            let last = (first + 1..pixels.end)
                 .find(|pixel| kind(*pixel) != kind(first))
-                .unwrap_or(count);
+                .unwrap_or(pixels.end);
             let (samples, whole) = (first * self.per_pixel..last * self.per_pixel, &layer.whole[first..last]);
-            if layer.split[first] {
-                (first..last).for_each(|pixel| self.ensure_split(pixel));
-                compositing.composite(&layer.samples[samples.clone()], &mut self.samples[samples], self.rules);
-            } else if whole.iter().all(|color| compositing.keeps_under(*color)) {
-                // Nothing changes.
-            } else if self.split[first] {
-                for (below, color) in self.samples[samples].chunks_mut(self.per_pixel).zip(whole) {
-                    below
-                        .chunks_mut(ALIKE)
-                        .for_each(|below| compositing.composite(&[*color; ALIKE][..below.len()], below, self.rules));
+            match kind(first) {
+                (true, true) => {
+                    compositing.composite(&layer.samples[samples.clone()], &mut self.samples[samples], self.rules);
                 }
-            } else {
-                compositing.composite(whole, &mut self.whole[first..last], self.rules);
+                (true, false) => {
+                    self.ensure_samples();
+                    for pixel in first..last {
+                        self.split[pixel] = true;
+                        let samples = pixel * self.per_pixel..(pixel + 1) * self.per_pixel;
+                        let (above, below) = (&layer.samples[samples.clone()], &mut self.samples[samples]);
+                        let color = self.whole[pixel];
+                        if compositing.is_copied(above, color, self.rules) {
+                            below.copy_from_slice(above);
+                        } else {
+                            below.fill(color);
+                            compositing.composite(above, below, self.rules);
+                        }
+                    }
+                }
+                _ if whole.iter().all(|color| compositing.keeps_under(*color)) => {
+                    // Nothing changes.
+                }
+                (false, true) => {
+                    for (below, color) in self.samples[samples].chunks_mut(self.per_pixel).zip(whole) {
+                        below.chunks_mut(ALIKE).for_each(|below| {
+                            compositing.composite(&[*color; ALIKE][..below.len()], below, self.rules);
+                        });
+                    }
+                }
+                (false, false) => compositing.composite(whole, &mut self.whole[first..last], self.rules),
             }
             first = last;
         }
@@ -373,4 +423,96 @@ fn paint(samples: &mut [Premultiplied16], shaded: ShadedColors<'_>, rules: Rules
 fn offset(distance: i32) -> usize {
     debug_assert!(distance >= 0, "distance {distance} inside a tile");
     distance.cast_unsigned() as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::BlendMode;
+
+    type Found<T> = arbtest::arbitrary::Result<T>;
+
+    const COUNT: usize = 4;
+    const SIDE: i32 = 6;
+
+    fn span(u: &mut arbtest::arbitrary::Unstructured<'_>) -> Found<Span> {
+        let start = u.int_in_range(0..=SIDE - 1)?;
+        Ok(Span {
+            start,
+            end: u.int_in_range(start + 1..=SIDE)?,
+        })
+    }
+
+    fn color(u: &mut arbtest::arbitrary::Unstructured<'_>) -> Found<Premultiplied16> {
+        let [r, g, b, a]: [u8; 4] = u.arbitrary()?;
+        let alpha = *u.choose(&[255, 255, 0, a])?;
+        Ok(Premultiplied16::from_bytes([r, g, b, 255]).faded(u16::from(alpha) * Premultiplied16::PER_BYTE))
+    }
+
+    /// Paints something, and notes where.
+    fn paint_any(u: &mut arbtest::arbitrary::Unstructured<'_>, tile: &mut SampleColors) -> Found<()> {
+        for _ in 0..u.int_in_range(0..=4)? {
+            let (x, y) = (span(u)?, span(u)?);
+            let colors = (0..COUNT).map(|_| color(u)).collect::<Found<Vec<_>>>()?;
+            let even = u.arbitrary()?;
+            for y in y.start..y.end {
+                if even {
+                    tile.fill(x, y, colors[0]);
+                } else {
+                    tile.repeat(
+                        x,
+                        y,
+                        ShadedColors {
+                            colors: &colors,
+                            opaque: false,
+                        },
+                    );
+                }
+            }
+            tile.note_painted(SpanRect { x, y });
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn layers_are_composited_as_each_sample_alone() {
+        let rect = SpanRect {
+            x: Span { start: 0, end: SIDE },
+            y: Span { start: 0, end: SIDE },
+        };
+        arbtest::arbtest(|u| {
+            let rules = *u.choose(&[Rules::Standard, Rules::Standard, Rules::Course])?;
+            let rate = SampleRate::new(4).expect("a rate");
+            let mut tiles = [(); 2].map(|()| SampleColors::new(rate, rules, ResolveSpace::Stored));
+            let ground = *u.choose(&[Premultiplied16::TRANSPARENT, Premultiplied16([Premultiplied16::ONE; 4])])?;
+            tiles[0].reset(rect, ground);
+            tiles[1].reset(rect, Premultiplied16::TRANSPARENT);
+            for tile in &mut tiles {
+                paint_any(u, tile)?;
+            }
+            let compositing = *u.choose(&[
+                Compositing::with_opacity(1.0),
+                Compositing::with_opacity(0.4),
+                Compositing::blended(BlendMode::Multiply, 1.0),
+                Compositing::blended(BlendMode::Luminosity, 0.7),
+                Compositing::mask(false),
+                Compositing::mask(true),
+            ])?;
+            let [mut below, layer] = tiles;
+            let samples = |tile: &SampleColors| -> Vec<_> {
+                let of_row = |y| (0..SIDE).flat_map(move |x| (0..COUNT).map(move |sample| tile.sample(x, y, sample)));
+                (0..SIDE).flat_map(of_row).collect()
+            };
+            let (above, before) = (samples(&layer), samples(&below));
+            below.composite(&layer, compositing);
+            let alone = above
+                .iter()
+                .zip(before)
+                .map(|(above, below)| compositing.composited(*above, below, rules));
+            let alone: Vec<_> = alone.collect();
+            assert_eq!(samples(&below), alone, "{compositing:?}, {rules:?}");
+            Ok(())
+        })
+        .budget_ms(600);
+    }
 }

@@ -17,15 +17,12 @@ use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::shading::context::{Pixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::Attributes;
-use crate::raster::shading::kernel::{LANES, ONE, WHOLE, places_of};
+use crate::raster::shading::kernel::{LANES, ONE, WHOLE, first_sample, places_of};
 use crate::raster::shading::kind::{PaintKind, Shade};
 use crate::raster::shading::sources::{PaintSources, PlacedGradient};
 use crate::rules::Rules;
 use crate::simd;
 use crate::texture::SampleGrid;
-
-/// About how many samples are shaded together where whole pixels are summed up.
-const BATCH: usize = 1024;
 
 /// The number of a gradient of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +42,12 @@ impl GradientPaint {
     pub(super) fn new(gradient: u32) -> Self {
         Self(gradient)
     }
+
+    /// The gradient, which no triangle changes.
+    fn in_frame<'a>(self, context: &ShadeContext<'a>) -> GradientShader<'a> {
+        let gradient = &context.sources.gradients[self.0 as usize];
+        GradientShader::new(gradient, context.grid.side(), context.sampling.rules)
+    }
 }
 
 impl PaintKind for GradientPaint {
@@ -54,13 +57,20 @@ impl PaintKind for GradientPaint {
         sources.gradients[self.0 as usize].is_opaque()
     }
 
+    fn is_summed_exactly(&self) -> bool {
+        true
+    }
+
+    fn is_level(&self, context: &ShadeContext<'_>) -> bool {
+        self.in_frame(context).is_level()
+    }
+
     fn clipped(&self, _: &[ClipVertex; 3]) -> Self {
         *self
     }
 
     fn shader<'a>(&self, context: &ShadeContext<'a>, _: &[GridPoint; 3]) -> GradientShader<'a> {
-        let gradient = &context.sources.gradients[self.0 as usize];
-        GradientShader::new(gradient, context.grid.side(), context.sampling.rules)
+        self.in_frame(context)
     }
 }
 
@@ -78,6 +88,10 @@ impl<'a> GradientShader<'a> {
 
     fn colors(&self, simd: Level, grid: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
         dispatch!(simd, simd => kernel(simd, self, grid, points, colors));
+    }
+
+    fn sums(&self, simd: Level, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {
+        dispatch!(simd, simd => sums_kernel(simd, self, pixels, sums));
     }
 
     /// Colours from their levels, as they lie in memory.
@@ -155,6 +169,73 @@ fn kernel<S: Simd>(
     }
 }
 
+/// Eight samples: where they lie in their pixel, in samples, and all bits of those that count.
+type Group<S> = ([f64x8<S>; 2], u64x8<S>);
+
+/// The samples of a pixel in groups; if they are fewer than eight, one group of as many pixels as it holds.
+#[inline(always)]
+fn groups<S: Simd>(simd: S, side: u32) -> Vec<Group<S>> {
+    let count = side * side;
+    let group = |start: u32| {
+        let (mut inside, mut counts) = ([[0.0; LANES]; 2], [0; LANES]);
+        for (sample, lane) in (start..).zip(0..LANES) {
+            inside[0][lane] = f64::from(sample % count % side);
+            inside[1][lane] = f64::from(sample % count / side);
+            counts[lane] = if start == 0 || sample < count { u64::MAX } else { 0 };
+        }
+        let inside = inside.map(|inside| f64x8::simd_from(simd, inside));
+        (inside, u64x8::simd_from(simd, counts))
+    };
+    (0..count).step_by(LANES).map(group).collect()
+}
+
+/// The sums of all samples of pixels.
+#[inline(always)]
+fn sums_kernel<S: Simd>(simd: S, shader: &GradientShader<'_>, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {
+    const EVERY_OTHER: u64 = 0x0000_FFFF_0000_FFFF;
+    let side = pixels.grid.side;
+    let first = first_sample(pixels.grid);
+    let groups = groups(simd, side);
+    // So many lanes of a group belong to one pixel.
+    let lanes = ((side * side) as usize).min(LANES);
+    let together = LANES / lanes;
+    let mut stretch = shader.ramp.stretch(0.0);
+    for (places, sums) in pixels.places.chunks(together).zip(sums.chunks_mut(together)) {
+        let corner = [0, 1].map(|i| {
+            let corner = |place: [u16; 2]| first[i] + f64::from(u32::from(place[i]) * side);
+            if let [place] = places {
+                return f64x8::splat(simd, corner(*place));
+            }
+            // What is left over repeats the last one.
+            let mut corners = [corner(places[places.len() - 1]); LANES];
+            for (corners, place) in corners.chunks_mut(lanes).zip(places) {
+                corners.fill(corner(*place));
+            }
+            f64x8::simd_from(simd, corners)
+        });
+        let (mut red_blue, mut green_alpha) = (u64x8::splat(simd, 0), u64x8::splat(simd, 0));
+        for ([right, down], counts) in &groups {
+            let found = shader.eight(simd, [corner[0] + *right, corner[1] + *down], &mut stretch) & *counts;
+            red_blue += found & EVERY_OTHER;
+            green_alpha += (found >> 16) & EVERY_OTHER;
+        }
+        let added = [red_blue, green_alpha].map(<[u64; LANES]>::from);
+        for (i, sum) in sums.iter_mut().enumerate() {
+            let of_pixel = i * lanes..(i + 1) * lanes;
+            // Sums of a pixel's samples fit 32 bits, so that nothing carries over.
+            let [red_blue, green_alpha] = [0, 1].map(|i| added[i][of_pixel.clone()].iter().sum::<u64>());
+            *sum = [red_blue, green_alpha, red_blue >> 32, green_alpha >> 32].map(low_word);
+        }
+    }
+}
+
+/// The lower half.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the lower half is meant")]
+fn low_word(word: u64) -> u32 {
+    word as u32
+}
+
 impl Shade for GradientShader<'_> {
     fn points(&self, grid: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
         self.colors(simd::level(), grid, points, colors);
@@ -165,36 +246,7 @@ impl Shade for GradientShader<'_> {
     }
 
     fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {
-        let side = pixels.grid.side;
-        let per_pixel = (side * side) as usize;
-        // The same row of pixels again has the same sums along a level gradient.
-        let is_again = |i: usize| i > 0 && self.is_level() && pixels.places[i][1] == pixels.places[i - 1][1];
-        let mut points = Vec::with_capacity(BATCH.max(per_pixel));
-        let mut colors = vec![Premultiplied16::TRANSPARENT; BATCH.max(per_pixel)];
-        let mut next = 0;
-        while next < pixels.places.len() {
-            points.clear();
-            let first = next;
-            while next < pixels.places.len() && (points.len() + per_pixel <= BATCH || points.is_empty()) {
-                if !is_again(next) {
-                    let [x, y] = pixels.places[next].map(|place| u32::from(place) * side);
-                    let sample = |i: u32| [x + i % side, y + i / side];
-                    let inside = |place: u32| u16::try_from(place).unwrap_or(u16::MAX);
-                    points.extend((0..side * side).map(|i| sample(i).map(inside)));
-                }
-                next += 1;
-            }
-            let colors = &mut colors[..points.len()];
-            self.points(pixels.grid, &points, colors);
-            let mut each = colors.chunks_exact(per_pixel);
-            for i in first..next {
-                sums[i] = if is_again(i) {
-                    sums[i - 1]
-                } else {
-                    each.next().map_or([0; 4], Premultiplied16::sums)
-                };
-            }
-        }
+        self.sums(simd::level(), pixels, sums);
     }
 
     fn interpolated(&self, sample: ShadedSample) -> Attributes {
@@ -256,6 +308,9 @@ mod tests {
             (4, DVec2::Y, true),
             (4, DVec2::new(1.0, 0.3), false),
             (16, DVec2::Y, true),
+            (1, DVec2::new(1.0, 0.3), false),
+            (2, DVec2::new(1.0, 0.3), false),
+            (3, DVec2::new(1.0, 0.3), false),
         ] {
             let gradient = PlacedGradient {
                 geometry: GradientShape::Linear { from: DVec2::ZERO, to },
@@ -272,6 +327,11 @@ mod tests {
             let pixels = Pixels { grid, places: &places };
             let mut sums = vec![[0; 4]; places.len()];
             shader.pixel_sums(pixels, &mut sums);
+            for (name, level) in simd::tested() {
+                let mut found = vec![[0; 4]; places.len()];
+                shader.sums(level, pixels, &mut found);
+                assert_eq!(found, sums, "{name} gives the sums of every other level");
+            }
             let count = usize::try_from(side * side).expect("a small number");
             for (place, sum) in places.iter().zip(sums) {
                 let side = u16::try_from(side).expect("a small number");

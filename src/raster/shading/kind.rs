@@ -26,6 +26,17 @@ pub(super) trait PaintKind: Copy {
     /// Whether every fragment hides what is below it.
     fn is_opaque(&self, sources: &PaintSources<'_>) -> bool;
 
+    /// Whether [`Shade::pixel_sums`] and [`Shade::masked_sums`] are sums of the rounded colours of [`Shade::points`], and not
+    /// rounded once at the end.
+    fn is_summed_exactly(&self) -> bool {
+        false
+    }
+
+    /// Whether all samples of a line from left to right get the same colour, for certain.
+    fn is_level(&self, _: &ShadeContext<'_>) -> bool {
+        false
+    }
+
     /// The same paint on a part of its triangle.
     fn clipped(&self, corners: &[ClipVertex; 3]) -> Self;
 

@@ -126,6 +126,17 @@ impl Paint {
         ask!(&self.0, AnyPaint, paint => paint.is_opaque(sources))
     }
 
+    /// Whether sums of its samples are those of their rounded colours, and not rounded once at the end.
+    pub(crate) fn is_summed_exactly(&self) -> bool {
+        ask!(&self.0, AnyPaint, paint => paint.is_summed_exactly())
+    }
+
+    /// Whether all samples of a line from left to right get the same colour, for certain.
+    #[inline]
+    pub(crate) fn is_level(&self, context: &ShadeContext<'_>) -> bool {
+        ask!(&self.0, AnyPaint, paint => paint.is_level(context))
+    }
+
     /// The same paint on a part of its triangle.
     pub(crate) fn clipped(&self, corners: &[ClipVertex; 3]) -> Self {
         Self(self.0.clipped(corners))

@@ -102,9 +102,9 @@ impl Hand<'_> {
         if self.ab.drags_line {
             self.ab.drag_line(to.x, &self.layout());
         } else if self.pointer.drags_inset {
-            let area = self.layout().free_window();
-            let corner = Corner::nearest(&area, window_pixel(to));
-            (self.inspector.magnifier.corner, self.inspector.magnifier.chosen) = (corner, Some(corner));
+            let at = window_pixel(to);
+            let area = self.layout().free_window_at(at);
+            self.inspector.magnifier.dragged = Some(Corner::nearest(&area, at));
         } else if let Some(from) = from.filter(|_| self.pointer.dragging) {
             self.viewing().pan(to - from);
         }

@@ -85,7 +85,9 @@ pub struct Inspector {
     /// Where the inset was last.
     pub(in crate::viewer) corner: Corner,
     /// The corner that a hand dragged it to.
-    pub(in crate::viewer) chosen: Option<Corner>,
+    chosen: Option<Corner>,
+    /// The corner that a hand is dragging it to: where it has no room there, it stays where it is.
+    pub(in crate::viewer) dragged: Option<Corner>,
     /// The part beside a picture in a half of the window where the inset was last.
     band: usize,
     /// Turns of the wheel that did not make a whole step yet.
@@ -158,6 +160,7 @@ impl Default for Inspector {
             extent: region * (magnification + 1),
             corner: Corner::default(),
             chosen: None,
+            dragged: None,
             band: 0,
             rest: 0.0,
             wheeled: false,
@@ -286,14 +289,15 @@ impl Inspector {
         let least = f64::from(side(&inset(region, magnification))).min(largest) / 2.0;
         // The ring is worth an inset of half the size, not a tiny one.
         let beside_ring = || all().take_while(|inset| f64::from(side(inset)) >= least);
-        if let Some(chosen) = self.chosen {
+        for corner in self.wanted_corners() {
             let room = Room {
                 beside,
                 taken: ring.as_ref().unwrap_or(shown),
-                only: Some(chosen),
+                only: Some(corner),
                 spared: self.spared,
             };
             if let Some(placed) = self.first_place(beside_ring(), &room, &size) {
+                self.chosen = Some(corner);
                 return Some(placed);
             }
         }
@@ -319,6 +323,11 @@ impl Inspector {
                     .and_then(|ring| self.first_place(beside_ring(), &room(ring), &size));
                 large.or_else(|| self.first_place(all(), &room(shown), &size))
             })
+    }
+
+    /// The corners that a hand dragged it to, the latest first; the latest is asked for once.
+    fn wanted_corners(&mut self) -> impl Iterator<Item = Corner> + use<> {
+        self.dragged.take().into_iter().chain(self.chosen)
     }
 
     /// Places the first of these insets that has room, rather without its large pixel than a smaller one.

@@ -1,6 +1,6 @@
 //! The magnifiers of two pictures side by side: each lies in its picture's half, beside the picture where there is room.
 
-use crate::figure::{Inset, PixelRect, place};
+use crate::figure::{Corner, Inset, PixelRect, place};
 use crate::viewer::inspector::{Beside, Inspector, LEAST, PlacedInset, SHARE, with_ring};
 
 impl Inspector {
@@ -43,6 +43,20 @@ impl Inspector {
             .filter(|inset| f64::from(inset.size()[0].max(inset.size()[1])) <= longest)
             .collect();
         let bands: Vec<(usize, PixelRect)> = bands_around(area, picture).into_iter().enumerate().collect();
+        for wanted in self.wanted_corners() {
+            let in_band = |inset: &Inset, (number, band): &(usize, PixelRect)| {
+                let (_, rect) = place(band, inset.size(), &taken, wanted)?;
+                let middle = [rect.x + i64::from(rect.width / 2), rect.y + i64::from(rect.height / 2)];
+                (Corner::nearest(area, middle) == wanted).then_some((PlacedInset { inset: *inset, rect }, *number))
+            };
+            let placed = insets
+                .iter()
+                .find_map(|inset| bands.iter().find_map(|band| in_band(inset, band)));
+            if let Some((placed, number)) = placed {
+                (self.corner, self.chosen, self.band) = (wanted, Some(wanted), number);
+                return Some(placed);
+            }
+        }
         // What the wheel turns over stays in its band, where there is room for any inset.
         let stays = self.stays(beside);
         let same = bands.get(self.band..=self.band).filter(|_| stays);

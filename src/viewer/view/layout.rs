@@ -112,6 +112,17 @@ impl WindowLayout {
         self.free_window
     }
 
+    /// The half of it at a window pixel where two pictures lie side by side, else all of it.
+    pub(in crate::viewer) fn free_window_at(&self, at: [i64; 2]) -> PixelRect {
+        let panes = self.panes();
+        let Some(second) = panes.second else {
+            return self.free_window;
+        };
+        let halves = [panes.first, second].map(|pane| magnified(&pane.area, self.zoom()));
+        let [first, second] = halves;
+        if second.contains(at) { second } else { first }
+    }
+
     /// The same as panels tell it; `None` where there are none, as in pictures of the window without panels.
     pub(in crate::viewer) fn free_area(&self) -> Option<PixelRect> {
         self.free_area

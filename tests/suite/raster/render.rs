@@ -368,3 +368,33 @@ fn a_circle_is_round_at_ten_thousand_per_cent() {
         assert_eq!(wrong, 0, "pixels with a sample on the wrong side at {scale}");
     }
 }
+
+#[test]
+fn render_gradients_do_not_depend_on_layers() {
+    let defs = "<defs><linearGradient id='down' x2='0' y2='1'><stop stop-color='#123'/><stop offset='1' stop-color='#fa4'/></linearGradient>\
+        <linearGradient id='slope' x2='1' y2='0.4' spreadMethod='reflect'><stop offset='.2' stop-color='#e31'/><stop offset='.4' stop-color='#18a'/></linearGradient>\
+        <radialGradient id='round' fx='.3' spreadMethod='repeat' r='.2'><stop stop-color='#fff'/><stop offset='.5' stop-color='#284'/><stop offset='1'/></radialGradient></defs>";
+    let shapes = "<rect width='200' height='200' fill='url(#down)'/><rect x='20.3' y='20.7' width='90' height='61' fill='url(#slope)'/>\
+        <circle cx='70' cy='70' r='45' fill='url(#round)'/><path d='M0 130 180 20 190 60Z' fill='url(#down)'/><circle cx='120' cy='30' r='9' fill='#222'/>";
+    let picture = |body: &str, rate: u32| {
+        let document = documents::svg(
+            "width='200' height='200' viewBox='0 0 200 200'",
+            &format!("{defs}{body}"),
+        );
+        let scene = documents::read(&document, DialectChoice::Svg);
+        drawn(&scene, &one_to_one([200, 200]), &at_rate(rate), [200, 200])
+    };
+    for rate in [1, 4, 9, 16, 64] {
+        let plain = picture(shapes, rate);
+        let isolated = picture(&format!("<g style='isolation: isolate'>{shapes}</g>"), rate);
+        assert!(plain == isolated, "rate {rate}: a group for itself");
+        // Far from the layer, in other tiles.
+        let beside = picture(
+            &format!("{shapes}<g opacity='0.5'><rect x='190' y='190' width='9' height='9'/></g>"),
+            rate,
+        );
+        let upper = |frame: &Framebuffer| frame.pixels()[..200 * 120].to_vec();
+        assert!(upper(&plain) == upper(&beside), "rate {rate}: with a layer elsewhere");
+        assert!(plain != beside, "rate {rate}: which is to be seen");
+    }
+}

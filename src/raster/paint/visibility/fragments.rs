@@ -19,18 +19,28 @@ pub(super) struct FragmentSums {
 impl FragmentSums {
     /// Shades the fragments that are whole pixels; how many there are.
     pub(super) fn shade_whole(&mut self, fragments: &[Fragment], grid: SampleGrid, shader: &Shader<'_>) -> u64 {
+        let whole = fragments.iter().filter_map(|fragment| match fragment.part {
+            Part::Whole { place } => Some(place),
+            Part::Masked { .. } => None,
+        });
+        self.sums_of(whole, grid, shader).len() as u64
+    }
+
+    /// The sums of all samples of the pixels at `places`.
+    pub(super) fn sums_of(
+        &mut self,
+        places: impl Iterator<Item = [u16; 2]>,
+        grid: SampleGrid,
+        shader: &Shader<'_>,
+    ) -> &[[u32; 4]] {
         self.places.clear();
-        for fragment in fragments {
-            if let Part::Whole { place } = fragment.part {
-                self.places.push(place);
-            }
-        }
+        self.places.extend(places);
         self.make_sums();
         if !self.places.is_empty() {
             let places = &self.places;
             shader.pixel_sums(Pixels { grid, places }, &mut self.sums);
         }
-        self.places.len() as u64
+        &self.sums
     }
 
     /// Gathers the fragments that are parts of pixels; of the 64 samples from `first` on.

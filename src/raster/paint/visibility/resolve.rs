@@ -43,6 +43,7 @@ impl VisibilityPainter<'_> {
         let start = timed.then(Instant::now);
         self.unresolved.sort(self.surfaces.len());
         let resolver = self.resolver;
+        self.shade_level([x.start, y.start], block);
         self.shade([x.start, y.start], &mut |place, sums| {
             block.put(place, resolver.pixel(sums));
         });
@@ -135,15 +136,19 @@ impl VisibilityPainter<'_> {
 
     /// Resolves what is flat, and notes what is to be shaded.
     fn resolve_row(&mut self, y: i32, row: u16, line: &mut [u32]) {
-        let (tile, surfaces) = (self.layers.base(), &self.surfaces);
+        let (tile, surfaces, context) = (self.layers.base(), &self.surfaces, &self.context);
         let unresolved = &mut self.unresolved;
         for (run, range) in tile.runs(y) {
             let columns = (0_u16..).take(range.end).skip(range.start);
             match run {
                 Run::Whole(surface) => {
                     let shown = surfaces.get(surface);
-                    if shown.shaded.is_none() {
+                    let Some(shaded) = shown.shaded else {
                         line[range].fill(shown.pixel);
+                        continue;
+                    };
+                    if range.len() > 1 && shaded.paint.is_level(context) {
+                        unresolved.level_run(surface, row, range);
                     } else {
                         columns.for_each(|x| unresolved.whole(surface, [x, row]));
                     }
@@ -177,6 +182,26 @@ impl VisibilityPainter<'_> {
                     }
                 }
             }
+        }
+    }
+
+    /// Shades runs of pixels that are alike: the first one of each. `origin` is the tile's first pixel.
+    fn shade_level(&mut self, origin: [i32; 2], block: &mut PixelBlock<'_>) {
+        let grid = self.context.samples_from(origin);
+        for runs in self.unresolved.level.chunk_by(|a, b| a.surface == b.surface) {
+            let shown = self.surfaces.get(runs[0].surface);
+            let Some(Shaded { corners, paint, kept }) = shown.shaded else {
+                continue;
+            };
+            let first = runs.iter().map(|run| [run.columns.start, run.row]);
+            let shader = Shader::new(&self.context, corners, paint);
+            for (run, sum) in runs.iter().zip(self.fragments.sums_of(first, grid, &shader)) {
+                let pixel = self
+                    .resolver
+                    .pixel(shown.over_shaded(*sum, kept, self.resolver.count()));
+                block.put_run(run.row, run.columns.clone(), pixel);
+            }
+            self.samples_shaded += runs.len() as u64 * u64::from(self.resolver.count());
         }
     }
 

@@ -1,5 +1,7 @@
 //! What is left to be shaded in a tile once everything is painted, sorted by primitive.
 
+use std::ops::Range;
+
 use crate::raster::surface_id::SurfaceId;
 
 /// Which samples of a pixel show a primitive.
@@ -20,6 +22,16 @@ pub(crate) struct Fragment {
     pub(crate) part: Part,
 }
 
+/// Pixels side by side of which all samples show a primitive that has one colour along a row of samples.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct LevelRun {
+    /// The primitive.
+    pub(crate) surface: SurfaceId,
+    /// Row and columns, counted from the tile's first pixel.
+    pub(crate) row: u16,
+    pub(crate) columns: Range<u16>,
+}
+
 /// The pixels of a tile that wait for something to be shaded.
 #[derive(Debug, Default)]
 pub(crate) struct ShadingQueue {
@@ -28,6 +40,8 @@ pub(crate) struct ShadingQueue {
     /// The sums of their samples as far as they are known.
     pub(crate) sums: Vec<[u32; 4]>,
     found: Vec<Fragment>,
+    /// Those that are alike along their row, and in none of the other lists.
+    pub(crate) level: Vec<LevelRun>,
     pub(crate) sorted: SortedFragments,
     /// The parts of the pixel at work.
     parts: Vec<(SurfaceId, u16, u64)>,
@@ -50,11 +64,12 @@ impl ShadingQueue {
         self.places.clear();
         self.sums.clear();
         self.found.clear();
+        self.level.clear();
     }
 
     /// Whether nothing waits.
     pub(crate) fn is_empty(&self) -> bool {
-        self.found.is_empty() && self.places.is_empty()
+        self.found.is_empty() && self.places.is_empty() && self.level.is_empty()
     }
 
     /// All samples of the pixel at `place` show the primitive of `surface`.
@@ -62,6 +77,18 @@ impl ShadingQueue {
     pub(crate) fn whole(&mut self, surface: SurfaceId, place: [u16; 2]) {
         let part = Part::Whole { place };
         self.found.push(Fragment { surface, part });
+    }
+
+    /// All samples of pixels of a row show the primitive of `surface`, which has one colour along each row of samples.
+    #[inline]
+    pub(crate) fn level_run(&mut self, surface: SurfaceId, row: u16, columns: Range<usize>) {
+        // No tile is so wide.
+        let [start, end] = [columns.start, columns.end].map(|column| u16::try_from(column).unwrap_or(u16::MAX));
+        self.level.push(LevelRun {
+            surface,
+            row,
+            columns: start..end,
+        });
     }
 
     /// The samples of the pixel at `place` show these surfaces, row by row; those with a colour in `flat` are known already.
@@ -116,6 +143,8 @@ impl ShadingQueue {
 
     /// Sorts the fragments by surface, of which there are `surfaces`.
     pub(crate) fn sort(&mut self, surfaces: usize) {
+        // In a surface by row, as they were found.
+        self.level.sort_by_key(|run| run.surface);
         self.sorted.sort(&self.found, surfaces);
     }
 }

@@ -9,8 +9,8 @@ use std::sync::atomic::AtomicBool;
 use crate::color::{Premultiplied16, WeightedSum};
 use crate::raster::DisplayList;
 use crate::raster::binning::bins::{Bins, entries_of_tile};
-use crate::raster::binning::tile_command::TileCommand;
-use crate::raster::binning::visible::first_visible;
+use crate::raster::binning::tile_command::{TileCommand, Work};
+use crate::raster::binning::visible::{first_visible, visible};
 use crate::raster::display_list::Pass;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::list::chunk::Chunk;
@@ -177,9 +177,12 @@ impl DisplayList<'_> {
         let pixel = self.alone(&pass, &mut painters, one_pixel(at));
         let by_visibility = self.method(&pass, 0, first_visible(&pass.bins, 0)) == Method::Visibility;
         let shaded = by_visibility.then(|| painters.visibility.shaded_sums()).flatten();
+        let of_samples = sums(samples.iter().map(|(color, _)| color));
+        // Where it makes no difference, the sum of what the samples show says more.
+        let shaded = shaded.filter(|shaded| *shaded != of_samples || self.rounds_sums(&pass));
         let weight = 1.0 / samples.len() as f64;
         Some(PixelReplay {
-            sums: shaded.unwrap_or_else(|| sums(samples.iter().map(|(color, _)| color))),
+            sums: shaded.unwrap_or(of_samples),
             summed_exactly: shaded.is_some(),
             samples: positions
                 .into_iter()
@@ -194,6 +197,17 @@ impl DisplayList<'_> {
             painted,
             pixel,
             around: None,
+        })
+    }
+
+    /// Whether anything in the one tile of a pass is summed up before it is rounded.
+    fn rounds_sums(&self, pass: &Pass<'_>) -> bool {
+        let rounds = |work: &Work<'_>| matches!(work, Work::Shaded(_, _, paint) if !paint.rounds_each_sample());
+        let mut commands = visible(&pass.bins, 0, first_visible(&pass.bins, 0));
+        commands.any(|(chunk, commands)| {
+            commands
+                .iter()
+                .any(|command| rounds(&command.work(&self.chunks[chunk])))
         })
     }
 

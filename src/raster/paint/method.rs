@@ -93,7 +93,7 @@ impl Kinds {
             commands.all(|(chunk, commands)| commands.iter().all(|command| is_so(command, chunk)))
         };
         let all_opaque = || self.opaque || all(|command, _| command.is_opaque());
-        let exact = || all(|command, chunk| command.is_opaque() && is_summed_exactly(&command.work(chunk)));
+        let exact = || all(|command, chunk| command.is_opaque() && rounds_each_sample(&command.work(chunk)));
         let all_flat = || self.flat || all(|command, chunk| !matches!(command.work(chunk), Work::Shaded(..)));
         let rate_one = context.rate == SampleRate::ONE;
         if !filter.is_plain() {
@@ -124,10 +124,10 @@ impl Kinds {
 }
 
 /// Whether the sum of a pixel's samples that show nothing else is that of their rounded colours.
-fn is_summed_exactly(work: &Work<'_>) -> bool {
+fn rounds_each_sample(work: &Work<'_>) -> bool {
     match work {
         Work::Flat(..) => true,
-        Work::Shaded(_, _, paint) => paint.is_summed_exactly(),
+        Work::Shaded(_, _, paint) => paint.rounds_each_sample(),
         Work::BeginLayer | Work::EndLayer(_) => false,
     }
 }

@@ -57,7 +57,7 @@ impl PaintKind for GradientPaint {
         sources.gradients[self.0 as usize].is_opaque()
     }
 
-    fn is_summed_exactly(&self) -> bool {
+    fn rounds_each_sample(&self) -> bool {
         true
     }
 

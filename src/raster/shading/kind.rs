@@ -28,7 +28,7 @@ pub(super) trait PaintKind: Copy {
 
     /// Whether [`Shade::pixel_sums`] and [`Shade::masked_sums`] are sums of the rounded colours of [`Shade::points`], and not
     /// rounded once at the end.
-    fn is_summed_exactly(&self) -> bool {
+    fn rounds_each_sample(&self) -> bool {
         false
     }
 

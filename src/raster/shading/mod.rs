@@ -127,8 +127,8 @@ impl Paint {
     }
 
     /// Whether sums of its samples are those of their rounded colours, and not rounded once at the end.
-    pub(crate) fn is_summed_exactly(&self) -> bool {
-        ask!(&self.0, AnyPaint, paint => paint.is_summed_exactly())
+    pub(crate) fn rounds_each_sample(&self) -> bool {
+        ask!(&self.0, AnyPaint, paint => paint.rounds_each_sample())
     }
 
     /// Whether all samples of a line from left to right get the same colour, for certain.

@@ -17,6 +17,8 @@ use crate::viewer::{
 const WIDTH: f32 = 150.0;
 /// Points of the window's height that a list leaves free.
 const FREE: f32 = 40.0;
+/// Points of a list's height that are its frame.
+const FRAME: f32 = 20.0;
 /// The commands that stand below the headings, too: what a newcomer looks for.
 const FIRST_HELP: [&str; 2] = ["help", "palette"];
 
@@ -27,10 +29,10 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) ->
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let button = MenuButton::from_button(Button::new("Menu").small()).config(config);
     let (response, _) = button.ui(ui, |ui| {
-        list(ui, |ui| {
+        list(ui, f32::INFINITY, |ui| {
             for group in Group::ALL {
                 ui.menu_button(group.name(), |ui| {
-                    asks = list(ui, |ui| of_group(ui, viewer, group, commands)).or(asks.take());
+                    asks = list(ui, f32::INFINITY, |ui| of_group(ui, viewer, group, commands)).or(asks.take());
                 });
             }
             ui.separator();
@@ -43,13 +45,22 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) ->
     asks
 }
 
-/// What may be longer than the window is high.
-fn list<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
+/// What may be longer than the window is high, or than `most`.
+fn list<R>(ui: &mut Ui, most: f32, contents: impl FnOnce(&mut Ui) -> R) -> R {
     ui.set_min_width(WIDTH);
     look::bars_beside(ui);
-    let height = ui.ctx().content_rect().height() - FREE;
+    let height = (ui.ctx().content_rect().height() - FREE).min(most);
     let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
     area.show(ui, contents).inner
+}
+
+/// How high a list may be that opens beside the next line: as high as there is room from this line up or down. A higher one
+/// would fit on neither side, and lie over the line.
+fn beside_next(ui: &Ui) -> f32 {
+    let (line, window) = (ui.available_rect_before_wrap(), ui.ctx().content_rect());
+    let down = window.bottom() - line.top();
+    let up = line.top() + ui.spacing().interact_size.y - window.top();
+    down.max(up) - FRAME
 }
 
 /// The lines under a heading. Returns the command whose argument is to be asked for.
@@ -73,8 +84,9 @@ fn of_group(ui: &mut Ui, viewer: &Viewer, group: Group, commands: &mut Vec<Comma
             continue;
         };
         let mut chosen = None;
+        let most = beside_next(ui);
         ui.menu_button(capitalized(setting.label), |ui| {
-            list(ui, |ui| {
+            list(ui, most, |ui| {
                 chosen = values(ui, viewer, setting);
                 lines_of(ui);
             });
@@ -89,8 +101,9 @@ fn recent(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     if viewer.scene_list().opened().is_empty() {
         return;
     }
+    let most = beside_next(ui);
     ui.menu_button("Open again", |ui| {
-        list(ui, |ui| {
+        list(ui, most, |ui| {
             for path in viewer.scene_list().opened() {
                 let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
                 let button = ui.button(plain::line(&name));

@@ -1,5 +1,7 @@
 //! The menu by mouse: every command is in it, lists stay in the window, and a click beside them presses nothing else.
 
+#![expect(clippy::cast_possible_truncation, reason = "points of a window")]
+
 use crate::viewer::{Action, CommandSpec, Group, InspectorCommand, ViewCommand, WindowCommand, commands};
 use egui::accesskit::{Node, Toggled};
 use glam::{DVec2, dvec2};
@@ -259,6 +261,47 @@ fn menu_fits_windows_with_large_letters() {
             session.settle();
             assert!(!session.interface.list_is_open(), "closed at {scale} in {window:?}");
             assert_eq!(session.viewer.chrome().dialog(), None, "nothing else is hit");
+        }
+    }
+}
+
+#[test]
+fn lists_lie_beside_the_lists_that_they_open_from() {
+    for (window, steps) in [([800, 600], 0), ([800, 600], 4), ([800, 600], 8), ([1280, 800], 8)] {
+        let mut session = session(Vec::new(), window);
+        for _ in 0..steps {
+            session.command(Command::Window(WindowCommand::StepInterfaceScale { up: true }));
+        }
+        session.settle();
+        let scale = f64::from(session.scale());
+        for name in ["Sample rate", "Pattern", "Pixel sampling", "Level sampling", "Filter"] {
+            for step in ["Menu", Group::Sampling.name(), name] {
+                let at = place_of(&mut session, step) * scale;
+                click(&mut session, at);
+                session.settle();
+            }
+            // Everything of the line can still be pressed, from its first letter to its arrow.
+            let all = nodes(&mut session);
+            let line = all
+                .iter()
+                .find(|node| node.label() == Some(name))
+                .and_then(Node::bounds)
+                .expect("a line");
+            let layer = |x: f64| {
+                let at = egui::pos2(x as f32, f64::midpoint(line.y0, line.y1) as f32);
+                session.ctx().layer_id_at(at)
+            };
+            assert_eq!(
+                layer(line.x0 + 3.0),
+                layer(line.x1 - 3.0),
+                "{name} at {scale} in {window:?}"
+            );
+            for _ in 0..3 {
+                if session.interface.list_is_open() {
+                    key(&mut session, "Escape");
+                    session.settle();
+                }
+            }
         }
     }
 }

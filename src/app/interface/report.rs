@@ -19,7 +19,8 @@ pub(super) fn section(ui: &mut Ui, id: &str, title: &str, open: bool, contents: 
     bring_into_sight(ui, &section);
 }
 
-/// What a click unfolds below the last visible line comes into sight while it grows, as far as it has room below its title.
+/// What a click unfolds below the last visible line comes into sight while it grows, as far as it fills the lower half: the
+/// title stays under the pointer where it can, so that another click folds it again.
 pub(super) fn bring_into_sight<R>(ui: &Ui, section: &CollapsingResponse<R>) {
     let (header, grows) = (&section.header_response, section.openness < 1.0);
     let opens = || CollapsingState::load(ui.ctx(), header.id).is_some_and(|state| state.is_open());
@@ -27,7 +28,9 @@ pub(super) fn bring_into_sight<R>(ui: &Ui, section: &CollapsingResponse<R>) {
         && (header.clicked() || grows)
         && opens()
     {
-        ui.scroll_to_rect(header.rect.union(body.rect), None);
+        let mut wanted = header.rect.union(body.rect);
+        wanted.max.y = wanted.max.y.min(header.rect.bottom() + ui.clip_rect().height() / 2.0);
+        ui.scroll_to_rect(wanted, None);
     }
 }
 

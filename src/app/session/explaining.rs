@@ -114,3 +114,24 @@ fn what_a_click_unfolds_comes_into_sight() {
     }
     assert!(seen > 0, "a window in which the fold is the last that is to be seen");
 }
+
+#[test]
+fn title_of_a_long_fold_stays_under_the_click_that_opens_it() {
+    const FOLD: &str = "How samples became the colour";
+    for window in [[1366, 768], [1280, 800], [1920, 1080]] {
+        let mut session = session(Vec::new(), window);
+        for (setting, value) in [("sample-rate", "64"), ("resolve-filter", "lanczos3")] {
+            session.command(Command::set(setting, value).expect("a value"));
+        }
+        session.settle();
+        right_click(&mut session, [550.0, 400.0]);
+        session.wait(Duration::from_secs(10));
+        session.settle();
+        let before = place_of(&mut session, FOLD);
+        assert!(before.y < f64::from(window[1]) / 2.0, "{before} in {window:?}");
+        for turn in ["opened", "closed", "opened again"] {
+            click_on(&mut session, FOLD);
+            assert_eq!(place_of(&mut session, FOLD), before, "{turn} in {window:?}");
+        }
+    }
+}

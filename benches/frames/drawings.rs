@@ -1,12 +1,12 @@
-//! Drawings as people have them, the gallery's: paths, strokes, dashes, text, gradients, clips and blend modes, side by side
-//! with resvg and `vello_cpu`.
+//! Drawings as people have them, the gallery's and others of the size of real files: paths, strokes, dashes, text, gradients,
+//! clips and blend modes, side by side with resvg and `vello_cpu`.
 //!
 //! All three start from the document as usvg resolves it, with the same typefaces; reading is outside of the time.
 
 use std::path::Path;
 use std::sync::Arc;
 
-use rasterscope::scene::{self, DialectChoice, Scene};
+use rasterscope::scene::{DialectChoice, NoResources, ReadOptions, read};
 use resvg::usvg;
 use resvg::usvg::fontdb;
 use resvg::usvg::tiny_skia_path::PathSegment;
@@ -18,6 +18,7 @@ use vello_cpu::{PaintType, RenderContext};
 use crate::ours::{Ours, pool, settings};
 use crate::peers::vello_by;
 use crate::race::{Budget, Rival, Timing, race};
+use crate::scenes::documents;
 use crate::table::{Row, ratio, say_times, times};
 
 /// The gallery's drawings that `vello_cpu` has everything for: no patterns, no masks.
@@ -34,14 +35,47 @@ const NAMES: [&str; 5] = ["ours@16", "resvg-aa", "vello/1", "vello/1+1", "vello/
 
 const SIZE: [u32; 2] = [1024, 1024];
 
-/// The rows of drawings.
+/// The rows of drawings, and of documents of the size that people have.
 pub(crate) fn drawings(budget: Budget) -> Vec<Row> {
-    let mut columns = vec![Vec::new(); NAMES.len()];
-    for name in DRAWINGS {
+    let gallery = DRAWINGS.map(|name| {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg").join(name);
-        let document = std::fs::read_to_string(&path).expect("a file of the gallery");
-        let read = scene::load(&path, DialectChoice::Svg).expect("a scene");
-        let timings = race_on(&read, &document, budget);
+        (name, std::fs::read_to_string(path).expect("a file of the gallery"))
+    });
+    let mut rows = race_all(
+        &gallery,
+        budget,
+        [
+            "drawings (icons, map, plot, poster, page of text), rate 16, against resvg",
+            "the same against vello_cpu's analytic antialiasing (its best number of threads)",
+        ],
+    );
+    rows.extend(race_all(
+        &documents::all(),
+        budget,
+        [
+            "documents (a map of 5 MB, a plot of 100 000 segments, a page of 10 000 glyphs), rate 16, against resvg",
+            "the same documents against vello_cpu, likewise",
+        ],
+    ));
+    rows
+}
+
+/// Times documents that people name.
+pub(crate) fn files(paths: &[&Path], budget: Budget) {
+    for path in paths {
+        let document = std::fs::read_to_string(path).expect("a file that can be read");
+        say_times(&path.display().to_string(), SIZE, &NAMES, &race_on(&document, budget));
+    }
+}
+
+fn race_all(
+    documents: &[(&str, String)],
+    budget: Budget,
+    [against_resvg, against_vello]: [&'static str; 2],
+) -> Vec<Row> {
+    let mut columns = vec![Vec::new(); NAMES.len()];
+    for (name, document) in documents {
+        let timings = race_on(document, budget);
         say_times(name, SIZE, &NAMES, &timings);
         for (column, timing) in columns.iter_mut().zip(timings) {
             column.push(timing);
@@ -67,22 +101,18 @@ pub(crate) fn drawings(budget: Budget) -> Vec<Row> {
         part: "drawings",
     };
     vec![
-        row(
-            "drawings (icons, map, plot, poster, page of text), rate 16, against resvg",
-            "1x as fast",
-            times(ratio(resvg, ours)),
-        ),
-        row(
-            "the same against vello_cpu's analytic antialiasing (its best number of threads)",
-            "0.77x as fast",
-            times(ratio(&best, ours)),
-        ),
+        row(against_resvg, "1x as fast", times(ratio(resvg, ours))),
+        row(against_vello, "0.77x as fast", times(ratio(&best, ours))),
     ]
 }
 
-fn race_on(read: &Scene, document: &str, budget: Budget) -> Vec<Timing> {
+fn race_on(document: &str, budget: Budget) -> Vec<Timing> {
     let tree = tree(document);
-    let mut ours = Ours::new(read, SIZE, settings(16), pool(2));
+    let options = ReadOptions {
+        dialect: DialectChoice::Svg,
+    };
+    let read = read(document.as_bytes(), "", options, &NoResources).expect("a scene");
+    let mut ours = Ours::new(&read, SIZE, settings(16), pool(2));
     let mut rivals = vec![
         Rival::new(move || {
             ours.draw();

@@ -1,7 +1,8 @@
 //! What a frame costs, ours and the peers': `cargo bench --bench frames -- [PART ...]`.
 //!
 //! Parts: `parts`, `stages`, `flat`, `drawings`, `course`, `slivers`, `textured`, `million`, `points`, `memory`; all of them without an
-//! argument. The last lines are the table of the README. `--export FOLDER` instead times us and writes what `benches/llvmpipe` draws.
+//! argument. The last lines are the table of the README. SVG files instead of parts are drawn as the drawings are; `--export FOLDER`
+//! times us and writes what `benches/llvmpipe` draws.
 
 mod course;
 mod drawings;
@@ -16,6 +17,7 @@ mod race;
 mod scenes;
 mod table;
 
+use std::path::Path;
 use std::time::Duration;
 
 use race::Budget;
@@ -33,6 +35,11 @@ fn main() {
         && option == "--export"
     {
         export::export(folder.as_ref(), BUDGET).expect("a folder that can be written");
+        return;
+    }
+    if words.first().is_some_and(|word| word.ends_with(".svg")) {
+        let paths: Vec<&Path> = words.iter().map(Path::new).collect();
+        drawings::files(&paths, BUDGET);
         return;
     }
     let wanted = |part: &str| words.is_empty() || words.iter().any(|word| word == part);

@@ -31,7 +31,8 @@ impl Picture {
     }
 
     /// As [`Picture::read`], of a scene that was read as `spec` says.
-    pub(super) fn of(spec: PictureSpec, scene: Arc<Scene>) -> Self {
+    pub(super) fn of(mut spec: PictureSpec, scene: Arc<Scene>) -> Self {
+        spec.dialect = spec.dialect.anywhere(scene.dialect);
         let [width, height] = spec.size;
         Self {
             view: spec.view.transform(scene.canvas, spec.size),

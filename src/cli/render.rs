@@ -107,7 +107,7 @@ fn one(
     let sampling = &options.picture.sampling;
     let (dialect, why) = match (sampling.dialect(), sampling.reading()) {
         (DialectChoice::Auto, DialectChoice::Course) => (DialectChoice::Course, ", as --rules course asks for"),
-        (DialectChoice::Auto, _) if is_of_course => (DialectChoice::Course, ", as other scenes of the folder are"),
+        (DialectChoice::Auto, _) if is_of_course => (DialectChoice::AmongCourse, ", as other scenes of the folder are"),
         (dialect, _) => (dialect, ""),
     };
     let scene = PictureSpec {

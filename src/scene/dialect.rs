@@ -55,6 +55,9 @@ pub enum DialectChoice {
     /// reads as SVG does.
     #[default]
     Auto,
+    /// The same for a document among others of the course, or in a folder for which the course's reading was chosen: what may be
+    /// meant in either dialect is the course's. What uses more of SVG than any course's reader knows stays SVG.
+    AmongCourse,
     /// Always [`Dialect::Course`].
     Course,
     /// Always [`Dialect::Svg`].
@@ -69,22 +72,32 @@ pub struct ReadOptions {
 }
 
 impl DialectChoice {
-    /// Every value, in the order of menus.
+    /// Every value that can be set, in the order of menus.
     pub const ALL: [Self; 3] = [Self::Auto, Self::Course, Self::Svg];
 
     /// The name used in the command line and the interface.
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Auto => "auto",
+            Self::Auto | Self::AmongCourse => "auto",
             Self::Course => Dialect::Course.name(),
             Self::Svg => Dialect::Svg.name(),
+        }
+    }
+
+    /// The choice that reads a document as this one did, in `dialect`, wherever it lies.
+    #[must_use]
+    pub const fn anywhere(self, dialect: Dialect) -> Self {
+        match (self, dialect) {
+            (Self::AmongCourse, Dialect::Course) => Self::Course,
+            (Self::AmongCourse, Dialect::Svg) => Self::Auto,
+            _ => self,
         }
     }
 
     /// Whether a document may be read in `dialect` then.
     pub const fn allows(self, dialect: Dialect) -> bool {
         match self {
-            Self::Auto => true,
+            Self::Auto | Self::AmongCourse => true,
             Self::Course => matches!(dialect, Dialect::Course),
             Self::Svg => matches!(dialect, Dialect::Svg),
         }
@@ -97,7 +110,8 @@ impl DialectChoice {
         let dialect = match self {
             Self::Course => Dialect::Course,
             Self::Svg => Dialect::Svg,
-            Self::Auto => traits.dialect(),
+            Self::AmongCourse if !traits.rich => Dialect::Course,
+            Self::Auto | Self::AmongCourse => traits.dialect(),
         };
         let other = match dialect {
             Dialect::Course => Dialect::Svg,

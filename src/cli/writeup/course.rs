@@ -8,7 +8,7 @@ use glam::DVec2;
 use crate::cli::failure::{Failure, print_error};
 use crate::cli::options::writeup::WriteupOptions;
 use crate::compare;
-use crate::scene::FolderResources;
+use crate::scene::{self, Dialect, DialectChoice, FolderResources};
 use crate::viewer::{gallery, is_folder_of_course};
 
 /// A figure.
@@ -248,7 +248,12 @@ impl<'a> Scenes<'a> {
         };
         let is_of_course = self.is_of_course && !scene.starts_with("gallery:");
         let found = matches!(subject, Subject::Scene(_) | Subject::Competition);
-        (scene, (is_of_course && found).then(|| "--dialect=course".to_owned()))
+        let is_read_so = || {
+            let read = scene::load(Path::new(&scene), DialectChoice::AmongCourse);
+            read.map_or(true, |read| read.dialect == Dialect::Course)
+        };
+        let dialect = (is_of_course && found && is_read_so()).then(|| "--dialect=course".to_owned());
+        (scene, dialect)
     }
 
     /// A scene in the folder of scenes.

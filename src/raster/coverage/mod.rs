@@ -29,7 +29,8 @@
 //! ```
 //!
 //! * [`span_rows`] gathers the spans of sample rows by rows of pixels, [`pixel_rows`] makes runs and masks of them.
-//! * [`polygon_rows`] finds the spans of polygons, [`simple_polygon_rows`] where two edges cross each row.
+//! * [`polygon_rows`] finds the spans of polygons, [`simple_polygon_rows`] where two edges cross each row, [`column_windings`]
+//!   where thousands do.
 //! * [`mask8x8`] and [`mask8x8_simd`] hold small shapes as 64 bits.
 //! * [`free_positions`], [`free_positions_triangle`] and [`free_positions_polygon`] serve patterns off the grid, with
 //!   [`sample_lanes`], [`windings`] and [`edge_bounds`].
@@ -49,6 +50,7 @@
 //!
 //! Nothing is stored in between, as strips are in `vello_cpu`: a tile is painted while the spans of a shape are found.
 
+mod column_windings;
 pub(in crate::raster) mod covered;
 pub(in crate::raster) mod edge_bounds;
 pub(in crate::raster) mod float_shape;

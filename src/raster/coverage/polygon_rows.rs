@@ -3,6 +3,7 @@
 use crate::geometry::FillRule;
 use crate::geometry::edge::EdgeWalker;
 use crate::geometry::subpixel::SubpixelGrid;
+use crate::raster::coverage::column_windings::{ColumnWindings, step};
 use crate::raster::coverage::mask8x8::CoverageMask;
 use crate::raster::coverage::polygon::{OutlineEdge, OutlineWithEdges};
 use crate::raster::coverage::simple_polygon_rows::{Crossings, SimplePolygonRows};
@@ -36,8 +37,9 @@ pub(crate) struct RowScanner {
     plain: SimplePolygonRows,
     /// Where the crossings of each row begin.
     next: Vec<u32>,
-    /// Crossings row by row: the column, doubled, and one more where the edge runs downwards.
+    /// Crossings row by row, each as [`step()`] has them.
     crossings: Vec<i32>,
+    columns: ColumnWindings,
 }
 
 /// Where a [`RowScanner`] puts what it finds.
@@ -147,8 +149,15 @@ impl RowScanner {
             let to = *to as usize;
             let crossings = &mut self.crossings[from..to];
             from = to;
-            sort_nearly_sorted(crossings);
-            enclosed(crossings, rule, end, &mut store.spans);
+            if sort_nearly_sorted(crossings) {
+                enclosed(steps(crossings), rule, end, &mut store.spans);
+            } else if ColumnWindings::suit(crossings.len(), end) {
+                self.columns.add(crossings, end);
+                enclosed(self.columns.take(), rule, end, &mut store.spans);
+            } else {
+                crossings.sort_unstable();
+                enclosed(steps(crossings), rule, end, &mut store.spans);
+            }
             match store.spans.len() - before {
                 0 => store.spans.push(Span::EMPTY),
                 found => single &= found == 1,
@@ -211,13 +220,14 @@ impl RowScanner {
 }
 
 /// Sorts crossings that mostly are where they belong, or nearly there: they come contour by contour, and those of letters and
-/// the like lie side by side.
-fn sort_nearly_sorted(crossings: &mut [i32]) {
+/// the like lie side by side. Whether that was so; else they are left in any order.
+fn sort_nearly_sorted(crossings: &mut [i32]) -> bool {
     /// How far each may have to go, on average, and how far all in the beginning.
     const NEAR: usize = 4;
     const FAR: usize = 64;
     if crossings.len() <= FEW {
-        return crossings.sort_unstable();
+        crossings.sort_unstable();
+        return true;
     }
     let mut steps = FAR;
     for i in 1..crossings.len() {
@@ -230,13 +240,19 @@ fn sort_nearly_sorted(crossings: &mut [i32]) {
         crossings[at] = crossing;
         steps = match (steps + NEAR).checked_sub(i - at) {
             Some(steps) => steps,
-            None => return crossings.sort_unstable(),
+            None => return false,
         };
     }
+    true
 }
 
-/// Adds the spans between sorted crossings that a rule calls inside.
-fn enclosed(crossings: &[i32], rule: FillRule, end: i32, spans: &mut Vec<Span>) {
+/// The column of each crossing, and what it adds to the winding number.
+fn steps(crossings: &[i32]) -> impl Iterator<Item = (i32, i32)> {
+    crossings.iter().map(|crossing| step(*crossing))
+}
+
+/// Adds the spans that a rule calls inside; `steps` come column by column, with what each adds to the winding number.
+fn enclosed(steps: impl Iterator<Item = (i32, i32)>, rule: FillRule, end: i32, spans: &mut Vec<Span>) {
     let (mut winding, mut start) = (0, 0);
     let first = spans.len();
     let mut add = |span: Span| match spans.get_mut(first..).and_then(<[Span]>::last_mut) {
@@ -244,12 +260,11 @@ fn enclosed(crossings: &[i32], rule: FillRule, end: i32, spans: &mut Vec<Span>) 
         _ if span.is_empty() => {}
         _ => spans.push(span),
     };
-    for crossing in crossings {
-        let column = crossing >> 1;
+    for (column, around) in steps {
         if rule.encloses(winding) {
             add(Span { start, end: column });
         }
-        winding += (crossing & 1) * 2 - 1;
+        winding += around;
         start = column;
     }
     if rule.encloses(winding) {
@@ -478,7 +493,7 @@ mod tests {
                 unsorted += usize::from(crossings.len() > FEW && !crossings.is_sorted());
                 crossings.sort_unstable();
                 let mut expected = Vec::new();
-                enclosed(&crossings, rule, right, &mut expected);
+                enclosed(steps(&crossings), rule, right, &mut expected);
                 if expected.is_empty() {
                     expected.push(Span::EMPTY);
                 }

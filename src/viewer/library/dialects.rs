@@ -34,9 +34,9 @@ impl SceneList {
         };
         let chosen = entry.folder().and_then(|folder| self.chosen_readings.get(folder));
         match chosen {
-            Some(Dialect::Course) => DialectChoice::Course,
+            Some(Dialect::Course) => DialectChoice::AmongCourse,
             Some(Dialect::Svg) => DialectChoice::Svg,
-            None if entry.is_of_course => DialectChoice::Course,
+            None if entry.is_of_course => DialectChoice::AmongCourse,
             None => DialectChoice::Auto,
         }
     }
@@ -46,10 +46,13 @@ impl SceneList {
         let choice = self.reading_of(self.current, settings.dialect);
         let asks_for_course = settings.render.rules == crate::rules::Rules::Course;
         let scene = self.current().and_then(SceneEntry::scene);
-        match scene.map(|scene| scene.dialect) {
+        let Some(dialect) = scene.map(|scene| scene.dialect) else {
+            return choice;
+        };
+        match (choice.anywhere(dialect), dialect) {
             // On a command line the course's rules ask for the course's dialect.
-            Some(Dialect::Svg) if choice == DialectChoice::Auto && asks_for_course => DialectChoice::Svg,
-            _ => choice,
+            (DialectChoice::Auto, Dialect::Svg) if asks_for_course => DialectChoice::Svg,
+            (choice, _) => choice,
         }
     }
 
@@ -68,9 +71,9 @@ impl SceneList {
         let other = scene.other_reading?.name();
         let why = match choice {
             DialectChoice::Course | DialectChoice::Svg => ", as the setting says",
-            DialectChoice::Auto if self.chosen_readings.contains_key(folder) => ", as you chose for its folder",
-            DialectChoice::Auto if entry.is_of_course => ", as other scenes of its folder are",
-            DialectChoice::Auto => "",
+            _ if self.chosen_readings.contains_key(folder) => ", as you chose for its folder",
+            _ if entry.is_of_course => ", as other scenes of its folder are",
+            _ => "",
         };
         let taken = scene.dialect.name();
         Some(format!("read as {taken}{why}; as {other} it is another picture"))

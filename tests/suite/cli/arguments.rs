@@ -134,7 +134,13 @@ fn cli_says_which_of_two_readings_was_taken() {
 #[test]
 fn cli_reads_a_folder_of_the_course_as_a_whole() {
     let own = "<svg width='4' height='3'><colortri points='0 0 4 0 0 3' colors='1 0 0 1 0 1 0 1 0 0 1 1'/></svg>";
-    let folder = folder_with(&[("in/a.svg", EITHER), ("in/deep/b.svg", own), ("out/c.svg", EITHER)]);
+    let only_svg = "<svg width='4' height='3'><path d='M0 0h4v3z' fill='#ff0000'/></svg>";
+    let folder = folder_with(&[
+        ("in/a.svg", EITHER),
+        ("in/deep/b.svg", own),
+        ("in/drawing.svg", only_svg),
+        ("out/c.svg", EITHER),
+    ]);
     let args = ["render", "in", "-o", "pictures", "--size", "40x30"];
     let output = run(folder.path(), &args);
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -142,6 +148,7 @@ fn cli_reads_a_folder_of_the_course_as_a_whole() {
         told.contains("read as course, as other scenes of the folder are; --dialect svg makes another"),
         "{told}"
     );
+    assert!(!told.contains("drawing.svg"), "SVG without a word: {told}");
     let alone = [
         "render",
         "in/a.svg",
@@ -155,8 +162,19 @@ fn cli_reads_a_folder_of_the_course_as_a_whole() {
     assert!(run(folder.path(), &alone).status.success(), "alone");
     let open = |name: &str| image::open(folder.path().join(name)).expect("a PNG").into_rgba8();
     assert!(open("pictures/a.png") == open("c.png"), "as the course's");
-    let check = ["rerun", "pictures/a.png", "--check", "--threads", "1"];
-    assert!(run(folder.path(), &check).status.success(), "its record says so");
+    let drawing = open("pictures/drawing.png");
+    assert_eq!(
+        drawing.get_pixel(25, 10).0,
+        [255, 0, 0, 255],
+        "which the course cannot draw"
+    );
+    for picture in ["pictures/a.png", "pictures/drawing.png"] {
+        let check = ["rerun", picture, "--check", "--threads", "1"];
+        assert!(
+            run(folder.path(), &check).status.success(),
+            "the record of {picture} says so"
+        );
+    }
     let (entries, _) = rasterscope::viewer::list_scenes(&[folder.path().join("out")]);
     assert_eq!(entries.len(), 1, "another folder");
     assert!(

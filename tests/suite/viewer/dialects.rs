@@ -5,8 +5,8 @@ use std::fs;
 
 use rasterscope::raster::Framebuffer;
 use rasterscope::render::{self, RenderSettings};
-use rasterscope::scene::{self, DialectChoice};
-use rasterscope::viewer::{Against, Arrangement, Command, Other, picture};
+use rasterscope::scene::{self, Dialect, DialectChoice};
+use rasterscope::viewer::{Against, Arrangement, Command, Other, Viewer, ViewerOptions, picture};
 
 use crate::support::session::{Session, set};
 
@@ -212,4 +212,26 @@ fn settings_for_b_are_written_as_the_command_line_has_them() {
         picture::find("lod-per").is_some() && picture::find("size").is_none(),
         "settings only"
     );
+}
+
+#[test]
+fn drawings_that_only_svg_can_be_are_that_among_scenes_of_the_course() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = "<svg width='40' height='30'><colortri points='0 0 40 0 0 30' colors='1 0 0 1 0 1 0 1 0 0 1 1'/></svg>";
+    let only_svg = "<svg width='40' height='30'><path d='M0 0h40v30z' fill='#ff0000'/></svg>";
+    for (name, document) in [("1.svg", BOXED), ("2.svg", own), ("3.svg", only_svg)] {
+        fs::write(folder.path().join(name), document).unwrap();
+    }
+    let mut viewer = Viewer::new(ViewerOptions {
+        paths: vec![folder.path().to_owned()],
+        window: [120, 100],
+        ..ViewerOptions::default()
+    })
+    .unwrap();
+    for expected in [Dialect::Course, Dialect::Course, Dialect::Svg] {
+        viewer.finish();
+        let entry = viewer.scene_list().current().unwrap();
+        assert_eq!(entry.scene().unwrap().dialect, expected, "{}", entry.label);
+        let _ = viewer.apply(Command::Scenes(SceneCommand::Next));
+    }
 }

@@ -25,6 +25,7 @@ use super::player::Player;
 use super::remembered::Remembered;
 use super::startup::{self, Wake};
 use super::watch::Watch;
+use super::whole_pixels;
 use super::winit_keys;
 use crate::figure::Guard;
 use crate::raster::Framebuffer;
@@ -105,7 +106,11 @@ impl Handler {
         let attributes = startup::named(attributes);
         let failed = |what: &dyn std::fmt::Display| AppError::Window(format!("cannot open a window: {what}"));
         let window = Arc::new(event_loop.create_window(attributes).map_err(|error| failed(&error))?);
-        let PhysicalSize { width, height } = window.inner_size();
+        let PhysicalSize { width, height } = if startup::is_wayland(event_loop) {
+            whole_pixels::fit(&window, SMALLEST)
+        } else {
+            window.inner_size()
+        };
         let theme = self.remembered.theme().or(window.theme().map(theme));
         let viewer_options = headless::viewer_options(&self.options, [width, height], theme, self.waker());
         let viewer = Viewer::new(viewer_options).map_err(AppError::Threads)?;
@@ -243,6 +248,15 @@ impl ApplicationHandler<Wake> for Handler {
             }
             WindowEvent::CloseRequested | WindowEvent::Destroyed => event_loop.exit(),
             WindowEvent::Resized(size) => opened.resized(size),
+            WindowEvent::ScaleFactorChanged { .. } => {
+                if startup::is_wayland(event_loop) {
+                    let size = whole_pixels::fit(&opened.window, SMALLEST);
+                    opened.resized(size);
+                } else {
+                    opened.rescaled();
+                }
+                opened.tell_panels(&event);
+            }
             WindowEvent::Occluded(occluded) => {
                 opened.occluded = occluded;
                 opened.touch();
@@ -355,10 +369,6 @@ impl Opened {
                 self.session.turn_wheel(clicks(*delta, self.window.scale_factor()))
             }
             WindowEvent::PinchGesture { delta, .. } => self.session.pinch(delta.exp()),
-            WindowEvent::ScaleFactorChanged { .. } => {
-                self.rescaled();
-                false
-            }
             _ => false,
         };
         if !taken {

@@ -9,6 +9,7 @@ mod remembered;
 mod rhythm;
 mod startup;
 mod watch;
+mod whole_pixels;
 mod winit_keys;
 
 use super::{AppError, ViewOptions, headless};

@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use winit::event_loop::{EventLoop, EventLoopBuilder};
+use winit::event_loop::{ActiveEventLoop, EventLoop, EventLoopBuilder};
 use winit::window::WindowAttributes;
 
 /// Sent from other threads.
@@ -69,6 +69,18 @@ fn builder() -> EventLoopBuilder<Wake> {
     builder
 }
 
+/// Whether the window is shown by a compositor of Wayland.
+pub(super) fn is_wayland(event_loop: &ActiveEventLoop) -> bool {
+    #[cfg(target_os = "linux")]
+    let is_wayland = linux::is_wayland(event_loop);
+    #[cfg(not(target_os = "linux"))]
+    let is_wayland = {
+        let _ = event_loop;
+        false
+    };
+    is_wayland
+}
+
 /// A window with the name by which desktops find its icon: that of the desktop file.
 pub(super) fn named(attributes: WindowAttributes) -> WindowAttributes {
     #[cfg(target_os = "linux")]
@@ -81,6 +93,7 @@ mod linux {
     use std::ffi::OsString;
     use std::path::{Path, PathBuf};
 
+    use winit::event_loop::ActiveEventLoop;
     use winit::platform::{wayland, x11};
     use winit::window::WindowAttributes;
 
@@ -96,6 +109,10 @@ mod linux {
         let name = value("WAYLAND_DISPLAY")?;
         let folder = value("XDG_RUNTIME_DIR").unwrap_or_default();
         Some(Path::new(&folder).join(name))
+    }
+
+    pub(super) fn is_wayland(event_loop: &ActiveEventLoop) -> bool {
+        wayland::ActiveEventLoopExtWayland::is_wayland(event_loop)
     }
 
     pub(super) fn named(attributes: WindowAttributes) -> WindowAttributes {

@@ -21,6 +21,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use race::Budget;
+use rasterscope::scene;
 use table::{markdown, say};
 
 const BUDGET: Budget = Budget {
@@ -37,8 +38,8 @@ fn main() {
         export::export(folder.as_ref(), BUDGET).expect("a folder that can be written");
         return;
     }
-    if words.first().is_some_and(|word| word.ends_with(".svg")) {
-        let paths: Vec<&Path> = words.iter().map(Path::new).collect();
+    let paths: Vec<&Path> = words.iter().map(Path::new).collect();
+    if paths.first().is_some_and(|path| scene::is_document(path)) {
         drawings::files(&paths, BUDGET);
         return;
     }

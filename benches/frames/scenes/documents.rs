@@ -11,7 +11,11 @@ const SIDE: f64 = 1000.0;
 
 /// The documents, each with the name that tables call it.
 pub(crate) fn all() -> [(&'static str, String); 3] {
-    [("map of 5 MB", map()), ("plot of 100k", plot()), ("page of 10k", page())]
+    [
+        ("map of 5 MB", map()),
+        ("plot of 100k", plot()),
+        ("page of 10k", page()),
+    ]
 }
 
 fn document(body: &str) -> String {
@@ -38,10 +42,20 @@ fn map() -> String {
     for height in 0..60 {
         let start = f64::from(height) * 17.0;
         let line = walk(&mut chance, [-5.0, start], 0.0, [1.0, 2.5], 600);
-        path(&mut body, &line, false, "fill:none;stroke:#c8a070;stroke-width:0.4;stroke-opacity:0.6");
+        path(
+            &mut body,
+            &line,
+            false,
+            "fill:none;stroke:#c8a070;stroke-width:0.4;stroke-opacity:0.6",
+        );
     }
     let shore = blob(&mut chance, [420.0, 560.0], 180.0, 800);
-    path(&mut body, &shore, true, "fill:url(#lake);stroke:#7a9fb5;stroke-width:0.8");
+    path(
+        &mut body,
+        &shore,
+        true,
+        "fill:url(#lake);stroke:#7a9fb5;stroke-width:0.8",
+    );
     for _ in 0..22_500 {
         let [x, y] = place(&mut chance);
         let (sin, cos) = chance.range(0.0, TAU).sin_cos();
@@ -50,25 +64,7 @@ fn map() -> String {
             .map(|[u, v]| [x + wide * u * cos - high * v * sin, y + wide * u * sin + high * v * cos]);
         path(&mut body, &house, true, "fill:#d9d0c9;stroke:#b8a89b;stroke-width:0.25");
     }
-    let streets: Vec<Vec<[f64; 2]>> = (0..400)
-        .map(|_| {
-            let start = place(&mut chance);
-            let towards = chance.range(0.0, TAU);
-            walk(&mut chance, start, towards, [2.0, 5.0], 60)
-        })
-        .collect();
-    for (width, color) in [(3.0, "#a0a0a0"), (2.2, "#ffffff")] {
-        for street in &streets {
-            let style = format!("fill:none;stroke:{color};stroke-width:{width};stroke-linecap:round;stroke-linejoin:round");
-            path(&mut body, street, false, &style);
-        }
-    }
-    for _ in 0..12 {
-        let start = place(&mut chance);
-        let rails = walk(&mut chance, start, 0.4, [2.0, 5.0], 300);
-        path(&mut body, &rails, false, "fill:none;stroke:#707070;stroke-width:1.4");
-        path(&mut body, &rails, false, "fill:none;stroke:#ffffff;stroke-width:0.9;stroke-dasharray:4,4");
-    }
+    lines(&mut chance, &mut body);
     for _ in 0..300 {
         let [x, y] = place(&mut chance);
         let _ = write!(
@@ -79,6 +75,35 @@ fn map() -> String {
     }
     body.push_str("</g>");
     document(&body)
+}
+
+/// Streets as a wide line below a narrow one, and railways, dashed.
+fn lines(chance: &mut Chance, body: &mut String) {
+    let streets: Vec<Vec<[f64; 2]>> = (0..400)
+        .map(|_| {
+            let start = place(chance);
+            let towards = chance.range(0.0, TAU);
+            walk(chance, start, towards, [2.0, 5.0], 60)
+        })
+        .collect();
+    for (width, color) in [(3.0, "#a0a0a0"), (2.2, "#ffffff")] {
+        for street in &streets {
+            let style =
+                format!("fill:none;stroke:{color};stroke-width:{width};stroke-linecap:round;stroke-linejoin:round");
+            path(body, street, false, &style);
+        }
+    }
+    for _ in 0..12 {
+        let start = place(chance);
+        let rails = walk(chance, start, 0.4, [2.0, 5.0], 300);
+        path(body, &rails, false, "fill:none;stroke:#707070;stroke-width:1.4");
+        path(
+            body,
+            &rails,
+            false,
+            "fill:none;stroke:#ffffff;stroke-width:0.9;stroke-dasharray:4,4",
+        );
+    }
 }
 
 /// Four measured series of 25 000 segments each as Matplotlib writes them, clipped by their axes, with grid and frame.
@@ -93,9 +118,17 @@ fn plot() -> String {
         let style = "fill:none;stroke:#b0b0b0;stroke-width:0.8;stroke-linecap:square";
         path(&mut body, &[[at, 60.0], [at, 920.0]], false, style);
         path(&mut body, &[[80.0, at], [940.0, at]], false, style);
-        let _ = write!(body, "<text x='{at}' y='945' style='font:12px Ubuntu;text-anchor:middle'>{line}</text>");
+        let _ = write!(
+            body,
+            "<text x='{at}' y='945' style='font:12px Ubuntu;text-anchor:middle'>{line}</text>"
+        );
     }
-    for (color, middle) in [("#1f77b4", 200.0), ("#ff7f0e", 400.0), ("#2ca02c", 600.0), ("#d62728", 800.0)] {
+    for (color, middle) in [
+        ("#1f77b4", 200.0),
+        ("#ff7f0e", 400.0),
+        ("#2ca02c", 600.0),
+        ("#d62728", 800.0),
+    ] {
         let mut value: f64 = 0.0;
         let series: Vec<[f64; 2]> = (0..=25_000)
             .map(|step| {
@@ -121,7 +154,8 @@ fn plot() -> String {
 fn page() -> String {
     const LETTERS: &[u8] = b"etaoinshrdlucmfwypvbgkjqxzETAOINSHRDLU0123456789.,;-";
     let mut chance = Chance::new(20);
-    let mut body = String::from("<rect width='1000' height='1000' fill='#ffffff'/><g style='font:17px Ubuntu;fill:#222'>");
+    let mut body =
+        String::from("<rect width='1000' height='1000' fill='#ffffff'/><g style='font:17px Ubuntu;fill:#222'>");
     for line in 1..=100 {
         let _ = write!(body, "<text x='12' y='{:.1}'>", 9.8 * f64::from(line) + 4.0);
         for _ in 0..100 {

@@ -1,6 +1,7 @@
 //! What is drawn: made by code from fixed seeds, the same on every machine.
 
 pub(crate) mod chance;
+pub(crate) mod documents;
 pub(crate) mod flat;
 pub(crate) mod mesh;
 

@@ -9,7 +9,7 @@
 //!      pixels:   150     151.5     153
 //! ```
 
-use winit::dpi::{LogicalSize, PhysicalSize};
+use winit::dpi::PhysicalSize;
 use winit::window::Window;
 
 /// The parts in which compositors count scales (Wayland, fractional-scale-v1).
@@ -17,7 +17,7 @@ const PARTS: u32 = 120;
 
 /// A scale as a fraction in lowest terms: so many pixels are so many points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct WholePixels {
+struct WholePixels {
     pixels: u32,
     points: u32,
 }
@@ -28,7 +28,7 @@ pub(super) fn fit(window: &Window, smallest: PhysicalSize<u32>) -> PhysicalSize<
     let size = window.inner_size();
     let Some(whole) = WholePixels::at(window.scale_factor()) else {
         window.set_min_inner_size(Some(smallest));
-        window.set_resize_increments(None::<LogicalSize<u32>>);
+        window.set_resize_increments(None::<PhysicalSize<u32>>);
         return size;
     };
     window.set_min_inner_size(Some(whole.at_least(smallest)));
@@ -43,7 +43,7 @@ impl WholePixels {
         clippy::cast_sign_loss,
         reason = "a scale is a small number above zero"
     )]
-    pub(super) fn at(scale: f64) -> Option<Self> {
+    fn at(scale: f64) -> Option<Self> {
         let parts = (scale * f64::from(PARTS)).round().clamp(1.0, 1e6) as u32;
         let shared = greatest_common_divisor(parts, PARTS);
         let (pixels, points) = (parts / shared, PARTS / shared);
@@ -51,20 +51,20 @@ impl WholePixels {
     }
 
     /// The nearest size of whole points and whole pixels.
-    pub(super) fn nearest(self, size: PhysicalSize<u32>) -> PhysicalSize<u32> {
+    fn nearest(self, size: PhysicalSize<u32>) -> PhysicalSize<u32> {
         let side = |side: u32| (side.saturating_add(self.pixels / 2) / self.pixels).max(1) * self.pixels;
         PhysicalSize::new(side(size.width), side(size.height))
     }
 
     /// The smallest size of whole points and pixels that is not below `size`.
-    pub(super) fn at_least(self, size: PhysicalSize<u32>) -> LogicalSize<u32> {
-        let side = |side: u32| side.div_ceil(self.pixels) * self.points;
-        LogicalSize::new(side(size.width), side(size.height))
+    fn at_least(self, size: PhysicalSize<u32>) -> PhysicalSize<u32> {
+        let side = |side: u32| side.div_ceil(self.pixels) * self.pixels;
+        PhysicalSize::new(side(size.width), side(size.height))
     }
 
     /// By what a hand that resizes the window may change it.
-    pub(super) fn step(self) -> LogicalSize<u32> {
-        LogicalSize::new(self.points, self.points)
+    fn step(self) -> PhysicalSize<u32> {
+        PhysicalSize::new(self.pixels, self.pixels)
     }
 }
 
@@ -96,10 +96,10 @@ mod tests {
                 assert!(is_near, "{found} for {side} at {scale}");
                 let least = whole.at_least(PhysicalSize::new(side, side)).width;
                 assert!(
-                    f64::from(least) * scale >= f64::from(side) - 1e-6,
-                    "{least} points for {side} at {scale}"
+                    least >= side && least < side + whole.pixels,
+                    "{least} for {side} at {scale}"
                 );
-                assert_eq!(least % whole.points, 0, "hands start there, and go by {}", whole.points);
+                assert_eq!(least % whole.step().width, 0, "hands start there");
             }
         }
     }

@@ -17,4 +17,5 @@ mod pacing;
 mod pointer;
 mod program;
 mod rest;
+mod session_bus;
 mod sheets;

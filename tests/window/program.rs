@@ -17,7 +17,7 @@ use x11rb::protocol::xproto::{ClientMessageEvent, ConfigureWindowAux, Connection
 use super::desktop::Desktop;
 
 /// The longest that anything may take, on a busy machine too.
-const PATIENCE: Duration = Duration::from_secs(20);
+pub(crate) const PATIENCE: Duration = Duration::from_secs(20);
 /// Width and height of the window at the start.
 pub(crate) const SIZE: [u32; 2] = [500, 400];
 
@@ -80,6 +80,8 @@ impl Program {
             .args(arguments)
             .env("DISPLAY", &desktop.name)
             .env("XDG_CONFIG_HOME", folder.path().join("config"))
+            // No test hears of the desktop that it runs on.
+            .env("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nowhere")
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
             .env_remove("WINIT_X11_SCALE_FACTOR")

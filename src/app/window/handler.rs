@@ -102,7 +102,9 @@ impl Handler {
             .with_title("Rasterscope")
             .with_inner_size(PhysicalSize::new(width, height))
             .with_window_icon(icon::icon())
-            .with_min_inner_size(SMALLEST);
+            .with_min_inner_size(SMALLEST)
+            // Not before screen readers are served.
+            .with_visible(false);
         let attributes = startup::named(attributes);
         let failed = |what: &dyn std::fmt::Display| AppError::Window(format!("cannot open a window: {what}"));
         let window = Arc::new(event_loop.create_window(attributes).map_err(|error| failed(&error))?);
@@ -111,7 +113,7 @@ impl Handler {
         } else {
             window.inner_size()
         };
-        let theme = self.remembered.theme().or(window.theme().map(theme));
+        let theme = self.theme_at_start(&window);
         let viewer_options = headless::viewer_options(&self.options, [width, height], theme, self.waker());
         let viewer = Viewer::new(viewer_options).map_err(AppError::Threads)?;
         let scale = window.scale_factor() as f32;
@@ -144,7 +146,17 @@ impl Handler {
         let mut opened =
             Opened::new(event_loop.owned_display_handle(), window, session).map_err(|error| failed(&error))?;
         opened.log_to(log);
+        opened.serve_screen_readers(event_loop, self.proxy.clone());
+        opened.window.set_visible(true);
         Ok(opened)
+    }
+
+    /// The theme that was chosen, else the desktop's.
+    fn theme_at_start(&self, window: &Window) -> Option<Theme> {
+        self.options.theme.or(self.remembered.theme()).or_else(|| {
+            let asked = startup::desktop_theme(self.proxy.clone());
+            window.theme().map(theme).or(asked)
+        })
     }
 
     /// Wakes the event loop from other threads.
@@ -202,6 +214,17 @@ impl Handler {
         }
     }
 
+    /// The desktop became dark or light: so do the panels, unless somebody has chosen their theme.
+    fn desktop_theme(&mut self, to: Theme) {
+        let Some(opened) = &mut self.opened else { return };
+        let is_chosen = self.options.theme.or(self.remembered.theme()).is_some()
+            || self.first_theme != Some(opened.session.viewer().chrome().theme());
+        if !is_chosen {
+            opened.session.run(Command::Window(WindowCommand::SetTheme(to)));
+            self.first_theme = Some(to);
+        }
+    }
+
     fn fail(&mut self, event_loop: &ActiveEventLoop, error: AppError) {
         self.failure.get_or_insert(error);
         event_loop.exit();
@@ -225,7 +248,9 @@ impl ApplicationHandler<Wake> for Handler {
     fn user_event(&mut self, event_loop: &ActiveEventLoop, wake: Wake) {
         match (wake, &mut self.opened) {
             (Wake::Work, Some(opened)) => opened.session.poll(),
-            (Wake::Work, None) => {}
+            (Wake::Theme(to), Some(_)) => self.desktop_theme(to),
+            (Wake::ScreenReader(event), Some(opened)) => opened.screen_reader(event),
+            (Wake::Work | Wake::Theme(_) | Wake::ScreenReader(_), None) => {}
             (Wake::End, _) => self.fail(event_loop, AppError::Ended),
         }
     }
@@ -275,9 +300,7 @@ impl ApplicationHandler<Wake> for Handler {
                     opened.tell_panels(&event);
                 }
             }
-            WindowEvent::ThemeChanged(to) if self.options.theme.or(self.remembered.theme()).is_none() => {
-                opened.session.run(Command::Window(WindowCommand::SetTheme(theme(to))));
-            }
+            WindowEvent::ThemeChanged(to) => self.desktop_theme(theme(to)),
             event => opened.pointer_event(&event),
         }
     }

@@ -1,5 +1,7 @@
 //! The real window: winit's event loop, a softbuffer surface, no GPU.
 
+#[cfg(target_os = "linux")]
+mod desktop_theme;
 mod frame_log;
 mod handler;
 mod icon;
@@ -7,6 +9,7 @@ mod opened;
 mod player;
 mod remembered;
 mod rhythm;
+mod screen_reader;
 mod startup;
 mod watch;
 mod whole_pixels;

@@ -3,14 +3,22 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use winit::event_loop::{ActiveEventLoop, EventLoop, EventLoopBuilder};
+use egui_winit::accesskit_winit;
+use winit::event_loop::{ActiveEventLoop, EventLoop, EventLoopBuilder, EventLoopProxy};
 use winit::window::WindowAttributes;
 
+use crate::viewer::Theme;
+
 /// Sent from other threads.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Wake {
     /// The viewer has something to take in.
     Work,
+    /// The desktop became dark or light.
+    #[cfg_attr(not(target_os = "linux"), expect(dead_code, reason = "winit tells it elsewhere"))]
+    Theme(Theme),
+    /// A screen reader came, asked for something, or went.
+    ScreenReader(accesskit_winit::WindowEvent),
     /// The system asks the program to end.
     End,
 }
@@ -67,6 +75,18 @@ fn builder() -> EventLoopBuilder<Wake> {
         builder.with_x11();
     }
     builder
+}
+
+/// The desktop's theme where winit does not know it; its changes come as [`Wake::Theme`].
+pub(super) fn desktop_theme(proxy: EventLoopProxy<Wake>) -> Option<Theme> {
+    #[cfg(target_os = "linux")]
+    let theme = super::desktop_theme::follow(proxy);
+    #[cfg(not(target_os = "linux"))]
+    let theme = {
+        drop(proxy);
+        None
+    };
+    theme
 }
 
 /// Whether the window is shown by a compositor of Wayland.

@@ -3,7 +3,7 @@
 //!
 //! Source: XDG Desktop Portal, `org.freedesktop.portal.Settings`, key `color-scheme` of `org.freedesktop.appearance`.
 
-use std::sync::mpsc::{self, Sender};
+use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 use std::time::Duration;
 
@@ -20,18 +20,28 @@ const KEY: &str = "color-scheme";
 /// How long a start waits for the answer; a later one changes the theme of the open window.
 const PATIENCE: Duration = Duration::from_millis(40);
 
-/// The desktop's theme, `None` where it has none or does not say so at once. What it says later comes as [`Wake::Theme`].
-pub(super) fn follow(proxy: EventLoopProxy<Wake>) -> Option<Theme> {
-    let (first, answer) = mpsc::channel();
-    let work = move || {
-        // Without a bus, or a portal on it, the desktop says nothing.
-        let _ = watch(&first, &proxy);
-    };
-    thread::Builder::new()
-        .name("desktop theme".to_owned())
-        .spawn(work)
-        .ok()?;
-    answer.recv_timeout(PATIENCE).ok().flatten()
+/// A question to the desktop that is on its way.
+#[derive(Debug)]
+pub(in crate::app::window) struct Question(Receiver<Option<Theme>>);
+
+impl Question {
+    /// Asks for the theme; what the desktop says after the first answer, or later than that is waited for, comes as
+    /// [`Wake::Theme`].
+    pub(in crate::app::window) fn ask(proxy: EventLoopProxy<Wake>) -> Self {
+        let (first, answer) = mpsc::channel();
+        let work = move || {
+            // Without a bus, or a portal on it, the desktop says nothing.
+            let _ = watch(&first, &proxy);
+        };
+        // Without a thread nobody answers.
+        let _ = thread::Builder::new().name("desktop theme".to_owned()).spawn(work);
+        Self(answer)
+    }
+
+    /// The desktop's theme, `None` where it has none or does not say so soon.
+    pub(in crate::app::window) fn answer(self) -> Option<Theme> {
+        self.0.recv_timeout(PATIENCE).ok().flatten()
+    }
 }
 
 /// Asks for the theme and waits for others, until the bus or the window is gone.

@@ -23,7 +23,7 @@ use super::icon;
 use super::opened::Opened;
 use super::player::Player;
 use super::remembered::Remembered;
-use super::startup::{self, Wake};
+use super::startup::{self, ThemeQuestion, Wake};
 use super::watch::Watch;
 use super::whole_pixels;
 use super::winit_keys;
@@ -85,6 +85,9 @@ impl Handler {
         if let Some(file) = &self.remembered_in {
             (self.remembered, problem) = Remembered::read(file);
         }
+        let chosen = self.options.theme.or(self.remembered.theme());
+        // Answered while the window opens.
+        let asked = chosen.is_none().then(|| ThemeQuestion::ask(self.proxy.clone()));
         let guard = Guard::new(self.options.force);
         let log = self.options.frame_log.as_deref();
         let log = log.map(|path| FrameLog::create(path, &guard)).transpose()?;
@@ -113,7 +116,7 @@ impl Handler {
         } else {
             window.inner_size()
         };
-        let theme = self.theme_at_start(&window);
+        let theme = chosen.or_else(|| window.theme().map(theme).or(asked.and_then(ThemeQuestion::answer)));
         let viewer_options = headless::viewer_options(&self.options, [width, height], theme, self.waker());
         let viewer = Viewer::new(viewer_options).map_err(AppError::Threads)?;
         let scale = window.scale_factor() as f32;
@@ -149,14 +152,6 @@ impl Handler {
         opened.serve_screen_readers(event_loop, self.proxy.clone());
         opened.window.set_visible(true);
         Ok(opened)
-    }
-
-    /// The theme that was chosen, else the desktop's.
-    fn theme_at_start(&self, window: &Window) -> Option<Theme> {
-        self.options.theme.or(self.remembered.theme()).or_else(|| {
-            let asked = startup::desktop_theme(self.proxy.clone());
-            window.theme().map(theme).or(asked)
-        })
     }
 
     /// Wakes the event loop from other threads.

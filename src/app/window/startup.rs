@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use egui_winit::accesskit_winit;
-use winit::event_loop::{ActiveEventLoop, EventLoop, EventLoopBuilder, EventLoopProxy};
+use winit::event_loop::{ActiveEventLoop, EventLoop, EventLoopBuilder};
 use winit::window::WindowAttributes;
 
 use crate::viewer::Theme;
@@ -77,16 +77,24 @@ fn builder() -> EventLoopBuilder<Wake> {
     builder
 }
 
-/// The desktop's theme where winit does not know it; its changes come as [`Wake::Theme`].
-pub(super) fn desktop_theme(proxy: EventLoopProxy<Wake>) -> Option<Theme> {
-    #[cfg(target_os = "linux")]
-    let theme = super::desktop_theme::follow(proxy);
-    #[cfg(not(target_os = "linux"))]
-    let theme = {
-        drop(proxy);
+#[cfg(target_os = "linux")]
+pub(super) use super::desktop_theme::Question as ThemeQuestion;
+
+/// Nothing is to be asked where winit knows the desktop's theme.
+#[cfg(not(target_os = "linux"))]
+#[derive(Debug)]
+pub(super) struct ThemeQuestion;
+
+#[cfg(not(target_os = "linux"))]
+impl ThemeQuestion {
+    pub(super) fn ask(_: winit::event_loop::EventLoopProxy<Wake>) -> Self {
+        Self
+    }
+
+    #[expect(clippy::unused_self, reason = "as on Linux")]
+    pub(super) fn answer(self) -> Option<Theme> {
         None
-    };
-    theme
+    }
 }
 
 /// Whether the window is shown by a compositor of Wayland.

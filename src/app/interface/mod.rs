@@ -73,6 +73,8 @@ const USEFUL_PICTURE: f32 = 560.0;
 #[derive(Debug)]
 pub(super) struct Interface {
     ctx: Context,
+    /// At how many percent the desktop shows the window, where it scales that by itself.
+    pub(super) shown_at: Option<u32>,
     look: Option<(Theme, bool)>,
     /// Whether times of redraws are shown: pictures that must be alike leave them out.
     timed: bool,
@@ -121,6 +123,7 @@ impl Interface {
         look::install(&ctx, timed);
         Self {
             ctx,
+            shown_at: None,
             look: None,
             timed,
             thumbnails: Thumbnails::default(),
@@ -224,7 +227,7 @@ impl Interface {
                 .frame(panel_frame(ui, Margin::symmetric(look::MARGIN, 4)))
                 .show(ui, |ui| {
                     FocusPanel::Status.head(ui);
-                    status::show(ui, viewer, &mut asked.commands)
+                    status::show(ui, viewer, self.shown_at, &mut asked.commands)
                 });
             self.covered.push(line.response.rect);
             if let Some(spec) = line.inner {

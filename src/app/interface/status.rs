@@ -14,7 +14,13 @@ const HEIGHT: f32 = 18.0;
 
 /// Fills the line. Where there is little room the menu and the switch of the panel stay, then the pixel; the rest gives way.
 /// Returns the command of the menu whose argument is to be asked for.
-pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) -> Option<&'static CommandSpec> {
+/// `shown_at` is at how many percent the desktop shows the window, where it scales that by itself.
+pub(super) fn show(
+    ui: &mut Ui,
+    viewer: &Viewer,
+    shown_at: Option<u32>,
+    commands: &mut Vec<Command>,
+) -> Option<&'static CommandSpec> {
     ui.set_height(HEIGHT);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
@@ -33,7 +39,12 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) ->
                     true,
                 ),
             }
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| picture(ui, viewer));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                if let Some(percent) = shown_at {
+                    scaled_by_desktop(ui, percent);
+                }
+                picture(ui, viewer);
+            });
             asks
         })
         .inner
@@ -125,6 +136,17 @@ fn field(ui: &mut Ui, name: &str, value: &str) {
         ui.label(value);
         ui.add_space(4.0);
     }
+}
+
+/// Warns that pixels on the screen are not those that were drawn.
+fn scaled_by_desktop(ui: &mut Ui, percent: u32) {
+    let text = format!("shown at {percent} % by the desktop");
+    let text = egui::RichText::new(text).size(11.0).color(ui.visuals().warn_fg_color);
+    ui.label(text).on_hover_text(
+        "The desktop scales the window by itself, so that pixels on the screen are mixtures of those that were drawn. Set its \
+         scale to 100 % or 200 % to see them as they are; saved pictures are not scaled.",
+    );
+    ui.add_space(4.0);
 }
 
 /// Size, scale and settings in few words, as far as there is room.

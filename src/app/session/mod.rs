@@ -277,6 +277,11 @@ impl Session {
         self.share_room(Wanted::Explanation);
     }
 
+    /// At how many percent the desktop shows the window, where it scales that by itself.
+    pub(super) fn set_shown_at(&mut self, percent: Option<u32>) {
+        self.interface.shown_at = percent;
+    }
+
     /// Device pixels per point: as large as the user wants panels, as far as they fit.
     fn scale(&self) -> f32 {
         let [width, height] = self.viewer.chrome().window_size().map(|side| side as f32);

@@ -447,3 +447,18 @@ fn what_is_folded_for_one_pixel_is_not_for_the_next() {
     right_click(&mut session, [550.0, 700.0]);
     assert_eq!(paints(&mut session), 1, "and so is the only one of another pixel");
 }
+
+#[test]
+fn status_line_says_that_the_desktop_scales_the_window() {
+    for window in [[800, 600], [1280, 800]] {
+        let mut session = session(Vec::new(), window);
+        let told = |session: &mut Session| {
+            let nodes = nodes(session);
+            let mut words = nodes.iter().filter_map(|node| node.label().or(node.value()));
+            words.any(|word| word == "shown at 75 % by the desktop")
+        };
+        assert!(!told(&mut session), "pixel for pixel in {window:?}");
+        session.set_shown_at(Some(75));
+        assert!(told(&mut session), "scaled in {window:?}");
+    }
+}

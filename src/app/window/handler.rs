@@ -271,6 +271,7 @@ impl ApplicationHandler<Wake> for Handler {
             WindowEvent::ScaleFactorChanged { .. } => {
                 if startup::is_wayland(event_loop) {
                     let size = whole_pixels::fit(&opened.window, SMALLEST);
+                    opened.session.set_shown_at(startup::shown_at(&opened.window));
                     opened.resized(size);
                 } else {
                     opened.rescaled();

@@ -1,6 +1,8 @@
 //! The real window: winit's event loop, a softbuffer surface, no GPU.
 
 #[cfg(target_os = "linux")]
+mod desktop_scale;
+#[cfg(target_os = "linux")]
 mod desktop_theme;
 mod frame_log;
 mod handler;

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use egui_winit::accesskit_winit;
 use winit::event_loop::{ActiveEventLoop, EventLoop, EventLoopBuilder};
-use winit::window::WindowAttributes;
+use winit::window::{Window, WindowAttributes};
 
 use crate::viewer::Theme;
 
@@ -95,6 +95,19 @@ impl ThemeQuestion {
     pub(super) fn answer(self) -> Option<Theme> {
         None
     }
+}
+
+/// At how many percent a compositor of Wayland shows the window, where it scales that by itself.
+pub(super) fn shown_at(window: &Window) -> Option<u32> {
+    let name = window.current_monitor()?.name()?;
+    #[cfg(target_os = "linux")]
+    let percent = super::desktop_scale::percent_on(&name);
+    #[cfg(not(target_os = "linux"))]
+    let percent = {
+        drop(name);
+        None
+    };
+    percent
 }
 
 /// Whether the window is shown by a compositor of Wayland.

@@ -80,11 +80,13 @@ fn baseline() -> Level {
     Level::baseline()
 }
 
-/// Every level of this machine and the scalar one, which stands for machines without vector instructions.
+/// Every level of this machine; with the feature `scalar` the one without vector instructions, too.
 #[cfg(test)]
 pub(crate) fn tested() -> Vec<(&'static str, Level)> {
-    let mut levels = available();
-    levels.push(("scalar", Level::fallback()));
+    #[cfg(feature = "scalar")]
+    let levels = [available(), vec![("scalar", Level::fallback())]].concat();
+    #[cfg(not(feature = "scalar"))]
+    let levels = available();
     levels
 }
 

@@ -97,19 +97,34 @@ impl BlendMode {
             Self::Normal => "above",
             Self::Multiply => "below * above",
             Self::Screen => "below + above - below * above",
-            Self::Overlay => "hard-light with the two exchanged",
+            Self::Overlay => "2 * below * above, or screen of 2 * below - 1 and above where below > 1/2",
             Self::Darken => "min(below, above)",
             Self::Lighten => "max(below, above)",
-            Self::ColorDodge => "min(1, below / (1 - above))",
-            Self::ColorBurn => "1 - min(1, (1 - below) / above)",
+            Self::ColorDodge => "min(1, below / (1 - above)); 0 where below is 0, else 1 where above is 1",
+            Self::ColorBurn => "1 - min(1, (1 - below) / above); 1 where below is 1, else 0 where above is 0",
             Self::HardLight => "2 * below * above, or screen of below and 2 * above - 1 where above > 1/2",
-            Self::SoftLight => "below darkened or lightened towards its square or root by 2 * above - 1",
+            Self::SoftLight => {
+                "below - (1 - 2 * above) * below * (1 - below), or below + (2 * above - 1) * (d - below) where above > 1/2, \
+                 with d = sqrt(below), or ((16 * below - 12) * below + 4) * below where below <= 1/4"
+            }
             Self::Difference => "|below - above|",
             Self::Exclusion => "below + above - 2 * below * above",
-            Self::Hue => "hue of above, saturation and luminosity of below",
-            Self::Saturation => "saturation of above, hue and luminosity of below",
-            Self::Color => "hue and saturation of above, luminosity of below",
-            Self::Luminosity => "luminosity of above, hue and saturation of below",
+            Self::Hue => {
+                "hue of above (a grey stays grey), saturation and luminosity of below; luminosity is 0.3 red + 0.59 green + \
+                 0.11 blue, and what leaves 0 to 1 is drawn towards it"
+            }
+            Self::Saturation => {
+                "saturation of above, hue (a grey stays grey) and luminosity of below; luminosity is 0.3 red + 0.59 green + \
+                 0.11 blue, and what leaves 0 to 1 is drawn towards it"
+            }
+            Self::Color => {
+                "hue and saturation of above, luminosity of below: 0.3 red + 0.59 green + 0.11 blue; what leaves 0 to 1 is drawn \
+                 towards it"
+            }
+            Self::Luminosity => {
+                "luminosity of above, 0.3 red + 0.59 green + 0.11 blue, hue and saturation of below; what leaves 0 to 1 is drawn \
+                 towards it"
+            }
         }
     }
 

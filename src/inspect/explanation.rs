@@ -9,7 +9,7 @@ use super::resolve::{levels, resolve};
 use super::samples::{SampleHit, shape_of, straight};
 use super::triangle_views::{edges, interpolated, triangle_view};
 use crate::color::BlendMode;
-use crate::geometry::FillRule;
+use crate::geometry::{FillRule, Polygon};
 use crate::raster::{Attributes, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay, SampleOfTriangle};
 use crate::render::{self, Explainer, OpenSample, Subject};
 use crate::rules::Rules;
@@ -91,9 +91,12 @@ impl Explanation {
             missed: missed
                 .into_iter()
                 .filter_map(|(primitive, area)| {
+                    let polygon = question.polygon(primitive);
                     Some(Missed {
                         source: question.source(primitive, quotes.as_ref())?,
                         primitive,
+                        stroke: polygon.is_some_and(Polygon::is_stroke),
+                        crisp: polygon.is_some_and(Polygon::is_crisp),
                         area,
                         width: explainer.width(primitive, around)?,
                     })
@@ -148,16 +151,7 @@ impl Question<'_> {
     /// outline.
     fn shape(&self, op: &PaintedCommand, is_nowhere: bool, piece: Option<Piece>) -> Shaped {
         let rules = self.subject.settings.rules;
-        let polygon = match self
-            .subject
-            .scene
-            .primitives
-            .get(op.source as usize)
-            .map(|primitive| &primitive.kind)
-        {
-            Some(PrimitiveKind::Polygon { polygon, .. }) => Some(polygon),
-            _ => None,
-        };
+        let polygon = self.polygon(op.source);
         let (mut views, mut texture) = (Vec::new(), None);
         let shape = match (op.kind, piece.map(|piece| piece.shape)) {
             (PaintedKind::BeginLayer, _) => Shape::BeginLayer,
@@ -192,19 +186,27 @@ impl Question<'_> {
                 views = windings.into_iter().zip(&attributes).map(view).collect();
                 Shape::Polygon {
                     // What is drawn of a crisp shape are pixels.
-                    rule: match polygon.map_or(rule, |polygon| polygon.rule()) {
+                    rule: match polygon.map_or(rule, Polygon::rule) {
                         FillRule::NonZero => "nonzero",
                         FillRule::EvenOdd => "evenodd",
                     },
                     curved: polygon.is_some_and(|polygon| polygon.curves().is_some()),
-                    stroke: polygon.is_some_and(|polygon| polygon.is_stroke()),
-                    crisp: polygon.is_some_and(|polygon| polygon.is_crisp()),
+                    stroke: polygon.is_some_and(Polygon::is_stroke),
+                    crisp: polygon.is_some_and(Polygon::is_crisp),
                 }
             }
             (PaintedKind::Primitive, _) if is_nowhere => Shape::CanvasOutline,
             (PaintedKind::Primitive, _) => Shape::WholePixel,
         };
         Shaped { shape, views, texture }
+    }
+
+    /// The polygon that a primitive of the scene is, if it is one.
+    fn polygon(&self, primitive: u32) -> Option<&Polygon> {
+        match &self.subject.scene.primitives.get(primitive as usize)?.kind {
+            PrimitiveKind::Polygon { polygon, .. } => Some(polygon),
+            _ => None,
+        }
     }
 
     /// What the end of a layer does.

@@ -12,6 +12,7 @@ mod contributions;
 mod depth;
 mod differences;
 mod explanation;
+mod interpolated_words;
 mod model;
 mod numbers;
 mod part_words;

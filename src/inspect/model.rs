@@ -380,6 +380,8 @@ pub enum Interpolated {
         /// The mixed colour: straight red, green, blue, alpha, `0.0..=1.0`.
         rgba: [f32; 4],
     },
+    /// No place on the ramp: none of a radial gradient's circles goes through the sample.
+    OffRamp,
     /// Texture coordinates.
     Texture {
         /// `[u, v]`.
@@ -407,6 +409,8 @@ pub struct RampStop {
 pub struct TileTexel {
     /// Column and row.
     pub at: [u32; 2],
+    /// Straight red, green, blue, alpha.
+    pub color: [u8; 4],
     /// Its part of the colour that was read, `0.0..=1.0`.
     pub weight: f64,
 }
@@ -511,6 +515,10 @@ pub struct Missed {
     pub source: Source,
     /// Index into the scene's primitives.
     pub primitive: u32,
+    /// Whether it is the stroke of a path.
+    pub stroke: bool,
+    /// Whether it has one sample per pixel, the pixel's middle, at every rate.
+    pub crisp: bool,
     /// The part of the pixel that it covers in truth, `0.0..=1.0`.
     pub area: f64,
     /// How wide it is here in its thinnest direction, in pixels: in the pixel and up to two samples' distances beside it.

@@ -1,14 +1,9 @@
 //! The parts of a report in words: what painted a sample, where its edges are, what it read of a texture.
 
-use super::model::{Edge, Fragment, GradientUse, Interpolated, Paint, RampStop, Shape, Source, Texture, Verdict};
-use super::numbers::{cut, number, percent, significant};
+use super::model::{Edge, Fragment, GradientUse, Paint, Shape, Source, Texture, Verdict};
+use super::numbers::{number, percent, significant};
 use crate::color::BlendMode;
 use crate::plain;
-
-/// Points of a texture that are listed at most.
-const MOST_TAPS: usize = 4;
-/// Texels that are listed at most, the heaviest first.
-const MOST_TEXELS: usize = 16;
 
 impl Paint {
     /// Such as `triangle of polygon "left", line 12`.
@@ -156,7 +151,7 @@ impl Fragment {
         match &paint.shape {
             _ if paint.in_mask && !paint.shape.is_layer_mark() => vec![
                 format!("colour    {}", color(self.color)),
-                "counts for the mask, and is not seen itself".to_owned(),
+                "counts for the clip path or mask, and is not seen itself".to_owned(),
             ],
             Shape::EndMask { by: "luminance" } => {
                 let mut lines = self.mask_lines();
@@ -180,6 +175,9 @@ impl Fragment {
     /// What a clip path or mask leaves of the sample.
     fn mask_lines(&self) -> Vec<String> {
         let kept = self.color[3] / 255.0;
+        if self.before[3] <= 0.0 {
+            return vec!["finds nothing on this sample: there is nothing to take".to_owned()];
+        }
         if kept <= 0.0 {
             return vec!["takes this sample away: nothing of it is left".to_owned()];
         }
@@ -219,6 +217,11 @@ impl Fragment {
             lines.push(
                 "weighed   above x (1 - alpha below) + below x (1 - alpha above) + mixed x both alphas".to_owned(),
             );
+        }
+        if self.before[3] <= 0.0 {
+            lines.push("nothing is below: the layer's colour stays as it is, whatever the mode".to_owned());
+        } else if self.color[3] <= 0.0 {
+            lines.push("the layer is transparent here: what is below stays as it is".to_owned());
         }
         lines.push(format!("gives     {}", color(self.after)));
         lines
@@ -303,89 +306,6 @@ impl Texture {
         let apart = (squares * squares - 4.0 * area * area).max(0.0).sqrt();
         let long = f64::midpoint(squares, apart).sqrt();
         [long, if long > 0.0 { area / long } else { 0.0 }]
-    }
-}
-
-/// How much of each of two stops a mix holds.
-fn mix_of_stops(first: RampStop, second: RampStop, weight: f64) -> String {
-    let stop = |stop: RampStop| {
-        let hex = super::explanation::hex(stop.color);
-        format!("stop {} ({hex} at {})", stop.number + 1, number(f64::from(stop.offset)))
-    };
-    if first.number == second.number {
-        return format!("{} alone", stop(first));
-    }
-    let (rest, weight) = (percent(1.0 - weight), percent(weight));
-    format!("{rest} of {}, {weight} of {}", stop(first), stop(second))
-}
-
-impl Interpolated {
-    pub(super) fn lines(&self) -> Vec<String> {
-        match self {
-            Self::Flat => Vec::new(),
-            Self::Color { rgba: [r, g, b, a] } => {
-                vec![format!("mixed     red {r:.4}, green {g:.4}, blue {b:.4}, alpha {a:.4}")]
-            }
-            Self::Pattern {
-                copy: [column, row],
-                size: [width, height],
-                texels,
-            } => {
-                let mut lines = vec![format!(
-                    "copy      ({column}, {row}) of the tile, drawn as {width} x {height} texels"
-                )];
-                for texel in texels {
-                    let [x, y] = texel.at;
-                    lines.push(format!("{:>10}  of texel ({x}, {y})", percent(texel.weight)));
-                }
-                lines
-            }
-            Self::Gradient {
-                t,
-                at,
-                stops: [first, second],
-                weight,
-                rgba: [r, g, b, a],
-            } => vec![
-                if (t - at).abs() > 1e-9 {
-                    format!("t         {t:.5}, on the ramp {at:.5}")
-                } else {
-                    format!("t         {t:.5}")
-                },
-                format!("ramp      {}", mix_of_stops(*first, *second, *weight)),
-                format!("mixed     red {r:.4}, green {g:.4}, blue {b:.4}, alpha {a:.4}"),
-            ],
-            Self::Texture {
-                uv: [u, v],
-                texels,
-                taps,
-            } => {
-                let mut lines = vec![format!("(u, v)    ({u:.5}, {v:.5})")];
-                for tap in taps.iter().take(MOST_TAPS) {
-                    let [x, y] = tap.at.map(cut);
-                    lines.push(format!("point     ({x}, {y}) of level {}, in texels", tap.level));
-                }
-                if let Some(rest) = taps.len().checked_sub(MOST_TAPS).filter(|rest| *rest > 0) {
-                    lines.push(format!("          and {rest} more points"));
-                }
-                let mut heaviest = texels.clone();
-                heaviest.sort_by(|a, b| b.weight.total_cmp(&a.weight));
-                for texel in heaviest.iter().take(MOST_TEXELS) {
-                    let [x, y] = texel.at;
-                    let hex = super::explanation::hex(texel.color);
-                    lines.push(format!(
-                        "{:>10}  of texel ({x}, {y}) of level {}: {hex}",
-                        percent(texel.weight),
-                        texel.level
-                    ));
-                }
-                if let Some(rest) = heaviest.get(MOST_TEXELS..).filter(|rest| !rest.is_empty()) {
-                    let weight = rest.iter().map(|texel| texel.weight).sum();
-                    lines.push(format!("{:>10}  of {} more texels", percent(weight), rest.len()));
-                }
-                lines
-            }
-        }
     }
 }
 

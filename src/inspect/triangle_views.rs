@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::model::{Edge, Interpolated, RampStop, Tap, Texel, TileTexel, Verdict, View};
+use super::samples::straight;
 use crate::color::Rgba;
 use crate::geometry::edge::{EdgeKind, EdgeTest};
 use crate::raster::{Attributes, SampleOfTriangle};
@@ -64,9 +65,10 @@ pub(super) fn interpolated(attributes: &Attributes) -> Interpolated {
             texels: read
                 .texels
                 .iter()
-                .map(|(at, weight)| TileTexel {
-                    at: *at,
-                    weight: *weight,
+                .map(|texel| TileTexel {
+                    at: texel.at,
+                    color: straight(texel.color, Rules::Standard),
+                    weight: texel.weight,
                 })
                 .collect(),
         },
@@ -85,6 +87,7 @@ pub(super) fn interpolated(attributes: &Attributes) -> Interpolated {
                 rgba: [r, g, b, a],
             }
         }
+        Attributes::OffRamp => Interpolated::OffRamp,
         Attributes::Texture { uv, reads } => Interpolated::Texture {
             uv: *uv,
             taps: reads

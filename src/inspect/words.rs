@@ -209,7 +209,6 @@ impl Explanation {
     fn painted_line(&self, paint: usize, found: &Paint) -> String {
         let all = self.samples.len();
         let count = found.fragments.len();
-        let seen = found.fragments.iter().filter(|fragment| fragment.seen).count();
         match &found.shape {
             Shape::BeginLayer if found.in_mask => {
                 "what follows is the shape of a clip path or mask: it takes away, and is not seen itself".to_owned()
@@ -250,17 +249,27 @@ impl Explanation {
                 )
             }
             Shape::Triangle { .. } | Shape::Polygon { .. } => {
-                let taken = found
-                    .fragments
-                    .iter()
-                    .filter(|fragment| matches!(self.unseen(paint, fragment.sample), Some(Unseen::TakenBy(_))));
-                let taken = taken.count();
-                let of_them = |count: usize, what: &str| match count {
-                    0 => String::new(),
-                    count => format!(", {count} of them {what}"),
+                let lost = |is_so: fn(Unseen) -> bool, what: &str| {
+                    let samples = found.samples().into_iter();
+                    let lost: Vec<usize> = samples
+                        .filter(|sample| self.unseen(paint, *sample).is_some_and(is_so))
+                        .collect();
+                    match lost.len() {
+                        0 => String::new(),
+                        lost if lost == count => format!("; all are {what}"),
+                        _ => format!("; {what} on {}", runs(&lost)),
+                    }
                 };
-                let lost = of_them(taken, "taken away again") + &of_them(count - seen - taken, "hidden");
-                format!("paints {count} of {all} samples{lost}: {}", runs(&found.samples()))
+                let lost = [
+                    lost(|why| matches!(why, Unseen::TakenBy(_)), "taken away again"),
+                    lost(|why| why == Unseen::Transparent, "transparent"),
+                    lost(|why| why == Unseen::Hidden, "hidden"),
+                ];
+                format!(
+                    "paints {count} of {all} samples: {}{}",
+                    runs(&found.samples()),
+                    lost.concat()
+                )
             }
         }
     }
@@ -346,10 +355,14 @@ impl Explanation {
         let line = |missed: &super::model::Missed| {
             let Source { file, line, column, .. } = &missed.source;
             let area = percent(missed.area);
-            format!(
-                "{} at {file}:{line}:{column} covers {area} of the pixel, and no sample",
-                missed.source.name()
-            )
+            let stroke = if missed.stroke { "stroke of " } else { "" };
+            let name = missed.source.name();
+            let what = if missed.crisp {
+                "not its middle, where shape-rendering asks for its one sample"
+            } else {
+                "no sample"
+            };
+            format!("{stroke}{name} at {file}:{line}:{column} covers {area} of the pixel, and {what}")
         };
         self.missed.iter().map(line).collect()
     }

@@ -31,9 +31,20 @@ pub struct Tile {
 pub struct TileRead {
     /// Column and row of the copy in which the point lies.
     pub copy: [i64; 2],
-    /// The texels, with what each weighs: together 1.
-    pub texels: Vec<([u32; 2], f64)>,
+    /// The texels, whose weights are 1 together.
+    pub texels: Vec<TileTexelRead>,
     /// What they make.
+    pub color: Premultiplied16,
+}
+
+/// A texel that is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TileTexelRead {
+    /// Column and row.
+    pub at: [u32; 2],
+    /// Its part of the colour.
+    pub weight: f64,
+    /// Its own colour.
     pub color: Premultiplied16,
 }
 
@@ -81,7 +92,14 @@ impl Tile {
         TileRead {
             copy: at.floor().to_array().map(whole),
             color: self.color(at, sampling),
-            texels: read,
+            texels: read
+                .into_iter()
+                .map(|(at, weight)| TileTexelRead {
+                    at,
+                    weight,
+                    color: self.texel(at),
+                })
+                .collect(),
         }
     }
 
@@ -186,14 +204,19 @@ mod tests {
             assert_eq!(tile.color(DVec2::new(x, 5.5), PixelSampling::Nearest), color, "at {x}");
         }
         let read = tile.read(DVec2::new(-0.1, 5.5), PixelSampling::Nearest);
-        assert_eq!((read.copy, read.texels), ([-1, 5], vec![([1, 0], 1.0)]));
+        let texel = TileTexelRead {
+            at: [1, 0],
+            weight: 1.0,
+            color: blue,
+        };
+        assert_eq!((read.copy, read.texels), ([-1, 5], vec![texel]));
     }
 
     #[test]
     fn bilinear_reads_go_across_the_border_of_copies() {
         let tile = tile();
         let read = tile.read(DVec2::new(1.0, 0.5), PixelSampling::Bilinear);
-        let weights: f64 = read.texels.iter().map(|(_, weight)| weight).sum();
+        let weights: f64 = read.texels.iter().map(|texel| texel.weight).sum();
         assert!((weights - 1.0).abs() < 1e-12);
         assert_eq!(read.color, Premultiplied16([32_640, 0, 32_640, 65_280]), "half of each");
     }

@@ -137,9 +137,11 @@ fn corner_weights() -> Paint {
 fn weights_at(shaders: &[Shader<'_>], sample: ShadedSample) -> [f64; 3] {
     let of = |shader: &Shader<'_>| match shader.interpolated(sample) {
         Attributes::Color([a, b, c, _]) => Some([a, b, c]),
-        Attributes::None | Attributes::Texture { .. } | Attributes::Gradient { .. } | Attributes::Pattern { .. } => {
-            None
-        }
+        Attributes::None
+        | Attributes::Texture { .. }
+        | Attributes::Gradient { .. }
+        | Attributes::OffRamp
+        | Attributes::Pattern { .. } => None,
     };
     shaders.iter().find_map(of).unwrap_or_default()
 }

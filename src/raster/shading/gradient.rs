@@ -252,7 +252,7 @@ impl Shade for GradientShader<'_> {
     fn interpolated(&self, sample: ShadedSample) -> Attributes {
         let place = self.shape.place(DVec2::from(sample.position()));
         if place.is_nan() && !self.everywhere {
-            return Attributes::None;
+            return Attributes::OffRamp;
         }
         Attributes::Gradient {
             place,

@@ -31,6 +31,8 @@ pub enum Attributes {
         /// What is mixed there.
         mix: Mix,
     },
+    /// No place on the ramp: none of a radial gradient's circles goes through the sample.
+    OffRamp,
 }
 
 /// How a triangle reads its texture.

@@ -1,5 +1,6 @@
 //! What is said about gradients, patterns, clip paths, masks and blend modes.
 
+use rasterscope::color::Rgba;
 use rasterscope::geometry::View;
 use rasterscope::inspect::{Explanation, Interpolated, Shape, View as Seen};
 use rasterscope::raster::{Framebuffer, SamplePattern};
@@ -90,7 +91,7 @@ fn clips_tell_which_path_took_samples_away() {
     assert_eq!(outside.color, [255; 4]);
     assert!(text.contains("it takes away all samples"), "{text}");
     assert!(
-        text.contains("paints 4 of 4 samples, 4 of them taken away again"),
+        text.contains("paints 4 of 4 samples: 1-4; all are taken away again"),
         "{text}"
     );
     assert!(text.contains("and is taken away by"), "{text}");
@@ -224,5 +225,88 @@ fn every_explained_pixel_is_the_frame_s() {
             let found = replay(&subject, SIZE, [x, y]).expect("inside");
             assert_eq!(found.pixel, *expected, "{x}, {y} at rate {rate} of {pattern:?}");
         }
+    }
+}
+
+/// All lines about a pixel of a document of 20 by 10 units, each a pixel.
+fn told_of(shapes: &str, pixel: [u32; 2], rate: u32) -> String {
+    let document = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="20" height="10">{shapes}</svg>"#);
+    let settings = RenderSettings {
+        background: Rgba::WHITE,
+        outline: false,
+        ..at_rate(rate)
+    };
+    let scene = read(&document, DialectChoice::Svg);
+    assert_eq!(scene.report.skipped.len(), 0, "all is drawn: {:?}", scene.report);
+    // The canvas fills the frame.
+    advised(&scene, &settings, [20, 10], pixel).to_string()
+}
+
+#[test]
+fn sentences_are_true_of_their_pixel() {
+    let crisp = r##"<rect x="2" y="2.2" width="9" height=".1" shape-rendering="crispEdges" fill="#f00"/>"##;
+    let stroke = r##"<path d="M2 5.06H18" fill="none" stroke="#00f" stroke-width=".1"/>"##;
+    let clear = r##"<linearGradient id="c"><stop offset=".6" stop-opacity="0"/><stop offset="1"/></linearGradient><rect width="9" height="9" fill="url(#c)"/>"##;
+    let alone = r##"<g style="isolation:isolate"><rect width="9" height="9" fill="#fa0" style="mix-blend-mode:multiply"/></g>"##;
+    let half = r##"<rect width="20" height="10" fill="#fff"/><rect width="20" height="5" fill="#f00"/><rect x="0" y="0" width="3.5" height="10" fill="#00f"/>"##;
+    let clips = r##"<clipPath id="a"><path d="M0 0H9L0 9"/></clipPath><clipPath id="b"><path d="M0 0H5L0 5"/></clipPath>
+<g clip-path="url(#a)"><g clip-path="url(#b)"><rect width="9" height="9" fill="#f00"/></g></g>"##;
+    let soft = r##"<rect width="9" height="9" fill="#1a1a1a"/><rect width="9" height="9" fill="#fff" style="mix-blend-mode:soft-light"/>"##;
+    let cone = r##"<radialGradient id="r" gradientUnits="userSpaceOnUse" cx="5" cy="5" r="1" fx="9" fy="5"><stop stop-color="#f00"/><stop offset="1"/></radialGradient>
+<rect width="20" height="10" fill="url(#r)"/>"##;
+    let tiles = r##"<pattern id="p" patternUnits="userSpaceOnUse" width="4" height="4"><rect width="2" height="4" fill="#0a0"/></pattern>
+<rect width="20" height="10" fill="url(#p)"/>"##;
+    for (shapes, pixel, rate, sentence) in [
+        (cone, [18, 5], 1, "no circle of the gradient goes through this sample"),
+        (tiles, [5, 5], 1, "of texel (1, 1): #00AA00"),
+        (
+            crisp,
+            [5, 2],
+            16,
+            "of the pixel, and not its middle, where shape-rendering asks for its one sample",
+        ),
+        (stroke, [9, 5], 1, "stroke of path at scene.svg:1:"),
+        (clear, [4, 4], 4, "paints 4 of 4 samples: 1-4; all are transparent"),
+        (
+            alone,
+            [4, 4],
+            4,
+            "nothing is below: the layer's colour stays as it is, whatever the mode",
+        ),
+        (half, [3, 2], 4, "paints 4 of 4 samples: 1-4; hidden on 1, 3"),
+        (
+            clips,
+            [4, 4],
+            4,
+            "finds nothing on this sample: there is nothing to take",
+        ),
+        (
+            clips,
+            [1, 4],
+            4,
+            "counts for the clip path or mask, and is not seen itself",
+        ),
+        (
+            soft,
+            [4, 4],
+            4,
+            "or ((16 * below - 12) * below + 4) * below where below <= 1/4",
+        ),
+    ] {
+        let text = told_of(shapes, pixel, rate);
+        // However lines are wrapped.
+        let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(sentence), "{sentence}: {text}");
+    }
+    assert!(!told_of(clear, [4, 4], 4).contains("hidden"), "nothing lies over it");
+}
+
+#[test]
+fn more_samples_are_not_advised_where_the_truth_is_no_surer() {
+    let edge = r##"<rect width="20" height="5.7" fill="#000"/>"##;
+    for (rate, is_advised) in [(16, true), (100, false)] {
+        let text = told_of(edge, [4, 5], rate);
+        let advised = text.contains("256 samples: ");
+        assert_eq!(advised, is_advised, "{rate} samples: {text}");
     }
 }

@@ -1,0 +1,134 @@
+//! What a sample interpolates in words: a place on a ramp, the texels that it reads.
+
+use super::explanation::hex;
+use super::model::{Interpolated, RampStop, Tap, Texel, TileTexel};
+use super::numbers::{cut, number, percent};
+
+/// Points of a texture that are listed at most.
+const MOST_TAPS: usize = 4;
+/// Texels that are listed at most, the heaviest first.
+const MOST_TEXELS: usize = 16;
+/// How translucent texels are added.
+const BY_ALPHA: &str = "          each multiplied by its own alpha before they are added";
+
+/// How much of each of two stops a mix holds.
+fn mix_of_stops(first: RampStop, second: RampStop, weight: f64) -> String {
+    let stop = |stop: RampStop| {
+        let hex = hex(stop.color);
+        format!("stop {} ({hex} at {})", stop.number + 1, number(f64::from(stop.offset)))
+    };
+    if first.number == second.number {
+        return format!("{} alone", stop(first));
+    }
+    let (rest, weight) = (percent(1.0 - weight), percent(weight));
+    format!("{rest} of {}, {weight} of {}", stop(first), stop(second))
+}
+
+impl Interpolated {
+    pub(super) fn lines(&self) -> Vec<String> {
+        match self {
+            Self::Flat => Vec::new(),
+            Self::Color { rgba: [r, g, b, a] } => {
+                vec![format!("mixed     red {r:.4}, green {g:.4}, blue {b:.4}, alpha {a:.4}")]
+            }
+            Self::Pattern {
+                copy: [column, row],
+                size: [width, height],
+                texels,
+            } => pattern_lines([*column, *row], [*width, *height], texels),
+            Self::Gradient {
+                t,
+                at,
+                stops: [first, second],
+                weight,
+                rgba: [r, g, b, a],
+            } => vec![
+                if (t - at).abs() > 1e-9 {
+                    format!("t         {t:.5}, on the ramp {at:.5}")
+                } else {
+                    format!("t         {t:.5}")
+                },
+                format!("ramp      {}", mix_of_stops(*first, *second, *weight)),
+                format!("mixed     red {r:.4}, green {g:.4}, blue {b:.4}, alpha {a:.4}"),
+            ],
+            Self::OffRamp => vec![
+                "t         none: no circle of the gradient goes through this sample, which stays transparent"
+                    .to_owned(),
+            ],
+            Self::Texture {
+                uv: [u, v],
+                texels,
+                taps,
+            } => texture_lines([*u, *v], taps, texels),
+        }
+    }
+}
+
+fn pattern_lines([column, row]: [i64; 2], [width, height]: [u32; 2], texels: &[TileTexel]) -> Vec<String> {
+    let mut lines = vec![format!(
+        "copy      ({column}, {row}) of the tile, drawn as {width} x {height} texels"
+    )];
+    for texel in texels {
+        let [x, y] = texel.at;
+        lines.push(format!(
+            "{:>10}  of texel ({x}, {y}): {}",
+            percent(texel.weight),
+            hex(texel.color)
+        ));
+    }
+    if texels.len() > 1 && texels.iter().any(|texel| texel.color[3] < 255) {
+        lines.push(BY_ALPHA.to_owned());
+    }
+    lines
+}
+
+fn texture_lines([u, v]: [f64; 2], taps: &[Tap], texels: &[Texel]) -> Vec<String> {
+    let mut lines = vec![format!("(u, v)    ({u:.5}, {v:.5})")];
+    for tap in taps.iter().take(MOST_TAPS) {
+        let [x, y] = tap.at.map(cut);
+        lines.push(format!("point     ({x}, {y}) of level {}, in texels", tap.level));
+    }
+    if let Some(rest) = taps.len().checked_sub(MOST_TAPS).filter(|rest| *rest > 0) {
+        lines.push(format!("          and {rest} more points"));
+    }
+    let mut heaviest = texels.to_vec();
+    heaviest.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+    for texel in heaviest.iter().take(MOST_TEXELS) {
+        let [x, y] = texel.at;
+        let hex = hex(straight(texel.color));
+        lines.push(format!(
+            "{:>10}  of texel ({x}, {y}) of level {}: {hex}",
+            percent(texel.weight),
+            texel.level
+        ));
+    }
+    if texels.len() > 1 && texels.iter().any(|texel| texel.color[3] < 255) {
+        lines.push(BY_ALPHA.to_owned());
+    }
+    if let Some(rest) = heaviest.get(MOST_TEXELS..).filter(|rest| !rest.is_empty()) {
+        let weight = rest.iter().map(|texel| texel.weight).sum();
+        lines.push(format!("{:>10}  of {} more texels", percent(weight), rest.len()));
+    }
+    lines
+}
+
+/// A premultiplied colour as a file has it.
+fn straight([r, g, b, a]: [u8; 4]) -> [u8; 4] {
+    let divided = |channel: u8| {
+        let (channel, alpha) = (u32::from(channel), u32::from(a).max(1));
+        u8::try_from((channel * 255 + alpha / 2) / alpha).unwrap_or(u8::MAX)
+    };
+    [divided(r), divided(g), divided(b), a]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texels_are_told_as_files_have_them() {
+        assert_eq!(straight([0, 30, 128, 128]), [0, 60, 255, 128]);
+        assert_eq!(straight([0; 4]), [0; 4], "nothing shows through");
+        assert_eq!(straight([1, 2, 3, 255]), [1, 2, 3, 255]);
+    }
+}

@@ -69,6 +69,7 @@ pub(super) fn viewer_options(
         screenshot_dir: options.screenshot_dir.clone(),
         screenshot_name: options.screenshot_name.clone(),
         theme: options.theme.or(theme).unwrap_or_default(),
+        takes_drops: true,
         waker,
         grammar: options.grammar,
         restored: options.restored.clone(),

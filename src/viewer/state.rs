@@ -57,6 +57,8 @@ pub struct ViewerOptions {
     pub screenshot_name: NameTemplate,
     /// Light or dark panels.
     pub theme: Theme,
+    /// Whether files can be dropped on the window.
+    pub takes_drops: bool,
     /// Wakes the event loop; may do nothing.
     pub waker: Waker,
     /// Reads command lines; without it no picture brings a state back, and there are no sheets.
@@ -141,6 +143,7 @@ impl Default for ViewerOptions {
             screenshot_dir: None,
             screenshot_name: NameTemplate::default(),
             theme: Theme::default(),
+            takes_drops: true,
             waker: Arc::new(|| {}),
             grammar: None,
             restored: None,
@@ -168,7 +171,10 @@ impl Viewer {
         )?;
         let mut viewer = Self {
             settings: options.settings,
-            chrome: Chrome::new(options.window, options.theme),
+            chrome: Chrome {
+                takes_drops: options.takes_drops,
+                ..Chrome::new(options.window, options.theme)
+            },
             pointer: Pointer::default(),
             scene_list: SceneList::new(options.view, readers),
             frames: Frames::new(drawing),

@@ -128,7 +128,11 @@ fn ways_of(viewer: &Viewer) -> Vec<Way> {
     }];
     ways.push(Way {
         name: "Open your file",
-        words: "an SVG or a folder of them; or drop it on the window",
+        words: if viewer.chrome().takes_drops() {
+            "an SVG or a folder of them; or drop it on the window"
+        } else {
+            "an SVG or a folder of them"
+        },
         does: vec![Command::Window(WindowCommand::ToggleDialog(Dialog::Open))],
     });
     let is_study = |source: &SceneSource| match source {

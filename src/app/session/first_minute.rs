@@ -7,7 +7,7 @@ use super::small_windows::{click_on, says};
 use super::*;
 use crate::viewer::script::Stage as _;
 use crate::viewer::{AbCommand, Against, MessageKind, Theme};
-use crate::viewer::{Dialog, Toggle, ViewCommand};
+use crate::viewer::{Dialog, Toggle, ViewCommand, ViewerOptions};
 
 const WINDOWS: [[u32; 2]; 4] = [[480, 360], [800, 600], [1280, 800], [1920, 1080]];
 const WAYS: [&str; 4] = [
@@ -26,6 +26,23 @@ fn greeted(window: [u32; 2]) -> Session {
     session.command(Command::Window(WindowCommand::StartCard(Toggle::On)));
     session.settle();
     session
+}
+
+#[test]
+fn files_are_to_be_dropped_only_where_that_is_possible() {
+    for takes_drops in [true, false] {
+        let options = ViewerOptions {
+            takes_drops,
+            ..ViewerOptions::default()
+        };
+        let viewer = Viewer::new(options).expect("threads");
+        let mut session = Session::new(viewer, 1.0, Clock::Simulated(0.0));
+        session.ctx().enable_accesskit();
+        session.command(Command::Window(WindowCommand::StartCard(Toggle::On)));
+        session.settle();
+        let offers = says(&mut session, "drop it on the window");
+        assert_eq!(offers, takes_drops, "files can be dropped: {takes_drops}");
+    }
 }
 
 #[test]

@@ -30,7 +30,7 @@ use super::winit_keys;
 use crate::figure::Guard;
 use crate::raster::Framebuffer;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Command, InterfaceScale, PointerButton, Theme, Toggle, Viewer, Waker};
+use crate::viewer::{Command, InterfaceScale, PointerButton, Theme, Toggle, Viewer, ViewerOptions, Waker};
 
 /// Device pixels of a touch pad's motion that count as a click of the wheel, at scale 1.
 const PIXELS_PER_CLICK: f64 = 40.0;
@@ -91,16 +91,7 @@ impl Handler {
         let guard = Guard::new(self.options.force);
         let log = self.options.frame_log.as_deref();
         let log = log.map(|path| FrameLog::create(path, &guard)).transpose()?;
-        let monitor = event_loop
-            .primary_monitor()
-            .or_else(|| event_loop.available_monitors().next());
-        let scale = monitor.as_ref().map_or(1.0, MonitorHandle::scale_factor);
-        let size = self.remembered.size.filter(|_| self.options.size.is_none());
-        let mut size = size.unwrap_or_else(|| headless::window_size(&self.options, scale as f32));
-        if let Some(monitor) = monitor.filter(|_| self.options.size.is_none()) {
-            size = within(size, monitor.size());
-        }
-        let [width, height] = size;
+        let [width, height] = self.first_size(event_loop);
         let attributes = Window::default_attributes()
             .with_title("Rasterscope")
             .with_inner_size(PhysicalSize::new(width, height))
@@ -111,14 +102,19 @@ impl Handler {
         let attributes = startup::named(attributes);
         let failed = |what: &dyn std::fmt::Display| AppError::Window(format!("cannot open a window: {what}"));
         let window = Arc::new(event_loop.create_window(attributes).map_err(|error| failed(&error))?);
-        let PhysicalSize { width, height } = if startup::is_wayland(event_loop) {
+        let is_wayland = startup::is_wayland(event_loop);
+        let PhysicalSize { width, height } = if is_wayland {
             whole_pixels::fit(&window, SMALLEST)
         } else {
             window.inner_size()
         };
         let theme = chosen.or_else(|| window.theme().map(theme).or(asked.and_then(ThemeQuestion::answer)));
-        let viewer_options = headless::viewer_options(&self.options, [width, height], theme, self.waker());
-        let viewer = Viewer::new(viewer_options).map_err(AppError::Threads)?;
+        let viewer = Viewer::new(ViewerOptions {
+            // winit tells of none under Wayland.
+            takes_drops: !is_wayland,
+            ..headless::viewer_options(&self.options, [width, height], theme, self.waker())
+        });
+        let viewer = viewer.map_err(AppError::Threads)?;
         let scale = window.scale_factor() as f32;
         let mut session = Session::new(viewer, scale, Clock::Real(Instant::now()));
         self.first_theme = Some(session.viewer().chrome().theme());
@@ -152,6 +148,21 @@ impl Handler {
         opened.serve_screen_readers(event_loop, self.proxy.clone());
         opened.window.set_visible(true);
         Ok(opened)
+    }
+
+    /// The window's size at the start, in device pixels: the one that was asked for, or else one that the monitor has room for.
+    #[expect(clippy::cast_possible_truncation, reason = "a scale is a small number")]
+    fn first_size(&self, event_loop: &ActiveEventLoop) -> [u32; 2] {
+        let monitor = event_loop
+            .primary_monitor()
+            .or_else(|| event_loop.available_monitors().next());
+        let scale = monitor.as_ref().map_or(1.0, MonitorHandle::scale_factor);
+        let remembered = self.remembered.size.filter(|_| self.options.size.is_none());
+        let size = remembered.unwrap_or_else(|| headless::window_size(&self.options, scale as f32));
+        match monitor.filter(|_| self.options.size.is_none()) {
+            Some(monitor) => within(size, monitor.size()),
+            None => size,
+        }
     }
 
     /// Wakes the event loop from other threads.

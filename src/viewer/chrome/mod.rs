@@ -45,6 +45,7 @@ pub struct Chrome {
     /// Whether the ways on for newcomers lie over the picture.
     pub(in crate::viewer) start_card: bool,
     pub(in crate::viewer) interface_scale: InterfaceScale,
+    pub(in crate::viewer) takes_drops: bool,
     /// Whether the window is to be read from afar.
     pub(in crate::viewer) presenter: bool,
     pub(in crate::viewer) messages: Messages,
@@ -66,6 +67,7 @@ impl Chrome {
                 words: false,
             },
             start_card: false,
+            takes_drops: true,
             interface_scale: InterfaceScale::default(),
             presenter: false,
             messages: Messages::default(),
@@ -127,6 +129,11 @@ impl Chrome {
     /// Whether the ways on for newcomers lie over the picture.
     pub fn start_card(&self) -> bool {
         self.start_card
+    }
+
+    /// Whether files can be dropped on the window.
+    pub fn takes_drops(&self) -> bool {
+        self.takes_drops
     }
 
     /// What the user is to be told, oldest first. Whoever shows a message dismisses it after a while.

@@ -130,7 +130,7 @@ pub const GESTURES: &[Gesture] = &[
     },
     Gesture {
         gesture: "drop files or folders",
-        help: "Opens their scenes; of a saved picture its scene, view and settings",
+        help: "Opens their scenes; of a saved picture its scene, view and settings. Not under Wayland: Ctrl+O opens files there",
     },
 ];
 

@@ -246,7 +246,7 @@ fn told_of(shapes: &str, pixel: [u32; 2], rate: u32) -> String {
 fn sentences_are_true_of_their_pixel() {
     let crisp = r##"<rect x="2" y="2.2" width="9" height=".1" shape-rendering="crispEdges" fill="#f00"/>"##;
     let stroke = r##"<path d="M2 5.06H18" fill="none" stroke="#00f" stroke-width=".1"/>"##;
-    let clear = r##"<linearGradient id="c"><stop offset=".6" stop-opacity="0"/><stop offset="1"/></linearGradient><rect width="9" height="9" fill="url(#c)"/>"##;
+    let clear = r#"<linearGradient id="c"><stop offset=".6" stop-opacity="0"/><stop offset="1"/></linearGradient><rect width="9" height="9" fill="url(#c)"/>"#;
     let alone = r##"<g style="isolation:isolate"><rect width="9" height="9" fill="#fa0" style="mix-blend-mode:multiply"/></g>"##;
     let half = r##"<rect width="20" height="10" fill="#fff"/><rect width="20" height="5" fill="#f00"/><rect x="0" y="0" width="3.5" height="10" fill="#00f"/>"##;
     let clips = r##"<clipPath id="a"><path d="M0 0H9L0 9"/></clipPath><clipPath id="b"><path d="M0 0H5L0 5"/></clipPath>

@@ -37,7 +37,8 @@ fn thin_rays() -> String {
             "Rays a quarter of a pixel wide (1024 x 1024, default view), almost level or almost upright. On the grid they break into",
             "dashes: for a long way a ray falls between the rows of samples, then for a while each pixel hits it.",
             "Press A for jittered: each pixel looks elsewhere, so dashes become grain, and a step back every ray is evenly grey.",
-            "Press = : both get better. From 4 samples on, the rotated grid is better still: it has a row for every sample.",
+            "With blue-noise that grain is the finest: what one pixel has too much, its neighbours have too little.",
+            "Press = : all get better. From 4 samples on, the rotated grid is better still: it has a row for every sample.",
         ],
     );
     doc.rect(DVec2::ZERO, dvec2(SIDE, SIDE), Style::fill(PAPER));
@@ -90,7 +91,8 @@ fn upright_bars() -> String {
         &[
             "Bars that stand upright or lie level, a plan or a window frame. Here the grid is at its best and jitter at its worst:",
             "along such an edge every pixel of the grid sees the same, so edges are straight lines of one shade at every rate.",
-            "Press A for jittered: every edge turns ragged, at rate 1 by a whole pixel. With jittered-same edges are straight again.",
+            "Press A for jittered: every edge turns ragged, at rate 1 by a whole pixel; blue-noise only frays it more evenly.",
+            "With jittered-same edges are straight again.",
         ],
     );
     doc.rect(DVec2::ZERO, dvec2(SIDE, SIDE), Style::fill(PAPER));

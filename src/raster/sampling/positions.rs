@@ -6,7 +6,6 @@ use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::sampling::pattern::Seed;
 use crate::raster::sampling::pattern::arrange::Place;
 pub(crate) use crate::raster::sampling::pattern::arrange::Position;
-use crate::raster::sampling::pattern::random_bits::mix;
 use crate::raster::{SamplePattern, SampleRate};
 
 /// Where the samples of each pixel lie.
@@ -75,9 +74,8 @@ impl SamplePositions {
         }
         // A pixel of the frame has the same ones however much is painted around it.
         let [x, y] = [x - self.margin, y - self.margin];
-        let pixel = mix((u64::from(x.cast_unsigned()) | u64::from(y.cast_unsigned()) << 32) ^ self.seed);
         memory.clear();
-        self.own.place(pixel, memory);
+        self.own.place(self.own.random([x, y], self.seed), memory);
         memory
     }
 }

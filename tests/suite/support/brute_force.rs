@@ -189,6 +189,7 @@ fn places(settings: &RenderSettings, pixel: [i64; 2]) -> Vec<[u32; 2]> {
         | SamplePattern::JitteredSame
         | SamplePattern::MultiJittered
         | SamplePattern::Random
+        | SamplePattern::BlueNoise
         | SamplePattern::Sobol
         | SamplePattern::SobolSame => {
             let empty = Scene::empty(DVec2::ONE, Dialect::Svg);

@@ -4,6 +4,7 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
+use crate::raster::sampling::pattern::random_bits::mix;
 use crate::raster::sampling::rate::SampleRate;
 
 /// Column and row of a sample inside its pixel, in points of the lattice.
@@ -17,6 +18,11 @@ pub(in crate::raster::sampling) trait Arrange: Sync {
 
 /// Places the samples of one pixel after the other.
 pub(in crate::raster::sampling) trait Place: Debug + Send + Sync {
+    /// The random bits of the pixel in this column and row.
+    fn random(&self, [x, y]: [i32; 2], seed: u64) -> u64 {
+        mix((u64::from(x.cast_unsigned()) | u64::from(y.cast_unsigned()) << 32) ^ seed)
+    }
+
     /// Adds the places of a pixel's samples, which has random bits of its own.
     fn place(&self, random: u64, places: &mut Vec<Position>);
 }

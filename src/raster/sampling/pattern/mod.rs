@@ -15,6 +15,7 @@
 //! To add a pattern, write its arrangement and add an entry to the table below.
 
 pub(in crate::raster::sampling) mod arrange;
+mod blue_noise;
 mod cells;
 mod grid;
 mod halton;
@@ -175,6 +176,15 @@ patterns! {
         needs_square: false,
         spread: Spread::Alike,
         arrange: &sobol::Sobol,
+    },
+    /// The first points of Sobol's sequence, shifted in each pixel by the numbers of a tile of blue noise.
+    BlueNoise => Entry {
+        name: "blue-noise",
+        description: "a (0, 2)-sequence, shifted in each pixel so that neighbours differ most",
+        source: "Ulichney 1993, Georgiev and Fajardo 2016",
+        needs_square: false,
+        spread: Spread::Own,
+        arrange: &blue_noise::BlueNoise,
     },
     /// The first points of the additive recurrence with the plastic number, beginning in the pixel's centre.
     R2 => Entry {

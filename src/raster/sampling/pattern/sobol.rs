@@ -36,7 +36,7 @@ impl Place for Points {
 }
 
 /// A point of the sequence: the bits of its number mirrored; and combined as Pascal's triangle says.
-fn point(number: u32) -> [u32; 2] {
+pub(super) fn point(number: u32) -> [u32; 2] {
     let (mut bits, mut direction, mut second) = (number, 1 << 31, 0);
     while bits > 0 {
         if bits & 1 == 1 {

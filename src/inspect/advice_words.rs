@@ -192,16 +192,16 @@ impl Cure {
         let value = &self.value;
         let what = match self.setting {
             Setting::Rules => format!("Rules {value}"),
-            Setting::LodLevel => "The level of detail as computed (M steps in the window)".to_owned(),
-            Setting::LodBias => format!("Bias {value} (comma and full stop step in the window)"),
-            Setting::LevelSampling => format!("Level sampling {value} (L steps in the window)"),
-            Setting::Anisotropy => format!("Anisotropy {value} (T steps in the window)"),
+            Setting::LodLevel => "The level of detail as computed (key M in the window)".to_owned(),
+            Setting::LodBias => format!("Bias {value} (keys comma and full stop in the window)"),
+            Setting::LevelSampling => format!("Level sampling {value} (key L in the window)"),
+            Setting::Anisotropy => format!("Anisotropy {value} (key T in the window)"),
             Setting::LodPer => format!("Level of detail per {value}"),
-            Setting::PixelSampling => format!("Pixel sampling {value} (P steps in the window)"),
+            Setting::PixelSampling => format!("Pixel sampling {value} (key P in the window)"),
             Setting::SampleRate if value == "256" => format!("{value} samples"),
-            Setting::SampleRate => format!("{value} samples (= steps in the window)"),
+            Setting::SampleRate => format!("{value} samples (key = in the window)"),
             Setting::Pattern => {
-                format!("Pattern {value} (A steps in the window), whose samples share neither columns nor rows")
+                format!("Pattern {value} (key A in the window), whose samples share neither columns nor rows")
             }
         };
         format!("{what}: {} levels nearer to the truth.", levels(self.nearer))

@@ -540,12 +540,12 @@ fn hints_name_a_cure_and_vanish_with_it() {
     };
     // Nearer to the horizon averages blur so much that a single sample is as good.
     let shimmering = hints(LevelSampling::Zero, 1, [400, 330]);
-    assert!(shimmering.contains("(L steps in the window)"), "{shimmering}");
+    assert!(shimmering.contains("(key L in the window)"), "{shimmering}");
     let blurred = hints(LevelSampling::Linear, 1, [400, 310]);
-    assert!(blurred.contains("(T steps in the window)"), "{blurred}");
+    assert!(blurred.contains("(key T in the window)"), "{blurred}");
     let cured = hints(LevelSampling::Linear, 16, [400, 310]);
     assert!(
-        !cured.contains("(L steps in the window)") && !cured.contains("(T steps in the window)"),
+        !cured.contains("(key L in the window)") && !cured.contains("(key T in the window)"),
         "{cured}"
     );
 }

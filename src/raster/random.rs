@@ -1,4 +1,4 @@
-//! Random primitives on a frame of 70 x 50 pixels, for tests.
+//! Random primitives on a frame of 70 x 50 pixels, for tests, and properties of what is random.
 
 use arbtest::arbitrary::{Result, Unstructured};
 use glam::DVec2;
@@ -10,6 +10,21 @@ use crate::raster::list::builder::ChunkBuilder;
 use crate::raster::resolve::{FilterRadius, ResolveFilter, SizedFilter};
 use crate::raster::shading::Paint;
 use crate::texture::{MipLevel, MipPyramid, Texture};
+
+/// Checks a property for so many milliseconds, and on until the cases that matter were met: slow machines take longer. Gives up
+/// after twenty times as long.
+pub(in crate::raster) fn check_until(
+    milliseconds: u64,
+    met: impl Fn() -> bool,
+    mut property: impl FnMut(&mut Unstructured<'_>) -> Result<()>,
+) {
+    for _ in 0..20 {
+        arbtest::arbtest(&mut property).budget_ms(milliseconds);
+        if met() {
+            return;
+        }
+    }
+}
 
 /// Adds some random primitives of every kind; textured ones read texture 0.
 pub(in crate::raster) fn fill(builder: &mut ChunkBuilder<'_>, u: &mut Unstructured<'_>) -> Result<()> {

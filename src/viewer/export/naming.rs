@@ -107,10 +107,22 @@ impl NameTemplate {
         let name = name.trim_start_matches(['.', '-', ' ']).trim_end_matches(['.', ' ']);
         if name.is_empty() {
             "picture".to_owned()
+        } else if is_device(name) {
+            format!("_{name}")
         } else {
             name.to_owned()
         }
     }
+}
+
+/// Whether Windows takes a file of this name for a device, whatever its extension: a picture would be printed, or lost.
+fn is_device(name: &str) -> bool {
+    let stem = name.split('.').next().unwrap_or(name).trim_end().to_ascii_uppercase();
+    let numbered = |device: &str| {
+        let mut number = stem.strip_prefix(device).unwrap_or_default().chars();
+        number.next().is_some_and(|digit| "0123456789¹²³".contains(digit)) && number.next().is_none()
+    };
+    matches!(stem.as_str(), "CON" | "PRN" | "AUX" | "NUL") || numbered("COM") || numbered("LPT")
 }
 
 impl Default for NameTemplate {
@@ -155,6 +167,12 @@ mod tests {
         assert_eq!(name("at {time}?"), "at 10_30_", "no colon, no question mark");
         assert_eq!(name("..-{rate}."), "16", "neither hidden nor an option");
         assert_eq!(name(". ."), "picture", "something at least");
+        for device in ["con", "NUL.v2", "COM1", "lpt³.a"] {
+            assert_eq!(name(device), format!("_{device}"), "no device of Windows");
+        }
+        for file in ["console", "COM", "COM12", "lpt-1"] {
+            assert_eq!(name(file), file, "a file like any other");
+        }
         assert_eq!(name(&"long ".repeat(100)).len(), 119, "not endless");
         assert_eq!(NameTemplate::default().name(None, "now"), "rasterscope-now", "as ever");
         let without = NameTemplate::parse("{scene}").expect("a template").name(None, "now");

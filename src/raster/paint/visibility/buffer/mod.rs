@@ -319,6 +319,8 @@ fn offset(from: i32, to: i32) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+
     use arbtest::arbitrary::{Result, Unstructured};
 
     use super::*;
@@ -326,6 +328,7 @@ mod tests {
     use crate::raster::coverage::mask8x8::CoverageMask;
     use crate::raster::coverage::pixel_rows::each_covered;
     use crate::raster::coverage::span_rows::MaskRows;
+    use crate::raster::random::check_until;
     use crate::raster::span::scaled;
 
     const RECT: SpanRect = SpanRect {
@@ -460,39 +463,43 @@ mod tests {
 
     #[test]
     fn compressed_samples_show_what_plain_ones_would() {
-        let (mut split, mut shared) = (0, 0);
-        arbtest::arbtest(|u| {
-            let side = *u.choose(&[1, 2, 3, 4, 5, 7, 8, 9, 12])?;
-            let new = || {
-                let mut tile = VisibilityBuffer::new(side);
-                tile.reset(RECT, 0);
-                let plain = Plain::of(&tile);
-                (tile, plain)
-            };
-            let ((mut tile, mut plain), (mut layer, mut plain_layer)) = (new(), new());
-            for _ in 0..u.int_in_range(1..=20)? {
-                step(u, (&mut tile, &mut plain), side)?;
-                assert_eq!(Plain::of(&tile), plain, "{side} x {side} samples");
-                step(u, (&mut layer, &mut plain_layer), side)?;
-            }
-            let used = |surface| plain.0.iter().flatten().any(|shown| *shown == surface);
-            let mut seen = vec![false; 4096];
-            tile.each_surface(|surface| seen[usize::from(surface)] = true);
-            let missed = (0..4096).find(|surface| used(*surface) && !seen[usize::from(*surface)]);
-            assert_eq!(missed, None, "every surface in use is seen");
-            for y in RECT.y.start..RECT.y.end {
-                let runs = || tile.runs(y).map(|(run, _)| run);
-                split += runs().filter(|run| *run == Run::Split).count();
-                shared += runs().filter(|run| *run == Run::TwoSurfacePixels).count();
-            }
-            tile.composite(&layer, &mut Sums);
-            for (below, above) in plain.0.iter_mut().flatten().zip(plain_layer.0.iter().flatten()) {
-                *below = Sums.composited(*below, *above);
-            }
-            assert_eq!(Plain::of(&tile), plain, "a layer over {side} x {side} samples");
-            Ok(())
-        })
-        .budget_ms(1000);
+        let (split, shared) = (Cell::new(0), Cell::new(0));
+        check_until(
+            1000,
+            || split.get() > 0 && shared.get() > 0,
+            |u| {
+                let side = *u.choose(&[1, 2, 3, 4, 5, 7, 8, 9, 12])?;
+                let new = || {
+                    let mut tile = VisibilityBuffer::new(side);
+                    tile.reset(RECT, 0);
+                    let plain = Plain::of(&tile);
+                    (tile, plain)
+                };
+                let ((mut tile, mut plain), (mut layer, mut plain_layer)) = (new(), new());
+                for _ in 0..u.int_in_range(1..=20)? {
+                    step(u, (&mut tile, &mut plain), side)?;
+                    assert_eq!(Plain::of(&tile), plain, "{side} x {side} samples");
+                    step(u, (&mut layer, &mut plain_layer), side)?;
+                }
+                let used = |surface| plain.0.iter().flatten().any(|shown| *shown == surface);
+                let mut seen = vec![false; 4096];
+                tile.each_surface(|surface| seen[usize::from(surface)] = true);
+                let missed = (0..4096).find(|surface| used(*surface) && !seen[usize::from(*surface)]);
+                assert_eq!(missed, None, "every surface in use is seen");
+                for y in RECT.y.start..RECT.y.end {
+                    let runs = || tile.runs(y).map(|(run, _)| run);
+                    split.set(split.get() + runs().filter(|run| *run == Run::Split).count());
+                    shared.set(shared.get() + runs().filter(|run| *run == Run::TwoSurfacePixels).count());
+                }
+                tile.composite(&layer, &mut Sums);
+                for (below, above) in plain.0.iter_mut().flatten().zip(plain_layer.0.iter().flatten()) {
+                    *below = Sums.composited(*below, *above);
+                }
+                assert_eq!(Plain::of(&tile), plain, "a layer over {side} x {side} samples");
+                Ok(())
+            },
+        );
+        let (split, shared) = (split.get(), shared.get());
         assert!(split > 0 && shared > 0, "{split} split and {shared} shared runs");
     }
 }

@@ -399,7 +399,7 @@ fn replay_steps_through_patterns_and_tells_which_rates_they_refuse() {
     assert_eq!(render(&session).sample_rate.samples(), 5, "halton takes any number");
     assert!(session.viewer.chrome().messages().is_empty(), "nothing to tell");
     session.assert_frame_is_current();
-    session.keys(&["a", "a", "a", "a", "a"]);
+    session.keys(&["a", "a", "a", "a", "a", "a"]);
     assert_eq!(render(&session).pattern, SamplePattern::Grid, "round and round");
     assert_eq!(
         render(&session).sample_rate.samples(),
@@ -409,8 +409,8 @@ fn replay_steps_through_patterns_and_tells_which_rates_they_refuse() {
     let told = session.viewer.chrome().messages()[0].text.clone();
     assert_eq!(
         told,
-        "pattern grid takes a square number of samples, not 5; 4 is nearest, and random, halton, hammersley, sobol, sobol-same and \
-         r2 take any",
+        "pattern grid takes a square number of samples, not 5; 4 is nearest, and random, halton, hammersley, sobol, sobol-same, \
+         blue-noise and r2 take any",
         "in one line"
     );
     session.run(set("sample-rate", "8"));

@@ -19,4 +19,3 @@ mod program;
 mod rest;
 mod session_bus;
 mod sheets;
-mod wayland;

@@ -153,7 +153,7 @@ mod tests {
                 palette: None,
             };
             let seed: Vec<u8> = (0..1200).map(|_| u.arbitrary()).collect::<Result<_>>()?;
-            let mut draw = |keep: bool| -> Result<(Framebuffer, u64)> {
+            let draw = |keep: bool| -> Result<(Framebuffer, u64)> {
                 let context = super::ListContext::new(SIZE, &settings);
                 let mut u = Unstructured::new(&seed);
                 let mut builder = ChunkBuilder::new(&context, 12);

@@ -1,7 +1,5 @@
-//! How much memory drawing a picture takes, as Linux counts it; other systems do not tell. And whether there is enough for
-//! a picture.
+//! How much memory drawing a picture takes, as Linux, Windows and macOS count it. And whether there is enough for a picture.
 
-use std::fs;
 use std::process::{Command, Stdio};
 
 use super::failure::Failure;
@@ -38,12 +36,28 @@ pub(super) fn pixels([width, height]: [u32; 2]) -> u64 {
     u64::from(width) * u64::from(height)
 }
 
-/// The largest resident set of this process since its start, in megabytes of 2^20 bytes.
+/// The largest resident set of this process since its start, in megabytes of 2^20 bytes; `None` where the system does not tell.
+#[cfg(not(any(windows, target_os = "macos")))]
 pub(super) fn peak_megabytes() -> Option<f64> {
-    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     let kilobytes: f64 = line.trim().trim_end_matches(" kB").parse().ok()?;
     Some(kilobytes / 1024.0)
+}
+
+/// The same on Windows.
+#[cfg(windows)]
+pub(super) fn peak_megabytes() -> Option<f64> {
+    super::windows::peak_bytes().map(|bytes| bytes as f64 / 1_048_576.0)
+}
+
+/// The same on macOS.
+#[cfg(target_os = "macos")]
+pub(super) fn peak_megabytes() -> Option<f64> {
+    use nix::sys::resource::{UsageWho, getrusage};
+    // In bytes there, where other systems of its family count kilobytes.
+    let usage = getrusage(UsageWho::RUSAGE_SELF).ok()?;
+    Some(usage.max_rss() as f64 / 1_048_576.0)
 }
 
 /// The same of a process of its own that reads the scene and draws the picture: what was drawn before leaves memory behind

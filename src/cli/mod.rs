@@ -24,6 +24,8 @@ mod size;
 mod sweep;
 mod view;
 mod view_option;
+#[cfg(windows)]
+mod windows;
 mod writeup;
 
 pub use restore::GRAMMAR;

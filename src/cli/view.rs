@@ -58,6 +58,8 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
         restored: restored.cloned(),
         await_end: Some(interrupt::instead),
     };
+    #[cfg(windows)]
+    super::windows::leave_console_of_desktop();
     app::run(view_options).map_err(|error| match error {
         AppError::Ended => interrupt::ended(),
         error if error.is_input() => Failure::input(error),

@@ -19,3 +19,4 @@ mod program;
 mod rest;
 mod session_bus;
 mod sheets;
+mod wayland;

@@ -2,6 +2,7 @@
 
 use rasterscope::viewer::InspectorCommand;
 use std::io::Write as _;
+use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command as Process, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
@@ -40,6 +41,8 @@ pub(crate) struct Program {
     pub(crate) window: Window,
     pub(crate) desktop: Desktop,
     pub(crate) folder: tempfile::TempDir,
+    /// What the window belongs to where the program is not a client of the X server itself.
+    compositor: Option<Child>,
 }
 
 impl Program {
@@ -71,24 +74,9 @@ impl Program {
         variables: &[(&str, &str)],
     ) -> Self {
         let desktop = Desktop::start();
-        let [width, height] = SIZE;
-        let errors = std::fs::File::create(folder.path().join(ERRORS)).unwrap();
-        let child = Process::new(env!("CARGO_BIN_EXE_rasterscope"))
-            .arg("view")
-            .args(paths)
-            .args(["--size", &format!("{width}x{height}")])
-            .args(arguments)
+        let child = Self::spawn(folder.path(), paths, arguments)
             .env("DISPLAY", &desktop.name)
-            .env("XDG_CONFIG_HOME", folder.path().join("config"))
-            // No test hears of the desktop that it runs on.
-            .env("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nowhere")
-            .env_remove("WAYLAND_DISPLAY")
-            .env_remove("WAYLAND_SOCKET")
-            .env_remove("WINIT_X11_SCALE_FACTOR")
             .envs(variables.iter().copied())
-            .current_dir(folder.path())
-            .stdout(Stdio::null())
-            .stderr(errors)
             .spawn()
             .unwrap();
         let window = until("the window", || desktop.find_window());
@@ -98,7 +86,72 @@ impl Program {
             window,
             desktop,
             folder,
+            compositor: None,
         }
+    }
+
+    /// Opens `path` under a Wayland compositor of this scale, which fills its own window with the program's: keys and pixels
+    /// are those of X, and go through the compositor.
+    pub(crate) fn start_on_wayland(path: &Path, scale: u32) -> Self {
+        const SOCKET: &str = "wayland-test";
+        let folder = tempfile::tempdir().unwrap();
+        // Compositors want a folder that nobody else can read.
+        std::fs::set_permissions(folder.path(), std::fs::Permissions::from_mode(0o700)).unwrap();
+        let desktop = Desktop::start();
+        let [width, height] = SIZE;
+        let compositor = Process::new("weston")
+            .args(["--no-config", "--backend=x11-backend.so", "--use-pixman"])
+            .args(["--shell=kiosk-shell.so", "--idle-time=0"])
+            .arg(format!("--socket={SOCKET}"))
+            .args([format!("--width={width}"), format!("--height={height}")])
+            .arg(format!("--scale={scale}"))
+            .env("DISPLAY", &desktop.name)
+            .env("XDG_RUNTIME_DIR", folder.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn();
+        let compositor = compositor.unwrap_or_else(|error| {
+            panic!("the window tests need weston ({error}); install it with: sudo apt install weston")
+        });
+        let window = until("the compositor's window", || desktop.find_window());
+        let socket = folder.path().join(SOCKET);
+        until("the compositor", || socket.exists().then_some(()));
+        desktop.focus(window);
+        let child = Self::spawn(folder.path(), &[path], &[])
+            .env_remove("DISPLAY")
+            .env("XDG_RUNTIME_DIR", folder.path())
+            .env("WAYLAND_DISPLAY", SOCKET)
+            .spawn()
+            .unwrap();
+        Self {
+            child,
+            window,
+            desktop,
+            folder,
+            compositor: Some(compositor),
+        }
+    }
+
+    /// The program to be, without anything of the desktop that the test runs on.
+    fn spawn(folder: &Path, paths: &[&Path], arguments: &[&str]) -> Process {
+        let [width, height] = SIZE;
+        let errors = std::fs::File::create(folder.join(ERRORS)).unwrap();
+        let mut process = Process::new(env!("CARGO_BIN_EXE_rasterscope"));
+        process
+            .arg("view")
+            .args(paths)
+            .args(["--size", &format!("{width}x{height}")])
+            .args(arguments)
+            .env("XDG_CONFIG_HOME", folder.join("config"))
+            // No test hears of the desktop that it runs on.
+            .env("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nowhere")
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET")
+            .env_remove("WINIT_X11_SCALE_FACTOR")
+            .current_dir(folder)
+            .stdout(Stdio::null())
+            .stderr(errors);
+        process
     }
 
     /// Opens `path` and hides everything but the picture, so that every pixel of the window is the scene's.
@@ -208,6 +261,10 @@ impl Drop for Program {
         // It may have ended already.
         let _ = self.child.kill();
         let _ = self.child.wait();
+        if let Some(compositor) = &mut self.compositor {
+            let _ = compositor.kill();
+            let _ = compositor.wait();
+        }
         if std::thread::panicking() {
             // Beside what the test says.
             let _ = std::io::stderr().write_all(self.errors().as_bytes());

@@ -267,39 +267,62 @@ impl SampleColors {
             let last = (first + 1..pixels.end)
                 .find(|pixel| kind(*pixel) != kind(first))
                 .unwrap_or(pixels.end);
-            let (samples, whole) = (first * self.per_pixel..last * self.per_pixel, &layer.whole[first..last]);
+            let whole = &layer.whole[first..last];
             match kind(first) {
                 (true, true) => {
+                    let samples = first * self.per_pixel..last * self.per_pixel;
                     compositing.composite(&layer.samples[samples.clone()], &mut self.samples[samples], self.rules);
                 }
-                (true, false) => {
-                    self.ensure_samples();
-                    for pixel in first..last {
-                        self.split[pixel] = true;
-                        let samples = pixel * self.per_pixel..(pixel + 1) * self.per_pixel;
-                        let (above, below) = (&layer.samples[samples.clone()], &mut self.samples[samples]);
-                        let color = self.whole[pixel];
-                        if compositing.is_copied(above, color, self.rules) {
-                            below.copy_from_slice(above);
-                        } else {
-                            below.fill(color);
-                            compositing.composite(above, below, self.rules);
-                        }
-                    }
-                }
+                (true, false) => self.composite_over_whole(first..last, layer, compositing),
                 _ if whole.iter().all(|color| compositing.keeps_under(*color)) => {
                     // Nothing changes.
                 }
-                (false, true) => {
-                    for (below, color) in self.samples[samples].chunks_mut(self.per_pixel).zip(whole) {
-                        below.chunks_mut(ALIKE).for_each(|below| {
-                            compositing.composite(&[*color; ALIKE][..below.len()], below, self.rules);
-                        });
-                    }
-                }
+                (false, true) => self.composite_whole(first..last, layer, compositing),
                 (false, false) => compositing.composite(whole, &mut self.whole[first..last], self.rules),
             }
             first = last;
+        }
+    }
+
+    /// The same for pixels that are not split, below pixels of the layer that are.
+    fn composite_over_whole(&mut self, pixels: Range<usize>, layer: &Self, compositing: Compositing) {
+        self.ensure_samples();
+        let first = pixels.start;
+        for pixel in pixels {
+            self.split[pixel] = true;
+            let start = pixel * self.per_pixel;
+            let (before, samples) = self.samples.split_at_mut(start);
+            let below = &mut samples[..self.per_pixel];
+            let above = &layer.samples[start..start + self.per_pixel];
+            let color = self.whole[pixel];
+            if compositing.is_copied(above, color, self.rules) {
+                below.copy_from_slice(above);
+                continue;
+            }
+            // Along a level gradient pixels are as the ones before them.
+            let last = start - self.per_pixel.min(start);
+            if pixel > first && color == self.whole[pixel - 1] && *above == layer.samples[last..start] {
+                below.copy_from_slice(&before[last..]);
+                continue;
+            }
+            below.fill(color);
+            compositing.composite(above, below, self.rules);
+        }
+    }
+
+    /// The same for pixels that are split, below pixels of the layer that are not.
+    fn composite_whole(&mut self, pixels: Range<usize>, layer: &Self, compositing: Compositing) {
+        for pixel in pixels {
+            let color = layer.whole[pixel];
+            if compositing.hides(compositing.fragment(color)) {
+                self.split[pixel] = false;
+                self.whole[pixel] = compositing.composited(color, Premultiplied16::TRANSPARENT, self.rules);
+                continue;
+            }
+            let below = &mut self.samples[pixel * self.per_pixel..][..self.per_pixel];
+            below.chunks_mut(ALIKE).for_each(|below| {
+                compositing.composite(&[color; ALIKE][..below.len()], below, self.rules);
+            });
         }
     }
 

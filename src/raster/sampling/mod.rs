@@ -1,6 +1,7 @@
-//! Where the samples of a pixel lie: how many, in which pattern, at which positions, and sets of them.
+//! Where the samples of a pixel lie: how many, in which pattern, at which positions, sets of them, and how even they are.
 
 pub(in crate::raster) mod mask;
 pub(in crate::raster) mod pattern;
 pub(in crate::raster) mod positions;
 pub(in crate::raster) mod rate;
+pub(in crate::raster) mod statistics;

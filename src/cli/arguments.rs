@@ -13,6 +13,7 @@ use super::options::bench::BenchOptions;
 use super::options::diff::DiffOptions;
 use super::options::inspect::InspectOptions;
 use super::options::lesson::LessonOptions;
+use super::options::pattern::PatternOptions;
 use super::options::render::RenderOptions;
 use super::options::rerun::RerunOptions;
 use super::options::sampling::SamplingOptions;
@@ -64,6 +65,8 @@ pub(super) enum Verb {
     Lesson(LessonOptions),
     /// Time redraws of scenes: median, minimum, milliseconds per stage
     Bench(BenchOptions),
+    /// Tell where the samples of a pattern lie, and how even they are: discrepancy, distance, projections, spectrum
+    Pattern(PatternOptions),
 }
 
 impl Verb {
@@ -73,7 +76,7 @@ impl Verb {
             Self::View(options) => Some(&options.sampling),
             Self::Render(options) => Some(&options.picture.sampling),
             // Each panel has its own.
-            Self::Sheet(_) | Self::Sweep(_) | Self::Writeup(_) | Self::Rerun(_) => None,
+            Self::Sheet(_) | Self::Sweep(_) | Self::Writeup(_) | Self::Rerun(_) | Self::Pattern(_) => None,
             Self::Lesson(options) => Some(&options.view.sampling),
             Self::Inspect(options) => Some(&options.picture.sampling),
             Self::Diff(options) => Some(&options.sampling),
@@ -282,6 +285,11 @@ mod tests {
             "rasterscope bench",
             "rasterscope bench a.svg --frames 0",
             "rasterscope bench a.svg --threads 0",
+            "rasterscope pattern poisson",
+            "rasterscope pattern --sample-rate 0",
+            "rasterscope pattern --sample-rate 257",
+            "rasterscope pattern --seed 65536",
+            "rasterscope pattern --pixel 5",
         ] {
             match parsed(line) {
                 Err(Failure::Input(message)) => {

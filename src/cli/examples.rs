@@ -3,7 +3,7 @@
 use clap::Command;
 
 /// Commands with their examples: a line to type, and what it does.
-pub(super) const EXAMPLES: [(&str, &[(&str, &str)]); 10] = [
+pub(super) const EXAMPLES: [(&str, &[(&str, &str)]); 11] = [
     (
         "view",
         &[
@@ -111,6 +111,13 @@ pub(super) const EXAMPLES: [(&str, &[(&str, &str)]); 10] = [
             "rasterscope bench drawing.svg --sample-rate 16 --frames 100 --json",
             "milliseconds per stage",
         )],
+    ),
+    (
+        "pattern",
+        &[
+            ("rasterscope pattern --sample-rate 16", "all patterns beside each other"),
+            ("rasterscope pattern sobol --seed 7 --json", "one, with all its points"),
+        ],
     ),
 ];
 

@@ -14,6 +14,7 @@ mod interrupt;
 mod lesson;
 mod memory;
 mod options;
+mod pattern;
 mod picture;
 mod progress;
 mod render;
@@ -111,5 +112,6 @@ fn execute(arguments: &Arguments, restored: Option<&Restored>) -> Result<(), Fai
         Verb::Diff(options) => diff::run(options),
         Verb::Lesson(options) => lesson::run(options),
         Verb::Bench(options) => bench::run(options),
+        Verb::Pattern(options) => pattern::run(options),
     }
 }

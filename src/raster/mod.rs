@@ -62,7 +62,7 @@ pub use paint::recorder::{PaintedCommand, PaintedKind, PaintedSample};
 pub use resolve::{FilterRadius, ResolveFilter, SizedFilter};
 pub use sampling::pattern::{SamplePattern, Seed};
 pub use sampling::rate::SampleRate;
-pub use sampling::statistics::{PowerSpectrum, least_distance, star_discrepancy};
+pub use sampling::statistics::{PatternStatistics, PowerSpectrum};
 pub use settings::RasterSettings;
 pub use shading::Paint;
 pub use shading::interpolated::{Attributes, TextureUse};

@@ -9,6 +9,7 @@ use super::chooser::Chooser;
 use super::look::{self, CONTROL};
 use super::modal::{BACKDROP, beside, modal};
 use super::palette::{self, BETWEEN_ENTRIES, Does, ENTRY};
+use super::pattern::{self, PatternDialog};
 use super::scenes::Thumbnails;
 use super::sheet::SheetDialog;
 use super::start;
@@ -27,6 +28,7 @@ pub(super) struct Dialogs {
     /// The text was replaced: its line puts the caret behind it.
     caret_to_end: bool,
     sheet: SheetDialog,
+    pattern: PatternDialog,
     /// The folder to open files from: it is listed where it was left.
     pub(super) chooser: Chooser,
     /// The pictures of the page of scenes.
@@ -76,6 +78,7 @@ pub(super) fn place(ctx: &Context, viewer: &Viewer) -> Option<Rect> {
         Dialog::SaveAs => SAVE_AS,
         Dialog::Scenes => ALL_SCENES,
         Dialog::Sheet => "sheet",
+        Dialog::Pattern => pattern::NAME,
     };
     ctx.memory(|memory| memory.area_rect(Id::unique(name)))
 }
@@ -126,6 +129,7 @@ impl Dialogs {
             }
             Some(Dialog::Scenes) => return self.gallery(ctx, viewer, just_opened, commands),
             Some(Dialog::Sheet) => self.sheet.show(ctx, viewer, commands),
+            Some(Dialog::Pattern) => self.pattern.show(ctx, viewer, commands),
             None => {}
         }
         Vec::new()

@@ -30,6 +30,7 @@ mod modal;
 mod open_dialog;
 mod palette;
 mod panels;
+mod pattern;
 mod pin;
 mod places;
 mod report;

@@ -1,13 +1,14 @@
 //! The settings of the picture, a control for each row of their table; pixel zoom and progressive drawing.
 
-use crate::viewer::ViewCommand;
-use egui::{DragValue, Layout, Ui, vec2};
+use egui::{Align, DragValue, Layout, RichText, Ui, vec2};
 
-use super::controls::{choice, drop_down, gave_up, heading, row, tip};
+use super::controls::{choice, command_button, drop_down, gave_up, row, tip};
 use super::look::CONTROL;
 use crate::scene::Dialect;
 use crate::viewer::picture::{self, About, Control, PanelRow};
-use crate::viewer::{Command, PictureSetting, PixelZoom, SceneEntry, Settings, Toggle, Viewer};
+use crate::viewer::{
+    Command, Dialog, PictureSetting, PixelZoom, SceneEntry, Settings, Toggle, ViewCommand, Viewer, WindowCommand,
+};
 
 /// Levels per point of dragging.
 const SPEED: f64 = 0.02;
@@ -17,14 +18,22 @@ const BELOW: f64 = 0.5;
 /// Shows the settings and adds what was changed to `commands`.
 pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let (document, sampling): (Vec<_>, Vec<_>) = picture::all().partition(|setting| setting.about == About::Document);
-    heading(ui, "Sampling");
+    ui.add_space(2.0);
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Sampling").strong().size(12.0));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if command_button(ui, "pattern-view", "Points").clicked() {
+                commands.push(Command::Window(WindowCommand::ToggleDialog(Dialog::Pattern)));
+            }
+        });
+    });
     rows(ui, &sampling, viewer.settings(), commands);
     rows(ui, &document, viewer.settings(), commands);
     reading(ui, viewer, commands);
 }
 
 /// Settings below each other; those without a label stand beside the one before them.
-fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], now: &Settings, commands: &mut Vec<Command>) {
+pub(super) fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], now: &Settings, commands: &mut Vec<Command>) {
     let shown = settings.iter().filter_map(|setting| {
         Some(ShownSetting {
             setting,
@@ -35,7 +44,7 @@ fn rows(ui: &mut Ui, settings: &[&'static PictureSetting], now: &Settings, comma
     for group in shown.chunk_by(|_, next| next.panel.label.is_empty()) {
         let [first, ..] = group else { continue };
         if let Control::WideButtons(across) = first.panel.control {
-            ui.label(egui::RichText::new(first.panel.label).weak());
+            ui.label(RichText::new(first.panel.label).weak());
             for values in first.setting.offered(now).chunks(across) {
                 buttons(ui, *first, values, now, commands);
             }
@@ -203,7 +212,7 @@ fn reading(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
     let settings = viewer.settings();
     // For every choice, so that what is below stays under the pointer.
     row(ui, "", |ui| {
-        ui.label(egui::RichText::new(dialect_in_force(viewer)).weak().small())
+        ui.label(RichText::new(dialect_in_force(viewer)).weak().small())
     });
     row(ui, "Pixel zoom", |ui| {
         let values = PixelZoom::ALL.map(|value| (value, value.factor().to_string()));

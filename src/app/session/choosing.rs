@@ -263,3 +263,39 @@ fn page_of_all_scenes_begins_with_what_was_found() {
         "the first that was found is whole: {below} points below the page's upper edge"
     );
 }
+
+#[test]
+fn pattern_by_itself_follows_the_keys_and_closes() {
+    for window in [[500, 600], [800, 600], [1280, 800], [1920, 1080]] {
+        let mut session = session(Vec::new(), window);
+        session.command(Command::set("sample-rate", "16").expect("a value"));
+        session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
+        session.settle();
+        // Its name is that of the command, as in the menu.
+        if window[0] >= 800 {
+            click_on(&mut session, "Sample pattern by itself");
+        } else {
+            open_dialog(&mut session, Dialog::Pattern);
+        }
+        assert_eq!(
+            session.viewer().chrome().dialog(),
+            Some(Dialog::Pattern),
+            "open in {window:?}"
+        );
+        assert!(
+            has(&mut session, "16 points in 4 columns and 4 rows"),
+            "the grid in {window:?}"
+        );
+        assert!(says(&mut session, "0.2344"), "its discrepancy in {window:?}");
+        key(&mut session, "a");
+        session.settle();
+        assert!(
+            has(&mut session, "16 points in 16 columns and 16 rows"),
+            "the next pattern, in {window:?}"
+        );
+        assert!(has(&mut session, "Power spectrum"), "it has a name in {window:?}");
+        key(&mut session, "Escape");
+        session.settle();
+        assert_eq!(session.viewer().chrome().dialog(), None, "closed in {window:?}");
+    }
+}

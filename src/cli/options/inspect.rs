@@ -27,7 +27,7 @@ pub(in crate::cli) struct InspectOptions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::cli) struct PixelPlace(pub(in crate::cli) [u32; 2]);
 
-fn pixel(text: &str) -> Result<PixelPlace, String> {
+pub(super) fn pixel(text: &str) -> Result<PixelPlace, String> {
     let place = text
         .split_once(',')
         .and_then(|(x, y)| Some(PixelPlace([x.trim().parse().ok()?, y.trim().parse().ok()?])));

@@ -24,12 +24,47 @@ use crate::raster::sampling::rate::SampleRate;
 /// A point of a pixel, right and down from its corner, `0.0..1.0`.
 type Point = [f64; 2];
 
-/// Pixels along each side of the block of which spectra are means.
-const BLOCK: i32 = 6;
+/// Points of which a spectrum is the mean, about: so many make it smooth, and more take longer than a hand waits.
+const POINTS: u32 = 1024;
+
+/// What there is to measure of the points of one pixel, and of a pattern as a whole.
+#[derive(Clone, Debug)]
+pub struct PatternStatistics {
+    /// The points, right and down from the pixel's corner, `0.0..1.0`, in the order of samples.
+    pub points: Vec<Point>,
+    /// How much the part of them that lies in a box from the pixel's corner differs from its area at most.
+    pub star_discrepancy: f64,
+    /// The least distance between two of them in pixels, those of the pixels around included, as if these had the same.
+    pub least_distance: f64,
+    /// How many different columns and rows they lie in: how many places a vertical, or a level, edge tells apart.
+    pub projections: [usize; 2],
+    /// How strong each frequency is in them.
+    pub spectrum: PowerSpectrum,
+}
+
+impl PatternStatistics {
+    /// Of the pixel in this column and row; the spectrum is the mean of many.
+    pub fn new(pattern: SamplePattern, rate: SampleRate, seed: Seed, pixel: [i32; 2]) -> Self {
+        let points = pattern.points(rate, seed, pixel);
+        let different = |axis: usize| {
+            let mut places: Vec<f64> = points.iter().map(|point| point[axis]).collect();
+            places.sort_by(f64::total_cmp);
+            places.dedup();
+            places.len()
+        };
+        Self {
+            star_discrepancy: star_discrepancy(&points),
+            least_distance: least_distance(&points),
+            projections: [different(0), different(1)],
+            spectrum: pattern.spectrum(rate, seed),
+            points,
+        }
+    }
+}
 
 impl SamplePattern {
     /// Where the samples of the pixel in this column and row lie.
-    pub fn points(self, rate: SampleRate, seed: Seed, pixel: [i32; 2]) -> Vec<Point> {
+    fn points(self, rate: SampleRate, seed: Seed, pixel: [i32; 2]) -> Vec<Point> {
         let side = f64::from(lattice(self, rate).side());
         let positions = SamplePositions::new(self, rate, seed);
         let mut memory = Vec::new();
@@ -41,13 +76,16 @@ impl SamplePattern {
     }
 
     /// The power spectrum of its points: the mean of many pixels where each has points of its own.
-    pub fn spectrum(self, rate: SampleRate, seed: Seed) -> PowerSpectrum {
-        let pixels = if self.differs_by_pixel() { BLOCK } else { 1 };
+    fn spectrum(self, rate: SampleRate, seed: Seed) -> PowerSpectrum {
+        let pixels = if self.differs_by_pixel() {
+            POINTS / rate.samples()
+        } else {
+            1
+        };
         let mut spectrum = PowerSpectrum::empty(rate);
-        for y in 0..pixels {
-            for x in 0..pixels {
-                spectrum.add(&self.points(rate, seed, [x, y]));
-            }
+        // A strip as wide as eight pixels: what neighbours have in common belongs to a pattern.
+        for pixel in (0..).take(pixels.max(1) as usize) {
+            spectrum.add(&self.points(rate, seed, [pixel % 8, pixel / 8]));
         }
         spectrum
     }
@@ -55,7 +93,7 @@ impl SamplePattern {
 
 /// The star discrepancy of points: how much the part of them that lies in a box from the corner `[0, 0]` differs from its area
 /// at most. Exact, in time that grows with the square of their number: the worst box ends at points, or at the far sides.
-pub fn star_discrepancy(points: &[Point]) -> f64 {
+fn star_discrepancy(points: &[Point]) -> f64 {
     let count = points.len() as f64;
     let mut columns: Vec<f64> = points.iter().map(|point| point[0]).chain([1.0]).collect();
     columns.sort_by(f64::total_cmp);
@@ -84,8 +122,8 @@ pub fn star_discrepancy(points: &[Point]) -> f64 {
     worst
 }
 
-/// The least distance between two points, in pixels, where the same points lie in each pixel around; `None` of no points.
-pub fn least_distance(points: &[Point]) -> Option<f64> {
+/// The least distance between two points, in pixels, where the same points lie in each pixel around.
+fn least_distance(points: &[Point]) -> f64 {
     let around = |distance: f64| {
         let distance = distance.abs();
         distance.min(1.0 - distance)
@@ -96,32 +134,31 @@ pub fn least_distance(points: &[Point]) -> Option<f64> {
         .flat_map(|(i, a)| points[i + 1..].iter().map(move |b| (a, b)));
     let distances = pairs.map(|(a, b)| around(a[0] - b[0]).hypot(around(a[1] - b[1])));
     // A single point is one pixel away from itself.
-    (!points.is_empty()).then(|| distances.fold(1.0, f64::min))
+    distances.fold(1.0, f64::min)
 }
 
-/// How strong each frequency is in points.
+/// How strong each frequency is in points: whole numbers of cycles per pixel, between which a pixel's own square would show.
 #[derive(Clone, Debug)]
 pub struct PowerSpectrum {
-    /// Cycles per pixel from one column, or row, to the next.
-    step: f64,
-    /// Row by row; the middle is frequency zero.
+    /// The highest frequency along each axis, in cycles per pixel.
+    reach: usize,
+    /// Row by row, from the highest frequency up to zero; those further down are the same upside down and mirrored, because points
+    /// are real.
     power: Vec<f64>,
     /// Pixels that were added.
     pixels: u32,
 }
 
 impl PowerSpectrum {
-    /// Frequencies on each side of zero.
-    const REACH: usize = 64;
-    /// Columns, and rows.
-    pub const SIDE: usize = 2 * Self::REACH + 1;
-
     /// Of no pixels: for as many points as `rate` says it reaches four times as far as their mean frequency.
     fn empty(rate: SampleRate) -> Self {
-        let mean = f64::from(rate.samples()).sqrt();
+        let mean = (1..rate.samples())
+            .find(|side| side * side >= rate.samples())
+            .unwrap_or(1);
+        let reach = 4 * mean as usize;
         Self {
-            step: 4.0 * mean / Self::REACH as f64,
-            power: vec![0.0; Self::SIDE * Self::SIDE],
+            reach,
+            power: vec![0.0; (2 * reach + 1) * (reach + 1)],
             pixels: 0,
         }
     }
@@ -129,20 +166,21 @@ impl PowerSpectrum {
     /// Adds the points of a pixel.
     fn add(&mut self, points: &[Point]) {
         let count = points.len() as f64;
+        let side = self.side();
         // One wave's phases along an axis, for each point.
         let waves = |axis: usize| -> Vec<Vec<[f64; 2]>> {
             let of_frequency = |index: usize| {
-                let frequency = (index as f64 - Self::REACH as f64) * self.step;
+                let frequency = index as f64 - self.reach as f64;
                 let phase = |point: &Point| {
                     let (sin, cos) = (TAU * frequency * point[axis]).sin_cos();
                     [cos, sin]
                 };
                 points.iter().map(phase).collect()
             };
-            (0..Self::SIDE).map(of_frequency).collect()
+            (0..side).map(of_frequency).collect()
         };
         let (across, down) = (waves(0), waves(1));
-        for (row, down) in self.power.chunks_mut(Self::SIDE).zip(&down) {
+        for (row, down) in self.power.chunks_mut(side).zip(&down) {
             for (power, across) in row.iter_mut().zip(&across) {
                 let (mut real, mut imaginary) = (0.0, 0.0);
                 for ([a, b], [c, d]) in across.iter().zip(down) {
@@ -155,30 +193,53 @@ impl PowerSpectrum {
         self.pixels += 1;
     }
 
-    /// The highest frequency that it shows, in cycles per pixel.
-    pub fn reach(&self) -> f64 {
-        self.step * Self::REACH as f64
+    /// The highest frequency along each axis, in cycles per pixel.
+    pub fn reach(&self) -> usize {
+        self.reach
+    }
+
+    /// Columns, and rows: one for each frequency from the highest below zero to the highest above.
+    pub fn side(&self) -> usize {
+        2 * self.reach + 1
     }
 
     /// The mean power of a column and row, counted from the upper left; frequency zero is that of the middle.
     pub fn at(&self, [column, row]: [usize; 2]) -> f64 {
-        self.power[row * Self::SIDE + column] / f64::from(self.pixels.max(1))
+        let last = self.side() - 1;
+        let [column, row] = if row > self.reach {
+            [last - column, last - row]
+        } else {
+            [column, row]
+        };
+        self.power[row * self.side() + column] / f64::from(self.pixels.max(1))
     }
 
-    /// The mean power around frequency zero by distance, from zero on in steps of a column.
+    /// The mean of [`Self::radial`] up to half of the points' mean frequency, but for zero: the noise that eyes see.
+    pub fn low_power(&self) -> f64 {
+        // The mean frequency is a quarter of the reach.
+        let low = (self.reach / 8).max(1);
+        self.radial()[1..=low].iter().sum::<f64>() / low as f64
+    }
+
+    /// The mean power around frequency zero by distance, from zero on in cycles per pixel.
     pub fn radial(&self) -> Vec<f64> {
-        let mut rings = vec![(0.0, 0_u32); Self::REACH + 1];
-        for row in 0..Self::SIDE {
-            for column in 0..Self::SIDE {
-                let from_middle = [column, row].map(|at| at.abs_diff(Self::REACH) as f64);
-                let distance = from_middle[0].hypot(from_middle[1]).round();
-                let ring = rings.iter_mut().zip(0..).find(|(_, at)| f64::from(*at) >= distance);
-                if let Some((ring, _)) = ring.filter(|(_, at)| f64::from(*at) <= distance) {
-                    *ring = (ring.0 + self.at([column, row]), ring.1 + 1);
+        let mut rings = vec![(0.0, 0_u32); self.reach + 1];
+        for row in 0..self.side() {
+            for column in 0..self.side() {
+                let from_middle = [column, row].map(|at| at.abs_diff(self.reach) as f64);
+                let distance = from_middle[0].hypot(from_middle[1]);
+                // The ring that is nearest, in whole numbers.
+                let ring = (0..=self.reach).find(|ring| distance < *ring as f64 + 0.5);
+                if let Some((sum, count)) = ring.and_then(|ring| rings.get_mut(ring)) {
+                    *sum += self.at([column, row]);
+                    *count += 1;
                 }
             }
         }
-        rings.into_iter().map(|(sum, count)| sum / f64::from(count.max(1))).collect()
+        rings
+            .into_iter()
+            .map(|(sum, count)| sum / f64::from(count.max(1)))
+            .collect()
     }
 }
 
@@ -197,8 +258,8 @@ mod tests {
 
     #[test]
     fn discrepancy_of_hammersleys_points_is_as_published() {
-        // Halton and Zaremba, "The Extreme and L2 Discrepancies of Some Plane Sets" (1969).
-        for m in 1..=8 {
+        // Halton and Zaremba, "The Extreme and L2 Discrepancies of Some Plane Sets" (1969), from four points on.
+        for m in 2..=8 {
             let count = 1_u32 << m;
             let points: Vec<Point> = (0..count)
                 .map(|i| [f64::from(i) / f64::from(count), mirrored(i)])
@@ -206,13 +267,19 @@ mod tests {
             let sign = if m % 2 == 0 { 1.0 } else { -1.0 };
             let expected = f64::from(m) / 3.0 + 13.0 / 9.0 - sign * 4.0 / (9.0 * f64::from(count));
             let found = star_discrepancy(&points) * f64::from(count);
-            assert!((found - expected).abs() < 1e-9, "2^{m} points: {found}, published {expected}");
+            assert!(
+                (found - expected).abs() < 1e-9,
+                "2^{m} points: {found}, published {expected}"
+            );
         }
     }
 
     #[test]
     fn discrepancy_is_that_of_the_worst_of_all_boxes() {
-        assert!((star_discrepancy(&[[0.5, 0.5]]) - 0.75).abs() < 1e-12, "one point in the middle");
+        assert!(
+            (star_discrepancy(&[[0.5, 0.5]]) - 0.75).abs() < 1e-12,
+            "one point in the middle"
+        );
         arbtest::arbtest(|u| {
             let mut at = || Ok::<_, arbtest::arbitrary::Error>(f64::from(u.int_in_range(0..=15_u8)?) / 16.0);
             let points = (0..6).map(|_| Ok([at()?, at()?])).collect::<Result<Vec<Point>, _>>()?;
@@ -224,7 +291,10 @@ mod tests {
             let mut worst = 0.0_f64;
             for right in &ends {
                 for below in &ends {
-                    let inside = points.iter().filter(|point| point[0] < *right && point[1] < *below).count();
+                    let inside = points
+                        .iter()
+                        .filter(|point| point[0] < *right && point[1] < *below)
+                        .count();
                     worst = worst.max((inside as f64 / 6.0 - right * below).abs());
                 }
             }
@@ -236,43 +306,69 @@ mod tests {
 
     #[test]
     fn the_nearest_point_may_lie_in_the_next_pixel() {
-        let near = least_distance(&[[0.02, 0.5], [0.99, 0.5], [0.5, 0.5]]).expect("points");
+        let near = least_distance(&[[0.02, 0.5], [0.99, 0.5], [0.5, 0.5]]);
         assert!((near - 0.03).abs() < 1e-12, "around the side: {near}");
         let grid = SamplePattern::Grid.points(rate(16), Seed::default(), [0, 0]);
-        assert_eq!(least_distance(&grid), Some(0.25), "as far as a cell is wide");
-        assert_eq!(least_distance(&[]), None, "there is none");
+        assert!((least_distance(&grid) - 0.25).abs() < 1e-12, "as far as a cell is wide");
     }
 
     #[test]
     fn spectrum_of_random_points_is_even_and_of_a_grid_sharp() {
-        let middle = [PowerSpectrum::REACH; 2];
         let random = SamplePattern::Random.spectrum(rate(16), Seed::default());
-        assert!((random.at(middle) - 16.0).abs() < 1e-6, "all points are in phase at frequency zero");
+        let middle = [random.reach(); 2];
+        assert!(
+            (random.at(middle) - 16.0).abs() < 1e-6,
+            "all points are in phase at frequency zero"
+        );
         let rings = random.radial();
-        let beyond = &rings[16..];
-        let mean = beyond.iter().sum::<f64>() / beyond.len() as f64;
+        let mean = rings[1..].iter().sum::<f64>() / random.reach() as f64;
         assert!((mean - 1.0).abs() < 0.1, "white noise: {mean}");
         let grid = SamplePattern::Grid.spectrum(rate(16), Seed::default());
-        let of = |cycles: f64| {
-            let column = (cycles / grid.step).round() + PowerSpectrum::REACH as f64;
-            let columns = (0..PowerSpectrum::SIDE).find(|at| *at as f64 >= column).expect("inside");
-            grid.at([columns, PowerSpectrum::REACH])
-        };
-        assert!((of(4.0) - 16.0).abs() < 1e-6, "four columns of samples in a pixel");
-        for between in [1.0, 2.0, 3.0] {
+        let of = |cycles: usize| grid.at([grid.reach() + cycles, grid.reach()]);
+        assert!((of(4) - 16.0).abs() < 1e-6, "four columns of samples in a pixel");
+        for between in [1, 2, 3, 5] {
             assert!(of(between) < 1e-6, "nothing at {between} cycles per pixel");
         }
     }
 
     #[test]
+    fn projections_count_the_places_that_an_edge_tells_apart() {
+        let of = |pattern| PatternStatistics::new(pattern, rate(16), Seed::default(), [0, 0]).projections;
+        assert_eq!(
+            of(SamplePattern::Grid),
+            [4, 4],
+            "a grid wastes most of its samples on level edges"
+        );
+        assert_eq!(of(SamplePattern::Rotated), [16, 16]);
+    }
+
+    #[test]
+    fn spectrum_is_the_sum_of_all_waves() {
+        let points = [[0.1, 0.7], [0.35, 0.2], [0.8, 0.4]];
+        let mut spectrum = PowerSpectrum::empty(rate(3));
+        spectrum.add(&points);
+        for place in [[3, 1], [8, 8], [10, 8], [2, 15], [16, 9], [16, 0]] {
+            let [x, y] = place.map(|at: usize| at as f64 - 8.0);
+            let phases = points.map(|point| TAU * (x * point[0] + y * point[1]));
+            let [real, imaginary] = [phases.map(f64::cos), phases.map(f64::sin)].map(|parts| parts.iter().sum::<f64>());
+            let expected = real.mul_add(real, imaginary * imaginary) / 3.0;
+            assert!(
+                (spectrum.at(place) - expected).abs() < 1e-9,
+                "{place:?}: {}",
+                spectrum.at(place)
+            );
+        }
+    }
+
+    #[test]
     fn patterns_that_keep_their_distance_have_few_low_frequencies() {
-        let low = |pattern: SamplePattern| {
-            let spectrum = pattern.spectrum(rate(16), Seed::default());
-            // Below half of the mean frequency.
-            spectrum.radial()[2..8].iter().sum::<f64>()
-        };
+        let low = |pattern: SamplePattern| pattern.spectrum(rate(16), Seed::default()).low_power();
         let random = low(SamplePattern::Random);
-        for even in [SamplePattern::Jittered, SamplePattern::MultiJittered, SamplePattern::Sobol] {
+        for even in [
+            SamplePattern::Jittered,
+            SamplePattern::MultiJittered,
+            SamplePattern::Sobol,
+        ] {
             assert!(low(even) < 0.6 * random, "{even:?}: {}, random {random}", low(even));
         }
     }

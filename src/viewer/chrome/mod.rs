@@ -29,6 +29,8 @@ pub enum Dialog {
     SaveAs,
     /// Puts a sheet together.
     Sheet,
+    /// The sample pattern by itself.
+    Pattern,
 }
 
 /// What is to be seen in the window besides the picture.

@@ -10,6 +10,7 @@ mod hostile_names;
 mod interrupts;
 mod lessons;
 mod outputs;
+mod patterns;
 mod records;
 mod sweep;
 mod writeup;

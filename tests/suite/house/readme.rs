@@ -84,7 +84,7 @@ fn readme_names_every_option_and_scene_folder() {
     let mut text = fs::read_to_string(root.join("README.md")).expect("the README");
     text.extend(pages().into_iter().map(|(_, page)| page));
     for command in [
-        "view", "render", "sheet", "sweep", "writeup", "rerun", "inspect", "diff", "lesson", "bench",
+        "view", "render", "sheet", "sweep", "writeup", "rerun", "inspect", "diff", "lesson", "bench", "pattern",
     ] {
         let output = Command::new(env!("CARGO_BIN_EXE_rasterscope"))
             .args([command, "--help"])

@@ -1,8 +1,9 @@
 //! Commands under "Sampling".
 
+use crate::viewer::chrome::Dialog;
 use crate::viewer::command::Command;
 use crate::viewer::command::arguments;
-use crate::viewer::command::parts::ViewCommand;
+use crate::viewer::command::parts::{ViewCommand, WindowCommand};
 use crate::viewer::command::spec::CommandSpec;
 use crate::viewer::command::spec::Group;
 use crate::viewer::command::spec::spec;
@@ -16,4 +17,12 @@ pub(super) static SAMPLING: &[CommandSpec] = &[spec(
     Group::Sampling,
 )
 .run(&Command::View(ViewCommand::Progressive(Toggle::Flip)))
-.argument(arguments::PROGRESSIVE)];
+.argument(arguments::PROGRESSIVE),
+spec(
+    "pattern-view",
+    "Sample pattern by itself",
+    "Shows the points of the sample pattern, what vertical and level edges see of them, how even they are, and their spectrum",
+    Group::Sampling,
+)
+.more("Of the pinned pixel, where each has points of its own; the keys of pattern and sample rate work meanwhile")
+.run(&Command::Window(WindowCommand::ToggleDialog(Dialog::Pattern)))];

@@ -1,0 +1,254 @@
+//! The dialog that shows a sample pattern by itself: its points, what vertical and level edges see of them, and its spectrum.
+//!
+//! ```text
+//!    Sample pattern                 Close
+//!    Samples per pixel   1 4 9 16 ...
+//!    Pattern             sobol     seed 0
+//!   .-------------. |  .-------------.
+//!   |   o     o   | -  |             |
+//!   | o     o     |    |    . o .    |      points of a pixel, and their places along both axes;
+//!   |     o     o | -  |             |      power of each frequency, zero in the middle
+//!   '-------------' |  '-------------'
+//!    | |  | | | | |    ----___/\_--__---    and its mean by distance from there
+//!    Discrepancy 0.12
+//! ```
+
+use egui::{Align, Color32, ColorImage, Context, Layout, Rect, Response, RichText, ScrollArea, Sense, Shape, Stroke};
+use egui::{StrokeKind, TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2};
+
+use super::controls::row;
+use super::modal::{beside, modal};
+use super::{look, sampling};
+use crate::raster::{PatternStatistics, PowerSpectrum, SamplePattern, SampleRate, Seed};
+use crate::viewer::{Command, PictureSetting, Viewer, WindowCommand, picture};
+
+/// What the dialog's area is called.
+pub(super) const NAME: &str = "Sample pattern";
+/// Largest side of a plot, in points.
+const SIDE: f32 = 236.0;
+/// Least side of two plots beside each other, in points.
+const LEAST: f32 = 150.0;
+/// Length of the lines that tell a place along an axis, in points.
+const TICK: f32 = 8.0;
+/// Height of the curve below a spectrum, in points.
+const CURVE: f32 = 56.0;
+/// The largest power that the curve has room for; random points have 1.
+const MOST: f64 = 2.0;
+/// What the window keeps free around the dialog, in points.
+const AROUND: Vec2 = vec2(48.0, 96.0);
+
+/// Settings that decide where samples lie, by their options.
+const SETTINGS: [&str; 3] = ["sample-rate", "pattern", "seed"];
+
+/// What the dialog remembers.
+#[derive(Debug, Default)]
+pub(super) struct PatternDialog {
+    shown: Option<ShownPattern>,
+}
+
+/// What a pattern follows from.
+type Key = (SamplePattern, SampleRate, Seed, [i32; 2]);
+
+/// A pattern that was measured.
+struct ShownPattern {
+    key: Key,
+    statistics: PatternStatistics,
+    spectrum: TextureHandle,
+}
+
+impl std::fmt::Debug for ShownPattern {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ShownPattern")
+            .field("key", &self.key)
+            .finish_non_exhaustive()
+    }
+}
+
+impl PatternDialog {
+    /// Shows the dialog.
+    pub(super) fn show(&mut self, ctx: &Context, viewer: &Viewer, commands: &mut Vec<Command>) {
+        let screen = ctx.content_rect().size() - AROUND;
+        let modal = modal(NAME).show(ctx, |ui| {
+            let across = if screen.x >= 2.0 * (LEAST + TICK) + 40.0 {
+                2.0
+            } else {
+                1.0
+            };
+            let side = ((screen.x - 40.0) / across - TICK).clamp(64.0, SIDE);
+            ui.set_width(across * (side + TICK) + 24.0);
+            let closes = ui
+                .horizontal(|ui| {
+                    ui.heading(NAME);
+                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.button("Close").clicked())
+                        .inner
+                })
+                .inner;
+            look::bars_beside(ui);
+            let height = screen.y.max(64.0);
+            let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
+            area.show(ui, |ui| {
+                let settings: Vec<&PictureSetting> =
+                    SETTINGS.iter().filter_map(|option| picture::find(option)).collect();
+                sampling::rows(ui, &settings, viewer.settings(), commands);
+                self.pattern(ui, viewer, side, across > 1.0);
+            });
+            closes
+        });
+        if modal.inner || beside(&modal.backdrop_response) {
+            commands.push(Command::Window(WindowCommand::CloseDialog));
+        }
+    }
+
+    /// Everything about the pattern in force.
+    fn pattern(&mut self, ui: &mut Ui, viewer: &Viewer, side: f32, beside: bool) {
+        let render = &viewer.settings().render;
+        let pinned = viewer.pixels().pinned();
+        let pixel = pinned.unwrap_or([0, 0]).map(u32::cast_signed);
+        let key = (render.pattern, render.sample_rate, render.seed, pixel);
+        if self.shown.as_ref().is_none_or(|shown| shown.key != key) {
+            let statistics = PatternStatistics::new(render.pattern, render.sample_rate, render.seed, pixel);
+            let image = image(&statistics.spectrum);
+            self.shown = Some(ShownPattern {
+                key,
+                spectrum: ui
+                    .ctx()
+                    .load_texture("spectrum of the pattern", image, TextureOptions::NEAREST),
+                statistics,
+            });
+        }
+        let Some(shown) = &self.shown else {
+            return;
+        };
+        ui.add_space(2.0);
+        ui.label(RichText::new(about(render.pattern, pixel)).small().weak());
+        ui.add_space(4.0);
+        let layout = if beside {
+            Layout::left_to_right(Align::Min)
+        } else {
+            Layout::top_down(Align::Min)
+        };
+        ui.with_layout(layout, |ui| {
+            ui.vertical(|ui| {
+                points(ui, &shown.statistics, side);
+                numbers(ui, &shown.statistics);
+            });
+            ui.vertical(|ui| spectrum(ui, shown, side));
+        });
+    }
+}
+
+/// What is shown, in a sentence.
+fn about(pattern: SamplePattern, [x, y]: [i32; 2]) -> String {
+    let source = match pattern.source() {
+        "" => String::new(),
+        source => format!(" ({source})"),
+    };
+    let whose = if pattern.differs_by_pixel() {
+        format!(" The points are those of pixel {x}, {y}.")
+    } else {
+        String::new()
+    };
+    let description = pattern.description().replace('`', "");
+    format!("{}: {description}{source}.{whose}", pattern.name())
+}
+
+/// The points of a pixel, and their places along both axes.
+fn points(ui: &mut Ui, statistics: &PatternStatistics, side: f32) -> Response {
+    let (response, painter) = ui.allocate_painter(Vec2::splat(side + TICK), Sense::hover());
+    let square = Rect::from_min_size(response.rect.min, Vec2::splat(side));
+    let (ink, weak) = (ui.visuals().strong_text_color(), ui.visuals().weak_text_color());
+    painter.rect_filled(square, 0.0, ui.visuals().extreme_bg_color);
+    painter.rect_stroke(square, 0.0, Stroke::new(1.0, weak), StrokeKind::Inside);
+    let radius = (side / 10.0 / (statistics.points.len() as f32).sqrt()).clamp(1.2, 4.0);
+    for point in &statistics.points {
+        #[expect(clippy::cast_possible_truncation, reason = "between 0 and 1")]
+        let at = square.min + vec2(point[0] as f32, point[1] as f32) * side;
+        painter.circle_filled(at, radius, ink);
+        let stroke = Stroke::new(1.0, ink);
+        painter.line_segment(
+            [pos2(at.x, square.max.y + 2.0), pos2(at.x, square.max.y + TICK)],
+            stroke,
+        );
+        painter.line_segment(
+            [pos2(square.max.x + 2.0, at.y), pos2(square.max.x + TICK, at.y)],
+            stroke,
+        );
+    }
+    let [columns, rows] = statistics.projections;
+    let name = format!(
+        "{} points in {columns} columns and {rows} rows",
+        statistics.points.len()
+    );
+    let tip =
+        "The samples of a pixel. The lines below and beside it are what a vertical and a level edge can tell apart.";
+    response.on_hover_text(tip).accessible_name(name)
+}
+
+/// The power of each frequency, and its mean by distance from zero.
+fn spectrum(ui: &mut Ui, shown: &ShownPattern, side: f32) {
+    let spectrum = &shown.statistics.spectrum;
+    let (response, painter) = ui.allocate_painter(vec2(side, side), Sense::hover());
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    painter.image(shown.spectrum.id(), response.rect, whole, Color32::WHITE);
+    let tip = format!(
+        "How strong each frequency is in the points, up to {} cycles per pixel; zero is in the middle. Grey is what random points \
+         have; bright spots turn what is as fine into another pattern, dark ones keep it out.",
+        spectrum.reach()
+    );
+    response.on_hover_text(tip).accessible_name("Power spectrum");
+    let (response, painter) = ui.allocate_painter(vec2(side, CURVE), Sense::hover());
+    let rect = response.rect;
+    let radial = spectrum.radial();
+    let last = (radial.len() - 1).max(1) as f32;
+    #[expect(clippy::cast_possible_truncation, reason = "between 0 and 1")]
+    let height = |power: f64| rect.bottom() - (power.min(MOST) / MOST) as f32 * rect.height();
+    let one = [pos2(rect.left(), height(1.0)), pos2(rect.right(), height(1.0))];
+    let weak = Stroke::new(1.0, ui.visuals().weak_text_color());
+    painter.extend(Shape::dashed_line(&one, weak, 3.0, 3.0));
+    // Frequency zero is the number of points.
+    let curve = (1_u16..).zip(&radial[1..]);
+    let curve = curve.map(|(ring, power)| pos2(rect.left() + rect.width() * f32::from(ring) / last, height(*power)));
+    painter.line(curve.collect(), Stroke::new(1.5, ui.visuals().strong_text_color()));
+    let tip = format!(
+        "The mean by distance from zero, up to {} cycles per pixel. The dashed line is what random points have; low on the left means \
+         little noise that the eye sees.",
+        spectrum.reach()
+    );
+    response.on_hover_text(tip).accessible_name("Mean power by frequency");
+}
+
+/// What is measured of the points.
+fn numbers(ui: &mut Ui, statistics: &PatternStatistics) {
+    let [columns, rows] = statistics.projections;
+    let lines = [
+        (
+            "Discrepancy",
+            format!("{:.4}", statistics.star_discrepancy),
+            "The part of the points that lies in a box from the upper left corner differs from the box's area by so much at most. Less is \
+             more even: it bounds the error of any edge that is level or vertical.",
+        ),
+        (
+            "Distance",
+            format!("{:.4} px", statistics.least_distance),
+            "From one point to the nearest other, across the pixel's sides as well. Points that keep their distance make finer noise.",
+        ),
+        (
+            "Projections",
+            format!("{columns} columns, {rows} rows"),
+            "So many different places the points have along each axis. An edge that is nearly vertical, or nearly level, has that many \
+             shades and one.",
+        ),
+    ];
+    for (label, value, tip) in lines {
+        row(ui, label, |ui| ui.label(value).on_hover_text(tip));
+    }
+}
+
+/// A spectrum as a picture: random points are mid-grey, twice their power and more is white.
+fn image(spectrum: &PowerSpectrum) -> ColorImage {
+    let side = spectrum.side();
+    let places = (0..side).flat_map(|row| (0..side).map(move |column| [column, row]));
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+    let gray = |place| Color32::from_gray((spectrum.at(place).min(2.0) * 127.5).round() as u8);
+    ColorImage::new([side, side], places.map(gray).collect())
+}

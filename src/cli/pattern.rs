@@ -1,0 +1,103 @@
+//! `rasterscope pattern`: where samples lie, and how even they are.
+
+use serde::Serialize;
+
+use super::failure::{Failure, print, print_json};
+use super::options::pattern::PatternOptions;
+use crate::raster::{PatternStatistics, SamplePattern, SampleRate, Seed};
+
+/// What is told of a pattern.
+#[derive(Debug, Serialize)]
+struct Report {
+    pattern: &'static str,
+    samples: u32,
+    seed: u32,
+    pixel: [u32; 2],
+    star_discrepancy: f64,
+    /// In pixels.
+    least_distance: f64,
+    columns: usize,
+    rows: usize,
+    /// The mean of `spectrum.power` up to half of the square root of the number of samples, in cycles per pixel, but for zero:
+    /// random points have 1.
+    low_power: f64,
+    spectrum: Spectrum,
+    /// Right and down from the pixel's corner, in pixels.
+    points: Vec<[f64; 2]>,
+}
+
+/// The mean power by distance from frequency zero.
+#[derive(Debug, Serialize)]
+struct Spectrum {
+    /// The last frequency of the list, in cycles per pixel; the first is zero.
+    reach: usize,
+    power: Vec<f64>,
+}
+
+/// Prints what was measured of each pattern.
+pub(super) fn run(options: &PatternOptions) -> Result<(), Failure> {
+    let rate = SampleRate::new(options.sample_rate)
+        .ok_or_else(|| Failure::input(format!("--sample-rate {}: 1 to 256", options.sample_rate)))?;
+    if let Some(refusal) = options.patterns.iter().find_map(|pattern| pattern.refusal(rate)) {
+        return Err(Failure::input(format!("--sample-rate {}: {refusal}", rate.samples())));
+    }
+    let all = SamplePattern::ALL.into_iter().filter(|pattern| pattern.takes(rate));
+    let patterns = if options.patterns.is_empty() {
+        all.collect()
+    } else {
+        options.patterns.clone()
+    };
+    let reports: Vec<Report> = patterns
+        .into_iter()
+        .map(|pattern| report(pattern, rate, options))
+        .collect();
+    if options.json {
+        let json = match reports.as_slice() {
+            [report] => serde_json::to_string(report),
+            several => serde_json::to_string(several),
+        };
+        return print_json(&json.map_err(Failure::other)?);
+    }
+    let head = "pattern         samples  discrepancy  distance  columns  rows  low power".to_owned();
+    let lines: Vec<String> = std::iter::once(head).chain(reports.iter().map(Report::line)).collect();
+    print(&lines.join("\n"))
+}
+
+fn report(pattern: SamplePattern, rate: SampleRate, options: &PatternOptions) -> Report {
+    let seed = Seed::new(options.seed.into()).unwrap_or_default();
+    let pixel = options.pixel.0;
+    let statistics = PatternStatistics::new(pattern, rate, seed, pixel.map(u32::cast_signed));
+    let [columns, rows] = statistics.projections;
+    Report {
+        pattern: pattern.name(),
+        samples: rate.samples(),
+        seed: seed.number(),
+        pixel,
+        star_discrepancy: statistics.star_discrepancy,
+        least_distance: statistics.least_distance,
+        columns,
+        rows,
+        low_power: statistics.spectrum.low_power(),
+        spectrum: Spectrum {
+            reach: statistics.spectrum.reach(),
+            power: statistics.spectrum.radial(),
+        },
+        points: statistics.points,
+    }
+}
+
+impl Report {
+    /// The columns of the table.
+    fn line(&self) -> String {
+        format!(
+            "{:<14}  {:>7}  {:>11.4}  {:>8.4}  {:>7}  {:>4}  {:>9.3}",
+            self.pattern,
+            self.samples,
+            self.star_discrepancy,
+            self.least_distance,
+            self.columns,
+            self.rows,
+            self.low_power
+        )
+    }
+}

@@ -166,7 +166,9 @@ mod tests {
     use crate::raster::SamplePattern;
     use crate::render::Visualisation;
     use crate::rules::Rules;
-    use crate::texture::{Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
+    use crate::texture::{
+        Derivatives, FixedLevel, FootprintExtent, LevelOfDetail, LevelSampling, LodBias, PixelSampling,
+    };
 
     fn parsed(line: &str) -> Result<Arguments, Failure> {
         parse(line.split(' ').map(OsString::from)).map(|(arguments, _)| arguments)
@@ -180,7 +182,7 @@ mod tests {
     #[test]
     fn arguments_of_render_become_settings() {
         let line = "rasterscope render a.svg -o b.png --size 300x200 --sample-rate 16 --pixel-sampling bilinear \
-                    --pattern jittered-same --level-sampling linear --anisotropy 16 --lod-bias -1.5 --lod-level 2.25 --lod-per sample \
+                    --pattern jittered-same --level-sampling linear --anisotropy 16 --lod-bias -1.5 --lod-level 2.25 --lod-per sample --lod-by shorter \
                     --view=-5,10,2.5,-90 --background #ff8000 --dialect course --rules course --resolve linear --visualise mip --threads 2";
         let Ok(Arguments {
             verb: Verb::Render(options),
@@ -200,6 +202,7 @@ mod tests {
             bias: LodBias::new(-1.5).expect("a bias"),
             fixed: FixedLevel::new(2.25),
             derivatives: Derivatives::Sample,
+            extent: FootprintExtent::Shorter,
         };
         assert_eq!(settings.detail, detail, "level of detail");
         assert_eq!(

@@ -65,8 +65,8 @@ pub(super) fn run(options: &PatternOptions) -> Result<(), Failure> {
 
 fn report(pattern: SamplePattern, rate: SampleRate, options: &PatternOptions) -> Report {
     let seed = Seed::new(options.seed.into()).unwrap_or_default();
-    let pixel = options.pixel.0;
-    let statistics = PatternStatistics::new(pattern, rate, seed, pixel.map(u32::cast_signed));
+    let pixel @ [x, y] = options.pixel.0;
+    let statistics = PatternStatistics::new(pattern, rate, seed, [x.cast_signed(), y.cast_signed()]);
     let [columns, rows] = statistics.projections;
     Report {
         pattern: pattern.name(),

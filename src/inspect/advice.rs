@@ -6,7 +6,7 @@ use super::model::{Cure, Explanation, Setting, Truth};
 use crate::raster::{SamplePattern, SampleRate};
 use crate::render::{Nearby, RenderSettings};
 use crate::rules::Rules;
-use crate::texture::{Anisotropy, Derivatives, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
+use crate::texture::{Anisotropy, Derivatives, FootprintExtent, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
 
 /// Corners near a pixel above which it is not drawn again and again.
 const MOST_WORK: usize = 50_000;
@@ -194,11 +194,16 @@ fn of_textures(own: &RenderSettings) -> Vec<(Setting, Vec<(String, RenderSetting
         derivatives: Derivatives::Sample,
         ..own.detail
     };
+    let longer = LevelOfDetail {
+        extent: FootprintExtent::Longer,
+        ..own.detail
+    };
     vec![
         (Setting::LodLevel, detail("auto", own.detail.fixed.is_some(), automatic)),
         (Setting::LodBias, detail("0", own.detail != unbiased, unbiased)),
         (Setting::LevelSampling, levels.collect()),
         (Setting::Anisotropy, taps.collect()),
+        (Setting::LodBy, detail("longer", own.detail != longer, longer)),
         (Setting::LodPer, detail("sample", own.detail != per_sample, per_sample)),
         (Setting::PixelSampling, pixel.into_iter().collect()),
     ]

@@ -57,6 +57,12 @@ impl Explanation {
             Setting::LodPer => {
                 Some("The level of detail is that of a whole pixel, for each of its samples.".to_owned())
             }
+            Setting::LodBy => texture.map(|(_, texture)| {
+                format!(
+                    "The level of detail follows {} of the footprint, and its longer side reaches further.",
+                    texture.extent_words()
+                )
+            }),
             Setting::Rules | Setting::Pattern => None,
         }
     }
@@ -197,6 +203,7 @@ impl Cure {
             Setting::LevelSampling => format!("Level sampling {value} (key L in the window)"),
             Setting::Anisotropy => format!("Anisotropy {value} (key T in the window)"),
             Setting::LodPer => format!("Level of detail per {value}"),
+            Setting::LodBy => format!("Level of detail by the {value} side"),
             Setting::PixelSampling => format!("Pixel sampling {value} (key P in the window)"),
             Setting::SampleRate if value == "256" => format!("{value} samples"),
             Setting::SampleRate => format!("{value} samples (key = in the window)"),
@@ -268,6 +275,7 @@ mod tests {
             step: "pixel",
             major,
             minor,
+            extent: "longer",
             taps: 1,
             level_of_detail: Some(major.log2()),
             clamped,

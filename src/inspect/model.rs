@@ -136,6 +136,8 @@ pub enum Setting {
     Anisotropy,
     /// Between which points footprints are measured.
     LodPer,
+    /// What of a footprint counts.
+    LodBy,
     /// Inside a mip level.
     PixelSampling,
     /// Samples per pixel.
@@ -485,6 +487,8 @@ pub struct Texture {
     pub major: f64,
     /// See `major`.
     pub minor: f64,
+    /// What of the footprint the level of detail follows: `longer`, `area` or `shorter`; more taps than one do not ask.
+    pub extent: &'static str,
     /// Taps along the longer one.
     pub taps: u32,
     /// The level of detail as computed; `None` where it is infinite, as for a constant `(u, v)`.

@@ -4,6 +4,7 @@ use super::model::{Edge, Fragment, GradientUse, Paint, Shape, Source, Texture, V
 use super::numbers::{number, percent, significant};
 use crate::color::BlendMode;
 use crate::plain;
+use crate::texture::FootprintExtent;
 
 impl Paint {
     /// Such as `triangle of polygon "left", line 12`.
@@ -240,6 +241,20 @@ impl Fragment {
 }
 
 impl Texture {
+    /// What of the footprint the level of detail follows.
+    pub(super) fn extent_words(&self) -> &'static str {
+        let extent = FootprintExtent::ALL
+            .into_iter()
+            .find(|extent| extent.name() == self.extent);
+        match extent.unwrap_or_default() {
+            FootprintExtent::Longer => "the longer side",
+            FootprintExtent::Area => "the area",
+            FootprintExtent::Shorter => "the shorter axis",
+        }
+    }
+}
+
+impl Texture {
     pub(super) fn lines(&self) -> Vec<String> {
         let vector = |[x, y]: [f64; 2]| format!("({}, {})", significant(x), significant(y));
         let [width, height] = self.size;
@@ -272,8 +287,13 @@ impl Texture {
         let computed = self
             .level_of_detail
             .map_or("none (no change)".to_owned(), |lod| format!("{lod:.3}"));
+        let by = if self.extent == FootprintExtent::Longer.name() || self.taps > 1 {
+            String::new()
+        } else {
+            format!(" by {}", self.extent_words())
+        };
         lines.push(format!(
-            "level of detail  {computed}, clamped {:.3}; level sampling {}",
+            "level of detail  {computed}{by}, clamped {:.3}; level sampling {}",
             self.clamped, self.level_sampling
         ));
         let levels: Vec<String> = self

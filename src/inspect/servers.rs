@@ -85,6 +85,7 @@ impl Question<'_> {
             step: detail.derivatives.name(),
             major: right.length().max(down.length()),
             minor: right.length().min(down.length()),
+            extent: detail.extent.name(),
             taps: reading.taps.count,
             level_of_detail: Some(reading.lod).filter(|lod| lod.is_finite()),
             clamped: reading.lod.clamp(0.0, texture.pyramid.last_level() as f64),

@@ -1,4 +1,12 @@
-//! What a user may change about the level of detail: a bias, a fixed level, and between which points footprints are measured.
+//! What a user may change about the level of detail: a bias, a fixed level, between which points footprints are measured, and what
+//! of a footprint counts.
+//!
+//! ```text
+//!        ____________
+//!       /           /     longer: its longer step, so that nothing slips through, and what lies across is blurred
+//!      /           /      area: the square root of its area, between both
+//!     '-----------'       shorter: the minor axis of its ellipse, so that nothing is blurred, and what lies along is missed
+//! ```
 
 /// What a user may change about the level of detail.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -9,6 +17,8 @@ pub struct LevelOfDetail {
     pub fixed: Option<FixedLevel>,
     /// Between which points `(u, v)` is compared.
     pub derivatives: Derivatives,
+    /// What of the footprint counts.
+    pub extent: FootprintExtent,
 }
 
 /// A number of levels that is added to the level of detail, `-16.0..=16.0`. Above zero it blurs, below it sharpens.
@@ -27,6 +37,19 @@ pub enum Derivatives {
     Pixel,
     /// From one sample to the next: each sample reads no more than its own part of the pixel.
     Sample,
+}
+
+/// What of a footprint the level of detail follows, where no more than one tap is read: with more the taps decide.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum FootprintExtent {
+    /// The longer step, to the right or down: as OpenGL and GPUs do.
+    #[default]
+    Longer,
+    /// The square root of the area of the parallelogram of both steps (Heckbert, "Texture Mapping Polygons in Perspective", 1983).
+    Area,
+    /// The minor axis of the ellipse that a circle of a pixel becomes (Heckbert, "Fundamentals of Texture Mapping and Image
+    /// Warping", 1989, section 3.5.8).
+    Shorter,
 }
 
 impl LodBias {
@@ -74,6 +97,20 @@ impl FixedLevel {
     /// Counted from the base, which is 0.
     pub fn level(self) -> f64 {
         self.0
+    }
+}
+
+impl FootprintExtent {
+    /// Every value, in the order of menus.
+    pub const ALL: [Self; 3] = [Self::Longer, Self::Area, Self::Shorter];
+
+    /// The name used in the command line and the interface.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Longer => "longer",
+            Self::Area => "area",
+            Self::Shorter => "shorter",
+        }
     }
 }
 

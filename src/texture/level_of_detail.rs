@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::detail_settings::FixedLevel;
+use super::detail_settings::{FixedLevel, FootprintExtent};
 use super::{Footprint, LevelSampling, MipPyramid, SamplingSettings, Taps};
 
 /// Which levels a footprint reads: the finer one, and where two are mixed the next coarser and its weight.
@@ -33,8 +33,8 @@ pub struct Reading {
 impl Reading {
     /// How `per_pixel`, the change of `(u, v)` from pixel to pixel, reads `pyramid`.
     ///
-    /// The level of detail is `log2(longer side / ratio) + bias`, see [`Taps`]; a fixed level stands in for the
-    /// logarithm. Level sampling zero reads level 0 whatever the bias; only a fixed level is read there too, rounded.
+    /// The level of detail is `log2(longer side / ratio) + bias`, see [`Taps`], or with one tap that of the extent that the settings
+    /// name; a fixed level stands in for the logarithm. Level sampling zero reads level 0 whatever the bias; only a fixed level is read there too, rounded.
     pub fn new(per_pixel: &Footprint, pyramid: &MipPyramid, settings: &SamplingSettings) -> Self {
         let (base, last) = (&pyramid.levels()[0], pyramid.last_level());
         let size = DVec2::new(f64::from(base.width()), f64::from(base.height()));
@@ -42,11 +42,10 @@ impl Reading {
         let footprint = per_pixel.scaled(detail.derivatives.step(settings.sample_step));
         let taps = Taps::new(&footprint, size, settings.anisotropy);
         let computed = || {
-            let longer = footprint.level_of_detail(size);
             if taps.count == 1 {
-                longer
+                footprint.level_of_detail(size, detail.extent)
             } else {
-                longer - taps.ratio.log2()
+                footprint.level_of_detail(size, FootprintExtent::Longer) - taps.ratio.log2()
             }
         };
         let lod = detail.fixed.map_or_else(computed, FixedLevel::level) + detail.bias.levels();

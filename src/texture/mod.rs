@@ -28,7 +28,7 @@ mod uv_map;
 pub use anisotropy::{Anisotropy, Taps};
 pub use course_sampler::Sampler;
 pub use decode::{DecodeError, Memory, Run, decode_rows};
-pub use detail_settings::{Derivatives, FixedLevel, LevelOfDetail, LodBias};
+pub use detail_settings::{Derivatives, FixedLevel, FootprintExtent, LevelOfDetail, LodBias};
 pub use filter::{Filter, SampleGrid};
 pub use filter_plan::PixelList;
 pub use footprint::Footprint;

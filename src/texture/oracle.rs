@@ -13,7 +13,9 @@ use glam::DVec2;
 
 use super::filter_plan::Plan;
 use super::sample_offsets::{Footing, Footings, Scale};
-use super::{Anisotropy, Derivatives, FixedLevel, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
+use super::{
+    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelOfDetail, LevelSampling, LodBias, PixelSampling,
+};
 use super::{Filter, MipLevel, MipPyramid, SampleGrid, SamplingSettings, UvMap, bilinear, trace};
 use crate::color::Premultiplied16;
 
@@ -242,6 +244,7 @@ pub(super) fn settings(u: &mut Unstructured<'_>) -> Result<SamplingSettings> {
             None
         },
         derivatives: *u.choose(&Derivatives::ALL)?,
+        extent: *u.choose(&FootprintExtent::ALL)?,
     };
     Ok(SamplingSettings {
         anisotropy: Anisotropy::new(u.int_in_range(1..=Anisotropy::MAX)?).unwrap_or_default(),

@@ -151,6 +151,7 @@ fn checker_fan() -> String {
             "A fan of checkered blades. From the right, counter-clockwise, each blade squeezes the checker more along its length:",
             "1, 1.5, 2 ... 16 times more than across. Level zero sparkles on the squeezed ones; L: linear makes them grey,",
             "though across the blade the squares are wide enough to be seen: one square footprint can't fit both. = restores them.",
+            "Level by area (lod-by area in the palette) keeps squares longer than linear alone, and they sparkle at one sample.",
         ],
     );
     doc.rect(DVec2::ZERO, dvec2(1000.0, 1000.0), Style::fill(PAPER));
@@ -248,6 +249,7 @@ fn city_floor() -> String {
             "A city plan on the ground, to the horizon: a pixel sees a piece of it that is up to 35 times as long as wide.",
             "P, then L twice: far streets melt, because the mip level has to fit the length. T: 2, 4, 8, 16 taps along it, at",
             "the level that fits its width. Street by street the plan comes back, and still nothing shimmers when it is dragged.",
+            "Level by area (lod-by area in the palette) keeps streets further away with one tap, at the price of some shimmer.",
         ],
     );
     doc.rect(DVec2::ZERO, dvec2(1000.0, 640.0), Style::fill(SKY.mix(PAPER, 0.3)));

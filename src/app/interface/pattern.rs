@@ -103,7 +103,8 @@ impl PatternDialog {
     fn pattern(&mut self, ui: &mut Ui, viewer: &Viewer, side: f32, beside: bool) {
         let render = &viewer.settings().render;
         let pinned = viewer.pixels().pinned();
-        let pixel = pinned.unwrap_or([0, 0]).map(u32::cast_signed);
+        let [x, y] = pinned.unwrap_or([0, 0]);
+        let pixel = [x.cast_signed(), y.cast_signed()];
         let key = (render.pattern, render.sample_rate, render.seed, pixel);
         if self.shown.as_ref().is_none_or(|shown| shown.key != key) {
             let statistics = PatternStatistics::new(render.pattern, render.sample_rate, render.seed, pixel);

@@ -71,7 +71,7 @@ impl SamplePattern {
         let places = positions.of_pixel(pixel, &mut memory);
         places
             .iter()
-            .map(|place| place.map(|at| (f64::from(at) + 0.5) / side))
+            .map(|[x, y]| [(f64::from(*x) + 0.5) / side, (f64::from(*y) + 0.5) / side])
             .collect()
     }
 
@@ -226,8 +226,8 @@ impl PowerSpectrum {
         let mut rings = vec![(0.0, 0_u32); self.reach + 1];
         for row in 0..self.side() {
             for column in 0..self.side() {
-                let from_middle = [column, row].map(|at| at.abs_diff(self.reach) as f64);
-                let distance = from_middle[0].hypot(from_middle[1]);
+                let [right, down] = [column.abs_diff(self.reach), row.abs_diff(self.reach)];
+                let distance = (right as f64).hypot(down as f64);
                 // The ring that is nearest, in whole numbers.
                 let ring = (0..=self.reach).find(|ring| distance < *ring as f64 + 0.5);
                 if let Some((sum, count)) = ring.and_then(|ring| rings.get_mut(ring)) {

@@ -189,6 +189,20 @@ fn groups<S: Simd>(simd: S, side: u32) -> Vec<Group<S>> {
     (0..count).step_by(LANES).map(group).collect()
 }
 
+/// For each lane one coordinate of the corner of its pixel, where so many lanes belong to one.
+#[inline(always)]
+fn corners<S: Simd>(simd: S, places: &[[u16; 2]], lanes: usize, corner: impl Fn(&[u16; 2]) -> f64) -> f64x8<S> {
+    if let [place] = places {
+        return f64x8::splat(simd, corner(place));
+    }
+    // What is left over repeats the last one.
+    let mut corners = [corner(&places[places.len() - 1]); LANES];
+    for (corners, place) in corners.chunks_mut(lanes).zip(places) {
+        corners.fill(corner(place));
+    }
+    f64x8::simd_from(simd, corners)
+}
+
 /// The sums of all samples of pixels.
 #[inline(always)]
 fn sums_kernel<S: Simd>(simd: S, shader: &GradientShader<'_>, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {
@@ -201,30 +215,33 @@ fn sums_kernel<S: Simd>(simd: S, shader: &GradientShader<'_>, pixels: Pixels<'_>
     let together = LANES / lanes;
     let mut stretch = shader.ramp.stretch(0.0);
     for (places, sums) in pixels.places.chunks(together).zip(sums.chunks_mut(together)) {
-        let corner = [0, 1].map(|i| {
-            let corner = |place: [u16; 2]| first[i] + f64::from(u32::from(place[i]) * side);
-            if let [place] = places {
-                return f64x8::splat(simd, corner(*place));
-            }
-            // What is left over repeats the last one.
-            let mut corners = [corner(places[places.len() - 1]); LANES];
-            for (corners, place) in corners.chunks_mut(lanes).zip(places) {
-                corners.fill(corner(*place));
-            }
-            f64x8::simd_from(simd, corners)
-        });
+        // Written out: closures in `map` may stay calls here.
+        let corner = [
+            corners(simd, places, lanes, |place| {
+                first[0] + f64::from(u32::from(place[0]) * side)
+            }),
+            corners(simd, places, lanes, |place| {
+                first[1] + f64::from(u32::from(place[1]) * side)
+            }),
+        ];
         let (mut red_blue, mut green_alpha) = (u64x8::splat(simd, 0), u64x8::splat(simd, 0));
         for ([right, down], counts) in &groups {
             let found = shader.eight(simd, [corner[0] + *right, corner[1] + *down], &mut stretch) & *counts;
             red_blue += found & EVERY_OTHER;
             green_alpha += (found >> 16) & EVERY_OTHER;
         }
-        let added = [red_blue, green_alpha].map(<[u64; LANES]>::from);
+        let (red_blue, green_alpha) = (<[u64; LANES]>::from(red_blue), <[u64; LANES]>::from(green_alpha));
         for (i, sum) in sums.iter_mut().enumerate() {
             let of_pixel = i * lanes..(i + 1) * lanes;
             // Sums of a pixel's samples fit 32 bits, so that nothing carries over.
-            let [red_blue, green_alpha] = [0, 1].map(|i| added[i][of_pixel.clone()].iter().sum::<u64>());
-            *sum = [red_blue, green_alpha, red_blue >> 32, green_alpha >> 32].map(low_word);
+            let red_blue: u64 = red_blue[of_pixel.clone()].iter().sum();
+            let green_alpha: u64 = green_alpha[of_pixel].iter().sum();
+            *sum = [
+                low_word(red_blue),
+                low_word(green_alpha),
+                low_word(red_blue >> 32),
+                low_word(green_alpha >> 32),
+            ];
         }
     }
 }

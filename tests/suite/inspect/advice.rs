@@ -8,7 +8,9 @@ use rasterscope::raster::{Framebuffer, ResolveFilter, SamplePattern, SampleRate}
 use rasterscope::render::{RenderSettings, Subject, draw, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, PrimitiveKind, ReadOptions, Scene};
-use rasterscope::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
+use rasterscope::texture::{
+    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling,
+};
 use rasterscope::viewer::gallery::{SCENES, Textures};
 use rayon::prelude::*;
 
@@ -106,6 +108,7 @@ fn follow(cure: &Cure, own: &RenderSettings) -> RenderSettings {
         Setting::LodLevel => settings.detail.fixed = None,
         Setting::LodBias => settings.detail.bias = LodBias::new(value.parse().unwrap()).unwrap(),
         Setting::LodPer => settings.detail.derivatives = Derivatives::Sample,
+        Setting::LodBy => settings.detail.extent = FootprintExtent::Longer,
         Setting::LevelSampling => {
             settings.level_sampling = LevelSampling::ALL
                 .into_iter()

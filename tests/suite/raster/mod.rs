@@ -2,6 +2,7 @@
 
 mod coverage;
 mod deep_zooms;
+mod extents;
 mod float_rules;
 mod golden;
 mod instruction_guard;

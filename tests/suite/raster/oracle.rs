@@ -4,7 +4,9 @@ use rasterscope::color::ResolveSpace;
 use rasterscope::raster::{FilterRadius, Framebuffer, ResolveFilter, SamplePattern, Seed};
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
-use rasterscope::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
+use rasterscope::texture::{
+    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling,
+};
 
 use crate::support::brute_force;
 use crate::support::scenes::{Fills, at_rate, drawn, one_to_one, random};
@@ -75,6 +77,7 @@ fn compare_by(
         settings.level_sampling = *u.choose(&LevelSampling::ALL)?;
         settings.anisotropy = *u.choose(&Anisotropy::STEPS)?;
         settings.detail.derivatives = *u.choose(&Derivatives::ALL)?;
+        settings.detail.extent = *u.choose(&FootprintExtent::ALL)?;
         // Beside quarters: footprints of powers of two would lie on halves, where rounding decides about levels.
         let level = f64::from(u.int_in_range(-8..=8)?) / 4.0 + 0.1;
         match u.int_in_range(0..=3)? {

@@ -17,7 +17,7 @@ use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
 use rasterscope::render::{RenderSettings, Subject, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{Composite, Dialect, Fill, MaskKind, Paint, PrimitiveKind, Scene};
-use rasterscope::texture::{Derivatives, FixedLevel, LevelSampling, MipLevel, PixelSampling, Texture};
+use rasterscope::texture::{Derivatives, FixedLevel, FootprintExtent, LevelSampling, MipLevel, PixelSampling, Texture};
 
 use crate::support::resolve_filters;
 
@@ -545,7 +545,13 @@ pub(crate) fn filtered(texture: &Texture, uv: DVec2, per_pixel: [DVec2; 2], sett
         (1, 1.0)
     };
     let fixed = settings.detail.fixed.map(FixedLevel::level);
-    let lod = fixed.unwrap_or((long / ratio).log2()) + settings.detail.bias.levels();
+    let area = (right * size).perp_dot(down * size).abs();
+    let computed = match settings.detail.extent {
+        FootprintExtent::Area if taps == 1 => area.sqrt().log2(),
+        FootprintExtent::Shorter if taps == 1 => least_step([right * size, down * size]).log2(),
+        _ => (long / ratio).log2(),
+    };
+    let lod = fixed.unwrap_or(computed) + settings.detail.bias.levels();
     let mut sum = [0.0; 4];
     for tap in 1..=taps {
         let place = f64::from(tap) / f64::from(taps + 1) - 0.5;
@@ -554,6 +560,15 @@ pub(crate) fn filtered(texture: &Texture, uv: DVec2, per_pixel: [DVec2; 2], sett
         }
     }
     sum
+}
+
+/// The length of the shortest step of one pixel in any direction: the eigenvalue of the steps' Gram matrix.
+fn least_step([right, down]: [DVec2; 2]) -> f64 {
+    let (a, b, c) = (right.length_squared(), right.dot(down), down.length_squared());
+    let spread = ((a - c) / 2.0).hypot(b);
+    // The greater one is exact where the smaller one cancels.
+    let greater = f64::midpoint(a, c) + spread;
+    (a * c - b * b).max(0.0).sqrt() / greater.sqrt()
 }
 
 fn tapped(texture: &Texture, uv: DVec2, lod: f64, settings: &RenderSettings) -> Color {

@@ -360,18 +360,20 @@ fn replay_copies() {
     assert!(line.ends_with(options), "{line}");
     session.keys(&["t", "t", "m", "m", "m", ",", ",", ","]);
     session.run(step("lod-per", 1.0));
+    session.run(step("lod-by", 1.0));
     let line = session.viewer.recipes().command_line().unwrap();
-    let options = "--anisotropy 4 --lod-bias -1.5 --lod-level 2 --lod-per sample --rules course";
+    let options = "--anisotropy 4 --lod-bias -1.5 --lod-level 2 --lod-per sample --lod-by area --rules course";
     assert!(line.ends_with(options), "{line}");
     let title = session.viewer.both().title();
     assert!(
-        title.contains("level sampling nearest, anisotropy 4, bias -1.5, level 2, level per sample - "),
+        title.contains("level sampling nearest, anisotropy 4, bias -1.5, level 2, level per sample, level by area - "),
         "{title}"
     );
     session.keys(&[".", ".", "."]);
     session.run(set("lod-level", "auto"));
     session.run(set("anisotropy", "1"));
     session.run(step("lod-per", 1.0));
+    session.run(set("lod-by", "longer"));
     let line = session.viewer.recipes().command_line().unwrap();
     assert!(line.ends_with("--level-sampling nearest --rules course"), "{line}");
 }

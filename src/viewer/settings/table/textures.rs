@@ -1,6 +1,6 @@
 //! How textures are sampled.
 
-use crate::texture::{Anisotropy, Derivatives, FixedLevel, LevelSampling, LodBias, PixelSampling};
+use crate::texture::{Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling};
 use crate::viewer::key_chords::Chord;
 use crate::viewer::settings::row::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
 use crate::viewer::settings::{Settings, values};
@@ -211,6 +211,23 @@ pub(super) const ROWS: &[PictureSetting] = &[
             )
         }],
         ..named!("lod-per", "level per", Derivatives, render.detail.derivatives)
+    },
+    PictureSetting {
+        help: "What of a footprint the level of detail follows: its longer side, its area, or its shorter axis",
+        about: About::Textures,
+        told: Told::IfChanged,
+        panel: Some(PanelRow::new("Level by", "Level of detail by", Control::Buttons)),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "The longer side blurs what lies across it, the shorter axis misses what lies along; anisotropic taps need neither",
+            ..SettingCommand::new(
+                "lod-by",
+                "Level of detail by",
+                "Chooses what of a footprint the level of detail follows: its longer side, its area, or its shorter axis",
+            )
+        }],
+        ..named!("lod-by", "level by", FootprintExtent, render.detail.extent)
     },
 ];
 

@@ -17,8 +17,14 @@ pub(in crate::raster::sampling) fn mix(mut bits: u64) -> u64 {
 /// The lowest 16 of some random bits.
 #[inline]
 pub(super) fn low_quarter(random: u64) -> u32 {
+    first_sixteen(random).into()
+}
+
+/// The same as a number that has no more.
+#[inline]
+pub(super) fn first_sixteen(random: u64) -> u16 {
     let [low, high, ..] = random.to_le_bytes();
-    u16::from_le_bytes([low, high]).into()
+    u16::from_le_bytes([low, high])
 }
 
 /// The lower and the upper half of some random bits.

@@ -7,31 +7,60 @@
 use std::sync::Arc;
 
 use super::arrange::{Arrange, Place, Position};
-use super::random_bits::halves;
+use super::random_bits::first_sixteen;
 use crate::raster::sampling::rate::SampleRate;
 
 /// Its first points, scrambled.
 pub(super) struct Sobol;
 
-/// The points of the sequence before they are scrambled, as parts of `2^32`.
+/// The points of the sequence before they are scrambled: the first bits of each coordinate, the very first lowest.
+///
+/// The hash carries from lower to higher bits only. A place on the lattice takes eight bits, and so none above them has to be
+/// known: numbers of 16 bits, of which every machine multiplies eight at once.
 #[derive(Debug)]
-struct Points(Vec<[u32; 2]>);
+struct Points(Vec<[u16; 2]>);
 
 impl Arrange for Sobol {
     fn prepare(&self, rate: SampleRate) -> Arc<dyn Place> {
-        Arc::new(Points((0..rate.samples()).map(point).collect()))
+        let first = |part: u32| first_sixteen(part.reverse_bits().into());
+        let points = (0..rate.samples()).map(point);
+        Arc::new(Points(points.map(|[x, y]| [first(x), first(y)]).collect()))
     }
 }
 
 impl Place for Points {
     fn place(&self, random: u64, places: &mut Vec<Position>) {
-        let seeds = halves(random);
-        places.extend(self.0.iter().map(|point| {
-            [0, 1].map(|axis| {
-                let [top, ..] = scrambled(point[axis], seeds[axis]).to_be_bytes();
-                top
-            })
-        }));
+        let (across, down) = (Scramble::new(random), Scramble::new(random >> 32));
+        places.extend(self.0.iter().map(|[x, y]| [across.byte(*x), down.byte(*y)]));
+    }
+}
+
+/// Turns over each bit as a hash of those before it says.
+#[derive(Clone, Copy, Debug)]
+struct Scramble {
+    added: u16,
+    factor: u16,
+}
+
+impl Scramble {
+    /// By the lower half of these bits.
+    fn new(random: u64) -> Self {
+        Self {
+            added: first_sixteen(random),
+            factor: first_sixteen(random >> 16) | 1,
+        }
+    }
+
+    /// The place on the lattice of a coordinate that begins with these bits, the first one lowest.
+    #[inline]
+    fn byte(self, mut bits: u16) -> u8 {
+        bits ^= bits.wrapping_mul(0xADEA);
+        bits = bits.wrapping_add(self.added);
+        bits = bits.wrapping_mul(self.factor);
+        bits ^= bits.wrapping_mul(0x6C56);
+        bits ^= bits.wrapping_mul(0x2864);
+        let [low, _] = bits.to_le_bytes();
+        low.reverse_bits()
     }
 }
 
@@ -48,20 +77,44 @@ pub(super) fn point(number: u32) -> [u32; 2] {
     [number.reverse_bits(), second]
 }
 
-/// Each bit is turned over as a hash of those above it says.
-fn scrambled(value: u32, seed: u32) -> u32 {
-    let mut bits = value.reverse_bits();
-    bits ^= bits.wrapping_mul(0x3D20_ADEA);
-    bits = bits.wrapping_add(seed);
-    bits = bits.wrapping_mul(seed >> 16 | 1);
-    bits ^= bits.wrapping_mul(0x0552_6C56);
-    bits ^= bits.wrapping_mul(0x53A2_2864);
-    bits.reverse_bits()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::sampling::pattern::random_bits::halves;
+
+    /// The hash as published, of all 32 bits.
+    fn scrambled(value: u32, seed: u32) -> u32 {
+        let mut bits = value.reverse_bits();
+        bits ^= bits.wrapping_mul(0x3D20_ADEA);
+        bits = bits.wrapping_add(seed);
+        bits = bits.wrapping_mul(seed >> 16 | 1);
+        bits ^= bits.wrapping_mul(0x0552_6C56);
+        bits ^= bits.wrapping_mul(0x53A2_2864);
+        bits.reverse_bits()
+    }
+
+    #[test]
+    fn places_are_those_of_the_whole_hash() {
+        arbtest::arbtest(|u| {
+            let rate = SampleRate::new(u.int_in_range(1..=256)?).expect("a rate");
+            let random = u.arbitrary()?;
+            let mut places = Vec::new();
+            Sobol.prepare(rate).place(random, &mut places);
+            let seeds = halves(random);
+            let expected: Vec<Position> = (0..rate.samples())
+                .map(|number| {
+                    let point = point(number);
+                    [0, 1].map(|axis| {
+                        let [top, ..] = scrambled(point[axis], seeds[axis]).to_be_bytes();
+                        top
+                    })
+                })
+                .collect();
+            assert_eq!(places, expected, "{random:x}");
+            Ok(())
+        })
+        .budget_ms(200);
+    }
 
     #[test]
     fn each_elementary_interval_holds_one_point() {

@@ -45,6 +45,8 @@ pub struct RenderSettings {
     pub pixel_sampling: PixelSampling,
     /// Between mip levels.
     pub level_sampling: LevelSampling,
+    /// In which values coarser mip levels were averaged.
+    pub pyramid: ResolveSpace,
     /// Along a footprint.
     pub anisotropy: Anisotropy,
     /// How large a footprint counts.
@@ -74,6 +76,7 @@ impl Default for RenderSettings {
             seed: Seed::default(),
             pixel_sampling: PixelSampling::default(),
             level_sampling: LevelSampling::default(),
+            pyramid: ResolveSpace::default(),
             anisotropy: Anisotropy::default(),
             detail: LevelOfDetail::default(),
             rules: Rules::default(),
@@ -98,6 +101,7 @@ impl RenderSettings {
             sample_rate: SampleRate::new(SampleRate::MAX).unwrap_or(self.sample_rate),
             pattern: SamplePattern::Grid,
             level_sampling: LevelSampling::Zero,
+            pyramid: ResolveSpace::default(),
             anisotropy: Anisotropy::OFF,
             detail: LevelOfDetail::default(),
             rules: match self.rules {
@@ -322,6 +326,7 @@ fn raster_settings(settings: &RenderSettings) -> RasterSettings {
         sampling: SamplingSettings {
             pixel: settings.pixel_sampling,
             level: settings.level_sampling,
+            pyramid: settings.pyramid,
             anisotropy: settings.anisotropy,
             detail: settings.detail,
             sample_step: settings.pattern.nearest(settings.sample_rate).step(),

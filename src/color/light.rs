@@ -124,6 +124,29 @@ impl Light {
         of_color(&LIGHT, color)
     }
 
+    /// Red, green and blue weighted by alpha, and alpha, of one sample: `0.0..=1.0`.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "between 0 and 1")]
+    pub fn weighted(self) -> [f32; 4] {
+        let Self([r, g, b, alpha]) = self;
+        let one = f64::from(Premultiplied16::ONE);
+        let light = |sum: u64| (sum as f64 / (one * ONE_LIGHT)) as f32;
+        [light(r), light(g), light(b), (alpha as f64 / one) as f32]
+    }
+
+    /// The light of one sample from its [`Light::weighted`] parts, rounded.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "not below 0; `as` saturates"
+    )]
+    pub fn of_weighted([r, g, b, alpha]: [f32; 4]) -> Self {
+        let one = f64::from(Premultiplied16::ONE);
+        let light = |part: f32| (f64::from(part) * one * ONE_LIGHT).round() as u64;
+        Self([light(r), light(g), light(b), (f64::from(alpha) * one).round() as u64])
+    }
+
     /// So many times the same.
     #[inline]
     #[must_use]

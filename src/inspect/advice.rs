@@ -198,7 +198,16 @@ fn of_textures(own: &RenderSettings) -> Vec<(Setting, Vec<(String, RenderSetting
         extent: FootprintExtent::Longer,
         ..own.detail
     };
+    // Averaged as samples are.
+    let pyramid = (own.pyramid != own.resolve).then(|| {
+        let settings = RenderSettings {
+            pyramid: own.resolve,
+            ..*own
+        };
+        (own.resolve.name().to_owned(), settings)
+    });
     vec![
+        (Setting::Pyramid, pyramid.into_iter().collect()),
         (Setting::LodLevel, detail("auto", own.detail.fixed.is_some(), automatic)),
         (Setting::LodBias, detail("0", own.detail != unbiased, unbiased)),
         (Setting::LevelSampling, levels.collect()),

@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 
 use super::model::{Cure, Explanation, Interpolated, Missed, Paint, Setting, Texture, Truth, View};
 use super::numbers::{number, percent, significant};
+use crate::color::ResolveSpace;
 
 /// How many times as long as wide a footprint is from which on averaging it both ways blurs.
 const BLURS: f64 = 2.0;
@@ -47,6 +48,7 @@ impl Explanation {
         match cure.setting {
             Setting::SampleRate => self
                 .thin_parts()
+                .or_else(|| self.thin_topmost())
                 .or_else(|| self.wrong_coverage())
                 .or_else(|| texture.and_then(|(_, texture)| self.texels_between(texture))),
             Setting::LevelSampling => texture.and_then(|(paint, texture)| self.few_of_many(paint, texture)),
@@ -57,6 +59,13 @@ impl Explanation {
             Setting::LodPer => {
                 Some("The level of detail is that of a whole pixel, for each of its samples.".to_owned())
             }
+            Setting::Pyramid => texture.map(|(_, texture)| {
+                let [levels, samples] = match texture.averaged_in() {
+                    ResolveSpace::Stored => ["stored values", "linear light"],
+                    ResolveSpace::Linear => ["linear light", "stored values"],
+                };
+                format!("Mip levels were averaged in {levels}, and samples are in {samples}.")
+            }),
             Setting::LodBy => texture.map(|(_, texture)| {
                 format!(
                     "The level of detail follows {} of the footprint, and its longer side reaches further.",
@@ -69,8 +78,7 @@ impl Explanation {
 
     /// The topmost primitive that is seen.
     fn topmost(&self) -> Option<&Paint> {
-        let seen = |paint: &&Paint| paint.fragments.iter().any(|fragment| fragment.seen);
-        self.paints.iter().rev().find(seen)
+        self.paints.iter().rev().find(|paint| paint.is_seen())
     }
 
     /// The distance of neighbouring samples, in pixels.
@@ -99,6 +107,20 @@ impl Explanation {
             format!(
                 "What is thin passes between the samples here, {} of the pixel: it breaks up.",
                 percent(area.min(1.0))
+            )
+        })
+    }
+
+    /// What is seen here, and is missed where it passes between the samples.
+    fn thin_topmost(&self) -> Option<String> {
+        let paint = self.topmost().filter(|paint| !paint.is_crisp())?;
+        let width = paint.width.filter(|width| *width < self.step())?;
+        self.resolve.around.is_none().then(|| {
+            format!(
+                "{} is {} px wide here, less than samples are apart ({} px): it breaks up where it passes between them.",
+                paint.name(),
+                significant(width),
+                significant(self.step())
             )
         })
     }
@@ -204,6 +226,7 @@ impl Cure {
             Setting::Anisotropy => format!("Anisotropy {value} (key T in the window)"),
             Setting::LodPer => format!("Level of detail per {value}"),
             Setting::LodBy => format!("Level of detail by the {value} side"),
+            Setting::Pyramid => format!("Pyramid {value}"),
             Setting::PixelSampling => format!("Pixel sampling {value} (key P in the window)"),
             Setting::SampleRate if value == "256" => format!("{value} samples"),
             Setting::SampleRate => format!("{value} samples (key = in the window)"),
@@ -283,6 +306,7 @@ mod tests {
                 "linear" => vec![level(3, 0.5), level(4, 0.5)],
                 _ => vec![level(0, 1.0)],
             },
+            pyramid: "stored",
             opacity: 1.0,
         }
     }

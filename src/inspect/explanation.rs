@@ -76,6 +76,11 @@ impl Explanation {
         let pinholes = question.pinholes(&samples, &paints, sources);
         missed.retain(|(primitive, _)| pinholes.iter().all(|pinhole| pinhole.primitive != *primitive));
         let around = BESIDE / (replay.samples.len() as f64).sqrt();
+        if let Some(topmost) = Self::topmost_of(&mut paints)
+            && topmost.area.is_some_and(|area| area < 1.0)
+        {
+            topmost.width = explainer.width(topmost.primitive, around);
+        }
         Some(Self {
             version: VERSION,
             pixel,
@@ -104,6 +109,13 @@ impl Explanation {
                 .collect(),
             truth: None,
         })
+    }
+}
+
+impl Explanation {
+    /// The last of the paints that some sample shows.
+    fn topmost_of(paints: &mut [Paint]) -> Option<&mut Paint> {
+        paints.iter_mut().rev().find(|paint| paint.is_seen())
     }
 }
 
@@ -140,6 +152,7 @@ impl Question<'_> {
                     seen: *seen,
                 })
                 .collect(),
+            width: None,
             views,
             texture,
             gradient: self.gradient(op.source),

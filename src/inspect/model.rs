@@ -138,6 +138,8 @@ pub enum Setting {
     LodPer,
     /// What of a footprint counts.
     LodBy,
+    /// In which values mip levels are averaged.
+    Pyramid,
     /// Inside a mip level.
     PixelSampling,
     /// Samples per pixel.
@@ -209,6 +211,10 @@ pub struct Paint {
     pub pattern: Option<PatternUse>,
     /// The part of the pixel that it covers in truth, `0.0..=1.0`.
     pub area: Option<f64>,
+    /// Of the topmost one that is seen, where it does not cover all of the pixel: how wide it is there and beside it in its thinnest
+    /// direction, in pixels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
 }
 
 /// What paints.
@@ -497,6 +503,8 @@ pub struct Texture {
     pub clamped: f64,
     /// The levels that are read.
     pub levels: Vec<Level>,
+    /// In which values coarser levels were averaged: `stored` or `linear`.
+    pub pyramid: &'static str,
     /// Multiplies what is read, `0.0..=1.0`.
     pub opacity: f64,
 }

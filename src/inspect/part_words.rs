@@ -2,7 +2,7 @@
 
 use super::model::{Edge, Fragment, GradientUse, Paint, Shape, Source, Texture, Verdict};
 use super::numbers::{number, percent, significant};
-use crate::color::BlendMode;
+use crate::color::{BlendMode, ResolveSpace};
 use crate::plain;
 use crate::texture::FootprintExtent;
 
@@ -30,6 +30,11 @@ impl Paint {
             Shape::EndClip => of("viewport"),
             Shape::EndMask { .. } => of("mask"),
         }
+    }
+
+    /// Whether some sample shows it.
+    pub(super) fn is_seen(&self) -> bool {
+        self.fragments.iter().any(|fragment| fragment.seen)
     }
 
     /// Whether it covers whole pixels, those whose middles it holds.
@@ -241,6 +246,12 @@ impl Fragment {
 }
 
 impl Texture {
+    /// In which values its coarser levels were averaged.
+    pub fn averaged_in(&self) -> ResolveSpace {
+        let space = ResolveSpace::ALL.into_iter().find(|space| space.name() == self.pyramid);
+        space.unwrap_or_default()
+    }
+
     /// What of the footprint the level of detail follows.
     pub(super) fn extent_words(&self) -> &'static str {
         let extent = FootprintExtent::ALL
@@ -308,7 +319,13 @@ impl Texture {
                 )
             })
             .collect();
-        lines.push(format!("reads  {}", levels.join(" and ")));
+        let is_coarse = self.levels.iter().any(|level| level.number > 0);
+        let averaged = if is_coarse && self.averaged_in() == ResolveSpace::Linear {
+            ", averaged in linear light"
+        } else {
+            ""
+        };
+        lines.push(format!("reads  {}{averaged}", levels.join(" and ")));
         if self.opacity < 1.0 {
             lines.push(format!("opacity  {}", number(self.opacity)));
         }

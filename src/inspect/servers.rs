@@ -52,6 +52,7 @@ impl Question<'_> {
         let RenderSettings {
             pixel_sampling,
             level_sampling,
+            pyramid,
             detail,
             ..
         } = self.subject.settings;
@@ -90,6 +91,7 @@ impl Question<'_> {
             level_of_detail: Some(reading.lod).filter(|lod| lod.is_finite()),
             clamped: reading.lod.clamp(0.0, texture.pyramid.last_level() as f64),
             levels: read.into_iter().flatten().collect(),
+            pyramid: pyramid.name(),
             opacity: f64::from(usage.opacity),
         }
     }

@@ -196,7 +196,7 @@ impl<'doc> TextureTable<'doc> {
                     );
                     report.warn(location, message);
                 }
-                textures.push(Arc::new(Texture { asks, ..texture }));
+                textures.push(Arc::new(texture.asking(asks)));
             }
         }
         textures

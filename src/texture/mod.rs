@@ -39,6 +39,10 @@ pub use tile::{Tile, TileCache, TileRead};
 pub use trace::{TapRead, TexelRead, TextureReads};
 pub use uv_map::UvMap;
 
+use std::sync::OnceLock;
+
+use crate::color::ResolveSpace;
+
 /// How a colour is found inside one mip level.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PixelSampling {
@@ -66,8 +70,10 @@ pub enum LevelSampling {
 pub struct Texture {
     /// Its name in the document, or the file it came from: for messages and tool tips.
     pub name: String,
-    /// The image at every resolution.
+    /// The image at every resolution, levels averaged in stored values.
     pub pyramid: MipPyramid,
+    /// The same averaged in linear light, once somebody asks for it.
+    in_light: OnceLock<MipPyramid>,
     /// How colours are to be found in its levels, whatever the settings say (`image-rendering` of SVG).
     pub asks: Option<PixelSampling>,
 }
@@ -105,7 +111,24 @@ impl Texture {
         Self {
             name: name.to_owned(),
             pyramid,
+            in_light: OnceLock::new(),
             asks: None,
+        }
+    }
+
+    /// The same, in whose levels colours are found as it asks itself.
+    #[must_use]
+    pub fn asking(self, asks: Option<PixelSampling>) -> Self {
+        Self { asks, ..self }
+    }
+
+    /// The image at every resolution, levels averaged in these values.
+    pub fn pyramid_in(&self, space: ResolveSpace) -> &MipPyramid {
+        match space {
+            ResolveSpace::Stored => &self.pyramid,
+            ResolveSpace::Linear => self
+                .in_light
+                .get_or_init(|| MipPyramid::build_in_light(self.pyramid.levels()[0].clone())),
         }
     }
 

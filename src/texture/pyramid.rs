@@ -16,7 +16,12 @@
 //!
 //! Tiles draw level with rows only where pixels lie so far apart that a pyramid should be read anyway.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
+
+use crate::color::{Light, LightResolver, Premultiplied16};
+use crate::rules::Rules;
 
 /// The longest side of a level, in texels.
 pub const MAX_SIDE: u32 = 16_384;
@@ -159,8 +164,12 @@ impl MipLevel {
         rows.map(|row| &row[..self.width as usize])
     }
 
-    /// The rows without padding.
     /// A row, counted from the top.
+    fn row(&self, y: usize) -> &[[u8; 4]] {
+        &self.texels[y * self.stride as usize..][..self.width as usize]
+    }
+
+    /// The same, to be written.
     pub(super) fn row_mut(&mut self, y: usize) -> &mut [[u8; 4]] {
         &mut self.texels[y * self.stride as usize..][..self.width as usize]
     }
@@ -175,17 +184,39 @@ impl MipLevel {
 }
 
 impl MipPyramid {
-    /// Builds every level from the base, rows in parallel. Each level is the area-weighted mean of the one above it,
-    /// also where a side is odd; texels are rounded to bytes only once.
+    /// Builds every level from the base, rows in parallel. Each level is the area-weighted mean of the stored values of the one
+    /// above it, also where a side is odd; texels are rounded to bytes only once.
     pub fn build(base: MipLevel) -> Self {
+        Self::build_with(base, |row| Cow::Borrowed(row), |mean| mean.map(to_byte))
+    }
+
+    /// The same with means of linear light, each texel weighted by its alpha.
+    pub fn build_in_light(base: MipLevel) -> Self {
+        let resolver = LightResolver::new(1, Rules::Standard);
+        let light = |texel: &[u8; 4]| Light::new(Premultiplied16::from_bytes(*texel)).weighted();
+        let texel = |mean: [f32; 4]| {
+            let [b, g, r, alpha] = resolver.pixel(Light::of_weighted(mean)).to_le_bytes();
+            let weighted = |channel: u8| to_byte(f32::from(channel) * f32::from(alpha) / 255.0);
+            [weighted(r), weighted(g), weighted(b), alpha]
+        };
+        Self::build_with(base, |row| Cow::Owned(row.iter().map(light).collect()), texel)
+    }
+
+    /// Builds every level from the base, whose rows `parts` takes to what is averaged; `texel` makes texels of means.
+    fn build_with<C: Copy + Into<f32> + Sync + Send>(
+        base: MipLevel,
+        parts: impl for<'r> Fn(&'r [[u8; 4]]) -> Cow<'r, [[C; 4]]> + Sync,
+        texel: impl Fn([f32; 4]) -> [u8; 4] + Sync,
+    ) -> Self {
         let opaque = base.rows().all(|row| row.iter().all(|texel| texel[3] == u8::MAX));
         let (mut width, mut height) = (base.width, base.height);
         let mut levels = vec![base];
         let mut exact: Option<ExactLevel> = None;
         while width > 1 || height > 1 {
+            let size = [width, height];
             let (next, level) = match (&exact, &levels[0]) {
-                (Some(exact), _) => halve([width, height], width, &exact.texels),
-                (None, base) => halve([width, height], base.stride, &base.texels),
+                (Some(exact), _) => halve(size, |y| Cow::Borrowed(exact.row(y)), &texel),
+                (None, base) => halve(size, |y| parts(base.row(y)), &texel),
             };
             (width, height) = (next.width, next.height);
             exact = Some(next);
@@ -210,26 +241,37 @@ impl MipPyramid {
     }
 }
 
-/// The next coarser level of `size` texels in rows of `stride`: half as wide and high, rounded down, at least one texel.
-fn halve<C: Copy + Into<f32> + Sync>(size: [u32; 2], stride: u32, texels: &[[C; 4]]) -> (ExactLevel, MipLevel) {
+impl ExactLevel {
+    /// A row, counted from the top.
+    fn row(&self, y: usize) -> &[[f32; 4]] {
+        &self.texels[y * self.width as usize..][..self.width as usize]
+    }
+}
+
+/// The next coarser level of one of `size` texels, whose rows `line` tells: half as wide and high, rounded down, at least one
+/// texel. `texel` makes texels of means.
+fn halve<'l, C: Copy + Into<f32> + 'l>(
+    size: [u32; 2],
+    line: impl Fn(usize) -> Cow<'l, [[C; 4]]> + Sync,
+    texel: impl Fn([f32; 4]) -> [u8; 4] + Sync,
+) -> (ExactLevel, MipLevel) {
     let [width, height] = size.map(|side| (side / 2).max(1));
     let columns = shares(size[0], width);
     let rows = shares(size[1], height);
     let even = size.iter().all(|side| side.is_multiple_of(2));
-    let line = |y: usize| &texels[y * stride as usize..][..size[0] as usize];
     let mut level = MipLevel::blank(width, height);
     let mut exact = vec![[0.0; 4]; width as usize * height as usize];
     let parts = exact.par_chunks_mut(width as usize).zip(level.rows_mut());
     parts.zip(&rows).for_each(|((exact, rounded), row)| {
         if even {
-            mean_of_four(exact, line(row.first), line(row.first + 1));
+            mean_of_four(exact, &line(row.first), &line(row.first + 1));
         } else {
             for (j, weight) in row.weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
-                add_line(exact, line(row.first + j), &columns, *weight);
+                add_line(exact, &line(row.first + j), &columns, *weight);
             }
         }
         for (rounded, exact) in rounded.iter_mut().zip(exact) {
-            *rounded = exact.map(to_byte);
+            *rounded = texel(*exact);
         }
     });
     let exact = ExactLevel {
@@ -312,6 +354,53 @@ mod tests {
             }
         }
         sum.map(|sum| sum / texels.len() as f64)
+    }
+
+    #[test]
+    fn means_of_light_are_brighter_than_those_of_stored_values() {
+        let [black, white] = [[0, 0, 0, 255], [255; 4]];
+        let checker = || MipLevel::new(2, 2, vec![black, white, white, black]);
+        let top = |pyramid: MipPyramid| pyramid.levels()[1].texel(0, 0);
+        assert_eq!(
+            top(MipPyramid::build(checker())),
+            [128, 128, 128, 255],
+            "half of the value"
+        );
+        // IEC 61966-2-1: half of the light is 0.7354 of the value.
+        assert_eq!(
+            top(MipPyramid::build_in_light(checker())),
+            [188, 188, 188, 255],
+            "half of the light"
+        );
+        let half_clear = MipLevel::new(2, 1, vec![white, [0; 4]]);
+        assert_eq!(
+            top(MipPyramid::build_in_light(half_clear)),
+            [128; 4],
+            "white, half as opaque"
+        );
+    }
+
+    #[test]
+    fn even_images_stay_as_they_are_in_light() {
+        arbtest::arbtest(|u| {
+            let (width, height) = (u.int_in_range(1..=9)?, u.int_in_range(1..=9)?);
+            let alpha: u8 = *u.choose(&[255, 255, 0, 90, 200])?;
+            let mut channel = || u.int_in_range(0..=alpha);
+            let texel = [channel()?, channel()?, channel()?, alpha];
+            let base = MipLevel::new(width, height, vec![texel; (width * height) as usize]);
+            let pyramid = MipPyramid::build_in_light(base);
+            for level in pyramid.levels() {
+                let found = level.texel(0, 0);
+                // Premultiplied bytes tell no more of a colour than its alpha lets them.
+                let near = found
+                    .iter()
+                    .zip(texel)
+                    .all(|(a, b)| a.abs_diff(b) <= u8::from(alpha < 255));
+                assert!(near, "{texel:?} became {found:?}");
+            }
+            Ok(())
+        })
+        .budget_ms(200);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! How textures are sampled.
 
 use super::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling};
+use crate::color::ResolveSpace;
 use crate::rules::Rules;
 
 /// How textures are read: what a user chooses, and how close samples are.
@@ -10,6 +11,8 @@ pub struct SamplingSettings {
     pub pixel: PixelSampling,
     /// Between levels.
     pub level: LevelSampling,
+    /// In which values levels were averaged.
+    pub pyramid: ResolveSpace,
     /// Along a footprint.
     pub anisotropy: Anisotropy,
     /// How large a footprint counts.
@@ -25,6 +28,7 @@ impl Default for SamplingSettings {
         Self {
             pixel: PixelSampling::default(),
             level: LevelSampling::default(),
+            pyramid: ResolveSpace::default(),
             anisotropy: Anisotropy::OFF,
             detail: LevelOfDetail::default(),
             sample_step: 1.0,

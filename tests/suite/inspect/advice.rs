@@ -108,6 +108,7 @@ fn follow(cure: &Cure, own: &RenderSettings) -> RenderSettings {
         Setting::LodLevel => settings.detail.fixed = None,
         Setting::LodBias => settings.detail.bias = LodBias::new(value.parse().unwrap()).unwrap(),
         Setting::LodPer => settings.detail.derivatives = Derivatives::Sample,
+        Setting::Pyramid => settings.pyramid = settings.resolve,
         Setting::LodBy => settings.detail.extent = FootprintExtent::Longer,
         Setting::LevelSampling => {
             settings.level_sampling = LevelSampling::ALL
@@ -257,8 +258,14 @@ fn check_words(found: &Explanation, scene: &Scene, view: &ViewTransform, (hint, 
     }
     if hint.contains("breaks up") {
         let step = 1.0 / (found.samples.len() as f64).sqrt();
-        let mut missed = found.missed.iter();
-        let thin = missed.any(|missed| !holds_disc(scene, view, (missed.primitive, found.pixel, step)));
+        let is_thin = |primitive: u32| !holds_disc(scene, view, (primitive, found.pixel, step));
+        let thin = if hint.contains("px wide here") {
+            let mut seen = found.paints.iter().rev();
+            let topmost = seen.find(|paint| paint.fragments.iter().any(|fragment| fragment.seen));
+            topmost.is_some_and(|paint| is_thin(paint.primitive))
+        } else {
+            found.missed.iter().any(|missed| is_thin(missed.primitive))
+        };
         assert!(thin, "{place}: {hint} {:?}", found.missed);
     }
     if hint.contains("only the nearest texel") {

@@ -496,6 +496,22 @@ fn check_colors(paint: &Paint, rules: Rules) {
 }
 
 #[test]
+fn what_is_thin_is_told_where_a_sample_meets_it_too() {
+    let told = |points: &str| {
+        let document = format!(r##"<svg width="8" height="8"><polygon points="{points}" fill="#FF0000"/></svg>"##);
+        let found = advised(&read("thin.svg", &document), &RenderSettings::default(), [8, 8], [1, 2]);
+        assert!(found.missed.is_empty(), "it meets the centre");
+        found.hints().concat()
+    };
+    let thin = told("1.4,0 1.6,0 1.5,8");
+    let words = "px wide here, less than samples are apart (1 px): it breaks up where it passes between them";
+    assert!(thin.contains(words), "{thin}");
+    let wide = told("1.2,0 8,0 8,8 1.2,8");
+    assert!(!wide.contains("wide here"), "a wide one: {wide}");
+    assert!(wide.contains("samples (key ="), "though more samples help: {wide}");
+}
+
+#[test]
 fn hints_name_a_cure_and_vanish_with_it() {
     let document = r##"<svg width="8" height="8"><polygon points="1.1,0 1.3,0 1.2,8" fill="#FF0000"/></svg>"##;
     let thin = read("thin.svg", document);

@@ -2,10 +2,10 @@
 
 mod coverage;
 mod deep_zooms;
-mod extents;
 mod float_rules;
 mod golden;
 mod instruction_guard;
+mod levels;
 mod limits;
 mod oracle;
 mod patterns;

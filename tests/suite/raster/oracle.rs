@@ -78,6 +78,7 @@ fn compare_by(
         settings.anisotropy = *u.choose(&Anisotropy::STEPS)?;
         settings.detail.derivatives = *u.choose(&Derivatives::ALL)?;
         settings.detail.extent = *u.choose(&FootprintExtent::ALL)?;
+        settings.pyramid = *u.choose(&ResolveSpace::ALL)?;
         // Beside quarters: footprints of powers of two would lie on halves, where rounding decides about levels.
         let level = f64::from(u.int_in_range(-8..=8)?) / 4.0 + 0.1;
         match u.int_in_range(0..=3)? {

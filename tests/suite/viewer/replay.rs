@@ -361,12 +361,14 @@ fn replay_copies() {
     session.keys(&["t", "t", "m", "m", "m", ",", ",", ","]);
     session.run(step("lod-per", 1.0));
     session.run(step("lod-by", 1.0));
+    session.run(step("pyramid", 1.0));
     let line = session.viewer.recipes().command_line().unwrap();
-    let options = "--anisotropy 4 --lod-bias -1.5 --lod-level 2 --lod-per sample --lod-by area --rules course";
+    let options =
+        "--anisotropy 4 --lod-bias -1.5 --lod-level 2 --lod-per sample --lod-by area --pyramid linear --rules course";
     assert!(line.ends_with(options), "{line}");
     let title = session.viewer.both().title();
     assert!(
-        title.contains("level sampling nearest, anisotropy 4, bias -1.5, level 2, level per sample, level by area - "),
+        title.contains("level sampling nearest, anisotropy 4, bias -1.5, level 2, level per sample, level by area, pyramid linear - "),
         "{title}"
     );
     session.keys(&[".", ".", "."]);
@@ -374,6 +376,7 @@ fn replay_copies() {
     session.run(set("anisotropy", "1"));
     session.run(step("lod-per", 1.0));
     session.run(set("lod-by", "longer"));
+    session.run(set("pyramid", "stored"));
     let line = session.viewer.recipes().command_line().unwrap();
     assert!(line.ends_with("--level-sampling nearest --rules course"), "{line}");
 }

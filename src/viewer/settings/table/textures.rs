@@ -1,5 +1,6 @@
 //! How textures are sampled.
 
+use crate::color::ResolveSpace;
 use crate::texture::{Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling};
 use crate::viewer::key_chords::Chord;
 use crate::viewer::settings::row::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
@@ -228,6 +229,23 @@ pub(super) const ROWS: &[PictureSetting] = &[
             )
         }],
         ..named!("lod-by", "level by", FootprintExtent, render.detail.extent)
+    },
+    PictureSetting {
+        help: "In which values the texels of coarser mip levels are averaged",
+        about: About::Textures,
+        told: Told::IfChanged,
+        panel: Some(PanelRow::new("Pyramid", "Mip levels averaged in", Control::Buttons)),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "The one in which samples are averaged fits: another one makes fine patterns darker or brighter as they shrink",
+            ..SettingCommand::new(
+                "pyramid",
+                "Pyramid",
+                "Averages the texels of coarser mip levels in stored values or in linear light",
+            )
+        }],
+        ..named!("pyramid", "pyramid", ResolveSpace, render.pyramid)
     },
 ];
 

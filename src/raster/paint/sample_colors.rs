@@ -314,7 +314,8 @@ impl SampleColors {
     fn composite_whole(&mut self, pixels: Range<usize>, layer: &Self, compositing: Compositing) {
         for pixel in pixels {
             let color = layer.whole[pixel];
-            if compositing.hides(compositing.fragment(color)) {
+            // The course truncates at each step: there samples go every one of them, apart, as they always did.
+            if self.rules != Rules::Course && compositing.hides(compositing.fragment(color)) {
                 self.split[pixel] = false;
                 self.whole[pixel] = compositing.composited(color, Premultiplied16::TRANSPARENT, self.rules);
                 continue;

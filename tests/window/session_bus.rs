@@ -5,7 +5,9 @@ use std::process::{Child, Command as Process, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
+use zbus::blocking::proxy::Builder;
 use zbus::blocking::{Connection, Proxy, connection};
+use zbus::proxy::CacheProperties;
 use zbus::zvariant::{OwnedObjectPath, OwnedValue, Value};
 
 use super::program::{PATIENCE, Program, flat, until};
@@ -158,7 +160,9 @@ fn screen_reader(bus: &Bus) -> (Connection, Receiver<String>) {
     let status = Status {
         address: bus.address.clone(),
     };
-    let builder = bus.builder().name("org.a11y.Bus").unwrap();
+    // A program that is just making its tree may leave a question unanswered: it is asked again.
+    let builder = bus.builder().method_timeout(Duration::from_secs(2));
+    let builder = builder.name("org.a11y.Bus").unwrap();
     let builder = builder.name("org.a11y.atspi.Registry").unwrap();
     let builder = builder.serve_at("/org/a11y/bus", status).unwrap();
     let builder = builder.serve_at("/org/a11y/bus", Enabled(true)).unwrap();
@@ -168,7 +172,9 @@ fn screen_reader(bus: &Bus) -> (Connection, Receiver<String>) {
 
 /// The control called `name` below an object; nothing while the program is still making it.
 fn find(reader: &Connection, program: &str, path: &str, name: &str) -> Option<OwnedObjectPath> {
-    let object = Proxy::new(reader, program, path, "org.a11y.atspi.Accessible").ok()?;
+    let object = Builder::<Proxy<'_>>::new(reader).destination(program).ok()?;
+    let object = object.path(path).ok()?.interface("org.a11y.atspi.Accessible").ok()?;
+    let object = object.cache_properties(CacheProperties::No).build().ok()?;
     if object.get_property::<String>("Name").is_ok_and(|found| found == name) {
         return Some(path.try_into().unwrap());
     }

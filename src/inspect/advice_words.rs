@@ -117,7 +117,7 @@ impl Explanation {
         let width = paint.width.filter(|width| *width < self.step())?;
         self.resolve.around.is_none().then(|| {
             format!(
-                "{} is {} px wide here, less than samples are apart ({} px): it breaks up where it passes between them.",
+                "The {} is {} px wide here, less than samples are apart ({} px): it breaks up where it passes between them.",
                 paint.name(),
                 significant(width),
                 significant(self.step())

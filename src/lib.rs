@@ -90,6 +90,10 @@ pub use raster::Framebuffer;
 #[doc(inline)]
 pub use scene::{Scene, SceneError};
 
+// Whose vectors and affine maps views and geometry take; another version of it has other types.
+#[doc(no_inline)]
+pub use glam;
+
 // What settings are made of.
 #[doc(no_inline)]
 pub use {

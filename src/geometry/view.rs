@@ -8,6 +8,19 @@ use glam::{DAffine2, DMat2, DVec2};
 const DEFAULT_MARGIN: f64 = 1.2;
 
 /// A view as a user asks for it, independent of the frame's size.
+///
+/// ```
+/// use rasterscope::View;
+/// use rasterscope::glam::DVec2;
+///
+/// // Two pixels per user unit around a point of the scene.
+/// let view = View::At {
+///     center: DVec2::new(500.0, 375.0),
+///     scale: 2.0,
+///     rotation: 0.0,
+/// };
+/// # assert_ne!(view, View::Default);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum View {
     /// The course's: canvas centred, 1.2 times its longer side spans the shorter side of the frame.

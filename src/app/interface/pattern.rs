@@ -235,7 +235,7 @@ fn numbers(ui: &mut Ui, statistics: &PatternStatistics) {
         ),
         (
             "Projections",
-            format!("{columns} columns, {rows} rows"),
+            format!("{}, {}", counted(columns, "column"), counted(rows, "row")),
             "So many different places the points have along each axis. An edge that is nearly vertical, or nearly level, has that many \
              shades and one.",
         ),
@@ -243,6 +243,11 @@ fn numbers(ui: &mut Ui, statistics: &PatternStatistics) {
     for (label, value, tip) in lines {
         row(ui, label, |ui| ui.label(value).on_hover_text(tip));
     }
+}
+
+/// A number of things.
+fn counted(number: usize, thing: &str) -> String {
+    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
 }
 
 /// A spectrum as a picture: random points are mid-grey, twice their power and more is white.

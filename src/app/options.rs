@@ -16,6 +16,8 @@ pub struct ViewOptions {
     pub paths: Vec<PathBuf>,
     /// Sampling, rules, dialect, pixel zoom.
     pub settings: Settings,
+    /// The picture settings among them that were asked for, by their options: the others may be those of the last session.
+    pub given: Vec<&'static str>,
     /// The view of every scene.
     pub view: View,
     /// What the picture is compared with at the start.

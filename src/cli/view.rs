@@ -42,6 +42,7 @@ pub(super) fn run(options: &ViewerOptions, restored: Option<&Restored>) -> Resul
     let view_options = ViewOptions {
         paths: options.paths.clone(),
         settings: settings(options),
+        given: options.sampling.given().to_vec(),
         view: options.framing.view,
         against: options.against.clone(),
         size: options.size.map(|size| size.0),

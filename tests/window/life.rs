@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use super::desktop::keysym;
 use super::program::{Program, flat, until, viewed};
+use rasterscope::viewer::Command;
 
 #[test]
 fn close_ends_with_success() {
@@ -50,6 +51,49 @@ fn next_session_begins_as_the_last_one_ended() {
     program.close();
     assert!(program.ended().success(), "the second session");
     assert_eq!(text(&program), written, "nothing was changed");
+}
+
+#[test]
+fn settings_and_place_are_those_of_the_last_session() {
+    let path = flat();
+    let mut program = Program::start(&path);
+    program.desktop.point(250, 200);
+    let command = |option: &str, value: &str| Command::set(option, value).unwrap();
+    let left = [command("sample-rate", "4"), command("pattern", "rotated")];
+    program.desktop.press('='.into(), &[]);
+    program.desktop.press('a'.into(), &[]);
+    program.shows(&viewed(&path, &left), "other settings");
+    program.place([90, 60]);
+    // The settings are on the screen; nothing shows that the place was told.
+    std::thread::sleep(Duration::from_millis(700));
+    program.close();
+    assert!(program.ended().success(), "the first session");
+    let file = "config/rasterscope/session.toml";
+    let text = std::fs::read_to_string(program.folder.path().join(file)).unwrap();
+    for line in [
+        "place = [90, 60]",
+        "[settings]",
+        "pattern = \"rotated\"",
+        "sample-rate = \"4\"",
+    ] {
+        assert!(text.lines().any(|written| written == line), "{line} in {text}");
+    }
+    let next = |arguments: &[&str]| {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join(file);
+        std::fs::create_dir_all(file.parent().unwrap()).unwrap();
+        std::fs::write(file, &text).unwrap();
+        let program = Program::open_in(folder, &[&path], arguments);
+        program.desktop.point(250, 200);
+        program
+    };
+    let program = next(&[]);
+    program.shows(&viewed(&path, &left), "the settings of the last session");
+    assert_eq!(program.placed(), [90, 60], "where the last one was");
+    let program = next(&["--sample-rate", "1"]);
+    program.shows(&viewed(&path, &left[1..]), "what the command line asks for");
+    let program = next(&["--no-config"]);
+    program.shows(&viewed(&path, &[]), "nothing is taken up");
 }
 
 #[test]

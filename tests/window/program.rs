@@ -232,6 +232,23 @@ impl Program {
             .unwrap();
     }
 
+    /// Moves the window: its upper left corner is then there.
+    pub(crate) fn place(&self, [x, y]: [i32; 2]) {
+        let place = ConfigureWindowAux::new().x(x).y(y);
+        self.desktop
+            .x
+            .configure_window(self.window, &place)
+            .unwrap()
+            .check()
+            .unwrap();
+    }
+
+    /// Where its upper left corner is: there is no frame around it.
+    pub(crate) fn placed(&self) -> [i16; 2] {
+        let place = self.desktop.x.get_geometry(self.window).unwrap().reply().unwrap();
+        [place.x, place.y]
+    }
+
     /// Asks the window to close, as a window manager does.
     pub(crate) fn close(&self) {
         let x = &self.desktop.x;

@@ -60,6 +60,7 @@ use floating::CloseOfInset;
 use focus::FocusPanel;
 use hovered::Hovered;
 use messages::{Messages, Taken};
+pub(super) use report::Sections;
 use scenes::Thumbnails;
 use side_panel::PanelMemory;
 pub(super) use widths::PanelWidths;
@@ -148,6 +149,16 @@ impl Interface {
             handle: None,
             told: Vec::new(),
         }
+    }
+
+    /// What the user folded and unfolded in the explanation.
+    pub(super) fn sections(&self) -> Sections {
+        report::sections(&self.ctx)
+    }
+
+    /// Sections begin as they were left.
+    pub(super) fn set_sections(&mut self, sections: Sections) {
+        report::set_sections(&self.ctx, sections);
     }
 
     /// egui's context.

@@ -1,8 +1,10 @@
 //! Sections and lines of a report.
 
+use std::collections::BTreeMap;
+
 use egui::collapsing_header::CollapsingState;
 use egui::text::{LayoutJob, TextFormat};
-use egui::{CollapsingHeader, CollapsingResponse, FontId, Response, RichText, Ui};
+use egui::{CollapsingHeader, CollapsingResponse, Context, FontId, Id, Response, RichText, Ui};
 
 /// Letters of the report, in points.
 const SIZE: f32 = 12.0;
@@ -10,12 +12,45 @@ const SIZE: f32 = 12.0;
 /// Width of a letter that is as wide as all others, in its sizes; a little more than that.
 const MONOSPACE: f32 = 0.62;
 
-/// A part of a report that can be folded.
+/// Sections that the user folded (`false`) or unfolded, by their names.
+pub(in crate::app) type Sections = BTreeMap<String, bool>;
+
+/// Where egui keeps the sections.
+fn sections_id() -> Id {
+    Id::unique("folded sections")
+}
+
+/// What the user folded and unfolded.
+pub(super) fn sections(ctx: &Context) -> Sections {
+    ctx.data(|data| data.get_temp(sections_id())).unwrap_or_default()
+}
+
+/// Sections begin as they were left.
+pub(super) fn set_sections(ctx: &Context, sections: Sections) {
+    ctx.data_mut(|data| data.insert_temp(sections_id(), sections));
+}
+
+/// A part of a report that can be folded: `open` at first, then as the user left it.
 pub(super) fn section(ui: &mut Ui, id: &str, title: &str, open: bool, contents: impl FnOnce(&mut Ui)) {
+    let left = |ui: &Ui| {
+        ui.data_mut(|data| {
+            let sections: &mut Sections = data.get_temp_mut_or_default(sections_id());
+            sections.get(id).copied()
+        })
+    };
     let section = CollapsingHeader::new(RichText::new(title).size(12.0))
         .id_salt(id)
-        .default_open(open)
+        .default_open(left(ui).unwrap_or(open))
         .show(ui, contents);
+    let header = &section.header_response;
+    if header.clicked()
+        && let Some(state) = CollapsingState::load(ui.ctx(), header.id)
+    {
+        ui.data_mut(|data| {
+            let sections: &mut Sections = data.get_temp_mut_or_default(sections_id());
+            sections.insert(id.to_owned(), state.is_open());
+        });
+    }
     bring_into_sight(ui, &section);
 }
 

@@ -25,6 +25,11 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, commands: &mut Vec<Command>) {
             if command_button(ui, "pattern-view", "Points").clicked() {
                 commands.push(Command::Window(WindowCommand::ToggleDialog(Dialog::Pattern)));
             }
+            let changed = !picture::are_defaults(viewer.settings());
+            let defaults = ui.add_enabled_ui(changed, |ui| command_button(ui, "default-settings", "Defaults"));
+            if defaults.inner.clicked() {
+                commands.push(Command::SetDefaults);
+            }
         });
     });
     rows(ui, &sampling, viewer.settings(), commands);

@@ -46,7 +46,7 @@ use std::time::{Duration, Instant};
 use egui::{Event, PlatformOutput, Pos2, RawInput, Rect, ViewportId, vec2};
 use glam::DVec2;
 
-use super::interface::{Asked, Interface, PanelWidths};
+use super::interface::{Asked, Interface, PanelWidths, Sections};
 use super::overlay::{CanvasRect, Output, Overlay};
 use crate::plain;
 use crate::raster::Framebuffer;
@@ -189,6 +189,11 @@ impl Session {
         }
     }
 
+    /// Tells the user what is as he left it.
+    pub(super) fn tell(&mut self, words: String) {
+        self.viewer.tell(MessageKind::Done, words);
+    }
+
     /// Tells the user what went wrong around the viewer.
     pub(super) fn tell_problem(&mut self, problem: String) {
         self.viewer.tell(MessageKind::Error, problem);
@@ -197,6 +202,16 @@ impl Session {
     /// Whether the side panel is open, where the user said so.
     pub(super) fn panel_choice(&self) -> Option<bool> {
         self.room.choice(self.viewer.chrome().panel())
+    }
+
+    /// What the user folded and unfolded in the explanation.
+    pub(super) fn sections(&self) -> Sections {
+        self.interface.sections()
+    }
+
+    /// Sections begin as they were left.
+    pub(super) fn set_sections(&mut self, sections: Sections) {
+        self.interface.set_sections(sections);
     }
 
     /// How wide panels are.

@@ -8,16 +8,31 @@
 //!      window in points   x 1.5 what the screen shows of it: 75 %
 //! ```
 
+use std::thread;
+
 use smithay_client_toolkit::output::{OutputHandler, OutputInfo, OutputState};
 use smithay_client_toolkit::registry::{ProvidesRegistryState, RegistryState};
 use smithay_client_toolkit::{delegate_output, delegate_registry, registry_handlers};
 use wayland_client::globals::registry_queue_init;
 use wayland_client::protocol::wl_output::{Transform, WlOutput};
 use wayland_client::{Connection, QueueHandle};
+use winit::event_loop::EventLoopProxy;
 
-/// The percent at which the monitor called `name` shows what is drawn for it; `None` where that is pixel for pixel, or the
-/// compositor does not say.
-pub(super) fn percent_on(name: &str) -> Option<u32> {
+use super::startup::{ShownScales, Wake};
+
+/// Tells by [`Wake::Scales`] which monitors do not show what is drawn pixel for pixel, now and whenever that changes: winit tells
+/// nothing of a change from 2 to 1.5, since a picture at scale 2 is asked for before and after.
+pub(super) fn follow(proxy: EventLoopProxy<Wake>) {
+    let work = move || {
+        // A compositor that does not answer tells nothing; one that has ended ends the window, too.
+        let _ = watch(&proxy);
+    };
+    // Without a thread nobody is told.
+    let _ = thread::Builder::new().name("desktop scale".to_owned()).spawn(work);
+}
+
+/// Asks for the monitors and waits for changes, until the compositor or the window is gone.
+fn watch(proxy: &EventLoopProxy<Wake>) -> Option<()> {
     let connection = Connection::connect_to_env().ok()?;
     let (globals, mut queue) = registry_queue_init::<Outputs>(&connection).ok()?;
     let scales = |name: &str| name == "wp_fractional_scale_manager_v1";
@@ -31,17 +46,19 @@ pub(super) fn percent_on(name: &str) -> Option<u32> {
         registry: RegistryState::new(&globals),
         outputs: OutputState::new(&globals, &queue.handle()),
     };
-    queue.roundtrip(&mut outputs).ok()?;
-    let infos = outputs
-        .outputs
-        .outputs()
-        .filter_map(|output| outputs.outputs.info(&output));
-    infos
-        .filter(|info| info.name.as_deref() == Some(name))
-        .find_map(|info| percent(&info))
+    let mut told = ShownScales::default();
+    loop {
+        queue.blocking_dispatch(&mut outputs).ok()?;
+        let now = outputs.shown();
+        if now != told {
+            told.clone_from(&now);
+            proxy.send_event(Wake::Scales(now)).ok()?;
+        }
+    }
 }
 
-/// The same of what is known of the monitor.
+/// The percent at which a monitor shows what is drawn for it; `None` where that is pixel for pixel, or the compositor does not
+/// say.
 fn percent(info: &OutputInfo) -> Option<u32> {
     let pixels = info.modes.iter().find(|mode| mode.current)?.dimensions;
     let lies = [
@@ -78,6 +95,15 @@ fn shown_at(pixels: i32, points: i32, scale: i32) -> Option<u32> {
 struct Outputs {
     registry: RegistryState,
     outputs: OutputState,
+}
+
+impl Outputs {
+    fn shown(&self) -> ShownScales {
+        let infos = self.outputs.outputs().filter_map(|output| self.outputs.info(&output));
+        infos
+            .filter_map(|info| Some((info.name.clone()?, percent(&info)?)))
+            .collect()
+    }
 }
 
 impl OutputHandler for Outputs {

@@ -1,6 +1,5 @@
 //! winit's events to what the session understands.
 
-use crate::viewer::{SceneCommand, WindowCommand};
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -12,7 +11,6 @@ use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::keyboard::ModifiersState;
-use winit::monitor::MonitorHandle;
 use winit::window::{Window, WindowId};
 
 use super::super::headless::{self, NamedScript};
@@ -20,7 +18,7 @@ use super::super::session::{Clock, Session};
 use super::super::{AppError, ViewOptions};
 use super::frame_log::FrameLog;
 use super::icon;
-use super::opened::Opened;
+use super::opened::{Opened, Sight};
 use super::player::Player;
 use super::remembered::Remembered;
 use super::startup::{self, ThemeQuestion, Wake};
@@ -28,21 +26,20 @@ use super::watch::Watch;
 use super::whole_pixels;
 use super::winit_keys;
 use crate::figure::Guard;
-use crate::raster::Framebuffer;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{Command, InterfaceScale, PointerButton, Theme, Toggle, Viewer, ViewerOptions, Waker};
+use crate::viewer::{Command, PointerButton, SceneCommand, Theme, Toggle, Viewer, ViewerOptions, Waker, WindowCommand};
 
 /// Device pixels of a touch pad's motion that count as a click of the wheel, at scale 1.
 const PIXELS_PER_CLICK: f64 = 40.0;
 /// Smallest useful window, in device pixels.
-const SMALLEST: PhysicalSize<u32> = PhysicalSize::new(320, 240);
+pub(super) const SMALLEST: PhysicalSize<u32> = PhysicalSize::new(320, 240);
 
 /// The program as winit sees it.
 #[derive(Debug)]
 pub(super) struct Handler {
-    options: ViewOptions,
+    pub(super) options: ViewOptions,
     proxy: EventLoopProxy<Wake>,
-    opened: Option<Opened>,
+    pub(super) opened: Option<Opened>,
     player: Option<Player>,
     /// Follows the files that are shown; `None` where the system watches none.
     watch: Option<Watch>,
@@ -50,10 +47,10 @@ pub(super) struct Handler {
     /// Files that were dropped together.
     dropped: Vec<PathBuf>,
     /// What the session before left, and where; a script's window neither reads nor writes that.
-    remembered: Remembered,
-    remembered_in: Option<PathBuf>,
+    pub(super) remembered: Remembered,
+    pub(super) remembered_in: Option<PathBuf>,
     /// The theme at the start.
-    first_theme: Option<Theme>,
+    pub(super) first_theme: Option<Theme>,
     pub(super) failure: Option<AppError>,
 }
 
@@ -75,16 +72,13 @@ impl Handler {
         }
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a scale is a small number above zero"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "a scale is a small number")]
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<Opened, AppError> {
         let mut problem = None;
         if let Some(file) = &self.remembered_in {
             (self.remembered, problem) = Remembered::read(file);
         }
+        self.take_up_settings();
         let chosen = self.options.theme.or(self.remembered.theme());
         // Answered while the window opens.
         let asked = chosen.is_none().then(|| ThemeQuestion::ask(self.proxy.clone()));
@@ -99,7 +93,7 @@ impl Handler {
             .with_min_inner_size(SMALLEST)
             // Not before screen readers are served.
             .with_visible(false);
-        let attributes = startup::named(attributes);
+        let attributes = startup::named(self.placed(attributes, event_loop));
         let failed = |what: &dyn std::fmt::Display| AppError::Window(format!("cannot open a window: {what}"));
         let window = Arc::new(event_loop.create_window(attributes).map_err(|error| failed(&error))?);
         let is_wayland = startup::is_wayland(event_loop);
@@ -118,24 +112,7 @@ impl Handler {
         let scale = window.scale_factor() as f32;
         let mut session = Session::new(viewer, scale, Clock::Real(Instant::now()));
         self.first_theme = Some(session.viewer().chrome().theme());
-        let interface = self.options.scale.map_or(self.remembered.interface_scale(), |wanted| {
-            InterfaceScale::from_percent((wanted / scale * 100.0).round().clamp(0.0, 1000.0) as u32)
-        });
-        session.run(Command::Window(WindowCommand::SetInterfaceScale(interface)));
-        if self.remembered.presenter {
-            session.run(Command::Window(WindowCommand::Presenter(Toggle::On)));
-        }
-        session.run(Command::Scenes(SceneCommand::RememberOpened(
-            self.remembered.recent.clone(),
-        )));
-        session.set_panel_widths(self.remembered.panel_widths);
-        if let Some(open) = self.remembered.panel {
-            session.run(Command::Window(WindowCommand::Panel(if open {
-                Toggle::On
-            } else {
-                Toggle::Off
-            })));
-        }
+        self.take_up(&mut session, scale);
         if self.is_bare() && !self.remembered.greeted {
             session.run(Command::Window(WindowCommand::StartCard(Toggle::On)));
         }
@@ -147,22 +124,8 @@ impl Handler {
         opened.log_to(log);
         opened.serve_screen_readers(event_loop, self.proxy.clone());
         opened.window.set_visible(true);
+        self.fill_again(&opened.window);
         Ok(opened)
-    }
-
-    /// The window's size at the start, in device pixels: the one that was asked for, or else one that the monitor has room for.
-    #[expect(clippy::cast_possible_truncation, reason = "a scale is a small number")]
-    fn first_size(&self, event_loop: &ActiveEventLoop) -> [u32; 2] {
-        let monitor = event_loop
-            .primary_monitor()
-            .or_else(|| event_loop.available_monitors().next());
-        let scale = monitor.as_ref().map_or(1.0, MonitorHandle::scale_factor);
-        let remembered = self.remembered.size.filter(|_| self.options.size.is_none());
-        let size = remembered.unwrap_or_else(|| headless::window_size(&self.options, scale as f32));
-        match monitor.filter(|_| self.options.size.is_none()) {
-            Some(monitor) => within(size, monitor.size()),
-            None => size,
-        }
     }
 
     /// Wakes the event loop from other threads.
@@ -175,7 +138,7 @@ impl Handler {
     }
 
     /// Whether the program was started without saying what to show: by a newcomer, perhaps.
-    fn is_bare(&self) -> bool {
+    pub(super) fn is_bare(&self) -> bool {
         let ViewOptions {
             paths,
             against,
@@ -184,40 +147,6 @@ impl Handler {
             ..
         } = &self.options;
         paths.is_empty() && against.is_none() && script.is_none() && restored.is_none()
-    }
-
-    /// Writes down what the next session begins with; where that cannot be, one line says so.
-    pub(super) fn remember(&self) {
-        let (Some(opened), Some(file)) = (&self.opened, &self.remembered_in) else {
-            return;
-        };
-        let viewer = opened.session.viewer();
-        let mut now = self.remembered.clone();
-        now.greeted |= self.is_bare();
-        if self.first_theme != Some(viewer.chrome().theme()) {
-            now.set_theme(viewer.chrome().theme());
-        }
-        if self.options.scale.is_none() {
-            now.set_interface_scale(viewer.chrome().interface_scale());
-        }
-        now.presenter = viewer.chrome().presenter();
-        now.panel = opened.session.panel_choice().or(now.panel);
-        now.panel_widths = opened.session.panel_widths();
-        if self.options.size.is_none() && !viewer.chrome().window_size().contains(&0) {
-            now.size = Some(viewer.chrome().window_size());
-        }
-        now.set_recent(viewer.scene_list().opened());
-        if now == self.remembered {
-            return;
-        }
-        if let Err(error) = now.write(file) {
-            // Whoever closed stderr does not want to read it.
-            let _ = writeln!(
-                std::io::stderr().lock(),
-                "rasterscope: {}: cannot remember this session: {error}; --no-config remembers none",
-                file.display()
-            );
-        }
     }
 
     /// The desktop became dark or light: so do the panels, unless somebody has chosen their theme.
@@ -245,6 +174,7 @@ impl ApplicationHandler<Wake> for Handler {
         match self.open(event_loop) {
             Ok(opened) => {
                 self.opened = Some(opened);
+                startup::follow_scales(event_loop, self.proxy.clone());
                 self.watch = watch(self.waker());
             }
             Err(error) => self.fail(event_loop, error),
@@ -255,8 +185,9 @@ impl ApplicationHandler<Wake> for Handler {
         match (wake, &mut self.opened) {
             (Wake::Work, Some(opened)) => opened.session.poll(),
             (Wake::Theme(to), Some(_)) => self.desktop_theme(to),
+            (Wake::Scales(scales), Some(opened)) => opened.set_scales(scales),
             (Wake::ScreenReader(event), Some(opened)) => opened.screen_reader(event),
-            (Wake::Work | Wake::Theme(_) | Wake::ScreenReader(_), None) => {}
+            (Wake::Work | Wake::Theme(_) | Wake::Scales(_) | Wake::ScreenReader(_), None) => {}
             (Wake::End, _) => self.fail(event_loop, AppError::Ended),
         }
     }
@@ -277,12 +208,16 @@ impl ApplicationHandler<Wake> for Handler {
                     );
                 }
             }
-            WindowEvent::CloseRequested | WindowEvent::Destroyed => event_loop.exit(),
+            WindowEvent::CloseRequested => event_loop.exit(),
+            WindowEvent::Destroyed => {
+                opened.sight = Sight::Gone;
+                event_loop.exit();
+            }
+            WindowEvent::Moved(place) => opened.place = Some(place.into()),
             WindowEvent::Resized(size) => opened.resized(size),
             WindowEvent::ScaleFactorChanged { .. } => {
                 if startup::is_wayland(event_loop) {
                     let size = whole_pixels::fit(&opened.window, SMALLEST);
-                    opened.session.set_shown_at(startup::shown_at(&opened.window));
                     opened.resized(size);
                 } else {
                     opened.rescaled();
@@ -290,7 +225,7 @@ impl ApplicationHandler<Wake> for Handler {
                 opened.tell_panels(&event);
             }
             WindowEvent::Occluded(occluded) => {
-                opened.occluded = occluded;
+                opened.sight = if occluded { Sight::Occluded } else { Sight::Open };
                 opened.touch();
             }
             WindowEvent::DroppedFile(path) => self.dropped.push(path),
@@ -407,20 +342,6 @@ impl Opened {
     }
 }
 
-/// A window's size, made smaller where its frame, with bars of the desktop beside it, would not fit into a monitor.
-fn within(size: [u32; 2], monitor: PhysicalSize<u32>) -> [u32; 2] {
-    /// What of a monitor a window may take, in percent: its title and the desktop's bars need the rest.
-    const MOST: [u32; 2] = [96, 88];
-    let largest = [monitor.width, monitor.height].map(u64::from);
-    std::array::from_fn(|axis| {
-        let most = largest[axis] * u64::from(MOST[axis]) / 100;
-        let most = u32::try_from(most).unwrap_or(u32::MAX);
-        // A monitor that tells no size counts as large.
-        let most = if most == 0 { Framebuffer::MAX_SIDE } else { most };
-        size[axis].min(most).max([SMALLEST.width, SMALLEST.height][axis])
-    })
-}
-
 /// Follows files; where the system watches none, one line says so.
 fn watch(waker: Waker) -> Option<Watch> {
     let watch = Watch::new(waker);
@@ -454,19 +375,5 @@ fn theme(theme: winit::window::Theme) -> Theme {
     match theme {
         winit::window::Theme::Dark => Theme::Dark,
         winit::window::Theme::Light => Theme::Light,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn windows_fit_their_monitor() {
-        let on = |width, height| PhysicalSize::new(width, height);
-        assert_eq!(within([1280, 800], on(1920, 1080)), [1280, 800], "room for all");
-        assert_eq!(within([1280, 800], on(1366, 768)), [1280, 675], "a small one");
-        assert_eq!(within([1920, 1200], on(1920, 1080)), [1843, 950], "scale 1.5");
-        assert_eq!(within([1280, 800], on(0, 0)), [1280, 800], "no size is told");
     }
 }

@@ -7,6 +7,7 @@ mod desktop_theme;
 mod frame_log;
 mod handler;
 mod icon;
+mod last_session;
 mod opened;
 mod player;
 mod remembered;

@@ -18,11 +18,23 @@ use winit::window::Window;
 use super::super::session::{PanelTimes, Session};
 use super::frame_log::{FrameLog, Shown};
 use super::rhythm::Rhythm;
+use super::startup::ShownScales;
 use crate::raster::Framebuffer;
 use crate::viewer::{PixelRect, Viewer};
 
 /// Longest wait for the frame of a new size, so that a resized window shows no border.
 const RESIZE_WAIT: Duration = Duration::from_millis(24);
+
+/// What can be seen of a window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sight {
+    /// Some of it, or all.
+    Open,
+    /// Nothing.
+    Occluded,
+    /// Nothing any more: the system has destroyed it.
+    Gone,
+}
 
 /// An open window.
 pub(super) struct Opened {
@@ -33,8 +45,9 @@ pub(super) struct Opened {
     /// From the last event that told it.
     size: PhysicalSize<u32>,
     title: String,
-    /// Nothing of the window can be seen.
-    pub(super) occluded: bool,
+    /// The upper left corner of its frame on the desktop, where the system told it.
+    pub(super) place: Option<[i32; 2]>,
+    pub(super) sight: Sight,
     /// Something changed since the last frame; the viewer's revision tells what it knows.
     dirty: bool,
     /// Since when a frame is asked for by us, not by the window system.
@@ -49,6 +62,9 @@ pub(super) struct Opened {
     pub(super) pointer: Option<WindowEvent>,
     pub(super) pointer_scale: f32,
     log: Option<FrameLog>,
+    /// What monitors do not show pixel for pixel, and at how many percent that of the window does.
+    scales: ShownScales,
+    shown_at: Option<u32>,
 }
 
 impl std::fmt::Debug for Opened {
@@ -85,8 +101,9 @@ impl Opened {
             egui,
             surface,
             size,
+            place: None,
             title: String::new(),
-            occluded: false,
+            sight: Sight::Open,
             dirty: true,
             asked: None,
             drawn_revision: 0,
@@ -96,6 +113,8 @@ impl Opened {
             pointer: None,
             pointer_scale: 0.0,
             log: None,
+            scales: ShownScales::new(),
+            shown_at: None,
         };
         opened.session.lend_surface();
         opened.resized(size);
@@ -110,6 +129,28 @@ impl Opened {
     /// Something came that may have to be shown.
     pub(super) fn note_event(&mut self) {
         self.event.get_or_insert_with(Instant::now);
+        // It may have come to another monitor, which is no event of its own.
+        self.note_shown_scale();
+    }
+
+    /// Monitors show windows at these percentages.
+    pub(super) fn set_scales(&mut self, scales: ShownScales) {
+        self.scales = scales;
+        self.note_shown_scale();
+    }
+
+    /// At how many percent the window's monitor shows it.
+    fn note_shown_scale(&mut self) {
+        if self.scales.is_empty() && self.shown_at.is_none() {
+            return;
+        }
+        let name = self.window.current_monitor().and_then(|monitor| monitor.name());
+        let percent = name.and_then(|name| self.scales.get(&name).copied());
+        if percent != self.shown_at {
+            self.shown_at = percent;
+            self.session.set_shown_at(percent);
+            self.touch();
+        }
     }
 
     /// Another size or scale; zero while the window is minimised.
@@ -160,7 +201,7 @@ impl Opened {
         if self.next_wish.is_some_and(|request| request <= now) {
             self.dirty = true;
         }
-        if self.occluded || self.size.width == 0 || self.size.height == 0 {
+        if self.sight != Sight::Open || self.size.width == 0 || self.size.height == 0 {
             return patience;
         }
         if !self.dirty {

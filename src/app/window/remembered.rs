@@ -2,6 +2,7 @@
 //!
 //! It may have been edited by hand or cut off by a full disk: what cannot be understood never stops the start.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -11,7 +12,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::app::interface::PanelWidths;
 use crate::plain;
-use crate::viewer::{InterfaceScale, Theme};
+use crate::viewer::picture::{self, About, PictureSetting};
+use crate::viewer::{InterfaceScale, PixelZoom, Settings, Theme};
 
 /// Largest file that is read, in bytes: ours have some hundred.
 const MOST_BYTES: u64 = 1 << 20;
@@ -22,6 +24,10 @@ const HEAD: &str =
     "# What Rasterscope remembers: written when its window closes, read when one opens (--no-config: neither).\n\n";
 
 /// What is remembered. What the file leaves out is as in the first session.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "three things that are so or not, each on its own"
+)]
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, rename_all = "kebab-case")]
 pub(super) struct Remembered {
@@ -42,11 +48,40 @@ pub(super) struct Remembered {
     /// The window's inner size in device pixels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) size: Option<[u32; 2]>,
+    /// The upper left corner of the window with its frame, in device pixels of the desktop, where the system tells it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) place: Option<[i32; 2]>,
+    /// Whether the window filled its monitor; size and place are those of before.
+    #[serde(skip_serializing_if = "is_first")]
+    pub(super) maximized: bool,
+    /// Whether the scene's words are to be seen, where the user chose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) about: Option<bool>,
+    /// Window pixels per frame pixel.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pixel_zoom: Option<u32>,
+    /// Whether coarse pictures stand in for slow ones.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    progressive: Option<bool>,
+    /// Whether files are read again when they change.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) follow_files: Option<bool>,
     /// Files and folders that were opened, the latest first.
     pub(super) recent: Vec<PathBuf>,
+    /// Settings of sampling and textures that are not at their defaults, by the names of their options.
+    #[serde(skip_serializing_if = "is_first")]
+    settings: BTreeMap<String, String>,
+    /// Sections of the explanation that the user folded (`false`) or unfolded.
+    #[serde(skip_serializing_if = "is_first")]
+    pub(super) sections: BTreeMap<String, bool>,
     /// How wide the user made panels, in points: a table, which stands last in the file.
     #[serde(skip_serializing_if = "is_first")]
     pub(super) panel_widths: PanelWidths,
+}
+
+/// The settings that are remembered.
+fn sampling() -> impl Iterator<Item = &'static PictureSetting> {
+    picture::all().filter(|setting| setting.about != About::Document)
 }
 
 /// Whether nothing was chosen.
@@ -112,6 +147,45 @@ impl Remembered {
         self.interface_scale = (scale != InterfaceScale::ORIGINAL).then(|| scale.percent().into());
     }
 
+    /// Takes up the settings of the last session, but for those options that the command line gave.
+    pub(super) fn take_up(&self, settings: &mut Settings, given: &[&str]) {
+        let asked = *settings;
+        let mut taken = Settings {
+            pixel_zoom: self.pixel_zoom.and_then(PixelZoom::new).unwrap_or(asked.pixel_zoom),
+            progressive: self.progressive.unwrap_or(asked.progressive),
+            ..asked
+        };
+        for setting in sampling().filter(|setting| !given.contains(&setting.option)) {
+            let value = self.settings.get(setting.option);
+            // An older or a newer program may not know a name.
+            if let Some(change) = value.and_then(|value| setting.to(value).ok()) {
+                change.apply(&mut taken);
+            }
+        }
+        // What was given stays, even where a pattern of the last session would not take its sample rate.
+        let is_kept = |setting: &&PictureSetting| setting.value(&taken) == setting.value(&asked);
+        let given_stays = sampling()
+            .filter(|setting| given.contains(&setting.option))
+            .all(|setting| is_kept(&setting));
+        *settings = if given_stays { taken } else { asked };
+    }
+
+    /// Whether the last session left settings that are not the first ones.
+    pub(super) fn has_settings(&self) -> bool {
+        !self.settings.is_empty()
+    }
+
+    /// Remembers settings, but not in which dialect documents are read: that is theirs.
+    pub(super) fn set_settings(&mut self, settings: &Settings) {
+        let changed = sampling().filter(|setting| !setting.is_default(settings));
+        self.settings = changed
+            .map(|setting| (setting.option.to_owned(), setting.value(settings)))
+            .collect();
+        let first = Settings::default();
+        self.pixel_zoom = (settings.pixel_zoom != first.pixel_zoom).then(|| settings.pixel_zoom.factor());
+        self.progressive = (settings.progressive != first.progressive).then_some(settings.progressive);
+    }
+
     /// Remembers files and folders that were opened, the latest first.
     pub(super) fn set_recent(&mut self, files: &[PathBuf]) {
         // TOML is text.
@@ -172,6 +246,9 @@ mod tests {
         remembered.set_theme(Theme::Light);
         remembered.set_interface_scale(InterfaceScale::from_percent(150));
         remembered.presenter = true;
+        remembered.place = Some([-20, 40]);
+        remembered.sections.insert("hints".to_owned(), false);
+        remembered.set_settings(&settings_of(&[("sample-rate", "9"), ("filter", "bilinear")]));
         let many: Vec<PathBuf> = (0..40)
             .map(|i| PathBuf::from(format!("/scenes/a \"b\" {i}.svg")))
             .collect();
@@ -185,6 +262,40 @@ mod tests {
             text.starts_with('#') && text.contains("interface-scale = 150"),
             "{text}"
         );
+    }
+
+    fn settings_of(changes: &[(&str, &str)]) -> Settings {
+        let mut settings = Settings::default();
+        for (option, value) in changes {
+            let setting = picture::find(option).expect("a setting");
+            assert!(setting.set(&mut settings, value), "{option} {value}");
+        }
+        settings
+    }
+
+    #[test]
+    fn settings_are_taken_up_where_nothing_else_was_asked_for() {
+        let left = [("sample-rate", "5"), ("pattern", "halton"), ("dialect", "course")];
+        let mut remembered = Remembered::default();
+        remembered.set_settings(&settings_of(&left));
+        let taken = |given: &[(&str, &str)]| {
+            let mut settings = settings_of(given);
+            let names: Vec<&str> = given.iter().map(|(option, _)| *option).collect();
+            remembered.take_up(&mut settings, &names);
+            settings
+        };
+        assert_eq!(
+            taken(&[]),
+            settings_of(&left[..2]),
+            "all but the dialect, which is the document's"
+        );
+        let sixteen = taken(&[("sample-rate", "16")]);
+        assert_eq!(sixteen, settings_of(&[("sample-rate", "16"), left[1]]), "the rest");
+        let grid = taken(&[("pattern", "grid")]);
+        assert_eq!(grid.render.pattern, settings_of(&[]).render.pattern, "as asked for");
+        assert_eq!(grid.render.sample_rate.samples(), 4, "a rate that the grid has");
+        let one = taken(&[("sample-rate", "1"), ("pattern", "grid")]);
+        assert_eq!(one, Settings::default(), "defaults that were asked for");
     }
 
     #[test]
@@ -207,11 +318,18 @@ mod tests {
             "theme = 'pink'",
             "interface-scale = 7",
             "size = [0, 4000000000]",
+            "place = [-2000000000, 2000000000]",
+            "pixel-zoom = 5",
+            "[settings]\nsample-rate = 'many'\nno-such = '1'",
+            "[sections]\nno-such = true",
         ] {
             fs::write(&file, text).expect("a file");
             let (remembered, told) = Remembered::read(&file);
             assert_eq!(told, None, "{text}: understood");
             assert_eq!(remembered.theme(), None, "no such theme");
+            let mut settings = Settings::default();
+            remembered.take_up(&mut settings, &[]);
+            assert_eq!(settings, Settings::default(), "{text}: no such settings");
             assert!(remembered.interface_scale().percent() >= 50, "in its range");
         }
     }

@@ -1,11 +1,12 @@
 //! Why a window cannot be opened, told apart: no display, or a library of the system that is missing.
 
+use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use egui_winit::accesskit_winit;
 use winit::event_loop::{ActiveEventLoop, EventLoop, EventLoopBuilder};
-use winit::window::{Window, WindowAttributes};
+use winit::window::WindowAttributes;
 
 use crate::viewer::Theme;
 
@@ -17,11 +18,20 @@ pub(super) enum Wake {
     /// The desktop became dark or light.
     #[cfg_attr(not(target_os = "linux"), expect(dead_code, reason = "winit tells it elsewhere"))]
     Theme(Theme),
+    /// Monitors show windows at other percentages than before.
+    #[cfg_attr(
+        not(target_os = "linux"),
+        expect(dead_code, reason = "only Wayland has such monitors")
+    )]
+    Scales(ShownScales),
     /// A screen reader came, asked for something, or went.
     ScreenReader(accesskit_winit::WindowEvent),
     /// The system asks the program to end.
     End,
 }
+
+/// At how many percent monitors show what is drawn for them, by their names; those that show it pixel for pixel are left out.
+pub(super) type ShownScales = BTreeMap<String, u32>;
 
 /// Why there is no window.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -97,17 +107,14 @@ impl ThemeQuestion {
     }
 }
 
-/// At how many percent a compositor of Wayland shows the window, where it scales that by itself.
-pub(super) fn shown_at(window: &Window) -> Option<u32> {
-    let name = window.current_monitor()?.name()?;
+/// Follows at how many percent a compositor of Wayland shows windows, where it scales them by itself.
+pub(super) fn follow_scales(event_loop: &ActiveEventLoop, proxy: winit::event_loop::EventLoopProxy<Wake>) {
     #[cfg(target_os = "linux")]
-    let percent = super::desktop_scale::percent_on(&name);
+    if linux::is_wayland(event_loop) {
+        super::desktop_scale::follow(proxy);
+    }
     #[cfg(not(target_os = "linux"))]
-    let percent = {
-        drop(name);
-        None
-    };
-    percent
+    let _ = (event_loop, proxy);
 }
 
 /// Whether the window is shown by a compositor of Wayland.

@@ -2,6 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::error::ErrorKind;
+use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Parser};
 
 use crate::cli::failure::one_line;
@@ -17,9 +18,21 @@ use crate::viewer::{PictureSetting, Settings};
 #[derive(Clone, Debug)]
 pub(in crate::cli) struct SamplingOptions {
     settings: Settings,
+    /// Options that stand on the command line.
+    #[cfg_attr(
+        not(feature = "window"),
+        expect(dead_code, reason = "only windows remember settings")
+    )]
+    given: Vec<&'static str>,
 }
 
 impl SamplingOptions {
+    /// The options that were given, by their names.
+    #[cfg(feature = "window")]
+    pub(in crate::cli) fn given(&self) -> &[&'static str] {
+        &self.given
+    }
+
     /// How documents are read: the course's rules ask for the course's dialect where nothing else is said.
     pub(in crate::cli) fn reading(&self) -> DialectChoice {
         match (self.settings.dialect, self.settings.render.rules) {
@@ -98,6 +111,7 @@ impl Args for SamplingOptions {
 impl FromArgMatches for SamplingOptions {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let mut settings = Settings::default();
+        let mut given = Vec::new();
         for setting in picture::all() {
             let Some(value) = matches.get_one::<String>(setting.option) else {
                 continue;
@@ -106,8 +120,11 @@ impl FromArgMatches for SamplingOptions {
                 let problem = format!("--{} {value}: not {}", setting.option, setting.form());
                 return Err(clap::Error::raw(ErrorKind::InvalidValue, problem));
             }
+            if matches.value_source(setting.option) == Some(ValueSource::CommandLine) {
+                given.push(setting.option);
+            }
         }
-        Ok(Self { settings })
+        Ok(Self { settings, given })
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {

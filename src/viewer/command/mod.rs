@@ -28,6 +28,8 @@ pub enum Command {
     View(ViewCommand),
     /// Changes a setting of the picture; of its dialect, and the scene is read again.
     Set(SettingChange),
+    /// Brings every setting of sampling and textures back to its default.
+    SetDefaults,
     /// Comparing A with B.
     Ab(AbCommand),
     /// Which scene is shown.

@@ -11,6 +11,7 @@ use crate::viewer::control::comparing::Comparing;
 use crate::viewer::control::copy::Copied;
 use crate::viewer::control::update::follow_lesson;
 use crate::viewer::inspector::Reveal;
+use crate::viewer::settings::picture;
 use crate::viewer::settings::values::next_of;
 use crate::viewer::settings::{Theme, Toggle};
 use crate::viewer::state::Viewer;
@@ -59,6 +60,7 @@ impl Viewer {
                     self.chrome.messages.error(remark);
                 }
             }
+            Command::SetDefaults => picture::reset(&mut self.settings),
             Command::Ab(command) => self.apply_ab(command),
             Command::Scenes(command) => self.opening().apply(command),
             Command::Lesson(command) => self.opening().lessons().apply(command),

@@ -41,6 +41,18 @@ fn told(told: Told, about: About) -> impl Iterator<Item = &'static PictureSettin
     all().filter(move |setting| (setting.told, setting.about) == (told, about))
 }
 
+/// Brings every setting of sampling and textures back to its default; how documents are read stays.
+pub(in crate::viewer) fn reset(settings: &mut Settings) {
+    for setting in all().filter(|setting| setting.about != About::Document) {
+        setting.set(settings, &setting.default_value());
+    }
+}
+
+/// Whether every setting of sampling and textures has its default.
+pub fn are_defaults(settings: &Settings) -> bool {
+    all().all(|setting| setting.about == About::Document || setting.is_default(settings))
+}
+
 /// The changes that settings such as `sample-rate 16, dialect svg` ask for; `None` where one of them is none.
 pub(in crate::viewer) fn parse_changes(text: &str) -> Option<Vec<SettingChange>> {
     let one = |part: &str| {

@@ -25,4 +25,12 @@ spec(
     Group::Sampling,
 )
 .more("Of the pinned pixel, where each has points of its own; the keys of pattern and sample rate work meanwhile")
-.run(&Command::Window(WindowCommand::ToggleDialog(Dialog::Pattern)))];
+.run(&Command::Window(WindowCommand::ToggleDialog(Dialog::Pattern))),
+spec(
+    "default-settings",
+    "Default settings",
+    "Brings every setting of sampling and textures back to what it is in the first session",
+    Group::Sampling,
+)
+.more("Settings are remembered from one window to the next")
+.run(&Command::SetDefaults)];

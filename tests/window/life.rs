@@ -56,8 +56,7 @@ fn next_session_begins_as_the_last_one_ended() {
 #[test]
 fn settings_and_place_are_those_of_the_last_session() {
     let path = flat();
-    let mut program = Program::start(&path);
-    program.desktop.point(250, 200);
+    let mut program = Program::start_bare(&path);
     let command = |option: &str, value: &str| Command::set(option, value).unwrap();
     let left = [command("sample-rate", "4"), command("pattern", "rotated")];
     program.desktop.press('='.into(), &[]);
@@ -85,6 +84,7 @@ fn settings_and_place_are_those_of_the_last_session() {
         std::fs::write(file, &text).unwrap();
         let program = Program::open_in(folder, &[&path], arguments);
         program.desktop.point(250, 200);
+        program.desktop.press(keysym::TAB, &[]);
         program
     };
     let program = next(&[]);

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::quotes::Quotes;
 use super::report::quote;
 use super::{ResourceError, SourceLocation};
 use crate::memory::OutOfMemory;
@@ -14,6 +15,8 @@ pub struct SceneError {
     pub file: String,
     /// Where in the document, if there is such a place.
     pub location: Option<SourceLocation>,
+    /// The line there, or a piece of a long one.
+    pub line: Option<String>,
     /// What is wrong with it.
     pub problem: Problem,
 }
@@ -102,6 +105,7 @@ impl std::error::Error for SceneError {}
 #[derive(Debug)]
 pub(super) struct Fault {
     pub(super) location: Option<SourceLocation>,
+    pub(super) line: Option<String>,
     pub(super) problem: Problem,
 }
 
@@ -110,6 +114,7 @@ impl Problem {
     pub(super) fn at(self, location: SourceLocation) -> Fault {
         Fault {
             location: Some(location),
+            line: None,
             problem: self,
         }
     }
@@ -118,17 +123,29 @@ impl Problem {
     pub(super) fn nowhere(self) -> Fault {
         Fault {
             location: None,
+            line: None,
             problem: self,
         }
     }
 }
 
 impl Fault {
+    /// With its line of the document.
+    pub(super) fn quoting(self, document: &str) -> Self {
+        let quotes = Quotes::of(document);
+        let line = self.location.and_then(|location| quotes.excerpt(location));
+        Self {
+            line: line.filter(|line| !line.is_empty()).map(plain::into_line),
+            ..self
+        }
+    }
+
     /// The error that the user sees.
     pub(super) fn in_file(self, file: &str) -> SceneError {
         SceneError {
             file: file.to_owned(),
             location: self.location,
+            line: self.line,
             problem: self.problem,
         }
     }

@@ -83,6 +83,7 @@ pub fn load(path: &Path, dialect: DialectChoice) -> Result<Scene, SceneError> {
     let document = resources::read_file(path, MAX_DOCUMENT_BYTES).map_err(|error| SceneError {
         file: name.clone(),
         location: None,
+        line: None,
         problem: error.into(),
     })?;
     read(
@@ -109,10 +110,17 @@ fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> 
     let memory = (bytes.len() as u64).saturating_mul(MEMORY_PER_BYTE).min(MAX_MEMORY);
     memory::ask_for(memory).map_err(|error| Problem::from(error).nowhere())?;
     let text = document::decode(bytes)?;
-    let source = Source::new(&text)?;
+    let mut scene = read_text(&text, options, resources).map_err(|fault| fault.quoting(&text))?;
+    scene.files.document = Some(FileDigest::of(packed));
+    scene.document = (text.len() <= MAX_KEPT_DOCUMENT).then(|| text.as_ref().into());
+    Ok(scene)
+}
+
+fn read_text(text: &str, options: ReadOptions, resources: &dyn Resources) -> Result<Scene, Fault> {
+    let source = Source::new(text)?;
     let tree = source.parse()?;
     let root = tree.root_element();
-    let lines = LineIndex::new(&text);
+    let lines = LineIndex::new(text);
     if root.tag_name().name() != "svg" {
         let name = root.tag_name().name().to_owned();
         return Err(Problem::NotSvg(name).at(lines.locate(source.original_offset(root.range().start))));
@@ -137,7 +145,5 @@ fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> 
     let mut scene = builder.finish(dialect, canvas);
     scene.other_reading = other;
     scene.words = words::of(&tree);
-    scene.files.document = Some(FileDigest::of(packed));
-    scene.document = (text.len() <= MAX_KEPT_DOCUMENT).then(|| text.as_ref().into());
     Ok(scene)
 }

@@ -17,12 +17,18 @@ pub struct Quotes<'doc> {
 impl Scene {
     /// The document, to be quoted; `None` where it was not kept. It is looked through once for all quotations.
     pub fn quotes(&self) -> Option<Quotes<'_>> {
-        let lines = LineIndex::new(self.document.as_deref()?);
-        Some(Quotes { lines })
+        self.document.as_deref().map(Quotes::of)
     }
 }
 
-impl Quotes<'_> {
+impl<'doc> Quotes<'doc> {
+    /// Quotes `document`.
+    pub(super) fn of(document: &'doc str) -> Self {
+        Self {
+            lines: LineIndex::new(document),
+        }
+    }
+
     /// The line of a place without spaces around it; of one longer than 200 characters as many around the place, with
     /// `...` where it is cut.
     pub fn excerpt(&self, place: SourceLocation) -> Option<String> {
@@ -45,11 +51,9 @@ impl Quotes<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::document::LineIndex;
 
     fn excerpt(text: &str, line: u32, column: u32) -> Option<String> {
-        let lines = LineIndex::new(text);
-        Quotes { lines }.excerpt(SourceLocation { line, column })
+        Quotes::of(text).excerpt(SourceLocation { line, column })
     }
 
     #[test]

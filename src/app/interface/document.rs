@@ -90,6 +90,7 @@ pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
     if let Some(message) = entry.failure() {
         heading(ui, "Not read");
         ui.label(RichText::new(message).color(ui.visuals().error_fg_color));
+        failed_line(ui, entry);
         if entry.scene().is_some() {
             ui.label(RichText::new(AS_BEFORE).small());
         }
@@ -109,6 +110,13 @@ pub(super) fn report(ui: &mut Ui, viewer: &Viewer) {
     );
     for line in scene.report.lines().take(MAX_LINES) {
         ui.label(RichText::new(line).small().color(ui.visuals().warn_fg_color));
+    }
+}
+
+/// The line of the document that cannot be read, if it is one.
+pub(super) fn failed_line(ui: &mut Ui, entry: &SceneEntry) {
+    if let Some(line) = entry.failed_line() {
+        ui.label(RichText::new(line).monospace().small());
     }
 }
 

@@ -10,7 +10,7 @@ use egui::{
 use egui::{pos2, vec2};
 
 use super::controls::{command_button, tip};
-use super::document::AS_BEFORE;
+use super::document::{AS_BEFORE, failed_line};
 use super::look::{self, CONTROL};
 use super::pin;
 use super::places::{insets, points};
@@ -128,13 +128,28 @@ pub(super) fn progress(ui: &Ui, viewer: &Viewer, free: Rect) {
     ui.painter().rect_filled(bar, 0.0, ui.visuals().selection.bg_fill);
 }
 
-/// Where nothing of the canvas is in sight: how to come back to it; left out where there is no room. Returns where it stands.
+/// Why there is nothing to see, where that is the view's doing.
+fn nothing_to_see(viewer: &Viewer) -> Option<&'static str> {
+    if !viewer.scene_list().canvas_in_sight(&viewer.both().layout()) {
+        return Some("the canvas lies outside of what is free of the window");
+    }
+    let is_moved = viewer.scene_list().view_is_moved();
+    let is_whole = viewer.frames().preview().is_none() && viewer.ab().arrangement() == Arrangement::Alone;
+    let is_empty = || {
+        viewer
+            .frames()
+            .frame()
+            .is_some_and(|frame| frame.pixels.pixels().iter().all(|pixel| *pixel == u32::MAX))
+    };
+    (is_moved && is_whole && is_empty()).then_some("this part of the canvas is empty")
+}
+
+/// Where nothing of the canvas is in sight, or nothing that is drawn: how to come back to it; left out where there is no room.
+/// Returns where it stands.
 pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Option<Rect> {
     let room = free.shrink(TEXT_MARGIN);
     let has_room = room.width() >= LEAST_WAY_BACK && room.height() >= WAY_BACK_HEIGHT;
-    if !has_room || viewer.scene_list().canvas_in_sight(&viewer.both().layout()) {
-        return None;
-    }
+    let why = nothing_to_see(viewer).filter(|_| has_room)?;
     let insets = insets(viewer, ui.pixels_per_point());
     let size = vec2(WAY_BACK_WIDTH + 2.0 * TEXT_MARGIN, WAY_BACK_HEIGHT);
     let middle = Rect::from_center_size(free.center(), size);
@@ -153,7 +168,7 @@ pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<
             Frame::popup(ui.style()).show(ui, |ui| {
                 ui.vertical_centered(|ui| {
                     ui.set_max_width(WAY_BACK_WIDTH.min(free.width() - 2.0 * TEXT_MARGIN));
-                    ui.label("Nothing to see here: the canvas lies outside of what is free of the window.");
+                    ui.label(format!("Nothing to see here: {why}."));
                     if command_button(ui, "reset-view", "Show the canvas (Space)").clicked() {
                         commands.push(Command::View(ViewCommand::Reset));
                     }
@@ -260,7 +275,7 @@ fn place_of_words(ui: &Ui, viewer: &Viewer, free: Rect, text: &str) -> (Align2, 
 /// Over a picture whose file cannot be read any more: why, for as long as that is so.
 pub(super) fn outdated(ui: &Ui, viewer: &Viewer, free: Rect) {
     let entry = viewer.scene_list().current().filter(|entry| entry.scene().is_some());
-    let Some(problem) = entry.and_then(|entry| entry.failure()) else {
+    let Some((entry, problem)) = entry.and_then(|entry| Some((entry, entry.failure()?))) else {
         return;
     };
     Area::new(Id::unique("outdated"))
@@ -273,6 +288,7 @@ pub(super) fn outdated(ui: &Ui, viewer: &Viewer, free: Rect) {
             Frame::popup(ui.style()).show(ui, |ui| {
                 ui.set_max_width(OUTDATED_WIDTH.min(free.width() - 4.0 * TEXT_MARGIN));
                 ui.label(RichText::new(problem).color(ui.visuals().error_fg_color));
+                failed_line(ui, entry);
                 ui.label(RichText::new(AS_BEFORE).small());
             });
         });

@@ -10,7 +10,7 @@ use super::hands::{click, key, nodes, place_of, session};
 use super::small_windows::{click_on, says};
 use super::*;
 use crate::viewer::script::Stage as _;
-use crate::viewer::{AbCommand, Against, Arrangement, Dialog, Toggle, picture};
+use crate::viewer::{AbCommand, Against, Arrangement, Dialog, Toggle, ViewNumbers, picture};
 
 /// The names of everything that can be pressed.
 fn names(session: &mut Session) -> Vec<String> {
@@ -148,6 +148,33 @@ fn lost_canvas_has_a_way_back() {
             .canvas_in_sight(&session.viewer.both().layout()),
         "and to be seen"
     );
+}
+
+#[test]
+fn empty_part_of_a_canvas_has_a_way_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = folder.path().join("corner.svg");
+    let text = r#"<svg width="100" height="100"><rect width="50" height="100" fill="red"/></svg>"#;
+    std::fs::write(&scene, text).expect("a scene");
+    let mut session = session(vec![scene], [800, 600]);
+    let empty = "this part of the canvas is empty";
+    assert!(!says(&mut session, empty), "at first");
+    let look = |x: f64, session: &mut Session| {
+        session.command(Command::View(ViewCommand::Set(ViewNumbers {
+            center: dvec2(x, 50.0),
+            scale: 400.0,
+            rotation: 0.0,
+        })));
+        session.settle();
+    };
+    for (x, is_empty) in [(80.0, true), (20.0, false), (50.0, false)] {
+        look(x, &mut session);
+        assert_eq!(says(&mut session, empty), is_empty, "at {x}");
+    }
+    look(80.0, &mut session);
+    assert!(says(&mut session, empty), "there again");
+    click_on(&mut session, "Reset view");
+    assert!(!says(&mut session, empty), "back again");
 }
 
 #[test]

@@ -18,7 +18,7 @@ use wayland_client::protocol::wl_output::{Transform, WlOutput};
 use wayland_client::{Connection, QueueHandle};
 use winit::event_loop::EventLoopProxy;
 
-use super::startup::{ShownScales, Wake};
+use super::wake::{ShownScales, Wake};
 
 /// Tells by [`Wake::Scales`] which monitors do not show what is drawn pixel for pixel, now and whenever that changes: winit tells
 /// nothing of a change from 2 to 1.5, since a picture at scale 2 is asked for before and after.

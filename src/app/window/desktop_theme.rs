@@ -11,7 +11,7 @@ use winit::event_loop::EventLoopProxy;
 use zbus::blocking::{Connection, Proxy};
 use zbus::zvariant::{OwnedValue, Value};
 
-use super::startup::Wake;
+use super::wake::Wake;
 use crate::viewer::Theme;
 
 const NAMESPACE: &str = "org.freedesktop.appearance";

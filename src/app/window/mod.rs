@@ -14,13 +14,15 @@ mod remembered;
 mod rhythm;
 mod screen_reader;
 mod startup;
+mod wake;
 mod watch;
 mod whole_pixels;
 mod winit_keys;
 
 use super::{AppError, ViewOptions, headless};
 use handler::Handler;
-use startup::{NoWindow, Wake};
+use startup::NoWindow;
+use wake::Wake;
 
 /// Runs the window until it is closed. Without a display the session is played without one, and the line that comes
 /// back says so.

@@ -18,7 +18,7 @@ use winit::window::Window;
 use super::super::session::{PanelTimes, Session};
 use super::frame_log::{FrameLog, Shown};
 use super::rhythm::Rhythm;
-use super::startup::ShownScales;
+use super::wake::ShownScales;
 use crate::raster::Framebuffer;
 use crate::viewer::{PixelRect, Viewer};
 

@@ -4,7 +4,7 @@ use egui_winit::accesskit_winit::{Event, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 
 use super::opened::Opened;
-use super::startup::Wake;
+use super::wake::Wake;
 
 impl From<Event> for Wake {
     fn from(event: Event) -> Self {

@@ -1,37 +1,15 @@
 //! Why a window cannot be opened, told apart: no display, or a library of the system that is missing.
 
-use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use egui_winit::accesskit_winit;
 use winit::event_loop::{ActiveEventLoop, EventLoop, EventLoopBuilder};
 use winit::window::WindowAttributes;
 
+use super::wake::Wake;
+
+#[cfg(not(target_os = "linux"))]
 use crate::viewer::Theme;
-
-/// Sent from other threads.
-#[derive(Clone, Debug)]
-pub(super) enum Wake {
-    /// The viewer has something to take in.
-    Work,
-    /// The desktop became dark or light.
-    #[cfg_attr(not(target_os = "linux"), expect(dead_code, reason = "winit tells it elsewhere"))]
-    Theme(Theme),
-    /// Monitors show windows at other percentages than before.
-    #[cfg_attr(
-        not(target_os = "linux"),
-        expect(dead_code, reason = "only Wayland has such monitors")
-    )]
-    Scales(ShownScales),
-    /// A screen reader came, asked for something, or went.
-    ScreenReader(accesskit_winit::WindowEvent),
-    /// The system asks the program to end.
-    End,
-}
-
-/// At how many percent monitors show what is drawn for them, by their names; those that show it pixel for pixel are left out.
-pub(super) type ShownScales = BTreeMap<String, u32>;
 
 /// Why there is no window.
 #[derive(Clone, Debug, PartialEq, Eq)]

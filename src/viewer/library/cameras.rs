@@ -82,6 +82,11 @@ impl SceneList {
         layout.fixed_size().is_some() || camera.sees_canvas(layout.free_part(), &context)
     }
 
+    /// Whether a hand has moved the current view.
+    pub fn view_is_moved(&self) -> bool {
+        self.camera().is_some_and(|camera| !camera.is_untouched())
+    }
+
     /// The corners of the box around the canvas, in frame pixels; `None` before the scene was read.
     pub(crate) fn canvas_in_frame(&self, layout: &WindowLayout) -> Option<[DVec2; 2]> {
         let context = self.view_context(layout.frame_size())?;

@@ -81,13 +81,22 @@ pub enum SceneState {
     },
     /// It could not be read.
     Failed {
-        /// One line: file, place, cause, cure.
-        message: String,
+        /// Why.
+        why: ReadFailure,
         /// The choice it was read with.
         dialect: DialectChoice,
         /// What it was when it could be read last, in the same dialect: shown until it can be read again.
         before: Option<Arc<Scene>>,
     },
+}
+
+/// Why a scene could not be read.
+#[derive(Clone, Debug)]
+pub struct ReadFailure {
+    /// One line: file, place, cause, cure.
+    pub message: String,
+    /// The line of the document at that place, or a piece of it.
+    pub line: Option<String>,
 }
 
 impl SceneEntry {
@@ -113,7 +122,15 @@ impl SceneEntry {
     /// Why it could not be read.
     pub fn failure(&self) -> Option<&str> {
         match &self.state {
-            SceneState::Failed { message, .. } => Some(message),
+            SceneState::Failed { why, .. } => Some(&why.message),
+            _ => None,
+        }
+    }
+
+    /// The line of the document that [`SceneEntry::failure`] names, if there is one.
+    pub fn failed_line(&self) -> Option<&str> {
+        match &self.state {
+            SceneState::Failed { why, .. } => why.line.as_deref(),
             _ => None,
         }
     }

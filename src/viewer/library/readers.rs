@@ -10,7 +10,7 @@ use crate::scene::{DialectChoice, Scene};
 use crate::texture::{LevelSampling, PixelSampling};
 use crate::viewer::jobs::mailbox::Mailbox;
 use crate::viewer::jobs::pool::{AtEnd, WorkerPool, guarded};
-use crate::viewer::library::{SceneEntry, SceneSource, SceneState};
+use crate::viewer::library::{ReadFailure, SceneEntry, SceneSource, SceneState};
 
 /// Threads that read: a second one, so that a slow scene does not hold up the next.
 const READERS: usize = 2;
@@ -71,7 +71,7 @@ pub(in crate::viewer) struct ReadScene {
     pub(in crate::viewer) index: usize,
     pub(in crate::viewer) document: u64,
     pub(in crate::viewer) dialect: DialectChoice,
-    pub(in crate::viewer) result: Result<Arc<Scene>, String>,
+    pub(in crate::viewer) result: Result<Arc<Scene>, ReadFailure>,
 }
 
 /// A thumbnail that was drawn, or not.
@@ -129,15 +129,21 @@ impl Readers {
 }
 
 impl Order {
-    fn read(&self) -> Result<Arc<Scene>, String> {
+    fn read(&self) -> Result<Arc<Scene>, ReadFailure> {
         let read = guarded(|| self.source.read(self.dialect));
         match read {
             Some(Ok(scene)) => Ok(Arc::new(scene)),
-            Some(Err(error)) => Err(error.to_string()),
-            None => Err(format!(
-                "{}: reading this document failed inside the program; please report it with the file",
-                self.source.address()
-            )),
+            Some(Err(error)) => Err(ReadFailure {
+                message: error.to_string(),
+                line: error.line,
+            }),
+            None => Err(ReadFailure {
+                message: format!(
+                    "{}: reading this document failed inside the program; please report it with the file",
+                    self.source.address()
+                ),
+                line: None,
+            }),
         }
     }
 

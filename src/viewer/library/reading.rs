@@ -120,16 +120,12 @@ impl SceneList {
         }
         *side.state(entry) = match read.result {
             Ok(scene) => SceneState::Ready { scene, dialect },
-            Err(message) => {
+            Err(why) => {
                 // Over a picture that stays it is to be seen for as long as it is so.
                 if is_current && (before.is_none() || chrome.hidden) {
-                    chrome.messages.error(message.clone());
+                    chrome.messages.error(why.message.clone());
                 }
-                SceneState::Failed {
-                    message,
-                    dialect,
-                    before,
-                }
+                SceneState::Failed { why, dialect, before }
             }
         };
         if draws_again {

@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use super::quotes::Quotes;
 use super::report::quote;
 use super::{ResourceError, SourceLocation};
 use crate::memory::OutOfMemory;
@@ -130,16 +129,6 @@ impl Problem {
 }
 
 impl Fault {
-    /// With its line of the document.
-    pub(super) fn quoting(self, document: &str) -> Self {
-        let quotes = Quotes::of(document);
-        let line = self.location.and_then(|location| quotes.excerpt(location));
-        Self {
-            line: line.filter(|line| !line.is_empty()).map(plain::into_line),
-            ..self
-        }
-    }
-
     /// The error that the user sees.
     pub(super) fn in_file(self, file: &str) -> SceneError {
         SceneError {

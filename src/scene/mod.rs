@@ -110,7 +110,7 @@ fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> 
     let memory = (bytes.len() as u64).saturating_mul(MEMORY_PER_BYTE).min(MAX_MEMORY);
     memory::ask_for(memory).map_err(|error| Problem::from(error).nowhere())?;
     let text = document::decode(bytes)?;
-    let mut scene = read_text(&text, options, resources).map_err(|fault| fault.quoting(&text))?;
+    let mut scene = read_text(&text, options, resources).map_err(|fault| Quotes::of(&text).with_line(fault))?;
     scene.files.document = Some(FileDigest::of(packed));
     scene.document = (text.len() <= MAX_KEPT_DOCUMENT).then(|| text.as_ref().into());
     Ok(scene)

@@ -1,7 +1,9 @@
 //! Places of a document, quoted: the line that an element stands on, or a piece of one that is long.
 
 use super::document::LineIndex;
+use super::error::Fault;
 use super::{Scene, SourceLocation};
+use crate::plain;
 
 /// Most characters of a quotation, without the dots where it is cut.
 const MOST: usize = 200;
@@ -26,6 +28,15 @@ impl<'doc> Quotes<'doc> {
     pub(super) fn of(document: &'doc str) -> Self {
         Self {
             lines: LineIndex::new(document),
+        }
+    }
+
+    /// A fault with its line.
+    pub(super) fn with_line(&self, fault: Fault) -> Fault {
+        let line = fault.location.and_then(|location| self.excerpt(location));
+        Fault {
+            line: line.filter(|line| !line.is_empty()).map(plain::into_line),
+            ..fault
         }
     }
 
@@ -54,6 +65,21 @@ mod tests {
 
     fn excerpt(text: &str, line: u32, column: u32) -> Option<String> {
         Quotes::of(text).excerpt(SourceLocation { line, column })
+    }
+
+    #[test]
+    fn errors_quote_the_line_that_they_name() {
+        let read = |text: &str| {
+            let options = crate::scene::ReadOptions::default();
+            crate::scene::read(text.as_bytes(), "a.svg", options, &crate::scene::NoResources).map(|_| ())
+        };
+        let error = read("<svg width='9' height='9'>\n  <rect id='a'>\n</svg>").expect_err("a tag that is not closed");
+        assert_eq!(error.location.map(|place| place.line), Some(3), "{error}");
+        assert_eq!(error.line.as_deref(), Some("</svg>"), "{error}");
+        let long = format!("<svg width='9' height='9'>{}<rect></svg>", "<g></g>".repeat(9000));
+        let line = read(&long).expect_err("on one line").line.expect("a piece of it");
+        assert!(line.contains("<rect></svg>") && line.chars().count() < 250, "{line}");
+        assert_eq!(read("").expect_err("nothing").line, None, "of no place");
     }
 
     #[test]

@@ -12,8 +12,8 @@ use super::document::{LineIndex, Source};
 use super::error::Fault;
 use super::textures::TextureTable;
 use super::{
-    Composite, Dialect, Fill, Gradient, Paint, Pattern, Primitive, PrimitiveKind, Problem, Report, Scene, SceneFiles,
-    Shape, ShapeId, SkippedKind, SourceLocation,
+    Composite, Dialect, Fill, Gradient, Paint, Pattern, Primitive, PrimitiveKind, Problem, Progress, Report, Scene,
+    SceneFiles, Shape, ShapeId, SkippedKind, SourceLocation,
 };
 use crate::color::Rgba;
 use crate::geometry::{CurvedArea, FillRule, Polygon};
@@ -23,6 +23,10 @@ use crate::texture::Texture;
 const MAX_PRIMITIVES: usize = 4_000_000;
 /// Most points of all polygons together, about 400 MB with the frame's copy.
 const MAX_POINTS: usize = 10_000_000;
+/// Shapes and primitives between two looks at who waits for them.
+const WATCHED: usize = 1024;
+/// What of the time has passed before the first shape is read.
+pub(super) const BEFORE_SHAPES: f64 = 0.4;
 /// What is said where there would be more.
 const TOO_MANY_POINTS: Problem = Problem::TooMany {
     what: "points of polygons",
@@ -36,6 +40,7 @@ const MAX_LAYERS: usize = 64;
 pub(super) struct Builder<'doc> {
     source: &'doc Source<'doc>,
     lines: &'doc LineIndex<'doc>,
+    progress: &'doc Progress,
     pub(super) shapes: Vec<Shape>,
     pub(super) primitives: Vec<Primitive>,
     pub(super) textures: TextureTable<'doc>,
@@ -67,10 +72,16 @@ pub(super) struct Mark {
 }
 
 impl<'doc> Builder<'doc> {
-    pub(super) fn new(source: &'doc Source<'doc>, lines: &'doc LineIndex<'doc>, textures: TextureTable<'doc>) -> Self {
+    pub(super) fn new(
+        source: &'doc Source<'doc>,
+        lines: &'doc LineIndex<'doc>,
+        textures: TextureTable<'doc>,
+        progress: &'doc Progress,
+    ) -> Self {
         Self {
             source,
             lines,
+            progress,
             shapes: Vec::new(),
             primitives: Vec::new(),
             textures,
@@ -124,6 +135,10 @@ impl<'doc> Builder<'doc> {
             used,
         };
         self.shapes.push(shape);
+        if self.shapes.len().is_multiple_of(WATCHED) {
+            let at = node.range().start as f64 / self.source.text().len() as f64;
+            self.progress.reach(BEFORE_SHAPES + (1.0 - BEFORE_SHAPES) * at);
+        }
         // Shapes are fewer than nodes, and nodes are fewer than 2^32.
         ShapeId(u32::try_from(self.shapes.len() - 1).unwrap_or(u32::MAX))
     }
@@ -146,6 +161,9 @@ impl<'doc> Builder<'doc> {
             ));
         };
         self.primitives_left = left;
+        if left.is_multiple_of(WATCHED) {
+            self.progress.go_on()?;
+        }
         let points = match &kind {
             PrimitiveKind::Triangle { points, .. } => points.as_slice(),
             PrimitiveKind::Polygon { polygon, .. } => polygon.points(),

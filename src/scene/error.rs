@@ -33,6 +33,9 @@ pub enum Problem {
     /// Compressed, and damaged.
     #[error("the compressed document is damaged; save the drawing again")]
     Packed,
+    /// Whoever waited for it does so no more.
+    #[error("reading was given up; F5 reads it again")]
+    GivenUp,
     /// Neither UTF-8 nor UTF-16.
     #[error("this is not text in UTF-8 or UTF-16; is it an SVG file? Save it as UTF-8")]
     Encoding,

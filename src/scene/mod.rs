@@ -15,6 +15,7 @@ mod error;
 mod location;
 mod model;
 mod numbers;
+mod progress;
 mod quotes;
 mod report;
 mod resources;
@@ -41,6 +42,7 @@ pub use model::{
     Composite, Dialect, Fill, Gradient, GradientId, MaskKind, Paint, Pattern, PatternId, Primitive, PrimitiveKind,
     Scene, Shape, ShapeId, TextureId,
 };
+pub use progress::Progress;
 pub use quotes::Quotes;
 pub use report::{Report, Skipped, SkippedKind, Warning};
 pub use resources::{FolderResources, NoResources, ResourceError, Resources};
@@ -79,6 +81,14 @@ pub fn is_document(path: &Path) -> bool {
 /// # Errors
 /// When the file cannot be read or is no drawing; a missing texture is only a warning in [`Scene::report`].
 pub fn load(path: &Path, dialect: DialectChoice) -> Result<Scene, SceneError> {
+    load_watched(path, dialect, &Progress::default())
+}
+
+/// As [`load`], while somebody waits who may give it up.
+///
+/// # Errors
+/// As [`load`], and when it was given up.
+pub fn load_watched(path: &Path, dialect: DialectChoice, progress: &Progress) -> Result<Scene, SceneError> {
     let name = path.display().to_string();
     let document = resources::read_file(path, MAX_DOCUMENT_BYTES).map_err(|error| SceneError {
         file: name.clone(),
@@ -86,11 +96,12 @@ pub fn load(path: &Path, dialect: DialectChoice) -> Result<Scene, SceneError> {
         line: None,
         problem: error.into(),
     })?;
-    read(
+    read_watched(
         &document,
         &name,
         ReadOptions { dialect },
         &FolderResources::beside(path),
+        progress,
     )
 }
 
@@ -99,26 +110,50 @@ pub fn load(path: &Path, dialect: DialectChoice) -> Result<Scene, SceneError> {
 /// # Errors
 /// As [`load`].
 pub fn read(document: &[u8], name: &str, options: ReadOptions, resources: &dyn Resources) -> Result<Scene, SceneError> {
-    let mut scene = read_bytes(document, options, resources).map_err(|fault| fault.in_file(name))?;
+    read_watched(document, name, options, resources, &Progress::default())
+}
+
+/// As [`read`], while somebody waits who may give it up.
+///
+/// # Errors
+/// As [`read`], and when it was given up.
+pub fn read_watched(
+    document: &[u8],
+    name: &str,
+    options: ReadOptions,
+    resources: &dyn Resources,
+    progress: &Progress,
+) -> Result<Scene, SceneError> {
+    let mut scene = read_bytes(document, options, resources, progress).map_err(|fault| fault.in_file(name))?;
     scene.name = name.into();
     Ok(scene)
 }
 
-fn read_bytes(bytes: &[u8], options: ReadOptions, resources: &dyn Resources) -> Result<Scene, Fault> {
+fn read_bytes(
+    bytes: &[u8],
+    options: ReadOptions,
+    resources: &dyn Resources,
+    progress: &Progress,
+) -> Result<Scene, Fault> {
     let packed = bytes;
     let bytes = &*document::unpacked(packed)?;
     let memory = (bytes.len() as u64).saturating_mul(MEMORY_PER_BYTE).min(MAX_MEMORY);
     memory::ask_for(memory).map_err(|error| Problem::from(error).nowhere())?;
     let text = document::decode(bytes)?;
-    let mut scene = read_text(&text, options, resources).map_err(|fault| Quotes::of(&text).with_line(fault))?;
+    let mut scene =
+        read_text(&text, options, resources, progress).map_err(|fault| Quotes::of(&text).with_line(fault))?;
     scene.files.document = Some(FileDigest::of(packed));
     scene.document = (text.len() <= MAX_KEPT_DOCUMENT).then(|| text.as_ref().into());
     Ok(scene)
 }
 
-fn read_text(text: &str, options: ReadOptions, resources: &dyn Resources) -> Result<Scene, Fault> {
+fn read_text(text: &str, options: ReadOptions, resources: &dyn Resources, progress: &Progress) -> Result<Scene, Fault> {
+    // About as their times are.
+    progress.reach(0.05);
     let source = Source::new(text)?;
     let tree = source.parse()?;
+    progress.reach(build::BEFORE_SHAPES);
+    progress.go_on()?;
     let root = tree.root_element();
     let lines = LineIndex::new(text);
     if root.tag_name().name() != "svg" {
@@ -130,7 +165,7 @@ fn read_text(text: &str, options: ReadOptions, resources: &dyn Resources) -> Res
         Dialect::Course => Alpha::Drop,
         Dialect::Svg => Alpha::Keep,
     };
-    let mut builder = Builder::new(&source, &lines, TextureTable::new(resources, alpha));
+    let mut builder = Builder::new(&source, &lines, TextureTable::new(resources, alpha), progress);
     let canvas = match dialect {
         Dialect::Course => CourseReader::read(&mut builder, root)?,
         Dialect::Svg => svg::read(&mut builder, root, source.text())?,

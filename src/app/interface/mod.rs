@@ -45,6 +45,7 @@ mod start;
 mod status;
 mod texture_view;
 mod view_numbers;
+mod waiting;
 mod widths;
 
 use crate::viewer::WindowCommand;
@@ -324,6 +325,7 @@ impl Interface {
         floating::pixel_labels(ui, viewer);
         if !hidden {
             floating::outdated(ui, viewer, free);
+            waiting::show(ui, viewer, free, &mut asked.commands);
             cards.extend(floating::way_back(ui, viewer, free, &mut asked.commands));
             start::card(ui, viewer, free, &mut asked.commands);
         }

@@ -3,7 +3,7 @@
 use crate::compare::Gain;
 use crate::viewer::{
     AbCommand, Arrangement, Command, CommandSpec, ExportCommand, InspectorCommand, LessonCommand, Other, SceneCommand,
-    ViewCommand, Viewer, WindowCommand,
+    SceneEntry, ViewCommand, Viewer, WindowCommand, picture,
 };
 
 /// Why commands about lessons would do nothing.
@@ -80,6 +80,14 @@ fn idle(viewer: &Viewer, command: &Command) -> Option<&'static str> {
             Some((_, at)) => (at == 0, "This is the first step"),
             None => (viewer.scene_list().scenes().len() < 2, "There is no other scene"),
         },
+        Command::SetDefaults => (
+            picture::are_defaults(viewer.settings()),
+            "Every setting has its default",
+        ),
+        Command::Scenes(SceneCommand::GiveUpReading) => {
+            let reading = viewer.scene_list().current().and_then(SceneEntry::long_reading);
+            (reading.is_none(), "Nothing is read that takes long")
+        }
         Command::Inspector(InspectorCommand::Unpin) => (viewer.pixels().pinned().is_none(), "No pixel is pinned"),
         Command::Inspector(InspectorCommand::StepMagnification(_))
         | Command::Export(ExportCommand::CopyExplanation) => {

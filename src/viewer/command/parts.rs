@@ -123,6 +123,8 @@ pub enum SceneCommand {
     OpenGallery,
     /// Reads the current scene again from where it came from.
     Reload,
+    /// Reads the current scene no further, if that takes long.
+    GiveUpReading,
     /// These were opened in earlier sessions, the latest first.
     RememberOpened(Vec<PathBuf>),
     /// These files changed on the disk: what is shown of them is read again.

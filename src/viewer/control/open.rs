@@ -77,6 +77,9 @@ impl Opening<'_> {
             SceneCommand::Open(paths) => self.open(&paths),
             SceneCommand::OpenGallery => self.replace(library::gallery_entries()),
             SceneCommand::Reload => scenes.read_current(self.ab.wanted_dialects(self.settings)),
+            SceneCommand::GiveUpReading => {
+                scenes.give_up_reading();
+            }
             SceneCommand::RememberOpened(earlier) => scenes.remember_opened(&earlier),
             SceneCommand::FilesChanged(files) => self.lessons().files_changed(&files),
             SceneCommand::FollowFiles(toggle) => {
@@ -143,6 +146,9 @@ impl Opening<'_> {
     /// Closes or unpins one thing, the latest first; false when nothing is open.
     pub(in crate::viewer) fn close_latest(&mut self) -> bool {
         if self.chrome.close_latest() {
+            return true;
+        }
+        if self.scene_list.give_up_reading() {
             return true;
         }
         let mut context = ComparisonContext {

@@ -12,9 +12,10 @@ use std::cmp::Ordering;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use crate::raster::Framebuffer;
-use crate::scene::{DialectChoice, ReadOptions, Scene, SceneError};
+use crate::scene::{DialectChoice, Progress, ReadOptions, Scene, SceneError};
 use crate::viewer::view::camera::Camera;
 use crate::{plain, scene};
 
@@ -59,6 +60,9 @@ pub struct SceneEntry {
     pub(in crate::viewer) thumbnail_asked: bool,
 }
 
+/// How long the reading of a document takes that is worth a bar, and a way to give it up.
+const LONG_READING: Duration = Duration::from_millis(400);
+
 /// What became of reading a scene.
 #[derive(Clone, Debug, Default)]
 pub enum SceneState {
@@ -71,6 +75,10 @@ pub enum SceneState {
         dialect: DialectChoice,
         /// What it was before: shown until the new one is there.
         before: Option<Arc<Scene>>,
+        /// How far that is.
+        progress: Progress,
+        /// Since when.
+        since: Instant,
     },
     /// Here it is.
     Ready {
@@ -150,6 +158,14 @@ impl SceneEntry {
         matches!(self.state, SceneState::Reading { .. })
     }
 
+    /// How far the reading of a document is that takes long, from 0 to 1; `None` for one that is read in no time.
+    pub fn long_reading(&self) -> Option<f64> {
+        match &self.state {
+            SceneState::Reading { progress, since, .. } if since.elapsed() >= LONG_READING => Some(progress.part()),
+            _ => None,
+        }
+    }
+
     /// Whether a thread is reading it in B's dialect.
     pub(in crate::viewer) fn is_read_for_b(&self) -> bool {
         matches!(self.other_state, SceneState::Reading { .. })
@@ -206,8 +222,16 @@ impl SceneSource {
     /// # Errors
     /// As [`scene::load`].
     pub fn read(&self, dialect: DialectChoice) -> Result<Scene, SceneError> {
+        self.read_watched(dialect, &Progress::default())
+    }
+
+    /// As [`SceneSource::read`], while somebody waits who may give it up.
+    ///
+    /// # Errors
+    /// As [`scene::load_watched`].
+    pub fn read_watched(&self, dialect: DialectChoice, progress: &Progress) -> Result<Scene, SceneError> {
         match self {
-            Self::File(path) => scene::load(path, dialect),
+            Self::File(path) => scene::load_watched(path, dialect, progress),
             Self::Gallery(index) => {
                 let (name, document) = match gallery::SCENES.get(*index) {
                     Some(scene) => (scene.name, scene.document),

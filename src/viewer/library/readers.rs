@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::geometry::{View, ViewTransform};
 use crate::raster::{Framebuffer, SampleRate};
 use crate::render::{RenderSettings, draw};
-use crate::scene::{DialectChoice, Scene};
+use crate::scene::{DialectChoice, Progress, Scene};
 use crate::texture::{LevelSampling, PixelSampling};
 use crate::viewer::jobs::mailbox::Mailbox;
 use crate::viewer::jobs::pool::{AtEnd, WorkerPool, guarded};
@@ -60,6 +60,7 @@ pub(in crate::viewer) struct Order {
     pub(in crate::viewer) document: u64,
     pub(in crate::viewer) source: SceneSource,
     pub(in crate::viewer) dialect: DialectChoice,
+    pub(in crate::viewer) progress: Progress,
     /// Set where it was read already.
     pub(in crate::viewer) scene: Option<Arc<Scene>>,
 }
@@ -130,7 +131,7 @@ impl Readers {
 
 impl Order {
     fn read(&self) -> Result<Arc<Scene>, ReadFailure> {
-        let read = guarded(|| self.source.read(self.dialect));
+        let read = guarded(|| self.source.read_watched(self.dialect, &self.progress));
         match read {
             Some(Ok(scene)) => Ok(Arc::new(scene)),
             Some(Err(error)) => Err(ReadFailure {

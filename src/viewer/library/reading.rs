@@ -1,11 +1,14 @@
 //! Which scene is shown, and when documents are read, drawn as thumbnails and let go.
 
-use crate::scene::DialectChoice;
+use std::time::Instant;
+
+use crate::plain;
+use crate::scene::{DialectChoice, Problem, Progress};
 use crate::viewer::chrome::Chrome;
 use crate::viewer::library::dialects::WantedDialects;
 use crate::viewer::library::readers::{Order, ReadScene, Side, Thumbnail};
 use crate::viewer::library::state::SceneList;
-use crate::viewer::library::{SceneEntry, SceneSource, SceneState};
+use crate::viewer::library::{ReadFailure, SceneEntry, SceneSource, SceneState};
 
 /// Scenes kept in memory besides the current one.
 const KEPT: usize = 3;
@@ -61,13 +64,23 @@ impl SceneList {
         };
         let state = side.state(entry);
         let before = state.scene().cloned();
-        *state = SceneState::Reading { dialect, before };
+        if let SceneState::Reading { progress, .. } = state {
+            progress.give_up();
+        }
+        let progress = Progress::default();
+        *state = SceneState::Reading {
+            dialect,
+            before,
+            progress: progress.clone(),
+            since: Instant::now(),
+        };
         let order = Order {
             generation,
             index,
             document: entry.document,
             source: entry.source.clone(),
             dialect,
+            progress,
             scene: None,
         };
         if side == Side::B {
@@ -87,6 +100,30 @@ impl SceneList {
                 *side.state(entry) = SceneState::Unread;
             }
         }
+    }
+
+    /// Gives up the current scene, if its reading takes long; false where none does.
+    pub(in crate::viewer) fn give_up_reading(&mut self) -> bool {
+        let Some(entry) = self.current_mut().filter(|entry| entry.long_reading().is_some()) else {
+            return false;
+        };
+        let address = entry.source.address();
+        if let SceneState::Reading {
+            dialect,
+            before,
+            progress,
+            ..
+        } = &entry.state
+        {
+            progress.give_up();
+            let message = format!("{}: {}", plain::line(&address), Problem::GivenUp);
+            entry.state = SceneState::Failed {
+                why: ReadFailure { message, line: None },
+                dialect: *dialect,
+                before: before.clone(),
+            };
+        }
+        true
     }
 
     /// Takes in a scene that was read. One that is no longer shown is kept, if it was read as the settings say; `choice` is the
@@ -172,6 +209,7 @@ impl SceneList {
             document: entry.document,
             source: entry.source.clone(),
             dialect,
+            progress: Progress::default(),
             scene: entry.scene().cloned(),
         });
     }

@@ -1,10 +1,11 @@
 //! Files that change while they are shown.
 
 use std::fs;
+use std::time::Duration;
 
 use glam::dvec2;
 use rasterscope::viewer::{Command, InspectorCommand, LessonCommand, LessonSource, MessageKind, SceneCommand, Toggle};
-use rasterscope::viewer::{ViewCommand, ViewNumbers};
+use rasterscope::viewer::{ViewCommand, ViewNumbers, Viewer, ViewerOptions, WindowCommand};
 
 use crate::support::session::{SQUARE, Session, TRIANGLES};
 
@@ -123,4 +124,36 @@ fn lesson_is_read_again_at_its_step() {
     session.run(Command::Scenes(SceneCommand::FilesChanged(vec![file])));
     assert_eq!(title(&session), (0, String::new()), "the step is gone");
     assert_eq!(errors(&session), [""; 0], "nothing is wrong any more");
+}
+
+#[test]
+fn long_reading_tells_how_far_it_is_and_can_be_given_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("large.svg");
+    let shapes = "<rect x='1' y='2' width='3' height='4'/>\n".repeat(700_000);
+    fs::write(&path, format!("<svg width='9' height='9'>{shapes}</svg>")).unwrap();
+    let mut viewer = Viewer::new(ViewerOptions {
+        paths: vec![path.clone()],
+        ..ViewerOptions::default()
+    })
+    .unwrap();
+    let entry = |viewer: &Viewer| viewer.scene_list().current().unwrap().clone();
+    let mut parts = Vec::new();
+    while parts.len() < 3 {
+        let now = entry(&viewer);
+        assert!(now.is_reading(), "this takes long: {:?}", now.failure());
+        parts.extend(now.long_reading());
+        std::thread::sleep(Duration::from_millis(20));
+        viewer.poll();
+    }
+    assert!(parts.is_sorted() && parts[0] < 1.0, "{parts:?}");
+    let ended = viewer.apply(Command::Window(WindowCommand::Escape));
+    assert_eq!(ended, [], "nothing ends");
+    let why = entry(&viewer).failure().unwrap().to_owned();
+    assert!(why.contains("large.svg: reading was given up; F5"), "{why}");
+    fs::write(&path, "<svg width='9' height='9'/>").unwrap();
+    let _ = viewer.apply(Command::Scenes(SceneCommand::Reload));
+    viewer.finish();
+    assert_eq!(entry(&viewer).failure(), None, "it is read again");
+    assert!(entry(&viewer).scene().is_some(), "to its end");
 }

@@ -121,6 +121,13 @@ pub(super) static SCENES: &[CommandSpec] = &[
         .keys(&[Chord::ctrl('r'), Chord::named(Key::F(5))])
         .run(&Command::Scenes(SceneCommand::Reload)),
     spec(
+        "give-up-reading",
+        "Give up reading",
+        "Reads a scene no further that takes long; so does Esc",
+        Group::Scenes,
+    )
+    .run(&Command::Scenes(SceneCommand::GiveUpReading)),
+    spec(
         "follow-files",
         "Follow files",
         "Reads scenes, textures and lessons again when another program saves them, or no more",

@@ -33,7 +33,7 @@ const WAY_BACK_HEIGHT: f32 = 84.0;
 const WORDS_WIDTHS: [f32; 3] = [320.0, 230.0, 150.0];
 /// What the frame, the name and the button of these words add to their size, in points.
 const WORDS_FRAME: Vec2 = vec2(16.0, 84.0);
-/// Width of what is said over an outdated picture at most, in points.
+/// Width of what is said of a file that cannot be read at most, in points.
 const OUTDATED_WIDTH: f32 = 520.0;
 /// Free space around the text over the picture, in points.
 const TEXT_MARGIN: f32 = 10.0;
@@ -272,16 +272,27 @@ fn place_of_words(ui: &Ui, viewer: &Viewer, free: Rect, text: &str) -> (Align2, 
     best.unwrap_or(first)
 }
 
-/// Over a picture whose file cannot be read any more: why, for as long as that is so.
-pub(super) fn outdated(ui: &Ui, viewer: &Viewer, free: Rect) {
-    let entry = viewer.scene_list().current().filter(|entry| entry.scene().is_some());
-    let Some((entry, problem)) = entry.and_then(|entry| Some((entry, entry.failure()?))) else {
+/// Over a picture whose file cannot be read any more, and in place of one whose file could never be read: why, for as long as that
+/// is so.
+pub(super) fn unread(ui: &Ui, viewer: &Viewer, free: Rect) {
+    let Some(entry) = viewer.scene_list().current() else {
         return;
     };
-    Area::new(Id::unique("outdated"))
+    let is_told = |problem: &str| viewer.chrome().messages().iter().any(|message| message.text == problem);
+    let has_picture = entry.scene().is_some();
+    // What is told as a message already is not told twice.
+    let Some(problem) = entry.failure().filter(|problem| has_picture || !is_told(problem)) else {
+        return;
+    };
+    let (place, pivot) = if has_picture {
+        (free.center_top() + vec2(0.0, TEXT_MARGIN), Align2::CENTER_TOP)
+    } else {
+        (free.center(), Align2::CENTER_CENTER)
+    };
+    Area::new(Id::unique("unread"))
         .order(Order::Middle)
-        .fixed_pos(free.center_top() + vec2(0.0, TEXT_MARGIN))
-        .pivot(Align2::CENTER_TOP)
+        .fixed_pos(place)
+        .pivot(pivot)
         .interactable(false)
         .fade_in(false)
         .show(ui.ctx(), |ui| {
@@ -289,7 +300,9 @@ pub(super) fn outdated(ui: &Ui, viewer: &Viewer, free: Rect) {
                 ui.set_max_width(OUTDATED_WIDTH.min(free.width() - 4.0 * TEXT_MARGIN));
                 ui.label(RichText::new(problem).color(ui.visuals().error_fg_color));
                 failed_line(ui, entry);
-                ui.label(RichText::new(AS_BEFORE).small());
+                if has_picture {
+                    ui.label(RichText::new(AS_BEFORE).small());
+                }
             });
         });
 }

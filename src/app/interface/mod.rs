@@ -324,7 +324,7 @@ impl Interface {
         }
         floating::pixel_labels(ui, viewer);
         if !hidden {
-            floating::outdated(ui, viewer, free);
+            floating::unread(ui, viewer, free);
             waiting::show(ui, viewer, free, &mut asked.commands);
             cards.extend(floating::way_back(ui, viewer, free, &mut asked.commands));
             start::card(ui, viewer, free, &mut asked.commands);

@@ -6,10 +6,11 @@ use std::process::{Child, Command, Stdio};
 use x11rb::connection::Connection as _;
 use x11rb::protocol::xproto::{
     AtomEnum, BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ConnectionExt as _, ImageFormat, InputFocus, KEY_PRESS_EVENT,
-    KEY_RELEASE_EVENT, MOTION_NOTIFY_EVENT, MapState, Window,
+    KEY_RELEASE_EVENT, MOTION_NOTIFY_EVENT, MapState, PropMode, Window,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
+use x11rb::wrapper::ConnectionExt as _;
 
 /// Keysyms of keys that make no character.
 pub(crate) mod keysym {
@@ -89,6 +90,17 @@ impl Desktop {
             .get_property(false, window, atom, AtomEnum::ANY, 0, u32::MAX / 4)
             .unwrap();
         all.reply().unwrap().value
+    }
+
+    /// Sets the desktop's scale, as its settings do: 96 dots per inch are one pixel per point.
+    pub(crate) fn set_dots_per_inch(&self, dots: u32) {
+        let text = format!("Xft.dpi:\t{dots}\n");
+        let (to, text_type) = (AtomEnum::RESOURCE_MANAGER, AtomEnum::STRING);
+        self.x
+            .change_property8(PropMode::REPLACE, self.root, to, text_type, text.as_bytes())
+            .unwrap()
+            .check()
+            .unwrap();
     }
 
     /// Gives the keyboard to `window`: there is no window manager to do so.

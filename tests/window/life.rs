@@ -97,6 +97,38 @@ fn settings_and_place_are_those_of_the_last_session() {
 }
 
 #[test]
+#[cfg(target_os = "linux")]
+fn desktop_that_changes_its_scale_has_larger_panels() {
+    /// The line at the foot, 27 points high: a pixel that is in it at scale 2, and the picture's at scale 1.
+    const ABOVE: [u16; 4] = [3, 400 - 45, 1, 1];
+    let program = Program::start_with(&flat(), &["--theme", "dark"]);
+    let foot = || program.desktop.part(program.window, [3, 397, 1, 1]);
+    let above = |size: [u32; 2]| {
+        program.desktop.pixels(program.window).filter(|(_, now)| *now == size)?;
+        Some(program.desktop.part(program.window, ABOVE))
+    };
+    let line = until("the line at the foot", || {
+        Some(foot()).filter(|pixel| pixel.iter().all(|part| *part < 60))
+    });
+    assert_ne!(until("the picture", || above([500, 400])), line, "the line is low");
+    program.desktop.set_dots_per_inch(192);
+    // The window grows with the scale; its hand makes it small again.
+    until("a window of twice the size", || above([1000, 800]));
+    program.resize([500, 400]);
+    until("a line of twice the height", || {
+        above([500, 400]).filter(|pixel| *pixel == line)
+    });
+    program.desktop.set_dots_per_inch(96);
+    until("a window of half the size", || {
+        above([250, 200]).or_else(|| above([320, 240]))
+    });
+    program.resize([500, 400]);
+    until("the line as it was", || {
+        above([500, 400]).filter(|pixel| *pixel != line)
+    });
+}
+
+#[test]
 #[cfg(unix)]
 fn signals_end_with_one_line_and_nothing_is_forgotten() {
     for (number, name) in [(15, "SIGTERM"), (1, "SIGHUP"), (2, "Ctrl+C")] {

@@ -174,8 +174,8 @@ impl ApplicationHandler<Wake> for Handler {
         }
         match self.open(event_loop) {
             Ok(opened) => {
+                startup::follow_scales(event_loop, &opened.window, self.proxy.clone());
                 self.opened = Some(opened);
-                startup::follow_scales(event_loop, self.proxy.clone());
                 self.watch = watch(self.waker());
             }
             Err(error) => self.fail(event_loop, error),
@@ -216,7 +216,8 @@ impl ApplicationHandler<Wake> for Handler {
             }
             WindowEvent::Moved(place) => opened.place = Some(place.into()),
             WindowEvent::Resized(size) => opened.resized(size),
-            WindowEvent::ScaleFactorChanged { .. } => {
+            WindowEvent::ScaleFactorChanged { scale_factor, .. } => {
+                opened.set_scale(scale_factor);
                 if startup::is_wayland(event_loop) {
                     let size = whole_pixels::fit(&opened.window, SMALLEST);
                     opened.resized(size);

@@ -18,6 +18,8 @@ mod wake;
 mod watch;
 mod whole_pixels;
 mod winit_keys;
+#[cfg(target_os = "linux")]
+mod x11_scale;
 
 use super::{AppError, ViewOptions, headless};
 use handler::Handler;

@@ -44,6 +44,9 @@ pub(super) struct Opened {
     surface: Surface<OwnedDisplayHandle, Arc<Window>>,
     /// From the last event that told it.
     size: PhysicalSize<u32>,
+    /// Device pixels per point of its monitor, from the last event that told it: the window itself still has the one before,
+    /// then, on X11.
+    scale: f32,
     title: String,
     /// The upper left corner of its frame on the desktop, where the system told it.
     pub(super) place: Option<[i32; 2]>,
@@ -85,11 +88,12 @@ impl Opened {
         window: Arc<Window>,
         session: Session,
     ) -> Result<Self, SoftBufferError> {
+        let scale = points_of(window.scale_factor());
         let egui = egui_winit::State::new(
             session.ctx().clone(),
             egui::ViewportId::ROOT,
             &display,
-            Some(scale_of(&window)),
+            Some(scale),
             window.theme(),
             None,
         );
@@ -101,6 +105,7 @@ impl Opened {
             egui,
             surface,
             size,
+            scale,
             place: None,
             title: String::new(),
             sight: Sight::Open,
@@ -158,8 +163,13 @@ impl Opened {
         self.size = size;
         let longest = Framebuffer::MAX_SIDE;
         let pixels = [size.width, size.height].map(|side| side.min(longest));
-        self.session.set_size(pixels, scale_of(&self.window));
+        self.session.set_size(pixels, self.scale);
         self.dirty = true;
+    }
+
+    /// Another scale of the monitor.
+    pub(super) fn set_scale(&mut self, scale: f64) {
+        self.scale = points_of(scale);
     }
 
     /// The scale of the monitor changed; the size follows in an event of its own.
@@ -338,10 +348,10 @@ fn surface_rect(part: &PixelRect) -> Option<Rect> {
     })
 }
 
-/// Device pixels per point.
+/// Device pixels per point, within what panels can be drawn at.
 #[expect(clippy::cast_possible_truncation, reason = "a small number")]
-fn scale_of(window: &Window) -> f32 {
-    (window.scale_factor() as f32).clamp(0.5, 8.0)
+fn points_of(scale: f64) -> f32 {
+    (scale as f32).clamp(0.5, 8.0)
 }
 
 /// A picture as egui hands it to the clipboard.

@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use winit::event_loop::{ActiveEventLoop, EventLoop, EventLoopBuilder};
-use winit::window::WindowAttributes;
+use winit::window::{Window, WindowAttributes};
 
 use super::wake::Wake;
 
@@ -85,14 +85,21 @@ impl ThemeQuestion {
     }
 }
 
-/// Follows at how many percent a compositor of Wayland shows windows, where it scales them by itself.
-pub(super) fn follow_scales(event_loop: &ActiveEventLoop, proxy: winit::event_loop::EventLoopProxy<Wake>) {
+/// Follows the scale of monitors where winit does not: X11's, and at how many percent a compositor of Wayland shows windows that
+/// it scales by itself.
+pub(super) fn follow_scales(
+    event_loop: &ActiveEventLoop,
+    window: &Window,
+    proxy: winit::event_loop::EventLoopProxy<Wake>,
+) {
     #[cfg(target_os = "linux")]
     if linux::is_wayland(event_loop) {
         super::desktop_scale::follow(proxy);
+    } else {
+        super::x11_scale::follow(window);
     }
     #[cfg(not(target_os = "linux"))]
-    let _ = (event_loop, proxy);
+    let _ = (event_loop, window, proxy);
 }
 
 /// Whether the window is shown by a compositor of Wayland.

@@ -127,12 +127,15 @@ impl Handler {
         if viewer.lesson().is_none() && *viewer.settings() != self.options.settings {
             now.set_settings(viewer.settings());
         }
+        // winit ends in a panic where it is asked about a window that is gone.
+        let maximized = opened.sight != Sight::Gone && opened.window.is_maximized();
+        if !maximized {
+            now.place = opened.place.or(now.place);
+        }
         if self.options.size.is_none() && !viewer.chrome().window_size().contains(&0) {
-            // winit ends in a panic where it is asked about a window that is gone.
-            now.maximized = opened.sight != Sight::Gone && opened.window.is_maximized();
-            if !now.maximized {
+            now.maximized = maximized;
+            if !maximized {
                 now.size = Some(viewer.chrome().window_size());
-                now.place = opened.place.or(now.place);
             }
         }
         now.set_recent(viewer.scene_list().opened());

@@ -13,7 +13,10 @@ use rasterscope::render::{RenderSettings, draw};
 use rasterscope::scene::{self, DialectChoice};
 use rasterscope::viewer::{Command, Viewer, ViewerOptions};
 use x11rb::connection::Connection as _;
-use x11rb::protocol::xproto::{ClientMessageEvent, ConfigureWindowAux, ConnectionExt as _, EventMask, Window};
+use x11rb::protocol::xproto::{
+    CONFIGURE_NOTIFY_EVENT, ClientMessageEvent, ConfigureNotifyEvent, ConfigureWindowAux, ConnectionExt as _,
+    EventMask, Window,
+};
 
 use super::desktop::Desktop;
 
@@ -232,12 +235,31 @@ impl Program {
             .unwrap();
     }
 
-    /// Moves the window: its upper left corner is then there.
-    pub(crate) fn place(&self, [x, y]: [i32; 2]) {
-        let place = ConfigureWindowAux::new().x(x).y(y);
-        self.desktop
-            .x
+    /// Moves the window, as a window manager does: its upper left corner is then there, and it is told so.
+    pub(crate) fn place(&self, [x, y]: [i16; 2]) {
+        let connection = &self.desktop.x;
+        let place = ConfigureWindowAux::new().x(i32::from(x)).y(i32::from(y));
+        connection
             .configure_window(self.window, &place)
+            .unwrap()
+            .check()
+            .unwrap();
+        let size = connection.get_geometry(self.window).unwrap().reply().unwrap();
+        let event = ConfigureNotifyEvent {
+            response_type: CONFIGURE_NOTIFY_EVENT,
+            sequence: 0,
+            event: self.window,
+            window: self.window,
+            above_sibling: x11rb::NONE,
+            x,
+            y,
+            width: size.width,
+            height: size.height,
+            border_width: 0,
+            override_redirect: false,
+        };
+        connection
+            .send_event(false, self.window, EventMask::STRUCTURE_NOTIFY, event)
             .unwrap()
             .check()
             .unwrap();

@@ -21,7 +21,7 @@ use crate::raster::{
 };
 use crate::rules::Rules;
 use crate::scene::{Composite, Fill, Gradient, MaskKind, Paint, PrimitiveKind, Scene};
-use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, SamplingSettings};
+use crate::texture::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, PyramidFilter, SamplingSettings};
 
 pub use legend::{Legend, LegendKey};
 pub use nearby::Nearby;
@@ -47,6 +47,8 @@ pub struct RenderSettings {
     pub level_sampling: LevelSampling,
     /// In which values coarser mip levels were averaged.
     pub pyramid: ResolveSpace,
+    /// By which filter.
+    pub pyramid_filter: PyramidFilter,
     /// Along a footprint.
     pub anisotropy: Anisotropy,
     /// How large a footprint counts.
@@ -77,6 +79,7 @@ impl Default for RenderSettings {
             pixel_sampling: PixelSampling::default(),
             level_sampling: LevelSampling::default(),
             pyramid: ResolveSpace::default(),
+            pyramid_filter: PyramidFilter::default(),
             anisotropy: Anisotropy::default(),
             detail: LevelOfDetail::default(),
             rules: Rules::default(),
@@ -102,6 +105,7 @@ impl RenderSettings {
             pattern: SamplePattern::Grid,
             level_sampling: LevelSampling::Zero,
             pyramid: ResolveSpace::default(),
+            pyramid_filter: PyramidFilter::default(),
             anisotropy: Anisotropy::OFF,
             detail: LevelOfDetail::default(),
             rules: match self.rules {
@@ -327,6 +331,7 @@ fn raster_settings(settings: &RenderSettings) -> RasterSettings {
             pixel: settings.pixel_sampling,
             level: settings.level_sampling,
             pyramid: settings.pyramid,
+            pyramid_filter: settings.pyramid_filter,
             anisotropy: settings.anisotropy,
             detail: settings.detail,
             sample_step: settings.pattern.nearest(settings.sample_rate).step(),

@@ -6,7 +6,9 @@ use super::model::{Cure, Explanation, Setting, Truth};
 use crate::raster::{SamplePattern, SampleRate};
 use crate::render::{Nearby, RenderSettings};
 use crate::rules::Rules;
-use crate::texture::{Anisotropy, Derivatives, FootprintExtent, LevelOfDetail, LevelSampling, LodBias, PixelSampling};
+use crate::texture::{
+    Anisotropy, Derivatives, FootprintExtent, LevelOfDetail, LevelSampling, LodBias, PixelSampling, PyramidFilter,
+};
 
 /// Corners near a pixel above which it is not drawn again and again.
 const MOST_WORK: usize = 50_000;
@@ -206,7 +208,15 @@ fn of_textures(own: &RenderSettings) -> Vec<(Setting, Vec<(String, RenderSetting
         };
         (own.resolve.name().to_owned(), settings)
     });
+    let boxed = (own.pyramid_filter != PyramidFilter::Box).then(|| {
+        let settings = RenderSettings {
+            pyramid_filter: PyramidFilter::Box,
+            ..*own
+        };
+        (PyramidFilter::Box.name().to_owned(), settings)
+    });
     vec![
+        (Setting::PyramidFilter, boxed.into_iter().collect()),
         (Setting::Pyramid, pyramid.into_iter().collect()),
         (Setting::LodLevel, detail("auto", own.detail.fixed.is_some(), automatic)),
         (Setting::LodBias, detail("0", own.detail != unbiased, unbiased)),

@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 use super::model::{Cure, Explanation, Interpolated, Missed, Paint, Setting, Texture, Truth, View};
 use super::numbers::{number, percent, significant};
 use crate::color::ResolveSpace;
+use crate::texture::PyramidFilter;
 
 /// How many times as long as wide a footprint is from which on averaging it both ways blurs.
 const BLURS: f64 = 2.0;
@@ -65,6 +66,15 @@ impl Explanation {
                     ResolveSpace::Linear => ["linear light", "stored values"],
                 };
                 format!("Mip levels were averaged in {levels}, and samples are in {samples}.")
+            }),
+            Setting::PyramidFilter => texture.and_then(|(_, texture)| match texture.filtered_by() {
+                PyramidFilter::Box => None,
+                PyramidFilter::Tent => {
+                    Some("Each texel of a mip level holds an eighth of those beside its own.".to_owned())
+                }
+                PyramidFilter::Kaiser => {
+                    Some("The Kaiser filter of the mip levels overshoots beside edges.".to_owned())
+                }
             }),
             Setting::LodBy => texture.map(|(_, texture)| {
                 format!(
@@ -227,6 +237,7 @@ impl Cure {
             Setting::LodPer => format!("Level of detail per {value}"),
             Setting::LodBy => format!("Level of detail by the {value} side"),
             Setting::Pyramid => format!("Pyramid {value}"),
+            Setting::PyramidFilter => format!("Pyramid filter {value}"),
             Setting::PixelSampling => format!("Pixel sampling {value} (key P in the window)"),
             Setting::SampleRate if value == "256" => format!("{value} samples"),
             Setting::SampleRate => format!("{value} samples (key = in the window)"),
@@ -307,6 +318,7 @@ mod tests {
                 _ => vec![level(0, 1.0)],
             },
             pyramid: "stored",
+            pyramid_filter: "box",
             opacity: 1.0,
         }
     }

@@ -140,6 +140,8 @@ pub enum Setting {
     LodBy,
     /// In which values mip levels are averaged.
     Pyramid,
+    /// By which filter mip levels are made.
+    PyramidFilter,
     /// Inside a mip level.
     PixelSampling,
     /// Samples per pixel.
@@ -505,6 +507,8 @@ pub struct Texture {
     pub levels: Vec<Level>,
     /// In which values coarser levels were averaged: `stored` or `linear`.
     pub pyramid: &'static str,
+    /// By which filter: `box`, `tent` or `kaiser`.
+    pub pyramid_filter: &'static str,
     /// Multiplies what is read, `0.0..=1.0`.
     pub opacity: f64,
 }

@@ -4,7 +4,7 @@ use super::model::{Edge, Fragment, GradientUse, Paint, Shape, Source, Texture, V
 use super::numbers::{number, percent, significant};
 use crate::color::{BlendMode, ResolveSpace};
 use crate::plain;
-use crate::texture::FootprintExtent;
+use crate::texture::{FootprintExtent, PyramidFilter};
 
 impl Paint {
     /// Such as `triangle of polygon "left", line 12`.
@@ -252,6 +252,14 @@ impl Texture {
         space.unwrap_or_default()
     }
 
+    /// By which filter they were made.
+    pub fn filtered_by(&self) -> PyramidFilter {
+        let filter = PyramidFilter::ALL
+            .into_iter()
+            .find(|filter| filter.name() == self.pyramid_filter);
+        filter.unwrap_or_default()
+    }
+
     /// What of the footprint the level of detail follows.
     pub(super) fn extent_words(&self) -> &'static str {
         let extent = FootprintExtent::ALL
@@ -320,10 +328,14 @@ impl Texture {
             })
             .collect();
         let is_coarse = self.levels.iter().any(|level| level.number > 0);
-        let averaged = if is_coarse && self.averaged_in() == ResolveSpace::Linear {
-            ", averaged in linear light"
-        } else {
-            ""
+        let averaged = match (self.filtered_by(), self.averaged_in()) {
+            _ if !is_coarse => "",
+            (PyramidFilter::Box, ResolveSpace::Stored) => "",
+            (PyramidFilter::Box, ResolveSpace::Linear) => ", averaged in linear light",
+            (PyramidFilter::Tent, ResolveSpace::Stored) => ", made by a tent of two texels",
+            (PyramidFilter::Tent, ResolveSpace::Linear) => ", made by a tent of two texels in linear light",
+            (PyramidFilter::Kaiser, ResolveSpace::Stored) => ", made by a Kaiser filter of six texels",
+            (PyramidFilter::Kaiser, ResolveSpace::Linear) => ", made by a Kaiser filter of six texels in linear light",
         };
         lines.push(format!("reads  {}{averaged}", levels.join(" and ")));
         if self.opacity < 1.0 {

@@ -53,6 +53,7 @@ impl Question<'_> {
             pixel_sampling,
             level_sampling,
             pyramid,
+            pyramid_filter,
             detail,
             ..
         } = self.subject.settings;
@@ -92,6 +93,7 @@ impl Question<'_> {
             clamped: reading.lod.clamp(0.0, texture.pyramid.last_level() as f64),
             levels: read.into_iter().flatten().collect(),
             pyramid: pyramid.name(),
+            pyramid_filter: pyramid_filter.name(),
             opacity: f64::from(usage.opacity),
         }
     }

@@ -84,7 +84,7 @@ mod tests {
             };
             let progress = Progress::default();
             read(&progress).expect("a scene");
-            assert!(progress.part() > 0.9, "{dialect:?}: {}", progress.part());
+            assert!(progress.part() > 0.8, "{dialect:?}: {}", progress.part());
             let progress = Progress::default();
             progress.give_up();
             let error = read(&progress).expect_err("given up");

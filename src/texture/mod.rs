@@ -15,6 +15,7 @@ mod nearest_sums;
 mod oracle;
 mod pixel_filter;
 mod pyramid;
+mod pyramid_filter;
 mod sample_filter;
 mod sample_offsets;
 mod settings;
@@ -34,6 +35,7 @@ pub use filter_plan::PixelList;
 pub use footprint::Footprint;
 pub use level_of_detail::{LevelChoice, Reading};
 pub use pyramid::{MAX_SIDE, MipLevel, MipPyramid};
+pub use pyramid_filter::PyramidFilter;
 pub use settings::SamplingSettings;
 pub use tile::{Tile, TileCache, TileRead};
 pub use trace::{TapRead, TexelRead, TextureReads};
@@ -70,10 +72,10 @@ pub enum LevelSampling {
 pub struct Texture {
     /// Its name in the document, or the file it came from: for messages and tool tips.
     pub name: String,
-    /// The image at every resolution, levels averaged in stored values.
+    /// The image at every resolution, levels averaged over their texels in stored values.
     pub pyramid: MipPyramid,
-    /// The same averaged in linear light, once somebody asks for it.
-    in_light: OnceLock<MipPyramid>,
+    /// The same by other filters and in linear light, once somebody asks for them: by filter, then by space.
+    others: [[OnceLock<MipPyramid>; ResolveSpace::ALL.len()]; PyramidFilter::ALL.len()],
     /// How colours are to be found in its levels, whatever the settings say (`image-rendering` of SVG).
     pub asks: Option<PixelSampling>,
 }
@@ -111,7 +113,7 @@ impl Texture {
         Self {
             name: name.to_owned(),
             pyramid,
-            in_light: OnceLock::new(),
+            others: Default::default(),
             asks: None,
         }
     }
@@ -122,14 +124,19 @@ impl Texture {
         Self { asks, ..self }
     }
 
-    /// The image at every resolution, levels averaged in these values.
-    pub fn pyramid_in(&self, space: ResolveSpace) -> &MipPyramid {
-        match space {
-            ResolveSpace::Stored => &self.pyramid,
-            ResolveSpace::Linear => self
-                .in_light
-                .get_or_init(|| MipPyramid::build_in_light(self.pyramid.levels()[0].clone())),
+    /// The image at every resolution, levels averaged in these values by this filter.
+    #[inline]
+    pub fn pyramid_in(&self, space: ResolveSpace, filter: PyramidFilter) -> &MipPyramid {
+        if (space, filter) == (ResolveSpace::Stored, PyramidFilter::Box) {
+            return &self.pyramid;
         }
+        self.others[filter as usize][space as usize].get_or_init(|| {
+            let base = self.pyramid.levels()[0].clone();
+            match space {
+                ResolveSpace::Stored => MipPyramid::build_by(base, filter),
+                ResolveSpace::Linear => MipPyramid::build_in_light(base, filter),
+            }
+        })
     }
 
     /// The settings by which this texture is read, where they are others than these.

@@ -20,6 +20,8 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
+use super::PyramidFilter;
+use super::pyramid_filter::weights;
 use crate::color::{Light, LightResolver, Premultiplied16};
 use crate::rules::Rules;
 
@@ -187,24 +189,33 @@ impl MipPyramid {
     /// Builds every level from the base, rows in parallel. Each level is the area-weighted mean of the stored values of the one
     /// above it, also where a side is odd; texels are rounded to bytes only once.
     pub fn build(base: MipLevel) -> Self {
-        Self::build_with(base, |row| Cow::Borrowed(row), |mean| mean.map(to_byte))
+        Self::build_by(base, PyramidFilter::Box)
+    }
+
+    /// The same with another filter. Where that has weights below zero, texels are clamped to what a premultiplied colour can be,
+    /// after the sum; what the next level is made of is not.
+    pub fn build_by(base: MipLevel, filter: PyramidFilter) -> Self {
+        let texel = |mean| clamped(mean, 255.0).map(to_byte);
+        Self::build_with(base, filter, |row| Cow::Borrowed(row), texel)
     }
 
     /// The same with means of linear light, each texel weighted by its alpha.
-    pub fn build_in_light(base: MipLevel) -> Self {
+    pub fn build_in_light(base: MipLevel, filter: PyramidFilter) -> Self {
         let resolver = LightResolver::new(1, Rules::Standard);
         let light = |texel: &[u8; 4]| Light::new(Premultiplied16::from_bytes(*texel)).weighted();
         let texel = |mean: [f32; 4]| {
-            let [b, g, r, alpha] = resolver.pixel(Light::of_weighted(mean)).to_le_bytes();
+            let light = Light::of_weighted(clamped(mean, 1.0));
+            let [b, g, r, alpha] = resolver.pixel(light).to_le_bytes();
             let weighted = |channel: u8| to_byte(f32::from(channel) * f32::from(alpha) / 255.0);
             [weighted(r), weighted(g), weighted(b), alpha]
         };
-        Self::build_with(base, |row| Cow::Owned(row.iter().map(light).collect()), texel)
+        Self::build_with(base, filter, |row| Cow::Owned(row.iter().map(light).collect()), texel)
     }
 
     /// Builds every level from the base, whose rows `parts` takes to what is averaged; `texel` makes texels of means.
     fn build_with<C: Copy + Into<f32> + Sync + Send>(
         base: MipLevel,
+        filter: PyramidFilter,
         parts: impl for<'r> Fn(&'r [[u8; 4]]) -> Cow<'r, [[C; 4]]> + Sync,
         texel: impl Fn([f32; 4]) -> [u8; 4] + Sync,
     ) -> Self {
@@ -215,8 +226,8 @@ impl MipPyramid {
         while width > 1 || height > 1 {
             let size = [width, height];
             let (next, level) = match (&exact, &levels[0]) {
-                (Some(exact), _) => halve(size, |y| Cow::Borrowed(exact.row(y)), &texel),
-                (None, base) => halve(size, |y| parts(base.row(y)), &texel),
+                (Some(exact), _) => coarser(filter, size, |y| Cow::Borrowed(exact.row(y)), &texel),
+                (None, base) => coarser(filter, size, |y| parts(base.row(y)), &texel),
             };
             (width, height) = (next.width, next.height);
             exact = Some(next);
@@ -246,6 +257,75 @@ impl ExactLevel {
     fn row(&self, y: usize) -> &[[f32; 4]] {
         &self.texels[y * self.width as usize..][..self.width as usize]
     }
+}
+
+/// The next coarser level by this filter.
+fn coarser<'l, C: Copy + Into<f32> + 'l>(
+    filter: PyramidFilter,
+    size: [u32; 2],
+    line: impl Fn(usize) -> Cow<'l, [[C; 4]]> + Sync,
+    texel: impl Fn([f32; 4]) -> [u8; 4] + Sync,
+) -> (ExactLevel, MipLevel) {
+    match filter {
+        PyramidFilter::Box => halve(size, line, texel),
+        PyramidFilter::Tent | PyramidFilter::Kaiser => weigh(filter, size, line, texel),
+    }
+}
+
+/// The same by weights of more texels: rows first, then columns of what they became.
+fn weigh<'l, C: Copy + Into<f32> + 'l>(
+    filter: PyramidFilter,
+    size: [u32; 2],
+    line: impl Fn(usize) -> Cow<'l, [[C; 4]]> + Sync,
+    texel: impl Fn([f32; 4]) -> [u8; 4] + Sync,
+) -> (ExactLevel, MipLevel) {
+    let [width, height] = size.map(|side| (side / 2).max(1));
+    let [columns, rows] = [weights(filter, size[0], width), weights(filter, size[1], height)];
+    let mut narrow = vec![[0.0; 4]; width as usize * size[1] as usize];
+    narrow
+        .par_chunks_mut(width as usize)
+        .enumerate()
+        .for_each(|(y, narrow)| {
+            let fine = line(y);
+            for (sum, column) in narrow.iter_mut().zip(&columns) {
+                for (weight, x) in column.weights.iter().zip(column.first..) {
+                    add(sum, fine[inside(x, fine.len())].map(Into::into), *weight);
+                }
+            }
+        });
+    let mut level = MipLevel::blank(width, height);
+    let mut texels = vec![[0.0; 4]; width as usize * height as usize];
+    let parts = texels.par_chunks_mut(width as usize).zip(level.rows_mut());
+    parts.zip(&rows).for_each(|((exact, rounded), row)| {
+        for (weight, y) in row.weights.iter().zip(row.first..) {
+            let start = inside(y, size[1] as usize) * width as usize;
+            for (sum, fine) in exact.iter_mut().zip(&narrow[start..]) {
+                add(sum, *fine, *weight);
+            }
+        }
+        for (rounded, exact) in rounded.iter_mut().zip(exact) {
+            *rounded = texel(*exact);
+        }
+    });
+    (ExactLevel { width, height, texels }, level)
+}
+
+fn add(sum: &mut [f32; 4], part: [f32; 4], weight: f32) {
+    for (sum, part) in sum.iter_mut().zip(part) {
+        *sum += part * weight;
+    }
+}
+
+/// The nearest of a side's texels.
+fn inside(texel: i64, side: usize) -> usize {
+    usize::try_from(texel).unwrap_or(0).min(side - 1)
+}
+
+/// A premultiplied colour that is one: alpha from nothing to `most`, and no channel above it.
+fn clamped([r, g, b, alpha]: [f32; 4], most: f32) -> [f32; 4] {
+    let alpha = alpha.clamp(0.0, most);
+    let [r, g, b] = [r, g, b].map(|channel| channel.clamp(0.0, alpha));
+    [r, g, b, alpha]
 }
 
 /// The next coarser level of one of `size` texels, whose rows `line` tells: half as wide and high, rounded down, at least one
@@ -368,13 +448,13 @@ mod tests {
         );
         // IEC 61966-2-1: half of the light is 0.7354 of the value.
         assert_eq!(
-            top(MipPyramid::build_in_light(checker())),
+            top(MipPyramid::build_in_light(checker(), PyramidFilter::Box)),
             [188, 188, 188, 255],
             "half of the light"
         );
         let half_clear = MipLevel::new(2, 1, vec![white, [0; 4]]);
         assert_eq!(
-            top(MipPyramid::build_in_light(half_clear)),
+            top(MipPyramid::build_in_light(half_clear, PyramidFilter::Box)),
             [128; 4],
             "white, half as opaque"
         );
@@ -388,7 +468,7 @@ mod tests {
             let mut channel = || u.int_in_range(0..=alpha);
             let texel = [channel()?, channel()?, channel()?, alpha];
             let base = MipLevel::new(width, height, vec![texel; (width * height) as usize]);
-            let pyramid = MipPyramid::build_in_light(base);
+            let pyramid = MipPyramid::build_in_light(base, *u.choose(&PyramidFilter::ALL)?);
             for level in pyramid.levels() {
                 let found = level.texel(0, 0);
                 // Premultiplied bytes tell no more of a colour than its alpha lets them.
@@ -426,6 +506,64 @@ mod tests {
             Ok(())
         })
         .budget_ms(300);
+    }
+
+    #[test]
+    fn levels_of_every_filter_are_those_of_all_weights_at_once() {
+        arbtest::arbtest(|u| {
+            let (width, height) = (u.int_in_range(1..=21)?, u.int_in_range(1..=21)?);
+            let filter = *u.choose(&[PyramidFilter::Tent, PyramidFilter::Kaiser])?;
+            let texels = (0..width * height)
+                .map(|_| u.arbitrary().map(|[r, g, b]: [u8; 3]| [r, g, b, 255]))
+                .collect::<arbitrary::Result<Vec<[u8; 4]>>>()?;
+            let base = MipLevel::new(width, height, texels);
+            let pyramid = MipPyramid::build_by(base.clone(), filter);
+            let Some(level) = pyramid.levels().get(1) else {
+                return Ok(());
+            };
+            let columns = weights(filter, width, level.width());
+            let rows = weights(filter, height, level.height());
+            for (y, row) in rows.iter().enumerate() {
+                for (x, column) in columns.iter().enumerate() {
+                    let mut red = 0.0;
+                    for (down, j) in row.weights.iter().zip(row.first..) {
+                        for (across, i) in column.weights.iter().zip(column.first..) {
+                            let [i, j] = [i, j].map(|at| i32::try_from(at).unwrap());
+                            red += f64::from(base.texel(i, j)[0]) * f64::from(*down) * f64::from(*across);
+                        }
+                    }
+                    let found = f64::from(level.texel(i32::try_from(x).unwrap(), i32::try_from(y).unwrap())[0]);
+                    assert!(
+                        (found - red.clamp(0.0, 255.0)).abs() < 0.51,
+                        "{filter:?}: {found}, not {red}"
+                    );
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(300);
+    }
+
+    #[test]
+    fn sharp_filter_rings_and_stays_a_colour() {
+        let stripe: Vec<[u8; 4]> = (0..32)
+            .map(|x| if (8..24).contains(&x) { [255; 4] } else { [0; 4] })
+            .collect();
+        let level = |filter| MipPyramid::build_by(MipLevel::new(32, 1, stripe.clone()), filter).levels()[1].clone();
+        let [soft, hard, sharp] = PyramidFilter::ALL.map(level);
+        assert_eq!([soft.texel(3, 0)[3], soft.texel(4, 0)[3]], [0, 255], "its own texels");
+        assert_eq!(
+            [hard.texel(3, 0)[3], hard.texel(4, 0)[3]],
+            [32, 223],
+            "an eighth of the neighbours"
+        );
+        assert!(sharp.texel(5, 0)[3] == 255 && sharp.texel(2, 0)[3] == 0, "clamped");
+        let is_colour = |x| {
+            sharp.texel(x, 0)[..3]
+                .iter()
+                .all(|channel| *channel <= sharp.texel(x, 0)[3])
+        };
+        assert!((0..16).all(is_colour), "premultiplied");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! How textures are sampled.
 
-use super::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling};
+use super::{Anisotropy, LevelOfDetail, LevelSampling, PixelSampling, PyramidFilter};
 use crate::color::ResolveSpace;
 use crate::rules::Rules;
 
@@ -13,6 +13,8 @@ pub struct SamplingSettings {
     pub level: LevelSampling,
     /// In which values levels were averaged.
     pub pyramid: ResolveSpace,
+    /// By which filter.
+    pub pyramid_filter: PyramidFilter,
     /// Along a footprint.
     pub anisotropy: Anisotropy,
     /// How large a footprint counts.
@@ -29,6 +31,7 @@ impl Default for SamplingSettings {
             pixel: PixelSampling::default(),
             level: LevelSampling::default(),
             pyramid: ResolveSpace::default(),
+            pyramid_filter: PyramidFilter::default(),
             anisotropy: Anisotropy::OFF,
             detail: LevelOfDetail::default(),
             sample_step: 1.0,

@@ -77,7 +77,9 @@ fn control(ui: &mut Ui, shown: ShownSetting, now: &Settings, width: f32, command
     let ShownSetting { setting, panel } = shown;
     match panel.control {
         Control::Buttons | Control::WideButtons(_) => {
-            buttons(ui, shown, &setting.offered(now), now, commands);
+            ui.allocate_ui(vec2(width, CONTROL.y), |ui| {
+                buttons(ui, shown, &setting.offered(now), now, commands);
+            });
         }
         Control::List => {
             let current = setting.value(now);

@@ -41,7 +41,12 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, paint: &Paint, sample: usize) -
         .frames()
         .frame()
         .and_then(|frame| frame.picture.scene.textures.get(texture.index as usize))
-        .and_then(|image| image.pyramid_in(texture.averaged_in()).levels().get(level.number))?;
+        .and_then(|image| {
+            image
+                .pyramid_in(texture.averaged_in(), texture.filtered_by())
+                .levels()
+                .get(level.number)
+        })?;
     let (rect, response) = ui.allocate_exact_size(vec2(WIDTH.min(ui.available_width()), HEIGHT), Sense::hover());
     let scale = [0, 1].map(|i| f64::from(level.size[i]) / f64::from(texture.size[i]));
     let steps = [texture.right, texture.down].map(|step| [step[0] * scale[0], step[1] * scale[1]]);

@@ -157,11 +157,14 @@ impl Remembered {
         };
         for setting in sampling().filter(|setting| !given.contains(&setting.option)) {
             let value = self.settings.get(setting.option);
-            // An older or a newer program may not know a name.
-            if let Some(change) = value.and_then(|value| setting.to(value).ok()) {
-                change.apply(&mut taken);
+            if let Some(value) = value {
+                // An older or a newer program may not know a name: then all stays as it is.
+                setting.set(&mut taken, value);
             }
         }
+        // Together, since a rate may be one that only the other pattern takes.
+        let render = &mut taken.render;
+        render.sample_rate = render.pattern.nearest(render.sample_rate);
         // What was given stays, even where a pattern of the last session would not take its sample rate.
         let is_kept = |setting: &&PictureSetting| setting.value(&taken) == setting.value(&asked);
         let given_stays = sampling()
@@ -248,7 +251,7 @@ mod tests {
         remembered.presenter = true;
         remembered.place = Some([-20, 40]);
         remembered.sections.insert("hints".to_owned(), false);
-        remembered.set_settings(&settings_of(&[("sample-rate", "9"), ("filter", "bilinear")]));
+        remembered.set_settings(&settings_of(&[("sample-rate", "9"), ("pixel-sampling", "bilinear")]));
         let many: Vec<PathBuf> = (0..40)
             .map(|i| PathBuf::from(format!("/scenes/a \"b\" {i}.svg")))
             .collect();

@@ -77,7 +77,7 @@ impl PaintKind for TexturePaint {
 
     fn shader<'a>(&self, context: &ShadeContext<'a>, corners: &[GridPoint; 3]) -> TextureShader<'a> {
         let texture = context.sources.textures[self.texture as usize];
-        let pyramid = texture.pyramid_in(context.sampling.pyramid);
+        let pyramid = texture.pyramid_in(context.sampling.pyramid, context.sampling.pyramid_filter);
         let uv = Planes::new(context.grid, corners, self.uv);
         let map = uv_map(context.grid, &uv);
         let own = texture.own_sampling(&context.sampling);

@@ -116,6 +116,7 @@ impl Control {
     /// How much of a row it takes beside others: names are longer than numbers.
     pub fn part(&self) -> f32 {
         match self {
+            Self::Buttons => 2.7,
             Self::List => 1.7,
             _ => 1.0,
         }

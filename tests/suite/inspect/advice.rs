@@ -9,7 +9,7 @@ use rasterscope::render::{RenderSettings, Subject, draw, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, PrimitiveKind, ReadOptions, Scene};
 use rasterscope::texture::{
-    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling,
+    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling, PyramidFilter,
 };
 use rasterscope::viewer::gallery::{SCENES, Textures};
 use rayon::prelude::*;
@@ -109,6 +109,7 @@ fn follow(cure: &Cure, own: &RenderSettings) -> RenderSettings {
         Setting::LodBias => settings.detail.bias = LodBias::new(value.parse().unwrap()).unwrap(),
         Setting::LodPer => settings.detail.derivatives = Derivatives::Sample,
         Setting::Pyramid => settings.pyramid = settings.resolve,
+        Setting::PyramidFilter => settings.pyramid_filter = PyramidFilter::Box,
         Setting::LodBy => settings.detail.extent = FootprintExtent::Longer,
         Setting::LevelSampling => {
             settings.level_sampling = LevelSampling::ALL

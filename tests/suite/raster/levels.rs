@@ -1,5 +1,5 @@
-//! What mip levels are: what of a footprint the level of detail follows, and in which values levels were averaged; on scenes where
-//! each choice is nearer to the truth, and where it is not.
+//! What mip levels are: what of a footprint the level of detail follows, in which values levels were averaged, and by which filter;
+//! on scenes where each choice is nearer to the truth, and where it is not.
 
 use std::path::Path;
 use std::process::Command;
@@ -69,4 +69,22 @@ fn levels_averaged_as_samples_are_nearer_to_the_truth() {
             "{space}: {same} with its own, {other} with the other"
         );
     }
+}
+
+#[test]
+fn softer_levels_help_where_they_are_read_too_finely_and_sharper_ones_where_they_are_not() {
+    let filters = ["box", "tent", "kaiser"];
+    let rings = "svg/study/06_zone_texture.svg";
+    let [mean, tent, _] = rmse(rings, "--pyramid-filter", filters, &["--lod-bias", "-1"]);
+    assert!(tent < 0.85 * mean, "a level too fine: {mean}, by a tent {tent}");
+    let [mean, _, kaiser] = rmse(rings, "--pyramid-filter", filters, &["--sample-rate", "16"]);
+    assert!(
+        kaiser < 0.97 * mean,
+        "samples enough: {mean}, by a Kaiser window {kaiser}"
+    );
+    let [mean, tent, kaiser] = rmse("svg/study/07_checker_floor.svg", "--pyramid-filter", filters, &[]);
+    assert!(
+        tent > 1.5 * mean && kaiser > 1.2 * mean,
+        "squares of whole texels: {mean}, {tent}, {kaiser}"
+    );
 }

@@ -5,7 +5,7 @@ use rasterscope::raster::{FilterRadius, Framebuffer, ResolveFilter, SamplePatter
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 use rasterscope::texture::{
-    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling,
+    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling, PyramidFilter,
 };
 
 use crate::support::brute_force;
@@ -79,6 +79,7 @@ fn compare_by(
         settings.detail.derivatives = *u.choose(&Derivatives::ALL)?;
         settings.detail.extent = *u.choose(&FootprintExtent::ALL)?;
         settings.pyramid = *u.choose(&ResolveSpace::ALL)?;
+        settings.pyramid_filter = *u.choose(&PyramidFilter::ALL)?;
         // Beside quarters: footprints of powers of two would lie on halves, where rounding decides about levels.
         let level = f64::from(u.int_in_range(-8..=8)?) / 4.0 + 0.1;
         match u.int_in_range(0..=3)? {

@@ -572,7 +572,7 @@ fn least_step([right, down]: [DVec2; 2]) -> f64 {
 }
 
 fn tapped(texture: &Texture, uv: DVec2, lod: f64, settings: &RenderSettings) -> Color {
-    let levels = texture.pyramid_in(settings.pyramid).levels();
+    let levels = texture.pyramid_in(settings.pyramid, settings.pyramid_filter).levels();
     let last = levels.len() - 1;
     let lod = lod.clamp(0.0, last as f64);
     let read = |level: usize| {

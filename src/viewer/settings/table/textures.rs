@@ -1,7 +1,9 @@
 //! How textures are sampled.
 
 use crate::color::ResolveSpace;
-use crate::texture::{Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling};
+use crate::texture::{
+    Anisotropy, Derivatives, FixedLevel, FootprintExtent, LevelSampling, LodBias, PixelSampling, PyramidFilter,
+};
 use crate::viewer::key_chords::Chord;
 use crate::viewer::settings::row::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
 use crate::viewer::settings::{Settings, values};
@@ -246,6 +248,23 @@ pub(super) const ROWS: &[PictureSetting] = &[
             )
         }],
         ..named!("pyramid", "pyramid", ResolveSpace, render.pyramid)
+    },
+    PictureSetting {
+        help: "By which filter coarser mip levels are made",
+        about: About::Textures,
+        told: Told::IfChanged,
+        panel: Some(PanelRow::new("", "Filter of mip levels", Control::List)),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "A tent has fewer aliases and is softer, a Kaiser window sharper and rings at edges; both cost only when a level is made",
+            ..SettingCommand::new(
+                "pyramid-filter",
+                "Pyramid filter",
+                "Makes coarser mip levels by the mean over a texel, by a tent, or by a sinc under a Kaiser window",
+            )
+        }],
+        ..named!("pyramid-filter", "pyramid filter", PyramidFilter, render.pyramid_filter)
     },
 ];
 

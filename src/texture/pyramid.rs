@@ -195,7 +195,7 @@ impl MipPyramid {
     /// The same with another filter. Where that has weights below zero, texels are clamped to what a premultiplied colour can be,
     /// after the sum; what the next level is made of is not.
     pub fn build_by(base: MipLevel, filter: PyramidFilter) -> Self {
-        let texel = |mean| clamped(mean, 255.0).map(to_byte);
+        let texel = |mean| kept(filter, mean, 255.0).map(to_byte);
         Self::build_with(base, filter, |row| Cow::Borrowed(row), texel)
     }
 
@@ -204,7 +204,7 @@ impl MipPyramid {
         let resolver = LightResolver::new(1, Rules::Standard);
         let light = |texel: &[u8; 4]| Light::new(Premultiplied16::from_bytes(*texel)).weighted();
         let texel = |mean: [f32; 4]| {
-            let light = Light::of_weighted(clamped(mean, 1.0));
+            let light = Light::of_weighted(kept(filter, mean, 1.0));
             let [b, g, r, alpha] = resolver.pixel(light).to_le_bytes();
             let weighted = |channel: u8| to_byte(f32::from(channel) * f32::from(alpha) / 255.0);
             [weighted(r), weighted(g), weighted(b), alpha]
@@ -321,8 +321,12 @@ fn inside(texel: i64, side: usize) -> usize {
     usize::try_from(texel).unwrap_or(0).min(side - 1)
 }
 
-/// A premultiplied colour that is one: alpha from nothing to `most`, and no channel above it.
-fn clamped([r, g, b, alpha]: [f32; 4], most: f32) -> [f32; 4] {
+/// A premultiplied colour that is one: alpha from nothing to `most`, and no channel above it. Means of colours are always that.
+fn kept(filter: PyramidFilter, mean: [f32; 4], most: f32) -> [f32; 4] {
+    if filter == PyramidFilter::Box {
+        return mean;
+    }
+    let [r, g, b, alpha] = mean;
     let alpha = alpha.clamp(0.0, most);
     let [r, g, b] = [r, g, b].map(|channel| channel.clamp(0.0, alpha));
     [r, g, b, alpha]

@@ -13,7 +13,7 @@ use super::controls::{command_button, tip};
 use super::document::{AS_BEFORE, failed_line};
 use super::look::{self, CONTROL};
 use super::pin;
-use super::places::{insets, points};
+use super::places::{card_area, insets, points};
 use crate::raster::SamplePattern;
 use crate::viewer::picture::{self, About, Told, changed_words};
 use crate::viewer::{Arrangement, Command, Other, Toggle, Viewer};
@@ -141,10 +141,10 @@ fn nothing_to_see(viewer: &Viewer) -> Option<&'static str> {
             .frame()
             .is_some_and(|frame| frame.pixels.pixels().iter().all(|pixel| *pixel == u32::MAX))
     };
-    (is_moved && is_whole && is_empty()).then_some("this part of the canvas is empty")
+    (is_moved && is_whole && is_empty()).then_some("every pixel in sight is white")
 }
 
-/// Where nothing of the canvas is in sight, or nothing that is drawn: how to come back to it; left out where there is no room.
+/// Where nothing of the canvas is in sight, or nothing but white: how to come back to it; left out where there is no room.
 /// Returns where it stands.
 pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Option<Rect> {
     let room = free.shrink(TEXT_MARGIN);
@@ -158,23 +158,17 @@ pub(super) fn way_back(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<
     let is_free = |place: &&Rect| insets.iter().all(|inset| !inset.intersects(**place));
     let place = [middle, above, below];
     let place = place.iter().find(is_free).unwrap_or(&middle);
-    let area = Area::new(Id::unique("way back"))
-        .order(Order::Middle)
-        .fixed_pos(place.center())
-        .pivot(Align2::CENTER_CENTER)
-        .constrain_to(free)
-        .fade_in(false)
-        .show(ui.ctx(), |ui| {
-            Frame::popup(ui.style()).show(ui, |ui| {
-                ui.vertical_centered(|ui| {
-                    ui.set_max_width(WAY_BACK_WIDTH.min(free.width() - 2.0 * TEXT_MARGIN));
-                    ui.label(format!("Nothing to see here: {why}."));
-                    if command_button(ui, "reset-view", "Show the canvas (Space)").clicked() {
-                        commands.push(Command::View(ViewCommand::Reset));
-                    }
-                });
+    let area = card_area("way back", place.center(), free).show(ui.ctx(), |ui| {
+        Frame::popup(ui.style()).show(ui, |ui| {
+            ui.vertical_centered(|ui| {
+                ui.set_max_width(WAY_BACK_WIDTH.min(free.width() - 2.0 * TEXT_MARGIN));
+                ui.label(format!("Nothing to see here: {why}."));
+                if command_button(ui, "reset-view", "Show the canvas (Space)").clicked() {
+                    commands.push(Command::View(ViewCommand::Reset));
+                }
             });
         });
+    });
     Some(area.response.rect)
 }
 

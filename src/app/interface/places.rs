@@ -1,6 +1,6 @@
 //! Where things of the picture lie in the window: device pixels as points, and what is left of a rectangle around a hole.
 
-use egui::{Rect, pos2, vec2};
+use egui::{Align2, Area, Id, Order, Pos2, Rect, pos2, vec2};
 
 use crate::viewer::{PixelRect, Viewer};
 
@@ -34,6 +34,16 @@ pub(super) fn around(whole: Rect, hole: Option<Rect>) -> Vec<Rect> {
         Rect::from_min_max(hole.right_top(), pos2(whole.right(), hole.bottom())),
     ];
     parts.into_iter().filter(Rect::is_positive).collect()
+}
+
+/// Where a card over the picture goes: about `at`, as far as that leaves it in what is `free`.
+pub(super) fn card_area(name: &str, at: Pos2, free: Rect) -> Area {
+    Area::new(Id::unique(name))
+        .order(Order::Middle)
+        .fixed_pos(at)
+        .pivot(Align2::CENTER_CENTER)
+        .constrain_to(free)
+        .fade_in(false)
 }
 
 #[cfg(test)]

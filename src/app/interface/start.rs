@@ -1,8 +1,9 @@
 //! The first minute: what the program is for in one sentence, and four ways on. A card over the first scene has them, and
 //! the help.
 
-use egui::{Align, Align2, Area, Button, Frame, Id, Layout, Margin, Order, Rect, RichText, Ui, vec2};
+use egui::{Align, Button, Frame, Id, Layout, Margin, Rect, RichText, Ui, vec2};
 
+use super::places::card_area;
 use crate::viewer::{
     Command, Dialog, InspectorCommand, LessonCommand, LessonSource, SceneCommand, SceneSource, Toggle, Viewer,
 };
@@ -46,12 +47,7 @@ pub(super) fn card(ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Comm
         // Panels take clicks that are no commands of their own, such as that on the menu.
         commands.push(Command::Window(WindowCommand::StartCard(Toggle::Off)));
     }
-    let way = Area::new(Id::unique("start card"))
-        .order(Order::Middle)
-        .fixed_pos(free.center())
-        .pivot(Align2::CENTER_CENTER)
-        .constrain_to(free)
-        .fade_in(false)
+    let way = card_area("start card", free.center(), free)
         .show(ui.ctx(), |ui| {
             let frame = Frame::popup(ui.style()).inner_margin(Margin::same(MARGIN));
             frame

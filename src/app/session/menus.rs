@@ -157,7 +157,7 @@ fn empty_part_of_a_canvas_has_a_way_back() {
     let text = r#"<svg width="100" height="100"><rect width="50" height="100" fill="red"/></svg>"#;
     std::fs::write(&scene, text).expect("a scene");
     let mut session = session(vec![scene], [800, 600]);
-    let empty = "this part of the canvas is empty";
+    let empty = "every pixel in sight is white";
     assert!(!says(&mut session, empty), "at first");
     let look = |x: f64, session: &mut Session| {
         session.command(Command::View(ViewCommand::Set(ViewNumbers {

@@ -22,7 +22,7 @@ use super::super::session::Session;
 use super::handler::{Handler, SMALLEST};
 use super::opened::Sight;
 use crate::raster::Framebuffer;
-use crate::viewer::picture::{self, About};
+use crate::viewer::picture;
 use crate::viewer::{Command, InterfaceScale, SceneCommand, Settings, Toggle, WindowCommand};
 
 impl Handler {
@@ -155,7 +155,7 @@ impl Handler {
 
 /// Tells the settings that the last session left; nothing where all are as in the first.
 fn as_left(settings: &Settings) -> Option<String> {
-    let changed = picture::all().filter(|setting| setting.about != About::Document && !setting.is_default(settings));
+    let changed = picture::sampling().filter(|setting| !setting.is_default(settings));
     let words: Vec<String> = changed.map(|setting| setting.words(settings)).collect();
     let words = words.join(", ");
     (!words.is_empty())

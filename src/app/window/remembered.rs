@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::app::interface::PanelWidths;
 use crate::plain;
-use crate::viewer::picture::{self, About, PictureSetting};
+use crate::viewer::picture::{self, PictureSetting};
 use crate::viewer::{InterfaceScale, PixelZoom, Settings, Theme};
 
 /// Largest file that is read, in bytes: ours have some hundred.
@@ -77,11 +77,6 @@ pub(super) struct Remembered {
     /// How wide the user made panels, in points: a table, which stands last in the file.
     #[serde(skip_serializing_if = "is_first")]
     pub(super) panel_widths: PanelWidths,
-}
-
-/// The settings that are remembered.
-fn sampling() -> impl Iterator<Item = &'static PictureSetting> {
-    picture::all().filter(|setting| setting.about != About::Document)
 }
 
 /// Whether nothing was chosen.
@@ -155,7 +150,7 @@ impl Remembered {
             progressive: self.progressive.unwrap_or(asked.progressive),
             ..asked
         };
-        for setting in sampling().filter(|setting| !given.contains(&setting.option)) {
+        for setting in picture::sampling().filter(|setting| !given.contains(&setting.option)) {
             let value = self.settings.get(setting.option);
             if let Some(value) = value {
                 // An older or a newer program may not know a name: then all stays as it is.
@@ -167,7 +162,7 @@ impl Remembered {
         render.sample_rate = render.pattern.nearest(render.sample_rate);
         // What was given stays, even where a pattern of the last session would not take its sample rate.
         let is_kept = |setting: &&PictureSetting| setting.value(&taken) == setting.value(&asked);
-        let given_stays = sampling()
+        let given_stays = picture::sampling()
             .filter(|setting| given.contains(&setting.option))
             .all(|setting| is_kept(&setting));
         *settings = if given_stays { taken } else { asked };
@@ -180,7 +175,7 @@ impl Remembered {
 
     /// Remembers settings, but not in which dialect documents are read: that is theirs.
     pub(super) fn set_settings(&mut self, settings: &Settings) {
-        let changed = sampling().filter(|setting| !setting.is_default(settings));
+        let changed = picture::sampling().filter(|setting| !setting.is_default(settings));
         self.settings = changed
             .map(|setting| (setting.option.to_owned(), setting.value(settings)))
             .collect();

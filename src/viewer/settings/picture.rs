@@ -41,16 +41,21 @@ fn told(told: Told, about: About) -> impl Iterator<Item = &'static PictureSettin
     all().filter(move |setting| (setting.told, setting.about) == (told, about))
 }
 
+/// The settings of sampling and textures, without how documents are read.
+pub fn sampling() -> impl Iterator<Item = &'static PictureSetting> {
+    all().filter(|setting| setting.about != About::Document)
+}
+
 /// Brings every setting of sampling and textures back to its default; how documents are read stays.
 pub(in crate::viewer) fn reset(settings: &mut Settings) {
-    for setting in all().filter(|setting| setting.about != About::Document) {
+    for setting in sampling() {
         setting.set(settings, &setting.default_value());
     }
 }
 
 /// Whether every setting of sampling and textures has its default.
 pub fn are_defaults(settings: &Settings) -> bool {
-    all().all(|setting| setting.about == About::Document || setting.is_default(settings))
+    sampling().all(|setting| setting.is_default(settings))
 }
 
 /// The changes that settings such as `sample-rate 16, dialect svg` ask for; `None` where one of them is none.

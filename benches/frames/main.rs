@@ -33,9 +33,9 @@ fn main() {
     // Cargo adds `--bench`.
     let words: Vec<String> = std::env::args().skip(1).filter(|word| word != "--bench").collect();
     if let [option, folder] = words.as_slice()
-        && option == "--export"
+        && let Some(export) = export::by_option(option)
     {
-        export::export(folder.as_ref(), BUDGET).expect("a folder that can be written");
+        export(folder.as_ref(), BUDGET).expect("a folder that can be written");
         return;
     }
     let paths: Vec<&Path> = words.iter().map(Path::new).collect();

@@ -71,9 +71,4 @@ impl<'a> Ours<'a> {
     pub(crate) fn frame(&self) -> &Framebuffer {
         &self.frame
     }
-
-    /// From user units to pixels.
-    pub(crate) fn view(&self) -> &ViewTransform {
-        &self.view
-    }
 }

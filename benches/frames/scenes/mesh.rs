@@ -1,5 +1,6 @@
 //! Scenes that only a rasterizer of triangles draws: textured meshes, a million tiny triangles, points.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2, Vec2};
@@ -114,6 +115,47 @@ pub(crate) fn textured(size: [u32; 2]) -> Vec<MeshScene> {
         minified.add(&Grid::new(25, 25, 0.3, 13), quarter, [0.0, 1.0]);
     }
     [magnified, even, minified].map(|mesh| mesh.0).into()
+}
+
+/// Meshes with a colour at each corner, for frames of `size` pixels: large triangles around a point, and small ones in rows.
+pub(crate) fn colored(size: [u32; 2]) -> Vec<MeshScene> {
+    let mut chance = Chance::new(41);
+    let mut color = || Rgba::from_bytes([chance.byte(), chance.byte(), chance.byte(), 255]);
+    let triangle = |points, colors| {
+        primitive(PrimitiveKind::Triangle {
+            points,
+            paint: Paint::Vertex(colors),
+        })
+    };
+    let (center, radius) = (canvas(size) / 2.0, canvas(size).min_element() * 0.48);
+    let rim: Vec<(DVec2, Rgba)> = (0..48)
+        .map(|i| (center + DVec2::from_angle(f64::from(i) * TAU / 48.0) * radius, color()))
+        .collect();
+    let mut wheel = Scene::empty(canvas(size), Dialect::Svg);
+    wheel.primitives = (0..rim.len())
+        .map(|i| {
+            let (a, b) = (rim[i], rim[(i + 1) % rim.len()]);
+            triangle([center, a.0, b.0], [Rgba::WHITE, a.1, b.1])
+        })
+        .collect();
+    let mut rows = Scene::empty(canvas(size), Dialect::Svg);
+    rows.primitives = Grid::new(40, 40, 0.3, 42)
+        .triangles()
+        .map(|corners| {
+            let points = corners.map(|(wobbly, _)| wobbly * canvas(size));
+            triangle(points, [color(), color(), color()])
+        })
+        .collect();
+    vec![
+        MeshScene {
+            name: "wheel",
+            scene: wheel,
+        },
+        MeshScene {
+            name: "colour mesh",
+            scene: rows,
+        },
+    ]
 }
 
 /// A textured mesh in the making.

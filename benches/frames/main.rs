@@ -2,7 +2,7 @@
 //!
 //! Parts: `parts`, `stages`, `flat`, `drawings`, `course`, `slivers`, `textured`, `million`, `points`, `memory`; all of them without an
 //! argument. The last lines are the table of the README. SVG files instead of parts are drawn as the drawings are; `--export FOLDER`
-//! times us and writes what `benches/llvmpipe` draws.
+//! times us and writes what `benches/llvmpipe` draws, `--export-skia FOLDER` what `benches/skia` draws.
 
 mod course;
 mod drawings;

@@ -1,6 +1,7 @@
 //! What renderers outside of this program draw: scenes as raw numbers, our pictures of them, and our times.
 
 mod llvmpipe;
+mod skia;
 
 use std::fs;
 use std::io;
@@ -32,6 +33,7 @@ struct Case {
 pub(crate) fn by_option(option: &str) -> Option<fn(&Path, Budget) -> io::Result<()>> {
     match option {
         "--export" => Some(llvmpipe::export),
+        "--export-skia" => Some(skia::export),
         _ => None,
     }
 }

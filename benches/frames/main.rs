@@ -1,9 +1,10 @@
 //! What a frame costs, ours and the peers': `cargo bench --bench frames -- [PART ...]`.
 //!
-//! Parts: `parts`, `stages`, `flat`, `drawings`, `course`, `slivers`, `textured`, `million`, `points`, `memory`; all of them without an
+//! Parts: `parts`, `stages`, `flat`, `drawings`, `course`, `slivers`, `textured`, `million`, `patterns`, `resolve`, `points`, `memory`; all of them without an
 //! argument. The last lines are the table of the README. SVG files instead of parts are drawn as the drawings are; `--export FOLDER`
 //! times us and writes what `benches/llvmpipe` draws, `--export-skia FOLDER` what `benches/skia` draws.
 
+mod choices;
 mod course;
 mod drawings;
 mod export;
@@ -71,6 +72,12 @@ fn main() {
     }
     if wanted("million") {
         rows.extend(meshes::million(BUDGET));
+    }
+    if wanted("patterns") {
+        rows.extend(choices::patterns(BUDGET));
+    }
+    if wanted("resolve") {
+        rows.extend(choices::resolve(BUDGET));
     }
     if wanted("points") {
         meshes::points(BUDGET);

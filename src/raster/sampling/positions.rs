@@ -37,7 +37,7 @@ impl SamplePositions {
         let seed = seed.bits();
         let mut same = Vec::new();
         if !pattern.differs_by_pixel() {
-            own.place(seed, &mut same);
+            own.place(&[seed], &mut same);
         }
         Self {
             count: rate.samples() as usize,
@@ -72,10 +72,20 @@ impl SamplePositions {
         if !self.same.is_empty() {
             return &self.same;
         }
-        // A pixel of the frame has the same ones however much is painted around it.
-        let [x, y] = [x - self.margin, y - self.margin];
         memory.clear();
-        self.own.place(self.own.random([x, y], self.seed), memory);
+        self.own.place(&[self.random([x, y])], memory);
         memory
+    }
+
+    /// Adds where the samples of pixels lie, one pixel after the other, by these [`SamplePositions::random`] bits of each.
+    pub(crate) fn add(&self, pixels: &[u64], places: &mut Vec<Position>) {
+        self.own.place(pixels, places);
+    }
+
+    /// What places the samples of a pixel where each has its own, by its column and row in what is painted.
+    #[inline]
+    pub(crate) fn random(&self, [x, y]: [i32; 2]) -> u64 {
+        // A pixel of the frame has the same ones however much is painted around it.
+        self.own.random([x - self.margin, y - self.margin], self.seed)
     }
 }

@@ -23,8 +23,20 @@ pub(in crate::raster::sampling) trait Place: Debug + Send + Sync {
         mix((u64::from(x.cast_unsigned()) | u64::from(y.cast_unsigned()) << 32) ^ seed)
     }
 
-    /// Adds the places of a pixel's samples, which has random bits of its own.
-    fn place(&self, random: u64, places: &mut Vec<Position>);
+    /// Adds the places of the samples of pixels, one pixel after the other: each has random bits of its own.
+    fn place(&self, pixels: &[u64], places: &mut Vec<Position>);
+}
+
+/// The random bits of pixels, each with new places for `count` samples.
+#[inline]
+pub(super) fn with_places<'p>(
+    pixels: &'p [u64],
+    count: usize,
+    places: &'p mut Vec<Position>,
+) -> impl Iterator<Item = (u64, &'p mut [Position])> {
+    let first = places.len();
+    places.resize(first + pixels.len() * count, [0; 2]);
+    pixels.iter().copied().zip(places[first..].chunks_exact_mut(count))
 }
 
 /// Places that need no random bits.
@@ -40,8 +52,10 @@ impl Fixed {
 }
 
 impl Place for Fixed {
-    fn place(&self, _: u64, places: &mut Vec<Position>) {
-        places.extend_from_slice(&self.0);
+    fn place(&self, pixels: &[u64], places: &mut Vec<Position>) {
+        for _ in pixels {
+            places.extend_from_slice(&self.0);
+        }
     }
 }
 

@@ -14,7 +14,7 @@
 
 use std::sync::{Arc, LazyLock};
 
-use super::arrange::{Arrange, Place, Position};
+use super::arrange::{Arrange, Place, Position, with_places};
 use super::random_bits::halves;
 use super::sobol::point;
 use crate::raster::sampling::rate::SampleRate;
@@ -60,13 +60,13 @@ impl Place for Points {
         shift(y * SIDE + x) | shift(x * SIDE + y) << 8
     }
 
-    fn place(&self, random: u64, places: &mut Vec<Position>) {
-        let [across, down, ..] = random.to_le_bytes();
-        places.extend(
-            self.points
-                .iter()
-                .map(|[x, y]| [x.wrapping_add(across), y.wrapping_add(down)]),
-        );
+    fn place(&self, pixels: &[u64], places: &mut Vec<Position>) {
+        for (random, places) in with_places(pixels, self.points.len(), places) {
+            let [across, down, ..] = random.to_le_bytes();
+            for (place, [x, y]) in places.iter_mut().zip(&self.points) {
+                *place = [x.wrapping_add(across), y.wrapping_add(down)];
+            }
+        }
     }
 }
 
@@ -206,7 +206,7 @@ mod tests {
         let places = |at: [i32; 2], seed: u64| {
             let place = BlueNoise.prepare(SampleRate::new(7).expect("a rate"));
             let mut places = Vec::new();
-            place.place(place.random(at, seed), &mut places);
+            place.place(&[place.random(at, seed)], &mut places);
             places
         };
         let first = places([0, 0], 5);

@@ -1,71 +1,117 @@
 //! One point anywhere in each of `n x n` cells (Cook, "Stochastic sampling in computer graphics", ACM Transactions on Graphics
 //! 5, 1986).
 
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
 use std::sync::Arc;
 
-use super::arrange::{Arrange, Place, Position};
-use super::cells::{anywhere, cells};
-use super::random_bits::{hash, low_quarter};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch, u16x32};
+
+use super::arrange::{Arrange, Place, Position, with_places};
+use super::cells::cells;
+use super::random_bits::hash_eight;
 use crate::raster::sampling::rate::SampleRate;
+use crate::simd;
 
 /// Row by row.
 pub(super) struct Jittered;
 
-/// The cells of two samples at a time, since 64 random bits are enough for both: columns and rows in the order in which bits
-/// are taken, where each begins and how long it is.
+/// Samples that are placed together: 64 random bits are enough for two, and eight times as many are made at once.
+const TOGETHER: usize = 16;
+
+/// The cells of samples.
 #[derive(Debug)]
-struct Pairs {
+struct Jitter {
     count: usize,
-    cells: Vec<[[u16; 2]; 4]>,
+    cells: Vec<CellBlock>,
+}
+
+/// The cells of [`TOGETHER`] samples: the column and the row of each, where it begins and how long it is.
+#[derive(Clone, Debug)]
+struct CellBlock {
+    starts: [u16; 2 * TOGETHER],
+    lengths: [u16; 2 * TOGETHER],
 }
 
 impl Arrange for Jittered {
     fn prepare(&self, rate: SampleRate) -> Arc<dyn Place> {
         let cells = cells(rate.side());
-        let narrow = |cell: [u32; 2]| cell.map(|at| u16::try_from(at).unwrap_or(u16::MAX));
-        let all: Vec<[[u16; 2]; 2]> = cells
+        let all: Vec<[[u32; 2]; 2]> = cells
             .iter()
-            .flat_map(|row| cells.iter().map(|column| [narrow(*column), narrow(*row)]))
+            .flat_map(|row| cells.iter().map(|column| [*column, *row]))
             .collect();
-        let pair = |pair: &[[[u16; 2]; 2]]| {
-            let [first, second] = [pair[0], pair[pair.len() - 1]];
-            [first[0], first[1], second[0], second[1]]
-        };
-        Arc::new(Pairs {
+        Arc::new(Jitter {
             count: all.len(),
-            cells: all.chunks(2).map(pair).collect(),
+            cells: all
+                .chunks(TOGETHER)
+                .map(|cells| CellBlock::new(cells.as_flattened()))
+                .collect(),
         })
     }
 }
 
-impl Place for Pairs {
-    fn place(&self, random: u64, places: &mut Vec<Position>) {
-        let first = places.len();
-        for (number, cells) in (0..).zip(&self.cells) {
-            let random = hash(random, number);
-            // Written out: `map` may stay a call here, which takes longer than what it does.
-            let at = |i: usize| {
-                let [start, length] = cells[i];
-                anywhere([start.into(), length.into()], low_quarter(random >> (16 * i)))
-            };
-            places.extend_from_slice(&[[at(0), at(1)], [at(2), at(3)]]);
+impl Place for Jitter {
+    fn place(&self, pixels: &[u64], places: &mut Vec<Position>) {
+        dispatch!(simd::level(), simd => self.place_with(simd, pixels, places));
+    }
+}
+
+impl Jitter {
+    #[inline(always)]
+    fn place_with<S: Simd>(&self, simd: S, pixels: &[u64], places: &mut Vec<Position>) {
+        for (random, places) in with_places(pixels, self.count, places) {
+            let mut first = 0;
+            for (cells, places) in self.cells.iter().zip(places.chunks_mut(TOGETHER)) {
+                let bits: u16x32<S> = hash_eight(simd, random, first).bitcast();
+                let found = cells.anywhere(&bits.to_array());
+                let (found, _) = found.as_chunks::<2>();
+                places.copy_from_slice(&found[..places.len()]);
+                first += 8;
+            }
         }
-        places.truncate(first + self.count);
+    }
+}
+
+impl CellBlock {
+    fn new(cells: &[[u32; 2]]) -> Self {
+        let narrow = |at: u32| u16::try_from(at).unwrap_or(u16::MAX);
+        let (mut starts, mut lengths) = ([0; 2 * TOGETHER], [0; 2 * TOGETHER]);
+        for ((start, length), cell) in starts.iter_mut().zip(&mut lengths).zip(cells) {
+            [*start, *length] = cell.map(narrow);
+        }
+        Self { starts, lengths }
+    }
+
+    /// A point of each cell, as [`super::cells::anywhere`] has it.
+    #[inline(always)]
+    fn anywhere(&self, random: &[u16; 2 * TOGETHER]) -> [u8; 2 * TOGETHER] {
+        let mut found = [0; 2 * TOGETHER];
+        for (i, found) in found.iter_mut().enumerate() {
+            let inside = (u32::from(random[i]) * u32::from(self.lengths[i])) >> 16;
+            [*found, ..] = (u32::from(self.starts[i]) + inside).to_le_bytes();
+        }
+        found
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::sampling::pattern::cells::anywhere;
+    use crate::raster::sampling::pattern::random_bits::{hash, low_quarter};
 
     #[test]
-    fn jitter_two_by_two_is_that_of_one_sample_after_the_other() {
+    fn jitter_of_many_samples_is_that_of_one_sample_after_the_other() {
         arbtest::arbtest(|u| {
             let side = u.int_in_range(1..=16)?;
             let rate = SampleRate::new(side * side).expect("a rate");
             let pixel: u64 = u.arbitrary()?;
             let mut found = Vec::new();
-            Jittered.prepare(rate).place(pixel, &mut found);
+            Jittered.prepare(rate).place(&[pixel], &mut found);
             let cells = cells(side);
             let one = |sample: u32| {
                 let random = hash(pixel, u64::from(sample / 2)) >> (sample % 2 * 32);

@@ -1,16 +1,39 @@
 //! Random bits that depend on nothing but what they are of: a pixel, a sample, a seed.
 
-/// Random bits, number by number, of a pixel.
-#[inline]
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, u64x8};
+
+/// What the bits of a pixel gain from number to number: `2^64` by the golden ratio.
+const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+const FACTORS: [u64; 2] = [0xBF58_476D_1CE4_E5B9, 0x94D0_49BB_1331_11EB];
+
+/// Random bits, number by number, of a pixel: what [`hash_eight`] is tested against.
+#[cfg(test)]
 pub(in crate::raster::sampling) fn hash(pixel: u64, number: u64) -> u64 {
-    mix(pixel.wrapping_add((number + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15)))
+    mix(pixel.wrapping_add((number + 1).wrapping_mul(GOLDEN)))
+}
+
+/// Random bits of a pixel, of eight numbers one after the other.
+#[inline(always)]
+pub(super) fn hash_eight<S: Simd>(simd: S, pixel: u64, first: u64) -> u64x8<S> {
+    let steps = [1_u64, 2, 3, 4, 5, 6, 7, 8].map(|number| number.wrapping_mul(GOLDEN));
+    let number = |value| u64x8::splat(simd, value);
+    let mut bits = u64x8::simd_from(simd, steps) + number(pixel.wrapping_add(first.wrapping_mul(GOLDEN)));
+    bits = (bits ^ bits >> 30) * number(FACTORS[0]);
+    bits = (bits ^ bits >> 27) * number(FACTORS[1]);
+    bits ^ bits >> 31
 }
 
 /// The finaliser of `SplitMix` (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
 #[inline]
 pub(in crate::raster::sampling) fn mix(mut bits: u64) -> u64 {
-    bits = (bits ^ bits >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    bits = (bits ^ bits >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
+    bits = (bits ^ bits >> 30).wrapping_mul(FACTORS[0]);
+    bits = (bits ^ bits >> 27).wrapping_mul(FACTORS[1]);
     bits ^ bits >> 31
 }
 
@@ -31,4 +54,26 @@ pub(super) fn first_sixteen(random: u64) -> u16 {
 pub(super) fn halves(random: u64) -> [u32; 2] {
     let [a, b, c, d, e, f, g, h] = random.to_le_bytes();
     [u32::from_le_bytes([a, b, c, d]), u32::from_le_bytes([e, f, g, h])]
+}
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::dispatch;
+
+    use super::*;
+    use crate::simd;
+
+    #[test]
+    fn eight_numbers_are_hashed_as_one_by_one() {
+        arbtest::arbtest(|u| {
+            let (pixel, first) = (u.arbitrary()?, u.int_in_range(0..=255)?);
+            let expected: Vec<u64> = (first..first + 8).map(|number| hash(pixel, number)).collect();
+            for (name, level) in simd::tested() {
+                let found: [u64; 8] = dispatch!(level, simd => hash_eight(simd, pixel, first).to_array());
+                assert_eq!(found.to_vec(), expected, "{name}: {pixel:x} from {first}");
+            }
+            Ok(())
+        })
+        .budget_ms(100);
+    }
 }

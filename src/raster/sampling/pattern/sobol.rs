@@ -4,11 +4,19 @@
 //! permuted (t, m, s)-nets and (t, s)-sequences", 1995), which keeps that, with the hash of Laine and Karras as Burley has it
 //! ("Practical hash-based Owen scrambling", Journal of Computer Graphics Techniques 9, 2020).
 
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
 use std::sync::Arc;
 
-use super::arrange::{Arrange, Place, Position};
+use fearless_simd::{Simd, dispatch};
+
+use super::arrange::{Arrange, Place, Position, with_places};
 use super::random_bits::first_sixteen;
 use crate::raster::sampling::rate::SampleRate;
+use crate::simd;
 
 /// Its first points, scrambled.
 pub(super) struct Sobol;
@@ -29,9 +37,20 @@ impl Arrange for Sobol {
 }
 
 impl Place for Points {
-    fn place(&self, random: u64, places: &mut Vec<Position>) {
-        let (across, down) = (Scramble::new(random), Scramble::new(random >> 32));
-        places.extend(self.0.iter().map(|[x, y]| [across.byte(*x), down.byte(*y)]));
+    fn place(&self, pixels: &[u64], places: &mut Vec<Position>) {
+        dispatch!(simd::level(), simd => self.place_with(simd, pixels, places));
+    }
+}
+
+impl Points {
+    #[inline(always)]
+    fn place_with<S: Simd>(&self, _: S, pixels: &[u64], places: &mut Vec<Position>) {
+        for (random, places) in with_places(pixels, self.0.len(), places) {
+            let (across, down) = (Scramble::new(random), Scramble::new(random >> 32));
+            for (place, [x, y]) in places.iter_mut().zip(&self.0) {
+                *place = [across.byte(*x), down.byte(*y)];
+            }
+        }
     }
 }
 
@@ -52,7 +71,7 @@ impl Scramble {
     }
 
     /// The place on the lattice of a coordinate that begins with these bits, the first one lowest.
-    #[inline]
+    #[inline(always)]
     fn byte(self, mut bits: u16) -> u8 {
         bits ^= bits.wrapping_mul(0xADEA);
         bits = bits.wrapping_add(self.added);
@@ -99,7 +118,7 @@ mod tests {
             let rate = SampleRate::new(u.int_in_range(1..=256)?).expect("a rate");
             let random = u.arbitrary()?;
             let mut places = Vec::new();
-            Sobol.prepare(rate).place(random, &mut places);
+            Sobol.prepare(rate).place(&[random], &mut places);
             let seeds = halves(random);
             let expected: Vec<Position> = (0..rate.samples())
                 .map(|number| {
@@ -122,7 +141,7 @@ mod tests {
             let log2 = u.int_in_range(0..=8_u32)?;
             let rate = SampleRate::new(1 << log2).expect("a rate");
             let mut places = Vec::new();
-            Sobol.prepare(rate).place(u.arbitrary()?, &mut places);
+            Sobol.prepare(rate).place(&[u.arbitrary()?], &mut places);
             for across in 0..=log2 {
                 let down = log2 - across;
                 let mut intervals: Vec<[u32; 2]> = places

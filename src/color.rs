@@ -4,8 +4,10 @@ mod blend;
 mod blend_all;
 mod colormap;
 mod light;
+mod light_spread;
 mod ramp;
 mod resolve;
+mod sample_mean;
 mod weighted;
 
 use crate::rules::Rules;
@@ -13,8 +15,10 @@ use crate::rules::Rules;
 pub use blend::BlendMode;
 pub use colormap::Colormap;
 pub use light::{Light, LightResolver};
+pub(crate) use light_spread::ValueSpread;
 pub use ramp::{Mix, Ramp, Spread, Stop, Stretch};
 pub use resolve::{ResolveSpace, encoded};
+pub use sample_mean::SampleMean;
 pub use weighted::WeightedSum;
 
 /// A straight (not premultiplied) sRGB-encoded colour; each channel and alpha in `0.0..=1.0`.
@@ -354,6 +358,13 @@ impl Resolver {
                 let [low, high] = [red_green, blue_alpha].map(|sums| sums as u32);
                 self.pixel([low, (red_green >> 32) as u32, high, (blue_alpha >> 32) as u32])
             }
+        }
+    }
+
+    /// [`Resolver::pixel`] of as many sums as there are pixels.
+    pub fn pixels(&self, sums: &[[u32; 4]], pixels: &mut [u32]) {
+        for (pixel, sum) in pixels.iter_mut().zip(sums) {
+            *pixel = self.pixel(*sum);
         }
     }
 

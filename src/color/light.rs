@@ -102,18 +102,19 @@ impl Steps {
     #[inline]
     #[expect(
         clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a piece's number, of a sum below 2^56"
+        reason = "a byte, and a piece's number of a sum below 2^56"
     )]
     fn byte(&self, sum: u64, alphas: u64, scale: f64) -> u32 {
-        let piece = (sum as f64 * scale) as usize;
-        let mut byte = usize::from(self.below[piece.min(PIECES - 1)]);
+        // Rounded to a whole number in the lowest bits: a conversion would care for numbers out of range.
+        const WHOLE: f64 = (1_u64 << 52) as f64;
+        let piece = (sum.cast_signed() as f64 * scale - 0.5).max(0.0) + WHOLE;
+        let piece = (piece.to_bits() & 0xFFFF) as usize;
+        let byte = usize::from(self.below[piece.min(PIECES - 1)]);
         // The sum lies in this piece or in the next one. A mean is at least some light where as many of it are no more than
         // the sum: nothing is rounded.
-        for _ in 0..2 {
-            byte += usize::from(u64::from(self.least[byte % 256]) * alphas <= sum);
-        }
-        byte as u32
+        let is_reached = |byte: usize| usize::from(u64::from(self.least[byte % 256]) * alphas <= sum);
+        let (first, second) = (is_reached(byte), is_reached(byte + 1));
+        (byte + first + (first & second)) as u32
     }
 }
 

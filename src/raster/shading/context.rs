@@ -4,6 +4,7 @@ use crate::color::ResolveSpace;
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::SampleRate;
 use crate::raster::resolve::SizedFilter;
+use crate::raster::sampling::positions::Position;
 use crate::raster::shading::sources::PaintSources;
 use crate::texture::{SampleGrid, SamplingSettings};
 
@@ -25,6 +26,16 @@ pub(crate) struct ShadeContext<'a> {
 pub(crate) struct Pixels<'p> {
     pub(crate) grid: SampleGrid,
     pub(crate) places: &'p [[u16; 2]],
+}
+
+/// All samples of some pixels, whose places in their pixels are those of a pattern.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlacedPixels<'p> {
+    pub(crate) pixels: Pixels<'p>,
+    /// Samples per pixel.
+    pub(crate) count: usize,
+    /// Where those of each pixel lie, one pixel after the other; only once where that is the same in all.
+    pub(crate) inside: &'p [Position],
 }
 
 /// Some samples of some pixels.
@@ -51,6 +62,23 @@ impl ShadeContext<'_> {
         SampleGrid {
             side: self.grid.side().cast_unsigned(),
             origin,
+        }
+    }
+}
+
+impl<'p> PlacedPixels<'p> {
+    /// Whether samples lie at the same places in all pixels.
+    pub(crate) fn are_same(&self) -> bool {
+        self.inside.len() == self.count
+    }
+
+    /// Where the samples of pixel `i` of the list lie in it.
+    #[inline]
+    pub(crate) fn inside(&self, i: usize) -> &'p [Position] {
+        if self.are_same() {
+            self.inside
+        } else {
+            &self.inside[i * self.count..][..self.count]
         }
     }
 }

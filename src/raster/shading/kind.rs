@@ -1,10 +1,10 @@
 //! What every kind of paint answers. Only the colours of samples must be told; a paint that knows a shorter way to whole
 //! pixels or to sums of samples tells that too.
 
-use crate::color::{Premultiplied16, Rgba};
+use crate::color::{Premultiplied16, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
-use crate::raster::shading::context::{MaskedPixels, Pixels, ShadeContext, ShadedSample};
+use crate::raster::shading::context::{MaskedPixels, Pixels, PlacedPixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
 use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
@@ -62,6 +62,12 @@ pub(super) trait Shade {
     /// The values of opaque pixels with one sample each.
     fn pixels(&self, pixels: Pixels<'_>, rules: Rules, values: &mut [u32]) {
         pixels_by_points(self, pixels, rules, values);
+    }
+
+    /// The pixels that all of their samples make, where there is a way that is shorter than [`Shade::points`] of each; whether
+    /// there is one. The triangle must be opaque.
+    fn placed_pixels(&self, _: PlacedPixels<'_>, _: &SampleMean, _: &mut [u32]) -> bool {
+        false
     }
 
     /// For each of the pixels the sum of all its samples.

@@ -22,11 +22,12 @@ mod solid;
 pub(in crate::raster) mod sources;
 mod texture;
 mod vertex;
+mod vertex_means;
 
-use crate::color::{Premultiplied16, Rgba};
+use crate::color::{Premultiplied16, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
-use crate::raster::shading::context::{MaskedPixels, Pixels, ShadeContext, ShadedSample};
+use crate::raster::shading::context::{MaskedPixels, Pixels, PlacedPixels, ShadeContext, ShadedSample};
 use crate::raster::shading::gradient::GradientPaint;
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
 use crate::raster::shading::kind::{PaintKind, Shade};
@@ -183,6 +184,12 @@ impl<'a> Shader<'a> {
     /// The values of pixels that show nothing but this triangle, at one sample each; it must be opaque.
     pub(crate) fn pixels(&self, pixels: Pixels<'_>, values: &mut [u32]) {
         ask!(&self.any, AnyShader, shader => shader.pixels(pixels, self.rules, values));
+    }
+
+    /// The pixels that all of their samples make, where there is a way that is shorter than [`Shader::points`] of each; whether
+    /// there is one. The triangle must be opaque.
+    pub(crate) fn placed_pixels(&self, pixels: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) -> bool {
+        ask!(&self.any, AnyShader, shader => shader.placed_pixels(pixels, mean, values))
     }
 
     /// For each of the pixels the sum of all its samples. The triangle must be opaque and the rules the standard ones.

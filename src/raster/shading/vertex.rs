@@ -7,15 +7,16 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use crate::color::{Premultiplied16, Rgba};
+use crate::color::{Premultiplied16, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::attributes::Planes;
-use crate::raster::shading::context::{MaskedPixels, Pixels, ShadeContext, ShadedSample};
+use crate::raster::shading::context::{MaskedPixels, Pixels, PlacedPixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::Attributes;
 use crate::raster::shading::kernel::{LANES, ONE, first_sample, low_half, places_of, rounded};
 use crate::raster::shading::kind::{PaintKind, Shade, at_corner, pixels_by_points};
 use crate::raster::shading::sources::PaintSources;
+use crate::raster::shading::vertex_means;
 use crate::rules::Rules;
 use crate::simd;
 use crate::texture::SampleGrid;
@@ -113,6 +114,10 @@ impl Shade for VertexShader {
         }
     }
 
+    fn placed_pixels(&self, pixels: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) -> bool {
+        self.is_opaque && self.rules != Rules::Course && vertex_means::means(&self.opaque, pixels, mean, values)
+    }
+
     fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {
         self.opaque_sums(simd::level(), pixels, sums);
     }
@@ -198,7 +203,7 @@ fn channels(planes: &Planes<3>, [x, y]: &[[f64; LANES]; 2], count: f64) -> [[u32
 
 /// Opaque colours at samples.
 #[inline(always)]
-fn point_kernel<S: Simd>(
+pub(super) fn point_kernel<S: Simd>(
     _: S,
     planes: &Planes<3>,
     grid: SampleGrid,

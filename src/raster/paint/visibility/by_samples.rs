@@ -1,11 +1,23 @@
 //! What samples that are shaded and rounded one by one are averaged with, and the memory for it: `resolve_by_samples` uses it.
 
-use crate::color::{Light, LightResolver, Premultiplied16, ResolveSpace, Resolver};
-use crate::raster::paint::visibility::shading_queue::{Fragment, Part};
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
+use fearless_simd::{Simd, dispatch};
+
+use crate::color::{Light, Premultiplied16, SampleMean};
+use crate::raster::frame::block::PixelBlock;
+use crate::raster::paint::visibility::shading_queue::WholeRun;
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::shading::Shader;
-use crate::raster::shading::context::ShadeContext;
+use crate::raster::shading::context::{Pixels, PlacedPixels, ShadeContext};
+use crate::simd;
 use crate::texture::SampleGrid;
+
+/// Pixels that are shaded together, and some more: so many that their samples stay in a core's cache.
+pub(super) const TOGETHER: usize = 64;
 
 /// What samples are averaged with, and memory.
 #[derive(Debug)]
@@ -13,7 +25,7 @@ pub(super) struct BySamples {
     pub(super) positions: SamplePositions,
     /// Whether the positions are those of the grid.
     is_grid: bool,
-    pub(super) mean: Mean,
+    pub(super) mean: SampleMean,
     /// The light of surfaces.
     pub(super) lights: Vec<Light>,
     /// The samples of pixels that several primitives share.
@@ -26,59 +38,32 @@ pub(super) struct BySamples {
 pub(super) struct SampleShades {
     pub(super) points: Vec<[u16; 2]>,
     pub(super) colors: Vec<Premultiplied16>,
-    /// The positions of samples, where they are the same in every pixel.
-    same: Vec<[u16; 2]>,
+    /// Pixels of which all samples are shaded, and what becomes of them.
+    pub(super) whole: Vec<[u16; 2]>,
+    pixels: Vec<u32>,
+    /// Where the samples of these pixels lie, and the random bits that say so; once where they are the same in every pixel.
+    inside: Vec<Position>,
+    random: Vec<u64>,
     memory: Vec<Position>,
-}
-
-/// How samples are averaged.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Mean {
-    Stored(Resolver),
-    Linear(LightResolver),
-}
-
-impl Mean {
-    #[inline]
-    pub(super) fn pixel(&self, samples: &[Premultiplied16]) -> u32 {
-        match self {
-            Self::Stored(resolver) => resolver.pixel(Premultiplied16::sums(samples)),
-            Self::Linear(resolver) => resolver.mean(samples),
-        }
-    }
-
-    /// The same of opaque samples.
-    #[inline]
-    pub(super) fn opaque_pixel(&self, samples: &[Premultiplied16]) -> u32 {
-        match self {
-            Self::Stored(resolver) => resolver.pixel(Premultiplied16::sums(samples)),
-            Self::Linear(resolver) => resolver.opaque_mean(samples),
-        }
-    }
 }
 
 impl BySamples {
     pub(super) fn new(context: &ShadeContext<'_>, positions: SamplePositions) -> Self {
         let side = context.rate.side();
         let rules = context.sampling.rules;
-        let same = if positions.are_same() {
-            let places = positions.of_pixel([0; 2], &mut Vec::new()).to_vec();
-            places.into_iter().map(|place| place.map(u16::from)).collect()
+        let inside = if positions.are_same() {
+            positions.of_pixel([0; 2], &mut Vec::new()).to_vec()
         } else {
             Vec::new()
         };
         Self {
             positions,
             is_grid: context.grid.side().cast_unsigned() == side,
-            mean: match context.space {
-                // The mean of one sample is that sample in either.
-                ResolveSpace::Linear if side > 1 => Mean::Linear(LightResolver::new(side * side, rules)),
-                _ => Mean::Stored(Resolver::new(side * side, rules)),
-            },
+            mean: SampleMean::new(context.space, side * side, rules),
             lights: Vec::new(),
             shared: Vec::new(),
             shades: SampleShades {
-                same,
+                inside,
                 ..SampleShades::default()
             },
         }
@@ -86,7 +71,7 @@ impl BySamples {
 
     /// Whether light is averaged.
     pub(super) fn is_linear(&self) -> bool {
-        matches!(self.mean, Mean::Linear(_))
+        matches!(self.mean, SampleMean::Linear(_))
     }
 
     /// Whether tiles in which anything is shaded are resolved here.
@@ -96,41 +81,22 @@ impl BySamples {
 }
 
 impl SampleShades {
-    /// Adds the samples of a fragment of a tile whose samples `grid` counts.
+    /// Adds the samples of a pixel that a fragment of a tile holds some of; `grid` counts the tile's.
     #[inline]
     pub(super) fn gather(
         &mut self,
-        fragment: &Fragment,
-        places: &[[u16; 2]],
+        place: [u16; 2],
+        (first, mask): (u16, u64),
         positions: &SamplePositions,
         grid: SampleGrid,
     ) {
-        let place = match fragment.part {
-            Part::Whole { place } => place,
-            Part::Masked { pixel, .. } => places[pixel as usize],
-        };
-        let pixel = [0, 1].map(|i| grid.origin[i] + i32::from(place[i]));
-        // No tile has more than `2^14` points of a lattice along a side.
-        let [left, top] = place.map(|at| u16::try_from(u32::from(at) * grid.side).unwrap_or(u16::MAX));
-        let first = self.points.len();
-        match fragment.part {
-            Part::Whole { .. } if !self.same.is_empty() => self.points.extend_from_slice(&self.same),
-            Part::Whole { .. } => {
-                let of_pixel = positions.of_pixel(pixel, &mut self.memory);
-                self.points.extend(of_pixel.iter().map(|place| place.map(u16::from)));
-            }
-            Part::Masked { first, mask, .. } => {
-                let of_pixel = positions.of_pixel(pixel, &mut self.memory);
-                let mut rest = mask;
-                while rest != 0 {
-                    let sample = usize::from(first) + rest.trailing_zeros() as usize;
-                    self.points.push(of_pixel[sample].map(u16::from));
-                    rest &= rest - 1;
-                }
-            }
-        }
-        for point in &mut self.points[first..] {
-            *point = [point[0].wrapping_add(left), point[1].wrapping_add(top)];
+        let corner = first_point(place, grid);
+        let of_pixel = positions.of_pixel(pixel_of(place, grid), &mut self.memory);
+        let mut rest = mask;
+        while rest != 0 {
+            let sample = usize::from(first) + rest.trailing_zeros() as usize;
+            self.points.push(point_at(corner, of_pixel[sample]));
+            rest &= rest - 1;
         }
     }
 
@@ -144,6 +110,105 @@ impl SampleShades {
         match shader.constant() {
             Some(color) => colors.fill(color),
             None => shader.points(grid, &self.points, colors),
+        }
+    }
+
+    /// Takes runs of whole pixels of one primitive until there are many pixels to shade together, only the first one of each row
+    /// where all of a row are alike (`repeats`); how many runs.
+    pub(super) fn take(&mut self, runs: &[WholeRun], repeats: bool) -> usize {
+        self.whole.clear();
+        for (taken, run) in runs.iter().enumerate() {
+            if self.whole.len() >= TOGETHER {
+                return taken;
+            }
+            if !repeats {
+                self.whole.extend(run.places());
+            } else if self.whole.last().is_none_or(|last| last[1] != run.row) {
+                self.whole.push(run.first());
+            }
+        }
+        runs.len()
+    }
+
+    /// Puts the pixels of these runs, once they are shaded.
+    pub(super) fn put(&self, runs: &[WholeRun], repeats: bool, block: &mut PixelBlock<'_>) {
+        let mut at = 0;
+        for run in runs {
+            let line = block.run(run.row, run.columns());
+            if repeats {
+                at += usize::from(self.whole[at][1] != run.row);
+                line.fill(self.pixels[at]);
+            } else {
+                line.copy_from_slice(&self.pixels[at..at + run.len()]);
+                at += run.len();
+            }
+        }
+    }
+
+    /// Finds the pixels of which all samples are opaque and shaded, those of `whole`.
+    pub(super) fn shade_whole(
+        &mut self,
+        shader: &Shader<'_>,
+        positions: &SamplePositions,
+        mean: &SampleMean,
+        grid: SampleGrid,
+    ) {
+        if !positions.are_same() {
+            self.random.clear();
+            self.random
+                .extend(self.whole.iter().map(|place| positions.random(pixel_of(*place, grid))));
+            self.inside.clear();
+            positions.add(&self.random, &mut self.inside);
+        }
+        self.pixels.clear();
+        self.pixels.resize(self.whole.len(), 0);
+        let placed = PlacedPixels {
+            pixels: Pixels {
+                grid,
+                places: &self.whole,
+            },
+            count: positions.count(),
+            inside: &self.inside,
+        };
+        if !shader.placed_pixels(placed, mean, &mut self.pixels) {
+            self.points.clear();
+            self.points.resize(self.whole.len() * placed.count, [0; 2]);
+            dispatch!(simd::level(), simd => points_of(simd, placed, &mut self.points));
+            self.shade(shader, grid);
+            mean.opaque_pixels(&self.colors[..self.points.len()], &mut self.pixels);
+        }
+    }
+}
+
+/// A pixel of a tile in the frame.
+#[inline(always)]
+fn pixel_of(place: [u16; 2], grid: SampleGrid) -> [i32; 2] {
+    [
+        grid.origin[0] + i32::from(place[0]),
+        grid.origin[1] + i32::from(place[1]),
+    ]
+}
+
+/// The first point of a pixel's lattice: no tile has more than `2^14` along a side.
+#[inline(always)]
+fn first_point(place: [u16; 2], grid: SampleGrid) -> [u16; 2] {
+    let at = |pixel: u16| u16::try_from(u32::from(pixel) * grid.side).unwrap_or(u16::MAX);
+    [at(place[0]), at(place[1])]
+}
+
+#[inline(always)]
+fn point_at([left, top]: [u16; 2], [column, row]: Position) -> [u16; 2] {
+    [left.wrapping_add(column.into()), top.wrapping_add(row.into())]
+}
+
+/// The samples of all pixels, one pixel after the other.
+#[inline(always)]
+fn points_of<S: Simd>(_: S, placed: PlacedPixels<'_>, points: &mut [[u16; 2]]) {
+    let points = points.chunks_exact_mut(placed.count);
+    for (i, (place, points)) in placed.pixels.places.iter().zip(points).enumerate() {
+        let corner = first_point(*place, placed.pixels.grid);
+        for (point, inside) in points.iter_mut().zip(placed.inside(i)) {
+            *point = point_at(corner, *inside);
         }
     }
 }

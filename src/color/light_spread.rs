@@ -1,0 +1,138 @@
+//! The mean light of values that are spread around a known mean, without looking at each of them.
+//!
+//! ```text
+//!    light |            .'      f curves upwards, so the mean light of values around m is at least f(m), and at most
+//!          |          .'
+//!          |       .·'              f(m) + max f'' / 2 · mean square of their distance from m
+//!          |  ..·'
+//!          +------m------ value  which is no more than f(m + that / f'(m)).
+//! ```
+//!
+//! Samples are rounded by half a unit, which moves both ends by as much. As stored values the ends lie close together, and bytes
+//! are rounded from stored values: nearly always both ends are rounded to one byte, and then the mean light is, too. Elsewhere
+//! somebody has to look at the values themselves.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8};
+
+use super::Premultiplied16;
+
+const ONE: f64 = Premultiplied16::ONE as f64;
+/// Where the straight part of the curve ends (IEC 61966-2-1), with a small step and a kink.
+const BEND: f64 = 0.040_45 * ONE;
+/// Beyond, light is the power 2.4 of `stored * SLOPE + OFFSET`.
+const SLOPE: f64 = 1.0 / (ONE * 1.055);
+const OFFSET: f64 = 0.055 / 1.055;
+
+/// How far a rounded value may be from what it was, with what the curve is off where it bends and light is rounded to whole
+/// numbers: those are less than a tenth, even in the dark.
+const ROUNDED: f64 = 0.6;
+/// Values may lie so far out of range: planes are rounded.
+const SLACK: f64 = 1e-3;
+
+/// The values of one channel at the samples of eight pixels, before they are rounded as samples store them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ValueSpread<S: Simd> {
+    /// In units of [`Premultiplied16`].
+    pub(crate) mean: f64x8<S>,
+    /// The mean square of how far they are from there.
+    pub(crate) squares: f64x8<S>,
+    /// No value is farther away.
+    pub(crate) reach: f64x8<S>,
+}
+
+impl<S: Simd> ValueSpread<S> {
+    /// The bytes of the mean light, rounded to nearest, and a bit for each pixel of which that is certain.
+    #[inline(always)]
+    pub(crate) fn bytes_of_light(self, simd: S) -> ([u32; 8], u64) {
+        // Where whole numbers stand in the lower bits.
+        const WHOLE: f64 = (1_u64 << 52) as f64;
+        let number = |value: f64| f64x8::splat(simd, value);
+        let Self { mean, squares, reach } = self;
+        let base = mean.max(number(BEND)) * SLOPE + OFFSET;
+        let step = number(SLOPE) / base;
+        // Half of the second derivative, at its greatest, over the first.
+        let bent = squares * (step * (reach * step + 1.0)) * (1.4 / 2.0);
+        let byte = |value: f64x8<S>| ((value + 128.0) * (1.0 / 256.0)).floor();
+        let (low, high) = (byte(mean - ROUNDED), byte(mean + ROUNDED + bent));
+        let is_one = low.simd_eq(high);
+        let in_range = (mean - reach).simd_gt(number(-SLACK)) & (mean + reach).simd_lt(number(ONE + SLACK));
+        let is_smooth = (mean - BEND).abs().simd_gt(reach + 2.0 * ROUNDED);
+        let certain = (is_one & in_range & is_smooth).to_bitmask();
+        let bits: [f64; 8] = (low.max(number(0.0)) + WHOLE).to_array();
+        let mut bytes = [0; 8];
+        for (byte, bits) in bytes.iter_mut().zip(bits) {
+            let [lowest, ..] = bits.to_le_bytes();
+            *byte = u32::from(lowest);
+        }
+        (bytes, certain)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+    use fearless_simd::dispatch;
+
+    use super::*;
+    use crate::color::{ResolveSpace, SampleMean};
+    use crate::rules::Rules;
+    use crate::simd;
+
+    /// Some values, their mean, their mean square distance from there, and their greatest.
+    fn values(u: &mut Unstructured<'_>, count: u32) -> Result<(Vec<f64>, [f64; 3])> {
+        let unit = |value: u16| f64::from(value) / f64::from(u16::MAX);
+        let bright = unit(u.arbitrary()?);
+        // Often in the dark, where the curve bends.
+        let middle = if u.arbitrary()? { bright } else { bright * bright * 0.1 } * ONE;
+        let reach = unit(u.arbitrary()?).powi(4) * ONE / 8.0;
+        let mut values = Vec::new();
+        for _ in 0..count {
+            values.push((middle + (unit(u.arbitrary()?) * 2.0 - 1.0) * reach).clamp(0.0, ONE));
+        }
+        let mean = values.iter().sum::<f64>() / f64::from(count);
+        let off = |value: &f64| (value - mean).abs();
+        let squares = values.iter().map(|value| off(value).powi(2)).sum::<f64>() / f64::from(count);
+        let reach = values.iter().map(off).fold(0.0, f64::max);
+        Ok((values, [mean, squares, reach]))
+    }
+
+    #[test]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "values of a channel"
+    )]
+    fn certain_bytes_are_those_of_the_samples() {
+        let (mut certain, mut all) = (0, 0);
+        arbtest::arbtest(|u| {
+            let count = u.int_in_range(2..=64)?;
+            let (values, [mean, squares, reach]) = values(u, count)?;
+            let samples: Vec<Premultiplied16> = values
+                .iter()
+                .map(|value| Premultiplied16([value.round() as u16, 0, 0, Premultiplied16::ONE]))
+                .collect();
+            let pixel = SampleMean::new(ResolveSpace::Linear, count, Rules::Standard).pixel(&samples);
+            for (name, level) in simd::tested() {
+                let (bytes, mask) = dispatch!(level, simd => {
+                    let number = |value| f64x8::splat(simd, value);
+                    let (mean, squares, reach) = (number(mean), number(squares), number(reach));
+                    ValueSpread { mean, squares, reach }.bytes_of_light(simd)
+                });
+                assert!(mask == 0 || mask == 0xFF, "all pixels are alike");
+                all += 1;
+                if mask != 0 {
+                    certain += 1;
+                    assert_eq!(
+                        bytes,
+                        [pixel >> 16 & 0xFF; 8],
+                        "{name}: {mean}, {squares}, {reach}: {values:?}"
+                    );
+                }
+            }
+            Ok(())
+        })
+        .budget_ms(500);
+        assert!(certain * 10 > all * 6, "{certain} of {all} are certain");
+    }
+}

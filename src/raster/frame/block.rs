@@ -55,11 +55,11 @@ impl<'p> PixelBlock<'p> {
         self.pixels[usize::from(y) * self.stride + usize::from(x)] = value;
     }
 
-    /// Sets the pixels of some columns of row `y` of the rectangle.
+    /// The pixels of some columns of row `y` of the rectangle.
     #[inline]
-    pub(crate) fn put_run(&mut self, y: u16, columns: Range<u16>, value: u32) {
+    pub(crate) fn run(&mut self, y: u16, columns: Range<u16>) -> &mut [u32] {
         let row = usize::from(y) * self.stride;
-        self.pixels[row + usize::from(columns.start)..row + usize::from(columns.end)].fill(value);
+        &mut self.pixels[row + usize::from(columns.start)..row + usize::from(columns.end)]
     }
 
     /// Sets the pixels of a stamp, counted from the rectangle's first.

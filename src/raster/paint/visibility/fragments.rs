@@ -1,6 +1,6 @@
 //! The fragments of one primitive, shaded together: whole pixels at once, then parts of pixels 64 samples at a time.
 
-use crate::raster::paint::visibility::shading_queue::{Fragment, Part};
+use crate::raster::paint::visibility::shading_queue::{Fragment, WholeRun};
 use crate::raster::shading::Shader;
 use crate::raster::shading::context::Pixels;
 use crate::texture::SampleGrid;
@@ -17,30 +17,28 @@ pub(super) struct FragmentSums {
 }
 
 impl FragmentSums {
-    /// Shades the fragments that are whole pixels; how many there are.
-    pub(super) fn shade_whole(&mut self, fragments: &[Fragment], grid: SampleGrid, shader: &Shader<'_>) -> u64 {
-        let whole = fragments.iter().filter_map(|fragment| match fragment.part {
-            Part::Whole { place } => Some(place),
-            Part::Masked { .. } => None,
-        });
-        self.sums_of(whole, grid, shader).len() as u64
-    }
-
-    /// The sums of all samples of the pixels at `places`.
+    /// The sums of all samples of the pixels of runs, one after the other; where all of a run are alike (`is_level`), only of the
+    /// first one.
     pub(super) fn sums_of(
         &mut self,
-        places: impl Iterator<Item = [u16; 2]>,
+        (runs, is_level): (&[WholeRun], bool),
         grid: SampleGrid,
         shader: &Shader<'_>,
-    ) -> &[[u32; 4]] {
+    ) -> &mut [[u32; 4]] {
         self.places.clear();
-        self.places.extend(places);
+        for run in runs {
+            if is_level {
+                self.places.push(run.first());
+            } else {
+                self.places.extend(run.places());
+            }
+        }
         self.make_sums();
         if !self.places.is_empty() {
             let places = &self.places;
             shader.pixel_sums(Pixels { grid, places }, &mut self.sums);
         }
-        &self.sums
+        &mut self.sums
     }
 
     /// Gathers the fragments that are parts of pixels; of the 64 samples from `first` on.
@@ -49,12 +47,10 @@ impl FragmentSums {
         self.masks.clear();
         self.targets.clear();
         for fragment in fragments {
-            if let Part::Masked { pixel, first: at, mask } = fragment.part
-                && u32::from(at) == first
-            {
-                self.places.push(places[pixel as usize]);
-                self.masks.push(mask);
-                self.targets.push(pixel);
+            if u32::from(fragment.first) == first {
+                self.places.push(places[fragment.pixel as usize]);
+                self.masks.push(fragment.mask);
+                self.targets.push(fragment.pixel);
             }
         }
     }

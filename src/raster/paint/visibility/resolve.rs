@@ -1,15 +1,17 @@
 //! The second step of a tile: pixels of flat colours are averaged, and what is seen of other paints is shaded, primitive by
 //! primitive.
 
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use fearless_simd::{Simd, dispatch};
 
+use crate::color::Premultiplied16;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityBuffer};
 use crate::raster::paint::visibility::packed::{lanes, splat};
 use crate::raster::paint::visibility::painter::VisibilityPainter;
-use crate::raster::paint::visibility::shading_queue::ShadingQueue;
+use crate::raster::paint::visibility::shading_queue::{ShadingQueue, ToShade, WholeRun};
 use crate::raster::paint::visibility::surface_color::{Shaded, Spread};
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
@@ -43,9 +45,12 @@ impl VisibilityPainter<'_> {
         let start = timed.then(Instant::now);
         self.unresolved.sort(self.surfaces.len());
         let resolver = self.resolver;
-        self.shade_level([x.start, y.start], block);
-        self.shade([x.start, y.start], &mut |place, sums| {
-            block.put(place, resolver.pixel(sums));
+        self.shade([x.start, y.start], &mut |run, sums| {
+            let line = block.run(run.row, run.columns());
+            match sums {
+                [sum] => line.fill(resolver.pixel(*sum)),
+                _ => resolver.pixels(sums, line),
+            }
         });
         let shading = start.map(|start| start.elapsed()).unwrap_or_default();
         for (place, sums) in self.unresolved.places.iter().zip(&self.unresolved.sums) {
@@ -64,7 +69,7 @@ impl VisibilityPainter<'_> {
         self.resolve_row(y.start, 0, &mut [0]);
         self.unresolved.sort(self.surfaces.len());
         let mut whole = None;
-        self.shade([x.start, y.start], &mut |_, sums| whole = Some(sums));
+        self.shade([x.start, y.start], &mut |_, sums| whole = sums.first().copied());
         whole.or_else(|| self.unresolved.sums.first().copied())
     }
 
@@ -136,26 +141,21 @@ impl VisibilityPainter<'_> {
 
     /// Resolves what is flat, and notes what is to be shaded.
     fn resolve_row(&mut self, y: i32, row: u16, line: &mut [u32]) {
-        let (tile, surfaces, context) = (self.layers.base(), &self.surfaces, &self.context);
+        let (tile, surfaces) = (self.layers.base(), &self.surfaces);
         let unresolved = &mut self.unresolved;
         for (run, range) in tile.runs(y) {
-            let columns = (0_u16..).take(range.end).skip(range.start);
             match run {
                 Run::Whole(surface) => {
                     let shown = surfaces.get(surface);
-                    let Some(shaded) = shown.shaded else {
+                    if shown.shaded.is_none() {
                         line[range].fill(shown.pixel);
-                        continue;
-                    };
-                    if range.len() > 1 && shaded.paint.is_level(context) {
-                        unresolved.level_run(surface, row, range);
                     } else {
-                        columns.for_each(|x| unresolved.whole(surface, [x, row]));
+                        unresolved.whole(surface, row, range);
                     }
                 }
                 Run::TwoSurfacePixels => {
                     let row_of_two = tile.two_surfaces(y);
-                    for x in columns {
+                    for x in columns(range) {
                         let two = row_of_two.get(usize::from(x));
                         if [two.first, two.second]
                             .iter()
@@ -174,7 +174,7 @@ impl VisibilityPainter<'_> {
                     }
                 }
                 Run::Split => {
-                    for x in columns {
+                    for x in columns(range) {
                         unresolved.split([x, row], tile.samples(usize::from(x), y), |surface| {
                             let shown = surfaces.get(surface);
                             shown.shaded.is_none().then(|| shown.sum(1))
@@ -185,46 +185,42 @@ impl VisibilityPainter<'_> {
         }
     }
 
-    /// Shades runs of pixels that are alike: the first one of each. `origin` is the tile's first pixel.
-    fn shade_level(&mut self, origin: [i32; 2], block: &mut PixelBlock<'_>) {
-        let grid = self.context.samples_from(origin);
-        for runs in self.unresolved.level.chunk_by(|a, b| a.surface == b.surface) {
-            let shown = self.surfaces.get(runs[0].surface);
-            let Some(Shaded { corners, paint, kept }) = shown.shaded else {
-                continue;
-            };
-            let first = runs.iter().map(|run| [run.columns.start, run.row]);
-            let shader = Shader::new(&self.context, corners, paint);
-            for (run, sum) in runs.iter().zip(self.fragments.sums_of(first, grid, &shader)) {
-                let pixel = self
-                    .resolver
-                    .pixel(shown.over_shaded(*sum, kept, self.resolver.count()));
-                block.put_run(run.row, run.columns.clone(), pixel);
-            }
-            self.samples_shaded += runs.len() as u64 * u64::from(self.resolver.count());
-        }
-    }
-
-    /// Shades all fragments: the sums of whole pixels go to `put`, others have the colours added to theirs. `origin` is
-    /// the tile's first pixel.
+    /// Shades everything that waits: the sums of runs of whole pixels go to `put`, only the first one's where all of a run are
+    /// alike; parts of pixels have the colours added to theirs. `origin` is the tile's first pixel.
     #[inline]
-    fn shade(&mut self, origin: [i32; 2], put: &mut impl FnMut([u16; 2], [u32; 4])) {
+    fn shade(&mut self, origin: [i32; 2], put: &mut impl FnMut(&WholeRun, &[[u32; 4]])) {
         let (context, resolver, surfaces, shading) =
             (&self.context, self.resolver, &self.surfaces, &mut self.fragments);
         let ShadingQueue {
             places, sums, sorted, ..
         } = &mut self.unresolved;
         let grid = context.samples_from(origin);
-        for fragments in sorted.by_surface() {
-            let shown = surfaces.get(fragments[0].surface);
+        for ToShade {
+            surface,
+            runs,
+            fragments,
+        } in sorted.by_surface()
+        {
+            let shown = surfaces.get(surface);
             let Some(Shaded { corners, paint, kept }) = shown.shaded else {
                 continue;
             };
             let shader = Shader::new(context, corners, paint);
-            let whole = shading.shade_whole(fragments, grid, &shader);
-            self.samples_shaded += whole * u64::from(grid.side * grid.side);
-            for (place, sum) in shading.places.iter().zip(&shading.sums) {
-                put(*place, shown.over_shaded(*sum, kept, resolver.count()));
+            let is_level = paint.is_level(context);
+            let mut whole = shading.sums_of((runs, is_level), grid, &shader);
+            self.samples_shaded += whole.len() as u64 * u64::from(resolver.count());
+            if kept != Premultiplied16::ONE {
+                for sum in &mut *whole {
+                    *sum = shown.over_shaded(*sum, kept, resolver.count());
+                }
+            }
+            for run in runs {
+                let (sums, others) = whole.split_at_mut(if is_level { 1 } else { run.len() });
+                put(run, sums);
+                whole = others;
+            }
+            if fragments.is_empty() {
+                continue;
             }
             for first in (0..resolver.count()).step_by(64) {
                 shading.gather(fragments, places, first);
@@ -243,6 +239,11 @@ impl VisibilityPainter<'_> {
             }
         }
     }
+}
+
+/// Columns of a tile as numbers as short as the queue has them.
+pub(super) fn columns(range: Range<usize>) -> impl Iterator<Item = u16> {
+    (0_u16..).take(range.end).skip(range.start)
 }
 
 /// Resolves the pixels of a row that show two surfaces or are split, by what each is and by its column.

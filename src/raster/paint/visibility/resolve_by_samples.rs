@@ -7,23 +7,20 @@
 
 use std::time::{Duration, Instant};
 
-use crate::color::{Light, LightResolver, Premultiplied16};
+use crate::color::{Light, LightResolver, Premultiplied16, SampleMean};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::visibility::buffer::{Run, VisibilityBuffer};
-use crate::raster::paint::visibility::by_samples::{BySamples, Mean};
+use crate::raster::paint::visibility::by_samples::{BySamples, TOGETHER};
 use crate::raster::paint::visibility::packed::lanes;
 use crate::raster::paint::visibility::painter::VisibilityPainter;
-use crate::raster::paint::visibility::resolve::each_shared;
-use crate::raster::paint::visibility::shading_queue::{Fragment, Part, ShadingQueue};
+use crate::raster::paint::visibility::resolve::{columns, each_shared};
+use crate::raster::paint::visibility::shading_queue::{Fragment, ShadingQueue, ToShade};
 use crate::raster::paint::visibility::surface_color::Shaded;
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
 use crate::raster::shading::Shader;
 use crate::raster::span::SpanRect;
 use crate::raster::surface_id::{MAX_SURFACES, SurfaceId, TWO_SURFACES};
-
-/// Fragments that are shaded together: so many that their samples stay in a core's cache.
-const TOGETHER: usize = 64;
 
 impl VisibilityPainter<'_> {
     /// Shades what is seen and resolves the finished tile; how long shading took, if that is to be `timed`.
@@ -55,19 +52,18 @@ impl VisibilityPainter<'_> {
         let unresolved = &mut self.unresolved;
         let count = self.resolver.count();
         for (run, range) in tile.runs(y) {
-            let columns = (0_u16..).take(range.end).skip(range.start);
             match run {
                 Run::Whole(surface) => {
                     let shown = surfaces.get(surface);
                     if shown.shaded.is_none() {
                         line[range].fill(shown.pixel);
                     } else {
-                        columns.for_each(|x| unresolved.whole(surface, [x, row]));
+                        unresolved.whole(surface, row, range);
                     }
                 }
                 Run::TwoSurfacePixels => {
                     let row_of_two = tile.two_surfaces(y);
-                    for x in columns {
+                    for x in columns(range) {
                         let TwoSurfaces { mask, first, second } = row_of_two.get(usize::from(x));
                         let samples = (0..count).map(|i| if mask >> i & 1 == 1 { second } else { first });
                         if let Some(flat) = note_shared(samples, surfaces, [x, row], unresolved, shared) {
@@ -77,7 +73,7 @@ impl VisibilityPainter<'_> {
                     }
                 }
                 Run::Split => {
-                    for x in columns {
+                    for x in columns(range) {
                         let samples = tile.samples(usize::from(x), y);
                         if let Some(flat) = note_shared(samples, surfaces, [x, row], unresolved, shared) {
                             line[usize::from(x)] = mean.pixel(&shared[flat..]);
@@ -108,57 +104,41 @@ impl VisibilityPainter<'_> {
         let ShadingQueue { places, sorted, .. } = unresolved;
         let grid = context.samples_from(origin);
         let count = positions.count();
-        for fragments in sorted.by_surface() {
-            let Some(Shaded { corners, paint, .. }) = surfaces.get(fragments[0].surface).shaded else {
+        for ToShade {
+            surface,
+            mut runs,
+            fragments,
+        } in sorted.by_surface()
+        {
+            let Some(Shaded { corners, paint, .. }) = surfaces.get(surface).shaded else {
                 continue;
             };
             let shader = Shader::new(context, corners, paint);
             // Where all pixels of a row get the same colours, that of the first one.
             let repeats = shader.is_level() && positions.are_same();
-            let mut of_row = None;
+            while !runs.is_empty() {
+                let (taken, others) = runs.split_at(shades.take(runs, repeats));
+                shades.shade_whole(&shader, positions, mean, grid);
+                shades.put(taken, repeats, block);
+                self.samples_shaded += (shades.whole.len() * count) as u64;
+                runs = others;
+            }
             for fragments in fragments.chunks(TOGETHER) {
                 shades.points.clear();
-                let mut row = of_row.map(|(row, _)| row);
-                for fragment in fragments {
-                    if let Part::Whole { place } = fragment.part {
-                        if repeats && row == Some(place[1]) {
-                            continue;
-                        }
-                        row = Some(place[1]);
-                    }
-                    shades.gather(fragment, places, positions, grid);
+                for Fragment { first, pixel, mask, .. } in fragments {
+                    shades.gather(places[*pixel as usize], (*first, *mask), positions, grid);
                 }
                 shades.shade(&shader, grid);
                 self.samples_shaded += shades.points.len() as u64;
-                let mut rest = &shades.colors[..shades.points.len()];
-                for Fragment { part, .. } in fragments {
-                    match *part {
-                        Part::Whole { place } => {
-                            if let Some((row, pixel)) = of_row
-                                && repeats
-                                && row == place[1]
-                            {
-                                block.put(place, pixel);
-                                continue;
-                            }
-                            let (samples, others) = rest.split_at(count);
-                            rest = others;
-                            // What is shaded here is opaque.
-                            let pixel = mean.opaque_pixel(samples);
-                            of_row = Some((place[1], pixel));
-                            block.put(place, pixel);
-                        }
-                        Part::Masked { pixel, first, mask } => {
-                            let first = pixel as usize * count + usize::from(first);
-                            let mut bits = mask;
-                            while bits != 0
-                                && let Some((color, others)) = rest.split_first()
-                            {
-                                shared[first + bits.trailing_zeros() as usize] = *color;
-                                rest = others;
-                                bits &= bits - 1;
-                            }
-                        }
+                let mut colors = shades.colors[..shades.points.len()].iter();
+                for Fragment { first, pixel, mask, .. } in fragments {
+                    let first = *pixel as usize * count + usize::from(*first);
+                    let mut rest = *mask;
+                    while rest != 0
+                        && let Some(color) = colors.next()
+                    {
+                        shared[first + rest.trailing_zeros() as usize] = *color;
+                        rest &= rest - 1;
                     }
                 }
             }
@@ -167,7 +147,7 @@ impl VisibilityPainter<'_> {
 
     /// Resolves a tile of flat colours into the means of their light.
     pub(super) fn resolve_light(&mut self, block: &mut PixelBlock<'_>) {
-        let Mean::Linear(resolver) = self.by_samples.mean else {
+        let SampleMean::Linear(resolver) = self.by_samples.mean else {
             return;
         };
         let all = (0..self.surfaces.len()).map(|i| SurfaceId::try_from(i).unwrap_or(0));

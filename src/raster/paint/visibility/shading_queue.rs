@@ -4,32 +4,27 @@ use std::ops::Range;
 
 use crate::raster::surface_id::SurfaceId;
 
-/// Which samples of a pixel show a primitive.
+/// Pixels side by side of which all samples show one primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Part {
-    /// All of them: the pixel, counted from the tile's first.
-    Whole { place: [u16; 2] },
-    /// Some: the pixel's index among those that wait for their sums, and one bit per sample, row by row, of the 64
-    /// samples from `first` on.
-    Masked { pixel: u32, first: u16, mask: u64 },
+pub(crate) struct WholeRun {
+    /// The primitive.
+    pub(crate) surface: SurfaceId,
+    /// Row and columns, counted from the tile's first pixel; the last one lies just after the run.
+    pub(crate) row: u16,
+    start: u16,
+    end: u16,
 }
 
-/// The samples of one pixel that show one primitive.
+/// Some samples of one pixel that show one primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Fragment {
     /// The primitive.
     pub(crate) surface: SurfaceId,
-    pub(crate) part: Part,
-}
-
-/// Pixels side by side of which all samples show a primitive that has one colour along a row of samples.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct LevelRun {
-    /// The primitive.
-    pub(crate) surface: SurfaceId,
-    /// Row and columns, counted from the tile's first pixel.
-    pub(crate) row: u16,
-    pub(crate) columns: Range<u16>,
+    /// The sample that the lowest bit of the mask stands for: row by row, 64 of them.
+    pub(crate) first: u16,
+    /// The pixel's index among those that wait for their sums.
+    pub(crate) pixel: u32,
+    pub(crate) mask: u64,
 }
 
 /// The pixels of a tile that wait for something to be shaded.
@@ -39,55 +34,96 @@ pub(crate) struct ShadingQueue {
     pub(crate) places: Vec<[u16; 2]>,
     /// The sums of their samples as far as they are known.
     pub(crate) sums: Vec<[u32; 4]>,
-    found: Vec<Fragment>,
-    /// Those that are alike along their row, and in none of the other lists.
-    pub(crate) level: Vec<LevelRun>,
-    pub(crate) sorted: SortedFragments,
+    found: Found,
+    pub(crate) sorted: Sorted,
     /// The parts of the pixel at work.
     parts: Vec<(SurfaceId, u16, u64)>,
 }
 
-/// Fragments in the order of their surfaces.
+/// What is to be shaded, as it was found: row by row.
 #[derive(Debug, Default)]
-pub(crate) struct SortedFragments {
+struct Found {
+    runs: Vec<WholeRun>,
     fragments: Vec<Fragment>,
-    /// Where the fragments of each surface begin.
+}
+
+/// The same in the order of surfaces, and of each surface as it was found.
+#[derive(Debug, Default)]
+pub(crate) struct Sorted {
+    runs: BySurface<WholeRun>,
+    fragments: BySurface<Fragment>,
+}
+
+/// All that is to be shaded of one primitive.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ToShade<'q> {
+    pub(crate) surface: SurfaceId,
+    pub(crate) runs: &'q [WholeRun],
+    pub(crate) fragments: &'q [Fragment],
+}
+
+/// Things in the order of their surfaces.
+#[derive(Debug)]
+struct BySurface<T> {
+    sorted: Vec<T>,
+    /// Where those of each surface begin.
     starts: Vec<u32>,
 }
 
 /// Samples that a mask has bits for.
 const MASK_BITS: usize = 64;
 
+impl WholeRun {
+    /// The columns of its pixels.
+    #[inline]
+    pub(crate) fn columns(self) -> Range<u16> {
+        self.start..self.end
+    }
+
+    /// How many pixels these are.
+    #[inline]
+    pub(crate) fn len(self) -> usize {
+        usize::from(self.end - self.start)
+    }
+
+    /// The places of its pixels.
+    #[inline]
+    pub(crate) fn places(self) -> impl ExactSizeIterator<Item = [u16; 2]> {
+        let row = self.row;
+        self.columns().map(move |column| [column, row])
+    }
+
+    /// The place of the first one.
+    #[inline]
+    pub(crate) fn first(self) -> [u16; 2] {
+        [self.start, self.row]
+    }
+}
+
 impl ShadingQueue {
     /// Forgets everything.
     pub(crate) fn clear(&mut self) {
         self.places.clear();
         self.sums.clear();
-        self.found.clear();
-        self.level.clear();
+        self.found.runs.clear();
+        self.found.fragments.clear();
     }
 
     /// Whether nothing waits.
     pub(crate) fn is_empty(&self) -> bool {
-        self.found.is_empty() && self.places.is_empty() && self.level.is_empty()
+        self.found.runs.is_empty() && self.found.fragments.is_empty() && self.places.is_empty()
     }
 
-    /// All samples of the pixel at `place` show the primitive of `surface`.
+    /// All samples of pixels side by side show the primitive of `surface`.
     #[inline]
-    pub(crate) fn whole(&mut self, surface: SurfaceId, place: [u16; 2]) {
-        let part = Part::Whole { place };
-        self.found.push(Fragment { surface, part });
-    }
-
-    /// All samples of pixels of a row show the primitive of `surface`, which has one colour along each row of samples.
-    #[inline]
-    pub(crate) fn level_run(&mut self, surface: SurfaceId, row: u16, columns: Range<usize>) {
+    pub(crate) fn whole(&mut self, surface: SurfaceId, row: u16, columns: Range<usize>) {
         // No tile is so wide.
         let [start, end] = [columns.start, columns.end].map(|column| u16::try_from(column).unwrap_or(u16::MAX));
-        self.level.push(LevelRun {
+        self.found.runs.push(WholeRun {
             surface,
             row,
-            columns: start..end,
+            start,
+            end,
         });
     }
 
@@ -126,9 +162,11 @@ impl ShadingQueue {
         let mut sums = [0; 4];
         for (surface, first, mask) in parts {
             match flat(surface) {
-                None => self.found.push(Fragment {
+                None => self.found.fragments.push(Fragment {
                     surface,
-                    part: Part::Masked { pixel, first, mask },
+                    first,
+                    pixel,
+                    mask,
                 }),
                 Some(color) => {
                     for (sum, channel) in sums.iter_mut().zip(color) {
@@ -141,43 +179,65 @@ impl ShadingQueue {
         self.sums.push(sums);
     }
 
-    /// Sorts the fragments by surface, of which there are `surfaces`.
+    /// Sorts everything by surface, of which there are `surfaces`.
     pub(crate) fn sort(&mut self, surfaces: usize) {
-        // In a surface by row, as they were found.
-        self.level.sort_by_key(|run| run.surface);
-        self.sorted.sort(&self.found, surfaces);
+        self.sorted.runs.sort(&self.found.runs, surfaces, |run| run.surface);
+        self.sorted
+            .fragments
+            .sort(&self.found.fragments, surfaces, |fragment| fragment.surface);
     }
 }
 
-impl SortedFragments {
+impl Sorted {
+    /// What is to be shaded of each surface of which anything is.
+    pub(crate) fn by_surface(&self) -> impl Iterator<Item = ToShade<'_>> + '_ {
+        let surfaces = self.runs.starts.len().saturating_sub(1);
+        let all = (0..=SurfaceId::MAX).take(surfaces).map(|surface| ToShade {
+            surface,
+            runs: self.runs.of(surface),
+            fragments: self.fragments.of(surface),
+        });
+        all.filter(|of| !of.runs.is_empty() || !of.fragments.is_empty())
+    }
+}
+
+impl<T> Default for BySurface<T> {
+    fn default() -> Self {
+        Self {
+            sorted: Vec::new(),
+            starts: Vec::new(),
+        }
+    }
+}
+
+impl<T: Copy> BySurface<T> {
     /// A counting sort.
-    fn sort(&mut self, found: &[Fragment], surfaces: usize) {
+    fn sort(&mut self, found: &[T], surfaces: usize, surface: impl Fn(&T) -> SurfaceId) {
         self.starts.clear();
         self.starts.resize(surfaces + 1, 0);
-        for fragment in found {
-            self.starts[usize::from(fragment.surface)] += 1;
+        for one in found {
+            self.starts[usize::from(surface(one))] += 1;
         }
         let mut next = 0;
         for start in &mut self.starts {
             next += *start;
             *start = next;
         }
-        self.fragments.clear();
-        self.fragments.extend_from_slice(found);
+        self.sorted.clear();
+        self.sorted.extend_from_slice(found);
         // From the last one down, so that each surface's end becomes its start.
-        for fragment in found.iter().rev() {
-            let place = &mut self.starts[usize::from(fragment.surface)];
+        for one in found.iter().rev() {
+            let place = &mut self.starts[usize::from(surface(one))];
             *place -= 1;
-            self.fragments[*place as usize] = *fragment;
+            self.sorted[*place as usize] = *one;
         }
     }
 
-    /// The fragments of each surface that has any, in the order in which they were added.
-    pub(crate) fn by_surface(&self) -> impl Iterator<Item = &[Fragment]> + '_ {
-        self.starts
-            .windows(2)
-            .map(|range| &self.fragments[range[0] as usize..range[1] as usize])
-            .filter(|fragments| !fragments.is_empty())
+    /// Those of one surface.
+    #[inline]
+    fn of(&self, surface: SurfaceId) -> &[T] {
+        let surface = usize::from(surface);
+        &self.sorted[self.starts[surface] as usize..self.starts[surface + 1] as usize]
     }
 }
 
@@ -188,23 +248,19 @@ mod tests {
     #[test]
     fn sort_keeps_the_order_inside_a_surface() {
         let mut unresolved = ShadingQueue::default();
-        for (surface, x) in [3, 1, 3, 0, 1, 3].into_iter().zip(0..) {
-            unresolved.whole(surface, [x, 0]);
+        for (surface, row) in [3, 1, 3, 0, 1, 3].into_iter().zip(0..) {
+            unresolved.whole(surface, row, 0..5);
         }
         unresolved.sort(5);
-        let found: Vec<Vec<Fragment>> = unresolved.sorted.by_surface().map(<[Fragment]>::to_vec).collect();
-        let whole = |surface, x| Fragment {
-            surface,
-            part: Part::Whole { place: [x, 0] },
-        };
+        let found: Vec<(SurfaceId, Vec<u16>)> = unresolved
+            .sorted
+            .by_surface()
+            .map(|of| (of.surface, of.runs.iter().map(|run| run.row).collect()))
+            .collect();
         assert_eq!(
             found,
-            [
-                vec![whole(0, 3)],
-                vec![whole(1, 1), whole(1, 4)],
-                vec![whole(3, 0), whole(3, 2), whole(3, 5)]
-            ],
-            "surfaces without fragments are left out"
+            [(0, vec![3]), (1, vec![1, 4]), (3, vec![0, 2, 5])],
+            "surfaces without anything are left out"
         );
     }
 
@@ -214,24 +270,14 @@ mod tests {
         let samples = (0..256).map(|i| if i % 2 == 0 { 7 } else { 1 + SurfaceId::from(i >= 128) });
         unresolved.split([4, 2], samples, |surface| (surface == 7).then_some([1, 2, 3, 4]));
         assert_eq!(unresolved.sums, [[128, 256, 384, 512]], "half of the samples are flat");
-        let odd = 0xAAAA_AAAA_AAAA_AAAA;
-        let parts: Vec<(SurfaceId, Part)> = unresolved
-            .found
-            .iter()
-            .map(|found| (found.surface, found.part))
-            .collect();
-        let expected: Vec<(SurfaceId, Part)> = [(1, 0), (1, 64), (2, 128), (2, 192)]
-            .map(|(surface, first)| {
-                (
-                    surface,
-                    Part::Masked {
-                        pixel: 0,
-                        first,
-                        mask: odd,
-                    },
-                )
-            })
-            .to_vec();
-        assert_eq!(parts, expected, "the others are to be shaded, 64 at a time");
+        let mask = 0xAAAA_AAAA_AAAA_AAAA;
+        let expected = [(1, 0), (1, 64), (2, 128), (2, 192)].map(|(surface, first)| Fragment {
+            surface,
+            first,
+            pixel: 0,
+            mask,
+        });
+        let found = &unresolved.found.fragments;
+        assert_eq!(*found, expected, "the others are to be shaded, 64 at a time");
     }
 }

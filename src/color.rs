@@ -10,7 +10,10 @@ mod resolve;
 mod sample_mean;
 mod weighted;
 
+use fearless_simd::{Simd, dispatch};
+
 use crate::rules::Rules;
+use crate::simd;
 
 pub use blend::BlendMode;
 pub use colormap::Colormap;
@@ -363,6 +366,26 @@ impl Resolver {
 
     /// [`Resolver::pixel`] of as many sums as there are pixels.
     pub fn pixels(&self, sums: &[[u32; 4]], pixels: &mut [u32]) {
+        dispatch!(simd::level(), simd => self.pixels_with(simd, sums, pixels));
+    }
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "vector instructions reach inlined code only")]
+    fn pixels_with<S: Simd>(&self, _: S, sums: &[[u32; 4]], pixels: &mut [u32]) {
+        let mut differ = 0;
+        for [_, _, _, alpha] in sums {
+            differ |= alpha ^ self.opaque;
+        }
+        if let Some(shift) = self.shift
+            && differ == 0
+        {
+            // Without a branch, so that it becomes vector code.
+            for (pixel, [r, g, b, _]) in pixels.iter_mut().zip(sums) {
+                let byte = |sum: u32| ((sum + self.half) >> shift).min(255);
+                *pixel = 0xFF00_0000 | byte(*r) << 16 | byte(*g) << 8 | byte(*b);
+            }
+            return;
+        }
         for (pixel, sum) in pixels.iter_mut().zip(sums) {
             *pixel = self.pixel(*sum);
         }
@@ -455,6 +478,32 @@ fn divide_wide(sum: u64, full: u64, rules: Rules) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pixels_side_by_side_are_those_of_one_by_one() {
+        arbtest::arbtest(|u| {
+            let rules = *u.choose(&Rules::ALL)?;
+            let count = *u.choose(&[1_u32, 4, 9, 16, 64, 256])?;
+            let opaque: bool = u.arbitrary()?;
+            let mut channel = |most| u.int_in_range(0..=most);
+            let full = count * u32::from(Premultiplied16::ONE);
+            let sums: Vec<[u32; 4]> = (0..37)
+                .map(|_| {
+                    let alpha = if opaque { full } else { channel(full)? };
+                    Ok([channel(alpha)?, channel(alpha)?, channel(alpha)?, alpha])
+                })
+                .collect::<arbtest::arbitrary::Result<_>>()?;
+            let resolver = Resolver::new(count, rules);
+            let expected: Vec<u32> = sums.iter().map(|sum| resolver.pixel(*sum)).collect();
+            for (name, level) in simd::tested() {
+                let mut found = vec![0; sums.len()];
+                dispatch!(level, simd => resolver.pixels_with(simd, &sums, &mut found));
+                assert_eq!(found, expected, "{name}: {count} samples, {rules:?}");
+            }
+            Ok(())
+        })
+        .budget_ms(100);
+    }
 
     #[test]
     fn bytes_survive_both_rules() {

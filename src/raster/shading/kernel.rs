@@ -5,6 +5,9 @@
     reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
 )]
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8, u64x8};
+
 use crate::color::Premultiplied16;
 use crate::texture::SampleGrid;
 
@@ -58,9 +61,19 @@ pub(super) fn rounded(value: f64, limit: f64) -> u32 {
     (value + WHOLE).to_bits() as u32
 }
 
-/// The lower half of a number that has no upper one.
+/// [`rounded`] in vectors.
 #[inline(always)]
-pub(super) fn low_half(value: u32) -> u16 {
-    let [low, high, ..] = value.to_le_bytes();
-    u16::from_le_bytes([low, high])
+pub(super) fn whole<S: Simd>(simd: S, value: f64x8<S>, limit: f64) -> u64x8<S> {
+    let value = value
+        .max_precise(f64x8::splat(simd, 0.0))
+        .min(f64x8::splat(simd, limit))
+        + WHOLE;
+    value.bitcast::<u64x8<S>>() & 0xFFFF_FFFF
+}
+
+/// The lower half of some bits.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the lower half is meant")]
+pub(super) fn low_word(bits: u64) -> u32 {
+    bits as u32
 }

@@ -5,7 +5,8 @@
     reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
 )]
 
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f64x8, u64x8};
 
 use crate::color::{Premultiplied16, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;
@@ -13,7 +14,7 @@ use crate::geometry::subpixel::GridPoint;
 use crate::raster::attributes::Planes;
 use crate::raster::shading::context::{MaskedPixels, Pixels, PlacedPixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::Attributes;
-use crate::raster::shading::kernel::{LANES, ONE, first_sample, low_half, places_of, rounded};
+use crate::raster::shading::kernel::{LANES, ONE, first_sample, low_word, places_of, rounded, whole};
 use crate::raster::shading::kind::{PaintKind, Shade, at_corner, pixels_by_points};
 use crate::raster::shading::sources::PaintSources;
 use crate::raster::shading::vertex_means;
@@ -188,15 +189,15 @@ fn middles(grid: SampleGrid, pixels: &[[u16; 2]]) -> [[f64; LANES]; 2] {
 
 /// Red, green and blue of [`LANES`] places, times `count`.
 #[inline(always)]
-fn channels(planes: &Planes<3>, [x, y]: &[[f64; LANES]; 2], count: f64) -> [[u32; LANES]; 3] {
-    let limit = ONE * count;
-    let mut channels = [[0; LANES]; 3];
+fn channels<S: Simd>(simd: S, planes: &Planes<3>, [x, y]: [[f64; LANES]; 2], count: f64) -> [u64x8<S>; 3] {
+    let number = |value| f64x8::splat(simd, value);
+    let right = f64x8::simd_from(simd, x) - planes.pivot[0];
+    let down = f64x8::simd_from(simd, y) - planes.pivot[1];
+    let mut channels = [u64x8::splat(simd, 0); 3];
     for (k, channel) in channels.iter_mut().enumerate() {
-        for (i, sum) in channel.iter_mut().enumerate() {
-            let (right, down) = (x[i] - planes.pivot[0], y[i] - planes.pivot[1]);
-            let value = planes.at_pivot[k] + planes.dy[k] * down + planes.dx[k] * right;
-            *sum = rounded(value * count, limit);
-        }
+        // In the order of `Planes::at`.
+        let value = number(planes.at_pivot[k]) + down * planes.dy[k] + right * planes.dx[k];
+        *channel = whole(simd, value * count, ONE * count);
     }
     channels
 }
@@ -204,43 +205,48 @@ fn channels(planes: &Planes<3>, [x, y]: &[[f64; LANES]; 2], count: f64) -> [[u32
 /// Opaque colours at samples.
 #[inline(always)]
 pub(super) fn point_kernel<S: Simd>(
-    _: S,
+    simd: S,
     planes: &Planes<3>,
     grid: SampleGrid,
     points: &[[u16; 2]],
     colors: &mut [Premultiplied16],
 ) {
     for (points, colors) in points.chunks(LANES).zip(colors.chunks_mut(LANES)) {
-        let [r, g, b] = channels(planes, &places_of(grid, points), 1.0);
-        for (i, color) in colors.iter_mut().enumerate() {
-            let [r, g, b] = [r[i], g[i], b[i]].map(low_half);
-            *color = Premultiplied16([r, g, b, Premultiplied16::ONE]);
+        let [r, g, b] = channels(simd, planes, places_of(grid, points), 1.0);
+        let words = r | g << 16 | b << 32 | u64::from(Premultiplied16::ONE) << 48;
+        for (color, word) in colors.iter_mut().zip(words.to_array()) {
+            *color = Premultiplied16::from_word(word);
         }
     }
 }
 
 #[inline(always)]
-fn pixel_kernel<S: Simd>(_: S, planes: &Planes<3>, grid: SampleGrid, pixels: &[[u16; 2]], values: &mut [u32]) {
-    let half = u32::from(Premultiplied16::PER_BYTE) / 2;
+fn pixel_kernel<S: Simd>(simd: S, planes: &Planes<3>, grid: SampleGrid, pixels: &[[u16; 2]], values: &mut [u32]) {
+    let half = u64::from(Premultiplied16::PER_BYTE) / 2;
     for (pixels, values) in pixels.chunks(LANES).zip(values.chunks_mut(LANES)) {
-        let [r, g, b] = channels(planes, &middles(grid, pixels), 1.0);
-        let mut shaded = [0; LANES];
-        for i in 0..LANES {
-            let byte = |channel: u32| (channel + half) >> 8;
-            shaded[i] = 0xFF00_0000 | byte(r[i]) << 16 | byte(g[i]) << 8 | byte(b[i]);
+        let [r, g, b] = channels(simd, planes, middles(grid, pixels), 1.0);
+        let byte = |channel: u64x8<S>| (channel + half) >> 8;
+        let shaded = byte(r) << 16 | byte(g) << 8 | byte(b) | 0xFF00_0000;
+        for (value, shaded) in values.iter_mut().zip(shaded.to_array()) {
+            *value = low_word(shaded);
         }
-        values.copy_from_slice(&shaded[..values.len()]);
     }
 }
 
 #[inline(always)]
-fn sum_kernel<S: Simd>(_: S, planes: &Planes<3>, grid: SampleGrid, pixels: &[[u16; 2]], sums: &mut [[u32; 4]]) {
+fn sum_kernel<S: Simd>(simd: S, planes: &Planes<3>, grid: SampleGrid, pixels: &[[u16; 2]], sums: &mut [[u32; 4]]) {
     let samples = grid.side * grid.side;
     let alpha = samples * u32::from(Premultiplied16::ONE);
     for (pixels, sums) in pixels.chunks(LANES).zip(sums.chunks_mut(LANES)) {
-        let [r, g, b] = channels(planes, &middles(grid, pixels), f64::from(samples));
+        let [r, g, b] = channels(simd, planes, middles(grid, pixels), f64::from(samples));
+        let (red_green, blue) = ((r | g << 32).to_array(), b.to_array());
         for (i, sum) in sums.iter_mut().enumerate() {
-            *sum = [r[i], g[i], b[i], alpha];
+            *sum = [
+                low_word(red_green[i]),
+                low_word(red_green[i] >> 32),
+                low_word(blue[i]),
+                alpha,
+            ];
         }
     }
 }

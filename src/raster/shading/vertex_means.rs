@@ -17,7 +17,7 @@ use crate::raster::SampleRate;
 use crate::raster::attributes::Planes;
 use crate::raster::sampling::positions::Position;
 use crate::raster::shading::context::PlacedPixels;
-use crate::raster::shading::kernel::{LANES, ONE, WHOLE, first_sample};
+use crate::raster::shading::kernel::{LANES, ONE, first_sample, whole};
 use crate::raster::shading::vertex::point_kernel;
 use crate::simd;
 use crate::texture::SampleGrid;
@@ -201,12 +201,11 @@ impl Columns {
                 #[inline(always)]
                 |axis| f64x8::simd_from(simd, at[axis]) + first[axis],
             );
-            let used = u64x8::simd_from(simd, *used) & 0xFFFF;
+            let used = u64x8::simd_from(simd, *used);
             for (k, sum) in sums.iter_mut().enumerate() {
-                // In the order of `Planes::at`, and then as `kernel::rounded` has it: a whole number in the lowest bits.
+                // In the order of `Planes::at`.
                 let value = number(planes.at_pivot[k]) + down * planes.dy[k] + right * planes.dx[k];
-                let value = value.max(number(0.0)).min(number(ONE)) + WHOLE;
-                *sum += value.bitcast::<u64x8<S>>() & used;
+                *sum += whole(simd, value, ONE) & used;
             }
         }
         let mut all = [0; 3];

@@ -22,6 +22,10 @@ use crate::raster::shading::vertex::point_kernel;
 use crate::simd;
 use crate::texture::SampleGrid;
 
+/// Blocks of [`LANES`] samples of a pixel: memory for more than are needed would have to be cleared.
+const FEW: usize = 8;
+const MANY: usize = SampleRate::MAX as usize / LANES;
+
 /// Where fewer samples are shaded together, most lanes would be empty.
 const FEWEST: usize = 4;
 
@@ -41,8 +45,11 @@ pub(super) fn means(planes: &Planes<3>, pixels: PlacedPixels<'_>, mean: &SampleM
         return false;
     }
     match mean {
+        SampleMean::Stored(resolver) if pixels.count <= FEW * LANES => {
+            dispatch!(simd::level(), simd => stored::<_, FEW>(simd, planes, pixels, resolver, values));
+        }
         SampleMean::Stored(resolver) => {
-            dispatch!(simd::level(), simd => stored(simd, planes, pixels, resolver, values));
+            dispatch!(simd::level(), simd => stored::<_, MANY>(simd, planes, pixels, resolver, values));
         }
         SampleMean::Linear(resolver) => {
             dispatch!(simd::level(), simd => linear(simd, planes, pixels, resolver, values));
@@ -53,20 +60,22 @@ pub(super) fn means(planes: &Planes<3>, pixels: PlacedPixels<'_>, mean: &SampleM
 
 /// Means of stored values.
 #[inline(always)]
-fn stored<S: Simd>(simd: S, planes: &Planes<3>, placed: PlacedPixels<'_>, resolver: &Resolver, values: &mut [u32]) {
+fn stored<S: Simd, const BLOCKS: usize>(
+    simd: S,
+    planes: &Planes<3>,
+    placed: PlacedPixels<'_>,
+    resolver: &Resolver,
+    values: &mut [u32],
+) {
     let alpha = resolver.count() * u32::from(Premultiplied16::ONE);
-    let mut same = Columns::EMPTY;
+    let mut columns = Columns::<BLOCKS>::EMPTY;
     if placed.are_same() {
-        same.fill(placed.inside);
+        columns.fill(placed.inside);
     }
-    let mut own = Columns::EMPTY;
     for (i, (place, value)) in placed.pixels.places.iter().zip(values).enumerate() {
-        let columns = if placed.are_same() {
-            &same
-        } else {
-            own.fill(placed.inside(i));
-            &own
-        };
+        if !placed.are_same() {
+            columns.fill(placed.inside(i));
+        }
         let first = from_pivot(planes, placed.pixels.grid, *place);
         let [r, g, b] = columns.sums(simd, planes, first);
         *value = resolver.pixel([r, g, b, alpha]);
@@ -154,16 +163,14 @@ fn from_pivot(planes: &Planes<3>, grid: SampleGrid, place: [u16; 2]) -> [f64; 2]
 }
 
 /// The columns and rows of a pixel's samples, [`LANES`] at a time.
-struct Columns {
+struct Columns<const BLOCKS: usize> {
     at: [[[f64; LANES]; 2]; BLOCKS],
     /// All bits where a lane has a sample.
     used: [[u64; LANES]; BLOCKS],
     blocks: usize,
 }
 
-const BLOCKS: usize = SampleRate::MAX as usize / LANES;
-
-impl Columns {
+impl<const BLOCKS: usize> Columns<BLOCKS> {
     const EMPTY: Self = Self {
         at: [[[0.0; LANES]; 2]; BLOCKS],
         used: [[0; LANES]; BLOCKS],
@@ -374,7 +381,12 @@ mod tests {
                 for (name, level) in simd::tested() {
                     let mut found = vec![0; expected.len()];
                     dispatch!(level, simd => match &mean {
-                        SampleMean::Stored(resolver) => stored(simd, &case.planes, case.placed(), resolver, &mut found),
+                        SampleMean::Stored(resolver) if case.rate.samples() <= 64 => {
+                            stored::<_, FEW>(simd, &case.planes, case.placed(), resolver, &mut found);
+                        }
+                        SampleMean::Stored(resolver) => {
+                            stored::<_, MANY>(simd, &case.planes, case.placed(), resolver, &mut found);
+                        }
                         SampleMean::Linear(resolver) => linear(simd, &case.planes, case.placed(), resolver, &mut found),
                     });
                     pixels_met += found.len();

@@ -65,11 +65,19 @@ impl VisibilityPainter<'_> {
                     let row_of_two = tile.two_surfaces(y);
                     for x in columns(range) {
                         let TwoSurfaces { mask, first, second } = row_of_two.get(usize::from(x));
-                        let samples = (0..count).map(|i| if mask >> i & 1 == 1 { second } else { first });
-                        if let Some(flat) = note_shared(samples, surfaces, [x, row], unresolved, shared) {
-                            line[usize::from(x)] = mean.pixel(&shared[flat..]);
-                            shared.truncate(flat);
+                        let [one, other] = [first, second].map(|surface| surfaces.get(surface));
+                        let begin = shared.len();
+                        let flat = |i: u32| if mask >> i & 1 == 1 { other.flat } else { one.flat };
+                        shared.extend((0..count).map(flat));
+                        if one.shaded.is_none() && other.shaded.is_none() {
+                            line[usize::from(x)] = mean.pixel(&shared[begin..]);
+                            shared.truncate(begin);
+                            continue;
                         }
+                        let parts = [(first, 0, tile.all() & !mask), (second, 0, mask)];
+                        unresolved.parts([x, row], parts.into_iter(), |surface| {
+                            surfaces.get(surface).shaded.is_none().then_some([0; 4])
+                        });
                     }
                 }
                 Run::Split => {

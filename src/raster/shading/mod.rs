@@ -22,6 +22,7 @@ mod solid;
 pub(in crate::raster) mod sources;
 mod texture;
 mod vertex;
+mod vertex_kernel;
 mod vertex_means;
 
 use crate::color::{Premultiplied16, Rgba, SampleMean};

@@ -5,8 +5,7 @@
     reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
 )]
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f64x8, u64x8};
+use fearless_simd::{Level, dispatch};
 
 use crate::color::{Premultiplied16, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;
@@ -14,9 +13,10 @@ use crate::geometry::subpixel::GridPoint;
 use crate::raster::attributes::Planes;
 use crate::raster::shading::context::{MaskedPixels, Pixels, PlacedPixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::Attributes;
-use crate::raster::shading::kernel::{LANES, ONE, first_sample, low_word, places_of, rounded, whole};
+use crate::raster::shading::kernel::{ONE, first_sample, rounded};
 use crate::raster::shading::kind::{PaintKind, Shade, at_corner, pixels_by_points};
 use crate::raster::shading::sources::PaintSources;
+use crate::raster::shading::vertex_kernel::{pixel_kernel, point_kernel, sum_kernel};
 use crate::raster::shading::vertex_means;
 use crate::rules::Rules;
 use crate::simd;
@@ -173,82 +173,6 @@ fn rounded_sum(color: [f64; 3], count: f64) -> [u32; 4] {
         rounded(b * count, limit),
         rounded(limit, limit),
     ]
-}
-
-/// Where up to [`LANES`] pixels lie: the middles of their samples, in samples.
-#[inline(always)]
-fn middles(grid: SampleGrid, pixels: &[[u16; 2]]) -> [[f64; LANES]; 2] {
-    let side = f64::from(grid.side);
-    let mut middles = [[0.0; LANES]; 2];
-    for (i, [x, y]) in pixels.iter().enumerate() {
-        middles[0][i] = (f64::from(grid.origin[0]) + f64::from(*x) + 0.5) * side;
-        middles[1][i] = (f64::from(grid.origin[1]) + f64::from(*y) + 0.5) * side;
-    }
-    middles
-}
-
-/// Red, green and blue of [`LANES`] places, times `count`.
-#[inline(always)]
-fn channels<S: Simd>(simd: S, planes: &Planes<3>, [x, y]: [[f64; LANES]; 2], count: f64) -> [u64x8<S>; 3] {
-    let number = |value| f64x8::splat(simd, value);
-    let right = f64x8::simd_from(simd, x) - planes.pivot[0];
-    let down = f64x8::simd_from(simd, y) - planes.pivot[1];
-    let mut channels = [u64x8::splat(simd, 0); 3];
-    for (k, channel) in channels.iter_mut().enumerate() {
-        // In the order of `Planes::at`.
-        let value = number(planes.at_pivot[k]) + down * planes.dy[k] + right * planes.dx[k];
-        *channel = whole(simd, value * count, ONE * count);
-    }
-    channels
-}
-
-/// Opaque colours at samples.
-#[inline(always)]
-pub(super) fn point_kernel<S: Simd>(
-    simd: S,
-    planes: &Planes<3>,
-    grid: SampleGrid,
-    points: &[[u16; 2]],
-    colors: &mut [Premultiplied16],
-) {
-    for (points, colors) in points.chunks(LANES).zip(colors.chunks_mut(LANES)) {
-        let [r, g, b] = channels(simd, planes, places_of(grid, points), 1.0);
-        let words = r | g << 16 | b << 32 | u64::from(Premultiplied16::ONE) << 48;
-        for (color, word) in colors.iter_mut().zip(words.to_array()) {
-            *color = Premultiplied16::from_word(word);
-        }
-    }
-}
-
-#[inline(always)]
-fn pixel_kernel<S: Simd>(simd: S, planes: &Planes<3>, grid: SampleGrid, pixels: &[[u16; 2]], values: &mut [u32]) {
-    let half = u64::from(Premultiplied16::PER_BYTE) / 2;
-    for (pixels, values) in pixels.chunks(LANES).zip(values.chunks_mut(LANES)) {
-        let [r, g, b] = channels(simd, planes, middles(grid, pixels), 1.0);
-        let byte = |channel: u64x8<S>| (channel + half) >> 8;
-        let shaded = byte(r) << 16 | byte(g) << 8 | byte(b) | 0xFF00_0000;
-        for (value, shaded) in values.iter_mut().zip(shaded.to_array()) {
-            *value = low_word(shaded);
-        }
-    }
-}
-
-#[inline(always)]
-fn sum_kernel<S: Simd>(simd: S, planes: &Planes<3>, grid: SampleGrid, pixels: &[[u16; 2]], sums: &mut [[u32; 4]]) {
-    let samples = grid.side * grid.side;
-    let alpha = samples * u32::from(Premultiplied16::ONE);
-    for (pixels, sums) in pixels.chunks(LANES).zip(sums.chunks_mut(LANES)) {
-        let [r, g, b] = channels(simd, planes, middles(grid, pixels), f64::from(samples));
-        let (red_green, blue) = ((r | g << 32).to_array(), b.to_array());
-        for (i, sum) in sums.iter_mut().enumerate() {
-            *sum = [
-                low_word(red_green[i]),
-                low_word(red_green[i] >> 32),
-                low_word(blue[i]),
-                alpha,
-            ];
-        }
-    }
 }
 
 #[cfg(test)]

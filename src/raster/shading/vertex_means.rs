@@ -18,7 +18,7 @@ use crate::raster::attributes::Planes;
 use crate::raster::sampling::positions::Position;
 use crate::raster::shading::context::PlacedPixels;
 use crate::raster::shading::kernel::{LANES, ONE, first_sample, whole};
-use crate::raster::shading::vertex::point_kernel;
+use crate::raster::shading::vertex_kernel::point_kernel;
 use crate::simd;
 use crate::texture::SampleGrid;
 

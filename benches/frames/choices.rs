@@ -59,8 +59,9 @@ fn compare(names: &[&str], choices: &[RenderSettings], budget: Budget) -> Vec<Ve
 }
 
 /// By medians and by minima, over all.
-fn mean(ratios: impl Iterator<Item = [f64; 2]> + Clone) -> [f64; 2] {
-    [0, 1].map(|by| geometric_mean(ratios.clone().map(|ratio| ratio[by])))
+fn mean(ratios: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
+    let ratios: Vec<[f64; 2]> = ratios.collect();
+    [0, 1].map(|by| geometric_mean(ratios.iter().map(|ratio| ratio[by])))
 }
 
 /// The row of patterns.

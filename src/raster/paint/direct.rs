@@ -1,5 +1,6 @@
 //! Tiles of opaque primitives at one sample per pixel: painted straight into the frame.
 
+use crate::color::Resolver;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::coverage::covered::Covered;
@@ -7,7 +8,7 @@ use crate::raster::coverage::shape::Shape;
 use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::list::chunk::Chunk;
-use crate::raster::shading::context::{Pixels, ShadeContext};
+use crate::raster::shading::context::{PixelRun, Pixels, ShadeContext};
 use crate::raster::shading::{Paint, Shader};
 use crate::raster::span::SpanRect;
 
@@ -15,7 +16,9 @@ use crate::raster::span::SpanRect;
 #[derive(Debug)]
 pub(crate) struct DirectPainter<'a> {
     context: ShadeContext<'a>,
+    resolver: Resolver,
     /// The pixels of one primitive, counted from the tile's first, and their values.
+    runs: Vec<PixelRun>,
     places: Vec<[u16; 2]>,
     shaded: Vec<u32>,
     /// Samples whose colours were computed.
@@ -26,7 +29,9 @@ impl<'a> DirectPainter<'a> {
     /// A painter for one drawing.
     pub(crate) fn new(context: ShadeContext<'a>) -> Self {
         Self {
+            resolver: Resolver::new(1, context.sampling.rules),
             context,
+            runs: Vec::new(),
             places: Vec::new(),
             shaded: Vec::new(),
             samples_shaded: 0,
@@ -57,19 +62,20 @@ impl<'a> DirectPainter<'a> {
                     });
                 }
                 Work::Shaded(shape, corners, paint) => {
-                    let mut places = std::mem::take(&mut self.places);
-                    places.clear();
+                    self.runs.clear();
                     let SpanRect { x: left, y: top } = block.rect;
                     let inside = |from: i32, to: i32| u16::try_from(to - from).unwrap_or(u16::MAX);
+                    let runs = &mut self.runs;
                     shape_coverage.each(shape, block.rect, |y, covered| {
                         if let Covered::Whole(xs) = covered {
-                            let row = inside(top.start, y);
-                            let columns = inside(left.start, xs.start)..inside(left.start, xs.end);
-                            places.extend(columns.map(|column| [column, row]));
+                            runs.push(PixelRun {
+                                row: inside(top.start, y),
+                                start: inside(left.start, xs.start),
+                                end: inside(left.start, xs.end),
+                            });
                         }
                     });
-                    self.shaded(corners, paint, &places, block);
-                    self.places = places;
+                    self.shade(corners, paint, block);
                 }
                 // This painter is chosen where there are no layers.
                 Work::BeginLayer | Work::EndLayer(_) => {}
@@ -77,22 +83,36 @@ impl<'a> DirectPainter<'a> {
         }
     }
 
-    /// Shades pixels, counted from the tile's first.
-    fn shaded(&mut self, corners: &[GridPoint; 3], paint: &Paint, places: &[[u16; 2]], block: &mut PixelBlock<'_>) {
-        if places.is_empty() {
+    /// Shades the pixels of the runs.
+    fn shade(&mut self, corners: &[GridPoint; 3], paint: &Paint, block: &mut PixelBlock<'_>) {
+        let Self {
+            context,
+            resolver,
+            runs,
+            places,
+            shaded,
+            samples_shaded,
+        } = self;
+        if runs.is_empty() {
             return;
         }
-        self.samples_shaded += places.len() as u64;
-        self.shaded.resize(self.shaded.len().max(places.len()), 0);
-        let values = &mut self.shaded[..places.len()];
+        let pixels: usize = runs.iter().map(|run| run.len()).sum();
+        *samples_shaded += pixels as u64;
         let SpanRect { x, y } = block.rect;
-        let pixels = Pixels {
-            grid: self.context.samples_from([x.start, y.start]),
-            places,
-        };
-        Shader::new(&self.context, corners, paint).pixels(pixels, values);
-        for (place, value) in places.iter().zip(values) {
-            block.put(*place, *value);
+        let grid = context.samples_from([x.start, y.start]);
+        let shader = Shader::new(context, corners, paint);
+        if shader.runs(runs, grid, resolver, block) {
+            return;
+        }
+        places.clear();
+        places.extend(runs.iter().flat_map(|run| run.places()));
+        shaded.resize(shaded.len().max(pixels), 0);
+        let mut values = &mut shaded[..pixels];
+        shader.pixels(Pixels { grid, places }, values);
+        for run in runs {
+            let (of_run, others) = values.split_at_mut(run.len());
+            block.run(run.row, run.columns()).copy_from_slice(of_run);
+            values = others;
         }
     }
 }

@@ -1,5 +1,7 @@
 //! What shaders are asked about: a drawing, and samples and pixels of a tile.
 
+use std::ops::Range;
+
 use crate::color::ResolveSpace;
 use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::SampleRate;
@@ -19,6 +21,15 @@ pub(crate) struct ShadeContext<'a> {
     pub(crate) space: ResolveSpace,
     pub(crate) sampling: SamplingSettings,
     pub(crate) sources: &'a PaintSources<'a>,
+}
+
+/// Pixels side by side in a row of a tile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct PixelRun {
+    /// Row and columns, counted from the tile's first pixel; the last column lies just after the run.
+    pub(crate) row: u16,
+    pub(crate) start: u16,
+    pub(crate) end: u16,
 }
 
 /// Some pixels of a tile, counted from the first pixel of the grid.
@@ -63,6 +74,33 @@ impl ShadeContext<'_> {
             side: self.grid.side().cast_unsigned(),
             origin,
         }
+    }
+}
+
+impl PixelRun {
+    /// The columns of its pixels.
+    #[inline]
+    pub(crate) fn columns(self) -> Range<u16> {
+        self.start..self.end
+    }
+
+    /// How many pixels these are.
+    #[inline]
+    pub(crate) fn len(self) -> usize {
+        usize::from(self.end - self.start)
+    }
+
+    /// The places of its pixels.
+    #[inline]
+    pub(crate) fn places(self) -> impl ExactSizeIterator<Item = [u16; 2]> {
+        let row = self.row;
+        self.columns().map(move |column| [column, row])
+    }
+
+    /// The place of the first one.
+    #[inline]
+    pub(crate) fn first(self) -> [u16; 2] {
+        [self.start, self.row]
     }
 }
 

@@ -51,23 +51,16 @@ pub(super) fn places_of(grid: SampleGrid, points: &[[u16; 2]]) -> [[f64; LANES];
     places
 }
 
-/// A number of `0.0..=limit` (clamped, at most `2^32`) rounded to a whole one.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "the lower half is meant")]
-pub(super) fn rounded(value: f64, limit: f64) -> u32 {
-    // In this order what is no number becomes 0.
-    let value = if value > 0.0 { value } else { 0.0 };
-    let value = if value < limit { value } else { limit };
-    (value + WHOLE).to_bits() as u32
-}
-
-/// [`rounded`] in vectors.
+/// Numbers of `0.0..=limit` (clamped, at most `2^32`) rounded to whole ones; what is no number becomes 0.
 #[inline(always)]
 pub(super) fn whole<S: Simd>(simd: S, value: f64x8<S>, limit: f64) -> u64x8<S> {
-    let value = value
-        .max_precise(f64x8::splat(simd, 0.0))
-        .min(f64x8::splat(simd, limit))
-        + WHOLE;
+    whole_up_to(simd, value, f64x8::splat(simd, limit))
+}
+
+/// The same with a limit for each.
+#[inline(always)]
+pub(super) fn whole_up_to<S: Simd>(simd: S, value: f64x8<S>, limit: f64x8<S>) -> u64x8<S> {
+    let value = value.max_precise(f64x8::splat(simd, 0.0)).min(limit) + WHOLE;
     value.bitcast::<u64x8<S>>() & 0xFFFF_FFFF
 }
 

@@ -1,10 +1,11 @@
 //! What every kind of paint answers. Only the colours of samples must be told; a paint that knows a shorter way to whole
 //! pixels or to sums of samples tells that too.
 
-use crate::color::{Premultiplied16, Rgba, SampleMean};
+use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
-use crate::raster::shading::context::{MaskedPixels, Pixels, PlacedPixels, ShadeContext, ShadedSample};
+use crate::raster::frame::block::PixelBlock;
+use crate::raster::shading::context::{MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
 use crate::raster::shading::sources::PaintSources;
 use crate::rules::Rules;
@@ -62,6 +63,12 @@ pub(super) trait Shade {
     /// The values of opaque pixels with one sample each.
     fn pixels(&self, pixels: Pixels<'_>, rules: Rules, values: &mut [u32]) {
         pixels_by_points(self, pixels, rules, values);
+    }
+
+    /// Puts the pixels of runs into a block, where there is a way that is shorter than their sums; whether there is one. The
+    /// triangle must be opaque.
+    fn runs(&self, _: &[PixelRun], _: SampleGrid, _: &Resolver, _: &mut PixelBlock<'_>) -> bool {
+        false
     }
 
     /// The pixels that all of their samples make, where there is a way that is shorter than [`Shade::points`] of each; whether

@@ -1,22 +1,18 @@
 //! A paint whose colours are interpolated between the corners of a triangle.
 
-#![expect(
-    clippy::inline_always,
-    reason = "only what is inlined into a dispatched function is compiled for its vector instructions"
-)]
-
 use fearless_simd::{Level, dispatch};
 
-use crate::color::{Premultiplied16, Rgba, SampleMean};
+use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::attributes::Planes;
-use crate::raster::shading::context::{MaskedPixels, Pixels, PlacedPixels, ShadeContext, ShadedSample};
+use crate::raster::frame::block::PixelBlock;
+use crate::raster::shading::context::{MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::Attributes;
-use crate::raster::shading::kernel::{ONE, first_sample, rounded};
-use crate::raster::shading::kind::{PaintKind, Shade, at_corner, pixels_by_points};
+use crate::raster::shading::kernel::{ONE, first_sample};
+use crate::raster::shading::kind::{PaintKind, Shade, at_corner};
 use crate::raster::shading::sources::PaintSources;
-use crate::raster::shading::vertex_kernel::{pixel_kernel, point_kernel, sum_kernel};
+use crate::raster::shading::vertex_kernel::{Bytes, masked_kernel, point_kernel, run_kernel, sum_kernel};
 use crate::raster::shading::vertex_means;
 use crate::rules::Rules;
 use crate::simd;
@@ -84,11 +80,6 @@ impl VertexShader {
         }
     }
 
-    /// [`Shade::pixels`] of opaque corners under the standard rules.
-    fn opaque_pixels(&self, simd: Level, Pixels { grid, places }: Pixels<'_>, values: &mut [u32]) {
-        dispatch!(simd, simd => pixel_kernel(simd, &self.opaque, grid, places, values));
-    }
-
     /// [`Shade::pixel_sums`]; under the same conditions.
     fn opaque_sums(&self, simd: Level, Pixels { grid, places }: Pixels<'_>, sums: &mut [[u32; 4]]) {
         dispatch!(simd, simd => sum_kernel(simd, &self.opaque, grid, places, sums));
@@ -107,12 +98,15 @@ impl Shade for VertexShader {
         }
     }
 
-    fn pixels(&self, pixels: Pixels<'_>, rules: Rules, values: &mut [u32]) {
-        if rules == Rules::Course {
-            pixels_by_points(self, pixels, rules, values);
-        } else {
-            self.opaque_pixels(simd::level(), pixels, values);
+    fn runs(&self, runs: &[PixelRun], grid: SampleGrid, resolver: &Resolver, block: &mut PixelBlock<'_>) -> bool {
+        if self.rules == Rules::Course {
+            return false;
         }
+        let Some(bytes) = Bytes::of(resolver) else {
+            return false;
+        };
+        dispatch!(simd::level(), simd => run_kernel(simd, &self.opaque, grid, bytes, (runs, block)));
+        true
     }
 
     fn placed_pixels(&self, pixels: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) -> bool {
@@ -124,27 +118,7 @@ impl Shade for VertexShader {
     }
 
     fn masked_sums(&self, pixels: MaskedPixels<'_>, sums: &mut [[u32; 4]]) {
-        let MaskedPixels {
-            pixels: Pixels { grid, places },
-            masks,
-            first,
-        } = pixels;
-        let origin = first_sample(grid);
-        let side = f64::from(grid.side);
-        for (([x, y], mask), sum) in places.iter().zip(masks).zip(sums) {
-            let count = mask.count_ones();
-            let (mut right, mut down, mut rest) = (0, 0, *mask);
-            while rest != 0 {
-                let sample = first + rest.trailing_zeros();
-                right += sample % grid.side;
-                down += sample / grid.side;
-                rest &= rest - 1;
-            }
-            let mean = |total: u32| f64::from(total) / f64::from(count.max(1));
-            let x = origin[0] + f64::from(*x) * side + mean(right);
-            let y = origin[1] + f64::from(*y) * side + mean(down);
-            *sum = rounded_sum(self.opaque.at(x, y), f64::from(count));
-        }
+        dispatch!(simd::level(), simd => masked_kernel(simd, &self.opaque, pixels, sums));
     }
 
     fn interpolated(&self, sample: ShadedSample) -> Attributes {
@@ -162,23 +136,13 @@ fn straight_color(color: [f64; 4], rules: Rules) -> Premultiplied16 {
     Premultiplied16::from_byte_range([r * a * 255.0, g * a * 255.0, b * a * 255.0, a * 255.0], rules)
 }
 
-/// `count` times a colour.
-#[inline(always)]
-fn rounded_sum(color: [f64; 3], count: f64) -> [u32; 4] {
-    let limit = ONE * count;
-    let [r, g, b] = color;
-    [
-        rounded(r * count, limit),
-        rounded(g * count, limit),
-        rounded(b * count, limit),
-        rounded(limit, limit),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
+    use arbtest::arbitrary::{Result, Unstructured};
+
     use super::*;
     use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
+    use crate::raster::span::{Span, SpanRect};
 
     /// The colours of all samples of a pixel, one by one.
     fn samples(colors: &VertexShader, grid: SampleGrid, [x, y]: [u16; 2]) -> Vec<Premultiplied16> {
@@ -191,45 +155,163 @@ mod tests {
         found
     }
 
+    /// A random triangle with random opaque colours at its corners, if it has an area.
+    fn any_colors(u: &mut Unstructured<'_>, side: u32) -> Result<Option<VertexShader>> {
+        let mut corner = || -> Result<GridPoint> {
+            let mut at = || u.int_in_range(-2_000_000..=2_000_000);
+            Ok(GridPoint { x: at()?, y: at()? })
+        };
+        let corners = [corner()?, corner()?, corner()?];
+        if crate::geometry::edge::doubled_area(corners) == 0 {
+            return Ok(None);
+        }
+        let mut unit = || -> Result<f32> { Ok(f32::from(u.arbitrary::<u8>()?) / 255.0) };
+        let mut color = || Ok([unit()?, unit()?, unit()?, 1.0]);
+        let planes = Planes::new(SubpixelGrid::new(side), &corners, [color()?, color()?, color()?]);
+        Ok(Some(VertexShader::new(planes, true, Rules::Standard)))
+    }
+
+    #[test]
+    fn runs_are_the_resolved_sums_of_their_pixels() {
+        const WIDTH: u16 = 40;
+        let mut met = 0;
+        arbtest::arbtest(|u| {
+            let side = u.int_in_range(1..=16_u8)?;
+            let Some(colors) = any_colors(u, side.into())? else {
+                return Ok(());
+            };
+            let grid = SampleGrid {
+                side: side.into(),
+                origin: [u.int_in_range(-5..=70)?, u.int_in_range(-5..=70)?],
+            };
+            let resolver = Resolver::new(grid.side * grid.side, Rules::Standard);
+            let Some(bytes) = Bytes::of(&resolver) else {
+                assert!(
+                    !side.is_power_of_two(),
+                    "{side} x {side} samples are divided by shifting"
+                );
+                return Ok(());
+            };
+            let runs = (0..5)
+                .map(|row| {
+                    let start = u.int_in_range(0..=WIDTH - 1)?;
+                    let end = u.int_in_range(start + 1..=WIDTH)?;
+                    Ok(PixelRun { row, start, end })
+                })
+                .collect::<Result<Vec<_>>>()?;
+            let mut expected = vec![7; usize::from(WIDTH) * 5];
+            for [x, y] in runs.iter().flat_map(|run| run.places()) {
+                let mut sums = [[0; 4]];
+                let places = &[[x, y]];
+                colors.opaque_sums(simd::level(), Pixels { grid, places }, &mut sums);
+                expected[usize::from(y * WIDTH + x)] = resolver.pixel(sums[0]);
+                met += 1;
+            }
+            for (name, level) in simd::tested() {
+                let mut found = vec![7; expected.len()];
+                let span = |start: i32, length: u16| Span {
+                    start,
+                    end: start + i32::from(length),
+                };
+                let [x, y] = grid.origin;
+                let rect = SpanRect {
+                    x: span(x, WIDTH),
+                    y: span(y, 5),
+                };
+                let mut block = PixelBlock::new(rect, &mut found, WIDTH.into());
+                dispatch!(level, simd => run_kernel(simd, &colors.opaque, grid, bytes, (&runs, &mut block)));
+                assert_eq!(found, expected, "{name}: {grid:?}, {runs:?}");
+            }
+            Ok(())
+        })
+        .budget_ms(300);
+        assert!(met > 0, "something was compared");
+    }
+
+    #[test]
+    fn parts_are_the_plane_at_the_middle_of_their_samples() {
+        let mut met = 0;
+        arbtest::arbtest(|u| {
+            let side = u.int_in_range(1..=16_u8)?;
+            let Some(colors) = any_colors(u, side.into())? else {
+                return Ok(());
+            };
+            let grid = SampleGrid {
+                side: side.into(),
+                origin: [3, -2],
+            };
+            let count = grid.side * grid.side;
+            let first = u.int_in_range(0..=count.saturating_sub(1) / 64)? * 64;
+            let bits = u64::MAX >> 64_u32.saturating_sub(count - first);
+            let places: Vec<[u16; 2]> = (0..11).map(|i| [i * 3, i % 4]).collect();
+            let masks = (0..11)
+                .map(|_| Ok(u.arbitrary::<u64>()? & bits))
+                .collect::<Result<Vec<_>>>()?;
+            let expected: Vec<[u32; 4]> = places
+                .iter()
+                .zip(&masks)
+                .map(|(place, mask)| {
+                    let samples: Vec<u32> = (0..64)
+                        .filter(|bit| mask >> bit & 1 == 1)
+                        .map(|bit| first + bit)
+                        .collect();
+                    let samples_in = f64::from(u32::try_from(samples.len()).expect("at most 64"));
+                    let mean = |of: fn(u32, u32) -> u32| {
+                        let total: u32 = samples.iter().map(|sample| of(*sample, grid.side)).sum();
+                        f64::from(total) / samples_in.max(1.0)
+                    };
+                    let inside = [mean(|sample, side| sample % side), mean(|sample, side| sample / side)];
+                    let [x, y] = [0, 1]
+                        .map(|axis| first_sample(grid)[axis] + f64::from(place[axis]) * f64::from(side) + inside[axis]);
+                    let sum = |value: f64| rounded(value * samples_in, ONE * samples_in);
+                    let [r, g, b] = colors.opaque.at(x, y).map(sum);
+                    [r, g, b, rounded(ONE * samples_in, f64::MAX)]
+                })
+                .collect();
+            for (name, level) in simd::tested() {
+                let mut found = vec![[0; 4]; expected.len()];
+                let places = &places;
+                let pixels = Pixels { grid, places }.masked(&masks, first);
+                dispatch!(level, simd => masked_kernel(simd, &colors.opaque, pixels, &mut found));
+                assert_eq!(found, expected, "{name}: {grid:?}, {masks:x?} from {first} on");
+                met += found.len();
+            }
+            Ok(())
+        })
+        .budget_ms(300);
+        assert!(met > 0, "something was compared");
+    }
+
+    /// A number of `0.0..=limit` (clamped) rounded to a whole one, ties to even.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    fn rounded(value: f64, limit: f64) -> u32 {
+        value.clamp(0.0, limit).round_ties_even() as u32
+    }
+
     #[test]
     fn sums_are_those_of_the_samples() {
         arbtest::arbtest(|u| {
-            let side = u.int_in_range(1..=16)?;
-            let subpixels = SubpixelGrid::new(side);
-            let mut corner = || -> arbtest::arbitrary::Result<GridPoint> {
-                let mut at = || u.int_in_range(-2_000_000..=2_000_000);
-                Ok(GridPoint { x: at()?, y: at()? })
-            };
-            let corners = [corner()?, corner()?, corner()?];
-            if crate::geometry::edge::doubled_area(corners) == 0 {
+            let side = u.int_in_range(1..=16_u8)?;
+            let Some(colors) = any_colors(u, side.into())? else {
                 return Ok(());
-            }
-            let mut unit = || -> arbtest::arbitrary::Result<f32> { Ok(f32::from(u.arbitrary::<u8>()?) / 255.0) };
-            let values = [
-                [unit()?, unit()?, unit()?, 1.0],
-                [unit()?, unit()?, unit()?, 1.0],
-                [unit()?, unit()?, unit()?, 1.0],
-            ];
-            let colors = VertexShader::new(Planes::new(subpixels, &corners, values), true, Rules::Standard);
+            };
+            let side = u32::from(side);
             let grid = SampleGrid { side, origin: [3, -2] };
             let pixels: Vec<[u16; 2]> = (0..11).map(|i| [i * 3, i % 4]).collect();
             let pixels_of = |places| Pixels { grid, places };
             let count = side * side;
             let mut of_scalar = Vec::new();
             for (name, level) in simd::tested() {
-                let (mut sums, mut values) = (vec![[0; 4]; 11], vec![0; 11]);
+                let mut sums = vec![[0; 4]; 11];
                 colors.opaque_sums(level, pixels_of(&pixels), &mut sums);
-                colors.opaque_pixels(level, pixels_of(&pixels), &mut values);
                 if of_scalar.is_empty() {
-                    of_scalar = vec![(sums.clone(), values.clone())];
+                    of_scalar = vec![sums.clone()];
                 }
-                assert_eq!(
-                    (sums, values),
-                    of_scalar[0],
-                    "{name} gives the bytes of every other level"
-                );
+                assert_eq!(sums, of_scalar[0], "{name} gives the bytes of every other level");
             }
-            let (sums, values) = &of_scalar[0];
+            let sums = &of_scalar[0];
+            let resolver = Resolver::new(count, Rules::Standard);
+            let values: Vec<u32> = sums.iter().map(|sum| resolver.pixel(*sum)).collect();
             for (i, pixel) in pixels.iter().enumerate() {
                 let samples = samples(&colors, grid, *pixel);
                 if side == 1 {
@@ -247,10 +329,7 @@ mod tests {
                     let exact: u32 = samples.iter().map(|sample| u32::from(sample.0[k])).sum();
                     // Where the plane leaves the range of colours the mean is clamped, not the samples.
                     let inside = samples.iter().all(|sample| (1..65_280).contains(&sample.0[k])) || k == 3;
-                    assert!(
-                        !inside || sums[i][k].abs_diff(exact) <= count,
-                        "{corners:?} channel {k}"
-                    );
+                    assert!(!inside || sums[i][k].abs_diff(exact) <= count, "{colors:?} channel {k}");
                     assert!(
                         count > 64 || masked[0][k].abs_diff(sums[i][k]) <= 1,
                         "all bits are the whole pixel: {masked:?} and {:?}",

@@ -6,11 +6,13 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, u64x8};
+use fearless_simd::{Simd, f64x8, u32x8, u64x8};
 
-use crate::color::Premultiplied16;
+use crate::color::{Premultiplied16, Resolver};
 use crate::raster::attributes::Planes;
-use crate::raster::shading::kernel::{LANES, ONE, low_word, places_of, whole};
+use crate::raster::frame::block::PixelBlock;
+use crate::raster::shading::context::{MaskedPixels, PixelRun, Pixels};
+use crate::raster::shading::kernel::{LANES, ONE, first_sample, low_word, places_of, whole, whole_up_to};
 use crate::texture::SampleGrid;
 
 /// Where up to [`LANES`] pixels lie: the middles of their samples, in samples.
@@ -27,7 +29,7 @@ fn middles(grid: SampleGrid, pixels: &[[u16; 2]]) -> [[f64; LANES]; 2] {
 
 /// Red, green and blue of [`LANES`] places, times `count`.
 #[inline(always)]
-fn channels<S: Simd>(simd: S, planes: &Planes<3>, [x, y]: [[f64; LANES]; 2], count: f64) -> [u64x8<S>; 3] {
+fn channels<S: Simd>(simd: S, planes: &Planes<3>, [x, y]: [[f64; LANES]; 2], count: f64x8<S>) -> [u64x8<S>; 3] {
     let number = |value| f64x8::splat(simd, value);
     let right = f64x8::simd_from(simd, x) - planes.pivot[0];
     let down = f64x8::simd_from(simd, y) - planes.pivot[1];
@@ -35,7 +37,7 @@ fn channels<S: Simd>(simd: S, planes: &Planes<3>, [x, y]: [[f64; LANES]; 2], cou
     for (k, channel) in channels.iter_mut().enumerate() {
         // In the order of `Planes::at`.
         let value = number(planes.at_pivot[k]) + down * planes.dy[k] + right * planes.dx[k];
-        *channel = whole(simd, value * count, ONE * count);
+        *channel = whole_up_to(simd, value * count, count * ONE);
     }
     channels
 }
@@ -50,7 +52,7 @@ pub(super) fn point_kernel<S: Simd>(
     colors: &mut [Premultiplied16],
 ) {
     for (points, colors) in points.chunks(LANES).zip(colors.chunks_mut(LANES)) {
-        let [r, g, b] = channels(simd, planes, places_of(grid, points), 1.0);
+        let [r, g, b] = channels(simd, planes, places_of(grid, points), f64x8::splat(simd, 1.0));
         let words = r | g << 16 | b << 32 | u64::from(Premultiplied16::ONE) << 48;
         for (color, word) in colors.iter_mut().zip(words.to_array()) {
             *color = Premultiplied16::from_word(word);
@@ -58,22 +60,161 @@ pub(super) fn point_kernel<S: Simd>(
     }
 }
 
-/// The values of opaque pixels with one sample each.
+/// How sums of samples become bytes where dividing by their number is shifting.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bytes {
+    samples: f64,
+    half: u64,
+    shift: u32,
+}
+
+impl Bytes {
+    /// As `resolver` does; `None` where it has to divide.
+    pub(super) fn of(resolver: &Resolver) -> Option<Self> {
+        Some(Self {
+            samples: f64::from(resolver.count()),
+            half: resolver.half().into(),
+            shift: resolver.shift()?,
+        })
+    }
+}
+
+/// The opaque pixels of runs, by the plane at the middle of each pixel: what [`sum_kernel`] finds, resolved.
 #[inline(always)]
-pub(super) fn pixel_kernel<S: Simd>(
+pub(super) fn run_kernel<S: Simd>(
     simd: S,
     planes: &Planes<3>,
     grid: SampleGrid,
-    pixels: &[[u16; 2]],
-    values: &mut [u32],
+    bytes: Bytes,
+    (runs, block): (&[PixelRun], &mut PixelBlock<'_>),
 ) {
-    let half = u64::from(Premultiplied16::PER_BYTE) / 2;
-    for (pixels, values) in pixels.chunks(LANES).zip(values.chunks_mut(LANES)) {
-        let [r, g, b] = channels(simd, planes, middles(grid, pixels), 1.0);
-        let byte = |channel: u64x8<S>| (channel + half) >> 8;
-        let shaded = byte(r) << 16 | byte(g) << 8 | byte(b) | 0xFF00_0000;
-        for (value, shaded) in values.iter_mut().zip(shaded.to_array()) {
-            *value = low_word(shaded);
+    let side = f64::from(grid.side);
+    let middle =
+        |axis: usize, pixel: u16| (f64::from(grid.origin[axis]) + f64::from(pixel) + 0.5) * side - planes.pivot[axis];
+    let mut steps = [0.0; LANES];
+    for (i, step) in steps.iter_mut().enumerate() {
+        *step = i as f64 * side;
+    }
+    let steps = f64x8::simd_from(simd, steps);
+    let next = LANES as f64 * side;
+    let limit = ONE * bytes.samples;
+    for run in runs {
+        let down = middle(1, run.row);
+        // From one pixel to the next there are whole samples: nothing is rounded.
+        let mut right = steps + middle(0, run.start);
+        for line in block.run(run.row, run.columns()).chunks_mut(LANES) {
+            let mut pixels = u64x8::splat(simd, 0xFF);
+            for k in 0..3 {
+                // In the order of `Planes::at`.
+                let value = right * planes.dx[k] + (planes.at_pivot[k] + down * planes.dy[k]);
+                let sum = whole(simd, value * bytes.samples, limit);
+                pixels = pixels << 8 | (sum + bytes.half) >> bytes.shift;
+            }
+            let (low, high) = pixels.split();
+            let pixels: u32x8<S> = low.narrow(high);
+            if let Some(line) = line.first_chunk_mut::<LANES>() {
+                pixels.store_array(line);
+            } else {
+                let pixels = pixels.to_array();
+                line.copy_from_slice(&pixels[..line.len()]);
+            }
+            right += next;
+        }
+    }
+}
+
+/// The samples along the side of a pixel of which every one has a bit in a mask, at most.
+const MASKED_SIDE: usize = 8;
+
+/// For each bit of a sample's column and of its row the samples that have it, where a pixel has so many samples along its side.
+static PLACE_BITS: [[[u64; 3]; 2]; MASKED_SIDE + 1] = place_bits();
+
+const fn place_bits() -> [[[u64; 3]; 2]; MASKED_SIDE + 1] {
+    let mut all = [[[0; 3]; 2]; MASKED_SIDE + 1];
+    let mut side = 1;
+    while side <= MASKED_SIDE {
+        let mut sample = 0;
+        while sample < side * side {
+            let place = [sample % side, sample / side];
+            let mut bit = 0;
+            while bit < 3 {
+                let mut axis = 0;
+                while axis < 2 {
+                    all[side][axis][bit] |= ((place[axis] >> bit & 1) as u64) << sample;
+                    axis += 1;
+                }
+                bit += 1;
+            }
+            sample += 1;
+        }
+        side += 1;
+    }
+    all
+}
+
+/// The sums of columns and of rows of the samples of a mask, of the 64 from `first` on.
+#[inline(always)]
+fn place_sums(side: u32, first: u32, mask: u64) -> [u32; 2] {
+    if side as usize <= MASKED_SIDE {
+        return PLACE_BITS[side as usize].map(
+            #[inline(always)]
+            |[ones, twos, fours]| {
+                let count = |bits: u64| (mask & bits).count_ones();
+                count(ones) + 2 * count(twos) + 4 * count(fours)
+            },
+        );
+    }
+    let (mut sums, mut rest) = ([0; 2], mask);
+    while rest != 0 {
+        let sample = first + rest.trailing_zeros();
+        sums[0] += sample % side;
+        sums[1] += sample / side;
+        rest &= rest - 1;
+    }
+    sums
+}
+
+/// The sums of some samples of pixels of a grid: of the plane at the middle of these.
+#[inline(always)]
+pub(super) fn masked_kernel<S: Simd>(
+    simd: S,
+    planes: &Planes<3>,
+    MaskedPixels { pixels, masks, first }: MaskedPixels<'_>,
+    sums: &mut [[u32; 4]],
+) {
+    let Pixels { grid, places } = pixels;
+    let origin = first_sample(grid);
+    let side = f64::from(grid.side);
+    let vector = |lanes: [f64; LANES]| f64x8::simd_from(simd, lanes);
+    for ((places, masks), sums) in places
+        .chunks(LANES)
+        .zip(masks.chunks(LANES))
+        .zip(sums.chunks_mut(LANES))
+    {
+        let (mut corners, mut totals, mut counts) = ([[0.0; LANES]; 2], [[0.0; LANES]; 2], [1.0; LANES]);
+        for (i, (place, mask)) in places.iter().zip(masks).enumerate() {
+            let of_samples = place_sums(grid.side, first, *mask);
+            for axis in 0..2 {
+                corners[axis][i] = origin[axis] + f64::from(place[axis]) * side;
+                totals[axis][i] = f64::from(of_samples[axis]);
+            }
+            counts[i] = f64::from(mask.count_ones());
+        }
+        let count = vector(counts);
+        let shared = count.max(f64x8::splat(simd, 1.0));
+        let [x, y] = [0, 1].map(
+            #[inline(always)]
+            |axis| (vector(corners[axis]) + vector(totals[axis]) / shared).to_array(),
+        );
+        let [r, g, b] = channels(simd, planes, [x, y], count);
+        let (red_green, blue) = ((r | g << 32).to_array(), b.to_array());
+        for (i, (sum, mask)) in sums.iter_mut().zip(masks).enumerate() {
+            *sum = [
+                low_word(red_green[i]),
+                low_word(red_green[i] >> 32),
+                low_word(blue[i]),
+                mask.count_ones() * u32::from(Premultiplied16::ONE),
+            ];
         }
     }
 }
@@ -90,7 +231,12 @@ pub(super) fn sum_kernel<S: Simd>(
     let samples = grid.side * grid.side;
     let alpha = samples * u32::from(Premultiplied16::ONE);
     for (pixels, sums) in pixels.chunks(LANES).zip(sums.chunks_mut(LANES)) {
-        let [r, g, b] = channels(simd, planes, middles(grid, pixels), f64::from(samples));
+        let [r, g, b] = channels(
+            simd,
+            planes,
+            middles(grid, pixels),
+            f64x8::splat(simd, f64::from(samples)),
+        );
         let (red_green, blue) = ((r | g << 32).to_array(), b.to_array());
         for (i, sum) in sums.iter_mut().enumerate() {
             *sum = [

@@ -9,10 +9,9 @@ use fearless_simd::{Simd, dispatch};
 
 use crate::color::{Light, Premultiplied16, SampleMean};
 use crate::raster::frame::block::PixelBlock;
-use crate::raster::paint::visibility::shading_queue::WholeRun;
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::shading::Shader;
-use crate::raster::shading::context::{Pixels, PlacedPixels, ShadeContext};
+use crate::raster::shading::context::{PixelRun, Pixels, PlacedPixels, ShadeContext};
 use crate::simd;
 use crate::texture::SampleGrid;
 
@@ -115,7 +114,7 @@ impl SampleShades {
 
     /// Takes runs of whole pixels of one primitive until there are many pixels to shade together, only the first one of each row
     /// where all of a row are alike (`repeats`); how many runs.
-    pub(super) fn take(&mut self, runs: &[WholeRun], repeats: bool) -> usize {
+    pub(super) fn take(&mut self, runs: &[PixelRun], repeats: bool) -> usize {
         self.whole.clear();
         for (taken, run) in runs.iter().enumerate() {
             if self.whole.len() >= TOGETHER {
@@ -131,7 +130,7 @@ impl SampleShades {
     }
 
     /// Puts the pixels of these runs, once they are shaded.
-    pub(super) fn put(&self, runs: &[WholeRun], repeats: bool, block: &mut PixelBlock<'_>) {
+    pub(super) fn put(&self, runs: &[PixelRun], repeats: bool, block: &mut PixelBlock<'_>) {
         let mut at = 0;
         for run in runs {
             let line = block.run(run.row, run.columns());

@@ -1,8 +1,8 @@
 //! The fragments of one primitive, shaded together: whole pixels at once, then parts of pixels 64 samples at a time.
 
-use crate::raster::paint::visibility::shading_queue::{Fragment, WholeRun};
+use crate::raster::paint::visibility::shading_queue::Fragment;
 use crate::raster::shading::Shader;
-use crate::raster::shading::context::Pixels;
+use crate::raster::shading::context::{PixelRun, Pixels};
 use crate::texture::SampleGrid;
 
 /// Memory for the fragments of one primitive.
@@ -21,7 +21,7 @@ impl FragmentSums {
     /// first one.
     pub(super) fn sums_of(
         &mut self,
-        (runs, is_level): (&[WholeRun], bool),
+        (runs, is_level): (&[PixelRun], bool),
         grid: SampleGrid,
         shader: &Shader<'_>,
     ) -> &mut [[u32; 4]] {

@@ -6,19 +6,49 @@ use std::time::{Duration, Instant};
 
 use fearless_simd::{Simd, dispatch};
 
-use crate::color::Premultiplied16;
+use crate::color::{Premultiplied16, Resolver};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityBuffer};
 use crate::raster::paint::visibility::packed::{lanes, splat};
 use crate::raster::paint::visibility::painter::VisibilityPainter;
-use crate::raster::paint::visibility::shading_queue::{ShadingQueue, ToShade, WholeRun};
+use crate::raster::paint::visibility::shading_queue::{ShadingQueue, ToShade};
 use crate::raster::paint::visibility::surface_color::{Shaded, Spread};
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
 use crate::raster::shading::Shader;
+use crate::raster::shading::context::PixelRun;
 use crate::raster::span::SpanRect;
 use crate::raster::surface_id::{MAX_SURFACES, ROW, TWO_SURFACES};
 use crate::simd;
+
+/// Where whole pixels go once they are shaded.
+enum Whole<'b, 'p> {
+    /// Resolved, into the frame.
+    Put(&'b mut PixelBlock<'p>),
+    /// The sum of the first one, for whoever asked.
+    Keep(Option<[u32; 4]>),
+}
+
+impl Whole<'_, '_> {
+    /// Takes the sums of runs of pixels, one after the other; only that of the first one of each run where all of a run are alike
+    /// (`is_level`).
+    fn take(&mut self, runs: &[PixelRun], is_level: bool, mut sums: &[[u32; 4]], resolver: &Resolver) {
+        match self {
+            Self::Keep(kept) => *kept = sums.first().copied().or(*kept),
+            Self::Put(block) => {
+                for run in runs {
+                    let line = block.run(run.row, run.columns());
+                    let (of_run, others) = sums.split_at(if is_level { 1 } else { run.len() });
+                    match of_run {
+                        [sum] => line.fill(resolver.pixel(*sum)),
+                        _ => resolver.pixels(of_run, line),
+                    }
+                    sums = others;
+                }
+            }
+        }
+    }
+}
 
 impl VisibilityPainter<'_> {
     /// Shades what is seen and resolves the finished tile; how long shading took, if that is to be `timed`.
@@ -44,14 +74,7 @@ impl VisibilityPainter<'_> {
         }
         let start = timed.then(Instant::now);
         self.unresolved.sort(self.surfaces.len());
-        let resolver = self.resolver;
-        self.shade([x.start, y.start], &mut |run, sums| {
-            let line = block.run(run.row, run.columns());
-            match sums {
-                [sum] => line.fill(resolver.pixel(*sum)),
-                _ => resolver.pixels(sums, line),
-            }
-        });
+        self.shade([x.start, y.start], &mut Whole::Put(block));
         let shading = start.map(|start| start.elapsed()).unwrap_or_default();
         for (place, sums) in self.unresolved.places.iter().zip(&self.unresolved.sums) {
             block.put(*place, self.resolver.pixel(*sums));
@@ -68,9 +91,12 @@ impl VisibilityPainter<'_> {
         let SpanRect { x, y } = self.layers.base().rect;
         self.resolve_row(y.start, 0, &mut [0]);
         self.unresolved.sort(self.surfaces.len());
-        let mut whole = None;
-        self.shade([x.start, y.start], &mut |_, sums| whole = sums.first().copied());
-        whole.or_else(|| self.unresolved.sums.first().copied())
+        let mut whole = Whole::Keep(None);
+        self.shade([x.start, y.start], &mut whole);
+        match whole {
+            Whole::Keep(Some(sum)) => Some(sum),
+            _ => self.unresolved.sums.first().copied(),
+        }
     }
 
     /// Resolves a row in which nothing is to be shaded.
@@ -185,10 +211,8 @@ impl VisibilityPainter<'_> {
         }
     }
 
-    /// Shades everything that waits: the sums of runs of whole pixels go to `put`, only the first one's where all of a run are
-    /// alike; parts of pixels have the colours added to theirs. `origin` is the tile's first pixel.
-    #[inline]
-    fn shade(&mut self, origin: [i32; 2], put: &mut impl FnMut(&WholeRun, &[[u32; 4]])) {
+    /// Shades everything that waits; parts of pixels have the colours added to their sums. `origin` is the tile's first pixel.
+    fn shade(&mut self, origin: [i32; 2], target: &mut Whole<'_, '_>) {
         let (context, resolver, surfaces, shading) =
             (&self.context, self.resolver, &self.surfaces, &mut self.fragments);
         let ShadingQueue {
@@ -206,18 +230,23 @@ impl VisibilityPainter<'_> {
                 continue;
             };
             let shader = Shader::new(context, corners, paint);
-            let is_level = paint.is_level(context);
-            let mut whole = shading.sums_of((runs, is_level), grid, &shader);
-            self.samples_shaded += whole.len() as u64 * u64::from(resolver.count());
-            if kept != Premultiplied16::ONE {
-                for sum in &mut *whole {
-                    *sum = shown.over_shaded(*sum, kept, resolver.count());
+            let nothing_above = kept == Premultiplied16::ONE;
+            if let Whole::Put(block) = target
+                && nothing_above
+                && shader.runs(runs, grid, &resolver, block)
+            {
+                let pixels: usize = runs.iter().map(|run| run.len()).sum();
+                self.samples_shaded += pixels as u64 * u64::from(resolver.count());
+            } else {
+                let is_level = paint.is_level(context);
+                let whole = shading.sums_of((runs, is_level), grid, &shader);
+                self.samples_shaded += whole.len() as u64 * u64::from(resolver.count());
+                if !nothing_above {
+                    for sum in &mut *whole {
+                        *sum = shown.over_shaded(*sum, kept, resolver.count());
+                    }
                 }
-            }
-            for run in runs {
-                let (sums, others) = whole.split_at_mut(if is_level { 1 } else { run.len() });
-                put(run, sums);
-                whole = others;
+                target.take(runs, is_level, whole, &resolver);
             }
             if fragments.is_empty() {
                 continue;

@@ -2,24 +2,12 @@
 
 use std::ops::Range;
 
+use crate::raster::shading::context::PixelRun;
 use crate::raster::surface_id::SurfaceId;
-
-/// Pixels side by side of which all samples show one primitive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct WholeRun {
-    /// The primitive.
-    pub(crate) surface: SurfaceId,
-    /// Row and columns, counted from the tile's first pixel; the last one lies just after the run.
-    pub(crate) row: u16,
-    start: u16,
-    end: u16,
-}
 
 /// Some samples of one pixel that show one primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Fragment {
-    /// The primitive.
-    pub(crate) surface: SurfaceId,
     /// The sample that the lowest bit of the mask stands for: row by row, 64 of them.
     pub(crate) first: u16,
     /// The pixel's index among those that wait for their sums.
@@ -40,17 +28,18 @@ pub(crate) struct ShadingQueue {
     parts: Vec<(SurfaceId, u16, u64)>,
 }
 
-/// What is to be shaded, as it was found: row by row.
+/// What is to be shaded, as it was found, row by row, each with the primitive that it shows.
 #[derive(Debug, Default)]
 struct Found {
-    runs: Vec<WholeRun>,
-    fragments: Vec<Fragment>,
+    /// Pixels that show nothing else.
+    runs: Vec<(SurfaceId, PixelRun)>,
+    fragments: Vec<(SurfaceId, Fragment)>,
 }
 
 /// The same in the order of surfaces, and of each surface as it was found.
 #[derive(Debug, Default)]
 pub(crate) struct Sorted {
-    runs: BySurface<WholeRun>,
+    runs: BySurface<PixelRun>,
     fragments: BySurface<Fragment>,
 }
 
@@ -58,7 +47,8 @@ pub(crate) struct Sorted {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ToShade<'q> {
     pub(crate) surface: SurfaceId,
-    pub(crate) runs: &'q [WholeRun],
+    /// Pixels of which all samples show it.
+    pub(crate) runs: &'q [PixelRun],
     pub(crate) fragments: &'q [Fragment],
 }
 
@@ -72,33 +62,6 @@ struct BySurface<T> {
 
 /// Samples that a mask has bits for.
 const MASK_BITS: usize = 64;
-
-impl WholeRun {
-    /// The columns of its pixels.
-    #[inline]
-    pub(crate) fn columns(self) -> Range<u16> {
-        self.start..self.end
-    }
-
-    /// How many pixels these are.
-    #[inline]
-    pub(crate) fn len(self) -> usize {
-        usize::from(self.end - self.start)
-    }
-
-    /// The places of its pixels.
-    #[inline]
-    pub(crate) fn places(self) -> impl ExactSizeIterator<Item = [u16; 2]> {
-        let row = self.row;
-        self.columns().map(move |column| [column, row])
-    }
-
-    /// The place of the first one.
-    #[inline]
-    pub(crate) fn first(self) -> [u16; 2] {
-        [self.start, self.row]
-    }
-}
 
 impl ShadingQueue {
     /// Forgets everything.
@@ -119,12 +82,7 @@ impl ShadingQueue {
     pub(crate) fn whole(&mut self, surface: SurfaceId, row: u16, columns: Range<usize>) {
         // No tile is so wide.
         let [start, end] = [columns.start, columns.end].map(|column| u16::try_from(column).unwrap_or(u16::MAX));
-        self.found.runs.push(WholeRun {
-            surface,
-            row,
-            start,
-            end,
-        });
+        self.found.runs.push((surface, PixelRun { row, start, end }));
     }
 
     /// The samples of the pixel at `place` show these surfaces, row by row; those with a colour in `flat` are known already.
@@ -162,12 +120,7 @@ impl ShadingQueue {
         let mut sums = [0; 4];
         for (surface, first, mask) in parts {
             match flat(surface) {
-                None => self.found.fragments.push(Fragment {
-                    surface,
-                    first,
-                    pixel,
-                    mask,
-                }),
+                None => self.found.fragments.push((surface, Fragment { first, pixel, mask })),
                 Some(color) => {
                     for (sum, channel) in sums.iter_mut().zip(color) {
                         *sum += channel * mask.count_ones();
@@ -181,10 +134,8 @@ impl ShadingQueue {
 
     /// Sorts everything by surface, of which there are `surfaces`.
     pub(crate) fn sort(&mut self, surfaces: usize) {
-        self.sorted.runs.sort(&self.found.runs, surfaces, |run| run.surface);
-        self.sorted
-            .fragments
-            .sort(&self.found.fragments, surfaces, |fragment| fragment.surface);
+        self.sorted.runs.sort(&self.found.runs, surfaces);
+        self.sorted.fragments.sort(&self.found.fragments, surfaces);
     }
 }
 
@@ -212,11 +163,11 @@ impl<T> Default for BySurface<T> {
 
 impl<T: Copy> BySurface<T> {
     /// A counting sort.
-    fn sort(&mut self, found: &[T], surfaces: usize, surface: impl Fn(&T) -> SurfaceId) {
+    fn sort(&mut self, found: &[(SurfaceId, T)], surfaces: usize) {
         self.starts.clear();
         self.starts.resize(surfaces + 1, 0);
-        for one in found {
-            self.starts[usize::from(surface(one))] += 1;
+        for (surface, _) in found {
+            self.starts[usize::from(*surface)] += 1;
         }
         let mut next = 0;
         for start in &mut self.starts {
@@ -224,10 +175,10 @@ impl<T: Copy> BySurface<T> {
             *start = next;
         }
         self.sorted.clear();
-        self.sorted.extend_from_slice(found);
+        self.sorted.extend(found.iter().map(|(_, one)| *one));
         // From the last one down, so that each surface's end becomes its start.
-        for one in found.iter().rev() {
-            let place = &mut self.starts[usize::from(surface(one))];
+        for (surface, one) in found.iter().rev() {
+            let place = &mut self.starts[usize::from(*surface)];
             *place -= 1;
             self.sorted[*place as usize] = *one;
         }
@@ -271,12 +222,8 @@ mod tests {
         unresolved.split([4, 2], samples, |surface| (surface == 7).then_some([1, 2, 3, 4]));
         assert_eq!(unresolved.sums, [[128, 256, 384, 512]], "half of the samples are flat");
         let mask = 0xAAAA_AAAA_AAAA_AAAA;
-        let expected = [(1, 0), (1, 64), (2, 128), (2, 192)].map(|(surface, first)| Fragment {
-            surface,
-            first,
-            pixel: 0,
-            mask,
-        });
+        let expected =
+            [(1, 0), (1, 64), (2, 128), (2, 192)].map(|(surface, first)| (surface, Fragment { first, pixel: 0, mask }));
         let found = &unresolved.found.fragments;
         assert_eq!(*found, expected, "the others are to be shaded, 64 at a time");
     }

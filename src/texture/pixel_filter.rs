@@ -136,23 +136,59 @@ impl Batch {
         (self.count, self.pixel_count) = (0, 0);
         let NextSample { mut pixel, mut sample } = *next;
         while pixel < list.pixels.len() && self.count < BATCH && self.pixel_count < BATCH {
-            let [left, top] = list.pixels[pixel].map(|at| at.saturating_mul(side));
-            let mask = list.masks.map(|masks| masks[pixel]);
-            while sample < inside.len() && self.count < BATCH {
-                let [x, y] = inside[sample];
-                self.points[self.count] = [left.saturating_add(x), top.saturating_add(y)];
-                let is_meant = mask.is_none_or(|mask| sample < 64 && mask >> sample & 1 == 1);
-                self.count += usize::from(is_meant);
-                sample += 1;
-            }
+            let corner = list.pixels[pixel].map(|at| at.saturating_mul(side));
+            sample = match list.masks {
+                None => self.take(corner, inside, sample),
+                Some(masks) => self.take_some(corner, &inside[..inside.len().min(64)], (sample, masks[pixel])),
+            };
             let number = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
             self.pixels[self.pixel_count] = (number(pixel), number(self.count));
             self.pixel_count += 1;
-            if sample == inside.len() {
+            if sample >= inside.len() {
                 (pixel, sample) = (pixel + 1, 0);
             }
         }
         *next = NextSample { pixel, sample };
+    }
+
+    /// Takes samples of the pixel whose first one is at `corner`, from one on; the number of the next one.
+    #[inline(always)]
+    fn take(&mut self, corner: [u16; 2], inside: &[[u16; 2]], from: usize) -> usize {
+        let end = inside.len().min(from + BATCH - self.count);
+        let (fours, rest) = inside[from..end].as_chunks::<4>();
+        // A length that is known makes vector code of the loop.
+        for four in fours {
+            if let Some(points) = self.points[self.count..].first_chunk_mut::<4>() {
+                for (point, inside) in points.iter_mut().zip(four) {
+                    *point = point_at(corner, *inside);
+                }
+            }
+            self.count += 4;
+        }
+        for inside in rest {
+            self.points[self.count % BATCH] = point_at(corner, *inside);
+            self.count += 1;
+        }
+        end
+    }
+
+    /// The same of those that a mask names; no sample has a greater number than what is returned once all are taken.
+    #[inline(always)]
+    fn take_some(&mut self, corner: [u16; 2], inside: &[[u16; 2]], (from, mask): (usize, u64)) -> usize {
+        let mut rest = mask.checked_shr(u32::try_from(from).unwrap_or(64)).unwrap_or(0) << from;
+        while rest != 0 {
+            let sample = rest.trailing_zeros() as usize;
+            let Some(inside) = inside.get(sample) else {
+                break;
+            };
+            if self.count == BATCH {
+                return sample;
+            }
+            self.points[self.count] = point_at(corner, *inside);
+            self.count += 1;
+            rest &= rest - 1;
+        }
+        usize::MAX
     }
 
     /// Adds the colours of the samples to the sums of their pixels.
@@ -161,16 +197,19 @@ impl Batch {
         let mut first = 0;
         for (pixel, end) in &self.pixels[..self.pixel_count] {
             let (pixel, end) = (*pixel as usize, *end as usize);
-            let mut sum = sums[pixel];
-            for color in &colors[first..end] {
-                for (sum, channel) in sum.iter_mut().zip(color.0) {
-                    *sum += u32::from(channel);
-                }
+            let of_batch = Premultiplied16::sums(&colors[first..end]);
+            for (sum, channel) in sums[pixel].iter_mut().zip(of_batch) {
+                *sum += channel;
             }
-            sums[pixel] = sum;
             first = end;
         }
     }
+}
+
+/// Where a sample lies that lies `inside` a pixel; no list is so large that this overflows.
+#[inline(always)]
+fn point_at([left, top]: [u16; 2], [x, y]: [u16; 2]) -> [u16; 2] {
+    [left.wrapping_add(x), top.wrapping_add(y)]
 }
 
 /// Weighs the texels below every pixel.

@@ -13,7 +13,7 @@
 //! somebody has to look at the values themselves.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8};
+use fearless_simd::{Simd, f64x8, u64x8};
 
 use super::Premultiplied16;
 
@@ -44,27 +44,24 @@ pub(crate) struct ValueSpread<S: Simd> {
 impl<S: Simd> ValueSpread<S> {
     /// The bytes of the mean light, rounded to nearest, and a bit for each pixel of which that is certain.
     #[inline(always)]
-    pub(crate) fn bytes_of_light(self, simd: S) -> ([u32; 8], u64) {
+    pub(crate) fn bytes_of_light(self, simd: S) -> (u64x8<S>, u64) {
         // Where whole numbers stand in the lower bits.
         const WHOLE: f64 = (1_u64 << 52) as f64;
-        let number = |value: f64| f64x8::splat(simd, value);
         let Self { mean, squares, reach } = self;
-        let base = mean.max(number(BEND)) * SLOPE + OFFSET;
-        let step = number(SLOPE) / base;
+        let base = mean.max(f64x8::splat(simd, BEND)) * SLOPE + OFFSET;
+        let step = f64x8::splat(simd, SLOPE) / base;
         // Half of the second derivative, at its greatest, over the first.
         let bent = squares * (step * (reach * step + 1.0)) * (1.4 / 2.0);
-        let byte = |value: f64x8<S>| ((value + 128.0) * (1.0 / 256.0)).floor();
-        let (low, high) = (byte(mean - ROUNDED), byte(mean + ROUNDED + bent));
+        // Half a byte more, so that cutting off rounds.
+        let (least, most) = (mean + (128.0 - ROUNDED), mean + (128.0 + ROUNDED) + bent);
+        let low = (least * (1.0 / 256.0)).floor();
+        let high = (most * (1.0 / 256.0)).floor();
         let is_one = low.simd_eq(high);
-        let in_range = (mean - reach).simd_gt(number(-SLACK)) & (mean + reach).simd_lt(number(ONE + SLACK));
+        let in_range = (mean - reach).simd_gt(f64x8::splat(simd, -SLACK))
+            & (mean + reach).simd_lt(f64x8::splat(simd, ONE + SLACK));
         let is_smooth = (mean - BEND).abs().simd_gt(reach + 2.0 * ROUNDED);
         let certain = (is_one & in_range & is_smooth).to_bitmask();
-        let bits: [f64; 8] = (low.max(number(0.0)) + WHOLE).to_array();
-        let mut bytes = [0; 8];
-        for (byte, bits) in bytes.iter_mut().zip(bits) {
-            let [lowest, ..] = bits.to_le_bytes();
-            *byte = u32::from(lowest);
-        }
+        let bytes = (low.max(f64x8::splat(simd, 0.0)) + WHOLE).bitcast::<u64x8<S>>() & 0xFF;
         (bytes, certain)
     }
 }
@@ -117,7 +114,8 @@ mod tests {
                 let (bytes, mask) = dispatch!(level, simd => {
                     let number = |value| f64x8::splat(simd, value);
                     let (mean, squares, reach) = (number(mean), number(squares), number(reach));
-                    ValueSpread { mean, squares, reach }.bytes_of_light(simd)
+                    let (bytes, mask) = ValueSpread { mean, squares, reach }.bytes_of_light(simd);
+                    (bytes.to_array(), mask)
                 });
                 assert!(mask == 0 || mask == 0xFF, "all pixels are alike");
                 all += 1;
@@ -125,7 +123,7 @@ mod tests {
                     certain += 1;
                     assert_eq!(
                         bytes,
-                        [pixel >> 16 & 0xFF; 8],
+                        [u64::from(pixel >> 16 & 0xFF); 8],
                         "{name}: {mean}, {squares}, {reach}: {values:?}"
                     );
                 }

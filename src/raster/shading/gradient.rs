@@ -17,7 +17,7 @@ use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::shading::context::{Pixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::Attributes;
-use crate::raster::shading::kernel::{LANES, ONE, WHOLE, first_sample, places_of};
+use crate::raster::shading::kernel::{LANES, ONE, WHOLE, first_sample, low_word, places_of};
 use crate::raster::shading::kind::{PaintKind, Shade};
 use crate::raster::shading::sources::{PaintSources, PlacedGradient};
 use crate::rules::Rules;
@@ -160,8 +160,7 @@ fn kernel<S: Simd>(
 ) {
     let mut stretch = shader.ramp.stretch(0.0);
     for (points, colors) in points.chunks(LANES).zip(colors.chunks_mut(LANES)) {
-        let [x, y] = places_of(grid, points);
-        let places = [f64x8::simd_from(simd, x), f64x8::simd_from(simd, y)];
+        let places = places_of(simd, grid, points);
         let found = <[u64; LANES]>::from(shader.eight(simd, places, &mut stretch));
         for (color, found) in colors.iter_mut().zip(found) {
             *color = Premultiplied16::from_word(found);
@@ -244,13 +243,6 @@ fn sums_kernel<S: Simd>(simd: S, shader: &GradientShader<'_>, pixels: Pixels<'_>
             ];
         }
     }
-}
-
-/// The lower half.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "the lower half is meant")]
-fn low_word(word: u64) -> u32 {
-    word as u32
 }
 
 impl Shade for GradientShader<'_> {

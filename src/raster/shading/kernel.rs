@@ -6,7 +6,7 @@
 )]
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, u64x8};
+use fearless_simd::{Simd, f64x8, u16x16, u32x8, u64x8};
 
 use crate::color::Premultiplied16;
 use crate::texture::SampleGrid;
@@ -27,28 +27,34 @@ pub(super) fn first_sample(grid: SampleGrid) -> [f64; 2] {
     grid.origin.map(|pixel| f64::from(pixel) * f64::from(grid.side) + 0.5)
 }
 
-/// Where up to [`LANES`] samples lie, at least one, in samples of the frame; what is left over repeats the first of them.
+/// Columns and rows of up to [`LANES`] samples or pixels, at least one; what is left over repeats the first of them.
 #[inline(always)]
-pub(super) fn places_of(grid: SampleGrid, points: &[[u16; 2]]) -> [[f64; LANES]; 2] {
-    let first = first_sample(grid);
-    let place = |[x, y]: [u16; 2]| [first[0] + f64::from(x), first[1] + f64::from(y)];
-    let mut places = [[0.0; LANES]; 2];
+pub(super) fn columns_and_rows<S: Simd>(simd: S, points: &[[u16; 2]]) -> [f64x8<S>; 2] {
+    let mut all = [points[0]; LANES];
     // A number of lanes that is known makes vector code of the loop.
-    if let Some(all) = points.first_chunk::<LANES>() {
-        for (i, point) in all.iter().enumerate() {
-            [places[0][i], places[1][i]] = place(*point);
-        }
+    if let Some(points) = points.first_chunk::<LANES>() {
+        all = *points;
     } else {
-        for (i, point) in points
-            .iter()
-            .chain(std::iter::repeat(&points[0]))
-            .take(LANES)
-            .enumerate()
-        {
-            [places[0][i], places[1][i]] = place(*point);
-        }
+        all[..points.len()].copy_from_slice(points);
     }
-    places
+    let both: u32x8<S> = u16x16::from_slice(simd, all.as_flattened()).bitcast();
+    [number(both & 0xFFFF), number(both >> 16)]
+}
+
+/// Whole numbers as floats: see [`WHOLE`].
+#[inline(always)]
+fn number<S: Simd>(whole: u32x8<S>) -> f64x8<S> {
+    let (low, high) = whole.widen();
+    let bits: u64x8<S> = low.combine(high) | WHOLE.to_bits();
+    bits.bitcast::<f64x8<S>>() - WHOLE
+}
+
+/// Where up to [`LANES`] samples lie, in samples of the frame, as [`columns_and_rows`] has them.
+#[inline(always)]
+pub(super) fn places_of<S: Simd>(simd: S, grid: SampleGrid, points: &[[u16; 2]]) -> [f64x8<S>; 2] {
+    let [left, top] = first_sample(grid);
+    let [columns, rows] = columns_and_rows(simd, points);
+    [columns + left, rows + top]
 }
 
 /// Numbers of `0.0..=limit` (clamped, at most `2^32`) rounded to whole ones; what is no number becomes 0.

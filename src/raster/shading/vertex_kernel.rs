@@ -12,34 +12,32 @@ use crate::color::{Premultiplied16, Resolver};
 use crate::raster::attributes::Planes;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::shading::context::{MaskedPixels, PixelRun, Pixels};
-use crate::raster::shading::kernel::{LANES, ONE, first_sample, low_word, places_of, whole, whole_up_to};
+use crate::raster::shading::kernel::{
+    LANES, ONE, columns_and_rows, first_sample, low_word, places_of, whole, whole_up_to,
+};
 use crate::texture::SampleGrid;
-
-/// Where up to [`LANES`] pixels lie: the middles of their samples, in samples.
-#[inline(always)]
-fn middles(grid: SampleGrid, pixels: &[[u16; 2]]) -> [[f64; LANES]; 2] {
-    let side = f64::from(grid.side);
-    let mut middles = [[0.0; LANES]; 2];
-    for (i, [x, y]) in pixels.iter().enumerate() {
-        middles[0][i] = (f64::from(grid.origin[0]) + f64::from(*x) + 0.5) * side;
-        middles[1][i] = (f64::from(grid.origin[1]) + f64::from(*y) + 0.5) * side;
-    }
-    middles
-}
 
 /// Red, green and blue of [`LANES`] places, times `count`.
 #[inline(always)]
-fn channels<S: Simd>(simd: S, planes: &Planes<3>, [x, y]: [[f64; LANES]; 2], count: f64x8<S>) -> [u64x8<S>; 3] {
-    let number = |value| f64x8::splat(simd, value);
-    let right = f64x8::simd_from(simd, x) - planes.pivot[0];
-    let down = f64x8::simd_from(simd, y) - planes.pivot[1];
+fn channels<S: Simd>(simd: S, planes: &Planes<3>, [x, y]: [f64x8<S>; 2], count: f64x8<S>) -> [u64x8<S>; 3] {
+    let right = x - planes.pivot[0];
+    let down = y - planes.pivot[1];
     let mut channels = [u64x8::splat(simd, 0); 3];
     for (k, channel) in channels.iter_mut().enumerate() {
         // In the order of `Planes::at`.
-        let value = number(planes.at_pivot[k]) + down * planes.dy[k] + right * planes.dx[k];
+        let value = down * planes.dy[k] + planes.at_pivot[k] + right * planes.dx[k];
         *channel = whole_up_to(simd, value * count, count * ONE);
     }
     channels
+}
+
+/// Where up to [`LANES`] pixels lie: the middles of their samples, in samples.
+#[inline(always)]
+fn middles_of<S: Simd>(simd: S, grid: SampleGrid, pixels: &[[u16; 2]]) -> [f64x8<S>; 2] {
+    let [left, top] = grid.origin.map(|pixel| f64::from(pixel) + 0.5);
+    let [columns, rows] = columns_and_rows(simd, pixels);
+    let side = f64::from(grid.side);
+    [(columns + left) * side, (rows + top) * side]
 }
 
 /// Opaque colours at samples.
@@ -52,7 +50,7 @@ pub(super) fn point_kernel<S: Simd>(
     colors: &mut [Premultiplied16],
 ) {
     for (points, colors) in points.chunks(LANES).zip(colors.chunks_mut(LANES)) {
-        let [r, g, b] = channels(simd, planes, places_of(grid, points), f64x8::splat(simd, 1.0));
+        let [r, g, b] = channels(simd, planes, places_of(simd, grid, points), f64x8::splat(simd, 1.0));
         let words = r | g << 16 | b << 32 | u64::from(Premultiplied16::ONE) << 48;
         for (color, word) in colors.iter_mut().zip(words.to_array()) {
             *color = Premultiplied16::from_word(word);
@@ -183,39 +181,27 @@ pub(super) fn masked_kernel<S: Simd>(
     sums: &mut [[u32; 4]],
 ) {
     let Pixels { grid, places } = pixels;
-    let origin = first_sample(grid);
+    let [left, top] = first_sample(grid);
     let side = f64::from(grid.side);
-    let vector = |lanes: [f64; LANES]| f64x8::simd_from(simd, lanes);
     for ((places, masks), sums) in places
         .chunks(LANES)
         .zip(masks.chunks(LANES))
         .zip(sums.chunks_mut(LANES))
     {
-        let (mut corners, mut totals, mut counts) = ([[0.0; LANES]; 2], [[0.0; LANES]; 2], [1.0; LANES]);
-        for (i, (place, mask)) in places.iter().zip(masks).enumerate() {
-            let of_samples = place_sums(grid.side, first, *mask);
-            for axis in 0..2 {
-                corners[axis][i] = origin[axis] + f64::from(place[axis]) * side;
-                totals[axis][i] = f64::from(of_samples[axis]);
-            }
+        let (mut totals, mut counts, mut alphas) = ([[0.0; LANES]; 2], [1.0; LANES], [0; LANES]);
+        for (i, mask) in masks.iter().enumerate() {
+            let [columns, rows] = place_sums(grid.side, first, *mask);
+            totals[0][i] = f64::from(columns);
+            totals[1][i] = f64::from(rows);
             counts[i] = f64::from(mask.count_ones());
+            alphas[i] = mask.count_ones() * u32::from(Premultiplied16::ONE);
         }
-        let count = vector(counts);
+        let count = f64x8::simd_from(simd, counts);
         let shared = count.max(f64x8::splat(simd, 1.0));
-        let [x, y] = [0, 1].map(
-            #[inline(always)]
-            |axis| (vector(corners[axis]) + vector(totals[axis]) / shared).to_array(),
-        );
-        let [r, g, b] = channels(simd, planes, [x, y], count);
-        let (red_green, blue) = ((r | g << 32).to_array(), b.to_array());
-        for (i, (sum, mask)) in sums.iter_mut().zip(masks).enumerate() {
-            *sum = [
-                low_word(red_green[i]),
-                low_word(red_green[i] >> 32),
-                low_word(blue[i]),
-                mask.count_ones() * u32::from(Premultiplied16::ONE),
-            ];
-        }
+        let [columns, rows] = columns_and_rows(simd, places);
+        let x = columns * side + left + f64x8::simd_from(simd, totals[0]) / shared;
+        let y = rows * side + top + f64x8::simd_from(simd, totals[1]) / shared;
+        put_sums(channels(simd, planes, [x, y], count), alphas, sums);
     }
 }
 
@@ -230,21 +216,23 @@ pub(super) fn sum_kernel<S: Simd>(
 ) {
     let samples = grid.side * grid.side;
     let alpha = samples * u32::from(Premultiplied16::ONE);
+    let count = f64x8::splat(simd, f64::from(samples));
     for (pixels, sums) in pixels.chunks(LANES).zip(sums.chunks_mut(LANES)) {
-        let [r, g, b] = channels(
-            simd,
-            planes,
-            middles(grid, pixels),
-            f64x8::splat(simd, f64::from(samples)),
-        );
-        let (red_green, blue) = ((r | g << 32).to_array(), b.to_array());
-        for (i, sum) in sums.iter_mut().enumerate() {
-            *sum = [
-                low_word(red_green[i]),
-                low_word(red_green[i] >> 32),
-                low_word(blue[i]),
-                alpha,
-            ];
-        }
+        let found = channels(simd, planes, middles_of(simd, grid, pixels), count);
+        put_sums(found, [alpha; LANES], sums);
+    }
+}
+
+/// Writes down the sums of red, green, blue and alpha.
+#[inline(always)]
+fn put_sums<S: Simd>([r, g, b]: [u64x8<S>; 3], alphas: [u32; LANES], sums: &mut [[u32; 4]]) {
+    let (red_green, blue) = ((r | g << 32).to_array(), b.to_array());
+    for (i, sum) in sums.iter_mut().enumerate().take(LANES) {
+        *sum = [
+            low_word(red_green[i]),
+            low_word(red_green[i] >> 32),
+            low_word(blue[i]),
+            alphas[i],
+        ];
     }
 }

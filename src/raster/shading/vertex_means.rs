@@ -17,7 +17,7 @@ use crate::raster::SampleRate;
 use crate::raster::attributes::Planes;
 use crate::raster::sampling::positions::Position;
 use crate::raster::shading::context::PlacedPixels;
-use crate::raster::shading::kernel::{LANES, ONE, first_sample, whole};
+use crate::raster::shading::kernel::{LANES, ONE, columns_and_rows, first_sample, low_word, whole};
 use crate::raster::shading::vertex_kernel::point_kernel;
 use crate::simd;
 use crate::texture::SampleGrid;
@@ -92,41 +92,43 @@ fn linear<S: Simd>(
     values: &mut [u32],
 ) {
     let mut spread = PlaceSpreads::of_all(placed.inside(0));
-    let number = |value| f64x8::splat(simd, value);
+    let grid = placed.pixels.grid;
+    let (first, side) = (first_sample(grid), f64::from(grid.side));
     for (block, values) in values.chunks_mut(LANES).enumerate() {
-        let first = block * LANES;
-        let places = &placed.pixels.places[first..first + values.len()];
-        let (mut right, mut down) = ([0.0; LANES], [0.0; LANES]);
-        for (i, place) in places.iter().enumerate() {
-            [right[i], down[i]] = from_pivot(planes, placed.pixels.grid, *place);
-            if !placed.are_same() {
-                spread.set(i, placed.inside(first + i));
+        let at = block * LANES;
+        let places = &placed.pixels.places[at..at + values.len()];
+        if !placed.are_same() {
+            for i in 0..places.len() {
+                spread.set(i, placed.inside(at + i));
             }
         }
-        let vector = |lanes: [f64; LANES]| f64x8::simd_from(simd, lanes);
-        let right = vector(right) + vector(spread.mean[0]);
-        let down = vector(down) + vector(spread.mean[1]);
-        let (squares, reach) = (spread.squares.map(vector), spread.reach.map(vector));
-        let (mut pixels, mut certain) = ([0xFF; LANES], u64::MAX);
+        let [columns, rows] = columns_and_rows(simd, places);
+        let right = columns * side + (first[0] - planes.pivot[0]) + f64x8::simd_from(simd, spread.mean[0]);
+        let down = rows * side + (first[1] - planes.pivot[1]) + f64x8::simd_from(simd, spread.mean[1]);
+        let (mut pixels, mut certain) = (u64x8::splat(simd, 0xFF), u64::MAX);
         for k in 0..3 {
             let (dx, dy) = (planes.dx[k], planes.dy[k]);
+            let [xx, xy, yy] = &spread.squares;
+            let squares = f64x8::simd_from(simd, *xx) * (dx * dx)
+                + f64x8::simd_from(simd, *xy) * (2.0 * dx * dy)
+                + f64x8::simd_from(simd, *yy) * (dy * dy);
+            let [right_reach, down_reach] = &spread.reach;
             let channel = ValueSpread {
-                mean: number(planes.at_pivot[k]) + down * dy + right * dx,
-                squares: squares[0] * (dx * dx) + squares[1] * (2.0 * dx * dy) + squares[2] * (dy * dy),
-                reach: reach[0] * dx.abs() + reach[1] * dy.abs(),
+                mean: down * dy + planes.at_pivot[k] + right * dx,
+                squares,
+                reach: f64x8::simd_from(simd, *right_reach) * dx.abs() + f64x8::simd_from(simd, *down_reach) * dy.abs(),
             };
             let (bytes, of_channel) = channel.bytes_of_light(simd);
             certain &= of_channel;
-            for (pixel, byte) in pixels.iter_mut().zip(bytes) {
-                *pixel = *pixel << 8 | byte;
-            }
+            pixels = pixels << 8 | bytes;
         }
+        let pixels = pixels.to_array();
         for (i, value) in values.iter_mut().enumerate() {
             *value = if certain >> i & 1 == 1 {
-                pixels[i]
+                low_word(pixels[i])
             } else {
-                let inside = placed.inside(first + i);
-                one_by_one(simd, planes, placed.pixels.grid, (places[i], inside), resolver)
+                let inside = placed.inside(at + i);
+                one_by_one(simd, planes, grid, (places[i], inside), resolver)
             };
         }
     }
@@ -235,9 +237,10 @@ impl PlaceSpreads {
             squares: [[0.0; LANES]; 3],
             reach: [[0.0; LANES]; 2],
         };
-        for lane in 0..LANES {
-            spread.set(lane, places);
-        }
+        spread.set(0, places);
+        spread.mean = spread.mean.map(|[first, ..]| [first; LANES]);
+        spread.squares = spread.squares.map(|[first, ..]| [first; LANES]);
+        spread.reach = spread.reach.map(|[first, ..]| [first; LANES]);
         spread
     }
 

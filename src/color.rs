@@ -4,11 +4,11 @@ mod blend;
 mod blend_all;
 mod colormap;
 mod light;
-mod light_spread;
 mod ramp;
 mod resolve;
 mod resolver;
 mod sample_mean;
+mod value_spread;
 mod weighted;
 
 use crate::rules::Rules;
@@ -16,11 +16,11 @@ use crate::rules::Rules;
 pub use blend::BlendMode;
 pub use colormap::Colormap;
 pub use light::{Light, LightResolver};
-pub(crate) use light_spread::ValueSpread;
 pub use ramp::{Mix, Ramp, Spread, Stop, Stretch};
 pub use resolve::{ResolveSpace, encoded};
 pub use resolver::Resolver;
 pub use sample_mean::SampleMean;
+pub(crate) use value_spread::ValueSpread;
 pub use weighted::WeightedSum;
 
 /// A straight (not premultiplied) sRGB-encoded colour; each channel and alpha in `0.0..=1.0`.

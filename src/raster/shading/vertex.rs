@@ -110,7 +110,11 @@ impl Shade for VertexShader {
     }
 
     fn placed_pixels(&self, pixels: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) -> bool {
-        self.is_opaque && self.rules != Rules::Course && vertex_means::means(&self.opaque, pixels, mean, values)
+        let is_smooth = self.is_opaque && self.rules != Rules::Course;
+        if is_smooth {
+            vertex_means::means(&self.opaque, pixels, mean, values);
+        }
+        is_smooth
     }
 
     fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {

@@ -1,4 +1,4 @@
-//! The mean light of values that are spread around a known mean, without looking at each of them.
+//! The means of values that are spread around a known mean and rounded, and of their light, without looking at each of them.
 //!
 //! ```text
 //!    light |            .'      f curves upwards, so the mean light of values around m is at least f(m), and at most
@@ -10,7 +10,13 @@
 //!
 //! Samples are rounded by half a unit, which moves both ends by as much. As stored values the ends lie close together, and bytes
 //! are rounded from stored values: nearly always both ends are rounded to one byte, and then the mean light is, too. Elsewhere
-//! somebody has to look at the values themselves.
+//! somebody has to look at the values themselves. The mean of what is stored lies between such ends as well; there is nothing
+//! between these but the rounding.
+
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, u64x8};
@@ -27,6 +33,9 @@ const OFFSET: f64 = 0.055 / 1.055;
 /// How far a rounded value may be from what it was, with what the curve is off where it bends and light is rounded to whole
 /// numbers: those are less than a tenth, even in the dark.
 const ROUNDED: f64 = 0.6;
+/// How far the mean of rounded values may be from that of the values; a little more than half a unit, since planes are rounded.
+const HALF: f64 = 0.51;
+
 /// Values may lie so far out of range: planes are rounded.
 const SLACK: f64 = 1e-3;
 
@@ -35,34 +44,45 @@ const SLACK: f64 = 1e-3;
 pub(crate) struct ValueSpread<S: Simd> {
     /// In units of [`Premultiplied16`].
     pub(crate) mean: f64x8<S>,
-    /// The mean square of how far they are from there.
-    pub(crate) squares: f64x8<S>,
     /// No value is farther away.
-    pub(crate) reach: f64x8<S>,
+    pub(crate) reach: f64,
 }
 
 impl<S: Simd> ValueSpread<S> {
-    /// The bytes of the mean light, rounded to nearest, and a bit for each pixel of which that is certain.
+    /// The bytes of the mean light, rounded to nearest, and a bit for each pixel of which that is certain; `squares` are the mean
+    /// squares of how far the values are from their mean.
     #[inline(always)]
-    pub(crate) fn bytes_of_light(self, simd: S) -> (u64x8<S>, u64) {
-        // Where whole numbers stand in the lower bits.
-        const WHOLE: f64 = (1_u64 << 52) as f64;
-        let Self { mean, squares, reach } = self;
+    pub(crate) fn bytes_of_light(self, simd: S, squares: f64x8<S>) -> (u64x8<S>, u64) {
+        let Self { mean, reach } = self;
         let base = mean.max(f64x8::splat(simd, BEND)) * SLOPE + OFFSET;
         let step = f64x8::splat(simd, SLOPE) / base;
         // Half of the second derivative, at its greatest, over the first.
         let bent = squares * (step * (reach * step + 1.0)) * (1.4 / 2.0);
+        let is_smooth = (mean - BEND).abs().simd_gt(f64x8::splat(simd, reach + 2.0 * ROUNDED));
+        let (bytes, certain) = self.between(simd, mean - ROUNDED, mean + ROUNDED + bent);
+        (bytes, certain & is_smooth.to_bitmask())
+    }
+
+    /// The bytes of the mean of what is stored, rounded to nearest, and a bit for each pixel of which that is certain.
+    #[inline(always)]
+    pub(crate) fn bytes(self, simd: S) -> (u64x8<S>, u64) {
+        self.between(simd, self.mean - HALF, self.mean + HALF)
+    }
+
+    /// The bytes that lie nearest to means from `least` to `most`, and where that is one and no value is clamped.
+    #[inline(always)]
+    fn between(self, simd: S, least: f64x8<S>, most: f64x8<S>) -> (u64x8<S>, u64) {
+        // Where whole numbers stand in the lower bits.
+        const WHOLE: f64 = (1_u64 << 52) as f64;
+        let Self { mean, reach } = self;
         // Half a byte more, so that cutting off rounds.
-        let (least, most) = (mean + (128.0 - ROUNDED), mean + (128.0 + ROUNDED) + bent);
-        let low = (least * (1.0 / 256.0)).floor();
-        let high = (most * (1.0 / 256.0)).floor();
+        let low = ((least + 128.0) * (1.0 / 256.0)).floor();
+        let high = ((most + 128.0) * (1.0 / 256.0)).floor();
         let is_one = low.simd_eq(high);
-        let in_range = (mean - reach).simd_gt(f64x8::splat(simd, -SLACK))
-            & (mean + reach).simd_lt(f64x8::splat(simd, ONE + SLACK));
-        let is_smooth = (mean - BEND).abs().simd_gt(reach + 2.0 * ROUNDED);
-        let certain = (is_one & in_range & is_smooth).to_bitmask();
+        let in_range =
+            mean.simd_gt(f64x8::splat(simd, reach - SLACK)) & mean.simd_lt(f64x8::splat(simd, ONE + SLACK - reach));
         let bytes = (low.max(f64x8::splat(simd, 0.0)) + WHOLE).bitcast::<u64x8<S>>() & 0xFF;
-        (bytes, certain)
+        (bytes, (is_one & in_range).to_bitmask())
     }
 }
 
@@ -101,7 +121,7 @@ mod tests {
         reason = "values of a channel"
     )]
     fn certain_bytes_are_those_of_the_samples() {
-        let (mut certain, mut all) = (0, 0);
+        let (mut certain, mut all) = ([0; 2], [0; 2]);
         arbtest::arbtest(|u| {
             let count = u.int_in_range(2..=64)?;
             let (values, [mean, squares, reach]) = values(u, count)?;
@@ -109,28 +129,30 @@ mod tests {
                 .iter()
                 .map(|value| Premultiplied16([value.round() as u16, 0, 0, Premultiplied16::ONE]))
                 .collect();
-            let pixel = SampleMean::new(ResolveSpace::Linear, count, Rules::Standard).pixel(&samples);
+            let pixel = |space| SampleMean::new(space, count, Rules::Standard).pixel(&samples);
+            let expected =
+                [ResolveSpace::Linear, ResolveSpace::Stored].map(|space| u64::from(pixel(space) >> 16 & 0xFF));
             for (name, level) in simd::tested() {
-                let (bytes, mask) = dispatch!(level, simd => {
+                let found = dispatch!(level, simd => {
                     let number = |value| f64x8::splat(simd, value);
-                    let (mean, squares, reach) = (number(mean), number(squares), number(reach));
-                    let (bytes, mask) = ValueSpread { mean, squares, reach }.bytes_of_light(simd);
-                    (bytes.to_array(), mask)
+                    let spread = ValueSpread { mean: number(mean), reach };
+                    let light = spread.bytes_of_light(simd, number(squares));
+                    [light, spread.bytes(simd)].map(|(bytes, mask)| (bytes.to_array(), mask))
                 });
-                assert!(mask == 0 || mask == 0xFF, "all pixels are alike");
-                all += 1;
-                if mask != 0 {
-                    certain += 1;
-                    assert_eq!(
-                        bytes,
-                        [u64::from(pixel >> 16 & 0xFF); 8],
-                        "{name}: {mean}, {squares}, {reach}: {values:?}"
-                    );
+                for (i, ((bytes, mask), expected)) in found.into_iter().zip(expected).enumerate() {
+                    assert!(mask == 0 || mask == 0xFF, "all pixels are alike");
+                    all[i] += 1;
+                    if mask != 0 {
+                        certain[i] += 1;
+                        assert_eq!(bytes, [expected; 8], "{name}: {mean}, {squares}, {reach}: {values:?}");
+                    }
                 }
             }
             Ok(())
         })
         .budget_ms(500);
-        assert!(certain * 10 > all * 6, "{certain} of {all} are certain");
+        for (certain, all) in certain.into_iter().zip(all) {
+            assert!(certain * 10 > all * 6, "{certain} of {all} are certain");
+        }
     }
 }

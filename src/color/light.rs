@@ -230,6 +230,12 @@ impl LightResolver {
     /// As [`LightResolver::mean`] of opaque samples.
     #[inline]
     pub fn opaque_mean(&self, samples: &[Premultiplied16]) -> u32 {
+        self.pixel(self.opaque_light(samples))
+    }
+
+    /// The light of opaque samples.
+    #[inline]
+    pub fn opaque_light(&self, samples: &[Premultiplied16]) -> Light {
         let mut sums = [0_u64; 3];
         for Premultiplied16([r, g, b, _]) in samples {
             for (sum, channel) in sums.iter_mut().zip([r, g, b]) {
@@ -237,7 +243,7 @@ impl LightResolver {
             }
         }
         let [r, g, b] = sums.map(|sum| sum * u64::from(Premultiplied16::ONE));
-        self.pixel(Light([r, g, b, self.opaque]))
+        Light([r, g, b, samples.len() as u64 * u64::from(Premultiplied16::ONE)])
     }
 }
 

@@ -27,8 +27,6 @@ pub(super) struct BySamples {
     pub(super) mean: SampleMean,
     /// The light of surfaces.
     pub(super) lights: Vec<Light>,
-    /// The samples of pixels that several primitives share.
-    pub(super) shared: Vec<Premultiplied16>,
     pub(super) shades: SampleShades,
 }
 
@@ -60,7 +58,6 @@ impl BySamples {
             is_grid: context.grid.side().cast_unsigned() == side,
             mean: SampleMean::new(context.space, side * side, rules),
             lights: Vec::new(),
-            shared: Vec::new(),
             shades: SampleShades {
                 inside,
                 ..SampleShades::default()

@@ -6,20 +6,88 @@ use std::time::{Duration, Instant};
 
 use fearless_simd::{Simd, dispatch};
 
-use crate::color::{Premultiplied16, Resolver};
+use crate::color::{Light, LightResolver, Premultiplied16, Resolver, SampleMean};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityBuffer};
 use crate::raster::paint::visibility::packed::{lanes, splat};
 use crate::raster::paint::visibility::painter::VisibilityPainter;
 use crate::raster::paint::visibility::shading_queue::{ShadingQueue, ToShade};
-use crate::raster::paint::visibility::surface_color::{Shaded, Spread};
+use crate::raster::paint::visibility::surface_color::{Shaded, Spread, SurfaceColor};
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
 use crate::raster::shading::Shader;
 use crate::raster::shading::context::PixelRun;
 use crate::raster::span::SpanRect;
-use crate::raster::surface_id::{MAX_SURFACES, ROW, TWO_SURFACES};
+use crate::raster::surface_id::{MAX_SURFACES, ROW, SurfaceId, TWO_SURFACES};
 use crate::simd;
+
+/// What is known of a pixel before anything is shaded: sums over its samples.
+trait Known: Default {
+    /// Makes pixels of them.
+    type Resolver: Copy;
+
+    /// Adds so many samples of a flat colour.
+    fn add(&mut self, shown: &SurfaceColor<'_>, count: u32);
+
+    /// The pixel, once all of its samples were added.
+    fn pixel(&self, resolver: Self::Resolver) -> u32;
+
+    /// Lets the pixel that was noted last wait with it.
+    fn keep(self, unresolved: &mut ShadingQueue);
+
+    /// Adds samples of a surface, unless it is to be shaded.
+    #[inline]
+    fn taking(&mut self, surfaces: &SurfaceTable<'_>) -> impl FnMut(SurfaceId, u32) -> bool {
+        |surface, count| {
+            let shown = surfaces.get(surface);
+            let is_flat = shown.shaded.is_none();
+            if is_flat {
+                self.add(shown, count);
+            }
+            is_flat
+        }
+    }
+}
+
+/// Of what samples store.
+impl Known for Spread {
+    type Resolver = Resolver;
+
+    #[inline]
+    fn add(&mut self, shown: &SurfaceColor<'_>, count: u32) {
+        Self::add(self, shown.spread, count);
+    }
+
+    #[inline]
+    fn pixel(&self, resolver: Resolver) -> u32 {
+        resolver.pixel_of_halves(self.halves())
+    }
+
+    #[inline]
+    fn keep(self, unresolved: &mut ShadingQueue) {
+        unresolved.sums.push(self.channels());
+    }
+}
+
+/// Of their light.
+impl Known for Light {
+    type Resolver = LightResolver;
+
+    #[inline]
+    fn add(&mut self, shown: &SurfaceColor<'_>, count: u32) {
+        *self += Self::new(shown.flat).times(count);
+    }
+
+    #[inline]
+    fn pixel(&self, resolver: LightResolver) -> u32 {
+        resolver.pixel(*self)
+    }
+
+    #[inline]
+    fn keep(self, unresolved: &mut ShadingQueue) {
+        unresolved.lights.push(self);
+    }
+}
 
 /// Where whole pixels go once they are shaded.
 enum Whole<'b, 'p> {
@@ -63,23 +131,45 @@ impl VisibilityPainter<'_> {
             }
             return Duration::ZERO;
         }
-        if self.by_samples.is_meant() {
-            return self.resolve_by_samples(block, timed);
-        }
         for (y, row) in (y.start..y.end).zip(0..) {
-            self.resolve_row(y, row, block.line(y));
+            match self.by_samples.mean {
+                SampleMean::Stored(resolver) => self.resolve_row::<Spread>(y, row, block.line(y), resolver),
+                SampleMean::Linear(resolver) => self.resolve_row::<Light>(y, row, block.line(y), resolver),
+            }
         }
         if self.unresolved.is_empty() {
             return Duration::ZERO;
         }
         let start = timed.then(Instant::now);
         self.unresolved.sort(self.surfaces.len());
-        self.shade([x.start, y.start], &mut Whole::Put(block));
-        let shading = start.map(|start| start.elapsed()).unwrap_or_default();
-        for (place, sums) in self.unresolved.places.iter().zip(&self.unresolved.sums) {
-            block.put(*place, self.resolver.pixel(*sums));
+        let origin = [x.start, y.start];
+        if self.by_samples.is_meant() {
+            self.shade_samples(origin, block);
+        } else {
+            self.shade(origin, &mut Whole::Put(block));
         }
+        let shading = start.map(|start| start.elapsed()).unwrap_or_default();
+        self.put_shared(block);
         shading
+    }
+
+    /// Puts the pixels that several surfaces share.
+    fn put_shared(&self, block: &mut PixelBlock<'_>) {
+        let ShadingQueue {
+            places, sums, lights, ..
+        } = &self.unresolved;
+        match &self.by_samples.mean {
+            SampleMean::Stored(resolver) => {
+                for (place, sums) in places.iter().zip(sums) {
+                    block.put(*place, resolver.pixel(*sums));
+                }
+            }
+            SampleMean::Linear(resolver) => {
+                for (place, light) in places.iter().zip(lights) {
+                    block.put(*place, resolver.pixel(*light));
+                }
+            }
+        }
     }
 
     /// After a tile of a single pixel was resolved: the sums of its samples' channels, if any of them was shaded.
@@ -89,7 +179,7 @@ impl VisibilityPainter<'_> {
         }
         self.unresolved.clear();
         let SpanRect { x, y } = self.layers.base().rect;
-        self.resolve_row(y.start, 0, &mut [0]);
+        self.resolve_row::<Spread>(y.start, 0, &mut [0], self.resolver);
         self.unresolved.sort(self.surfaces.len());
         let mut whole = Whole::Keep(None);
         self.shade([x.start, y.start], &mut whole);
@@ -165,8 +255,8 @@ impl VisibilityPainter<'_> {
         first.mixed(self.resolver.count(), second, of_second)
     }
 
-    /// Resolves what is flat, and notes what is to be shaded.
-    fn resolve_row(&mut self, y: i32, row: u16, line: &mut [u32]) {
+    /// Resolves what is flat, and notes what is to be shaded with the sums of what it shares its pixels with.
+    fn resolve_row<K: Known>(&mut self, y: i32, row: u16, line: &mut [u32], resolver: K::Resolver) {
         let (tile, surfaces) = (self.layers.base(), &self.surfaces);
         let unresolved = &mut self.unresolved;
         for (run, range) in tile.runs(y) {
@@ -182,29 +272,28 @@ impl VisibilityPainter<'_> {
                 Run::TwoSurfacePixels => {
                     let row_of_two = tile.two_surfaces(y);
                     for x in columns(range) {
-                        let two = row_of_two.get(usize::from(x));
-                        if [two.first, two.second]
+                        let TwoSurfaces { mask, first, second } = row_of_two.get(usize::from(x));
+                        let parts = [(first, 0, tile.all() & !mask), (second, 0, mask)];
+                        let mut known = K::default();
+                        if [first, second]
                             .iter()
                             .all(|surface| surfaces.get(*surface).shaded.is_none())
                         {
-                            let [first, second] = [two.first, two.second].map(|surface| surfaces.get(surface).spread);
-                            let sum = first.mixed(self.resolver.count(), second, two.mask.count_ones());
-                            line[usize::from(x)] = self.resolver.pixel_of_halves(sum);
-                        } else {
-                            let parts = [(two.first, 0, tile.all() & !two.mask), (two.second, 0, two.mask)];
-                            unresolved.parts([x, row], parts.into_iter(), |surface| {
-                                let shown = surfaces.get(surface);
-                                shown.shaded.is_none().then(|| shown.sum(1))
-                            });
+                            for (surface, _, mask) in parts {
+                                known.add(surfaces.get(surface), mask.count_ones());
+                            }
+                            line[usize::from(x)] = known.pixel(resolver);
+                            continue;
                         }
+                        unresolved.parts([x, row], parts.into_iter(), known.taking(surfaces));
+                        known.keep(unresolved);
                     }
                 }
                 Run::Split => {
                     for x in columns(range) {
-                        unresolved.split([x, row], tile.samples(usize::from(x), y), |surface| {
-                            let shown = surfaces.get(surface);
-                            shown.shaded.is_none().then(|| shown.sum(1))
-                        });
+                        let mut known = K::default();
+                        unresolved.split([x, row], tile.samples(usize::from(x), y), known.taking(surfaces));
+                        known.keep(unresolved);
                     }
                 }
             }

@@ -2,99 +2,26 @@
 //! samples is known before, and in linear light, which is no sum of what samples store.
 //!
 //! As in `resolve` only what is seen is shaded, primitive by primitive. Pixels that show one primitive are averaged as soon as
-//! their samples are shaded; those that several share have a place for each sample, which are averaged at last. In tiles of
-//! flat colours light is added up by surface.
-
-use std::time::{Duration, Instant};
+//! their samples are shaded; what several share is added up. In tiles of flat colours light is added up by surface.
 
 use crate::color::{Light, LightResolver, Premultiplied16, SampleMean};
 use crate::raster::frame::block::PixelBlock;
-use crate::raster::paint::visibility::buffer::{Run, VisibilityBuffer};
+use crate::raster::paint::visibility::buffer::VisibilityBuffer;
 use crate::raster::paint::visibility::by_samples::{BySamples, TOGETHER};
 use crate::raster::paint::visibility::packed::lanes;
 use crate::raster::paint::visibility::painter::VisibilityPainter;
-use crate::raster::paint::visibility::resolve::{columns, each_shared};
+use crate::raster::paint::visibility::resolve::each_shared;
 use crate::raster::paint::visibility::shading_queue::{Fragment, ShadingQueue, ToShade};
 use crate::raster::paint::visibility::surface_color::Shaded;
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
 use crate::raster::shading::Shader;
-use crate::raster::span::SpanRect;
 use crate::raster::surface_id::{MAX_SURFACES, SurfaceId, TWO_SURFACES};
 
 impl VisibilityPainter<'_> {
-    /// Shades what is seen and resolves the finished tile; how long shading took, if that is to be `timed`.
-    pub(super) fn resolve_by_samples(&mut self, block: &mut PixelBlock<'_>, timed: bool) -> Duration {
-        let SpanRect { x, y } = self.layers.base().rect;
-        self.by_samples.shared.clear();
-        for (y, row) in (y.start..y.end).zip(0..) {
-            self.note_row(y, row, block.line(y));
-        }
-        if self.unresolved.is_empty() {
-            return Duration::ZERO;
-        }
-        let start = timed.then(Instant::now);
-        self.unresolved.sort(self.surfaces.len());
-        self.shade_samples([x.start, y.start], block);
-        let shading = start.map(|start| start.elapsed()).unwrap_or_default();
-        let BySamples { shared, mean, .. } = &self.by_samples;
-        let samples = shared.chunks_exact(self.resolver.count() as usize);
-        for (place, samples) in self.unresolved.places.iter().zip(samples) {
-            block.put(*place, mean.pixel(samples));
-        }
-        shading
-    }
-
-    /// Resolves what is flat in a row, and notes what is to be shaded.
-    fn note_row(&mut self, y: i32, row: u16, line: &mut [u32]) {
-        let (tile, surfaces) = (self.layers.base(), &self.surfaces);
-        let BySamples { shared, mean, .. } = &mut self.by_samples;
-        let unresolved = &mut self.unresolved;
-        let count = self.resolver.count();
-        for (run, range) in tile.runs(y) {
-            match run {
-                Run::Whole(surface) => {
-                    let shown = surfaces.get(surface);
-                    if shown.shaded.is_none() {
-                        line[range].fill(shown.pixel);
-                    } else {
-                        unresolved.whole(surface, row, range);
-                    }
-                }
-                Run::TwoSurfacePixels => {
-                    let row_of_two = tile.two_surfaces(y);
-                    for x in columns(range) {
-                        let TwoSurfaces { mask, first, second } = row_of_two.get(usize::from(x));
-                        let [one, other] = [first, second].map(|surface| surfaces.get(surface));
-                        let begin = shared.len();
-                        let flat = |i: u32| if mask >> i & 1 == 1 { other.flat } else { one.flat };
-                        shared.extend((0..count).map(flat));
-                        if one.shaded.is_none() && other.shaded.is_none() {
-                            line[usize::from(x)] = mean.pixel(&shared[begin..]);
-                            shared.truncate(begin);
-                            continue;
-                        }
-                        let parts = [(first, 0, tile.all() & !mask), (second, 0, mask)];
-                        unresolved.parts([x, row], parts.into_iter(), |surface| {
-                            surfaces.get(surface).shaded.is_none().then_some([0; 4])
-                        });
-                    }
-                }
-                Run::Split => {
-                    for x in columns(range) {
-                        let samples = tile.samples(usize::from(x), y);
-                        if let Some(flat) = note_shared(samples, surfaces, [x, row], unresolved, shared) {
-                            line[usize::from(x)] = mean.pixel(&shared[flat..]);
-                            shared.truncate(flat);
-                        }
-                    }
-                }
-            }
-        }
-    }
-
-    /// Shades all fragments; pixels that show one primitive go to `block`, whose first pixel is `origin`.
-    fn shade_samples(&mut self, origin: [i32; 2], block: &mut PixelBlock<'_>) {
+    /// Shades everything that waits, sample by sample: pixels that show one primitive go to `block`, whose first pixel is `origin`;
+    /// what parts of pixels show is added to their sums.
+    pub(super) fn shade_samples(&mut self, origin: [i32; 2], block: &mut PixelBlock<'_>) {
         let Self {
             context,
             surfaces,
@@ -105,11 +32,16 @@ impl VisibilityPainter<'_> {
         let BySamples {
             positions,
             mean,
-            shared,
             shades,
             ..
         } = by_samples;
-        let ShadingQueue { places, sorted, .. } = unresolved;
+        let ShadingQueue {
+            places,
+            sums,
+            lights,
+            sorted,
+            ..
+        } = unresolved;
         let grid = context.samples_from(origin);
         let count = positions.count();
         for ToShade {
@@ -138,15 +70,18 @@ impl VisibilityPainter<'_> {
                 }
                 shades.shade(&shader, grid);
                 self.samples_shaded += shades.points.len() as u64;
-                let mut colors = shades.colors[..shades.points.len()].iter();
-                for Fragment { first, pixel, mask, .. } in fragments {
-                    let first = *pixel as usize * count + usize::from(*first);
-                    let mut rest = *mask;
-                    while rest != 0
-                        && let Some(color) = colors.next()
-                    {
-                        shared[first + rest.trailing_zeros() as usize] = *color;
-                        rest &= rest - 1;
+                let mut colors = &shades.colors[..shades.points.len()];
+                for Fragment { pixel, mask, .. } in fragments {
+                    let (of_fragment, others) = colors.split_at(mask.count_ones() as usize);
+                    colors = others;
+                    match mean {
+                        SampleMean::Stored(_) => {
+                            let found = Premultiplied16::sums(of_fragment);
+                            for (sum, channel) in sums[*pixel as usize].iter_mut().zip(found) {
+                                *sum += channel;
+                            }
+                        }
+                        SampleMean::Linear(resolver) => lights[*pixel as usize] += resolver.opaque_light(of_fragment),
                     }
                 }
             }
@@ -235,30 +170,4 @@ impl FlatLight<'_> {
             };
         }
     }
-}
-
-/// Adds the samples of a pixel that several surfaces share to `shared`, and what of it is to be shaded to the queue; where
-/// nothing is, only the former, and where they begin.
-#[inline]
-fn note_shared(
-    samples: impl Iterator<Item = SurfaceId> + Clone,
-    surfaces: &SurfaceTable<'_>,
-    place: [u16; 2],
-    unresolved: &mut ShadingQueue,
-    shared: &mut Vec<Premultiplied16>,
-) -> Option<usize> {
-    let first = shared.len();
-    let mut any_shaded = false;
-    shared.extend(samples.clone().map(|surface| {
-        let shown = surfaces.get(surface);
-        any_shaded |= shown.shaded.is_some();
-        shown.flat
-    }));
-    if !any_shaded {
-        return Some(first);
-    }
-    unresolved.split(place, samples, |surface| {
-        surfaces.get(surface).shaded.is_none().then_some([0; 4])
-    });
-    None
 }

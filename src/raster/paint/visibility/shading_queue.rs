@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::color::Light;
 use crate::raster::shading::context::PixelRun;
 use crate::raster::surface_id::SurfaceId;
 
@@ -20,8 +21,9 @@ pub(crate) struct Fragment {
 pub(crate) struct ShadingQueue {
     /// The places of split ones, counted from the tile's first pixel.
     pub(crate) places: Vec<[u16; 2]>,
-    /// The sums of their samples as far as they are known.
+    /// The sums of their samples as far as they are known, or of their samples' light.
     pub(crate) sums: Vec<[u32; 4]>,
+    pub(crate) lights: Vec<Light>,
     found: Found,
     pub(crate) sorted: Sorted,
     /// The parts of the pixel at work.
@@ -68,6 +70,7 @@ impl ShadingQueue {
     pub(crate) fn clear(&mut self) {
         self.places.clear();
         self.sums.clear();
+        self.lights.clear();
         self.found.runs.clear();
         self.found.fragments.clear();
     }
@@ -85,13 +88,13 @@ impl ShadingQueue {
         self.found.runs.push((surface, PixelRun { row, start, end }));
     }
 
-    /// The samples of the pixel at `place` show these surfaces, row by row; those with a colour in `flat` are known already.
+    /// The samples of the pixel at `place` show these surfaces, row by row; as [`ShadingQueue::parts`].
     #[inline]
     pub(crate) fn split(
         &mut self,
         place: [u16; 2],
         samples: impl Iterator<Item = SurfaceId>,
-        flat: impl Fn(SurfaceId) -> Option<[u32; 4]>,
+        take: impl FnMut(SurfaceId, u32) -> bool,
     ) {
         let mut parts = std::mem::take(&mut self.parts);
         parts.clear();
@@ -103,33 +106,27 @@ impl ShadingQueue {
                 None => parts.push((surface, first, bit)),
             }
         }
-        self.parts(place, parts.iter().copied(), flat);
+        self.parts(place, parts.iter().copied(), take);
         self.parts = parts;
     }
 
     /// The samples of the pixel at `place` show these surfaces: for each part the surface, the sample that the lowest bit of the
-    /// mask stands for, and the mask.
+    /// mask stands for, and the mask. What is flat is not to be shaded: `take` is told how many samples show a surface, and says
+    /// whether it took them.
     #[inline]
     pub(crate) fn parts(
         &mut self,
         place: [u16; 2],
         parts: impl Iterator<Item = (SurfaceId, u16, u64)>,
-        flat: impl Fn(SurfaceId) -> Option<[u32; 4]>,
+        mut take: impl FnMut(SurfaceId, u32) -> bool,
     ) {
         let pixel = u32::try_from(self.places.len()).unwrap_or(u32::MAX);
-        let mut sums = [0; 4];
         for (surface, first, mask) in parts {
-            match flat(surface) {
-                None => self.found.fragments.push((surface, Fragment { first, pixel, mask })),
-                Some(color) => {
-                    for (sum, channel) in sums.iter_mut().zip(color) {
-                        *sum += channel * mask.count_ones();
-                    }
-                }
+            if !take(surface, mask.count_ones()) {
+                self.found.fragments.push((surface, Fragment { first, pixel, mask }));
             }
         }
         self.places.push(place);
-        self.sums.push(sums);
     }
 
     /// Sorts everything by surface, of which there are `surfaces`.
@@ -219,8 +216,12 @@ mod tests {
     fn split_gathers_samples_by_primitive() {
         let mut unresolved = ShadingQueue::default();
         let samples = (0..256).map(|i| if i % 2 == 0 { 7 } else { 1 + SurfaceId::from(i >= 128) });
-        unresolved.split([4, 2], samples, |surface| (surface == 7).then_some([1, 2, 3, 4]));
-        assert_eq!(unresolved.sums, [[128, 256, 384, 512]], "half of the samples are flat");
+        let mut flat = 0;
+        unresolved.split([4, 2], samples, |surface, count| {
+            flat += if surface == 7 { count } else { 0 };
+            surface == 7
+        });
+        assert_eq!(flat, 128, "half of the samples are flat");
         let mask = 0xAAAA_AAAA_AAAA_AAAA;
         let expected =
             [(1, 0), (1, 64), (2, 128), (2, 192)].map(|(surface, first)| (surface, Fragment { first, pixel: 0, mask }));

@@ -1,5 +1,11 @@
 //! Cells of a pixel's side: which points of the lattice lie in each.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a function that is not inlined into its dispatch loses the vector instructions"
+)]
+
+#[cfg(test)]
 use super::arrange::byte;
 use crate::geometry::subpixel::SubpixelGrid;
 
@@ -14,8 +20,41 @@ pub(super) fn cells(n: u32) -> Vec<Cell> {
     (0..n).map(|k| [first(k), first(k + 1) - first(k)]).collect()
 }
 
-/// A point of a cell, by 16 random bits.
-#[inline]
+/// A point of a cell, by 16 random bits: what [`CellBlock::anywhere`] is tested against.
+#[cfg(test)]
 pub(super) fn anywhere([start, length]: Cell, random: u32) -> u8 {
     byte(start + ((random * length) >> 16))
+}
+
+/// Samples that are placed together.
+pub(super) const TOGETHER: usize = 16;
+
+/// The cells of [`TOGETHER`] samples: the column and the row of each, where it begins and how long it is.
+#[derive(Clone, Debug)]
+pub(super) struct CellBlock {
+    pub(super) starts: [u16; 2 * TOGETHER],
+    pub(super) lengths: [u16; 2 * TOGETHER],
+}
+
+impl CellBlock {
+    /// Of columns and rows by turns.
+    pub(super) fn new(cells: &[Cell]) -> Self {
+        let narrow = |at: u32| u16::try_from(at).unwrap_or(u16::MAX);
+        let (mut starts, mut lengths) = ([0; 2 * TOGETHER], [0; 2 * TOGETHER]);
+        for ((start, length), cell) in starts.iter_mut().zip(&mut lengths).zip(cells) {
+            [*start, *length] = cell.map(narrow);
+        }
+        Self { starts, lengths }
+    }
+
+    /// A point of each cell, as [`anywhere`] has it.
+    #[inline(always)]
+    pub(super) fn anywhere(&self, random: &[u16; 2 * TOGETHER]) -> [u8; 2 * TOGETHER] {
+        let mut found = [0; 2 * TOGETHER];
+        for (i, found) in found.iter_mut().enumerate() {
+            let inside = (u32::from(random[i]) * u32::from(self.lengths[i])) >> 16;
+            [*found, ..] = (u32::from(self.starts[i]) + inside).to_le_bytes();
+        }
+        found
+    }
 }

@@ -12,7 +12,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, u16x32};
 
 use super::arrange::{Arrange, Place, Position, with_places};
-use super::cells::cells;
+use super::cells::{CellBlock, TOGETHER, cells};
 use super::random_bits::hash_eight;
 use crate::raster::sampling::rate::SampleRate;
 use crate::simd;
@@ -20,21 +20,11 @@ use crate::simd;
 /// Row by row.
 pub(super) struct Jittered;
 
-/// Samples that are placed together: 64 random bits are enough for two, and eight times as many are made at once.
-const TOGETHER: usize = 16;
-
 /// The cells of samples.
 #[derive(Debug)]
 struct Jitter {
     count: usize,
     cells: Vec<CellBlock>,
-}
-
-/// The cells of [`TOGETHER`] samples: the column and the row of each, where it begins and how long it is.
-#[derive(Clone, Debug)]
-struct CellBlock {
-    starts: [u16; 2 * TOGETHER],
-    lengths: [u16; 2 * TOGETHER],
 }
 
 impl Arrange for Jittered {
@@ -73,28 +63,6 @@ impl Jitter {
                 first += 8;
             }
         }
-    }
-}
-
-impl CellBlock {
-    fn new(cells: &[[u32; 2]]) -> Self {
-        let narrow = |at: u32| u16::try_from(at).unwrap_or(u16::MAX);
-        let (mut starts, mut lengths) = ([0; 2 * TOGETHER], [0; 2 * TOGETHER]);
-        for ((start, length), cell) in starts.iter_mut().zip(&mut lengths).zip(cells) {
-            [*start, *length] = cell.map(narrow);
-        }
-        Self { starts, lengths }
-    }
-
-    /// A point of each cell, as [`super::cells::anywhere`] has it.
-    #[inline(always)]
-    fn anywhere(&self, random: &[u16; 2 * TOGETHER]) -> [u8; 2 * TOGETHER] {
-        let mut found = [0; 2 * TOGETHER];
-        for (i, found) in found.iter_mut().enumerate() {
-            let inside = (u32::from(random[i]) * u32::from(self.lengths[i])) >> 16;
-            [*found, ..] = (u32::from(self.starts[i]) + inside).to_le_bytes();
-        }
-        found
     }
 }
 

@@ -9,11 +9,11 @@
 use std::sync::Arc;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch};
+use fearless_simd::{Simd, dispatch, u16x16, u16x32, u32x4, u32x8, u32x16};
 
 use super::arrange::{Arrange, Place, Position, with_places};
-use super::cells::{Cell, anywhere, cells};
-use super::random_bits::{halves, hash_eight, low_quarter};
+use super::cells::{CellBlock, TOGETHER, cells};
+use super::random_bits::{halves, hash_eight};
 use crate::raster::sampling::rate::SampleRate;
 use crate::simd;
 
@@ -25,65 +25,183 @@ pub(super) struct MultiJittered;
 struct Strata {
     /// Cells along a side of the pixel.
     side: u32,
-    /// The square of that many.
-    narrow: Vec<Cell>,
+    /// The square of that many: where each begins, and how long it is.
+    starts: Vec<u16>,
+    lengths: Vec<u16>,
 }
 
 impl Arrange for MultiJittered {
     fn prepare(&self, rate: SampleRate) -> Arc<dyn Place> {
         let side = rate.side();
+        let narrow = cells(side * side);
+        let numbers = |which: usize| {
+            narrow
+                .iter()
+                .map(|cell| u16::try_from(cell[which]).unwrap_or(u16::MAX))
+                .collect()
+        };
         Arc::new(Strata {
             side,
-            narrow: cells(side * side),
+            starts: numbers(0),
+            lengths: numbers(1),
         })
     }
 }
 
 /// The most cells along a side of a pixel.
 const MOST: usize = 16;
+/// Numbers that are permuted together.
+const LANES: usize = 8;
 
 impl Place for Strata {
     fn place(&self, pixels: &[u64], places: &mut Vec<Position>) {
-        dispatch!(simd::level(), simd => self.place_with(simd, pixels, places));
+        if self.side == SIDE_OF_SIXTEEN {
+            dispatch!(simd::level(), simd => place_sixteen(simd, pixels, places));
+        } else {
+            dispatch!(simd::level(), simd => self.place_with(simd, pixels, places));
+        }
     }
+}
+
+/// The side of pixels of 16 samples, which are placed in registers.
+const SIDE_OF_SIXTEEN: u32 = 4;
+
+/// As [`Strata::place_with`] where pixels have [`TOGETHER`] samples.
+#[inline(always)]
+fn place_sixteen<S: Simd>(simd: S, pixels: &[u64], places: &mut Vec<Position>) {
+    // Each of the 16 columns is as wide as so many points, 1 << 4.
+    const WIDTH_BITS: u32 = 4;
+    let numbers = u32x8::simd_from(simd, [0, 1, 2, 3, 0, 1, 2, 3]);
+    // The column and the row that each sample's cell begins with.
+    let mut corners = [0; TOGETHER];
+    for (corner, sample) in corners.iter_mut().zip(0..) {
+        *corner = ((sample % 4) | ((sample / 4) << 16)) << (2 + WIDTH_BITS);
+    }
+    let corners = u32x16::simd_from(simd, corners);
+    for (random, places) in with_places(pixels, TOGETHER, places) {
+        let [across, down] = seeds_of(random);
+        let seeds = u32x4::splat(simd, across).combine(u32x4::splat(simd, down));
+        let shifts = seeds & u32x8::splat(simd, SIDE_OF_SIXTEEN - 1);
+        let orders = eight_permuted(simd, numbers, SIDE_OF_SIXTEEN, [seeds, shifts]) << WIDTH_BITS;
+        let (across, down) = orders.split();
+        // The order of columns moves rows, for each row of samples alike; that of rows moves columns, along a row alike.
+        let row = across << 16;
+        let [first, second, third, fourth] = down.to_array();
+        let upper = (row + u32x4::splat(simd, first)).combine(row + u32x4::splat(simd, second));
+        let lower = (row + u32x4::splat(simd, third)).combine(row + u32x4::splat(simd, fourth));
+        let starts: u16x32<S> = (corners + upper.combine(lower)).bitcast();
+        let inside = u16x32::simd_from(simd, bits(simd, random, 0)) >> (16 - WIDTH_BITS);
+        let (low, high) = (starts + inside).split();
+        let found: [u8; 2 * TOGETHER] = low.narrow(high).to_array();
+        places.copy_from_slice(found.as_chunks::<2>().0);
+    }
+}
+
+/// The seeds of the two permutations of a pixel: of columns and of rows.
+fn seeds_of(random: u64) -> [u32; 2] {
+    let [pattern, _] = halves(random);
+    [pattern.wrapping_mul(0xA511_E9B3), pattern.wrapping_mul(0x63D8_3595)]
 }
 
 impl Strata {
     #[inline(always)]
     fn place_with<S: Simd>(&self, simd: S, pixels: &[u64], places: &mut Vec<Position>) {
-        let n = self.side;
-        for (random, places) in with_places(pixels, self.narrow.len(), places) {
-            let (mut across, mut down) = ([0; MOST], [0; MOST]);
-            let [pattern, _] = halves(random);
-            for (i, (across, down)) in (0..n).zip(across.iter_mut().zip(&mut down)) {
-                *across = permuted(i, n, pattern.wrapping_mul(0xA511_E9B3));
-                *down = permuted(i, n, pattern.wrapping_mul(0x63D8_3595));
+        let side = self.side as usize;
+        let (starts, lengths) = (&self.starts[..side * side], &self.lengths[..side * side]);
+        // The numbers of columns, and then of rows.
+        let mut numbers = [0; 2 * MOST];
+        for (number, i) in numbers[..2 * side].iter_mut().zip((0..self.side).cycle()) {
+            *number = i;
+        }
+        let mut cells = CellBlock::new(&[]);
+        for (random, places) in with_places(pixels, side * side, places) {
+            let (mut orders, mut seeds, mut shifts) = ([0; 2 * MOST], [0; 2 * MOST], [0; 2 * MOST]);
+            for (axis, seed) in seeds_of(random).into_iter().enumerate() {
+                seeds[axis * side..(axis + 1) * side].fill(seed);
+                shifts[axis * side..(axis + 1) * side].fill(seed % self.side);
             }
-            let mut bits = [0; 8];
+            for first in (0..2 * side).step_by(LANES) {
+                let lanes = first..first + LANES;
+                let [number, seed, shift] = [&numbers, &seeds, &shifts]
+                    .map(|all: &[u32; 2 * MOST]| u32x8::from_slice(simd, &all[lanes.clone()]));
+                eight_permuted(simd, number, self.side, [seed, shift]).store_slice(&mut orders[lanes]);
+            }
+            let (across, down) = (&orders[..side], &orders[side..2 * side]);
             let (mut i, mut j) = (0, 0);
-            for (sample, place) in (0_u64..).zip(places) {
-                let lane = (sample % 8) as usize;
-                if lane == 0 {
-                    bits = hash_eight(simd, random, sample).to_array();
+            for (places, first) in places.chunks_mut(TOGETHER).zip((0..).step_by(TOGETHER)) {
+                for sample in 0..places.len() {
+                    // Each axis is moved by what the other one counts, in an order of the pixel's own.
+                    let strata = [i * side + down[j] as usize, j * side + across[i] as usize];
+                    for (axis, stratum) in strata.into_iter().enumerate() {
+                        cells.starts[2 * sample + axis] = starts[stratum];
+                        cells.lengths[2 * sample + axis] = lengths[stratum];
+                    }
+                    i += 1;
+                    if i == side {
+                        (i, j) = (0, j + 1);
+                    }
                 }
-                // Each axis is moved by what the other one counts, in an order of the pixel's own.
-                let strata = [i * n + down[j as usize % MOST], j * n + across[i as usize % MOST]];
-                let [column, row] = [self.narrow[strata[0] as usize], self.narrow[strata[1] as usize]];
-                *place = [
-                    anywhere(column, low_quarter(bits[lane])),
-                    anywhere(row, low_quarter(bits[lane] >> 16)),
-                ];
-                i += 1;
-                if i == n {
-                    (i, j) = (0, j + 1);
-                }
+                let found = cells.anywhere(&bits(simd, random, first));
+                places.copy_from_slice(&found.as_chunks::<2>().0[..places.len()]);
             }
         }
     }
 }
 
-/// Where number `i` of `count` goes in the permutation with this seed: a hash of as many bits as are needed, again and again
-/// until it is one of them.
+/// 16 random bits for the column and the row of each of [`TOGETHER`] samples from one on.
+#[inline(always)]
+fn bits<S: Simd>(simd: S, random: u64, first: u64) -> [u16; 2 * TOGETHER] {
+    let mut bits = [0; 2 * TOGETHER];
+    for (bits, first) in bits.chunks_exact_mut(TOGETHER).zip([first, first + 8]) {
+        let (low, high) = hash_eight(simd, random, first).split();
+        let lowest: u16x16<S> = low.narrow(high).bitcast();
+        lowest.store_slice(bits);
+    }
+    bits
+}
+
+/// Where numbers of `count` go in the permutations with these seeds: a hash of as many bits as are needed, again and again until
+/// it is one of them; then moved by the seed modulo `count`.
+#[inline(always)]
+fn eight_permuted<S: Simd>(simd: S, numbers: u32x8<S>, count: u32, [seed, shifts]: [u32x8<S>; 2]) -> u32x8<S> {
+    let number = |value: u32| u32x8::splat(simd, value);
+    let mask = number(count.next_power_of_two() - 1);
+    let mut at = numbers;
+    let mut done = at;
+    let mut waits = at.simd_eq(at);
+    loop {
+        at ^= seed;
+        at *= number(0xE170_893D);
+        at ^= seed >> 16;
+        at ^= (at & mask) >> 4;
+        at ^= seed >> 8;
+        at *= number(0x0929_EB3F);
+        at ^= seed >> 23;
+        at ^= (at & mask) >> 1;
+        at *= seed >> 27 | number(1);
+        at *= number(0x6935_FA69);
+        at ^= (at & mask) >> 11;
+        at *= number(0x74DC_B303);
+        at ^= (at & mask) >> 2;
+        at *= number(0x9E50_1CC3);
+        at ^= (at & mask) >> 2;
+        at *= number(0xC860_A3DF);
+        at &= mask;
+        at ^= at >> 5;
+        done = waits.select(at, done);
+        waits &= at.simd_ge(number(count));
+        if !waits.any_true() {
+            break;
+        }
+    }
+    // Moved before the sum: one that wraps around would take two numbers to one.
+    let moved = done + shifts;
+    let count = number(count);
+    moved.simd_ge(count).select(moved - count, moved)
+}
+
+/// One number of [`eight_permuted`]: what that is tested against.
+#[cfg(test)]
 fn permuted(i: u32, count: u32, seed: u32) -> u32 {
     let mask = count.next_power_of_two() - 1;
     let mut at = i;
@@ -116,7 +234,8 @@ fn permuted(i: u32, count: u32, seed: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::raster::sampling::pattern::random_bits::hash;
+    use crate::raster::sampling::pattern::cells::anywhere;
+    use crate::raster::sampling::pattern::random_bits::{hash, low_quarter};
 
     #[test]
     fn points_are_those_of_one_sample_after_the_other() {
@@ -128,12 +247,9 @@ mod tests {
             MultiJittered.prepare(rate).place(&pixels, &mut found);
             let narrow = cells(n * n);
             let one = |random: u64, sample: u32| {
-                let [pattern, _] = halves(random);
+                let [across, down] = seeds_of(random);
                 let (i, j) = (sample % n, sample / n);
-                let strata = [
-                    i * n + permuted(j, n, pattern.wrapping_mul(0x63D8_3595)),
-                    j * n + permuted(i, n, pattern.wrapping_mul(0xA511_E9B3)),
-                ];
+                let strata = [i * n + permuted(j, n, down), j * n + permuted(i, n, across)];
                 let bits = hash(random, sample.into());
                 [0, 1].map(|axis| anywhere(narrow[strata[axis] as usize], low_quarter(bits >> (16 * axis))))
             };

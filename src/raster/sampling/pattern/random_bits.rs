@@ -38,7 +38,7 @@ pub(in crate::raster::sampling) fn mix(mut bits: u64) -> u64 {
 }
 
 /// The lowest 16 of some random bits.
-#[inline]
+#[cfg(test)]
 pub(super) fn low_quarter(random: u64) -> u32 {
     first_sixteen(random).into()
 }

@@ -8,6 +8,7 @@ use crate::raster::coverage::shape::Shape;
 use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::list::chunk::Chunk;
+use crate::raster::paint::put_runs::put_runs;
 use crate::raster::shading::context::{PixelRun, Pixels, ShadeContext};
 use crate::raster::shading::{Paint, Shader};
 use crate::raster::span::SpanRect;
@@ -105,14 +106,12 @@ impl<'a> DirectPainter<'a> {
             return;
         }
         places.clear();
-        places.extend(runs.iter().flat_map(|run| run.places()));
-        shaded.resize(shaded.len().max(pixels), 0);
-        let mut values = &mut shaded[..pixels];
-        shader.pixels(Pixels { grid, places }, values);
-        for run in runs {
-            let (of_run, others) = values.split_at_mut(run.len());
-            block.run(run.row, run.columns()).copy_from_slice(of_run);
-            values = others;
+        for run in &*runs {
+            places.extend(run.places());
         }
+        shaded.resize(shaded.len().max(pixels), 0);
+        let values = &mut shaded[..pixels];
+        shader.pixels(Pixels { grid, places }, values);
+        put_runs(runs, false, values, block);
     }
 }

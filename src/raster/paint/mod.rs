@@ -14,6 +14,7 @@
 pub(in crate::raster) mod direct;
 pub(in crate::raster) mod method;
 pub(in crate::raster) mod per_sample;
+mod put_runs;
 pub(in crate::raster) mod recorder;
 pub(in crate::raster) mod sample_colors;
 pub(in crate::raster) mod visibility;

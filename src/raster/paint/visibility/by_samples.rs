@@ -9,6 +9,7 @@ use fearless_simd::{Simd, dispatch};
 
 use crate::color::{Light, Premultiplied16, SampleMean};
 use crate::raster::frame::block::PixelBlock;
+use crate::raster::paint::put_runs::put_runs;
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::shading::Shader;
 use crate::raster::shading::context::{PixelRun, Pixels, PlacedPixels, ShadeContext};
@@ -128,16 +129,13 @@ impl SampleShades {
 
     /// Puts the pixels of these runs, once they are shaded.
     pub(super) fn put(&self, runs: &[PixelRun], repeats: bool, block: &mut PixelBlock<'_>) {
+        if !repeats {
+            return put_runs(runs, false, &self.pixels, block);
+        }
         let mut at = 0;
         for run in runs {
-            let line = block.run(run.row, run.columns());
-            if repeats {
-                at += usize::from(self.whole[at][1] != run.row);
-                line.fill(self.pixels[at]);
-            } else {
-                line.copy_from_slice(&self.pixels[at..at + run.len()]);
-                at += run.len();
-            }
+            at += usize::from(self.whole[at][1] != run.row);
+            block.run(run.row, run.columns()).fill(self.pixels[at]);
         }
     }
 

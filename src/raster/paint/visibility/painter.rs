@@ -36,6 +36,8 @@ pub(crate) struct VisibilityPainter<'a> {
     pub(super) surfaces: SurfaceTable<'a>,
     pub(super) unresolved: ShadingQueue,
     pub(super) fragments: FragmentSums,
+    /// Memory for the values of pixels.
+    pub(super) values: Vec<u32>,
     pub(super) by_samples: BySamples,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
@@ -53,6 +55,7 @@ impl<'a> VisibilityPainter<'a> {
             surfaces: SurfaceTable::new(context.sampling.rules, resolver),
             unresolved: ShadingQueue::default(),
             fragments: FragmentSums::default(),
+            values: Vec::new(),
             by_samples: BySamples::new(&context, positions),
             samples_shaded: 0,
         }

@@ -8,6 +8,7 @@ use fearless_simd::{Simd, dispatch};
 
 use crate::color::{Light, LightResolver, Premultiplied16, Resolver, SampleMean};
 use crate::raster::frame::block::PixelBlock;
+use crate::raster::paint::put_runs::put_runs;
 use crate::raster::paint::visibility::buffer::{Run, Shown, VisibilityBuffer};
 use crate::raster::paint::visibility::packed::{lanes, splat};
 use crate::raster::paint::visibility::painter::VisibilityPainter;
@@ -99,20 +100,21 @@ enum Whole<'b, 'p> {
 
 impl Whole<'_, '_> {
     /// Takes the sums of runs of pixels, one after the other; only that of the first one of each run where all of a run are alike
-    /// (`is_level`).
-    fn take(&mut self, runs: &[PixelRun], is_level: bool, mut sums: &[[u32; 4]], resolver: &Resolver) {
+    /// (`is_level`). `values` is memory.
+    fn take(
+        &mut self,
+        (runs, is_level): (&[PixelRun], bool),
+        sums: &[[u32; 4]],
+        resolver: &Resolver,
+        values: &mut Vec<u32>,
+    ) {
         match self {
             Self::Keep(kept) => *kept = sums.first().copied().or(*kept),
             Self::Put(block) => {
-                for run in runs {
-                    let line = block.run(run.row, run.columns());
-                    let (of_run, others) = sums.split_at(if is_level { 1 } else { run.len() });
-                    match of_run {
-                        [sum] => line.fill(resolver.pixel(*sum)),
-                        _ => resolver.pixels(of_run, line),
-                    }
-                    sums = others;
-                }
+                values.clear();
+                values.resize(sums.len(), 0);
+                resolver.pixels(sums, values);
+                put_runs(runs, is_level, values, block);
             }
         }
     }
@@ -302,11 +304,19 @@ impl VisibilityPainter<'_> {
 
     /// Shades everything that waits; parts of pixels have the colours added to their sums. `origin` is the tile's first pixel.
     fn shade(&mut self, origin: [i32; 2], target: &mut Whole<'_, '_>) {
-        let (context, resolver, surfaces, shading) =
-            (&self.context, self.resolver, &self.surfaces, &mut self.fragments);
+        let Self {
+            context,
+            resolver,
+            surfaces,
+            unresolved,
+            fragments: shading,
+            values,
+            samples_shaded,
+            ..
+        } = self;
         let ShadingQueue {
             places, sums, sorted, ..
-        } = &mut self.unresolved;
+        } = unresolved;
         let grid = context.samples_from(origin);
         for ToShade {
             surface,
@@ -322,27 +332,27 @@ impl VisibilityPainter<'_> {
             let nothing_above = kept == Premultiplied16::ONE;
             if let Whole::Put(block) = target
                 && nothing_above
-                && shader.runs(runs, grid, &resolver, block)
+                && shader.runs(runs, grid, resolver, block)
             {
                 let pixels: usize = runs.iter().map(|run| run.len()).sum();
-                self.samples_shaded += pixels as u64 * u64::from(resolver.count());
+                *samples_shaded += pixels as u64 * u64::from(resolver.count());
             } else {
                 let is_level = paint.is_level(context);
                 let whole = shading.sums_of((runs, is_level), grid, &shader);
-                self.samples_shaded += whole.len() as u64 * u64::from(resolver.count());
+                *samples_shaded += whole.len() as u64 * u64::from(resolver.count());
                 if !nothing_above {
                     for sum in &mut *whole {
                         *sum = shown.over_shaded(*sum, kept, resolver.count());
                     }
                 }
-                target.take(runs, is_level, whole, &resolver);
+                target.take((runs, is_level), whole, resolver, values);
             }
             if fragments.is_empty() {
                 continue;
             }
             for first in (0..resolver.count()).step_by(64) {
                 shading.gather(fragments, places, first);
-                self.samples_shaded += shading
+                *samples_shaded += shading
                     .masks
                     .iter()
                     .map(|mask| u64::from(mask.count_ones()))

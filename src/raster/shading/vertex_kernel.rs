@@ -153,16 +153,16 @@ const fn place_bits() -> [[[u64; 3]; 2]; MASKED_SIDE + 1] {
 /// The sums of columns and of rows of the samples of a mask, of the 64 from `first` on.
 #[inline(always)]
 fn place_sums(side: u32, first: u32, mask: u64) -> [u32; 2] {
-    if side as usize <= MASKED_SIDE {
-        return PLACE_BITS[side as usize].map(
-            #[inline(always)]
-            |[ones, twos, fours]| {
-                let count = |bits: u64| (mask & bits).count_ones();
-                count(ones) + 2 * count(twos) + 4 * count(fours)
-            },
-        );
+    let mut sums = [0; 2];
+    if let Some(of_side) = PLACE_BITS.get(side as usize) {
+        for bit in 0..u32::BITS - (side - 1).leading_zeros() {
+            for (sum, samples) in sums.iter_mut().zip(of_side) {
+                *sum += (mask & samples[bit as usize]).count_ones() << bit;
+            }
+        }
+        return sums;
     }
-    let (mut sums, mut rest) = ([0; 2], mask);
+    let mut rest = mask;
     while rest != 0 {
         let sample = first + rest.trailing_zeros();
         sums[0] += sample % side;

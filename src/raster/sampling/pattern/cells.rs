@@ -47,7 +47,7 @@ impl CellBlock {
         Self { starts, lengths }
     }
 
-    /// A point of each cell, as [`anywhere`] has it.
+    /// A point of each cell, by 16 random bits for each column and each row.
     #[inline(always)]
     pub(super) fn anywhere(&self, random: &[u16; 2 * TOGETHER]) -> [u8; 2 * TOGETHER] {
         let mut found = [0; 2 * TOGETHER];

@@ -102,16 +102,15 @@ impl<'a> DirectPainter<'a> {
         let SpanRect { x, y } = block.rect;
         let grid = context.samples_from([x.start, y.start]);
         let shader = Shader::new(context, corners, paint);
-        if shader.runs(runs, grid, resolver, block) {
-            return;
-        }
-        places.clear();
-        for run in &*runs {
-            places.extend(run.places());
-        }
         shaded.resize(shaded.len().max(pixels), 0);
         let values = &mut shaded[..pixels];
-        shader.pixels(Pixels { grid, places }, values);
+        if !shader.runs(runs, grid, resolver, values) {
+            places.clear();
+            for run in &*runs {
+                places.extend(run.places());
+            }
+            shader.pixels(Pixels { grid, places }, values);
+        }
         put_runs(runs, false, values, block);
     }
 }

@@ -4,7 +4,6 @@
 use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
-use crate::raster::frame::block::PixelBlock;
 use crate::raster::shading::context::{MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
 use crate::raster::shading::sources::PaintSources;
@@ -65,9 +64,9 @@ pub(super) trait Shade {
         pixels_by_points(self, pixels, rules, values);
     }
 
-    /// Puts the pixels of runs into a block, where there is a way that is shorter than their sums; whether there is one. The
+    /// The pixels of runs, one after the other, where there is a way that is shorter than their sums; whether there is one. The
     /// triangle must be opaque.
-    fn runs(&self, _: &[PixelRun], _: SampleGrid, _: &Resolver, _: &mut PixelBlock<'_>) -> bool {
+    fn runs(&self, _: &[PixelRun], _: SampleGrid, _: &Resolver, _: &mut [u32]) -> bool {
         false
     }
 

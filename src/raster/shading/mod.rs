@@ -28,7 +28,6 @@ mod vertex_means;
 use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
-use crate::raster::frame::block::PixelBlock;
 use crate::raster::shading::context::{MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample};
 use crate::raster::shading::gradient::GradientPaint;
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
@@ -188,17 +187,11 @@ impl<'a> Shader<'a> {
         ask!(&self.any, AnyShader, shader => shader.pixels(pixels, self.rules, values));
     }
 
-    /// Puts the pixels of runs into a block, where there is a way that is shorter than [`Shader::pixel_sums`] and [`Resolver`];
+    /// The pixels of runs, one after the other, where there is a way that is shorter than [`Shader::pixel_sums`] and [`Resolver`];
     /// whether there is one. They show nothing but this triangle, which must be opaque, under the standard rules or at one sample
     /// each.
-    pub(crate) fn runs(
-        &self,
-        runs: &[PixelRun],
-        grid: SampleGrid,
-        resolver: &Resolver,
-        block: &mut PixelBlock<'_>,
-    ) -> bool {
-        ask!(&self.any, AnyShader, shader => shader.runs(runs, grid, resolver, block))
+    pub(crate) fn runs(&self, runs: &[PixelRun], grid: SampleGrid, resolver: &Resolver, values: &mut [u32]) -> bool {
+        ask!(&self.any, AnyShader, shader => shader.runs(runs, grid, resolver, values))
     }
 
     /// The pixels that all of their samples make, where there is a way that is shorter than [`Shader::points`] of each; whether

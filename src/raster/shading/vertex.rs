@@ -6,7 +6,6 @@ use crate::color::{Premultiplied16, Resolver, Rgba, SampleMean};
 use crate::geometry::clip::ClipVertex;
 use crate::geometry::subpixel::GridPoint;
 use crate::raster::attributes::Planes;
-use crate::raster::frame::block::PixelBlock;
 use crate::raster::shading::context::{MaskedPixels, PixelRun, Pixels, PlacedPixels, ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::Attributes;
 use crate::raster::shading::kernel::{ONE, first_sample};
@@ -98,14 +97,14 @@ impl Shade for VertexShader {
         }
     }
 
-    fn runs(&self, runs: &[PixelRun], grid: SampleGrid, resolver: &Resolver, block: &mut PixelBlock<'_>) -> bool {
+    fn runs(&self, runs: &[PixelRun], grid: SampleGrid, resolver: &Resolver, values: &mut [u32]) -> bool {
         if self.rules == Rules::Course {
             return false;
         }
         let Some(bytes) = Bytes::of(resolver) else {
             return false;
         };
-        dispatch!(simd::level(), simd => run_kernel(simd, &self.opaque, grid, bytes, (runs, block)));
+        dispatch!(simd::level(), simd => run_kernel(simd, &self.opaque, grid, bytes, (runs, values)));
         true
     }
 
@@ -146,7 +145,6 @@ mod tests {
 
     use super::*;
     use crate::geometry::subpixel::{GridPoint, SubpixelGrid};
-    use crate::raster::span::{Span, SpanRect};
 
     /// The colours of all samples of a pixel, one by one.
     fn samples(colors: &VertexShader, grid: SampleGrid, [x, y]: [u16; 2]) -> Vec<Premultiplied16> {
@@ -203,27 +201,17 @@ mod tests {
                     Ok(PixelRun { row, start, end })
                 })
                 .collect::<Result<Vec<_>>>()?;
-            let mut expected = vec![7; usize::from(WIDTH) * 5];
-            for [x, y] in runs.iter().flat_map(|run| run.places()) {
+            let mut expected = Vec::new();
+            for place in runs.iter().flat_map(|run| run.places()) {
                 let mut sums = [[0; 4]];
-                let places = &[[x, y]];
+                let places = &[place];
                 colors.opaque_sums(simd::level(), Pixels { grid, places }, &mut sums);
-                expected[usize::from(y * WIDTH + x)] = resolver.pixel(sums[0]);
-                met += 1;
+                expected.push(resolver.pixel(sums[0]));
             }
+            met += expected.len();
             for (name, level) in simd::tested() {
                 let mut found = vec![7; expected.len()];
-                let span = |start: i32, length: u16| Span {
-                    start,
-                    end: start + i32::from(length),
-                };
-                let [x, y] = grid.origin;
-                let rect = SpanRect {
-                    x: span(x, WIDTH),
-                    y: span(y, 5),
-                };
-                let mut block = PixelBlock::new(rect, &mut found, WIDTH.into());
-                dispatch!(level, simd => run_kernel(simd, &colors.opaque, grid, bytes, (&runs, &mut block)));
+                dispatch!(level, simd => run_kernel(simd, &colors.opaque, grid, bytes, (&runs, &mut found)));
                 assert_eq!(found, expected, "{name}: {grid:?}, {runs:?}");
             }
             Ok(())

@@ -10,7 +10,6 @@ use fearless_simd::{Simd, f64x8, u32x8, u64x8};
 
 use crate::color::{Premultiplied16, Resolver};
 use crate::raster::attributes::Planes;
-use crate::raster::frame::block::PixelBlock;
 use crate::raster::shading::context::{MaskedPixels, PixelRun, Pixels};
 use crate::raster::shading::kernel::{
     LANES, ONE, columns_and_rows, first_sample, low_word, places_of, whole, whole_up_to,
@@ -77,14 +76,14 @@ impl Bytes {
     }
 }
 
-/// The opaque pixels of runs, by the plane at the middle of each pixel: what [`sum_kernel`] finds, resolved.
+/// The opaque pixels of runs, one after the other, by the plane at the middle of each pixel: what [`sum_kernel`] finds, resolved.
 #[inline(always)]
 pub(super) fn run_kernel<S: Simd>(
     simd: S,
     planes: &Planes<3>,
     grid: SampleGrid,
     bytes: Bytes,
-    (runs, block): (&[PixelRun], &mut PixelBlock<'_>),
+    (runs, values): (&[PixelRun], &mut [u32]),
 ) {
     let side = f64::from(grid.side);
     let middle =
@@ -96,11 +95,13 @@ pub(super) fn run_kernel<S: Simd>(
     let steps = f64x8::simd_from(simd, steps);
     let next = LANES as f64 * side;
     let limit = ONE * bytes.samples;
+    let mut first = 0;
     for run in runs {
         let down = middle(1, run.row);
         // From one pixel to the next there are whole samples: nothing is rounded.
         let mut right = steps + middle(0, run.start);
-        for line in block.run(run.row, run.columns()).chunks_mut(LANES) {
+        let end = first + run.len();
+        for at in (first..end).step_by(LANES) {
             let mut pixels = u64x8::splat(simd, 0xFF);
             for k in 0..3 {
                 // In the order of `Planes::at`.
@@ -110,14 +111,16 @@ pub(super) fn run_kernel<S: Simd>(
             }
             let (low, high) = pixels.split();
             let pixels: u32x8<S> = low.narrow(high);
-            if let Some(line) = line.first_chunk_mut::<LANES>() {
-                pixels.store_array(line);
+            if let Some(values) = values[at..].first_chunk_mut::<LANES>() {
+                // What lies beyond the run is written over by the next one.
+                pixels.store_array(values);
             } else {
-                let pixels = pixels.to_array();
-                line.copy_from_slice(&pixels[..line.len()]);
+                let left = end - at;
+                values[at..end].copy_from_slice(&pixels.to_array()[..left]);
             }
             right += next;
         }
+        first = end;
     }
 }
 

@@ -9,11 +9,11 @@ use crate::texture::SampleGrid;
 #[derive(Debug, Default)]
 pub(super) struct FragmentSums {
     /// Pixels of the tile, and which of their samples; the latter empty where it is all.
-    pub(super) places: Vec<[u16; 2]>,
-    pub(super) masks: Vec<u64>,
+    places: Vec<[u16; 2]>,
+    masks: Vec<u64>,
     /// Where their sums go.
-    pub(super) targets: Vec<u32>,
-    pub(super) sums: Vec<[u32; 4]>,
+    targets: Vec<u32>,
+    sums: Vec<[u32; 4]>,
 }
 
 impl FragmentSums {
@@ -41,8 +41,42 @@ impl FragmentSums {
         &mut self.sums
     }
 
+    /// Calls `add` with the sum of every part of a pixel, of which each has `count` samples: with the number of the pixel, whose
+    /// places these are, the sum, and how many samples it is of. How many samples were shaded.
+    #[inline]
+    pub(super) fn each_part(
+        &mut self,
+        (fragments, places): (&[Fragment], &[[u16; 2]]),
+        grid: SampleGrid,
+        (shader, count): (&Shader<'_>, u32),
+        mut add: impl FnMut(u32, [u32; 4], u32),
+    ) -> u64 {
+        let mut shaded = 0;
+        if fragments.is_empty() {
+            return shaded;
+        }
+        for first in (0..count).step_by(64) {
+            self.gather(fragments, places, first);
+            if self.places.is_empty() {
+                continue;
+            }
+            self.make_sums();
+            let pixels = Pixels {
+                grid,
+                places: &self.places,
+            };
+            shader.masked_sums(pixels.masked(&self.masks, first), &mut self.sums);
+            for ((target, sum), mask) in self.targets.iter().zip(&self.sums).zip(&self.masks) {
+                let samples = mask.count_ones();
+                shaded += u64::from(samples);
+                add(*target, *sum, samples);
+            }
+        }
+        shaded
+    }
+
     /// Gathers the fragments that are parts of pixels; of the 64 samples from `first` on.
-    pub(super) fn gather(&mut self, fragments: &[Fragment], places: &[[u16; 2]], first: u32) {
+    fn gather(&mut self, fragments: &[Fragment], places: &[[u16; 2]], first: u32) {
         self.places.clear();
         self.masks.clear();
         self.targets.clear();
@@ -52,15 +86,6 @@ impl FragmentSums {
                 self.masks.push(fragment.mask);
                 self.targets.push(fragment.pixel);
             }
-        }
-    }
-
-    /// Shades the fragments that were gathered, of the 64 samples from `first` on.
-    pub(super) fn shade_parts(&mut self, grid: SampleGrid, first: u32, shader: &Shader<'_>) {
-        self.make_sums();
-        if !self.places.is_empty() {
-            let places = &self.places;
-            shader.masked_sums(Pixels { grid, places }.masked(&self.masks, first), &mut self.sums);
         }
     }
 

@@ -17,7 +17,6 @@ use crate::raster::paint::visibility::surface_color::{Shaded, Spread, SurfaceCol
 use crate::raster::paint::visibility::surfaces::SurfaceTable;
 use crate::raster::paint::visibility::two_surfaces::TwoSurfaces;
 use crate::raster::shading::Shader;
-use crate::raster::shading::context::PixelRun;
 use crate::raster::span::SpanRect;
 use crate::raster::surface_id::{MAX_SURFACES, ROW, SurfaceId, TWO_SURFACES};
 use crate::simd;
@@ -96,28 +95,6 @@ enum Whole<'b, 'p> {
     Put(&'b mut PixelBlock<'p>),
     /// The sum of the first one, for whoever asked.
     Keep(Option<[u32; 4]>),
-}
-
-impl Whole<'_, '_> {
-    /// Takes the sums of runs of pixels, one after the other; only that of the first one of each run where all of a run are alike
-    /// (`is_level`). `values` is memory.
-    fn take(
-        &mut self,
-        (runs, is_level): (&[PixelRun], bool),
-        sums: &[[u32; 4]],
-        resolver: &Resolver,
-        values: &mut Vec<u32>,
-    ) {
-        match self {
-            Self::Keep(kept) => *kept = sums.first().copied().or(*kept),
-            Self::Put(block) => {
-                values.clear();
-                values.resize(sums.len(), 0);
-                resolver.pixels(sums, values);
-                put_runs(runs, is_level, values, block);
-            }
-        }
-    }
 }
 
 impl VisibilityPainter<'_> {
@@ -330,12 +307,14 @@ impl VisibilityPainter<'_> {
             };
             let shader = Shader::new(context, corners, paint);
             let nothing_above = kept == Premultiplied16::ONE;
+            let pixels: usize = runs.iter().map(|run| run.len()).sum();
+            values.resize(values.len().max(pixels), 0);
             if let Whole::Put(block) = target
                 && nothing_above
-                && shader.runs(runs, grid, resolver, block)
+                && shader.runs(runs, grid, resolver, &mut values[..pixels])
             {
-                let pixels: usize = runs.iter().map(|run| run.len()).sum();
                 *samples_shaded += pixels as u64 * u64::from(resolver.count());
+                put_runs(runs, false, values, block);
             } else {
                 let is_level = paint.is_level(context);
                 let whole = shading.sums_of((runs, is_level), grid, &shader);
@@ -345,26 +324,23 @@ impl VisibilityPainter<'_> {
                         *sum = shown.over_shaded(*sum, kept, resolver.count());
                     }
                 }
-                target.take((runs, is_level), whole, resolver, values);
-            }
-            if fragments.is_empty() {
-                continue;
-            }
-            for first in (0..resolver.count()).step_by(64) {
-                shading.gather(fragments, places, first);
-                *samples_shaded += shading
-                    .masks
-                    .iter()
-                    .map(|mask| u64::from(mask.count_ones()))
-                    .sum::<u64>();
-                shading.shade_parts(grid, first, &shader);
-                for ((target, found), mask) in shading.targets.iter().zip(&shading.sums).zip(&shading.masks) {
-                    let found = shown.over_shaded(*found, kept, mask.count_ones());
-                    for (sum, channel) in sums[*target as usize].iter_mut().zip(found) {
-                        *sum += channel;
+                match target {
+                    Whole::Keep(kept) => *kept = whole.first().copied().or(*kept),
+                    Whole::Put(block) => {
+                        let values = &mut values[..whole.len()];
+                        resolver.pixels(whole, values);
+                        put_runs(runs, is_level, values, block);
                     }
                 }
             }
+            let count = resolver.count();
+            *samples_shaded +=
+                shading.each_part((fragments, places), grid, (&shader, count), |pixel, found, samples| {
+                    let found = shown.over_shaded(found, kept, samples);
+                    for (sum, channel) in sums[pixel as usize].iter_mut().zip(found) {
+                        *sum += channel;
+                    }
+                });
         }
     }
 }

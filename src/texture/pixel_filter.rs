@@ -172,7 +172,7 @@ impl Batch {
         end
     }
 
-    /// The same of those that a mask names; no sample has a greater number than what is returned once all are taken.
+    /// The same of those that a mask names; `usize::MAX` once all of them are taken.
     #[inline(always)]
     fn take_some(&mut self, corner: [u16; 2], inside: &[[u16; 2]], (from, mask): (usize, u64)) -> usize {
         let mut rest = mask.checked_shr(u32::try_from(from).unwrap_or(64)).unwrap_or(0) << from;

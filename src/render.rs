@@ -17,7 +17,7 @@ use crate::geometry::ViewTransform;
 use crate::raster::{
     self, Chunk, ChunkBuilder, Compositing, Counters, DisplayList, FilterRadius, Framebuffer, Hidden, ListContext,
     PaintSources, PlacedGradient, RasterSettings, RasterTimes, ResolveFilter, SamplePattern, SampleRate, Seed,
-    SizedFilter,
+    ShadingRate, SizedFilter,
 };
 use crate::rules::Rules;
 use crate::scene::{Composite, Fill, Gradient, MaskKind, Paint, PrimitiveKind, Scene};
@@ -41,6 +41,8 @@ pub struct RenderSettings {
     pub pattern: SamplePattern,
     /// Which of all possible ways, where chance decides about that.
     pub seed: Seed,
+    /// How often primitives are shaded in a pixel.
+    pub shading: ShadingRate,
     /// Inside a mip level.
     pub pixel_sampling: PixelSampling,
     /// Between mip levels.
@@ -76,6 +78,7 @@ impl Default for RenderSettings {
             sample_rate: SampleRate::ONE,
             pattern: SamplePattern::default(),
             seed: Seed::default(),
+            shading: ShadingRate::default(),
             pixel_sampling: PixelSampling::default(),
             level_sampling: LevelSampling::default(),
             pyramid: ResolveSpace::default(),
@@ -103,6 +106,7 @@ impl RenderSettings {
         Self {
             sample_rate: SampleRate::new(SampleRate::MAX).unwrap_or(self.sample_rate),
             pattern: SamplePattern::Grid,
+            shading: ShadingRate::Sample,
             level_sampling: LevelSampling::Zero,
             pyramid: ResolveSpace::default(),
             pyramid_filter: PyramidFilter::default(),
@@ -327,6 +331,7 @@ fn raster_settings(settings: &RenderSettings) -> RasterSettings {
         rate: settings.sample_rate,
         pattern: settings.pattern,
         seed: settings.seed,
+        shading: settings.shading,
         sampling: SamplingSettings {
             pixel: settings.pixel_sampling,
             level: settings.level_sampling,

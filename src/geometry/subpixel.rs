@@ -55,6 +55,28 @@ impl SubpixelGrid {
         }
     }
 
+    /// A grid of the same units on which a sample lies in the middle of each pixel: as many samples along a side as are left when
+    /// their number is halved until it is odd.
+    #[must_use]
+    pub fn with_centres(&self) -> Self {
+        let halvings = self.side.trailing_zeros();
+        Self {
+            side: self.side >> halvings,
+            bits: self.bits + halvings,
+        }
+    }
+
+    /// A grid of the same units with 256 to 511 samples along a side of a pixel.
+    #[must_use]
+    pub fn dense(&self) -> Self {
+        let (least, side) = (Self::FINE_SIDE, self.side.cast_unsigned());
+        let doublings = least.ilog2() - side.ilog2();
+        Self {
+            side: self.side << doublings,
+            bits: self.bits - doublings,
+        }
+    }
+
     /// Samples along one side of a pixel.
     pub fn side(&self) -> i32 {
         self.side
@@ -156,6 +178,25 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn coarser_and_denser_grids_have_the_same_units() {
+        for side in 1..=16 {
+            let grid = SubpixelGrid::new(side);
+            for other in [grid.with_centres(), grid.dense()] {
+                let units = |grid: SubpixelGrid| grid.side() << grid.bits();
+                assert_eq!(units(other), units(grid), "{side}: {other:?}");
+            }
+            let [centres, dense] = [grid.with_centres(), grid.dense()];
+            let middle = centres.sample_coordinate(centres.side() / 2);
+            assert_eq!(2 * middle, centres.side() << centres.bits(), "{side}: the middle");
+            assert!(
+                (256..512).contains(&dense.side()) && dense.bits() > 0,
+                "{side}: {dense:?}"
+            );
+        }
+        assert_eq!(SubpixelGrid::fine().dense(), SubpixelGrid::fine(), "it is dense enough");
     }
 
     #[test]

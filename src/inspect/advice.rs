@@ -3,7 +3,7 @@
 
 use super::explanation::Question;
 use super::model::{Cure, Explanation, Setting, Truth};
-use crate::raster::{SamplePattern, SampleRate};
+use crate::raster::{SamplePattern, SampleRate, ShadingRate};
 use crate::render::{Nearby, RenderSettings};
 use crate::rules::Rules;
 use crate::texture::{
@@ -111,6 +111,7 @@ fn candidates(own: &RenderSettings, reads_textures: bool) -> Vec<(Setting, Vec<(
         (Setting::Rules, rules(own)),
         (Setting::SampleRate, rates(own)),
         (Setting::Pattern, patterns(own)),
+        (Setting::ShadingRate, shading_rates(own)),
     ];
     if reads_textures {
         all.extend(of_textures(own));
@@ -157,6 +158,25 @@ fn patterns(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
     is_sensible
         .then(|| (pattern.name().to_owned(), RenderSettings { pattern, ..*own }))
         .into_iter()
+        .collect()
+}
+
+/// Where colours are computed once: for the covered samples, where that was not so, and for each of them.
+fn shading_rates(own: &RenderSettings) -> Vec<(String, RenderSettings)> {
+    let others = match own.shading {
+        ShadingRate::Sample => &[][..],
+        ShadingRate::Centre => &[ShadingRate::Centroid, ShadingRate::Sample],
+        ShadingRate::Centroid => &[ShadingRate::Sample],
+    };
+    others
+        .iter()
+        .map(|shading| {
+            let settings = RenderSettings {
+                shading: *shading,
+                ..*own
+            };
+            (shading.name().to_owned(), settings)
+        })
         .collect()
 }
 

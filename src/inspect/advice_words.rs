@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 use super::model::{Cure, Explanation, Interpolated, Missed, Paint, Setting, Texture, Truth, View};
 use super::numbers::{number, percent, significant};
 use crate::color::ResolveSpace;
+use crate::raster::ShadingRate;
 use crate::texture::PyramidFilter;
 
 /// How many times as long as wide a footprint is from which on averaging it both ways blurs.
@@ -82,6 +83,7 @@ impl Explanation {
                     texture.extent_words()
                 )
             }),
+            Setting::ShadingRate => self.topmost().and_then(Paint::shaded_elsewhere),
             Setting::Rules | Setting::Pattern => None,
         }
     }
@@ -224,6 +226,28 @@ impl Truth {
     }
 }
 
+impl Paint {
+    /// That its colour was computed once for the pixel, and where.
+    fn shaded_elsewhere(&self) -> Option<String> {
+        self.shaded_at?;
+        let extrapolates = |view: &View| match view {
+            View::Triangle { weights, .. } => weights.iter().any(|weight| *weight < 0.0),
+            View::Polygon { .. } => false,
+        };
+        Some(if self.views.first().is_some_and(extrapolates) {
+            format!(
+                "The {} is shaded once for the whole pixel, in its centre, which lies outside: its colour is extrapolated.",
+                self.name()
+            )
+        } else {
+            format!(
+                "The {} is shaded once for the whole pixel, not at each of its samples.",
+                self.name()
+            )
+        })
+    }
+}
+
 impl Cure {
     /// What to set, the key that steps through the values, and what it brings.
     fn words(&self) -> String {
@@ -239,6 +263,10 @@ impl Cure {
             Setting::Pyramid => format!("Pyramid {value}"),
             Setting::PyramidFilter => format!("Pyramid filter {value}"),
             Setting::PixelSampling => format!("Pixel sampling {value} (key P in the window)"),
+            Setting::ShadingRate if value == ShadingRate::Centroid.name() => {
+                "Shading in the centroid of the covered samples".to_owned()
+            }
+            Setting::ShadingRate => format!("Shading per {value}"),
             Setting::SampleRate if value == "256" => format!("{value} samples"),
             Setting::SampleRate => format!("{value} samples (key = in the window)"),
             Setting::Pattern => {

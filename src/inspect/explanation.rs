@@ -10,7 +10,9 @@ use super::samples::{SampleHit, shape_of, straight};
 use super::triangle_views::{edges, interpolated, triangle_view};
 use crate::color::BlendMode;
 use crate::geometry::{FillRule, Polygon};
-use crate::raster::{Attributes, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay, SampleOfTriangle};
+use crate::raster::{
+    Attributes, PaintedCommand, PaintedKind, Piece, PieceShape, PixelReplay, SampleOfTriangle, ShadingPlace,
+};
 use crate::render::{self, Explainer, OpenSample, Subject};
 use crate::rules::Rules;
 use crate::scene::{self, Composite, MaskKind, PrimitiveKind, Quotes};
@@ -153,6 +155,7 @@ impl Question<'_> {
                 })
                 .collect(),
             width: None,
+            shaded_at: op.shaded.map(ShadingPlace::position),
             views,
             texture,
             gradient: self.gradient(op.source),

@@ -148,6 +148,8 @@ pub enum Setting {
     SampleRate,
     /// Where they lie.
     Pattern,
+    /// How often primitives are shaded in a pixel.
+    ShadingRate,
 }
 
 impl Resolve {
@@ -203,6 +205,10 @@ pub struct Paint {
     pub fragments: Vec<Fragment>,
     /// What every sample of the pixel sees of it, in the order of samples; empty for what has neither edges nor windings.
     pub views: Vec<View>,
+    /// Where it was shaded for all of its samples, if not at each: `[0, 0]` is the pixel's top left corner, `[1, 1]` its bottom
+    /// right one. What [`Paint::views`] tell of weights and colours is found there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shaded_at: Option<[f64; 2]>,
     /// How it reads its texture.
     pub texture: Option<Texture>,
     /// The gradient that fills it.

@@ -245,6 +245,24 @@ impl Fragment {
     }
 }
 
+impl Paint {
+    /// Where it was shaded for all of its samples.
+    pub(super) fn shaded_line(&self) -> Option<String> {
+        let [x, y] = self.shaded_at?;
+        let is_centre = (x - 0.5).abs() < 1e-9 && (y - 0.5).abs() < 1e-9;
+        let what = if is_centre {
+            "the pixel's centre"
+        } else {
+            "the mean of the samples that it covers"
+        };
+        Some(format!(
+            "shaded    once for all its samples, at ({}, {}): {what}",
+            number(x),
+            number(y)
+        ))
+    }
+}
+
 impl Texture {
     /// In which values its coarser levels were averaged.
     pub fn averaged_in(&self) -> ResolveSpace {

@@ -301,6 +301,7 @@ impl Explanation {
                 for (name, edge) in ["AB", "BC", "CA"].iter().zip(edges) {
                     lines.push(format!("edge {name}   {}", edge.words()));
                 }
+                lines.extend(found.shaded_line());
                 let [a, b, c] = weights;
                 lines.push(format!("weights   A {a:.4}  B {b:.4}  C {c:.4}"));
                 lines.extend(value.lines());
@@ -318,6 +319,7 @@ impl Explanation {
                 } else {
                     format!("winding   {winding}: {verdict} by the rule {rule}")
                 });
+                lines.extend(found.shaded_line());
                 lines.extend(value.lines());
             }
             None => {}

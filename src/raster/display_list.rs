@@ -96,6 +96,7 @@ impl<'a> DisplayList<'a> {
             rate: self.context.rate,
             filter: self.settings.filter,
             space: self.settings.space,
+            shading: self.context.shading,
             sampling: self.settings.sampling,
             sources: &self.sources,
         }

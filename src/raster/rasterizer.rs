@@ -132,6 +132,7 @@ mod tests {
                 rate,
                 pattern,
                 seed: crate::raster::Seed::default(),
+                shading: crate::raster::ShadingRate::default(),
                 sampling: SamplingSettings { rules, ..sampling },
                 filter: any_filter(u)?,
                 space: *u.choose(&ResolveSpace::ALL)?,

@@ -4,6 +4,7 @@ use crate::color::{ResolveSpace, Rgba};
 use crate::raster::resolve::SizedFilter;
 use crate::raster::sampling::pattern::{SamplePattern, Seed};
 use crate::raster::sampling::rate::SampleRate;
+use crate::raster::sampling::shading_rate::ShadingRate;
 use crate::texture::SamplingSettings;
 
 /// Everything that decides how primitives become pixels.
@@ -15,6 +16,8 @@ pub struct RasterSettings {
     pub pattern: SamplePattern,
     /// Where they lie by chance: which chance.
     pub seed: Seed,
+    /// How often primitives are shaded in a pixel.
+    pub shading: ShadingRate,
     /// How textures are read, and by whose rules.
     pub sampling: SamplingSettings,
     /// What samples weigh in a pixel, its own and its neighbours'.

@@ -9,6 +9,7 @@ mod mesh;
 mod outline;
 mod study;
 mod study_patterns;
+mod study_shading;
 mod study_shown;
 mod study_textures;
 mod subdiv;
@@ -30,6 +31,7 @@ pub(crate) fn scenes() -> Vec<SceneFile> {
         study_textures::SCENES,
         study_patterns::SCENES,
         study_shown::SCENES,
+        study_shading::SCENES,
     ]
     .concat()
 }

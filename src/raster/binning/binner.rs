@@ -477,6 +477,7 @@ mod tests {
             rate: SampleRate::new(side * side).expect("a square number"),
             pattern: SamplePattern::Grid,
             seed: crate::raster::Seed::default(),
+            shading: crate::raster::ShadingRate::default(),
             sampling: SamplingSettings {
                 rules: *u.choose(&Rules::ALL)?,
                 ..SamplingSettings::default()
@@ -525,6 +526,7 @@ mod tests {
             rate: SampleRate::ONE,
             pattern: SamplePattern::Grid,
             seed: crate::raster::Seed::default(),
+            shading: crate::raster::ShadingRate::default(),
             sampling: SamplingSettings::default(),
             filter: SizedFilter::default(),
             space: ResolveSpace::Stored,

@@ -226,6 +226,7 @@ mod tests {
             rate: SampleRate::new(side * side).expect("a square number"),
             pattern: SamplePattern::Grid,
             seed: crate::raster::Seed::default(),
+            shading: crate::raster::ShadingRate::default(),
             sampling: SamplingSettings {
                 rules,
                 ..SamplingSettings::default()

@@ -207,6 +207,7 @@ mod tests {
             rate: SampleRate::new(samples).expect("a rate"),
             pattern,
             seed: crate::raster::Seed::default(),
+            shading: crate::raster::ShadingRate::default(),
             sampling: SamplingSettings {
                 pixel: PixelSampling::Bilinear,
                 rules,

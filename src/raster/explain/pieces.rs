@@ -15,6 +15,7 @@ use crate::raster::paint::recorder::PaintedCommand;
 use crate::raster::sampling::positions::Position;
 use crate::raster::shading::context::{ShadeContext, ShadedSample};
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
+use crate::raster::shading::once::ShadingPlace;
 use crate::raster::shading::{Paint, Shader};
 use crate::raster::span::Span;
 use crate::rules::Rules;
@@ -62,7 +63,7 @@ pub struct SampleOfTriangle {
     pub edges: [EdgeTest; 3],
     /// The same edge functions in 32-bit floats and square pixels, by the rules that decide by them.
     pub floats: Option<[f32; 3]>,
-    /// Barycentric weights of the whole triangle's corners there, also where a part of it was clipped.
+    /// Barycentric weights of the whole triangle's corners where it is shaded for this sample, also where a part of it was clipped.
     pub weights: [f64; 3],
     /// What is interpolated there.
     pub attributes: Attributes,
@@ -95,6 +96,12 @@ impl DisplayList<'_> {
         let Some(chunk) = self.chunks.first() else {
             return Vec::new();
         };
+        let painted = if self.context.shading.is_once() {
+            self.painted(pixel[0], pixel[1])
+        } else {
+            Vec::new()
+        };
+        let place = |command: usize| painted.iter().find(|painted| painted.command == command)?.shaded;
         let pixel = self.painted_at(pixel);
         let seen = SeenFrom {
             context: self.shade_context(),
@@ -102,22 +109,24 @@ impl DisplayList<'_> {
             pixel,
             places: self.places().of_pixel(pixel, &mut Vec::new()).to_vec(),
         };
-        let shape = |command: &DrawCommand| match *command {
+        let shape = |command: usize, kind: &DrawCommand| match *kind {
             DrawCommand::Triangle(index) => {
                 let whole = weights.triangles.get(index as usize);
-                let weights = whole.map(|triangle| &weights.paints[triangle.paint as usize].paint);
+                // Without such colours nothing was clipped away.
+                let corners = corner_weights();
+                let weights = whole.map_or(&corners, |triangle| &weights.paints[triangle.paint as usize].paint);
                 let triangle = &chunk.triangles[index as usize];
                 let float = chunk.floats.get(index as usize);
                 let paint = &chunk.paints[triangle.paint as usize].paint;
-                Some(seen.triangle(triangle, float, paint, weights))
+                Some(seen.triangle(triangle, float, [paint, weights], place(command)))
             }
-            DrawCommand::Outline(index) => Some(seen.outline(chunk, index)),
+            DrawCommand::Outline(index) => Some(seen.outline(chunk, index, place(command))),
             DrawCommand::Hairline(_) | DrawCommand::Pixels(_) | DrawCommand::Samples(_) => Some(PieceShape::Pixels),
             DrawCommand::BeginLayer(_) | DrawCommand::EndLayer(_) => None,
         };
         let commands = chunk.commands.iter().enumerate();
         commands
-            .filter_map(|(command, kind)| shape(kind).map(|shape| Piece { command, shape }))
+            .filter_map(|(command, kind)| shape(command, kind).map(|shape| Piece { command, shape }))
             .collect()
     }
 }
@@ -134,7 +143,7 @@ fn corner_weights() -> Paint {
 }
 
 /// The weights at a sample: what the first of some paints with colours at the corners interpolates there.
-fn weights_at(shaders: &[Shader<'_>], sample: ShadedSample) -> [f64; 3] {
+fn weights_at(shaders: &[Shader<'_>; 2], sample: ShadedSample) -> [f64; 3] {
     let of = |shader: &Shader<'_>| match shader.interpolated(sample) {
         Attributes::Color([a, b, c, _]) => Some([a, b, c]),
         Attributes::None
@@ -171,22 +180,26 @@ impl SeenFrom<'_> {
         self.places.iter().map(sample)
     }
 
+    /// Where a primitive is shaded: what its shader has to be prepared with, and the sample for each sample that is covered.
+    fn shaded(&self, place: Option<ShadingPlace>) -> (ShadeContext<'_>, impl Fn(ShadedSample) -> ShadedSample) {
+        let context = place.map_or(self.context, |place| self.context.on(place.grid));
+        let once = place.map(|place| place.in_pixel(&context, self.pixel));
+        (context, move |sample| once.unwrap_or(sample))
+    }
+
+    /// A triangle, its paint, and the one that has weights for colours; and where it is shaded for the whole pixel.
     fn triangle(
         &self,
         triangle: &ScreenTriangle,
         float: Option<&FloatShape>,
-        paint: &Paint,
-        weights: Option<&Paint>,
+        [paint, weights]: [&Paint; 2],
+        place: Option<ShadingPlace>,
     ) -> PieceShape {
         let grid = self.grid();
         let corners = triangle.corners;
-        let shader = Shader::new(&self.context, &corners, paint);
-        // Without such colours nothing was clipped away.
-        let weights: Vec<Shader<'_>> = weights
-            .into_iter()
-            .chain([&corner_weights()])
-            .map(|paint| Shader::new(&self.context, &corners, paint))
-            .collect();
+        let (context, shaded) = self.shaded(place);
+        let shader = Shader::new(&context, &corners, paint);
+        let weights = [weights, &corner_weights()].map(|paint| Shader::new(&context, &corners, paint));
         let samples = self.samples().map(|sample| {
             let [column, row] = sample.in_frame();
             let point = GridPoint {
@@ -197,8 +210,8 @@ impl SeenFrom<'_> {
                 units_per_pixel: grid.units_per_pixel(),
                 edges: EdgeTest::of_triangle(corners, point),
                 floats: float.map(|float| float.edges(grid, [column, row])),
-                weights: weights_at(&weights, sample),
-                attributes: shader.interpolated(sample),
+                weights: weights_at(&weights, shaded(sample)),
+                attributes: shader.interpolated(shaded(sample)),
             }
         });
         PieceShape::Triangle {
@@ -206,14 +219,15 @@ impl SeenFrom<'_> {
             corners: corners.map(|corner| {
                 DVec2::new(f64::from(corner.x), f64::from(corner.y)) / grid.units_per_pixel() - self.shift
             }),
-            texture: shader.texture_use(&self.context),
+            texture: shader.texture_use(&context),
         }
     }
 
-    fn outline(&self, chunk: &Chunk, index: u32) -> PieceShape {
+    fn outline(&self, chunk: &Chunk, index: u32, place: Option<ShadingPlace>) -> PieceShape {
         let grid = self.grid();
         let outline = chunk.outline(index).outline;
-        let shader = Shader::new(&self.context, &NO_CORNERS, &chunk.outline_paint(index).paint);
+        let (context, shaded) = self.shaded(place);
+        let shader = Shader::new(&context, &NO_CORNERS, &chunk.outline_paint(index).paint);
         let winding = |sample: ShadedSample| {
             let [column, row] = sample.in_frame();
             let rows = Span {
@@ -230,7 +244,10 @@ impl SeenFrom<'_> {
         PieceShape::Outline {
             rule: outline.outline.rule,
             windings: self.samples().map(winding).collect(),
-            attributes: self.samples().map(|sample| shader.interpolated(sample)).collect(),
+            attributes: self
+                .samples()
+                .map(|sample| shader.interpolated(shaded(sample)))
+                .collect(),
         }
     }
 }

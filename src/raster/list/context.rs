@@ -6,6 +6,7 @@ use crate::geometry::subpixel::SubpixelGrid;
 use crate::raster::sampling::pattern::{SamplePattern, Seed};
 use crate::raster::sampling::positions::lattice;
 use crate::raster::sampling::rate::SampleRate;
+use crate::raster::sampling::shading_rate::ShadingRate;
 use crate::raster::settings::RasterSettings;
 use crate::raster::span::{Span, SpanRect};
 use crate::raster::tile_layout::TileLayout;
@@ -21,6 +22,8 @@ pub struct ListContext {
     pub(crate) seed: Seed,
     pub(crate) rate: SampleRate,
     pub(crate) rules: Rules,
+    /// How often primitives are shaded in a pixel: at each sample where that is the same.
+    pub(crate) shading: ShadingRate,
     /// Pixels in a row, rows: of the frame.
     pub(crate) frame_size: [u32; 2],
     /// The same of what is painted, the frame and a margin around it, whose pixels are counted from the margin's first.
@@ -50,6 +53,11 @@ impl ListContext {
             seed: settings.seed,
             rate,
             rules: settings.sampling.rules,
+            shading: if pattern == SamplePattern::Grid && rate == SampleRate::ONE {
+                ShadingRate::Sample
+            } else {
+                settings.shading
+            },
             frame_size: size,
             size: size.map(|pixels| pixels + 2 * margin),
             margin,

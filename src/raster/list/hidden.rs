@@ -143,6 +143,7 @@ mod tests {
                 rate: SampleRate::new(*u.choose(&[1, 4, 9, 16])?).expect("a rate"),
                 pattern,
                 seed: crate::raster::Seed::default(),
+                shading: crate::raster::ShadingRate::default(),
                 sampling: SamplingSettings {
                     rules: *u.choose(&Rules::ALL)?,
                     ..SamplingSettings::default()

@@ -1,5 +1,7 @@
 //! Painting one tile: every command of the display list that touches it, in painter's order.
 
+mod once;
+
 use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::coverage::covered::Covered;
@@ -8,6 +10,7 @@ use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
+use crate::raster::paint::per_sample::once::OnceQueue;
 use crate::raster::paint::recorder::{PaintedCommand, PaintedKind, Recorder};
 use crate::raster::paint::sample_colors::{SampleColors, ShadedColors};
 use crate::raster::paint::wide::{WeighedPixels, WideResolve};
@@ -30,6 +33,7 @@ pub(crate) struct PerSamplePainter<'a> {
     covered: Vec<(i32, Covered)>,
     points: Vec<[u16; 2]>,
     colors: Vec<Premultiplied16>,
+    once: OnceQueue,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
     /// When a single pixel is replayed: what was painted.
@@ -48,6 +52,7 @@ impl<'a> PerSamplePainter<'a> {
             covered: Vec::new(),
             points: Vec::new(),
             colors: Vec::new(),
+            once: OnceQueue::default(),
             samples_shaded: 0,
             recorder: None,
         }
@@ -66,6 +71,9 @@ impl<'a> PerSamplePainter<'a> {
             }
             match entry.work(chunk) {
                 Work::Flat(shape, color) => self.shape(shape, shape_coverage, |_| Shader::flat(color)),
+                Work::Shaded(shape, corners, paint) if self.context.shading.is_once() => {
+                    self.shape_once(shape, shape_coverage, |context| Shader::new(context, corners, paint));
+                }
                 Work::Shaded(shape, corners, paint) => {
                     self.shape(shape, shape_coverage, |context| Shader::new(context, corners, paint));
                 }

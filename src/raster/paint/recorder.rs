@@ -5,6 +5,7 @@ use crate::raster::binning::tile_command::Work;
 use crate::raster::coverage::covered::Covered;
 use crate::raster::layers::Compositing;
 use crate::raster::sampling::mask::SampleMask;
+use crate::raster::shading::once::ShadingPlace;
 
 /// Fragments that are kept at most; beyond that those of the commands painted first are forgotten.
 const MOST_FRAGMENTS: usize = 1 << 19;
@@ -25,6 +26,8 @@ pub struct PaintedCommand {
     pub fragments: Vec<PaintedSample>,
     /// How many samples it painted, also where they were forgotten.
     pub count: usize,
+    /// Where it was shaded for all of them, if not at each.
+    pub shaded: Option<ShadingPlace>,
 }
 
 /// Kinds of commands.
@@ -101,6 +104,7 @@ impl Recorder {
             layers,
             fragments: Vec::new(),
             count: 0,
+            shaded: None,
         });
     }
 
@@ -169,6 +173,13 @@ impl Recorder {
             self.colors[sample] = Some(color(i));
             i += 1;
         });
+    }
+
+    /// The command was shaded there for all samples.
+    pub(in crate::raster) fn shaded_at(&mut self, place: ShadingPlace) {
+        if let Some(command) = self.painted.last_mut() {
+            command.shaded = Some(place);
+        }
     }
 
     /// What was painted, now that the samples hold `after`; and how many fragments each sample got.

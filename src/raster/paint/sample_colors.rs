@@ -143,6 +143,20 @@ impl SampleColors {
         }
     }
 
+    /// Paints each of the pixels `xs` of row `y` with its own colour.
+    pub(crate) fn fill_each(&mut self, xs: Span, y: i32, shaded: ShadedColors<'_>) {
+        if shaded.opaque && !xs.is_empty() {
+            let first = self.index(xs.start, y);
+            let last = first + offset(xs.end - xs.start);
+            self.whole[first..last].copy_from_slice(shaded.colors);
+            self.split[first..last].fill(false);
+            return;
+        }
+        for (start, color) in (xs.start..xs.end).zip(shaded.colors) {
+            self.fill(Span { start, end: start + 1 }, y, *color);
+        }
+    }
+
     /// Paints all samples of the pixels `xs` of row `y` with a colour each, pixel by pixel.
     #[inline]
     pub(crate) fn write(&mut self, xs: Span, y: i32, shaded: ShadedColors<'_>) {

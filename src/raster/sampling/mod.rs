@@ -4,4 +4,5 @@ pub(in crate::raster) mod mask;
 pub(in crate::raster) mod pattern;
 pub(in crate::raster) mod positions;
 pub(in crate::raster) mod rate;
+pub(in crate::raster) mod shading_rate;
 pub(in crate::raster) mod statistics;

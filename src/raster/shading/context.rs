@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use crate::color::ResolveSpace;
 use crate::geometry::subpixel::SubpixelGrid;
-use crate::raster::SampleRate;
 use crate::raster::resolve::SizedFilter;
 use crate::raster::sampling::positions::Position;
 use crate::raster::shading::sources::PaintSources;
+use crate::raster::{SampleRate, ShadingRate};
 use crate::texture::{SampleGrid, SamplingSettings};
 
 /// What shading needs to know besides the triangle.
@@ -19,6 +19,8 @@ pub(crate) struct ShadeContext<'a> {
     /// What each of them weighs in its pixel, and in which values they are averaged.
     pub(crate) filter: SizedFilter,
     pub(crate) space: ResolveSpace,
+    /// How often a primitive is shaded in a pixel.
+    pub(crate) shading: ShadingRate,
     pub(crate) sampling: SamplingSettings,
     pub(crate) sources: &'a PaintSources<'a>,
 }
@@ -68,6 +70,11 @@ pub(crate) struct ShadedSample {
 }
 
 impl ShadeContext<'_> {
+    /// The same on another grid of the same units.
+    pub(crate) fn on(self, grid: SubpixelGrid) -> Self {
+        Self { grid, ..self }
+    }
+
     /// The samples of a tile whose first pixel is `origin`.
     pub(crate) fn samples_from(&self, origin: [i32; 2]) -> SampleGrid {
         SampleGrid {

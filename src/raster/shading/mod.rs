@@ -17,6 +17,7 @@ mod gradient;
 pub(in crate::raster) mod interpolated;
 mod kernel;
 mod kind;
+pub(in crate::raster) mod once;
 mod pattern;
 mod solid;
 pub(in crate::raster) mod sources;
@@ -226,8 +227,8 @@ mod tests {
     use super::*;
     use crate::color::ResolveSpace;
     use crate::geometry::subpixel::SubpixelGrid;
-    use crate::raster::SampleRate;
     use crate::raster::resolve::SizedFilter;
+    use crate::raster::{SampleRate, ShadingRate};
     use crate::texture::SamplingSettings;
 
     /// A paint of which nothing but the colours of samples is known: column in red, row in green.
@@ -281,6 +282,7 @@ mod tests {
             rate: SampleRate::ONE,
             filter: SizedFilter::default(),
             space: ResolveSpace::Stored,
+            shading: ShadingRate::Sample,
             sampling: SamplingSettings::default(),
             sources: &sources,
         };

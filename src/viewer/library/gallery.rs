@@ -92,6 +92,8 @@ pub static SCENES: &[GalleryScene] = scenes![
     "study/20_conflation.svg",
     "study/21_fine_spokes.svg",
     "study/22_what_filters_cost.svg",
+    "study/23_one_colour_a_pixel.svg",
+    "study/24_what_one_colour_misses.svg",
     "subdiv/triangle0.svg",
     "subdiv/triangle1.svg",
     "subdiv/triangle2.svg",

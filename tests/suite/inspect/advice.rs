@@ -4,7 +4,7 @@ use glam::DVec2;
 use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::{View as SceneView, ViewTransform};
 use rasterscope::inspect::{Cure, Explanation, Interpolated, Question, Setting, View};
-use rasterscope::raster::{Framebuffer, ResolveFilter, SamplePattern, SampleRate};
+use rasterscope::raster::{Framebuffer, ResolveFilter, SamplePattern, SampleRate, ShadingRate};
 use rasterscope::render::{RenderSettings, Subject, draw, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, PrimitiveKind, ReadOptions, Scene};
@@ -120,6 +120,12 @@ fn follow(cure: &Cure, own: &RenderSettings) -> RenderSettings {
         Setting::Anisotropy => settings.anisotropy = Anisotropy::new(value.parse().unwrap()).unwrap(),
         Setting::PixelSampling => settings.pixel_sampling = PixelSampling::Bilinear,
         Setting::SampleRate => settings.sample_rate = rate(value.parse().unwrap()),
+        Setting::ShadingRate => {
+            settings.shading = ShadingRate::ALL
+                .into_iter()
+                .find(|shading| shading.name() == value)
+                .unwrap();
+        }
         Setting::Pattern => {
             settings.pattern = SamplePattern::ALL
                 .into_iter()

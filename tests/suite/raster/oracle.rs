@@ -1,7 +1,7 @@
 //! The engine against the brute-force renderer, on random scenes full of ties.
 
 use rasterscope::color::ResolveSpace;
-use rasterscope::raster::{FilterRadius, Framebuffer, ResolveFilter, SamplePattern, Seed};
+use rasterscope::raster::{FilterRadius, Framebuffer, ResolveFilter, SamplePattern, Seed, ShadingRate};
 use rasterscope::render::RenderSettings;
 use rasterscope::rules::Rules;
 use rasterscope::texture::{
@@ -56,6 +56,7 @@ fn samples(u: &mut arbtest::arbitrary::Unstructured<'_>) -> arbtest::arbitrary::
         resolve_filter: *u.choose(filters)?,
         filter_radius: FilterRadius::new(radius).filter(|_| is_wide && radius > 1.0),
         resolve: *u.choose(&[ResolveSpace::Stored, ResolveSpace::Stored, ResolveSpace::Linear])?,
+        shading: *u.choose(&ShadingRate::ALL)?,
         ..at_rate(*u.choose(rates)?)
     })
 }

@@ -13,7 +13,7 @@ use rasterscope::color::BlendMode;
 use rasterscope::color::Spread;
 use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::{FillRule, View, ViewTransform};
-use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate};
+use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate, ShadingRate};
 use rasterscope::render::{RenderSettings, Subject, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{Composite, Dialect, Fill, MaskKind, Paint, PrimitiveKind, Scene};
@@ -43,6 +43,16 @@ enum Filling<'a> {
     Paint(&'a Paint),
 }
 
+/// A pixel and its samples, as points of a lattice.
+struct Pixel<'p> {
+    at: [i64; 2],
+    /// Counted from its first point.
+    places: &'p [[u32; 2]],
+    /// Points along one side of a pixel, and fractional bits between two of them.
+    side: u32,
+    bits: u32,
+}
+
 enum Step<'a> {
     Triangle(Triangle<'a>),
     Outline(Outline),
@@ -65,12 +75,16 @@ pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSetting
     let mut samples = Vec::new();
     for y in -margin..height + margin {
         for x in -margin..width + margin {
-            let of_pixel = |[right, down]: [u32; 2]| {
-                let at = [
-                    x * i64::from(side) + i64::from(right),
-                    y * i64::from(side) + i64::from(down),
-                ];
-                let color = sample_color(&steps, (scene, view), settings, at, (side, bits));
+            let places = places(settings, [x, y]);
+            let pixel = Pixel {
+                at: [x, y],
+                places: &places,
+                side,
+                bits,
+            };
+            let of_pixel = |place: &[u32; 2]| {
+                let [right, down] = *place;
+                let color = sample_color(&steps, (scene, view), settings, (&pixel, *place));
                 let averaged = match settings.resolve {
                     ResolveSpace::Stored => color,
                     ResolveSpace::Linear => each_straight(color, to_light),
@@ -80,7 +94,7 @@ pub(crate) fn draw(scene: &Scene, view: &ViewTransform, settings: &RenderSetting
                     averaged,
                 )
             };
-            samples.push(places(settings, [x, y]).into_iter().map(of_pixel).collect::<Vec<_>>());
+            samples.push(places.iter().map(of_pixel).collect::<Vec<_>>());
         }
     }
     let mut frame = Framebuffer::new(size[0], size[1]);
@@ -322,9 +336,9 @@ fn sample_color(
     steps: &[Step<'_>],
     (scene, view): (&Scene, &ViewTransform),
     settings: &RenderSettings,
-    [i, j]: [i64; 2],
-    (side, bits): (u32, u32),
+    (pixel, place): (&Pixel<'_>, [u32; 2]),
 ) -> Color {
+    let sample = pixel.sample(place);
     let mut layers = vec![premultiply(settings.background)];
     for step in steps {
         let painted = match step {
@@ -339,16 +353,18 @@ fn sample_color(
                 continue;
             }
             Step::Pixels(pixels, color) => {
-                let here = [i, j].map(|at| at.div_euclid(side.into()));
-                let here = (here[0], here[1]);
-                pixels.contains(&here).then(|| premultiply(*color))
+                let [x, y] = pixel.at;
+                pixels.contains(&(x, y)).then(|| premultiply(*color))
             }
-            Step::Outline(outline) if !outline.encloses([i, j], bits) => None,
-            Step::Outline(outline) => {
-                let pixel = DVec2::new(i as f64 + 0.5, j as f64 + 0.5) / f64::from(side);
-                Some(filled(outline.fill, scene, view.to_scene(pixel)))
-            }
-            Step::Triangle(triangle) => triangle.color(scene, settings, [i, j], (side, bits)),
+            Step::Outline(outline) => outline.encloses(sample).then(|| {
+                let (x, y) = pixel.shaded_at(settings.shading, sample, |sample| outline.encloses(sample));
+                let at = DVec2::new(x as f64, y as f64) / f64::from(pixel.side << pixel.bits);
+                filled(outline.fill, scene, view.to_scene(at))
+            }),
+            Step::Triangle(triangle) => triangle.covers(sample, pixel).then(|| {
+                let at = pixel.shaded_at(settings.shading, sample, |sample| triangle.covers(sample, pixel));
+                triangle.color(scene, settings, at, pixel)
+            }),
         };
         if let (Some(above), Some(below)) = (painted, layers.last_mut()) {
             *below = std::array::from_fn(|k| above[k] + below[k] * (1.0 - above[3]));
@@ -425,12 +441,58 @@ fn filled(fill: Fill, scene: &Scene, at: DVec2) -> Color {
     premultiply(color)
 }
 
+impl Pixel<'_> {
+    /// A sample in units of the sub-pixel grid.
+    fn sample(&self, place: [u32; 2]) -> (i128, i128) {
+        let at = |axis: usize| {
+            let index = self.at[axis] * i64::from(self.side) + i64::from(place[axis]);
+            (i128::from(index) << self.bits) + (1 << (self.bits - 1))
+        };
+        (at(0), at(1))
+    }
+
+    /// Where a primitive is shaded for a sample that it covers, as it does all of those that `covers` says.
+    fn shaded_at(
+        &self,
+        shading: ShadingRate,
+        sample: (i128, i128),
+        covers: impl Fn((i128, i128)) -> bool,
+    ) -> (i128, i128) {
+        let units = i128::from(self.side << self.bits);
+        let corner = self.at.map(|at| i128::from(at) * units);
+        let centre = (corner[0] + units / 2, corner[1] + units / 2);
+        let covered = self
+            .places
+            .iter()
+            .map(|place| self.sample(*place))
+            .filter(|sample| covers(*sample));
+        let covered: Vec<(i128, i128)> = covered.collect();
+        match shading {
+            ShadingRate::Sample => sample,
+            ShadingRate::Centre => centre,
+            ShadingRate::Centroid if covered.len() == self.places.len() => centre,
+            ShadingRate::Centroid => {
+                // To the middle of a cell, of which at least 256 lie along a side of the pixel.
+                let mut cells = i128::from(self.side);
+                while cells < 256 {
+                    cells *= 2;
+                }
+                let cell = units / cells;
+                let count = covered.len() as i128;
+                let mean = |of: fn(&(i128, i128)) -> i128| {
+                    let sum: i128 = covered.iter().map(of).sum();
+                    sum.div_euclid(count * cell) * cell + cell / 2
+                };
+                (mean(|at| at.0), mean(|at| at.1))
+            }
+        }
+    }
+}
+
 impl Outline {
     /// Whether a sample lies inside: how often the edges left of it wind around it. An edge counts in the rows from its
     /// top up to its bottom, and to the right of itself.
-    fn encloses(&self, [i, j]: [i64; 2], bits: u32) -> bool {
-        let at = |index: i64| (i128::from(index) << bits) + (1 << (bits - 1));
-        let (x, y) = (at(i), at(j));
+    fn encloses(&self, (x, y): (i128, i128)) -> bool {
         let mut winding = 0;
         for [from, to] in &self.edges {
             let (top, bottom, around) = if from.1 < to.1 { (from, to, 1) } else { (to, from, -1) };
@@ -447,45 +509,48 @@ impl Outline {
 }
 
 impl Triangle<'_> {
-    fn color(
-        &self,
-        scene: &Scene,
-        settings: &RenderSettings,
-        [i, j]: [i64; 2],
-        (side, bits): (u32, u32),
-    ) -> Option<Color> {
-        let at = |index: i64| (i128::from(index) << bits) + (1 << (bits - 1));
-        let sample = (at(i), at(j));
+    /// Twice its area, and for each corner what is twice that of the triangle between a point and the other two, and whether the
+    /// point is inside of their edge if it lies on it.
+    fn edges(&self, point: (i128, i128)) -> (i128, [(i128, bool); 3]) {
         let cross =
             |a: (i128, i128), b: (i128, i128), p: (i128, i128)| (b.0 - a.0) * (p.1 - a.1) - (b.1 - a.1) * (p.0 - a.0);
         let [a, b, c] = self.corners;
         let area = cross(a, b, c);
-        if let Some(corners) = self.float {
-            let place = |index: i64| ((index as f64 + 0.5) / f64::from(side)) as f32;
-            if area == 0 || !is_inside_in_floats(corners, (place(i), place(j))) {
-                return None;
-            }
-        }
-        let mut weights = [0.0; 3];
-        for (k, (from, to)) in [(b, c), (c, a), (a, b)].into_iter().enumerate() {
-            let value = cross(from, to, sample) * area.signum();
+        let edges = [(b, c), (c, a), (a, b)].map(|(from, to)| {
             let (dx, dy) = ((to.0 - from.0) * area.signum(), (to.1 - from.1) * area.signum());
             let top_left = dy < 0 || (dy == 0 && dx > 0);
-            if self.float.is_none() && (value < 0 || (value == 0 && !top_left) || area == 0) {
-                return None;
+            (cross(from, to, point) * area.signum(), top_left)
+        });
+        (area.abs(), edges)
+    }
+
+    /// Whether a sample lies inside.
+    fn covers(&self, sample: (i128, i128), pixel: &Pixel<'_>) -> bool {
+        let (area, edges) = self.edges(sample);
+        match self.float {
+            Some(corners) => {
+                let place = |at: i128| (at as f64 / f64::from(pixel.side << pixel.bits)) as f32;
+                area != 0 && is_inside_in_floats(corners, (place(sample.0), place(sample.1)))
             }
-            weights[k] = value as f64 / area.abs() as f64;
+            None => area != 0 && edges.iter().all(|(value, on)| *value > 0 || *value == 0 && *on),
         }
+    }
+
+    /// The colour at a point, inside or not.
+    fn color(&self, scene: &Scene, settings: &RenderSettings, at: (i128, i128), pixel: &Pixel<'_>) -> Color {
+        let (area, edges) = self.edges(at);
+        let weights = edges.map(|(value, _)| value as f64 / area as f64);
         let paint = match self.fill {
-            Filling::Flat(color) => return Some(premultiply(color)),
+            Filling::Flat(color) => return premultiply(color),
             Filling::Paint(paint) => paint,
         };
-        Some(match paint {
+        match paint {
             Paint::Solid(color) => premultiply(*color),
             Paint::Vertex(colors) => {
                 let mix = |channel: fn(&Rgba) -> f32| {
                     (0..3).map(|k| weights[k] * f64::from(channel(&colors[k]))).sum::<f64>()
                 };
+                let mix = |channel| mix(channel).clamp(0.0, 1.0);
                 let alpha = mix(|c| c.a);
                 [mix(|c| c.r) * alpha, mix(|c| c.g) * alpha, mix(|c| c.b) * alpha, alpha]
             }
@@ -493,10 +558,10 @@ impl Triangle<'_> {
                 let uv = uv.map(|uv| DVec2::new(f64::from(uv.x), f64::from(uv.y)));
                 let here = uv[0] * weights[0] + uv[1] * weights[1] + uv[2] * weights[2];
                 let texture = &scene.textures[texture.0 as usize];
-                let per_pixel = self.uv_per_pixel(uv, f64::from(side << bits));
+                let per_pixel = self.uv_per_pixel(uv, f64::from(pixel.side << pixel.bits));
                 filtered(texture, here, per_pixel, settings).map(|channel| channel * f64::from(*opacity))
             }
-        })
+        }
     }
 
     /// `(u, v)` changes by this to the right and down: from the change of barycentric weights per pixel.

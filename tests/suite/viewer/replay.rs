@@ -363,10 +363,13 @@ fn replay_copies() {
     session.run(step("lod-by", 1.0));
     session.run(step("pyramid", 1.0));
     session.run(step("pyramid-filter", 1.0));
+    session.run(step("shading-rate", 1.0));
     let line = session.viewer.recipes().command_line().unwrap();
     let options = "--anisotropy 4 --lod-bias -1.5 --lod-level 2 --lod-per sample --lod-by area --pyramid linear --pyramid-filter tent --rules course";
     assert!(line.ends_with(options), "{line}");
+    assert!(line.contains("--sample-rate 4 --shading-rate centre --pixel"), "{line}");
     let title = session.viewer.both().title();
+    assert!(title.contains("sample rate 4, shading rate centre, "), "{title}");
     assert!(
         title.contains("level sampling nearest, anisotropy 4, bias -1.5, level 2, level per sample, level by area, pyramid linear, pyramid filter tent - "),
         "{title}"
@@ -378,7 +381,9 @@ fn replay_copies() {
     session.run(set("lod-by", "longer"));
     session.run(set("pyramid", "stored"));
     session.run(set("pyramid-filter", "box"));
+    session.run(set("shading-rate", "sample"));
     let line = session.viewer.recipes().command_line().unwrap();
+    assert!(!line.contains("shading-rate"), "{line}");
     assert!(line.ends_with("--level-sampling nearest --rules course"), "{line}");
 }
 

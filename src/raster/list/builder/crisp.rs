@@ -100,6 +100,7 @@ mod tests {
             rate: SampleRate::new(16).expect("a square number"),
             pattern: SamplePattern::Grid,
             seed: crate::raster::Seed::default(),
+            shading: crate::raster::ShadingRate::default(),
             sampling: SamplingSettings::default(),
             filter: SizedFilter::default(),
             space: ResolveSpace::Stored,

@@ -249,6 +249,7 @@ mod tests {
                 rate: SampleRate::new(*u.choose(&[1, 4, 9, 16, 25, 64, 100])?).expect("a square number"),
                 pattern: SamplePattern::Grid,
                 seed: crate::raster::Seed::default(),
+                shading: crate::raster::ShadingRate::default(),
                 sampling: SamplingSettings {
                     rules: *u.choose(&Rules::ALL)?,
                     ..SamplingSettings::default()

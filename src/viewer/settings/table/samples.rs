@@ -1,6 +1,6 @@
 //! Where samples lie, and how many.
 
-use crate::raster::{SamplePattern, SampleRate, Seed};
+use crate::raster::{SamplePattern, SampleRate, Seed, ShadingRate};
 use crate::viewer::key_chords::Chord;
 use crate::viewer::settings::row::{About, Control, PanelRow, PictureSetting, SettingCommand, Told, Values};
 use crate::viewer::settings::{Settings, values};
@@ -122,6 +122,23 @@ pub(super) const ROWS: &[PictureSetting] = &[
             let next = if by < 0.0 { seed.wrapping_sub(1) } else { seed + 1 };
             settings.render.seed = Seed::new(next % (Seed::MAX + 1)).unwrap_or_default();
         },
+    },
+    PictureSetting {
+        help: "Where colours are computed: at every sample, or once per primitive and pixel, in the pixel's centre or in the centroid of the covered samples",
+        about: About::Samples,
+        told: Told::IfChanged,
+        panel: Some(PanelRow::new("Shading", "Shading rate", Control::Buttons)),
+        commands: &[SettingCommand {
+            step: Some(1.0),
+            takes_value: true,
+            more: "Once is multisampling: edges stay smooth for the price of one colour, and textures alias as with one sample per pixel",
+            ..SettingCommand::new(
+                "shading-rate",
+                "Shading rate",
+                "Computes colours at every sample, or once per primitive and pixel: in its centre or the centroid of what is covered",
+            )
+        }],
+        ..named!("shading-rate", "shading rate", ShadingRate, render.shading)
     },
 ];
 

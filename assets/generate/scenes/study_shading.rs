@@ -76,10 +76,8 @@ fn what_one_colour_misses() -> String {
     }
     doc.decimals(3);
     for k in 0..24 {
-        let (from, to) = (
-            dvec2(24.0 + 19.3 * f64::from(k), 288.0),
-            dvec2(488.0, 308.0 + 8.1 * f64::from(k)),
-        );
+        let (below, lean) = (290.0 + 8.6 * f64::from(k), 1.1 * (f64::from(k) - 11.5) + 0.37);
+        let (from, to) = (dvec2(24.0, below - lean), dvec2(488.0, below + lean));
         let side = (to - from).normalize().perp() * PIXEL;
         let [dark, bright] = [INK, [AMBER, CORAL, SEA, PAPER][k as usize % 4]];
         doc.color_quad([from, to, to + side, from + side], [bright, bright, dark, dark]);

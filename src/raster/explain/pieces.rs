@@ -182,7 +182,7 @@ impl SeenFrom<'_> {
 
     /// Where a primitive is shaded: what its shader has to be prepared with, and the sample for each sample that is covered.
     fn shaded(&self, place: Option<ShadingPlace>) -> (ShadeContext<'_>, impl Fn(ShadedSample) -> ShadedSample) {
-        let context = place.map_or(self.context, |place| self.context.on(place.grid));
+        let context = self.context.on(place.map_or(self.grid(), |place| place.grid));
         let once = place.map(|place| place.in_pixel(&context, self.pixel));
         (context, move |sample| once.unwrap_or(sample))
     }

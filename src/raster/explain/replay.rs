@@ -202,6 +202,9 @@ impl DisplayList<'_> {
 
     /// Whether anything in the one tile of a pass is summed up before it is rounded.
     fn rounds_sums(&self, pass: &Pass<'_>) -> bool {
+        if self.context.shading.is_once() {
+            return false;
+        }
         let rounds = |work: &Work<'_>| matches!(work, Work::Shaded(_, _, paint) if !paint.rounds_each_sample());
         let mut commands = visible(&pass.bins, 0, first_visible(&pass.bins, 0));
         commands.any(|(chunk, commands)| {

@@ -3,12 +3,12 @@
 use rayon::prelude::*;
 
 use crate::color::ResolveSpace;
-use crate::raster::SampleRate;
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::list::chunk::Chunk;
 use crate::raster::list::context::ListContext;
 use crate::raster::resolve::SizedFilter;
 use crate::raster::shading::sources::PaintSources;
+use crate::raster::{SampleRate, ShadingRate};
 use crate::rules::Rules;
 
 /// How a tile is painted.
@@ -95,7 +95,7 @@ impl Kinds {
         let all_opaque = || self.opaque || all(|command, _| command.is_opaque());
         let exact = || all(|command, chunk| command.is_opaque() && rounds_each_sample(&command.work(chunk)));
         let all_flat = || self.flat || all(|command, chunk| !matches!(command.work(chunk), Work::Shaded(..)));
-        if context.shading.is_once() && !all_flat() {
+        if context.shading == ShadingRate::Centroid && !all_flat() {
             // What a primitive covered of a pixel before others came over it decides where it is shaded.
             return Method::PerSample;
         }
@@ -116,7 +116,8 @@ impl Kinds {
         }
         let visibility = match self.blended {
             Blended::Nowhere => true,
-            Blended::WhereItMatters => all_flat() || exact(),
+            // One colour for all samples of a pixel is rounded before they are summed.
+            Blended::WhereItMatters => all_flat() || exact() || context.shading.is_once() && all_opaque(),
             Blended::Everywhere => all_flat(),
         };
         if visibility {

@@ -70,9 +70,10 @@ pub(crate) struct ShadedSample {
 }
 
 impl ShadeContext<'_> {
-    /// The same on another grid of the same units.
+    /// The same on another grid of the same units, on which every sample that is asked for is shaded.
     pub(crate) fn on(self, grid: SubpixelGrid) -> Self {
-        Self { grid, ..self }
+        let shading = ShadingRate::Sample;
+        Self { grid, shading, ..self }
     }
 
     /// The samples of a tile whose first pixel is `origin`.

@@ -33,6 +33,7 @@ use crate::raster::shading::context::{MaskedPixels, PixelRun, Pixels, PlacedPixe
 use crate::raster::shading::gradient::GradientPaint;
 use crate::raster::shading::interpolated::{Attributes, TextureUse};
 use crate::raster::shading::kind::{PaintKind, Shade};
+use crate::raster::shading::once::Centres;
 use crate::raster::shading::pattern::PatternPaint;
 use crate::raster::shading::solid::{SolidPaint, SolidShader};
 use crate::raster::shading::sources::PaintSources;
@@ -115,6 +116,8 @@ pub(crate) struct Shader<'a> {
     /// Whether every fragment hides what is below it.
     pub(crate) opaque: bool,
     rules: Rules,
+    /// Where each pixel is shaded for all of its samples, if it is.
+    centres: Option<Centres>,
 }
 
 impl Paint {
@@ -147,14 +150,20 @@ impl Paint {
 }
 
 impl<'a> Shader<'a> {
-    /// Prepares a paint for the triangle with these corners.
+    /// Prepares a paint for the triangle with these corners. Where primitives are shaded once in a pixel, each sample gets the colour
+    /// of its pixel's centre: who wants another place prepares the paint on the grid of that.
     pub(crate) fn new(context: &ShadeContext<'a>, corners: &[GridPoint; 3], paint: &Paint) -> Self {
-        let any = paint.0.shader(context, corners);
+        let centres = context.shading.is_once().then(|| Centres::new(context));
+        let any = match centres {
+            Some(centres) => paint.0.shader(&context.on(centres.grid()), corners),
+            None => paint.0.shader(context, corners),
+        };
         let constant = ask!(&any, AnyShader, shader => shader.constant());
         Self {
             opaque: constant.map_or_else(|| paint.is_opaque(context.sources), Premultiplied16::is_opaque),
             any,
             rules: context.sampling.rules,
+            centres,
         }
     }
 
@@ -164,7 +173,13 @@ impl<'a> Shader<'a> {
             any: AnyShader::Solid(SolidShader(color)),
             opaque: color.is_opaque(),
             rules: Rules::Standard,
+            centres: None,
         }
+    }
+
+    /// How many colours are computed for so many samples of so many pixels.
+    pub(crate) fn evaluations(&self, samples: u64, pixels: usize) -> u64 {
+        if self.centres.is_some() { pixels as u64 } else { samples }
     }
 
     /// The one colour that every sample gets, if there is one.
@@ -180,35 +195,69 @@ impl<'a> Shader<'a> {
 
     /// The colours of samples, counted from the first sample of the grid's origin.
     pub(crate) fn points(&self, grid: SampleGrid, points: &[[u16; 2]], colors: &mut [Premultiplied16]) {
-        ask!(&self.any, AnyShader, shader => shader.points(grid, points, colors));
+        match &self.centres {
+            Some(centres) => centres.points(grid, points, colors, |grid, points, colors| {
+                ask!(&self.any, AnyShader, shader => shader.points(grid, points, colors));
+            }),
+            None => ask!(&self.any, AnyShader, shader => shader.points(grid, points, colors)),
+        }
     }
 
     /// The values of pixels that show nothing but this triangle, at one sample each; it must be opaque.
     pub(crate) fn pixels(&self, pixels: Pixels<'_>, values: &mut [u32]) {
-        ask!(&self.any, AnyShader, shader => shader.pixels(pixels, self.rules, values));
+        match self.of_centres(pixels) {
+            Some(colors) => Premultiplied16::opaque_to_pixels(&colors, self.rules, values),
+            None => ask!(&self.any, AnyShader, shader => shader.pixels(pixels, self.rules, values)),
+        }
     }
 
     /// The pixels of runs, one after the other, where there is a way that is shorter than [`Shader::pixel_sums`] and [`Resolver`];
     /// whether there is one. They show nothing but this triangle, which must be opaque, under the standard rules or at one sample
     /// each.
     pub(crate) fn runs(&self, runs: &[PixelRun], grid: SampleGrid, resolver: &Resolver, values: &mut [u32]) -> bool {
-        ask!(&self.any, AnyShader, shader => shader.runs(runs, grid, resolver, values))
+        if self.centres.is_none() {
+            return ask!(&self.any, AnyShader, shader => shader.runs(runs, grid, resolver, values));
+        }
+        let places: Vec<[u16; 2]> = runs.iter().flat_map(|run| run.places()).collect();
+        let places = &places;
+        self.pixels(Pixels { grid, places }, values);
+        true
     }
 
     /// The pixels that all of their samples make, where there is a way that is shorter than [`Shader::points`] of each; whether
     /// there is one. The triangle must be opaque.
     pub(crate) fn placed_pixels(&self, pixels: PlacedPixels<'_>, mean: &SampleMean, values: &mut [u32]) -> bool {
-        ask!(&self.any, AnyShader, shader => shader.placed_pixels(pixels, mean, values))
+        if self.centres.is_none() {
+            return ask!(&self.any, AnyShader, shader => shader.placed_pixels(pixels, mean, values));
+        }
+        // Samples that are all alike are their pixel, whatever is averaged.
+        self.pixels(pixels.pixels, values);
+        true
     }
 
     /// For each of the pixels the sum of all its samples. The triangle must be opaque and the rules the standard ones.
     pub(crate) fn pixel_sums(&self, pixels: Pixels<'_>, sums: &mut [[u32; 4]]) {
-        ask!(&self.any, AnyShader, shader => shader.pixel_sums(pixels, sums));
+        match self.of_centres(pixels) {
+            Some(colors) => times_each(&colors, std::iter::repeat(pixels.grid.side * pixels.grid.side), sums),
+            None => ask!(&self.any, AnyShader, shader => shader.pixel_sums(pixels, sums)),
+        }
     }
 
     /// For each of the pixels the sum of some of its samples, under the same conditions.
     pub(crate) fn masked_sums(&self, pixels: MaskedPixels<'_>, sums: &mut [[u32; 4]]) {
-        ask!(&self.any, AnyShader, shader => shader.masked_sums(pixels, sums));
+        match self.of_centres(pixels.pixels) {
+            Some(colors) => times_each(&colors, pixels.masks.iter().map(|mask| mask.count_ones()), sums),
+            None => ask!(&self.any, AnyShader, shader => shader.masked_sums(pixels, sums)),
+        }
+    }
+
+    /// The colours in the centres of pixels, where those are all their samples'.
+    fn of_centres(&self, Pixels { grid, places }: Pixels<'_>) -> Option<Vec<Premultiplied16>> {
+        let centres = self.centres.as_ref()?;
+        let mut colors = vec![Premultiplied16::TRANSPARENT; places.len()];
+        let (grid, points) = centres.of_pixels(grid, places);
+        ask!(&self.any, AnyShader, shader => shader.points(grid, &points, &mut colors));
+        Some(colors)
     }
 
     /// What is interpolated at a sample, inside the triangle or not.
@@ -219,6 +268,13 @@ impl<'a> Shader<'a> {
     /// How a texture is read, if one is.
     pub(crate) fn texture_use(&self, context: &ShadeContext<'_>) -> Option<TextureUse> {
         ask!(&self.any, AnyShader, shader => shader.texture_use(context))
+    }
+}
+
+/// Sums of colours, each so many times.
+fn times_each(colors: &[Premultiplied16], counts: impl Iterator<Item = u32>, sums: &mut [[u32; 4]]) {
+    for ((sum, color), count) in sums.iter_mut().zip(colors).zip(counts) {
+        *sum = color.0.map(|channel| u32::from(channel) * count);
     }
 }
 

@@ -30,8 +30,6 @@ const BY_HAND: [&str; 5] = [
     "study/20_conflation.svg",
     "study/21_fine_spokes.svg",
     "study/22_what_filters_cost.svg",
-    "study/23_one_colour_a_pixel.svg",
-    "study/24_what_one_colour_misses.svg",
 ];
 
 /// The files below a folder, relative to it, with `/`.

@@ -313,12 +313,12 @@ impl VisibilityPainter<'_> {
                 && nothing_above
                 && shader.runs(runs, grid, resolver, &mut values[..pixels])
             {
-                *samples_shaded += pixels as u64 * u64::from(resolver.count());
+                *samples_shaded += shader.evaluations(pixels as u64 * u64::from(resolver.count()), pixels);
                 put_runs(runs, false, values, block);
             } else {
                 let is_level = paint.is_level(context);
                 let whole = shading.sums_of((runs, is_level), grid, &shader);
-                *samples_shaded += whole.len() as u64 * u64::from(resolver.count());
+                *samples_shaded += shader.evaluations(whole.len() as u64 * u64::from(resolver.count()), whole.len());
                 if !nothing_above {
                     for sum in &mut *whole {
                         *sum = shown.over_shaded(*sum, kept, resolver.count());
@@ -334,13 +334,13 @@ impl VisibilityPainter<'_> {
                 }
             }
             let count = resolver.count();
-            *samples_shaded +=
-                shading.each_part((fragments, places), grid, (&shader, count), |pixel, found, samples| {
-                    let found = shown.over_shaded(found, kept, samples);
-                    for (sum, channel) in sums[pixel as usize].iter_mut().zip(found) {
-                        *sum += channel;
-                    }
-                });
+            let of_parts = shading.each_part((fragments, places), grid, (&shader, count), |pixel, found, samples| {
+                let found = shown.over_shaded(found, kept, samples);
+                for (sum, channel) in sums[pixel as usize].iter_mut().zip(found) {
+                    *sum += channel;
+                }
+            });
+            *samples_shaded += shader.evaluations(of_parts, fragments.len());
         }
     }
 }

@@ -60,7 +60,8 @@ impl VisibilityPainter<'_> {
                 let (taken, others) = runs.split_at(shades.take(runs, repeats));
                 shades.shade_whole(&shader, positions, mean, grid);
                 shades.put(taken, repeats, block);
-                self.samples_shaded += (shades.whole.len() * count) as u64;
+                let pixels = shades.whole.len();
+                self.samples_shaded += shader.evaluations((pixels * count) as u64, pixels);
                 runs = others;
             }
             for fragments in fragments.chunks(TOGETHER) {
@@ -69,7 +70,7 @@ impl VisibilityPainter<'_> {
                     shades.gather(places[*pixel as usize], (*first, *mask), positions, grid);
                 }
                 shades.shade(&shader, grid);
-                self.samples_shaded += shades.points.len() as u64;
+                self.samples_shaded += shader.evaluations(shades.points.len() as u64, fragments.len());
                 let mut colors = &shades.colors[..shades.points.len()];
                 for Fragment { pixel, mask, .. } in fragments {
                     let (of_fragment, others) = colors.split_at(mask.count_ones() as usize);

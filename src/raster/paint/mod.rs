@@ -17,5 +17,6 @@ pub(in crate::raster) mod per_sample;
 mod put_runs;
 pub(in crate::raster) mod recorder;
 pub(in crate::raster) mod sample_colors;
+mod shade_once;
 pub(in crate::raster) mod visibility;
 pub(in crate::raster) mod wide;

@@ -1,7 +1,5 @@
 //! Painting one tile: every command of the display list that touches it, in painter's order.
 
-mod once;
-
 use crate::color::Premultiplied16;
 use crate::raster::binning::tile_command::{TileCommand, Work};
 use crate::raster::coverage::covered::Covered;
@@ -10,9 +8,9 @@ use crate::raster::coverage::shape_coverage::ShapeCoverage;
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::layers::stack::LayerStack;
 use crate::raster::list::chunk::Chunk;
-use crate::raster::paint::per_sample::once::OnceQueue;
 use crate::raster::paint::recorder::{PaintedCommand, PaintedKind, Recorder};
 use crate::raster::paint::sample_colors::{SampleColors, ShadedColors};
+use crate::raster::paint::shade_once::OnceQueue;
 use crate::raster::paint::wide::{WeighedPixels, WideResolve};
 use crate::raster::sampling::positions::{Position, SamplePositions};
 use crate::raster::shading::Shader;
@@ -33,7 +31,8 @@ pub(crate) struct PerSamplePainter<'a> {
     covered: Vec<(i32, Covered)>,
     points: Vec<[u16; 2]>,
     colors: Vec<Premultiplied16>,
-    once: OnceQueue,
+    /// The same where a primitive is shaded once in a pixel.
+    once: OnceQueue<'a>,
     /// Samples whose colours were computed.
     pub(crate) samples_shaded: u64,
     /// When a single pixel is replayed: what was painted.
@@ -52,7 +51,7 @@ impl<'a> PerSamplePainter<'a> {
             covered: Vec::new(),
             points: Vec::new(),
             colors: Vec::new(),
-            once: OnceQueue::default(),
+            once: OnceQueue::new(context),
             samples_shaded: 0,
             recorder: None,
         }
@@ -190,6 +189,33 @@ impl<'a> PerSamplePainter<'a> {
         self.layers.top().note_painted(painted.intersection(rect));
         if let Some(shader) = prepared {
             self.shade(&shader);
+        }
+    }
+
+    /// As [`PerSamplePainter::shape`], with one colour for all samples of a pixel that the shape covers.
+    fn shape_once(
+        &mut self,
+        shape: Shape<'_>,
+        shape_coverage: &mut ShapeCoverage,
+        shader: impl Fn(&ShadeContext<'a>) -> Shader<'a>,
+    ) {
+        let rect = self.layers.base().rect;
+        let (mut prepared, mut painted) = (None, SpanRect::EMPTY);
+        shape_coverage.each(shape, rect, |y, covered| {
+            painted = painted.union(covered.pixels(y));
+            let shader = prepared.get_or_insert_with(|| shader(&self.once.at_centres()));
+            if let Some(color) = shader.constant() {
+                return self.fill(y, covered, color);
+            }
+            let place = self.once.note(rect, (y, covered), &self.positions, shader.is_level());
+            if let Some(recorder) = &mut self.recorder {
+                recorder.shaded_at(place);
+            }
+        });
+        self.layers.top().note_painted(painted.intersection(rect));
+        if let Some(at_centre) = prepared {
+            self.samples_shaded += self.once.shade([rect.x.start, rect.y.start], &at_centre, shader);
+            self.once.paint(self.layers.top(), &at_centre, self.recorder.as_mut());
         }
     }
 

@@ -26,7 +26,7 @@ impl ShadingPlace {
     }
 
     /// The mean of so many samples of a grid, by the sums of their columns and rows; to the nearest place of a dense grid, no
-    /// further from it than 1/512 of a pixel along either axis. The middle of the pixel where there are none.
+    /// further from it than 1/256 of a pixel along either axis. The middle of the pixel where there are none.
     pub(in crate::raster) fn centroid(grid: SubpixelGrid, count: u32, sums: [u32; 2]) -> Self {
         if count == 0 {
             return Self::centre(grid);
@@ -170,7 +170,7 @@ mod tests {
                 let places = samples.iter().map(|sample| grid.sample_position(sample[axis].into()));
                 let mean = places.sum::<f64>() / f64::from(count);
                 assert!(
-                    (found[axis] - mean).abs() <= 1.0 / 512.0 + 1e-12,
+                    (found[axis] - mean).abs() <= 1.0 / 256.0 + 1e-12,
                     "{grid:?}, {samples:?}: {} instead of {mean}",
                     found[axis]
                 );

@@ -472,9 +472,9 @@ impl Pixel<'_> {
             ShadingRate::Centre => centre,
             ShadingRate::Centroid if covered.len() == self.places.len() => centre,
             ShadingRate::Centroid => {
-                // To the middle of a cell, of which at least 256 lie along a side of the pixel.
+                // To the middle of a cell, of which up to 256 lie along a side of the pixel.
                 let mut cells = i128::from(self.side);
-                while cells < 256 {
+                while cells * 2 <= 256 {
                     cells *= 2;
                 }
                 let cell = units / cells;

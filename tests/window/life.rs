@@ -196,8 +196,8 @@ fn escape_twice_ends_when_nothing_is_open() {
 #[test]
 fn escape_closes_a_list_and_then_asks_for_two_seconds() {
     /// The box of values, the list below it, and where the question stands: corner, width and height.
-    const SHOW: [i16; 2] = [1180, 387];
-    const LIST: [u16; 4] = [1120, 406, 100, 60];
+    const SHOW: [i16; 2] = [1180, 414];
+    const LIST: [u16; 4] = [1120, 433, 100, 60];
     const QUESTION: [u16; 4] = [14, 730, 120, 24];
     /// A pixel of the button for the sample rate, and its colour: the panel is at its place.
     const RATE: [u16; 4] = [1032, 69, 1, 1];

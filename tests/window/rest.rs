@@ -63,7 +63,7 @@ fn rest_and_clicks_with_notes() {
 #[test]
 fn rest_the_bar_takes_no_clicks_from_what_is_beside_it() {
     /// The choice `linear` of the row `Resolve`: the last pixels of its button, from the window's right edge.
-    const LINEAR: [u32; 2] = [14, 360];
+    const LINEAR: [u32; 2] = [14, 387];
     let program = Program::open(&[&flat()], &["--theme", "dark", "--do", "panel on"]);
     let size = [1280, 800];
     program.resize(size);

@@ -15,7 +15,7 @@ use super::{Asked, Interface, SizedPanel, compare, document, look, panel_frame, 
 use crate::viewer::{SceneEntry, SceneSource, Viewer};
 
 /// Height of everything above the scenes but the report where all of it is shown, in points.
-const SETTINGS: f32 = 778.0;
+const SETTINGS: f32 = 805.0;
 /// What of it tells the times of the last redraw and what it filled, which pictures that must be alike leave out.
 const TIMES: f32 = 80.0;
 /// Height that the scenes have at least where their list scrolls by itself, in points.

@@ -223,7 +223,7 @@ fn overlay_shows_all_notes() {
     std::fs::write(&document, text).unwrap();
     let case = Case {
         name: "notes",
-        size: [800, 1097],
+        size: [800, 1124],
         scale: 1.0,
         theme: Theme::Dark,
         steps: "panel on",

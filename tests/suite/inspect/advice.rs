@@ -71,6 +71,15 @@ fn settings() -> Vec<RenderSettings> {
             own.resolve_filter = ResolveFilter::Mitchell;
         }),
         with(&|own| {
+            own.sample_rate = rate(16);
+            own.shading = ShadingRate::Centre;
+        }),
+        with(&|own| {
+            own.sample_rate = rate(4);
+            own.shading = ShadingRate::Centroid;
+            own.pattern = SamplePattern::Rotated;
+        }),
+        with(&|own| {
             own.sample_rate = rate(256);
             own.level_sampling = LevelSampling::Nearest;
         }),
@@ -161,6 +170,11 @@ fn changes(own: &RenderSettings) -> Vec<RenderSettings> {
     for sample_rate in [4, 9, 16, 25, 36, 49, 64, 256].map(rate) {
         if sample_rate > own.sample_rate {
             all.push(RenderSettings { sample_rate, ..*own });
+        }
+    }
+    for shading in [ShadingRate::Sample, ShadingRate::Centroid] {
+        if own.shading.is_once() {
+            all.push(RenderSettings { shading, ..*own });
         }
     }
     if own.sample_rate > SampleRate::ONE {

@@ -8,7 +8,7 @@
 use rasterscope::color::ResolveSpace;
 use rasterscope::geometry::View as SceneView;
 use rasterscope::inspect::{Around, Explanation, Fragment, Interpolated, Paint, Question, Shape, View};
-use rasterscope::raster::{FilterRadius, Framebuffer, ResolveFilter, SamplePattern, SampleRate};
+use rasterscope::raster::{FilterRadius, Framebuffer, ResolveFilter, SamplePattern, SampleRate, ShadingRate};
 use rasterscope::render::{RenderSettings, Subject, draw, replay};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, Paint as ScenePaint, PrimitiveKind, ReadOptions, Scene};
@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use crate::support::explaining::advised;
 
 /// What pictures are drawn with.
-fn settings() -> [RenderSettings; 10] {
+fn settings() -> [RenderSettings; 12] {
     let rate = |samples| SampleRate::new(samples).unwrap();
     let plain = RenderSettings::default();
     [
@@ -68,6 +68,19 @@ fn settings() -> [RenderSettings; 10] {
             pattern: SamplePattern::Halton,
             pixel_sampling: PixelSampling::Bilinear,
             rules: Rules::Course,
+            ..plain
+        },
+        RenderSettings {
+            sample_rate: rate(16),
+            shading: ShadingRate::Centre,
+            pixel_sampling: PixelSampling::Bilinear,
+            ..plain
+        },
+        RenderSettings {
+            sample_rate: rate(9),
+            pattern: SamplePattern::Jittered,
+            shading: ShadingRate::Centroid,
+            resolve: ResolveSpace::Linear,
             ..plain
         },
         RenderSettings {

@@ -13,4 +13,5 @@ mod regions;
 mod render;
 mod resolve_filters;
 mod robustness;
+mod shading_rate;
 mod visualisation;

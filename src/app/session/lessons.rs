@@ -139,7 +139,7 @@ fn steps_show_what_they_showed_after_a_window_was_small() {
         ([800, 600], 125, &[[640, 480], [500, 380], [800, 600]]),
     ];
     for (window, scale, sizes) in ways {
-        for (lesson, steps) in [("six-tasks", 10), ("anisotropy", 6)] {
+        for (lesson, steps) in [("six-tasks", 10), ("anisotropy", 6), ("patterns", 7)] {
             for step in 0..steps {
                 let mut session = session(vec![PathBuf::from(format!("lesson:{lesson}"))], window);
                 let scale = InterfaceScale::from_percent(scale);

@@ -14,9 +14,10 @@ const PREFIX: &str = "lesson:";
 const MOST_BYTES: u64 = 1 << 20;
 
 /// The lessons that come with the program: names and documents.
-pub static BUILT_IN: [(&str, &str); 2] = [
+pub static BUILT_IN: [(&str, &str); 3] = [
     ("six-tasks", include_str!("../../../assets/lessons/six-tasks.toml")),
     ("anisotropy", include_str!("../../../assets/lessons/anisotropy.toml")),
+    ("patterns", include_str!("../../../assets/lessons/patterns.toml")),
 ];
 
 /// Where a lesson is read from.

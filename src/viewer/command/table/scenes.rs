@@ -96,6 +96,14 @@ pub(super) static SCENES: &[CommandSpec] = &[
     .more("PageDown goes to its next step, Esc closes it")
     .run(&Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(1)))),
     spec(
+        "lesson-patterns",
+        "Lesson: patterns",
+        "Opens the lesson on sample patterns and their spectra",
+        Group::Scenes,
+    )
+    .more("PageDown goes to its next step, Esc closes it")
+    .run(&Command::Lesson(LessonCommand::Open(LessonSource::BuiltIn(2)))),
+    spec(
         "lesson",
         "Lesson",
         "Opens a lesson: a TOML file of steps with text",

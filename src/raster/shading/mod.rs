@@ -205,8 +205,12 @@ impl<'a> Shader<'a> {
 
     /// The values of pixels that show nothing but this triangle, at one sample each; it must be opaque.
     pub(crate) fn pixels(&self, pixels: Pixels<'_>, values: &mut [u32]) {
-        match self.of_centres(pixels) {
-            Some(colors) => Premultiplied16::opaque_to_pixels(&colors, self.rules, values),
+        match &self.centres {
+            Some(centres) => {
+                let (grid, places) = &centres.of_pixels(pixels.grid, pixels.places);
+                let centres = Pixels { grid: *grid, places };
+                ask!(&self.any, AnyShader, shader => shader.pixels(centres, self.rules, values));
+            }
             None => ask!(&self.any, AnyShader, shader => shader.pixels(pixels, self.rules, values)),
         }
     }
@@ -215,8 +219,15 @@ impl<'a> Shader<'a> {
     /// whether there is one. They show nothing but this triangle, which must be opaque, under the standard rules or at one sample
     /// each.
     pub(crate) fn runs(&self, runs: &[PixelRun], grid: SampleGrid, resolver: &Resolver, values: &mut [u32]) -> bool {
-        if self.centres.is_none() {
+        let Some(centres) = &self.centres else {
             return ask!(&self.any, AnyShader, shader => shader.runs(runs, grid, resolver, values));
+        };
+        // Centres that are all of their grid's samples are those of a picture with one sample per pixel.
+        if centres.grid().side() == 1 {
+            let (grid, one) = (SampleGrid { side: 1, ..grid }, Resolver::new(1, self.rules));
+            if ask!(&self.any, AnyShader, shader => shader.runs(runs, grid, &one, values)) {
+                return true;
+            }
         }
         let places: Vec<[u16; 2]> = runs.iter().flat_map(|run| run.places()).collect();
         let places = &places;

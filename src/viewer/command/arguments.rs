@@ -141,13 +141,15 @@ pub(in crate::viewer) const SCENE: Argument = argument("a scene's number, from 1
     Some(Command::Scenes(SceneCommand::Show(index)))
 });
 
-pub(in crate::viewer) const LESSON: Argument =
-    argument("six-tasks, anisotropy, patterns, or the path of a lesson in TOML", |text| {
+pub(in crate::viewer) const LESSON: Argument = argument(
+    "six-tasks, anisotropy, patterns, or the path of a lesson in TOML",
+    |text| {
         LessonSource::named(text)
             .or_else(|| LessonSource::from_address(&path(text)))
             .map(LessonCommand::Open)
             .map(Command::Lesson)
-    });
+    },
+);
 
 pub(in crate::viewer) const LESSON_STEP: Argument = argument("a step's number, from 1", |text| {
     let index = usize::try_from(whole(text)?).ok()?.checked_sub(1)?;

@@ -166,7 +166,7 @@ fn every_explanation_of_every_scene_ends_in_the_frames_bytes() {
                 check_samples(found);
                 check_accumulation(found);
                 for paint in &found.paints {
-                    check_coverage(paint, found.samples.len(), settings.rules);
+                    check_coverage(paint, found, settings.rules);
                     check_colors(paint, settings.rules);
                 }
             });
@@ -411,7 +411,8 @@ fn check_samples(found: &Explanation) {
 }
 
 /// Edges and windings say what the painter painted.
-fn check_coverage(paint: &Paint, samples: usize, rules: Rules) {
+fn check_coverage(paint: &Paint, found: &Explanation, rules: Rules) {
+    let samples = found.samples.len();
     let painted = |number: usize| paint.fragments.iter().any(|fragment| fragment.sample == number);
     match &paint.shape {
         Shape::Triangle { .. } | Shape::Polygon { .. } => assert_eq!(paint.views.len(), samples, "{paint:?}"),
@@ -422,6 +423,13 @@ fn check_coverage(paint: &Paint, samples: usize, rules: Rules) {
         let inside = match (view, &paint.shape) {
             (View::Triangle { edges, weights, .. }, _) => {
                 assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-6, "{weights:?}");
+                if let Some(place) = paint.shaded_at {
+                    check_weights(
+                        paint,
+                        *weights,
+                        [0, 1].map(|axis| f64::from(found.pixel[axis]) + place[axis]),
+                    );
+                }
                 for (edge, weight) in edges.iter().zip([weights[2], weights[0], weights[1]]) {
                     assert_eq!(edge.value > 0, edge.distance > 0.0, "{edge:?}");
                     assert!(
@@ -429,6 +437,7 @@ fn check_coverage(paint: &Paint, samples: usize, rules: Rules) {
                             || edge.value == 0
                             || weight.abs() < 1e-6
                             || paint_is_clipped(paint)
+                            || paint.shaded_at.is_some()
                             || (edge.value > 0) == (weight > 0.0),
                         "{edge:?} {weight}"
                     );
@@ -439,6 +448,24 @@ fn check_coverage(paint: &Paint, samples: usize, rules: Rules) {
             (View::Polygon { winding, .. }, _) => *winding != 0,
         };
         assert_eq!(painted(number), inside, "sample {number} of {paint:?}");
+    }
+}
+
+/// Weights are those of a place of the frame.
+fn check_weights(paint: &Paint, weights: [f64; 3], place: [f64; 2]) {
+    let Shape::Triangle { corners } = &paint.shape else {
+        return;
+    };
+    for (axis, place) in place.into_iter().enumerate() {
+        let found: f64 = corners
+            .iter()
+            .zip(weights)
+            .map(|(corner, weight)| corner[axis] * weight)
+            .sum();
+        assert!(
+            (found - place).abs() < 1e-3 || paint_is_clipped(paint),
+            "{weights:?} are those of {found}, not of {place}: {paint:?}"
+        );
     }
 }
 

@@ -2,7 +2,7 @@
 //! engine that must not move a pixel leaves every line as it is; `benches/frozen/run` compares them.
 //!
 //! The groups: six patterns and each resolve space at five rates for each of the rules (`standard`, `course`, `float`), the
-//! other patterns (`patterns`), ways of reading textures (`filters`), every visualisation (`visualised`), and what the inspector says of some pixels (`explained`).
+//! other patterns (`patterns`), shading once per pixel (`shaded`), ways of reading textures (`filters`), every visualisation (`visualised`), and what the inspector says of some pixels (`explained`).
 
 use std::fmt::Write as _;
 use std::fs;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use rasterscope::color::{ResolveSpace, Rgba};
 use rasterscope::geometry::View;
 use rasterscope::inspect::{Explanation, Question};
-use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate, Seed};
+use rasterscope::raster::{Framebuffer, SamplePattern, SampleRate, Seed, ShadingRate};
 use rasterscope::render::{RenderSettings, Subject, Visualisation, draw};
 use rasterscope::rules::Rules;
 use rasterscope::scene::{self, DialectChoice, FolderResources, ReadOptions, Scene};
@@ -70,6 +70,7 @@ fn lines(path: &Path) -> String {
         .collect();
     groups.push(("filters".to_owned(), filtered()));
     groups.push(("patterns".to_owned(), patterned()));
+    groups.push(("shaded".to_owned(), shaded()));
     groups.push(("visualised".to_owned(), visualised()));
     let mut text = String::new();
     let mut line = |group: &str, sum: Sha256| {
@@ -148,6 +149,28 @@ fn filtered() -> Vec<RenderSettings> {
                         });
                     }
                 }
+            }
+        }
+    }
+    all
+}
+
+/// Colours that are computed once for all samples of a pixel, on the grid and off it, in each resolve space.
+fn shaded() -> Vec<RenderSettings> {
+    let mut all = Vec::new();
+    for (sample_rate, pattern) in rates()
+        .skip(1)
+        .zip([SamplePattern::Grid, SamplePattern::Jittered].into_iter().cycle())
+    {
+        for shading in [ShadingRate::Centre, ShadingRate::Centroid] {
+            for resolve in ResolveSpace::ALL {
+                all.push(RenderSettings {
+                    sample_rate,
+                    pattern,
+                    shading,
+                    resolve,
+                    ..RenderSettings::default()
+                });
             }
         }
     }

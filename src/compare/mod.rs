@@ -1,18 +1,20 @@
 //! How far two pictures of one size are apart: difference pictures, error metrics, the places that differ most, and
-//! which known cause explains the rest.
+//! which known cause explains the rest. And one picture by itself: a [`Profile`] along a line across an edge.
 //!
-//! A [`Pair`] is the only way in; it holds two frames of equal size, A the reference and B the other. Its functions run
-//! on the current rayon pool, and their answers do not depend on the number of threads. Channels are compared as they
-//! are stored: straight sRGB-encoded bytes.
+//! A [`Pair`] is the only way in to two pictures; it holds frames of equal size, A the reference and B the other. Its
+//! functions run on the current rayon pool, and their answers do not depend on the number of threads. Channels are compared
+//! as they are stored: straight sRGB-encoded bytes.
 
 mod cause;
 mod flip;
 mod hypotheses;
 mod levels;
+mod line;
 mod pair;
 mod picture;
 mod places;
 mod plane;
+mod profile;
 mod region;
 mod show;
 mod ssim;
@@ -23,7 +25,9 @@ mod truncation;
 pub use cause::{Cause, CellCorner};
 pub use hypotheses::{Guess, guess};
 pub use levels::{Largest, Levels};
+pub use line::{Line, LinePoint};
 pub use pair::{Pair, SizeMismatch};
 pub use picture::{count_different, decode_picture, encoded_size};
 pub use places::Place;
+pub use profile::{Edge, Profile, ProfileChannel};
 pub use show::{DifferencePaint, DifferenceStyle, Gain, Measure};

@@ -61,7 +61,7 @@ pub(super) fn with_margin(frame: &Framebuffer, tile: Region, margin: u32) -> Vec
 }
 
 /// A straight pixel `0xAARRGGBB` as it looks on white paper, mixed in stored values.
-fn over_white(pixel: u32) -> [u8; 3] {
+pub(super) fn over_white(pixel: u32) -> [u8; 3] {
     let [a, r, g, b] = pixel.to_be_bytes();
     if a == 255 {
         return [r, g, b];

@@ -12,13 +12,14 @@
 //! control                               what commands and results do to several parts, through structs that borrow them
 //! state                                 the viewer: its parts side by side
 //! command                               what a user can do, as data
-//! lesson, export, inspector, ab,        the parts, each with its own state;
-//! frames, library, view, chrome         none of them knows the viewer
+//! lesson, export, profile, inspector,   the parts, each with its own state;
+//! ab, frames, library, view, chrome     none of them knows the viewer
 //! settings, jobs, key_chords            what all of them use
 //! ```
 //!
 //! A part answers for itself: `viewer.scene_list().current()`, `viewer.ab().arrangement()`. What takes several parts is asked
-//! of [`Both`] (A, B and where they lie), [`Pointing`] (which pixel is meant), [`WindowContent`] and [`Recipes`].
+//! of [`Both`] (A, B and where they lie), [`Pointing`] (which pixel is meant), [`Profiled`] (an edge's profile),
+//! [`WindowContent`] and [`Recipes`].
 //!
 //! Window pixels are device pixels from the window's upper left corner; frame pixels are `pixel zoom` times larger.
 
@@ -33,6 +34,7 @@ mod jobs;
 mod key_chords;
 mod lesson;
 mod library;
+mod profile;
 pub mod script;
 mod settings;
 mod slides;
@@ -52,12 +54,13 @@ pub use command::key_bindings as commands;
 pub use command::key_bindings::Gesture;
 pub use command::spec::{Action, CommandSpec, Group};
 pub use command::{
-    AbCommand, Command, Effect, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, SceneCommand,
-    SheetCommand, ViewCommand, WindowCommand,
+    AbCommand, Command, Effect, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, ProfileCommand,
+    SceneCommand, SheetCommand, ViewCommand, WindowCommand,
 };
 pub use control::both::Both;
 pub use control::open::kind_of_file;
 pub use control::pointing::Pointing;
+pub use control::profiled::{LinePlace, ProfileCurve, ProfileSide, Profiled};
 pub use control::recipes::Recipes;
 pub use control::window::WindowContent;
 pub use export::naming::NameTemplate;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
+use crate::compare::Profile;
 use crate::geometry::View;
 use crate::inspect::Contributions;
 use crate::viewer::ab::comparison::Comparison;
@@ -34,6 +35,9 @@ use crate::viewer::lesson::model::Lesson;
 use crate::viewer::lesson::walk::Walk;
 use crate::viewer::library::readers::{ReadScene, Readers, Thumbnail};
 use crate::viewer::library::state::SceneList;
+use crate::viewer::profile::Profiling;
+use crate::viewer::profile::truth;
+use crate::viewer::profile::truth::LineOfPicture;
 use crate::viewer::settings::{PixelZoom, Settings, Theme};
 use crate::viewer::view::panes::Panes;
 use crate::viewer::view::pointer::Pointer;
@@ -77,6 +81,7 @@ pub struct Viewer {
     pub(in crate::viewer) frames: Frames,
     pub(in crate::viewer) ab: Comparison,
     pub(in crate::viewer) inspector: Inspection,
+    pub(in crate::viewer) profiling: Profiling,
     pub(in crate::viewer) export: Export,
     /// The sheet that is being put together.
     pub(in crate::viewer) sheet: SheetDesk,
@@ -115,6 +120,7 @@ pub(in crate::viewer) enum Finished {
     Probed(Target, Vec<ProbedSample>),
     Explained(Asked, Box<Option<Explained>>),
     Contributed(Target, Box<Option<Contributions>>),
+    Profiled(LineOfPicture, Option<Profile>),
     Thumbnail(Thumbnail),
     Saved(Saved),
     SheetDrawn(SheetQuestion, Box<Result<SheetPreview, String>>),
@@ -187,6 +193,9 @@ impl Viewer {
                 explanation::start(mailbox.of(|(asked, found)| Finished::Explained(asked, Box::new(found))))?,
                 contributions::start(mailbox.of(|(target, found)| Finished::Contributed(target, Box::new(found))))?,
             ),
+            profiling: Profiling::new(truth::start(
+                mailbox.of(|(asked, found)| Finished::Profiled(asked, found)),
+            )?),
             export: Export {
                 saver,
                 grammar: options.grammar,

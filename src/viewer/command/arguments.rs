@@ -1,13 +1,14 @@
 //! Arguments that a person types after a command's word, in scripts and in the palette: text to [`Command`].
 
 use crate::viewer::{
-    AbCommand, ExportCommand, InspectorCommand, LessonCommand, SceneCommand, SheetCommand, ViewCommand, WindowCommand,
+    AbCommand, ExportCommand, InspectorCommand, LessonCommand, ProfileCommand, SceneCommand, SheetCommand, ViewCommand,
+    WindowCommand,
 };
 use std::borrow::Cow;
 use std::path::PathBuf;
 
 use crate::color::ResolveSpace;
-use crate::compare::Measure;
+use crate::compare::{Measure, ProfileChannel};
 use crate::figure::Ground;
 use crate::viewer::ab::other::{Against, Arrangement};
 use crate::viewer::chrome::interface_scale::InterfaceScale;
@@ -205,6 +206,17 @@ pub(in crate::viewer) const REGION: Argument = argument("a whole number from 8 t
     whole(text).map(InspectorCommand::SetRegion).map(Command::Inspector)
 });
 
+pub(in crate::viewer) const PROFILE: Argument =
+    argument("X,Y X,Y in whole pixels, luma|red|green|blue, or on|off|flip", |text| {
+        let line = || {
+            let (from, to) = text.split_once(char::is_whitespace)?;
+            Some(ProfileCommand::SetLine([pixels(from)?, pixels(to)?]))
+        };
+        let channel = || named(&ProfileChannel::ALL, ProfileChannel::name, text).map(ProfileCommand::SetChannel);
+        let switch = || toggle(text).map(ProfileCommand::Show);
+        line().or_else(channel).or_else(switch).map(Command::Profile)
+    });
+
 pub(in crate::viewer) const OVERLAY: Argument = argument(Toggle::FORM, |text| {
     toggle(text).map(WindowCommand::OverlayText).map(Command::Window)
 });
@@ -338,6 +350,13 @@ mod tests {
             Ok(Command::Scenes(SceneCommand::Show(0))),
             "people count from 1"
         );
+        for (text, command) in [
+            ("1,2  30,-4", ProfileCommand::SetLine([[1, 2], [30, -4]])),
+            ("green", ProfileCommand::SetChannel(ProfileChannel::Green)),
+            ("off", ProfileCommand::Show(Toggle::Off)),
+        ] {
+            assert_eq!(PROFILE.parse(text), Ok(Command::Profile(command)), "{text}");
+        }
         for (argument, wrong) in [
             (ZOOM, "-1"),
             (ZOOM, "inf"),
@@ -351,6 +370,9 @@ mod tests {
             (AGAINST, ""),
             (SCENE, "0"),
             (PIN, "1.5,2"),
+            (PROFILE, "1,2"),
+            (PROFILE, "1,2 3,x"),
+            (PROFILE, "alpha"),
             (OPEN, ""),
         ] {
             let message = argument.parse(wrong).expect_err(wrong);

@@ -15,8 +15,8 @@ use crate::raster::Framebuffer;
 use crate::viewer::settings::picture::SettingChange;
 
 pub use parts::{
-    AbCommand, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, SceneCommand, SheetCommand, ViewCommand,
-    WindowCommand,
+    AbCommand, ExportCommand, InspectorCommand, LessonCommand, PointerCommand, ProfileCommand, SceneCommand,
+    SheetCommand, ViewCommand, WindowCommand,
 };
 
 /// One thing that a user can do, by the part of the viewer that it is about.
@@ -38,6 +38,8 @@ pub enum Command {
     Lesson(LessonCommand),
     /// The inspector, its pin and the explanation.
     Inspector(InspectorCommand),
+    /// The profile of an edge.
+    Profile(ProfileCommand),
     /// What leaves the program.
     Export(ExportCommand),
     /// The sheet that is being put together.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use glam::DVec2;
 
-use crate::compare::Measure;
+use crate::compare::{Measure, ProfileChannel};
 use crate::figure::PixelRect;
 use crate::inspect::TexelPlace;
 use crate::viewer::ab::other::{Against, Arrangement};
@@ -169,6 +169,17 @@ pub enum InspectorCommand {
     Explanation(Toggle),
     /// The pointer is over this texel of the explanation, or over none: the pixels that it contributes to are lit.
     PointAtTexel(Option<TexelPlace>),
+}
+
+/// The profile of an edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ProfileCommand {
+    /// Whether a drag over the picture draws a line, whose values are plotted.
+    Show(Toggle),
+    /// Plots the values along the line between the middles of these frame pixels.
+    SetLine([[i64; 2]; 2]),
+    /// Plots this of the colours.
+    SetChannel(ProfileChannel),
 }
 
 /// What leaves the program.

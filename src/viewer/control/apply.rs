@@ -65,6 +65,7 @@ impl Viewer {
             Command::Scenes(command) => self.opening().apply(command),
             Command::Lesson(command) => self.opening().lessons().apply(command),
             Command::Inspector(command) => self.hand().apply_inspector(command),
+            Command::Profile(command) => self.hand().apply_profile(command),
             Command::Export(ExportCommand::WindowScreenshot) => return vec![Effect::PictureOfWindow],
             Command::Export(ExportCommand::OpenFolder) => {
                 return vec![Effect::OpenFolder(self.export.saver.folder_to_show())];

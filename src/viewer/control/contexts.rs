@@ -5,6 +5,7 @@ use crate::viewer::control::drawings::Drawings;
 use crate::viewer::control::hand::Hand;
 use crate::viewer::control::open::Opening;
 use crate::viewer::control::pointing::Pointing;
+use crate::viewer::control::profiled::Profiled;
 use crate::viewer::control::recipes::Recipes;
 use crate::viewer::control::save::Saving;
 use crate::viewer::control::window::WindowContent;
@@ -23,6 +24,15 @@ impl Viewer {
             chrome: &self.chrome,
             inspector: &self.inspector,
             pointer: &self.pointer,
+        }
+    }
+
+    /// The edge profile: its line, and what A, B and the truth have along it.
+    pub fn profile(&self) -> Profiled<'_> {
+        Profiled {
+            both: self.both(),
+            chrome: &self.chrome,
+            profiling: &self.profiling,
         }
     }
 
@@ -51,6 +61,7 @@ impl Viewer {
             frames: &self.frames,
             ab: &mut self.ab,
             inspector: &mut self.inspector,
+            profiling: &mut self.profiling,
             pointer: &mut self.pointer,
         }
     }
@@ -64,6 +75,7 @@ impl Viewer {
             scene_list: &mut self.scene_list,
             ab: &mut self.ab,
             inspector: &mut self.inspector,
+            profiling: &mut self.profiling,
             export: &mut self.export,
         }
     }

@@ -11,6 +11,7 @@ use crate::viewer::control::viewing::Viewing;
 use crate::viewer::frames::state::Frames;
 use crate::viewer::inspector::state::Inspection;
 use crate::viewer::library::state::SceneList;
+use crate::viewer::profile::Profiling;
 use crate::viewer::settings::Settings;
 use crate::viewer::view::layout::WindowLayout;
 use crate::viewer::view::pointer::{Pointer, PointerButton, WheelTarget, window_pixel};
@@ -22,7 +23,7 @@ const WHEEL_FACTOR: f64 = 1.25;
 /// Clicks of the wheel that count at once.
 const MAX_CLICKS: f64 = 100.0;
 
-/// What a hand has hold of: the pointer, the view and the pinned pixel. Frames it only looks at.
+/// What a hand has hold of: the pointer, the view, the pinned pixel and the line of a profile. Frames it only looks at.
 #[derive(Debug)]
 pub(in crate::viewer) struct Hand<'a> {
     pub(in crate::viewer) settings: &'a mut Settings,
@@ -31,6 +32,7 @@ pub(in crate::viewer) struct Hand<'a> {
     pub(in crate::viewer) frames: &'a Frames,
     pub(in crate::viewer) ab: &'a mut Comparison,
     pub(in crate::viewer) inspector: &'a mut Inspection,
+    pub(in crate::viewer) profiling: &'a mut Profiling,
     pub(in crate::viewer) pointer: &'a mut Pointer,
 }
 
@@ -71,6 +73,7 @@ impl Hand<'_> {
             }
             PointerCommand::Released(PointerButton::Primary) => {
                 (self.pointer.dragging, self.pointer.drags_inset, self.ab.drags_line) = (false, false, false);
+                self.profiling.drag = None;
             }
             PointerCommand::Released(PointerButton::Secondary) => {}
             PointerCommand::Wheel { clicks } => self.wheel(clicks),
@@ -99,7 +102,9 @@ impl Hand<'_> {
             (self.pointer.wheels, self.pointer.pinned_through_inset) = (None, None);
             self.inspector.magnifier.let_go();
         }
-        if self.ab.drags_line {
+        if self.profiling.drag.is_some() {
+            self.drag_profile(to);
+        } else if self.ab.drags_line {
             self.ab.drag_line(to.x, &self.layout());
         } else if self.pointer.drags_inset {
             let at = window_pixel(to);
@@ -126,9 +131,12 @@ impl Hand<'_> {
     fn pointer_pressed(&mut self, button: PointerButton) {
         match button {
             PointerButton::Primary => {
-                self.ab.drags_line = self.pixels().over_line();
-                self.pointer.drags_inset = !self.ab.drags_line && self.pixels().over_inset();
-                self.pointer.dragging = self.pointer.at.is_some() && !self.ab.drags_line && !self.pointer.drags_inset;
+                self.press_on_line();
+                let is_taken = self.profiling.drag.is_some();
+                self.ab.drags_line = !is_taken && self.pixels().over_line();
+                self.pointer.drags_inset = !is_taken && !self.ab.drags_line && self.pixels().over_inset();
+                let is_taken = is_taken || self.ab.drags_line || self.pointer.drags_inset;
+                self.pointer.dragging = self.pointer.at.is_some() && !is_taken;
             }
             PointerButton::Secondary => self.pin_under_pointer(),
         }

@@ -18,6 +18,7 @@ pub(in crate::viewer) mod open;
 pub(in crate::viewer) mod outlines;
 pub(in crate::viewer) mod pins;
 pub(in crate::viewer) mod pointing;
+pub(in crate::viewer) mod profiled;
 pub(in crate::viewer) mod recipes;
 pub(in crate::viewer) mod save;
 pub(in crate::viewer) mod sheet;

@@ -22,6 +22,7 @@ use crate::viewer::lesson::walk::Walk;
 use crate::viewer::library;
 use crate::viewer::library::SceneEntry;
 use crate::viewer::library::state::SceneList;
+use crate::viewer::profile::Profiling;
 use crate::viewer::settings::Settings;
 use crate::viewer::view::camera::Camera;
 
@@ -45,6 +46,7 @@ pub(in crate::viewer) struct Opening<'a> {
     pub(in crate::viewer) scene_list: &'a mut SceneList,
     pub(in crate::viewer) ab: &'a mut Comparison,
     pub(in crate::viewer) inspector: &'a mut Inspection,
+    pub(in crate::viewer) profiling: &'a mut Profiling,
     pub(in crate::viewer) export: &'a mut Export,
 }
 
@@ -148,7 +150,7 @@ impl Opening<'_> {
         if self.chrome.close_latest() {
             return true;
         }
-        if self.scene_list.give_up_reading() {
+        if self.scene_list.give_up_reading() || self.profiling.escape() {
             return true;
         }
         let mut context = ComparisonContext {

@@ -53,6 +53,7 @@ impl Hand<'_> {
             self.scene_list.follow_free_part(&layout);
         }
         self.keep_pin_in_place();
+        self.profiling.keep_in_place(self.scene_list, &layout);
         self.inspector.place_insets(&InsetSurroundings {
             ab: self.ab,
             scenes: self.scene_list,

@@ -37,6 +37,7 @@ impl Viewer {
         !self.scene_list.is_reading_any()
             && drawn
             && self.inspector.is_answered()
+            && self.profiling.truth.is_current()
             && self.both().is_measured()
             && self.sheet.is_current()
     }
@@ -90,6 +91,7 @@ impl Viewer {
             Finished::Probed(target, samples) => self.inspector.samples.finished(target, samples),
             Finished::Explained(asked, explanation) => self.inspector.explanation.finished(asked, *explanation),
             Finished::Contributed(target, found) => self.inspector.contributions.finished(target, *found),
+            Finished::Profiled(asked, found) => self.profiling.truth.finished(asked, found),
             Finished::Thumbnail(thumbnail) => self.scene_list.thumbnail_drawn(thumbnail),
             Finished::Saved(saved) => self.export.saver.take_in(saved, &mut self.chrome.messages),
             Finished::SheetDrawn(question, drawn) => self.sheet.previews.finished(question, *drawn),
@@ -107,6 +109,7 @@ impl Viewer {
         self.drawings().want_frame();
         self.drawings().update_comparison();
         self.hand().want_answers();
+        self.hand().want_truth_along_line();
         let legends = self.pixels().legends();
         self.frames.legends.place(legends);
         let drawn = self.window().drawn_state();

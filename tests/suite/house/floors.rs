@@ -29,6 +29,7 @@ const HOUSES: &[House] = &[
             "frames",
             "ab",
             "inspector",
+            "profile",
             "export",
             "lesson",
             "command",

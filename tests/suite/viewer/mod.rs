@@ -4,6 +4,7 @@ mod comparison;
 mod dialects;
 mod follow;
 mod inspector;
+mod profiles;
 mod random;
 mod replay;
 mod screenshots;

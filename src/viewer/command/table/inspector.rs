@@ -4,6 +4,7 @@ use crate::viewer::chrome::Dialog;
 use crate::viewer::command::Command;
 use crate::viewer::command::arguments;
 use crate::viewer::command::parts::InspectorCommand;
+use crate::viewer::command::parts::ProfileCommand;
 use crate::viewer::command::parts::WindowCommand;
 use crate::viewer::command::spec::CommandSpec;
 use crate::viewer::command::spec::Group;
@@ -123,6 +124,15 @@ pub(super) static INSPECTOR: &[CommandSpec] = &[
         Group::Inspector,
     )
     .argument(arguments::REGION),
+    spec(
+        "profile",
+        "Edge profile",
+        "Plots the values along a line that is dragged across an edge, of A, B and the truth, with shades, width and overshoot",
+        Group::Inspector,
+    )
+    .more("The truth costs a drawing of the tiles on the line with 256 samples per pixel, beside the picture")
+    .run(&Command::Profile(ProfileCommand::Show(Toggle::Flip)))
+    .argument(arguments::PROFILE),
 ];
 
 const fn shift(key: Key) -> Chord {

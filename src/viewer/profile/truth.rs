@@ -1,0 +1,49 @@
+//! What the truth has along a line: the tiles that the line crosses, drawn with 256 samples in a thread.
+
+use std::io;
+
+use crate::compare::{Line, Profile};
+use crate::raster::Framebuffer;
+use crate::render::{CancelToken, Subject, draw_regions};
+use crate::viewer::frames::frame::Picture;
+use crate::viewer::jobs::latest::Latest;
+use crate::viewer::jobs::mailbox::Mailbox;
+use crate::viewer::jobs::pool::guarded;
+
+/// The state of drawing; what cannot be drawn is `None`.
+pub(in crate::viewer) type TruthAlong = Latest<LineOfPicture, Option<Profile>>;
+
+/// A line across a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::viewer) struct LineOfPicture {
+    pub(in crate::viewer) picture: Picture,
+    pub(in crate::viewer) line: Line,
+}
+
+/// Starts the thread.
+pub(in crate::viewer) fn start(mailbox: Mailbox<(LineOfPicture, Option<Profile>)>) -> io::Result<TruthAlong> {
+    Latest::start("profile", move |asked: LineOfPicture| {
+        let found = guarded(|| asked.truth()).flatten();
+        mailbox.post((asked, found));
+    })
+}
+
+impl LineOfPicture {
+    fn truth(&self) -> Option<Profile> {
+        let Picture {
+            scene,
+            view,
+            settings,
+            size,
+            ..
+        } = &self.picture;
+        let subject = Subject {
+            scene,
+            view,
+            settings: &settings.truth(),
+        };
+        let mut frame = Framebuffer::new(size[0], size[1]);
+        draw_regions(&subject, &mut frame, &self.line.regions(*size), &CancelToken::default())?;
+        Some(Profile::of(&frame, self.line))
+    }
+}

@@ -33,6 +33,9 @@ mod panels;
 mod pattern;
 mod pin;
 mod places;
+mod profile;
+mod profile_line;
+mod profile_plot;
 mod report;
 mod room;
 mod sampling;
@@ -61,6 +64,7 @@ use floating::CloseOfInset;
 use focus::FocusPanel;
 use hovered::Hovered;
 use messages::{Messages, Taken};
+use profile::ProfileCard;
 pub(super) use report::Sections;
 use scenes::Thumbnails;
 use side_panel::PanelMemory;
@@ -88,6 +92,7 @@ pub(super) struct Interface {
     explanation: ExplanationPanel,
     messages: Messages,
     close_of_inset: CloseOfInset,
+    profile: ProfileCard,
     /// How wide panels are.
     pub(super) widths: PanelWidths,
     /// What the side panel remembers.
@@ -139,6 +144,7 @@ impl Interface {
             explanation: ExplanationPanel::default(),
             messages: Messages::default(),
             close_of_inset: CloseOfInset::default(),
+            profile: ProfileCard::default(),
             widths: PanelWidths::default(),
             panel: PanelMemory::default(),
             comparison_on_right: None,
@@ -328,6 +334,9 @@ impl Interface {
             waiting::show(ui, viewer, free, &mut asked.commands);
             cards.extend(floating::way_back(ui, viewer, free, &mut asked.commands));
             start::card(ui, viewer, free, &mut asked.commands);
+            let profile = self.profile.show(ui, viewer, free, &mut asked.commands);
+            cards.extend(profile.taken);
+            profile_line::show(ui, viewer, free, profile.pixel);
         }
         contributions::show(ui, viewer, free);
         hits::hits(ui, viewer);

@@ -48,6 +48,7 @@ fn is_on(viewer: &Viewer, command: &Command) -> bool {
         Command::View(ViewCommand::Progressive(_)) => viewer.settings().progressive,
         Command::Inspector(InspectorCommand::Show(_)) => viewer.inspector().magnifier().open,
         Command::Inspector(InspectorCommand::Explanation(_)) => viewer.pixels().has_explanation_open(),
+        Command::Profile(_) => viewer.profile().is_open(),
         Command::Scenes(SceneCommand::FollowFiles(_)) => viewer.scene_list().follows_files(),
         Command::Window(command) => match command {
             WindowCommand::OverlayText(_) => chrome.overlay_text(),

@@ -1,0 +1,263 @@
+//! The card of an edge profile: what A, B and the truth have along the line, and what is measured of it.
+//!
+//! ```text
+//!    Edge profile                     x
+//!    [ luma ] [ red ] [ green ] [ blue ]
+//!    200 |        :     ____---         values over the distance along the line;
+//!    100 |        :  _-'                between both dotted lines is the width of A's edge
+//!      0 |____---'
+//!        0      10      20      30 px
+//!            shades  10-90 %  over  under
+//!    - A          5  1.60 px   0 %    0 %
+//! ```
+
+use egui::{Align, Align2, Area, Button, Frame, Id, Layout, Order, Pos2, Rect, RichText, Sense, Ui, Vec2, vec2};
+
+use super::controls::{choice, tip};
+use super::floating::things;
+use super::look::CONTROL;
+use super::profile_plot;
+use crate::compare::{Edge, ProfileChannel};
+use crate::viewer::{Command, ProfileCommand, ProfileCurve, ProfileSide, Toggle, Viewer};
+
+/// Free space around the card, in points.
+const MARGIN: f32 = 10.0;
+/// Widths that its contents have at least and at most, in points.
+const WIDTHS: [f32; 2] = [236.0, 340.0];
+/// The same of the plot's heights.
+const HEIGHTS: [f32; 2] = [64.0, 140.0];
+/// What frame, title, values and the line below the plot take of the height, in points.
+const BESIDES: f32 = 116.0;
+/// Height of a row of numbers, in points, and with the space below it.
+const LINE: f32 = 16.0;
+const ROW: f32 = 21.0;
+/// Width of the names before the numbers, in points.
+const NAMES: f32 = 60.0;
+/// Width of the column of shades, in points.
+const COUNTS: f32 = 46.0;
+/// How near to the line the card may come, in points.
+const APART: f32 = 16.0;
+/// The corners where it may lie, the best first: words and settings stand on the left.
+const CORNERS: [Align2; 4] = [
+    Align2::RIGHT_BOTTOM,
+    Align2::LEFT_BOTTOM,
+    Align2::RIGHT_TOP,
+    Align2::LEFT_TOP,
+];
+/// What the columns of numbers are.
+const COLUMNS: [(&str, &str); 4] = [
+    (
+        "shades",
+        "How many different colours the pixels on the line have. More of them make an edge smoother.",
+    ),
+    (
+        "10\u{2013}90 %",
+        "How far it is along the line from a tenth of the step to nine tenths, straight between pixels. From one pixel to \
+         the next it is 0.8 pixels; a wide filter makes more.",
+    ),
+    (
+        "over",
+        "How far the lightest pixel on the line is above the lighter end, in parts of the step. Filters with weights below \
+         zero ring.",
+    ),
+    (
+        "under",
+        "How far the darkest pixel on the line is below the darker end, in parts of the step. What would be below black is \
+         black.",
+    ),
+];
+
+/// Where the card is.
+#[derive(Debug, Default)]
+pub(super) struct ProfileCard {
+    corner: Option<Align2>,
+}
+
+/// What the card and the line take, and what is pointed at.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shown {
+    /// Where they lie, in points: other words give way.
+    pub(super) taken: Vec<Rect>,
+    /// The pixel of the line that the pointer is over in the plot.
+    pub(super) pixel: Option<[u32; 2]>,
+}
+
+impl ProfileCard {
+    /// Shows it in a corner of what is `free`, beside the line.
+    pub(super) fn show(&mut self, ui: &Ui, viewer: &Viewer, free: Rect, commands: &mut Vec<Command>) -> Shown {
+        if !viewer.profile().is_open() {
+            self.corner = None;
+            return Shown::default();
+        }
+        let curves = viewer.profile().curves();
+        let room = free.shrink(MARGIN);
+        let width = (free.width() * 0.45).clamp(WIDTHS[0], WIDTHS[1]);
+        let height = (free.height() * 0.24).clamp(HEIGHTS[0], HEIGHTS[1]);
+        let rows = (1 + curves.len()) as f32 * ROW;
+        let hint = hint(&curves);
+        let size = if hint.is_some() {
+            vec2(width + 14.0, 64.0)
+        } else {
+            vec2(width + 14.0, height + rows + BESIDES)
+        };
+        let corner = self.choose(ui, viewer, room, size);
+        let mut pixel = None;
+        let area = Area::new(Id::unique("edge profile"))
+            .order(Order::Middle)
+            .fixed_pos(corner.pos_in_rect(&room))
+            .pivot(corner)
+            .constrain_to(free)
+            .fade_in(false)
+            .show(ui.ctx(), |ui| {
+                Frame::popup(ui.style()).show(ui, |ui| {
+                    ui.set_width(width);
+                    head(ui, commands);
+                    if let Some(hint) = hint {
+                        ui.label(RichText::new(hint).small().weak());
+                        return;
+                    }
+                    channels(ui, viewer.profile().channel(), commands);
+                    pixel = profile_plot::show(ui, viewer, &curves, vec2(width, height));
+                    numbers(ui, &curves, viewer.profile().channel());
+                });
+            });
+        let line = along(viewer, ui.pixels_per_point());
+        let line = line
+            .windows(2)
+            .map(|pair| Rect::from_two_pos(pair[0], pair[1]).expand(APART / 2.0));
+        Shown {
+            taken: line.chain([area.response.rect]).collect(),
+            pixel,
+        }
+    }
+
+    /// The corner where it lies: where it was, unless the line came there; else where the least is in its way.
+    fn choose(&mut self, ui: &Ui, viewer: &Viewer, room: Rect, size: Vec2) -> Align2 {
+        let scale = ui.pixels_per_point();
+        let line = along(viewer, scale);
+        let things = things(viewer, scale);
+        let in_way = |corner: &Align2| {
+            let place = corner.align_size_within_rect(size, room).expand(APART);
+            let hidden = line.iter().filter(|at| place.contains(**at)).count();
+            (hidden, things.iter().filter(|other| other.intersects(place)).count())
+        };
+        let stays = self.corner.filter(|corner| in_way(corner) == (0, 0));
+        let corner = stays.unwrap_or_else(|| {
+            let best = CORNERS.into_iter().min_by_key(in_way);
+            best.unwrap_or(Align2::RIGHT_BOTTOM)
+        });
+        self.corner = Some(corner);
+        corner
+    }
+}
+
+/// What is said where there is nothing to plot.
+fn hint(curves: &[ProfileCurve]) -> Option<&'static str> {
+    if curves.is_empty() {
+        return Some("Drag a line across an edge in the picture. The wheel still zooms, and Esc ends this.");
+    }
+    let is_out = curves.iter().all(|curve| curve.profile.points().is_empty());
+    is_out.then_some("The line is out of sight: it comes back with the view. Or drag another one.")
+}
+
+/// Points of the line in the window, in points.
+fn along(viewer: &Viewer, scale: f32) -> Vec<Pos2> {
+    const PARTS: u8 = 32;
+    let places = viewer.profile().places();
+    let points = places.iter().flat_map(|place| {
+        let [from, to] = place.ends;
+        (0..=PARTS).map(move |part| from.lerp(to, f64::from(part) / f64::from(PARTS)))
+    });
+    points.map(|at| super::profile_line::in_points(at, scale)).collect()
+}
+
+/// The title, and what closes the card.
+fn head(ui: &mut Ui, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Edge profile").strong())
+            .on_hover_text(tip("profile"));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let close = ui.add(Button::new("\u{d7}").min_size(CONTROL));
+            let close = close.on_hover_text(
+                "Ends drawing lines: a drag moves the picture again. The line comes back with the card.",
+            );
+            if close.accessible_name("Close the edge profile").clicked() {
+                commands.push(Command::Profile(ProfileCommand::Show(Toggle::Off)));
+            }
+        });
+    });
+}
+
+/// What of colours is plotted.
+fn channels(ui: &mut Ui, current: ProfileChannel, commands: &mut Vec<Command>) {
+    let values = ProfileChannel::ALL.map(|channel| (channel, channel.name().to_owned()));
+    let tip =
+        "What is plotted and measured: 0.299 R + 0.587 G + 0.114 B, or one of these. Stored values, on white paper.";
+    let chosen = choice(ui, "Profile of", tip, current, &values);
+    commands.extend(chosen.map(ProfileCommand::SetChannel).map(Command::Profile));
+}
+
+/// A row of numbers for each curve, and what is to be said of them.
+fn numbers(ui: &mut Ui, curves: &[ProfileCurve], channel: ProfileChannel) {
+    let width = ((ui.available_width() - NAMES - COUNTS) / (COLUMNS.len() - 1) as f32).floor();
+    let widths = [COUNTS, width, width, width];
+    let heads = COLUMNS.map(|(name, _)| RichText::new(name).small().weak());
+    row(ui, widths, |_| {}, heads);
+    let edges: Vec<Option<Edge>> = curves.iter().map(|curve| curve.profile.edge(channel)).collect();
+    for (curve, edge) in curves.iter().zip(&edges) {
+        let percent = |part: f64| format!("{:.1} %", part * 100.0);
+        let cells = [
+            Some(curve.profile.shades().to_string()),
+            edge.map(|edge| format!("{:.2} px", edge.width())),
+            edge.map(|edge| percent(edge.overshoot)),
+            edge.map(|edge| percent(edge.undershoot)),
+        ];
+        let cells = cells.map(|cell| {
+            let text = RichText::new(cell.unwrap_or_else(|| "\u{2013}".to_owned())).monospace();
+            // Of another picture.
+            if curve.is_final { text } else { text.weak().italics() }
+        });
+        row(ui, widths, |ui| sign(ui, curve.side), cells);
+    }
+    let note = if edges.iter().any(Option::is_none) {
+        "No numbers where both ends of the line are alike."
+    } else if edges.iter().flatten().any(|edge| !edge.is_alone()) {
+        "The line crosses more than one edge."
+    } else {
+        return;
+    };
+    ui.label(RichText::new(note).small().color(ui.visuals().warn_fg_color));
+}
+
+/// A row of the table: whose it is, and its cells, each with its column's width and tip.
+fn row(ui: &mut Ui, widths: [f32; 4], first: impl FnOnce(&mut Ui), cells: [RichText; 4]) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        let mut cell = |width: f32, layout: Layout, contents: &mut dyn FnMut(&mut Ui)| {
+            ui.allocate_ui_with_layout(vec2(width, LINE), layout, |ui| {
+                ui.set_min_size(vec2(width, LINE));
+                contents(ui);
+            });
+        };
+        let mut first = Some(first);
+        cell(NAMES, Layout::left_to_right(Align::Center), &mut |ui| {
+            if let Some(first) = first.take() {
+                first(ui);
+            }
+        });
+        for ((text, (_, tip)), width) in cells.into_iter().zip(COLUMNS).zip(widths) {
+            cell(width, Layout::right_to_left(Align::Center), &mut |ui| {
+                ui.label(text.clone()).on_hover_text(tip);
+            });
+        }
+    });
+}
+
+/// How a curve's line looks, and whose it is.
+fn sign(ui: &mut Ui, side: ProfileSide) {
+    let (rect, _) = ui.allocate_exact_size(vec2(14.0, 14.0), Sense::hover());
+    let stroke = profile_plot::stroke(side, ui.visuals().dark_mode);
+    ui.painter().hline(rect.x_range(), rect.center().y, stroke);
+    ui.add_space(6.0);
+    ui.label(profile_plot::name(side));
+}

@@ -14,6 +14,7 @@ use super::options::diff::DiffOptions;
 use super::options::inspect::InspectOptions;
 use super::options::lesson::LessonOptions;
 use super::options::pattern::PatternOptions;
+use super::options::profile::ProfileOptions;
 use super::options::render::RenderOptions;
 use super::options::rerun::RerunOptions;
 use super::options::sampling::SamplingOptions;
@@ -67,6 +68,8 @@ pub(super) enum Verb {
     Bench(BenchOptions),
     /// Tell where the samples of a pattern lie, and how even they are: discrepancy, distance, projections, spectrum
     Pattern(PatternOptions),
+    /// Measure an edge along a line, beside the truth: shades, 10-90 % width, overshoot
+    Profile(ProfileOptions),
 }
 
 impl Verb {
@@ -81,6 +84,7 @@ impl Verb {
             Self::Inspect(options) => Some(&options.picture.sampling),
             Self::Diff(options) => Some(&options.sampling),
             Self::Bench(options) => Some(&options.picture.sampling),
+            Self::Profile(options) => Some(&options.picture.sampling),
         }
     }
 
@@ -92,6 +96,7 @@ impl Verb {
             Self::Sheet(options) => Some(&mut options.scene),
             Self::Sweep(options) => Some(&mut options.scene),
             Self::Inspect(options) => Some(&mut options.scene),
+            Self::Profile(options) => Some(&mut options.scene),
             _ => None,
         }
     }
@@ -293,6 +298,11 @@ mod tests {
             "rasterscope pattern --sample-rate 257",
             "rasterscope pattern --seed 65536",
             "rasterscope pattern --pixel 5",
+            "rasterscope profile a.svg",
+            "rasterscope profile a.svg --line 1,2,3",
+            "rasterscope profile a.svg --line 1,2,3,x",
+            "rasterscope profile a.svg --line 1,2,3,4 --channel alpha",
+            "rasterscope profile a.svg --line 1,2,3,4 --sample-rate 5",
         ] {
             match parsed(line) {
                 Err(Failure::Input(message)) => {

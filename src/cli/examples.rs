@@ -3,7 +3,7 @@
 use clap::Command;
 
 /// Commands with their examples: a line to type, and what it does.
-pub(super) const EXAMPLES: [(&str, &[(&str, &str)]); 11] = [
+pub(super) const EXAMPLES: [(&str, &[(&str, &str)]); 12] = [
     (
         "view",
         &[
@@ -117,6 +117,19 @@ pub(super) const EXAMPLES: [(&str, &[(&str, &str)]); 11] = [
         &[
             ("rasterscope pattern --sample-rate 16", "all patterns beside each other"),
             ("rasterscope pattern sobol --seed 7 --json", "one, with all its points"),
+        ],
+    ),
+    (
+        "profile",
+        &[
+            (
+                "rasterscope profile drawing.svg --line 100,80,140,80 --sample-rate 16",
+                "how wide the edge between those pixels is",
+            ),
+            (
+                "rasterscope profile drawing.svg --line 100,80,140,80 --csv edge.csv",
+                "and every pixel's values in a table",
+            ),
         ],
     ),
 ];

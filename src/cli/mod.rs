@@ -16,6 +16,7 @@ mod memory;
 mod options;
 mod pattern;
 mod picture;
+mod profile;
 mod progress;
 mod render;
 mod rerun;
@@ -113,5 +114,6 @@ fn execute(arguments: &Arguments, restored: Option<&Restored>) -> Result<(), Fai
         Verb::Lesson(options) => lesson::run(options),
         Verb::Bench(options) => bench::run(options),
         Verb::Pattern(options) => pattern::run(options),
+        Verb::Profile(options) => profile::run(options, restored),
     }
 }

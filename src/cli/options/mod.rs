@@ -9,6 +9,7 @@ pub(in crate::cli) mod inspect;
 pub(in crate::cli) mod lesson;
 pub(in crate::cli) mod lists;
 pub(in crate::cli) mod pattern;
+pub(in crate::cli) mod profile;
 pub(in crate::cli) mod render;
 pub(in crate::cli) mod rerun;
 pub(in crate::cli) mod sampling;

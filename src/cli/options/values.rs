@@ -5,7 +5,7 @@ use clap::builder::PossibleValue;
 
 use super::sweep::Quality;
 use super::writeup::Assignment;
-use crate::compare::Measure;
+use crate::compare::{Measure, ProfileChannel};
 use crate::figure::Ground;
 use crate::viewer::Theme;
 
@@ -24,4 +24,4 @@ macro_rules! named_values {
     )*};
 }
 
-named_values!(Quality, Theme, Measure, Ground, Assignment);
+named_values!(Quality, Theme, Measure, ProfileChannel, Ground, Assignment);

@@ -11,6 +11,7 @@ mod interrupts;
 mod lessons;
 mod outputs;
 mod patterns;
+mod profiles;
 mod records;
 mod sweep;
 mod writeup;

@@ -1,0 +1,251 @@
+//! `rasterscope profile`: an edge in numbers, along a line across it, beside the truth.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::failure::{Failure, print, print_json};
+use super::options::profile::ProfileOptions;
+use super::picture::{Picture, on_threads, spec};
+use super::render::{guard_of, unwritable_by};
+use crate::compare::{Edge, Line, LinePoint, Profile, ProfileChannel};
+use crate::figure::{Guard, Named, NewFile, save_files};
+use crate::plain;
+use crate::raster::Framebuffer;
+use crate::render::{CancelToken, RenderSettings, Subject, draw_regions};
+use crate::viewer::{Restored, SceneSource};
+
+/// Version of the JSON's shape; a field that changes its meaning raises it, a new one does not.
+const SHAPE: u32 = 1;
+/// The columns of the table.
+const COLUMNS: &str = "distance,x,y,red,green,blue,alpha,luma,true_red,true_green,true_blue,true_alpha,true_luma";
+
+/// What `profile` answers; with `--json` in this shape.
+#[derive(Debug, Serialize)]
+struct Report {
+    version: u32,
+    scene: String,
+    width: u32,
+    height: u32,
+    /// Columns and rows of the line's ends.
+    line: [[i64; 2]; 2],
+    channel: &'static str,
+    picture: SideReport,
+    /// The same with 256 samples per pixel.
+    truth: SideReport,
+    /// The line's pixels in order, as far as the picture has them.
+    pixels: Vec<PixelReport>,
+}
+
+#[derive(Debug, Serialize)]
+struct SideReport {
+    /// How many different colours the line's pixels have.
+    shades: usize,
+    /// `null` where both ends of the line are alike.
+    edge: Option<EdgeReport>,
+}
+
+#[derive(Debug, Serialize)]
+struct EdgeReport {
+    /// The plateaus, in levels of 255.
+    before: f64,
+    behind: f64,
+    /// Where a tenth of the step and nine tenths are reached, in pixels along the line.
+    from: f64,
+    to: f64,
+    /// The 10-90 % width, in pixels along the line.
+    width: f64,
+    /// In parts of the step.
+    overshoot: f64,
+    undershoot: f64,
+    /// Whether no value is farther beyond the plateaus than filters ring.
+    alone: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct PixelReport {
+    distance: f64,
+    x: u32,
+    y: u32,
+    /// Red, green, blue, alpha.
+    color: [u8; 4],
+    truth: [u8; 4],
+}
+
+/// Measures the edge and prints what was found; writes the table where one was asked for.
+pub(super) fn run(options: &ProfileOptions, restored: Option<&Restored>) -> Result<(), Failure> {
+    let mut guard = guard_of(options.force, restored);
+    if let SceneSource::File(path) = SceneSource::from_address(&options.scene) {
+        guard.protect(path);
+    }
+    if let Some(csv) = &options.csv {
+        // Asked before the work as well.
+        let target = guard.target(csv, Named::ByUser);
+        target.map_err(|error| unwritable_by("--csv", csv, &error))?;
+    }
+    let size = options.picture.size.0;
+    if options.line.points(size).is_empty() {
+        return Err(outside(options.line, size));
+    }
+    let threads = options.picture.framing.threads;
+    let profiles = on_threads(threads, || draw(options, restored, &mut guard))??;
+    if let Some(csv) = &options.csv {
+        save(csv, &profiles, &guard)?;
+    }
+    let report = Report::new(options, &profiles);
+    if options.json {
+        return print_json(&serde_json::to_string(&report).map_err(Failure::other)?);
+    }
+    print(&report.text())
+}
+
+fn outside(line: Line, [width, height]: [u32; 2]) -> Failure {
+    let [[a, b], [c, d]] = line.ends;
+    Failure::input(format!(
+        "--line {a},{b},{c},{d}: outside the picture of {width}x{height} pixels; give places from 0,0 to {},{}",
+        width - 1,
+        height - 1
+    ))
+}
+
+/// The picture's values along the line, and the truth's.
+fn draw(options: &ProfileOptions, restored: Option<&Restored>, guard: &mut Guard) -> Result<[Profile; 2], Failure> {
+    let picture = Picture::read(spec(&options.scene, &options.picture))?;
+    picture.tell_changes(restored);
+    picture.protect(guard);
+    let own = picture.subject();
+    let [width, height] = options.picture.size.0;
+    let mut frame = Framebuffer::new(width, height);
+    let regions = options.line.regions([width, height]);
+    let profile = |settings: RenderSettings| {
+        let subject = Subject {
+            settings: &settings,
+            ..own
+        };
+        // Nobody cancels.
+        draw_regions(&subject, &mut frame, &regions, &CancelToken::default());
+        Profile::of(&frame, options.line)
+    };
+    Ok([*own.settings, own.settings.truth()].map(profile))
+}
+
+/// Writes the table (RFC 4180; numbers only).
+fn save(csv: &Path, profiles: &[Profile; 2], guard: &Guard) -> Result<(), Failure> {
+    let mut table = format!("{COLUMNS}\r\n");
+    for (point, own, truth) in pixels(profiles) {
+        let cells = |pixel: u32| {
+            let [a, r, g, b] = pixel.to_be_bytes();
+            format!("{r},{g},{b},{a},{:.3}", ProfileChannel::Luma.value(pixel))
+        };
+        let [x, y] = point.at;
+        let line = format!("{:.4},{x},{y},{},{}\r\n", point.distance, cells(own), cells(truth));
+        table.push_str(&line);
+    }
+    save_files(&[NewFile::by_user(csv, table.into_bytes())], guard)
+        .map_err(|(path, error)| unwritable_by("--csv", &path, &error))
+}
+
+/// Every pixel of the line with its colour and the true one.
+fn pixels([own, truth]: &[Profile; 2]) -> impl Iterator<Item = (&LinePoint, u32, u32)> {
+    let colors = own.colors().iter().zip(truth.colors());
+    own.points()
+        .iter()
+        .zip(colors)
+        .map(|(point, (own, truth))| (point, *own, *truth))
+}
+
+impl Report {
+    fn new(options: &ProfileOptions, profiles: &[Profile; 2]) -> Self {
+        let [picture, truth] = [0, 1].map(|side| SideReport::new(&profiles[side], options.channel));
+        let rgba = |pixel: u32| {
+            let [a, r, g, b] = pixel.to_be_bytes();
+            [r, g, b, a]
+        };
+        let pixel = |(point, own, truth): (&LinePoint, u32, u32)| PixelReport {
+            distance: point.distance,
+            x: point.at[0],
+            y: point.at[1],
+            color: rgba(own),
+            truth: rgba(truth),
+        };
+        let [width, height] = options.picture.size.0;
+        Self {
+            version: SHAPE,
+            scene: SceneSource::from_address(&options.scene).address(),
+            width,
+            height,
+            line: options.line.ends,
+            channel: options.channel.name(),
+            picture,
+            truth,
+            pixels: pixels(profiles).map(pixel).collect(),
+        }
+    }
+
+    fn text(&self) -> String {
+        let [[a, b], [c, d]] = self.line;
+        let count = match self.pixels.len() {
+            1 => "1 pixel".to_owned(),
+            count => format!("{count} pixels"),
+        };
+        let head = format!(
+            "{}: line from {a}, {b} to {c}, {d}, {count}, {} in levels of 255",
+            plain::line(&self.scene),
+            self.channel
+        );
+        let columns = "         shades  before  behind  10-90 % width  overshoot  undershoot";
+        let mut lines = vec![
+            head,
+            columns.to_owned(),
+            self.picture.line("picture"),
+            self.truth.line("truth"),
+        ];
+        let edges = [&self.picture.edge, &self.truth.edge];
+        if edges.into_iter().flatten().any(|edge| !edge.alone) {
+            lines.push(
+                "The line crosses more than one edge: the numbers are about the first rise and the ends.".to_owned(),
+            );
+        }
+        lines.join("\n")
+    }
+}
+
+impl SideReport {
+    fn new(profile: &Profile, channel: ProfileChannel) -> Self {
+        Self {
+            shades: profile.shades(),
+            edge: profile.edge(channel).map(EdgeReport::new),
+        }
+    }
+
+    fn line(&self, name: &str) -> String {
+        let start = format!("{name:<7}  {:>6}", self.shades);
+        match &self.edge {
+            None => format!("{start}  no edge: both ends of the line are alike"),
+            Some(edge) => format!(
+                "{start}  {:>6.1}  {:>6.1}  {:>10.2} px  {:>7.1} %  {:>8.1} %",
+                edge.before,
+                edge.behind,
+                edge.width,
+                edge.overshoot * 100.0,
+                edge.undershoot * 100.0
+            ),
+        }
+    }
+}
+
+impl EdgeReport {
+    fn new(edge: Edge) -> Self {
+        let ([before, behind], [from, to]) = (edge.plateaus, edge.rise);
+        Self {
+            before,
+            behind,
+            from,
+            to,
+            width: edge.width(),
+            overshoot: edge.overshoot,
+            undershoot: edge.undershoot,
+            alone: edge.is_alone(),
+        }
+    }
+}

@@ -12,7 +12,6 @@ use crate::viewer::control::both::Both;
 use crate::viewer::control::hand::Hand;
 use crate::viewer::profile::truth::LineOfPicture;
 use crate::viewer::profile::{LineDrag, Profiling};
-use crate::viewer::settings::Toggle;
 use crate::viewer::view::layout::magnified;
 use crate::viewer::view::pointer::window_pixel;
 
@@ -168,13 +167,18 @@ impl Hand<'_> {
 
     pub(in crate::viewer) fn apply_profile(&mut self, command: ProfileCommand) {
         match command {
-            ProfileCommand::Show(toggle) => self.profiling.show(toggle),
+            ProfileCommand::Show(toggle) => {
+                // What is hidden is not open to the eye.
+                let open = self.profiled().is_open();
+                self.profiling.show(toggle.of(open));
+            }
             ProfileCommand::SetLine(ends) => self.profiling.set_line(Line { ends }),
             ProfileCommand::SetChannel(channel) => {
                 self.profiling.channel = channel;
-                self.profiling.show(Toggle::On);
+                self.profiling.show(true);
             }
         }
+        self.chrome.hidden &= !self.profiling.open;
     }
 
     /// Takes hold of an end of the line, or of the pixel where a new one begins.

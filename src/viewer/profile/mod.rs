@@ -7,7 +7,6 @@ use glam::DVec2;
 use crate::compare::{Line, ProfileChannel};
 use crate::viewer::library::state::SceneList;
 use crate::viewer::profile::truth::TruthAlong;
-use crate::viewer::settings::Toggle;
 use crate::viewer::view::layout::WindowLayout;
 use crate::viewer::view::pointer::window_pixel;
 
@@ -59,9 +58,8 @@ impl Profiling {
     }
 
     /// Begins to draw lines, or ends that; the line that was drawn last comes back.
-    pub(in crate::viewer) fn show(&mut self, toggle: Toggle) {
-        self.open = toggle.of(self.open);
-        self.drag = None;
+    pub(in crate::viewer) fn show(&mut self, open: bool) {
+        (self.open, self.drag) = (open, None);
     }
 
     /// Shows the profile along this line.

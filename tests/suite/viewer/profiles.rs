@@ -191,4 +191,9 @@ fn profile_is_named_in_scripts() {
     let script = Script::parse("profile off; drag 10,10 20,20", "s").unwrap();
     play(&script, "s", &mut ViewerStage::new(&mut session.viewer)).unwrap();
     assert!(!session.viewer.profile().is_open(), "closed");
+    session.run(Command::Window(WindowCommand::HideEverything(Toggle::On)));
+    session.run(Command::Profile(ProfileCommand::Show(Toggle::On)));
+    assert!(session.viewer.profile().is_open(), "it brings back what is hidden");
+    session.run(Command::Window(WindowCommand::HideEverything(Toggle::On)));
+    assert!(!session.viewer.profile().is_open(), "and is hidden with all else");
 }

@@ -1,6 +1,7 @@
 //! Any commands in any order: no panic, no hang, and the frame shows the state.
 
-use rasterscope::viewer::{ExportCommand, InspectorCommand, PointerCommand, SceneCommand, ViewCommand, WindowCommand};
+use rasterscope::viewer::{ExportCommand, InspectorCommand, PointerCommand, ProfileCommand, SceneCommand};
+use rasterscope::viewer::{ViewCommand, WindowCommand};
 use std::path::PathBuf;
 
 use arbtest::arbitrary::{Result, Unstructured};
@@ -45,7 +46,7 @@ fn whole(u: &mut Unstructured<'_>) -> Result<i64> {
 /// Commands that hands make, and some with numbers that no hand makes.
 fn command(u: &mut Unstructured<'_>) -> Result<Command> {
     let buttons = [PointerButton::Primary, PointerButton::Secondary];
-    Ok(match u.int_in_range(0..=18)? {
+    Ok(match u.int_in_range(0..=19)? {
         0 => Command::Pointer(PointerCommand::Moved { at: point(u)? }),
         1 => Command::Pointer(PointerCommand::Pressed(*u.choose(&buttons)?)),
         2 => Command::Pointer(PointerCommand::Released(*u.choose(&buttons)?)),
@@ -79,6 +80,10 @@ fn command(u: &mut Unstructured<'_>) -> Result<Command> {
         }))),
         16 => Command::Pointer(PointerCommand::Left),
         17 => Command::Scenes(SceneCommand::Show(u.int_in_range(0..=4)?)),
+        18 => Command::Profile(ProfileCommand::SetLine([
+            [whole(u)?, whole(u)?],
+            [whole(u)?, whole(u)?],
+        ])),
         _ => {
             let spec = u.choose(commands::all())?;
             let command = spec.command_of_key(u.choose_index(spec.keys.len().max(1))?);
@@ -111,6 +116,7 @@ fn random_commands_never_break_the_viewer() {
                 viewer.recipes().command_line(),
             );
             let _ = viewer.pixels().pixel_labels([1.0, 1.0]);
+            let _ = (viewer.profile().places(), viewer.profile().curves());
             match u.int_in_range(0..=3)? {
                 0 => viewer.finish(),
                 1 => _ = viewer.poll(),

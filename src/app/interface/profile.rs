@@ -91,7 +91,7 @@ impl ProfileCard {
         }
         let curves = viewer.profile().curves();
         let room = free.shrink(MARGIN);
-        let width = (free.width() * 0.45).clamp(WIDTHS[0], WIDTHS[1]);
+        let width = (free.width() * 0.4).clamp(WIDTHS[0], WIDTHS[1]);
         let height = (free.height() * 0.24).clamp(HEIGHTS[0], HEIGHTS[1]);
         let rows = (1 + curves.len()) as f32 * ROW;
         let hint = hint(&curves);

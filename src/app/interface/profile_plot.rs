@@ -88,9 +88,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &Viewer, curves: &[ProfileCurve], size: 
     }
     let hovered = hovered(ui, &response, &axes, own);
     below_plot(ui, viewer, curves, hovered);
-    let tip = "The values of the pixels on the line, of which none is interpolated. Between the dotted lines is the width of A's \
-               edge.";
-    response.on_hover_text(tip).accessible_name("Values along the line");
+    response.accessible_name("Values along the line");
     let at = own.zip(hovered).and_then(|(curve, i)| curve.profile.points().get(i));
     at.map(|point| point.at)
 }
@@ -128,7 +126,10 @@ fn below_plot(ui: &mut Ui, viewer: &Viewer, curves: &[ProfileCurve], hovered: Op
         }
         (None, None) => String::new(),
     };
-    ui.label(RichText::new(words).small().weak());
+    // Beside the plot, whose values a tool tip would hide.
+    let tip = "Point at the plot for the values of a pixel, of which none is interpolated. Between the dotted lines is the width of \
+               A's edge.";
+    ui.label(RichText::new(words).small().weak()).on_hover_text(tip);
 }
 
 impl Axes {

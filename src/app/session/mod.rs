@@ -27,6 +27,8 @@ mod menus;
 mod overlaps;
 #[cfg(test)]
 mod panel_edges;
+#[cfg(test)]
+mod profiles;
 mod room;
 #[cfg(test)]
 mod scene_list;

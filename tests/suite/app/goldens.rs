@@ -198,6 +198,22 @@ fn overlay_lights_what_a_texel_feeds() {
     assert_eq!(found.err(), None, "as it was looked at");
 }
 
+/// An edge by a filter that rings, beside the box and the truth.
+#[test]
+fn overlay_plots_an_edge() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = Path::new(env!("CARGO_MANIFEST_DIR")).join("svg/study/14_one_edge.svg");
+    let case = Case {
+        name: "overlay_profile",
+        size: [720, 520],
+        scale: 1.0,
+        theme: Theme::Dark,
+        steps: "panel off; view 256,256,1; rate 16; key r; resolve-filter lanczos3; profile 345,200 378,204; move 551,300; wait 6000",
+    };
+    let found = golden::check(case.name, &picture_of(document, &case, folder.path()), TOLERANCE);
+    assert_eq!(found.err(), None, "as it was looked at");
+}
+
 /// A script always makes the same picture: nothing in it depends on time.
 #[test]
 fn overlay_pictures_repeat() {

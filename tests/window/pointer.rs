@@ -127,3 +127,41 @@ fn pointer_that_rests_presses_what_grew_under_it() {
         (program.desktop.part(program.window, COVERED) != closed).then_some(())
     });
 }
+
+#[test]
+fn pointer_draws_the_line_of_a_profile_and_leaves_the_picture() {
+    let path = flat();
+    let program = Program::start_bare(&path);
+    program.shows(&viewed(&path, &[]), "the first picture");
+    program.desktop.type_char('p', &[keysym::CONTROL, keysym::SHIFT]);
+    std::thread::sleep(Duration::from_millis(300));
+    for character in "profile on".chars() {
+        program.desktop.type_char(character, &[]);
+    }
+    program.desktop.press(keysym::RETURN, &[]);
+    // The palette darkens what it covers; what comes with the line hides nothing there.
+    until("the palette has closed", || {
+        let (pixels, [width, _]) = program.desktop.pixels(program.window)?;
+        (pixels[200 * width as usize + 5] & 0x00ff_ffff == 0x00ff_ffff).then_some(())
+    });
+    let drag = || {
+        program.desktop.point(AT[0], AT[1]);
+        settle();
+        program.desktop.button(1, true);
+        for step in 1..=7 {
+            program.desktop.point(AT[0] + 5 * step, AT[1] - 3 * step);
+        }
+        program.desktop.button(1, false);
+        settle();
+    };
+    // The panels are there with it, and a drag draws the line.
+    std::thread::sleep(Duration::from_millis(300));
+    drag();
+    program.desktop.press(keysym::TAB, &[]);
+    program.shows(&viewed(&path, &[]), "the picture has not moved");
+    drag();
+    let moved = [Command::View(ViewCommand::PanBy {
+        by: DVec2::new(35.0, -21.0),
+    })];
+    program.shows(&viewed(&path, &moved), "without panels there is no line to draw");
+}

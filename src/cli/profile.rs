@@ -162,7 +162,7 @@ impl Report {
             [r, g, b, a]
         };
         let pixel = |(point, own, truth): (&LinePoint, u32, u32)| PixelReport {
-            distance: point.distance,
+            distance: rounded(point.distance),
             x: point.at[0],
             y: point.at[1],
             color: rgba(own),
@@ -234,17 +234,22 @@ impl SideReport {
     }
 }
 
+/// To millionths: what is beyond is rounding.
+fn rounded(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
+}
+
 impl EdgeReport {
     fn new(edge: Edge) -> Self {
-        let ([before, behind], [from, to]) = (edge.plateaus, edge.rise);
+        let ([before, behind], [from, to]) = (edge.plateaus.map(rounded), edge.rise.map(rounded));
         Self {
             before,
             behind,
             from,
             to,
-            width: edge.width(),
-            overshoot: edge.overshoot,
-            undershoot: edge.undershoot,
+            width: rounded(edge.width()),
+            overshoot: rounded(edge.overshoot),
+            undershoot: rounded(edge.undershoot),
             alone: edge.is_alone(),
         }
     }

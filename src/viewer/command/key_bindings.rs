@@ -118,7 +118,7 @@ fn markdown_key(key: &str) -> String {
 pub const GESTURES: &[Gesture] = &[
     Gesture {
         gesture: "drag",
-        help: "Moves the picture with the pointer; on the inspector moves that to another corner",
+        help: "Moves the picture with the pointer; on the inspector moves that to another corner; draws the line of an open edge profile",
     },
     Gesture {
         gesture: "wheel, pinch",

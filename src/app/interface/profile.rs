@@ -35,6 +35,8 @@ const ROW: f32 = 21.0;
 const NAMES: f32 = 60.0;
 /// Width of the column of shades, in points.
 const COUNTS: f32 = 46.0;
+/// Pieces of the line that give way or are given way to, each by itself.
+const PARTS: u8 = 32;
 /// How near to the line the card may come, in points.
 const APART: f32 = 16.0;
 /// The corners where it may lie, the best first: words and settings stand on the left.
@@ -122,9 +124,9 @@ impl ProfileCard {
                 });
             });
         let line = along(viewer, ui.pixels_per_point());
-        let line = line
-            .windows(2)
-            .map(|pair| Rect::from_two_pos(pair[0], pair[1]).expand(APART / 2.0));
+        // Each pane has its own.
+        let pieces = line.chunks(usize::from(PARTS) + 1).flat_map(|line| line.windows(2));
+        let line = pieces.map(|piece| Rect::from_two_pos(piece[0], piece[1]).expand(APART / 2.0));
         Shown {
             taken: line.chain([area.response.rect]).collect(),
             pixel,
@@ -160,9 +162,8 @@ fn hint(curves: &[ProfileCurve]) -> Option<&'static str> {
     is_out.then_some("The line is out of sight: it comes back with the view. Or drag another one.")
 }
 
-/// Points of the line in the window, in points.
+/// Places along the line in the window, in points: [`PARTS`] and one for each pane.
 fn along(viewer: &Viewer, scale: f32) -> Vec<Pos2> {
-    const PARTS: u8 = 32;
     let places = viewer.profile().places();
     let points = places.iter().flat_map(|place| {
         let [from, to] = place.ends;

@@ -4,12 +4,14 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use rasterscope::raster::SamplePattern;
+use rasterscope::raster::{ResolveFilter, SamplePattern, ShadingRate};
 use rasterscope::render::Visualisation;
 use rasterscope::viewer::{commands, picture};
 
 const START: &str = "<!-- keys: made by the command table, `BLESS=1 cargo test readme` writes it anew -->\n";
 const END: &str = "<!-- /keys -->";
+const STUDY: &str = "<!-- study: made by `benches/study` -->\n";
+const STUDY_END: &str = "<!-- /study -->";
 
 #[test]
 fn readme_holds_the_key_table_of_the_program() {
@@ -26,6 +28,31 @@ fn readme_holds_the_key_table_of_the_program() {
         panic!("the README's key table was written anew");
     }
     panic!("the README's key table is not the program's: run with BLESS=1");
+}
+
+#[test]
+fn readme_measures_every_pattern_filter_and_shading_rate() {
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).expect("the README");
+    let (_, rest) = text.split_once(STUDY).expect("the table's beginning");
+    let (table, _) = rest.split_once(STUDY_END).expect("the table's end");
+    // The grid, the box and a colour for each sample are one row.
+    let rows = (SamplePattern::ALL.iter().map(|pattern| ("pattern", pattern.name())))
+        .chain(
+            ResolveFilter::ALL
+                .iter()
+                .skip(1)
+                .map(|filter| ("resolve filter", filter.name())),
+        )
+        .chain(
+            ShadingRate::ALL
+                .iter()
+                .skip(1)
+                .map(|shading| ("shading rate", shading.name())),
+        );
+    for (axis, name) in rows {
+        let row = format!("| {axis} `{name}` | ");
+        assert!(table.contains(&row), "{row} is missing: benches/study writes it");
+    }
 }
 
 /// The pages of the reference by their names, as the program prints them: one for each file.
@@ -53,7 +80,13 @@ fn prose_of(text: &str) -> String {
 #[test]
 fn readme_is_short_and_names_every_page_that_the_program_prints() {
     let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
-    assert!(readme.lines().count() <= 200, "{} lines", readme.lines().count());
+    let (before, rest) = readme.split_once(STUDY).expect("the beginning of the study table");
+    let (_, after) = rest.split_once(STUDY_END).expect("its end");
+    let lines = [before, after].map(|part| part.lines().count()).iter().sum::<usize>();
+    assert!(
+        lines <= 200,
+        "{lines} lines beside the table that `benches/study` makes"
+    );
     let pages = pages();
     let help = help_of(&[]);
     for (name, text) in &pages {

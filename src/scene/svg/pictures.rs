@@ -18,7 +18,7 @@ use crate::scene::build::Builder;
 use crate::scene::document::{self, Source};
 use crate::scene::error::Fault;
 use crate::scene::textures::{is_data, name_of};
-use crate::scene::{Problem, SkippedKind, SourceLocation, TextureId, attributes};
+use crate::scene::{Problem, SkippedKind, SourceLocation, TextureId, attributes, numbers};
 
 /// Documents inside each other's images, at most.
 const MAX_DEPTH: usize = 8;
@@ -60,6 +60,17 @@ impl<'a, 'doc> Loading<'a, 'doc> {
     fn add(&mut self, picture: Picture) -> usize {
         self.pictures.push(picture);
         self.pictures.len() - 1
+    }
+
+    /// The width and height of a picture.
+    fn size(&self, number: usize) -> Option<[f32; 2]> {
+        Some(match self.pictures.get(number)? {
+            Picture::Texture(texture) => {
+                let size = self.builder.textures.size(*texture).unwrap_or(MISSING);
+                size.map(|texels| texels as f32)
+            }
+            Picture::Document(tree) => [tree.size().width(), tree.size().height()],
+        })
     }
 
     /// What usvg gets for a picture.
@@ -105,7 +116,55 @@ pub(super) fn load<'doc>(loading: &Mutex<Loading<'_, 'doc>>, node: Node<'doc, 'd
     let address = attributes::href(node)?;
     let location = lock(loading).builder.locate(node);
     let number = numbered(loading, Cow::Borrowed(address), location)?;
-    lock(loading).kind(number)
+    placed(loading, number, node, |message| {
+        lock(loading).builder.warn(node, message);
+    })
+}
+
+/// What usvg gets for a picture, unless the image that shows it is too small for where it lies: usvg has places as 32-bit floats,
+/// and panics where such a rectangle is empty.
+fn placed(
+    loading: &Mutex<Loading<'_, '_>>,
+    number: usize,
+    image: Node<'_, '_>,
+    warn: impl FnOnce(String),
+) -> Option<ImageKind> {
+    let (kind, size) = {
+        let guard = lock(loading);
+        (guard.kind(number)?, guard.size(number)?)
+    };
+    let is_placeable = is_placeable(image, size);
+    if !is_placeable {
+        warn("not drawn: it is too small for where it lies, or too long for its width".to_owned());
+    }
+    is_placeable.then_some(kind)
+}
+
+/// Whether what an image shows of a picture of this size is large enough beside its coordinates to be a rectangle in 32-bit floats,
+/// which have 24 bits: what is kept of them is room for units.
+fn is_placeable(image: Node<'_, '_>, size: [f32; 2]) -> bool {
+    const MOST: f32 = 65_536.0;
+    let number = |name| {
+        numbers::leading(name, image.attribute(name).unwrap_or(""))
+            .ok()
+            .flatten()
+    };
+    let sides = ["width", "height"].map(|name| number(name).map(f32::abs));
+    let scales = [0, 1].map(|axis| sides[axis].map(|side| side / size[axis]));
+    let aspect = image.attribute("preserveAspectRatio").unwrap_or("").trim_start();
+    let scales = match scales {
+        [Some(across), Some(down)] if aspect.starts_with("none") => [across, down],
+        [Some(across), Some(down)] => [across.min(down); 2],
+        [across, down] => [across.or(down).unwrap_or(1.0); 2],
+    };
+    let least = (size[0] * scales[0]).min(size[1] * scales[1]);
+    let farthest = ["x", "y"].map(|name| number(name).unwrap_or(0.0).abs());
+    let farthest = farthest
+        .into_iter()
+        .chain(sides.into_iter().flatten())
+        .fold(0.0, f32::max);
+    // A side of zero shows nothing, and is usvg's to see.
+    least <= 0.0 || farthest / least <= MOST
 }
 
 /// The number of the picture at an address, which is loaded when it is asked for first.
@@ -168,7 +227,10 @@ fn nested(loading: &Mutex<Loading<'_, '_>>, bytes: &[u8], location: SourceLocati
         let node = *prepared.images.get(prepared.elements.number(address)?)?;
         let address = attributes::href(node).filter(|address| is_data(address))?;
         let number = numbered(loading, Cow::Owned(address.to_owned()), location)?;
-        lock(loading).kind(number)
+        placed(loading, number, node, |message| {
+            let message = format!("in the image: {message}");
+            lock(loading).builder.report.warn(location, message);
+        })
     };
     let options = options(fonts, loading, load);
     usvg::Tree::from_str(&prepared.text, &options).map_err(|error| Problem::Xml(error.to_string()).nowhere())

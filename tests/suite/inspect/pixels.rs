@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use crate::support::explaining::advised;
 
 /// What pictures are drawn with.
-fn settings() -> [RenderSettings; 12] {
+fn settings() -> [RenderSettings; 10] {
     let rate = |samples| SampleRate::new(samples).unwrap();
     let plain = RenderSettings::default();
     [
@@ -71,6 +71,25 @@ fn settings() -> [RenderSettings; 12] {
             ..plain
         },
         RenderSettings {
+            rules: Rules::Float,
+            ..plain
+        },
+        RenderSettings {
+            sample_rate: rate(5),
+            pattern: SamplePattern::R2,
+            level_sampling: LevelSampling::Linear,
+            rules: Rules::Float,
+            ..plain
+        },
+    ]
+}
+
+/// Those in which primitives are shaded once in a pixel.
+fn shaded_once() -> [RenderSettings; 2] {
+    let rate = |samples| SampleRate::new(samples).unwrap();
+    let plain = RenderSettings::default();
+    [
+        RenderSettings {
             sample_rate: rate(16),
             shading: ShadingRate::Centre,
             pixel_sampling: PixelSampling::Bilinear,
@@ -81,17 +100,6 @@ fn settings() -> [RenderSettings; 12] {
             pattern: SamplePattern::Jittered,
             shading: ShadingRate::Centroid,
             resolve: ResolveSpace::Linear,
-            ..plain
-        },
-        RenderSettings {
-            rules: Rules::Float,
-            ..plain
-        },
-        RenderSettings {
-            sample_rate: rate(5),
-            pattern: SamplePattern::R2,
-            level_sampling: LevelSampling::Linear,
-            rules: Rules::Float,
             ..plain
         },
     ]
@@ -157,7 +165,7 @@ fn every_pixel(scene: &Scene, settings: &RenderSettings, size: [u32; 2], check: 
 fn every_explanation_of_every_scene_ends_in_the_frames_bytes() {
     for scene in SCENES {
         let read = read(scene.name, scene.document);
-        for settings in settings().into_iter().chain(wide_settings()) {
+        for settings in settings().into_iter().chain(shaded_once()).chain(wide_settings()) {
             every_pixel(&read, &settings, [17, 13], |found, pixel| {
                 let [a, r, g, b] = pixel.to_be_bytes();
                 let at = (scene.name, &settings, found.pixel);

@@ -233,8 +233,8 @@ fn coverage_of_huge_geometry_is_clipped_never_wrapped() {
 
 #[test]
 fn coverage_of_a_polygon_is_that_of_its_triangles() {
-    let mut inked = 0;
-    arbtest::arbtest(|u| {
+    let inked = std::cell::Cell::new(0);
+    let property = |u: &mut arbtest::arbitrary::Unstructured<'_>| {
         // Corners of a star on a lattice full of ties: simple, so that its triangles have no corners of their own.
         let corners = u.int_in_range(3..=14)?;
         let mut contour = Vec::new();
@@ -272,9 +272,16 @@ fn coverage_of_a_polygon_is_that_of_its_triangles() {
             "{:?}",
             whole.primitives
         );
-        inked += found.pixels().iter().filter(|pixel| **pixel & 0xFF < 255).count();
+        let found = found.pixels().iter().filter(|pixel| **pixel & 0xFF < 255).count();
+        inked.set(inked.get() + found);
         Ok(())
-    })
-    .budget_ms(2_000);
-    assert!(inked > 10_000, "{inked} pixels");
+    };
+    // A busy machine draws few in one round.
+    for _ in 0..10 {
+        arbtest::arbtest(property).budget_ms(2_000);
+        if inked.get() > 10_000 {
+            return;
+        }
+    }
+    panic!("{} pixels are too few to tell", inked.get());
 }

@@ -14,8 +14,8 @@ use crate::support::scenes::{at_rate, drawn};
 const SIZE: [u32; 2] = [512, 512];
 
 /// A colour that grows steeply to the right, on a sliver of a pixel's width: below column 2 black, from 3.2 on white.
-const SLIVER: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="12" height="12">
-    <colortri points="2.7,-50 3.2,60 2.7,60" colors="0,0,0,1 1,1,1,1 0,0,0,1"/></svg>"##;
+const SLIVER: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="12" height="12">
+    <colortri points="2.7,-50 3.2,60 2.7,60" colors="0,0,0,1 1,1,1,1 0,0,0,1"/></svg>"#;
 
 fn scene(name: &str) -> Scene {
     let found = SCENES

@@ -31,6 +31,46 @@ fn chain(count: usize, one: impl Fn(&str, &str) -> String) -> String {
 }
 
 #[test]
+fn images_that_are_too_small_for_where_they_lie_are_not_drawn() {
+    const PIXELS: &str = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
+    const DOCUMENT: &str = "data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' width='9' height='9'/%3E";
+    for (sides, is_drawn) in [
+        ("width='9' height='999999999999999999999'", false),
+        ("width='9' height='1e30' preserveAspectRatio='none'", false),
+        ("width='9' height='1e30' preserveAspectRatio='xMaxYMax slice'", false),
+        ("x='1e30' width='9' height='9'", false),
+        ("x='-1e9' width='1e-3' height='1e3'", false),
+        ("y='1e30'", false),
+        ("width='0' height='1e30'", true),
+        ("width='1e30' height='1e30'", true),
+        ("x='3500000' y='5800000' width='200' height='100'", true),
+        ("x='10%' width='100%' height='9'", true),
+        ("", true),
+    ] {
+        for address in [PIXELS, DOCUMENT] {
+            let image = format!(r#"<image {sides} href="{address}"/>"#);
+            let document = svg("width='100' height='100'", &image);
+            let scene = try_read(document.as_bytes(), DialectChoice::Svg).expect("a document");
+            let report = format!("{:?}", scene.report);
+            assert_eq!(
+                !report.contains("too small for where it lies"),
+                is_drawn,
+                "{sides}: {report}"
+            );
+            outcome(
+                "inside an image",
+                &format!(
+                    r#"<image width="9" height="9" href="data:image/svg+xml,{}"/>"#,
+                    svg("width='9' height='9'", &image)
+                        .replace('"', "%22")
+                        .replace('#', "%23")
+                ),
+            );
+        }
+    }
+}
+
+#[test]
 fn long_styles_end_soon() {
     let attribute = |count: usize, one: &str| {
         let style = one.repeat(count);

@@ -234,7 +234,7 @@ fn coverage_of_huge_geometry_is_clipped_never_wrapped() {
 #[test]
 fn coverage_of_a_polygon_is_that_of_its_triangles() {
     let inked = std::cell::Cell::new(0);
-    let property = |u: &mut arbtest::arbitrary::Unstructured<'_>| {
+    let property = |u: &mut Unstructured<'_>| {
         // Corners of a star on a lattice full of ties: simple, so that its triangles have no corners of their own.
         let corners = u.int_in_range(3..=14)?;
         let mut contour = Vec::new();

@@ -313,7 +313,7 @@ fn lists_lie_beside_the_lists_that_they_open_from() {
                 .iter()
                 .find(|node| node.label() == Some(name))
                 .and_then(Node::bounds)
-                .expect("a line");
+                .unwrap_or_else(|| panic!("no line for {name} at {scale} in {window:?}"));
             let layer = |x: f64| {
                 let at = egui::pos2(x as f32, f64::midpoint(line.y0, line.y1) as f32);
                 session.ctx().layer_id_at(at)

@@ -256,7 +256,8 @@ fn panel_begins_anew_with_another_list() {
 
 #[test]
 fn clicked_scene_stays_below_the_pointer() {
-    let mut session = session(Vec::new(), [1920, 1080]);
+    // High enough for a row of the list that neither end cuts.
+    let mut session = session(Vec::new(), [1920, 1110]);
     session.command(Command::Window(WindowCommand::Panel(Toggle::On)));
     session.settle();
     let shown = |session: &mut Session| -> Vec<(String, DVec2)> {

@@ -128,9 +128,9 @@ impl Profile {
         self.colors.iter().map(|pixel| channel.value(*pixel)).collect()
     }
 
-    /// How many different colours they have.
+    /// How many different colours they have on white paper.
     pub fn shades(&self) -> usize {
-        let mut colors = self.colors.clone();
+        let mut colors: Vec<[u8; 3]> = self.colors.iter().map(|pixel| over_white(*pixel)).collect();
         colors.sort_unstable();
         colors.dedup();
         colors.len()

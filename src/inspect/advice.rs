@@ -243,7 +243,11 @@ fn of_textures(own: &RenderSettings) -> Vec<(Setting, Vec<(String, RenderSetting
         (Setting::LevelSampling, levels.collect()),
         (Setting::Anisotropy, taps.collect()),
         (Setting::LodBy, detail("longer", own.detail != longer, longer)),
-        (Setting::LodPer, detail("sample", own.detail != per_sample, per_sample)),
+        // Where one colour is computed for all samples, none of them reads a texture itself.
+        (
+            Setting::LodPer,
+            detail("sample", own.detail != per_sample && !own.shading.is_once(), per_sample),
+        ),
         (Setting::PixelSampling, pixel.into_iter().collect()),
     ]
 }

@@ -83,7 +83,7 @@ impl Explanation {
                     texture.extent_words()
                 )
             }),
-            Setting::ShadingRate => self.topmost().and_then(Paint::shaded_elsewhere),
+            Setting::ShadingRate => self.topmost().and_then(|paint| paint.shaded_elsewhere(cure)),
             Setting::Rules | Setting::Pattern => None,
         }
     }
@@ -161,6 +161,10 @@ impl Explanation {
     }
 
     fn texels_between(&self, texture: &Texture) -> Option<String> {
+        if self.topmost()?.shaded_at.is_some() {
+            // One place is read, however many samples there are.
+            return None;
+        }
         let step = if texture.step == "sample" { 1.0 } else { self.step() };
         let apart = texture.major * step;
         (texture.reads_base_once() && apart > LEAVES_OUT).then(|| {
@@ -195,13 +199,18 @@ impl Explanation {
             .collect();
         let is_whole = paint.fragments.len() == self.samples.len();
         (is_whole && texture.reads_base_once() && held > 2.0 * read.len() as f64).then(|| {
+            let readers = if paint.shaded_at.is_some() {
+                "the one place that is shaded reads"
+            } else {
+                "its samples read"
+            };
             let texels = if read.len() == 1 {
                 "one"
             } else {
                 &read.len().to_string()
             };
             format!(
-                "The pixel's footprint holds about {} texels, of which its samples read {texels}.",
+                "The pixel's footprint holds about {} texels, of which {readers} {texels}.",
                 significant(held)
             )
         })
@@ -227,19 +236,22 @@ impl Truth {
 }
 
 impl Paint {
-    /// That its colour was computed once for the pixel, and where.
-    fn shaded_elsewhere(&self) -> Option<String> {
-        self.shaded_at?;
-        let extrapolates = |view: &View| match view {
-            View::Triangle { weights, .. } => weights.iter().any(|weight| *weight < 0.0),
+    /// That its colour was computed once for the pixel, and where, if `cure` computes it at each sample or elsewhere.
+    fn shaded_elsewhere(&self, cure: &Cure) -> Option<String> {
+        /// Weights of places on an edge are zero but for rounding.
+        const OUTSIDE: f64 = -1e-9;
+        let is_outside = |view: &View| match view {
+            View::Triangle { weights, .. } => weights.iter().any(|weight| *weight < OUTSIDE),
             View::Polygon { .. } => false,
         };
-        Some(if self.views.first().is_some_and(extrapolates) {
-            format!(
-                "The {} is shaded once for the whole pixel, in its centre, which lies outside: its colour is extrapolated.",
-                self.name()
-            )
-        } else {
+        let extrapolates = self.is_shaded_in_centre()? && self.views.first().is_some_and(is_outside);
+        if extrapolates {
+            let name = self.name();
+            return Some(format!(
+                "The {name} is shaded once for the whole pixel, in its centre, which lies outside: its colour is extrapolated."
+            ));
+        }
+        (cure.value == ShadingRate::Sample.name()).then(|| {
             format!(
                 "The {} is shaded once for the whole pixel, not at each of its samples.",
                 self.name()

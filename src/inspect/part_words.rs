@@ -246,11 +246,16 @@ impl Fragment {
 }
 
 impl Paint {
+    /// Whether the place where it was shaded for all of its samples is the pixel's centre; `None` where each was.
+    pub(super) fn is_shaded_in_centre(&self) -> Option<bool> {
+        let [x, y] = self.shaded_at?;
+        Some((x - 0.5).abs() < 1e-9 && (y - 0.5).abs() < 1e-9)
+    }
+
     /// Where it was shaded for all of its samples.
     pub(super) fn shaded_line(&self) -> Option<String> {
         let [x, y] = self.shaded_at?;
-        let is_centre = (x - 0.5).abs() < 1e-9 && (y - 0.5).abs() < 1e-9;
-        let what = if is_centre {
+        let what = if self.is_shaded_in_centre()? {
             "the pixel's centre"
         } else {
             "the mean of the samples that it covers"

@@ -61,6 +61,12 @@ pub enum Problem {
         /// All of its value.
         value: String,
     },
+    /// The library that reads SVG panics; why, in its words.
+    #[error(
+        "the SVG reader fails here ({}), as where sizes and places are too far apart; make small parts larger, or move all nearer to 0",
+        quote(.0)
+    )]
+    Reader(String),
     /// Transforms carry a coordinate beyond the range of 32-bit floats.
     #[error("transforms move this shape further than 3.4e38; use smaller numbers")]
     TooFar,

@@ -89,10 +89,10 @@ fn upright_bars() -> String {
         SIDE,
         SIDE,
         &[
-            "Bars that stand upright or lie level, a plan or a window frame. Here the grid is at its best and jitter at its worst:",
-            "along such an edge every pixel of the grid sees the same, so edges are straight lines of one shade at every rate.",
-            "Press A for jittered: every edge turns ragged, at rate 1 by a whole pixel; blue-noise only frays it more evenly.",
-            "With jittered-same edges are straight again.",
+            "Bars that stand upright or lie level, a plan or a window frame. Along such an edge every pixel of the grid sees the same,",
+            "so edges are straight lines of one shade at every rate.",
+            "Press A for jittered: every edge turns ragged, at rate 1 by a whole pixel; blue-noise only frays it more evenly. From 4 samples",
+            "on the numbers no longer mind, but the eye does. With jittered-same edges are straight again.",
         ],
     );
     doc.rect(DVec2::ZERO, dvec2(SIDE, SIDE), Style::fill(PAPER));

@@ -114,7 +114,9 @@ fn below_plot(ui: &mut Ui, viewer: &Viewer, curves: &[ProfileCurve], hovered: Op
                 format!("{}, {}, at {:.1} px:", point.at[0], point.at[1], point.distance)
             });
             let value = |curve: &ProfileCurve| {
-                let pixel = curve.profile.colors().get(i)?;
+                // A curve that waits for its picture may be that of another line.
+                let is_here = curve.profile.points().get(i).map(|point| point.at) == point.map(|point| point.at);
+                let pixel = curve.profile.colors().get(i).filter(|_| is_here)?;
                 Some(format!("{} {:.0}", name(curve.side), channel.value(*pixel)))
             };
             let values: Vec<String> = curves.iter().filter_map(value).collect();

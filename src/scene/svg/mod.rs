@@ -15,6 +15,7 @@ mod clip;
 mod edits;
 mod elements;
 mod fonts;
+mod guarded;
 mod listener;
 mod paint;
 mod painter;
@@ -75,7 +76,9 @@ fn read_here<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, text: &s
         missing,
         ..
     } = loading.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let tree = tree.map_err(|error| explain(&error, builder, root))?;
+    let tree = tree
+        .map_err(|problem| problem.at(builder.locate(root)))?
+        .map_err(|error| explain(&error, builder, root))?;
     for message in missing.iter().filter_map(fonts::Missing::message) {
         builder.warn(letters.unwrap_or(root), message);
     }
@@ -92,13 +95,13 @@ fn read_here<'doc>(builder: &mut Builder<'doc>, root: Node<'doc, 'doc>, text: &s
 fn loading_tree<'doc>(
     prepared: &prepare::Prepared<'doc>,
     loading: &Mutex<Loading<'_, 'doc>>,
-) -> Result<usvg::Tree, usvg::Error> {
+) -> Result<Result<usvg::Tree, usvg::Error>, Problem> {
     let fonts = prepared.letters.map(|_| fonts::database());
     let load = |address: &str| {
         let node = *prepared.images.get(prepared.elements.number(address)?)?;
         pictures::load(loading, node)
     };
-    usvg::Tree::from_str(&prepared.text, &pictures::options(fonts, loading, load))
+    guarded::tree(&prepared.text, &pictures::options(fonts, loading, load))
 }
 
 /// usvg's error in our words.

@@ -13,7 +13,7 @@ use usvg::{Image, ImageHrefResolver, ImageKind, Options};
 
 use super::fonts::{self, Missing};
 use super::listener::Listener;
-use super::{prepare, references};
+use super::{guarded, prepare, references};
 use crate::scene::build::Builder;
 use crate::scene::document::{self, Source};
 use crate::scene::error::Fault;
@@ -141,9 +141,17 @@ fn placed(
 }
 
 /// Whether what an image shows of a picture of this size is large enough beside its coordinates to be a rectangle in 32-bit floats,
-/// which have 24 bits: what is kept of them is room for units.
+/// which have 24 bits: what is kept of them is room for units such as inches. What depends on the view box or on letters is usvg's
+/// to find out.
 fn is_placeable(image: Node<'_, '_>, size: [f32; 2]) -> bool {
     const MOST: f32 = 65_536.0;
+    let is_relative = |name: &str| {
+        let value = image.attribute(name).unwrap_or("").trim_end();
+        ["%", "em", "ex"].iter().any(|unit| value.ends_with(unit))
+    };
+    if ["x", "y", "width", "height"].into_iter().any(is_relative) {
+        return true;
+    }
     let number = |name| {
         numbers::leading(name, image.attribute(name).unwrap_or(""))
             .ok()
@@ -233,7 +241,8 @@ fn nested(loading: &Mutex<Loading<'_, '_>>, bytes: &[u8], location: SourceLocati
         })
     };
     let options = options(fonts, loading, load);
-    usvg::Tree::from_str(&prepared.text, &options).map_err(|error| Problem::Xml(error.to_string()).nowhere())
+    let tree = guarded::tree(&prepared.text, &options).map_err(Problem::nowhere)?;
+    tree.map_err(|error| Problem::Xml(error.to_string()).nowhere())
 }
 
 /// Hears of what a document in an image lacks, and tells it of the image.

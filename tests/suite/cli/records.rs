@@ -38,9 +38,9 @@ fn record(path: &Path) -> Record {
 }
 
 #[rustfmt::skip]
-const RENDER: [&str; 14] = [
+const RENDER: [&str; 16] = [
     "render", "a.svg", "-o", "out/a.png", "--size", "90x70", "--view=20,15,2.5,30", "--sample-rate", "9",
-    "--pixel-sampling", "bilinear", "--background", "#ff8000", "--threads=1",
+    "--shading-rate", "centroid", "--pixel-sampling", "bilinear", "--background", "#ff8000", "--threads=1",
 ];
 
 #[test]
@@ -50,7 +50,7 @@ fn record_tells_scene_textures_and_settings() {
     let told = record(&work.path().join("out/a.png"));
     assert_eq!(told.version, 1, "the shape");
     let line = "rasterscope render a.svg -o out/a.png --size 90x70 --view=20,15,2.5,30 --sample-rate 9 \
-                --pixel-sampling bilinear --background '#ff8000'";
+                --shading-rate centroid --pixel-sampling bilinear --background '#ff8000'";
     assert_eq!(told.command_line, line, "threads make no difference");
     let scene = told.scene.unwrap();
     let digest = |name: &str| FileDigest::of(&fs::read(work.path().join(name)).unwrap()).to_string();

@@ -71,6 +71,39 @@ fn images_that_are_too_small_for_where_they_lie_are_not_drawn() {
 }
 
 #[test]
+fn documents_at_which_the_reader_panics_are_refused_in_one_line() {
+    const PIXELS: &str = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
+    let mut refused = 0;
+    for (head, sides) in [
+        ("viewBox='0 0 1e9 1e9'", "width='100%' height='0.01'"),
+        ("viewBox='0 0 1e9 1e9'", "x='100%' width='1' height='1'"),
+        ("width='100' height='100' font-size='1e9'", "width='1em' height='0.01'"),
+        (
+            "width='100' height='100' font-size='1e9'",
+            "x='1em' width='1' height='1'",
+        ),
+        ("viewBox='500000 0 1e6 1e6'", "x='700000' width='10%' height='10%'"),
+    ] {
+        let document = svg(head, &format!(r#"<image {sides} href="{PIXELS}"/>"#));
+        match try_read(document.as_bytes(), DialectChoice::Svg) {
+            Ok(scene) => {
+                let report = format!("{:?}", scene.report);
+                assert!(!report.contains("too small for where it lies"), "{head}: {report}");
+            }
+            Err(error) => {
+                let line = error.to_string();
+                assert!(
+                    line.contains("the SVG reader fails here") && !line.contains('\n'),
+                    "{head}: {line}"
+                );
+                refused += 1;
+            }
+        }
+    }
+    assert!(refused > 0, "usvg has learnt all of them: the guard can go");
+}
+
+#[test]
 fn long_styles_end_soon() {
     let attribute = |count: usize, one: &str| {
         let style = one.repeat(count);

@@ -72,7 +72,12 @@ fn record_tells_scene_textures_and_settings() {
         .collect();
     assert_eq!(
         settings,
-        ["background #ff8000", "pixel-sampling bilinear", "sample-rate 9"],
+        [
+            "background #ff8000",
+            "pixel-sampling bilinear",
+            "sample-rate 9",
+            "shading-rate centroid"
+        ],
         "what is not default"
     );
     assert_eq!(
@@ -251,7 +256,7 @@ fn render_takes_a_picture_for_its_scene_and_settings() {
     );
     let told = record(&work.path().join("b.png"));
     let line = "rasterscope render out/../a.svg -o b.png --size 90x70 --view=20,15,2.5,30 --sample-rate 4 \
-                --pixel-sampling bilinear --background '#ff8000'";
+                --shading-rate centroid --pixel-sampling bilinear --background '#ff8000'";
     assert_eq!(told.command_line, line, "what is written counts more");
 }
 

@@ -79,6 +79,8 @@ impl SampleColors {
     }
 
     /// Makes it the tile of `rect` with every sample in `color`.
+    // Inlined where the colour is known it fills by `rep stosb`, which is slow to start and dear where instructions are counted.
+    #[inline(never)]
     pub(crate) fn reset(&mut self, rect: SpanRect, color: Premultiplied16) {
         self.rect = rect;
         self.painted = if color == Premultiplied16::TRANSPARENT {

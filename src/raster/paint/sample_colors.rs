@@ -363,6 +363,12 @@ impl SampleColors {
         self.width
     }
 
+    /// A row of pixels, counted from the first: the colours of those that show one, and which show several.
+    pub(in crate::raster) fn row(&self, y: usize) -> (&[Premultiplied16], &[bool]) {
+        let pixels = y * self.width..(y + 1) * self.width;
+        (&self.whole[pixels.clone()], &self.split[pixels])
+    }
+
     /// The pixel with this index, counted row by row.
     #[inline]
     pub(in crate::raster) fn pixel(&self, index: usize) -> PixelColors<'_> {

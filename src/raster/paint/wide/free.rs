@@ -66,10 +66,8 @@ impl FreeSums {
             self.find_places(colors, &samples.positions);
         }
         for y in 0..flat.height() {
-            for (x, is_flat) in flat.row(y).iter().enumerate() {
-                if !is_flat {
-                    put([x, y], self.sum(colors, &samples.weights, [x, y]));
-                }
+            for x in flat.mixed(y).runs().flatten() {
+                put([x, y], self.sum(colors, &samples.weights, [x, y]));
             }
         }
     }

@@ -7,12 +7,14 @@
 //! | pixels | by |
 //! |---|---|
 //! | in the middle of pixels that show one colour | nothing but that colour ([`flat`]) |
+//! | with at most 4 x 4 samples or so on a grid, of stored values | rows, then columns, in 16 bits ([`dot_sums`]) |
 //! | with samples on a grid | rows, then columns ([`separable`]) |
 //! | with samples anywhere | each sample's own weight ([`free`]) |
 //!
 //! Where samples lie anywhere, weights below zero may happen to outweigh the others. A pixel whose weights add up to less than
 //! an eighth of what evenly spread samples would weigh is the mean of its own samples.
 
+mod dot_sums;
 mod flat;
 mod free;
 mod separable;
@@ -20,6 +22,7 @@ mod separable;
 use crate::color::{Premultiplied16, ResolveSpace, WeightedSum};
 use crate::raster::frame::block::PixelBlock;
 use crate::raster::paint::sample_colors::{PixelColors, SampleColors};
+use crate::raster::paint::wide::dot_sums::DotSums;
 use crate::raster::paint::wide::flat::FlatPixels;
 use crate::raster::paint::wide::free::{FreeSums, WeighedPositions};
 use crate::raster::paint::wide::separable::SeparableSums;
@@ -41,6 +44,8 @@ pub(in crate::raster) struct WideResolve {
 /// What sums up weighted samples.
 #[derive(Debug)]
 enum Sums {
+    /// Stored values on a grid, so few that a row's sum fits 32 bits.
+    Dots(DotSums),
     /// Stored values on a grid: the sums fit the whole numbers of floats.
     Stored(SeparableSums<f64>),
     /// Light on a grid.
@@ -71,15 +76,19 @@ impl WideResolve {
             weights: AxisWeights::new(context.filter, side),
         };
         let is_grid = (side * side).cast_unsigned() == context.rate.samples();
+        let rules = context.sampling.rules;
         let sums = match context.space {
             _ if !is_grid => Sums::Free(FreeSums::new(context.space, &samples)),
-            ResolveSpace::Stored => Sums::Stored(SeparableSums::new(context.space, &samples.weights, side)),
+            ResolveSpace::Stored => match DotSums::new(&samples.weights, side, rules) {
+                Some(sums) if !is_too_little(sums.total(), positions.count()) => Sums::Dots(sums),
+                _ => Sums::Stored(SeparableSums::new(context.space, &samples.weights, side)),
+            },
             ResolveSpace::Linear => Sums::Light(SeparableSums::new(context.space, &samples.weights, side)),
         };
         Self {
             samples,
             space: context.space,
-            rules: context.sampling.rules,
+            rules,
             flat: FlatPixels::default(),
             sums,
         }
@@ -93,6 +102,9 @@ impl WideResolve {
         if self.flat.are_all() {
             return;
         }
+        if let Sums::Dots(sums) = &mut self.sums {
+            return sums.resolve(colors, &self.flat, block);
+        }
         let finish = Finish {
             colors,
             margin,
@@ -104,6 +116,7 @@ impl WideResolve {
             line[x] = finish.pixel([x, y], sum);
         };
         match &mut self.sums {
+            Sums::Dots(_) => {}
             Sums::Stored(sums) => sums.each(colors, &self.flat, &mut put),
             Sums::Light(sums) => sums.each(colors, &self.flat, &mut put),
             Sums::Free(sums) => sums.each(colors, &self.samples, &self.flat, &mut put),
@@ -113,11 +126,17 @@ impl WideResolve {
     /// Resolves what needs no sum.
     fn put_flat(&self, colors: &SampleColors, block: &mut PixelBlock<'_>) {
         let margin = self.samples.weights.margin().cast_unsigned() as usize;
+        let width = self.flat.width();
+        let mut last = (Premultiplied16::TRANSPARENT, 0);
         for (y, row) in (0..).zip(block.rect.y.start..block.rect.y.end) {
-            let first = (y + margin) * colors.width() + margin;
-            for ((x, is_flat), pixel) in self.flat.row(y).iter().enumerate().zip(block.line(row)) {
-                if *is_flat && let PixelColors::Whole(color) = colors.pixel(first + x) {
-                    *pixel = color.to_pixel(self.rules);
+            let (whole, _) = colors.row(y + margin);
+            let (whole, line) = (&whole[margin..][..width], block.line(row));
+            for run in self.flat.mixed(y).others(width).runs() {
+                for (color, pixel) in whole[run.clone()].iter().zip(&mut line[run]) {
+                    if *color != last.0 {
+                        last = (*color, color.to_pixel(self.rules));
+                    }
+                    *pixel = last.1;
                 }
             }
         }

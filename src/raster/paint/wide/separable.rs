@@ -15,7 +15,7 @@ use fearless_simd::{Simd, dispatch, f64x4};
 
 use crate::color::{ResolveSpace, WeightedSum};
 use crate::raster::paint::sample_colors::{PixelColors, SampleColors};
-use crate::raster::paint::wide::flat::FlatPixels;
+use crate::raster::paint::wide::flat::{FlatPixels, PixelBits};
 use crate::raster::resolve::axis_weights::AxisWeights;
 use crate::simd;
 
@@ -149,25 +149,17 @@ impl<T: Whole> SeparableSums<T> {
         let (width, around) = (flat.width(), 2 * self.margin + 1);
         self.rows.resize(around * width * self.side, Default::default());
         self.alike.resize(around * width, false);
-        let mut wanted = vec![false; width];
         for y in 0..flat.height() + 2 * self.margin {
-            let of = y.saturating_sub(2 * self.margin)..flat.height().min(y + 1);
-            wanted.fill(false);
-            for row in of {
-                for (wanted, is_flat) in wanted.iter_mut().zip(flat.row(row)) {
-                    *wanted |= !is_flat;
-                }
-            }
-            if wanted.contains(&true) {
-                self.read(colors, y, &wanted);
-                dispatch!(simd::level(), simd => across(simd, self, (y % around) * width, &wanted));
+            let wanted = flat.around(y, self.margin);
+            if !wanted.is_empty() {
+                self.read(colors, y, wanted);
+                dispatch!(simd::level(), simd => across(simd, self, (y % around) * width, wanted));
             }
             if let Some(row) = y.checked_sub(2 * self.margin) {
                 self.found.resize(width, [0; 4]);
-                dispatch!(simd::level(), simd => down(simd, self, row, flat.row(row)));
-                let found = self.found.iter().zip(flat.row(row)).enumerate();
-                for (x, (channels, _)) in found.filter(|(_, (_, is_flat))| !**is_flat) {
-                    let (channels, weight) = (*channels, self.total);
+                dispatch!(simd::level(), simd => down(simd, self, row, flat.mixed(row)));
+                for x in flat.mixed(row).runs().flatten() {
+                    let (channels, weight) = (self.found[x], self.total);
                     put([x, row], WeightedSum { channels, weight });
                 }
             }
@@ -175,7 +167,7 @@ impl<T: Whole> SeparableSums<T> {
     }
 
     /// Reads the pixels of a row that lie around those that are wanted.
-    fn read(&mut self, colors: &SampleColors, y: usize, wanted: &[bool]) {
+    fn read(&mut self, colors: &SampleColors, y: usize, wanted: PixelBits) {
         let (width, per_pixel) = (colors.width(), self.side * self.side);
         let beside = 2 * self.margin;
         self.whole.resize(width, Default::default());
@@ -184,7 +176,7 @@ impl<T: Whole> SeparableSums<T> {
         // The last pixel around those that are wanted so far.
         let mut last = None;
         for x in 0..width {
-            if wanted.get(x) == Some(&true) {
+            if wanted.contains(x) {
                 last = Some(x + beside);
             }
             if last.is_none_or(|last| last < x) {
@@ -208,13 +200,13 @@ impl<T: Whole> SeparableSums<T> {
 
 /// Sums up the rows of samples around the pixels that are wanted; `place` is that of the first in the memory of rows.
 #[inline(always)]
-fn across<S: Simd, T: Whole>(simd: S, sums: &mut SeparableSums<T>, place: usize, wanted: &[bool]) {
+fn across<S: Simd, T: Whole>(simd: S, sums: &mut SeparableSums<T>, place: usize, wanted: PixelBits) {
     simd.vectorize(
         #[inline(always)]
         || {
             let (side, around) = (sums.side, 2 * sums.margin + 1);
             let (rows, alike) = (&mut sums.rows, &mut sums.alike);
-            for x in (0..wanted.len()).filter(|x| wanted[*x]) {
+            for x in wanted.runs().flatten() {
                 let split = &sums.split[x..x + around];
                 let mut even = [T::default(); 4];
                 for ((parts, weight), split) in sums.whole[x..x + around].iter().zip(&sums.of_pixels).zip(split) {
@@ -242,12 +234,12 @@ fn across<S: Simd, T: Whole>(simd: S, sums: &mut SeparableSums<T>, place: usize,
 
 /// The sums of all samples around the pixels of a row that are not flat: of the last rows.
 #[inline(always)]
-fn down<S: Simd, T: Whole>(simd: S, sums: &mut SeparableSums<T>, row: usize, flat: &[bool]) {
+fn down<S: Simd, T: Whole>(simd: S, sums: &mut SeparableSums<T>, row: usize, mixed: PixelBits) {
     simd.vectorize(
         #[inline(always)]
         || {
-            let (side, around, width) = (sums.side, 2 * sums.margin + 1, flat.len());
-            for x in (0..width).filter(|x| !flat[*x]) {
+            let (side, around, width) = (sums.side, 2 * sums.margin + 1, sums.found.len());
+            for x in mixed.runs().flatten() {
                 let mut all = [T::default(); 4];
                 for beside in 0..around {
                     let at = (row + beside) % around * width + x;
